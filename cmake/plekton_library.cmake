@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # plekton_options(target): how every target of the project is compiled.
 # plekton_library(name PUBLIC libraries... PRIVATE libraries...): the library plekton::<name> from the sources of the
-#   current folder.
+#   current folder, static or shared as BUILD_SHARED_LIBS says.
 
 function(plekton_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -ffp-contract=off)
-  if(PLEKTON_WARNINGS_AS_ERRORS)
-    target_compile_options(${target} PRIVATE -Werror)
-  endif()
+  # Public, because headers hold arithmetic too: an inline function compiled with fused multiply-add in a user's file and
+  # without in ours would give results that depend on which copy the linker keeps.
+  target_compile_options(${target} PUBLIC $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
+    $<$<BOOL:${PLEKTON_WARNINGS_AS_ERRORS}>:-Werror> $<$<BOOL:${PLEKTON_NATIVE}>:-march=native>)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
 
@@ -18,16 +19,32 @@ function(plekton_library name)
   if(NOT sources)  # headers only
     add_library(plekton_${name} INTERFACE)
     add_library(plekton::${name} ALIAS plekton_${name})
+    set_target_properties(plekton_${name} PROPERTIES EXPORT_NAME ${name})
     target_link_libraries(plekton_${name} INTERFACE ${arg_PUBLIC} ${arg_PRIVATE})
-    target_include_directories(plekton_${name} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
-    target_compile_features(plekton_${name} INTERFACE cxx_std_20)
+    target_include_directories(plekton_${name} INTERFACE
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/plekton>)
     return()
   endif()
-  add_library(plekton_${name} STATIC ${sources})
+
+  add_library(plekton_${name} ${sources})
   add_library(plekton::${name} ALIAS plekton_${name})
-  set_target_properties(plekton_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(plekton_${name} PROPERTIES
+    EXPORT_NAME ${name}
+    POSITION_INDEPENDENT_CODE ON
+    DEFINE_SYMBOL ""
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    INSTALL_RPATH $ORIGIN)
   target_include_directories(plekton_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/plekton>)
-  target_link_libraries(plekton_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   plekton_options(plekton_${name})
+  # Nobody replaces a function of ours at load time, so the compiler may inline and call directly within a library.
+  target_compile_options(plekton_${name} PRIVATE -fno-semantic-interposition)
+  target_link_options(plekton_${name} PRIVATE LINKER:-Bsymbolic-functions $<$<CXX_COMPILER_ID:GNU>:LINKER:--no-undefined>)
+
+  # A shared library has its private libraries inside; the exported target must not name them.
+  if(BUILD_SHARED_LIBS)
+    list(TRANSFORM arg_PRIVATE REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
+  endif()
+  target_link_libraries(plekton_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
