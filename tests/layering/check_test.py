@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The checker finds violations that are put there, and only those."""
+
+import re
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from check import violations
+from rules import CGAL_CORE_HEADERS, MAX_LINES, SPDX
+
+TAG = f"// {SPDX}\n"
+CGAL_FOLDER = Path("/usr/include")
+
+
+class SeededTree(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        for name in ("geometry/box.hpp", "contact/patch.hpp", "dynamics/scene.hpp", "geometry/mesh/repair.hpp", "tests/support/lattice.hpp"):
+            self.write(name, TAG)
+
+    def write(self, path, text):
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+
+    def violations_of(self, path, text):
+        self.write(path, text)
+        return violations(self.root)[0]
+
+    def assert_flagged(self, path, text, reason):
+        found = self.violations_of(path, text)
+        self.assertEqual(len(found), 1, found)
+        self.assertTrue(found[0].startswith(path), found[0])
+        self.assertIn(reason, found[0])
+
+    def assert_clean(self, path, text):
+        self.assertEqual(self.violations_of(path, text), [])
+
+    def test_a_clean_tree_has_no_violation(self):
+        self.assert_clean("dynamics/scene.cpp", TAG + '#include "dynamics/scene.hpp"\n#include "contact/patch.hpp"\n#include "geometry/box.hpp"\n')
+
+    def test_includes_against_the_arrow_are_flagged(self):
+        for path, header in (
+            ("geometry/box.cpp", "contact/patch.hpp"),
+            ("contact/patch.cpp", "dynamics/scene.hpp"),
+            ("dynamics/scene.cpp", "tests/support/lattice.hpp"),
+        ):
+            with self.subTest(path=path):
+                self.assert_flagged(path, TAG + f'#include "{header}"\n', "against the arrow")
+                (self.root / path).unlink()
+
+    def test_the_line_of_an_include_is_named_and_spaces_do_not_hide_it(self):
+        self.assert_flagged("geometry/box.cpp", TAG + '\n  #  include <contact/patch.hpp>\n', "geometry/box.cpp:3")
+
+    def test_tests_may_include_everything(self):
+        self.assert_clean("tests/geometry/box_test.cpp", TAG + '#include "dynamics/scene.hpp"\n#include <CGAL/Gmpq.h>\n')
+
+    def test_an_include_that_does_not_start_at_the_root_is_flagged(self):
+        self.assert_flagged("geometry/box.cpp", TAG + '#include "box.hpp"\n', "name it from there")
+
+    def test_the_core_may_not_include_the_mesh_folder(self):
+        self.assert_flagged("geometry/box.cpp", TAG + '#include "geometry/mesh/repair.hpp"\n', "not part of it")
+
+    def test_packages_outside_their_file_are_flagged(self):
+        for path, header, reason in (
+            ("geometry/box.cpp", "fcl/fcl.h", "only geometry/broad_phase.cpp"),
+            ("geometry/box.cpp", "ccd/ccd.h", "only geometry/closest/deep.cpp"),
+            ("geometry/broad_phase.hpp", "fcl/fcl.h", "only geometry/broad_phase.cpp"),
+            ("geometry/box.cpp", "CGAL/Interval_nt.h", "only geometry/predicates.cpp"),
+            ("geometry/mesh/repair.hpp", "CGAL/Surface_mesh.h", "out of sight"),
+            ("contact/patch.cpp", "CGAL/Gmpq.h", "only geometry/predicates.cpp"),
+            ("apps/main.cpp", "ccd/vec3.h", "only geometry/closest/deep.cpp"),
+        ):
+            with self.subTest(path=path, header=header):
+                self.assert_flagged(path, TAG + f"#include <{header}>\n", reason)
+                self.write(path, TAG)
+
+    def test_packages_in_their_own_file_are_clean(self):
+        self.assert_clean("geometry/broad_phase.cpp", TAG + "#include <fcl/fcl.h>\n")
+        self.assert_clean("geometry/closest/deep.cpp", TAG + "#include <ccd/ccd.h>\n")
+        self.assert_clean("geometry/predicates.cpp", TAG + "#include <CGAL/Interval_nt.h>\n")
+        self.assert_clean("geometry/mesh/repair.cpp", TAG + "#include <CGAL/Surface_mesh.h>\n")
+
+    def test_a_gpl_header_in_the_core_is_flagged(self):
+        self.assert_flagged("geometry/predicates.cpp", TAG + "#include <CGAL/Surface_mesh.h>\n", "only LGPL headers")
+
+    def test_a_missing_licence_tag_is_flagged(self):
+        self.assert_flagged("geometry/box.cpp", '#include "geometry/box.hpp"\n', "SPDX")
+        self.assert_flagged("geometry/box.cpp", "", "SPDX")
+
+    def test_a_licence_tag_may_follow_the_interpreter_line(self):
+        self.assert_clean("apps/quickstart.sh", f"#!/bin/sh\n# {SPDX}\n")
+
+    def test_a_file_that_is_too_long_is_flagged(self):
+        self.assert_clean("geometry/box.cpp", TAG + "\n" * (MAX_LINES - 1))
+        self.assert_flagged("geometry/box.cpp", TAG + "\n" * MAX_LINES, "split it")
+
+    def test_build_folders_are_not_read(self):
+        self.assert_clean("build/dev/generated.cpp", "no tag\n")
+
+
+class ListOfCoreHeaders(unittest.TestCase):
+    @unittest.skipUnless((CGAL_FOLDER / "CGAL").is_dir(), "CGAL's headers are not in /usr/include")
+    def test_holds_headers_under_the_lgpl_only(self):
+        for header in sorted(CGAL_CORE_HEADERS):
+            with self.subTest(header=header):
+                text = (CGAL_FOLDER / header).read_text(encoding="utf-8", errors="replace")
+                tag = re.search(r"SPDX-License-Identifier: *(\S+)", text)
+                self.assertIsNotNone(tag)
+                self.assertTrue(tag[1].startswith("LGPL-"), f"{header}: {tag[1]}")
+
+
+if __name__ == "__main__":
+    sys.dont_write_bytecode = True
+    unittest.main()

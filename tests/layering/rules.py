@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rules of the house, each a function from a source file to the violations in it.
+
+A violation is one line of text: where, what, and what to do about it.
+"""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+LIBRARIES = ("geometry", "contact", "dynamics", "apps")
+"""In the order of the arrow: a file may include its own folder and those before it."""
+
+MAX_LINES = 400
+
+ONLY_HOME = {"fcl": "geometry/broad_phase.cpp", "ccd": "geometry/closest/deep.cpp"}
+"""Package folder of the headers: the only file that may include them."""
+
+CGAL_HOME = "geometry/predicates.cpp"
+"""The only file outside geometry/mesh that may include CGAL."""
+
+CGAL_CORE_HEADERS = {
+    "CGAL/FPU.h",
+    "CGAL/Gmpq.h",
+    "CGAL/Gmpz.h",
+    "CGAL/Interval_nt.h",
+    "CGAL/Mpzf.h",
+    "CGAL/Uncertain.h",
+    "CGAL/determinant.h",
+    "CGAL/enum.h",
+    "CGAL/number_utils.h",
+    "CGAL/Simple_cartesian.h",
+    "CGAL/Exact_predicates_inexact_constructions_kernel.h",
+    "CGAL/predicates/sign_of_determinant.h",
+}
+"""Headers under the LGPL, which is all that the run-time core takes of CGAL."""
+
+SPDX = "SPDX-License-Identifier: GPL-3.0-or-later"
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Include:
+    line: int
+    quoted: bool
+    header: str
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file of the tree: its path from the root, with slashes, and its text."""
+
+    path: str
+    text: str
+
+    @property
+    def folder(self):
+        return self.path.split("/")[0]
+
+    @property
+    def includes(self):
+        return [
+            Include(self.text.count("\n", 0, match.start()) + 1, match[1] == '"', match[2])
+            for match in INCLUDE.finditer(self.text)
+        ]
+
+
+def layers(source, root):
+    """No include against geometry <- contact <- dynamics <- apps, none of tests outside tests."""
+    if source.folder not in LIBRARIES:
+        return
+    allowed = LIBRARIES[: LIBRARIES.index(source.folder) + 1]
+    for include in source.includes:
+        target = include.header.split("/")[0]
+        if target in (*LIBRARIES, "tests") and target not in allowed:
+            yield f'{source.path}:{include.line}: includes "{include.header}" against the arrow {" <- ".join(LIBRARIES)}'
+
+
+def mesh_stays_outside_the_core(source, root):
+    """The GPL parts of CGAL live in geometry/mesh, so the rest of geometry and contact do not lean on it."""
+    if source.folder not in ("geometry", "contact") or source.path.startswith("geometry/mesh/"):
+        return
+    for include in source.includes:
+        if include.header.startswith("geometry/mesh/"):
+            yield f'{source.path}:{include.line}: the run-time core includes "{include.header}"; geometry/mesh is not part of it'
+
+
+def includes_from_the_root(source, root):
+    """Every quoted include names a file from the root of the tree."""
+    for include in source.includes:
+        if include.quoted and not (Path(root) / include.header).is_file():
+            yield f'{source.path}:{include.line}: "{include.header}" is no file below the root; name it from there'
+
+
+def packages_stay_home(source, root):
+    """FCL, libccd and CGAL each in their own .cpp files."""
+    if source.folder not in LIBRARIES:
+        return
+    for include in source.includes:
+        where = f"{source.path}:{include.line}: includes <{include.header}>"
+        package = include.header.split("/")[0]
+        if package in ONLY_HOME and source.path != ONLY_HOME[package]:
+            yield f"{where}; only {ONLY_HOME[package]} may"
+        if package == "CGAL":
+            yield from _cgal_violations(source, include.header, where)
+
+
+def _cgal_violations(source, header, where):
+    in_mesh = source.path.startswith("geometry/mesh/")
+    if not source.path.endswith(".cpp"):
+        yield f"{where}; CGAL belongs in .cpp files, out of sight of a user's compiler"
+    elif not in_mesh and source.path != CGAL_HOME:
+        yield f"{where}; outside geometry/mesh only {CGAL_HOME} may"
+    elif not in_mesh and header not in CGAL_CORE_HEADERS:
+        yield f"{where}; the run-time core takes only LGPL headers of CGAL (CGAL_CORE_HEADERS in tests/layering/rules.py)"
+
+
+def licence_tag(source, root):
+    """The SPDX tag on the first line, or on the second after a #! line."""
+    head = source.text.split("\n")[:2]
+    line = head[1] if len(head) > 1 and head[0].startswith("#!") else head[0]
+    if SPDX not in line:
+        yield f'{source.path}:1: no "{SPDX}" on the first line (after #!, the second)'
+
+
+def size(source, root):
+    """A file fits a sitting."""
+    lines = source.text.count("\n")
+    if lines > MAX_LINES:
+        yield f"{source.path}: {lines} lines, at most {MAX_LINES}; split it by topic"
+
+
+RULES = (layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, size)
