@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/output/file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+namespace plekton::dynamics {
+namespace {
+
+std::string_view advice(int reason) noexcept {
+  switch (reason) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or choose an output folder on another disk";
+    case EFBIG:
+      return "raise the limit of file sizes (ulimit -f) or choose an output folder on another disk";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose an output folder that you may write to";
+    case ENOENT:
+      return "check that its folder exists";
+    case ENOTDIR:
+      return "a part of the path is a file; choose another output folder";
+    case EISDIR:
+      return "a folder has this name; remove it or choose another output folder";
+    case ENAMETOOLONG:
+      return "choose a shorter name";
+    case EMFILE:
+    case ENFILE:
+      return "raise the limit of open files (ulimit -n)";
+    case EIO:
+      return "check the disk and its connection";
+    default:
+      return "check the output folder";
+  }
+}
+
+std::string system_message(const std::filesystem::path& file, std::string_view action, int reason) {
+  std::string message = file.string();
+  message.append(": cannot ").append(action).append(": ");
+  message.append(std::generic_category().message(reason));
+  message.append("; ").append(advice(reason));
+  return message;
+}
+
+std::filesystem::path part_of(const std::filesystem::path& path) {
+  std::filesystem::path part = path;
+  part += ".part";
+  return part;
+}
+
+void create_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directory(folder, error);
+  if (!error) return;
+  const std::filesystem::path parent = folder.parent_path();
+  if (error.value() == ENOENT && !parent.empty()) {
+    throw OutputError(folder, "cannot create the folder: its parent " + parent.string() +
+                                  " does not exist; create that first or correct the path");
+  }
+  throw OutputError(folder, "create the folder", error.value());
+}
+
+void write_probe(const std::filesystem::path& folder) {
+  // The process id keeps runs apart that start into the same folder at the same time.
+  const std::filesystem::path probe =
+      folder / (".plekton-write-test-" + std::to_string(::getpid()));
+  try {
+    OutputFile file(probe);
+    file.write("Plekton was here to see if it can write.\n");
+    file.commit();
+  } catch (const OutputError& error) {
+    throw OutputError(folder, "write into the folder", error.reason());
+  }
+  std::error_code ignored;
+  std::filesystem::remove(probe, ignored);
+}
+
+}  // namespace
+
+OutputError::OutputError(const std::filesystem::path& file, std::string_view action, int reason)
+    : std::runtime_error(system_message(file, action, reason)), reason_(reason) {}
+
+OutputError::OutputError(const std::filesystem::path& file, std::string_view problem)
+    : std::runtime_error(file.string().append(": ").append(problem)) {}
+
+CheckedFile::CheckedFile(std::filesystem::path path, Mode mode) : path_(std::move(path)) {
+  // Appending also in a new file, so that the next write follows the cut after a failed one.
+  const int flags =
+      O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (mode == Mode::replace ? O_TRUNC : 0);
+  constexpr mode_t kReadWriteForAllButUmask = 0666;
+  descriptor_ = ::open(path_.c_str(), flags, kReadWriteForAllButUmask);
+  if (descriptor_ < 0) throw OutputError(path_, "create", errno);
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0) size_ = status.st_size;
+}
+
+CheckedFile::~CheckedFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void CheckedFile::write(std::string_view bytes) {
+  assert(descriptor_ >= 0 && "written to after close()");
+  std::string_view rest = bytes;
+  while (!rest.empty()) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    if (written > 0) {
+      rest.remove_prefix(static_cast<std::size_t>(written));
+      continue;
+    }
+    const int reason = written < 0 ? errno : EIO;
+    if (reason == EINTR) continue;
+    std::ignore = ::ftruncate(descriptor_, size_);
+    throw OutputError(path_, "write", reason);
+  }
+  size_ += static_cast<std::int64_t>(bytes.size());
+}
+
+void CheckedFile::close() {
+  if (descriptor_ < 0) return;
+  // The descriptor is gone even after an error, also after EINTR.
+  if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) {
+    throw OutputError(path_, "finish writing", errno);
+  }
+}
+
+OutputFile::OutputFile(const std::filesystem::path& path)
+    : path_(path), part_(part_of(path)), file_(part_, CheckedFile::Mode::replace) {}
+
+OutputFile::~OutputFile() {
+  if (committed_) return;
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
+}
+
+void OutputFile::commit() {
+  file_.close();
+  std::error_code error;
+  std::filesystem::rename(part_, path_, error);
+  if (error) throw OutputError(path_, "give the finished file its name", error.value());
+  committed_ = true;
+}
+
+void ensure_output_folder(const std::filesystem::path& folder) {
+  if (folder.empty()) throw OutputError(folder, "the output folder has no name; choose one");
+  // "out/" names the same folder as "out", but its parent path would be "out".
+  const std::filesystem::path path = folder.has_filename() ? folder : folder.parent_path();
+  std::error_code ignored;
+  const std::filesystem::file_status before = std::filesystem::status(path, ignored);
+  const bool existed = std::filesystem::exists(before);
+  if (existed && !std::filesystem::is_directory(before)) {
+    throw OutputError(path, "is a file, not a folder; remove it or choose another output folder");
+  }
+  if (!existed) create_folder(path);
+  try {
+    write_probe(path);
+  } catch (const OutputError&) {
+    if (!existed) std::filesystem::remove(path, ignored);
+    throw;
+  }
+}
+
+}  // namespace plekton::dynamics

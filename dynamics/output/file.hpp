@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+namespace plekton::dynamics {
+
+/// A result could not be written. The message names the file, the reason of the operating system,
+/// and what to do.
+class OutputError : public std::runtime_error {
+ public:
+  /// @param action  What was tried, as in "cannot <action>".
+  /// @param reason  errno of the failed call.
+  OutputError(const std::filesystem::path& file, std::string_view action, int reason);
+  /// @param problem  What is wrong and what to do, for a reason that is not the operating system's.
+  OutputError(const std::filesystem::path& file, std::string_view problem);
+
+  /// errno of the failed call; 0 if no call failed.
+  int reason() const noexcept { return reason_; }
+
+ private:
+  int reason_ = 0;
+};
+
+/// An open file whose every write is checked. It has no buffer, so hand over whole lines or blocks.
+class CheckedFile {
+ public:
+  enum class Mode : std::uint8_t { replace, append };
+
+  /// Opens a file, creating it if absent. @throws OutputError
+  CheckedFile(std::filesystem::path path, Mode mode);
+  CheckedFile(const CheckedFile&) = delete;
+  CheckedFile& operator=(const CheckedFile&) = delete;
+  /// Closes without a check: call close() to hear of an error that shows only then (network and
+  /// quota file systems).
+  ~CheckedFile();
+
+  /// Writes all bytes or, as far as the operating system allows, none: after an error the file is
+  /// cut back to its size before the call, so that the write can be tried again. @throws
+  /// OutputError
+  void write(std::string_view bytes);
+
+  /// No effect the second time. @throws OutputError
+  void close();
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_;
+  std::int64_t size_ = 0;  // bytes
+};
+
+/// A result file that appears complete or not at all: written as `<name>.part` and renamed by
+/// commit(). Without commit() the destructor removes the part file, and a file of that name from
+/// before stays as it was. Two of the same name at the same time disturb each other.
+class OutputFile {
+ public:
+  /// @throws OutputError
+  explicit OutputFile(const std::filesystem::path& path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  /// Unbuffered, see CheckedFile. @throws OutputError
+  void write(std::string_view bytes) { file_.write(bytes); }
+
+  /// Closes the part file and gives it its name, replacing a file that has it. Call once, last.
+  /// @throws OutputError
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path part_;
+  CheckedFile file_;
+  bool committed_ = false;
+};
+
+/// Creates a folder if absent (not its parents) and makes sure that it takes files, by writing one
+/// and removing it. A folder created in vain is removed again.
+/// @throws OutputError if it has no name, is a file, its parent is missing, or it cannot be written
+/// to.
+void ensure_output_folder(const std::filesystem::path& folder);
+
+}  // namespace plekton::dynamics

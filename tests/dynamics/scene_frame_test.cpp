@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/output/scene_frame.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+namespace plekton::dynamics {
+namespace {
+
+using geometry::Cylinder;
+using geometry::Facet;
+using geometry::NodeId;
+using geometry::Sphere;
+using geometry::Vec3;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// Five nodes: position (i, 0, 0), velocity (0, i, 0), angular velocity (0, 0, i), force (-i, 0,
+/// 0).
+struct FiveNodes {
+  std::array<Vec3, 5> position, velocity, angular_velocity, force;
+
+  FiveNodes() {
+    for (std::size_t i = 0; i < 5; ++i) {
+      const auto x = static_cast<double>(i);
+      position[i] = {x, 0.0, 0.0};
+      velocity[i] = {0.0, x, 0.0};
+      angular_velocity[i] = {0.0, 0.0, x};
+      force[i] = {-x, 0.0, 0.0};
+    }
+  }
+  NodesView view() const { return {position, velocity, angular_velocity, force}; }
+};
+
+NodeId node(int index) {
+  return static_cast<NodeId>(index);
+}
+
+const DataArray& array(const std::vector<DataArray>& arrays, const std::string& name) {
+  for (const DataArray& array : arrays) {
+    if (array.name == name) return array;
+  }
+  throw std::runtime_error("no array " + name);
+}
+
+std::vector<float> floats(const std::vector<DataArray>& arrays, const std::string& name) {
+  return std::get<std::vector<float>>(array(arrays, name).values);
+}
+
+TEST(GrainsFrame, ShowsEachSphereWithTheStateOfItsNode) {
+  const FiveNodes nodes;
+  const std::array<Sphere, 2> spheres = {Sphere{{node(3)}, 0.5}, Sphere{{node(1)}, 0.25}};
+  const std::array<std::int64_t, 2> ids = {7'000'000'000, 8};
+
+  const PolyData data = grains_frame({nodes.view(), spheres, ids}, 0.5);
+
+  EXPECT_EQ(data.time, 0.5);
+  EXPECT_THAT(data.points, ElementsAre(Vec3(3.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0)));
+  EXPECT_THAT(data.vertices.connectivity, ElementsAre(0, 1));
+  EXPECT_THAT(data.vertices.offsets, ElementsAre(1, 2));
+  EXPECT_THAT(floats(data.point_arrays, "radius"), ElementsAre(0.5F, 0.25F));
+  EXPECT_THAT(floats(data.point_arrays, "velocity"), ElementsAre(0, 3, 0, 0, 1, 0));
+  EXPECT_THAT(floats(data.point_arrays, "angular_velocity"), ElementsAre(0, 0, 3, 0, 0, 1));
+  EXPECT_THAT(floats(data.point_arrays, "force"), ElementsAre(-3, 0, 0, -1, 0, 0));
+  EXPECT_EQ(array(data.point_arrays, "velocity").components, 3U);
+  EXPECT_THAT(std::get<std::vector<std::int64_t>>(array(data.point_arrays, "id").values),
+              ElementsAre(7'000'000'000, 8));
+}
+
+// Nodes 1 to 4 carry a facet (4, 1, 2) with cylinders along two of its sides, one of them named
+// from the other end, and a free cylinder (2, 3); node 0 is a grain's.
+TEST(SurfaceFrame, SharesPointsBetweenCylindersAndFacets) {
+  const FiveNodes nodes;
+  const std::array<Cylinder, 3> cylinders = {Cylinder{{node(2), node(3)}, 0.1},
+                                             Cylinder{{node(1), node(4)}, 0.2},
+                                             Cylinder{{node(1), node(2)}, 0.2}};
+  const std::array<double, 3> tension = {-1.0, 2.0, 4.0};
+  const std::array<Facet, 1> facets = {Facet{{node(4), node(1), node(2)}, 0.2}};
+
+  const PolyData data = surface_frame({nodes.view(), cylinders, tension, facets}, 2.0);
+
+  EXPECT_EQ(data.time, 2.0);
+  EXPECT_THAT(data.points, ElementsAre(nodes.position[1], nodes.position[2], nodes.position[3],
+                                       nodes.position[4]));
+  EXPECT_THAT(data.lines.connectivity, ElementsAre(1, 2, 0, 3, 0, 1));
+  EXPECT_THAT(data.lines.offsets, ElementsAre(2, 4, 6));
+  EXPECT_THAT(data.polygons.connectivity, ElementsAre(3, 0, 1));
+  EXPECT_THAT(data.polygons.offsets, ElementsAre(3));
+  EXPECT_THAT(std::get<std::vector<std::int32_t>>(array(data.point_arrays, "node").values),
+              ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(floats(data.point_arrays, "force"),
+              ElementsAre(-1, 0, 0, -2, 0, 0, -3, 0, 0, -4, 0, 0));
+  EXPECT_THAT(floats(data.cell_arrays, "radius"), ElementsAre(0.1F, 0.2F, 0.2F, 0.2F));
+  EXPECT_THAT(floats(data.cell_arrays, "tension"), ElementsAre(-1, 2, 4, 3));
+}
+
+TEST(SurfaceFrame, ShowsNoTensionInAFacetWithoutCylinders) {
+  const FiveNodes nodes;
+  const std::array<Facet, 1> facets = {Facet{{node(0), node(1), node(2)}, 0.2}};
+
+  const PolyData data = surface_frame({nodes.view(), {}, {}, facets}, 0.0);
+
+  EXPECT_THAT(floats(data.cell_arrays, "tension"), ElementsAre(0));
+}
+
+TEST(ContactsFrame, DrawsEachContactBetweenItsCorePoints) {
+  const std::array<ContactRow, 2> contacts = {
+      ContactRow{Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, 5), Vec3(3, 4, 0), -0.125},
+      ContactRow{Vec3(1, 0, 0), Vec3(1, 0, 2), Vec3(0, 0, 2), Vec3(0, 0, 0), -0.25}};
+
+  const PolyData data = contacts_frame(contacts, 1.0);
+
+  EXPECT_THAT(data.points, ElementsAre(Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(1, 0, 2)));
+  EXPECT_THAT(data.lines.connectivity, ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(data.lines.offsets, ElementsAre(2, 4));
+  EXPECT_THAT(floats(data.cell_arrays, "normal_force"), ElementsAre(0, 0, 5, 0, 0, 2));
+  EXPECT_THAT(floats(data.cell_arrays, "normal_force_magnitude"), ElementsAre(5, 2));
+  EXPECT_THAT(floats(data.cell_arrays, "tangential_force"), ElementsAre(3, 4, 0, 0, 0, 0));
+  EXPECT_THAT(floats(data.cell_arrays, "tangential_force_magnitude"), ElementsAre(5, 0));
+  EXPECT_THAT(floats(data.cell_arrays, "gap"), ElementsAre(-0.125F, -0.25F));
+}
+
+TEST(SceneFrames, KeepTheirArraysWhenThereIsNothingToShow) {
+  const PolyData grains = grains_frame({}, 0.0);
+  const PolyData surface = surface_frame({}, 0.0);
+  const PolyData contacts = contacts_frame({}, 0.0);
+
+  for (const PolyData* data : {&grains, &surface, &contacts}) {
+    EXPECT_THAT(data->points, IsEmpty());
+    EXPECT_EQ(data->cell_count(), 0U);
+  }
+  EXPECT_EQ(grains.point_arrays.size(), 5U);
+  EXPECT_EQ(surface.cell_arrays.size(), 2U);
+  EXPECT_EQ(contacts.cell_arrays.size(), 5U);
+}
+
+}  // namespace
+}  // namespace plekton::dynamics
