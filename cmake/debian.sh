@@ -57,5 +57,7 @@ need_packages() {
   fi
   say "Installing: $missing"
   # shellcheck disable=SC2086
-  apt_get update && apt_get install -y --no-install-recommends $missing || stop_and_name "$@"
+  if ! { apt_get update && apt_get install -y --no-install-recommends $missing; }; then
+    stop_and_name "$@"
+  fi
 }

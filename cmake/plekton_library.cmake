@@ -9,6 +9,7 @@ function(plekton_options target)
   # without in ours would give results that depend on which copy the linker keeps.
   target_compile_options(${target} PUBLIC $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # GCC 12 reports it for std::string's operator+ at -O3, wrongly (GCC bug 105651)
     $<$<BOOL:${PLEKTON_WARNINGS_AS_ERRORS}>:-Werror> $<$<BOOL:${PLEKTON_NATIVE}>:-march=native>)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
@@ -16,16 +17,6 @@ endfunction()
 function(plekton_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  if(NOT sources)  # headers only
-    add_library(plekton_${name} INTERFACE)
-    add_library(plekton::${name} ALIAS plekton_${name})
-    set_target_properties(plekton_${name} PROPERTIES EXPORT_NAME ${name})
-    target_link_libraries(plekton_${name} INTERFACE ${arg_PUBLIC} ${arg_PRIVATE})
-    target_include_directories(plekton_${name} INTERFACE
-      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/plekton>)
-    return()
-  endif()
-
   add_library(plekton_${name} ${sources})
   add_library(plekton::${name} ALIAS plekton_${name})
   set_target_properties(plekton_${name} PROPERTIES

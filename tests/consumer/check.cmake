@@ -54,6 +54,6 @@ endif()
 
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${WORK}/build ${options})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-foreach(name IN ITEMS geometry contact)
+foreach(name IN ITEMS geometry contact dynamics)
   run(${WORK}/build/consumer_${name})
 endforeach()
