@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/interpolation.hpp"
+#include "geometry/thread_pool.hpp"
+
+#include <vector>
+
+/// Forces of contacts, written down by whoever computes them and summed afterwards, node by node in the order of the
+/// contacts: the sums have the same bits for any number of threads.
+namespace plekton::contact {
+
+/// Force between two balls.
+struct BallForce {
+  NodeId a;
+  NodeId b;
+  Vec3 force;     ///< N, on b
+  Vec3 torque_a;  ///< N m, on a
+  Vec3 torque_b;  ///< N m, on b
+  std::size_t contact;
+
+  template <class Owns>
+  void add_to(NodeForces& forces, Owns owns) const {
+    if (owns(a)) {
+      forces.force[index_of(a)] -= force;
+      forces.torque[index_of(a)] += torque_a;
+    }
+    if (owns(b)) {
+      forces.force[index_of(b)] += force;
+      forces.torque[index_of(b)] += torque_b;
+    }
+  }
+};
+
+/// Force of one term of a patch: on a ball (a) and at a core point of a surface (b).
+struct SurfaceForce {
+  NodeId a;
+  geometry::CorePoint core;
+  Vec3 force;     ///< N, on b
+  Vec3 torque_a;  ///< N m, on a
+  Vec3 torque_b;  ///< N m, on b, shared by its nodes by weight
+
+  template <class Owns>
+  void add_to(NodeForces& forces, Owns owns) const {
+    if (owns(a)) {
+      forces.force[index_of(a)] -= force;
+      forces.torque[index_of(a)] += torque_a;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const NodeId node = core.nodes[i];
+      const double weight = core.weights[static_cast<int>(i)];
+      if (!owns(node)) continue;
+      forces.force[index_of(node)] += weight * force;
+      forces.torque[index_of(node)] += weight * torque_b;
+    }
+  }
+};
+
+/// Force of a plane on a ball.
+struct PlaneForce {
+  NodeId a;
+  std::size_t plane;
+  Vec3 force;     ///< N, on the plane
+  Vec3 torque_a;  ///< N m, on a
+  std::size_t contact;
+
+  template <class Owns>
+  void add_to(NodeForces& forces, Owns owns) const {
+    if (!owns(a)) return;
+    forces.force[index_of(a)] -= force;
+    forces.torque[index_of(a)] += torque_a;
+  }
+};
+
+/// The records of all contacts of a kind, in the order of the contacts: those of the first worker first.
+template <class Record>
+class ForceRecords {
+ public:
+  /// Empty lists, one for each worker; keeps their memory.
+  void reset(int worker_count) {
+    lists_.resize(static_cast<std::size_t>(worker_count));
+    for (auto& list : lists_) list.clear();
+  }
+
+  std::vector<Record>& of_worker(int worker) noexcept {
+    return lists_[static_cast<std::size_t>(worker)];
+  }
+
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (const auto& list : lists_) {
+      for (const Record& record : list) visit(record);
+    }
+  }
+
+  std::size_t size() const noexcept {
+    std::size_t count = 0;
+    for (const auto& list : lists_) count += list.size();
+    return count;
+  }
+
+  /// Adds all forces to the nodes. Each thread goes through all records and adds to the nodes it owns.
+  void add_to(NodeForces& forces, geometry::ThreadPool& pool) const {
+    if (pool.thread_count() == 1) {
+      for_each([&](const Record& record) { record.add_to(forces, [](NodeId) { return true; }); });
+      return;
+    }
+    pool.for_each_range(forces.force.size(), [&](std::size_t begin, std::size_t end, int) {
+      const auto owns = [begin, end](NodeId node) { return index_of(node) >= begin && index_of(node) < end; };
+      for_each([&](const Record& record) { record.add_to(forces, owns); });
+    });
+  }
+
+ private:
+  std::vector<std::vector<Record>> lists_;
+};
+
+}  // namespace plekton::contact

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/contact_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plekton::contact {
+
+/// Linear spring and Coulomb slider. Cundall & Strack, Geotechnique 29 (1979) 47-65.
+///
+/// Normal force k_n * overlap; tangential force k_s * elastic slip, limited to tan(phi) times the normal force.
+/// Stiffness of a pair: springs E R of both bodies in series, k_n = 2 E_a R_a E_b R_b / (E_a R_a + E_b R_b), and
+/// likewise k_s with E R times the stiffness ratio. Effeindzourou et al., Geotextiles and Geomembranes 44 (2016), 2.
+struct LinearFrictional {
+  static constexpr std::string_view name = "linear_frictional";
+
+  struct Parameters {
+    double normal_stiffness;      ///< N/m
+    double tangential_stiffness;  ///< N/m
+    double friction;              ///< tan(phi), of the smoother body
+  };
+
+  struct History {
+    Vec3 elastic_slip = Vec3::Zero();  ///< m, of b relative to a, tangent to the contact
+  };
+
+  static Parameters combine(const Material& a, double radius_a, const Material& b, double radius_b) noexcept {
+    const double normal_a = a.young_modulus * radius_a;
+    const double normal_b = b.young_modulus * radius_b;
+    return {in_series(normal_a, normal_b),
+            in_series(normal_a * a.stiffness_ratio, normal_b * b.stiffness_ratio),
+            std::min(a.friction, b.friction)};
+  }
+
+  static double elastic_normal_force(const Parameters& p, double gap) noexcept {
+    return p.normal_stiffness * std::max(0.0, -gap);
+  }
+
+  static double elastic_normal_energy(const Parameters& p, double gap) noexcept {
+    const double overlap = std::max(0.0, -gap);
+    return 0.5 * p.normal_stiffness * overlap * overlap;
+  }
+
+  static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history, double dt) noexcept {
+    const Vec3 normal_force = motion.elastic_normal_force * motion.normal;
+    const Vec3 trial = history.elastic_slip + dt * motion.slip_velocity;
+    const double limit = p.friction * motion.elastic_normal_force;
+    const double trial_force = p.tangential_stiffness * trial.norm();
+    if (trial_force <= limit) {
+      history.elastic_slip = trial;
+      return {normal_force - p.tangential_stiffness * trial, 0.0};
+    }
+    history.elastic_slip = (limit / trial_force) * trial;
+    const double dissipated = 0.5 * (trial_force * trial_force - limit * limit) / p.tangential_stiffness;
+    return {normal_force - p.tangential_stiffness * history.elastic_slip, dissipated};
+  }
+
+  static double history_energy(const Parameters& p, const History& history) noexcept {
+    return 0.5 * p.tangential_stiffness * history.elastic_slip.squaredNorm();
+  }
+
+  static double normal_stiffness(const Parameters& p, double) noexcept { return p.normal_stiffness; }
+  static double tangential_stiffness(const Parameters& p, double) noexcept { return p.tangential_stiffness; }
+
+  static void rotate(History& history, const FrameRotation& rotation) noexcept {
+    history.elastic_slip = rotation(history.elastic_slip);
+  }
+
+  static void add_share(History& history, const History& other, double share) noexcept {
+    history.elastic_slip += share * other.elastic_slip;
+  }
+
+ private:
+  /// Twice the series stiffness, so that equal bodies give their own stiffness; 0 if one of them is 0.
+  static double in_series(double a, double b) noexcept { return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
+};
+
+static_assert(ContactLaw<LinearFrictional>);
+
+}  // namespace plekton::contact

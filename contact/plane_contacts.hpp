@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/bodies.hpp"
+#include "contact/chunks.hpp"
+#include "contact/contact_memory.hpp"
+#include "contact/contact_row.hpp"
+#include "contact/force_records.hpp"
+#include "contact/material_pairs.hpp"
+#include "contact/rekey.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plekton::contact {
+
+/// Contacts of balls (a) with planes (b): one slot for each pair that may touch. A plane has the stiffness of a ball of
+/// its material and of the radius of the ball that touches it.
+template <ContactLaw Law>
+class PlaneContacts {
+ public:
+  /// Takes a new list of pairs (ball, plane), sorted; pairs in both lists keep their memory.
+  /// @returns the energy (J) lost with contacts that left the list
+  double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+                 std::span<const Plane> planes, const MaterialPairs<Law>& materials);
+
+  /// One step of all contacts: forces are written down, not yet added.
+  /// @returns the energy (J) dissipated
+  double advance(const Motion& motion, std::span<const Plane> planes, double dt, geometry::ThreadPool& pool);
+
+  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const { records_.add_to(forces, pool); }
+  std::size_t touching() const noexcept { return records_.size(); }
+
+  /// Energy (J) stored in all contacts, at the positions of the last step.
+  double elastic_energy() const;
+
+  /// Force (N) of all bodies on a plane in the last step.
+  Vec3 force_on(std::size_t plane) const;
+
+  /// Calls visit(ball's node, parameters, gap) for every touching pair.
+  template <class Visit>
+  void for_each_touching(Visit&& visit) const {
+    records_.for_each([&](const PlaneForce& record) {
+      visit(record.a, slots_[record.contact].parameters, slots_[record.contact].gap);
+    });
+  }
+
+  template <class Visit>
+  void for_each_row(Positions x, Visit&& visit) const;
+
+ private:
+  struct Slot {
+    NodeId node;
+    std::size_t plane;
+    double radius;
+    double gap = 0.0;  ///< m, of the last step
+    typename Law::Parameters parameters;
+    ContactMemory<Law> memory;
+  };
+
+  double advance_touching(std::size_t i, double gap, const Motion& motion, std::span<const Plane> planes, double dt,
+                          std::vector<PlaneForce>& records);
+
+  std::vector<geometry::IndexPair> keys_;
+  std::vector<Slot> slots_;
+  ForceRecords<PlaneForce> records_;
+  ChunkedSum sum_;
+};
+
+template <ContactLaw Law>
+double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys, std::span<const Ball> balls,
+                                   std::span<const Plane> planes, const MaterialPairs<Law>& materials) {
+  double lost = 0.0;
+  const auto make = [&](std::size_t i, const Slot* old) {
+    if (old) return *old;
+    const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
+    const auto plane = static_cast<std::size_t>(keys[i].b);
+    const auto parameters = materials.combine(ball.material, ball.radius, planes[plane].material, ball.radius);
+    return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}};
+  };
+  rekey(keys_, slots_, keys, make, [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });
+  return lost;
+}
+
+template <ContactLaw Law>
+double PlaneContacts<Law>::advance(const Motion& motion, std::span<const Plane> planes, double dt,
+                                   geometry::ThreadPool& pool) {
+  records_.reset(pool.thread_count());
+  return sum_(slots_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {
+    auto& records = records_.of_worker(worker);
+    double dissipated = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      Slot& slot = slots_[i];
+      const Plane& plane = planes[slot.plane];
+      const double height = (motion.position[index_of(slot.node)] - plane.point).dot(plane.normal);
+      if (height < slot.radius) {
+        dissipated += advance_touching(i, height - slot.radius, motion, planes, dt, records);
+      } else {
+        dissipated += forget<Law>(slot.parameters, slot.memory);
+      }
+    }
+    return dissipated;
+  });
+}
+
+template <ContactLaw Law>
+double PlaneContacts<Law>::advance_touching(std::size_t i, double gap, const Motion& motion,
+                                            std::span<const Plane> planes, double dt,
+                                            std::vector<PlaneForce>& records) {
+  Slot& slot = slots_[i];
+  const Plane& plane = planes[slot.plane];
+  const std::size_t node = index_of(slot.node);
+  const Vec3 normal = -plane.normal;
+  const Vec3 lever = (slot.radius + 0.5 * gap) * normal;
+  const Vec3& spin = motion.angular_velocity[node];
+  const Vec3 relative_velocity = plane.velocity - motion.velocity[node] - spin.cross(lever);
+  const RelativeMotion relative =
+      relative_motion(normal, gap, Law::elastic_normal_force(slot.parameters, gap), relative_velocity);
+
+  slot.gap = gap;
+  slot.memory = {carried_history<Law>(slot.memory, normal, dt * 0.5 * spin.dot(normal)), normal};
+  const ContactForce result = Law::force(slot.parameters, relative, slot.memory.history, dt);
+  records.push_back({slot.node, slot.plane, result.force, -lever.cross(result.force), i});
+  return result.dissipated;
+}
+
+template <ContactLaw Law>
+double PlaneContacts<Law>::elastic_energy() const {
+  double energy = 0.0;
+  records_.for_each([&](const PlaneForce& record) {
+    const Slot& slot = slots_[record.contact];
+    energy += Law::elastic_normal_energy(slot.parameters, slot.gap) +
+              Law::history_energy(slot.parameters, slot.memory.history);
+  });
+  return energy;
+}
+
+template <ContactLaw Law>
+Vec3 PlaneContacts<Law>::force_on(std::size_t plane) const {
+  Vec3 force = Vec3::Zero();
+  records_.for_each([&](const PlaneForce& record) {
+    if (record.plane == plane) force += record.force;
+  });
+  return force;
+}
+
+template <ContactLaw Law>
+template <class Visit>
+void PlaneContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
+  records_.for_each([&](const PlaneForce& record) {
+    const Slot& slot = slots_[record.contact];
+    const Vec3& centre = x[index_of(record.a)];
+    const Vec3 foot = centre + (slot.radius + slot.gap) * slot.memory.normal;
+    visit(contact_row(centre, foot, slot.memory.normal, slot.gap, record.force));
+  });
+}
+
+}  // namespace plekton::contact

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/spanning_weights.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace plekton::contact {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+Eigen::Index as_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+}  // namespace
+
+std::span<const double> SpanningWeights::find(std::uint32_t basin_count, std::span<const Link> links) {
+  grow_forest(basin_count, links);
+  weights_.assign(links.size(), 0.0);
+  for (const std::uint32_t link : tree_links_) weights_[link] = 1.0;
+  if (!closing_links_.empty()) {
+    hang_trees(basin_count, links);
+    share_rings(links);
+  }
+  return weights_;
+}
+
+std::uint32_t SpanningWeights::root_of(std::uint32_t basin) const noexcept {
+  while (root_[basin] != basin) basin = root_[basin];
+  return basin;
+}
+
+void SpanningWeights::grow_forest(std::uint32_t basin_count, std::span<const Link> links) {
+  root_.resize(basin_count);
+  std::iota(root_.begin(), root_.end(), 0U);
+  tree_links_.clear();
+  closing_links_.clear();
+  for (std::uint32_t i = 0; i < links.size(); ++i) {
+    if (links[i].a == links[i].b) continue;
+    const auto [low, high] = std::minmax({root_of(links[i].a), root_of(links[i].b)});
+    if (low == high) {
+      closing_links_.push_back(i);
+    } else {
+      root_[high] = low;
+      tree_links_.push_back(i);
+    }
+  }
+}
+
+void SpanningWeights::hang_trees(std::uint32_t basin_count, std::span<const Link> links) {
+  parent_.assign(basin_count, Parent{kNone, kNone, kNone});
+  for (std::uint32_t basin = 0; basin < basin_count; ++basin) {
+    if (root_[basin] == basin) parent_[basin].depth = 0;
+  }
+  // Each round hangs at least one more generation; the graphs are small.
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (const std::uint32_t link : tree_links_) {
+      std::uint32_t upper = links[link].a;
+      std::uint32_t lower = links[link].b;
+      if (parent_[upper].depth == kNone) std::swap(upper, lower);
+      if (parent_[upper].depth == kNone || parent_[lower].depth != kNone) continue;
+      parent_[lower] = {upper, link, parent_[upper].depth + 1};
+      grew = true;
+    }
+  }
+}
+
+void SpanningWeights::share_rings(std::span<const Link> links) {
+  // Column of a tree link in cycles_.
+  std::vector<Eigen::Index> column(links.size(), -1);
+  for (std::size_t i = 0; i < tree_links_.size(); ++i) column[tree_links_[i]] = as_index(i);
+
+  cycles_.setZero(as_index(closing_links_.size()), as_index(tree_links_.size()));
+  for (std::size_t c = 0; c < closing_links_.size(); ++c) {
+    const Link& closing = links[closing_links_[c]];
+    // The tree path between the two ends; a step up from a counts +, a step up from b counts -.
+    std::uint32_t a = closing.a;
+    std::uint32_t b = closing.b;
+    while (a != b) {
+      const bool climb_a = parent_[a].depth >= parent_[b].depth;
+      const Parent& up = climb_a ? parent_[a] : parent_[b];
+      // Towards the parent the tree link is taken as oriented child -> parent for every cycle alike.
+      cycles_(as_index(c), column[up.link]) = (climb_a ? 1.0 : -1.0) * closing.overlap / links[up.link].overlap;
+      (climb_a ? a : b) = up.basin;
+    }
+  }
+
+  const Eigen::Index rings = cycles_.rows();
+  const Eigen::MatrixXd scaled = Eigen::MatrixXd::Identity(rings, rings) + cycles_ * cycles_.transpose();
+  const Eigen::MatrixXd inverse = scaled.llt().solve(Eigen::MatrixXd::Identity(rings, rings));
+  for (std::size_t c = 0; c < closing_links_.size(); ++c) {
+    weights_[closing_links_[c]] = std::clamp(1.0 - inverse(as_index(c), as_index(c)), 0.0, 1.0);
+  }
+  for (std::size_t i = 0; i < tree_links_.size(); ++i) {
+    const auto cycle = cycles_.col(as_index(i));
+    weights_[tree_links_[i]] = std::clamp(1.0 - cycle.dot(inverse * cycle), 0.0, 1.0);
+  }
+}
+
+}  // namespace plekton::contact

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "geometry/elements.hpp"
+
+namespace plekton::geometry {
+
+/// The feature of a closed cell (a facet with its rim, an edge with its ends) that holds the point nearest to a point.
+/// Exact; a tie goes to the lower-dimensional feature, so the answer is unique. A facet without area, or an edge
+/// without length, answers with the lowest of its nearest end features.
+Feature closest_feature(const Surface& surface, Feature cell, const Vec3& point, Positions x) noexcept;
+
+/// Walks downhill over the surface from a feature to a minimum of the distance to a point.
+///
+/// Every step goes to a cell whose closed part holds a nearer point, by exact signs, so the walk cannot cycle and stays
+/// inside the connected part of {distance < d} it started in. It is how a contact follows its surface: the foot of the
+/// last step leads to that of this one, across any number of primitives.
+Feature descend(const Surface& surface, Feature start, const Vec3& point, Positions x) noexcept;
+
+}  // namespace plekton::geometry

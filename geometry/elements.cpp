@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/elements.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace plekton::geometry {
+namespace {
+
+/// Disjoint sets of nodes.
+class Components {
+ public:
+  explicit Components(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::size_t i, std::size_t j) {
+    const auto [low, high] = std::minmax({root(i), root(j)});  // by value: the roots are temporaries
+    parent_[high] = low;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+std::array<NodeId, 2> sorted(NodeId a, NodeId b) { return a < b ? std::array{a, b} : std::array{b, a}; }
+
+/// Collects the problems of the elements one by one.
+class Problems {
+ public:
+  template <std::size_t N>
+  void check(const char* kind, std::size_t id, const std::array<NodeId, N>& nodes, double radius,
+             std::size_t node_count) {
+    for (const NodeId node : nodes) {
+      if (static_cast<std::int64_t>(node) < 0 || index_of(node) >= node_count) {
+        line(kind, id) << " names node " << static_cast<std::int32_t>(node) << ", but there are " << node_count
+                       << " nodes\n";
+      }
+    }
+    for (std::size_t i = 0; i < N; ++i) {
+      if (std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(i), nodes[i]) !=
+          nodes.begin() + static_cast<std::ptrdiff_t>(i)) {
+        line(kind, id) << " repeats node " << static_cast<std::int32_t>(nodes[i])
+                       << "; merge duplicate nodes or delete the element\n";
+      }
+    }
+    if (!(radius > 0.0)) line(kind, id) << " has radius " << radius << " m; it must be positive\n";
+  }
+
+  std::ostream& line(const char* kind, std::size_t id) { return text_ << "surface: " << kind << ' ' << id; }
+
+  void throw_if_any() const {
+    if (const std::string text = text_.str(); !text.empty()) {
+      throw std::invalid_argument(text.substr(0, text.size() - 1));
+    }
+  }
+
+ private:
+  std::ostringstream text_;
+};
+
+void check_elements(std::span<const Cylinder> cylinders, std::span<const Facet> facets, std::size_t node_count) {
+  Problems problems;
+  std::map<std::array<NodeId, 3>, std::size_t> seen;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    problems.check("facet", f, facets[f].nodes, facets[f].radius, node_count);
+    auto key = facets[f].nodes;
+    std::sort(key.begin(), key.end());
+    const auto [other, is_new] = seen.try_emplace(key, f);
+    if (!is_new) {
+      problems.line("facet", f) << " has the same nodes as facet " << other->second << "; delete one of them\n";
+    }
+  }
+  for (std::size_t c = 0; c < cylinders.size(); ++c) {
+    problems.check("cylinder", c, cylinders[c].nodes, cylinders[c].radius, node_count);
+  }
+  problems.throw_if_any();
+}
+
+}  // namespace
+
+Surface::Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets, std::size_t node_count) {
+  check_elements(cylinders, facets, node_count);
+  face_nodes_.reserve(facets.size());
+  for (const Facet& facet : facets) face_nodes_.push_back(facet.nodes);
+  node_structure_.assign(node_count, StructureId{-1});
+  build_edges(cylinders);
+  build_incidence();
+  build_structures(cylinders, facets);
+}
+
+void Surface::build_edges(std::span<const Cylinder> cylinders) {
+  for (const auto& n : face_nodes_) {
+    for (std::size_t k = 0; k < 3; ++k) edge_nodes_.push_back(sorted(n[k], n[(k + 1) % 3]));
+  }
+  for (const Cylinder& cylinder : cylinders) edge_nodes_.push_back(sorted(cylinder.nodes[0], cylinder.nodes[1]));
+  std::sort(edge_nodes_.begin(), edge_nodes_.end());
+  edge_nodes_.erase(std::unique(edge_nodes_.begin(), edge_nodes_.end()), edge_nodes_.end());
+
+  face_edges_.resize(face_nodes_.size());
+  for (std::size_t f = 0; f < face_nodes_.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto key = sorted(face_nodes_[f][k], face_nodes_[f][(k + 1) % 3]);
+      const auto found = std::lower_bound(edge_nodes_.begin(), edge_nodes_.end(), key);
+      face_edges_[f][k] = id_at<EdgeId>(static_cast<std::size_t>(found - edge_nodes_.begin()));
+    }
+  }
+}
+
+void Surface::build_incidence() {
+  // Lists are filled in ascending order of the items, so each comes out sorted.
+  const auto fill = [](auto& lists, std::size_t list_count, std::size_t item_count, auto owners_of) {
+    using Item = typename std::remove_reference_t<decltype(lists.items)>::value_type;
+    lists.start.assign(list_count + 1, 0);
+    for (std::size_t i = 0; i < item_count; ++i) {
+      for (const auto owner : owners_of(i)) ++lists.start[index_of(owner) + 1];
+    }
+    std::partial_sum(lists.start.begin(), lists.start.end(), lists.start.begin());
+    lists.items.resize(lists.start.back());
+    auto next = lists.start;
+    for (std::size_t i = 0; i < item_count; ++i) {
+      for (const auto owner : owners_of(i)) lists.items[next[index_of(owner)]++] = id_at<Item>(i);
+    }
+  };
+  fill(node_edges_, node_count(), edge_count(), [this](std::size_t e) { return edge_nodes_[e]; });
+  fill(node_faces_, node_count(), face_count(), [this](std::size_t f) { return face_nodes_[f]; });
+  fill(edge_faces_, edge_count(), face_count(), [this](std::size_t f) { return face_edges_[f]; });
+
+  edge_owner_.resize(edge_count());
+  for (std::size_t e = 0; e < edge_count(); ++e) {
+    const auto faces = edge_faces_[e];
+    if (faces.empty()) {
+      edge_owner_[e] = id_at<CellId>(face_count() + free_edges_.size());
+      free_edges_.push_back(id_at<EdgeId>(e));
+    } else {
+      edge_owner_[e] = id_at<CellId>(index_of(faces.front()));
+    }
+  }
+  node_owner_.assign(node_count(), CellId{-1});
+  for (std::size_t n = 0; n < node_count(); ++n) {
+    for (const EdgeId edge : node_edges_[n]) {
+      CellId& owner = node_owner_[n];
+      const CellId candidate = edge_owner_[index_of(edge)];
+      if (owner == CellId{-1} || candidate < owner) owner = candidate;
+    }
+  }
+}
+
+void Surface::build_structures(std::span<const Cylinder> cylinders, std::span<const Facet> facets) {
+  Components components(node_count());
+  for (const auto& [a, b] : edge_nodes_) components.join(index_of(a), index_of(b));
+  for (std::size_t n = 0; n < node_count(); ++n) {
+    if (node_edges_[n].empty()) continue;
+    const std::size_t root = components.root(n);  // the lowest node of the structure
+    if (root == n) {
+      node_structure_[n] = id_at<StructureId>(structure_radius_.size());
+      structure_radius_.push_back(0.0);
+    } else {
+      node_structure_[n] = node_structure_[root];
+    }
+  }
+
+  Problems problems;
+  const auto set_radius = [&](const char* kind, std::size_t id, NodeId node, double radius) {
+    double& common = structure_radius_[index_of(structure_of(node))];
+    if (common == 0.0) common = radius;
+    if (common != radius) {
+      problems.line(kind, id) << " has radius " << radius << " m, but it is connected to elements of radius " << common
+                              << " m; all connected facets and cylinders need the same radius\n";
+    }
+  };
+  for (std::size_t f = 0; f < facets.size(); ++f) set_radius("facet", f, facets[f].nodes[0], facets[f].radius);
+  for (std::size_t c = 0; c < cylinders.size(); ++c) {
+    set_radius("cylinder", c, cylinders[c].nodes[0], cylinders[c].radius);
+  }
+  problems.throw_if_any();
+}
+
+Feature Surface::feature_of(CellId cell) const noexcept {
+  const std::size_t i = index_of(cell);
+  return i < face_count() ? Feature(id_at<FaceId>(i)) : Feature(free_edges_[i - face_count()]);
+}
+
+std::span<const NodeId> Surface::nodes_of(CellId cell) const noexcept {
+  const std::size_t i = index_of(cell);
+  if (i < face_count()) return face_nodes_[i];
+  return edge_nodes_[index_of(free_edges_[i - face_count()])];
+}
+
+int Surface::euler_characteristic() const noexcept {
+  const auto used = std::count_if(node_structure_.begin(), node_structure_.end(),
+                                  [](StructureId s) { return s != StructureId{-1}; });
+  return static_cast<int>(used) - static_cast<int>(edge_count()) + static_cast<int>(face_count());
+}
+
+}  // namespace plekton::geometry

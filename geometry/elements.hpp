@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "geometry/cylinder.hpp"
+#include "geometry/facet.hpp"
+#include "geometry/feature.hpp"
+#include "geometry/sphere.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace plekton::geometry {
+
+/// The primitives of a scene, over shared nodes. The position in its table is an element's id.
+struct Elements {
+  std::vector<Sphere> spheres;
+  std::vector<Cylinder> cylinders;
+  std::vector<Facet> facets;
+};
+
+/// How facets and cylinders hang together: every node, edge and face once, and who touches whom.
+///
+/// Nodes and edges are shared, never copied: any number of facets may meet at an edge, and facets and free cylinders
+/// at a node. A cylinder along a side of a facet is the facet's own rim and adds no edge. The maximal cells are the
+/// facets, then the free cylinders; a feature is owned by its lowest cell.
+class Surface {
+ public:
+  Surface() = default;
+
+  /// Time and memory grow linearly with the number of elements, times log for sorting the edges.
+  /// @throws std::invalid_argument listing every problem: a node id out of range, an element that repeats a node, two
+  ///         facets on the same three nodes, a radius that is not positive, connected elements with different radii.
+  Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets, std::size_t node_count);
+
+  std::size_t face_count() const noexcept { return face_nodes_.size(); }
+  std::size_t edge_count() const noexcept { return edge_nodes_.size(); }
+  std::size_t cell_count() const noexcept { return face_nodes_.size() + free_edges_.size(); }
+  std::size_t structure_count() const noexcept { return structure_radius_.size(); }
+  /// Nodes of the scene, also those that no facet or cylinder uses.
+  std::size_t node_count() const noexcept { return node_structure_.size(); }
+
+  const std::array<NodeId, 3>& nodes_of(FaceId face) const noexcept { return face_nodes_[index_of(face)]; }
+  /// Lower node first.
+  const std::array<NodeId, 2>& nodes_of(EdgeId edge) const noexcept { return edge_nodes_[index_of(edge)]; }
+  /// Side k joins corners k and k + 1 (mod 3).
+  const std::array<EdgeId, 3>& edges_of(FaceId face) const noexcept { return face_edges_[index_of(face)]; }
+  /// Ascending.
+  std::span<const EdgeId> edges_of(NodeId node) const noexcept { return node_edges_[index_of(node)]; }
+  /// Ascending.
+  std::span<const FaceId> faces_of(NodeId node) const noexcept { return node_faces_[index_of(node)]; }
+  /// Ascending.
+  std::span<const FaceId> faces_of(EdgeId edge) const noexcept { return edge_faces_[index_of(edge)]; }
+
+  /// A cell as a feature: its face, or its free edge.
+  Feature feature_of(CellId cell) const noexcept;
+  /// Nodes of a cell: 3 of a facet, 2 of a free cylinder.
+  std::span<const NodeId> nodes_of(CellId cell) const noexcept;
+  CellId owner_of(EdgeId edge) const noexcept { return edge_owner_[index_of(edge)]; }
+  /// Of a node that belongs to some cell.
+  CellId owner_of(NodeId node) const noexcept { return node_owner_[index_of(node)]; }
+
+  /// The connected structure of a node; -1 for a node that no cell uses.
+  StructureId structure_of(NodeId node) const noexcept { return node_structure_[index_of(node)]; }
+  StructureId structure_of(CellId cell) const noexcept { return structure_of(nodes_of(cell).front()); }
+  /// Radius (m) of every cell of a structure.
+  double radius(StructureId structure) const noexcept { return structure_radius_[index_of(structure)]; }
+
+  /// Nodes in use - edges + faces.
+  int euler_characteristic() const noexcept;
+
+ private:
+  /// Lists of different lengths in one array.
+  template <class Id>
+  struct Lists {
+    std::vector<std::uint32_t> start;
+    std::vector<Id> items;
+    std::span<const Id> operator[](std::size_t i) const noexcept {
+      return {items.data() + start[i], items.data() + start[i + 1]};
+    }
+  };
+
+  void build_edges(std::span<const Cylinder> cylinders);
+  void build_incidence();
+  void build_structures(std::span<const Cylinder> cylinders, std::span<const Facet> facets);
+
+  std::vector<std::array<NodeId, 3>> face_nodes_;
+  std::vector<std::array<EdgeId, 3>> face_edges_;
+  std::vector<std::array<NodeId, 2>> edge_nodes_;
+  std::vector<EdgeId> free_edges_;
+  Lists<EdgeId> node_edges_;
+  Lists<FaceId> node_faces_;
+  Lists<FaceId> edge_faces_;
+  std::vector<CellId> edge_owner_;
+  std::vector<CellId> node_owner_;
+  std::vector<StructureId> node_structure_;
+  std::vector<double> structure_radius_;
+};
+
+}  // namespace plekton::geometry
