@@ -47,7 +47,7 @@ class CsvWriter {
   void close();
 
  private:
-  std::size_t column_count_;
+  [[maybe_unused]] std::size_t column_count_;  // for the check of each row
   Flush flush_;
   std::optional<CheckedFile> file_;
   std::string gathered_;
