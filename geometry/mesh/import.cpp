@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/import.hpp"
+
+#include "geometry/mesh/mesh_file.hpp"
+
+namespace plekton::geometry {
+
+ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options) {
+  ImportedMesh imported;
+  imported.report.source = path.filename().string();
+  imported.mesh = repair(read_mesh_file(path), options.repair, imported.report);
+  if (imported.report.verdict != MeshVerdict::refused) return imported;
+
+  std::string message = imported.report.source + ": refused";
+  const auto& reasons = imported.report.reasons;
+  if (reasons.size() == 1) throw MeshError(imported.report.source + ": " + reasons.front());
+  for (const std::string& reason : reasons) message += "\n  " + reason;
+  throw MeshError(message);
+}
+
+}  // namespace plekton::geometry

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/mesh.hpp"
+
+namespace plekton::geometry {
+
+PolygonSoup to_soup(const Mesh& mesh) {
+  PolygonSoup soup{mesh.points, {}};
+  soup.polygons.reserve(mesh.facets.size());
+  for (const auto& [a, b, c] : mesh.facets)
+    soup.polygons.push_back({index_of(a), index_of(b), index_of(c)});
+  return soup;
+}
+
+}  // namespace plekton::geometry

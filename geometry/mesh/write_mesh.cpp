@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <system_error>
+
+#include "geometry/mesh/byte_order.hpp"
+#include "geometry/mesh/mesh_file.hpp"
+
+namespace plekton::geometry {
+namespace {
+
+namespace fs = std::filesystem;
+
+void append_number(std::string& text, double value) {
+  std::array<char, 32> digits;  // The shortest text that reads back as the same double needs at most 24.
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text.append(digits.data(), end);
+}
+
+void append_point(std::string& text, const Vec3& point) {
+  append_number(text, point[0]);
+  for (const int axis : {1, 2}) append_number(text += ' ', point[axis]);
+}
+
+/// The corners of facets as numbers from an offset on, each line behind a prefix.
+void append_facets(std::string& text, const Mesh& mesh, const char* prefix, std::size_t first) {
+  for (const auto& facet : mesh.facets) {
+    text += prefix;
+    for (const NodeId node : facet) text += ' ' + std::to_string(index_of(node) + first);
+    text += '\n';
+  }
+}
+
+void append_points(std::string& text, const Mesh& mesh, const char* prefix) {
+  for (const Vec3& point : mesh.points) {
+    append_point(text += prefix, point);
+    text += '\n';
+  }
+}
+
+std::string format_off(const Mesh& mesh) {
+  std::string text =
+      "OFF\n" + std::to_string(mesh.points.size()) + ' ' + std::to_string(mesh.facets.size()) + " 0\n";
+  append_points(text, mesh, "");
+  append_facets(text, mesh, "3", 0);
+  return text;
+}
+
+std::string format_obj(const Mesh& mesh) {
+  std::string text;
+  append_points(text, mesh, "v ");
+  append_facets(text, mesh, "f", 1);
+  return text;
+}
+
+std::string format_ply(const Mesh& mesh) {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(mesh.points.size()) +
+                     "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+                     std::to_string(mesh.facets.size()) +
+                     "\nproperty list uchar int vertex_indices\nend_header\n";
+  append_points(text, mesh, "");
+  append_facets(text, mesh, "3", 0);
+  return text;
+}
+
+/// Unit normal; zero for a facet without area, as STL readers expect.
+Vec3 unit_normal(const std::array<Vec3, 3>& x) {
+  const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
+  const double length = normal.stableNorm();
+  return length > 0.0 && length < std::numeric_limits<double>::infinity() ? Vec3(normal / length) : Vec3(Vec3::Zero());
+}
+
+std::array<Vec3, 3> corners(const Mesh& mesh, const std::array<NodeId, 3>& facet) {
+  return {mesh.points[index_of(facet[0])], mesh.points[index_of(facet[1])], mesh.points[index_of(facet[2])]};
+}
+
+std::string format_stl_ascii(const Mesh& mesh) {
+  std::string text = "solid plekton\n";
+  for (const auto& facet : mesh.facets) {
+    const auto x = corners(mesh, facet);
+    append_point(text += "facet normal ", unit_normal(x));
+    text += "\n  outer loop\n";
+    for (const Vec3& point : x) {
+      append_point(text += "    vertex ", point);
+      text += '\n';
+    }
+    text += "  endloop\nendfacet\n";
+  }
+  return text += "endsolid plekton\n";
+}
+
+std::string format_stl_binary(const Mesh& mesh) {
+  std::string bytes("binary STL");  // Not starting with "solid", which some readers take for ASCII.
+  bytes.resize(80, ' ');
+  append_little(bytes, static_cast<std::uint32_t>(mesh.facets.size()));
+  const auto append = [&](const Vec3& v) {
+    for (const double coordinate : v) append_little(bytes, static_cast<float>(coordinate));
+  };
+  for (const auto& facet : mesh.facets) {
+    const auto x = corners(mesh, facet);
+    append(unit_normal(x));
+    for (const Vec3& point : x) append(point);
+    append_little(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::string format_mesh(const Mesh& mesh, MeshFormat format) {
+  switch (format) {
+    case MeshFormat::off: return format_off(mesh);
+    case MeshFormat::obj: return format_obj(mesh);
+    case MeshFormat::stl_ascii: return format_stl_ascii(mesh);
+    case MeshFormat::stl_binary: return format_stl_binary(mesh);
+    case MeshFormat::ply: return format_ply(mesh);
+  }
+  throw MeshError("unknown mesh format");
+}
+
+void write_mesh_file(const fs::path& path, const Mesh& mesh, MeshFormat format) {
+  const std::string bytes = format_mesh(mesh, format);
+  fs::path temporary = path;
+  temporary += ".part";
+  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(temporary, path, error);
+  if (!file || error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw MeshError(path.string() + ": cannot be written (" + std::to_string(bytes.size()) +
+                    " bytes); check that the folder exists, that it is writable and that the disk has room");
+  }
+}
+
+void write_mesh_file(const fs::path& path, const Mesh& mesh) {
+  write_mesh_file(path, mesh, mesh_format_of(path));
+}
+
+}  // namespace plekton::geometry
