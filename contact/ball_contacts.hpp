@@ -29,6 +29,8 @@ class BallContacts {
 
   void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const { records_.add_to(forces, pool); }
   std::size_t touching() const noexcept { return records_.size(); }
+  /// Largest overlap of the last step over the radius of the smaller ball.
+  double largest_overlap_ratio() const noexcept { return records_.deepest(); }
 
   /// Energy (J) stored in all contacts, at the positions of the last step.
   double elastic_energy() const;
@@ -62,13 +64,13 @@ class BallContacts {
 
   /// @returns the energy (J) dissipated
   double advance_touching(std::size_t i, const Vec3& separation, double distance, const Motion& motion, double dt,
-                          std::vector<BallForce>& records);
+                          typename ForceRecords<BallForce>::List& records);
 
   std::vector<geometry::IndexPair> keys_;
   std::vector<Pair> pairs_;
   std::vector<Detail> details_;
   ForceRecords<BallForce> records_;
-  ChunkedSum sum_;
+  ChunkedSum<double> sum_;
 };
 
 template <ContactLaw Law>
@@ -109,7 +111,7 @@ double BallContacts<Law>::advance(const Motion& motion, double dt, geometry::Thr
 
 template <ContactLaw Law>
 double BallContacts<Law>::advance_touching(std::size_t i, const Vec3& separation, double distance,
-                                           const Motion& motion, double dt, std::vector<BallForce>& records) {
+                                           const Motion& motion, double dt, typename ForceRecords<BallForce>::List& records) {
   const Pair& pair = pairs_[i];
   Detail& detail = details_[i];
   const std::size_t a = index_of(pair.a);
@@ -133,8 +135,7 @@ double BallContacts<Law>::advance_touching(std::size_t i, const Vec3& separation
   detail.memory = {carried_history<Law>(detail.memory, normal, dt * twist_rate), normal};
   const ContactForce result = Law::force(detail.parameters, relative, detail.memory.history, dt);
   const Vec3 normal_cross_force = normal.cross(result.force);
-  records.push_back(
-      {pair.a, pair.b, result.force, -arm_a * normal_cross_force, -arm_b * normal_cross_force, i});
+  records.add({pair.a, pair.b, result.force, -arm_a * normal_cross_force, -arm_b * normal_cross_force, i}, -gap / std::min(detail.radius_a, detail.radius_b));
   return result.dissipated;
 }
 

@@ -4,6 +4,7 @@
 #include "contact/interpolation.hpp"
 #include "geometry/thread_pool.hpp"
 
+#include <algorithm>
 #include <vector>
 
 /// Forces of contacts, written down by whoever computes them and summed afterwards, node by node in the order of the
@@ -17,7 +18,7 @@ struct BallForce {
   Vec3 force;     ///< N, on b
   Vec3 torque_a;  ///< N m, on a
   Vec3 torque_b;  ///< N m, on b
-  std::size_t contact;
+  std::size_t contact;  ///< place of the pair in its list
 
   template <class Owns>
   void add_to(NodeForces& forces, Owns owns) const {
@@ -39,6 +40,7 @@ struct SurfaceForce {
   Vec3 force;     ///< N, on b
   Vec3 torque_a;  ///< N m, on a
   Vec3 torque_b;  ///< N m, on b, shared by its nodes by weight
+  std::size_t contact;
 
   template <class Owns>
   void add_to(NodeForces& forces, Owns owns) const {
@@ -76,27 +78,46 @@ struct PlaneForce {
 template <class Record>
 class ForceRecords {
  public:
+  /// What one worker wrote down.
+  struct alignas(64) List {
+    std::vector<Record> records;
+    double deepest = 0.0;  ///< largest overlap over the radius of the smaller ball
+
+    void add(const Record& record, double overlap_ratio) {
+      records.push_back(record);
+      deepest = std::max(deepest, overlap_ratio);
+    }
+  };
+
   /// Empty lists, one for each worker; keeps their memory.
   void reset(int worker_count) {
     lists_.resize(static_cast<std::size_t>(worker_count));
-    for (auto& list : lists_) list.clear();
+    for (List& list : lists_) {
+      list.records.clear();
+      list.deepest = 0.0;
+    }
   }
 
-  std::vector<Record>& of_worker(int worker) noexcept {
-    return lists_[static_cast<std::size_t>(worker)];
-  }
+  List& of_worker(int worker) noexcept { return lists_[static_cast<std::size_t>(worker)]; }
 
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const auto& list : lists_) {
-      for (const Record& record : list) visit(record);
+    for (const List& list : lists_) {
+      for (const Record& record : list.records) visit(record);
     }
   }
 
   std::size_t size() const noexcept {
     std::size_t count = 0;
-    for (const auto& list : lists_) count += list.size();
+    for (const List& list : lists_) count += list.records.size();
     return count;
+  }
+
+  /// Largest overlap over the radius of the smaller ball.
+  double deepest() const noexcept {
+    double deepest = 0.0;
+    for (const List& list : lists_) deepest = std::max(deepest, list.deepest);
+    return deepest;
   }
 
   /// Adds all forces to the nodes. Each thread goes through all records and adds to the nodes it owns.
@@ -112,7 +133,7 @@ class ForceRecords {
   }
 
  private:
-  std::vector<std::vector<Record>> lists_;
+  std::vector<List> lists_;
 };
 
 }  // namespace plekton::contact

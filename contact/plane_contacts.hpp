@@ -30,6 +30,8 @@ class PlaneContacts {
 
   void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const { records_.add_to(forces, pool); }
   std::size_t touching() const noexcept { return records_.size(); }
+  /// Largest overlap of the last step over the radius of the smaller ball.
+  double largest_overlap_ratio() const noexcept { return records_.deepest(); }
 
   /// Energy (J) stored in all contacts, at the positions of the last step.
   double elastic_energy() const;
@@ -59,12 +61,12 @@ class PlaneContacts {
   };
 
   double advance_touching(std::size_t i, double gap, const Motion& motion, std::span<const Plane> planes, double dt,
-                          std::vector<PlaneForce>& records);
+                          typename ForceRecords<PlaneForce>::List& records);
 
   std::vector<geometry::IndexPair> keys_;
   std::vector<Slot> slots_;
   ForceRecords<PlaneForce> records_;
-  ChunkedSum sum_;
+  ChunkedSum<double> sum_;
 };
 
 template <ContactLaw Law>
@@ -106,7 +108,7 @@ double PlaneContacts<Law>::advance(const Motion& motion, std::span<const Plane> 
 template <ContactLaw Law>
 double PlaneContacts<Law>::advance_touching(std::size_t i, double gap, const Motion& motion,
                                             std::span<const Plane> planes, double dt,
-                                            std::vector<PlaneForce>& records) {
+                                            typename ForceRecords<PlaneForce>::List& records) {
   Slot& slot = slots_[i];
   const Plane& plane = planes[slot.plane];
   const std::size_t node = index_of(slot.node);
@@ -120,7 +122,7 @@ double PlaneContacts<Law>::advance_touching(std::size_t i, double gap, const Mot
   slot.gap = gap;
   slot.memory = {carried_history<Law>(slot.memory, normal, dt * 0.5 * spin.dot(normal)), normal};
   const ContactForce result = Law::force(slot.parameters, relative, slot.memory.history, dt);
-  records.push_back({slot.node, slot.plane, result.force, -lever.cross(result.force), i});
+  records.add({slot.node, slot.plane, result.force, -lever.cross(result.force), i}, -gap / slot.radius);
   return result.dissipated;
 }
 

@@ -11,17 +11,14 @@
 #include "contact/patch_force.hpp"
 #include "contact/patch_heirs.hpp"
 #include "contact/rekey.hpp"
+#include "geometry/neighbours.hpp"
 
 #include <span>
 #include <vector>
 
 namespace plekton::contact {
 
-/// A ball and the cells of one structure that it may touch.
-struct NearCells {
-  std::uint32_t first;  ///< place in the array of cells
-  std::uint32_t count;
-};
+using geometry::NearCells;
 
 /// Contacts of balls (a) with deformable surfaces (b). A contact belongs to a ball and a structure, never to a pair of
 /// elements: it lives on a patch (patch.hpp), and follows it over the surface.
@@ -43,6 +40,9 @@ class SurfaceContacts {
   double advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
 
   void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const { records_.add_to(forces, pool); }
+
+  /// Largest overlap of the last step over the radius of the ball.
+  double largest_overlap_ratio() const noexcept { return records_.deepest(); }
 
   /// Number of patches in contact.
   std::size_t touching() const noexcept;
@@ -101,7 +101,7 @@ class SurfaceContacts {
   void find_states(const Pair& pair, std::span<const Patch> patches, const Motion& motion, Worker& worker);
   double inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion, double dt, Worker& worker);
   void write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
-                    std::span<const PatchTermForce> term_forces, std::vector<SurfaceForce>& records) const;
+                    std::span<const PatchTermForce> term_forces, typename ForceRecords<SurfaceForce>::List& records) const;
   double drop(const Pair& pair) const;
   std::span<const Contact> contacts_of(const Pair& pair, const std::vector<Lists>& lists) const {
     return {lists[static_cast<std::size_t>(pair.range.worker)].contacts.data() + pair.range.first, pair.range.count};
@@ -115,7 +115,7 @@ class SurfaceContacts {
   std::vector<Lists> previous_;  ///< by worker
   std::vector<Worker> workers_;
   ForceRecords<SurfaceForce> records_;
-  ChunkedSum sum_;
+  ChunkedSum<double> sum_;
 };
 
 template <ContactLaw Law>
@@ -248,13 +248,14 @@ double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> pa
 template <ContactLaw Law>
 void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
                                         std::span<const PatchTermForce> term_forces,
-                                        std::vector<SurfaceForce>& records) const {
+                                        typename ForceRecords<SurfaceForce>::List& records) const {
   const Vec3 other_force = state.force - state.elastic_force * state.normal;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Vec3 other = term_forces[i].share * other_force;
     const Vec3 lever_b = state.lever_a - terms[i].distance * terms[i].normal;
-    records.push_back({pair.node, terms[i].core, term_forces[i].elastic * terms[i].normal + other,
-                       -state.lever_a.cross(other), lever_b.cross(other)});
+    records.add({pair.node, terms[i].core, term_forces[i].elastic * terms[i].normal + other,
+                       -state.lever_a.cross(other), lever_b.cross(other),
+                       static_cast<std::size_t>(&pair - pairs_.data())}, -state.gap / pair.radius);
   }
 }
 

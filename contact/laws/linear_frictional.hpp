@@ -43,18 +43,17 @@ struct LinearFrictional {
     return 0.5 * p.normal_stiffness * overlap * overlap;
   }
 
+  /// The energy dissipated is that of the mean force over the step on the slip that is not elastic: what the leapfrog
+  /// takes from the kinetic energy, to round-off, for any change of the normal force.
   static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history, double dt) noexcept {
-    const Vec3 normal_force = motion.elastic_normal_force * motion.normal;
-    const Vec3 trial = history.elastic_slip + dt * motion.slip_velocity;
+    const Vec3 before = history.elastic_slip;
+    const Vec3 trial = before + dt * motion.slip_velocity;
     const double limit = p.friction * motion.elastic_normal_force;
     const double trial_force = p.tangential_stiffness * trial.norm();
-    if (trial_force <= limit) {
-      history.elastic_slip = trial;
-      return {normal_force - p.tangential_stiffness * trial, 0.0};
-    }
-    history.elastic_slip = (limit / trial_force) * trial;
-    const double dissipated = 0.5 * (trial_force * trial_force - limit * limit) / p.tangential_stiffness;
-    return {normal_force - p.tangential_stiffness * history.elastic_slip, dissipated};
+    history.elastic_slip = trial_force > limit ? Vec3((limit / trial_force) * trial) : trial;
+    const Vec3 plastic_slip = trial - history.elastic_slip;
+    return {motion.elastic_normal_force * motion.normal - p.tangential_stiffness * history.elastic_slip,
+            0.5 * p.tangential_stiffness * (before + history.elastic_slip).dot(plastic_slip)};
   }
 
   static double history_energy(const Parameters& p, const History& history) noexcept {

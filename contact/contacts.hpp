@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/ball_contacts.hpp"
+#include "contact/plane_contacts.hpp"
+#include "contact/plane_neighbours.hpp"
+#include "contact/surface_contacts.hpp"
+#include "geometry/neighbours.hpp"
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace plekton::contact {
+
+/// What the bodies of a scene are made of, as far as contacts are concerned.
+template <ContactLaw Law>
+struct ContactMaterials {
+  MaterialPairs<Law> pairs;
+  std::vector<MaterialId> of_spheres;     ///< by SphereId
+  std::vector<MaterialId> of_structures;  ///< by StructureId
+};
+
+/// How many contacts of each kind there are.
+struct ContactCounts {
+  std::size_t sphere_sphere = 0;
+  std::size_t sphere_surface = 0;
+  std::size_t with_planes = 0;
+};
+
+/// All contacts of a scene: spheres with spheres, spheres with surfaces, spheres and nodes of surfaces with planes.
+template <ContactLaw Law>
+class Contacts {
+ public:
+  /// @param spheres, surface  must outlive this
+  /// @param skin  m, how far a pair may be apart when it is listed as a candidate
+  /// @param meets_planes  by NodeId: which nodes of the surface touch planes; empty: all of them
+  Contacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface, ContactMaterials<Law> materials,
+           double skin, const std::vector<bool>& meets_planes = {});
+
+  /// One step: finds who touches whom, carries histories over, and asks the law. Forces are not yet added.
+  void advance(const Motion& motion, std::span<const Plane> planes, double dt, geometry::ThreadPool& pool);
+
+  /// Adds the forces of the last step to the nodes.
+  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
+    with_spheres_.add_forces(forces, pool);
+    with_surfaces_.add_forces(forces, pool);
+    with_planes_.add_forces(forces, pool);
+  }
+
+  ContactCounts counts() const noexcept {
+    return {with_spheres_.touching(), with_surfaces_.touching(), with_planes_.touching()};
+  }
+
+  /// Energy (J) stored at the positions of the last step.
+  double elastic_energy() const {
+    return with_spheres_.elastic_energy() + with_surfaces_.elastic_energy() + with_planes_.elastic_energy();
+  }
+  /// Energy (J) dissipated since the beginning.
+  double dissipated() const noexcept { return dissipated_; }
+
+  /// Largest overlap of the last step over the radius of the smaller ball.
+  double largest_overlap_ratio() const noexcept {
+    return std::max({with_spheres_.largest_overlap_ratio(), with_surfaces_.largest_overlap_ratio(),
+                     with_planes_.largest_overlap_ratio()});
+  }
+
+  /// Calls visit(ContactRow) for every contact of the last step, in a fixed order.
+  template <class Visit>
+  void for_each_row(Positions x, Visit&& visit) const {
+    with_spheres_.for_each_row(x, visit);
+    with_surfaces_.for_each_row(x, visit);
+    with_planes_.for_each_row(x, visit);
+  }
+
+  const BallContacts<Law>& with_spheres() const noexcept { return with_spheres_; }
+  const SurfaceContacts<Law>& with_surfaces() const noexcept { return with_surfaces_; }
+  const PlaneContacts<Law>& with_planes() const noexcept { return with_planes_; }
+  const geometry::Neighbours& neighbours() const noexcept { return neighbours_; }
+
+ private:
+  ContactMaterials<Law> materials_;
+  std::vector<Ball> balls_;  ///< the spheres, then the nodes of the surface
+  geometry::Neighbours neighbours_;
+  PlaneNeighbours plane_neighbours_;
+  BallContacts<Law> with_spheres_;
+  SurfaceContacts<Law> with_surfaces_;
+  PlaneContacts<Law> with_planes_;
+  double dissipated_ = 0.0;
+};
+
+template <ContactLaw Law>
+Contacts<Law>::Contacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
+                        ContactMaterials<Law> materials, double skin, const std::vector<bool>& meets_planes)
+    : materials_(std::move(materials)),
+      neighbours_(spheres, surface, skin),
+      plane_neighbours_(skin),
+      with_surfaces_(surface) {
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    balls_.push_back({spheres[i].nodes[0], spheres[i].radius, materials_.of_spheres[i]});
+  }
+  for (std::size_t n = 0; n < surface.node_count(); ++n) {
+    const auto structure = surface.structure_of(geometry::id_at<NodeId>(n));
+    if (structure == geometry::StructureId{-1} || (!meets_planes.empty() && !meets_planes[n])) continue;
+    balls_.push_back(
+        {geometry::id_at<NodeId>(n), surface.radius(structure), materials_.of_structures[index_of(structure)]});
+  }
+}
+
+template <ContactLaw Law>
+void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes, double dt,
+                            geometry::ThreadPool& pool) {
+  if (neighbours_.update(motion.position, pool)) {
+    dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs);
+    dissipated_ += with_surfaces_.rebuild(neighbours_.sphere_structures(), neighbours_.near_cells(),
+                                          neighbours_.cells(), balls_, materials_.of_structures, materials_.pairs);
+    plane_neighbours_.expire();
+  }
+  if (plane_neighbours_.update(balls_, planes, motion.position)) {
+    dissipated_ += with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
+  }
+  dissipated_ += with_spheres_.advance(motion, dt, pool);
+  dissipated_ += with_surfaces_.advance(motion, dt, pool);
+  dissipated_ += with_planes_.advance(motion, planes, dt, pool);
+}
+
+}  // namespace plekton::contact

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/chunks.hpp"
+#include "dynamics/node_state.hpp"
+
+namespace plekton::dynamics {
+
+/// What moves the nodes besides the forces on them.
+struct MotionOptions {
+  Vec3 gravity = Vec3::Zero();  ///< m/s²
+  double damping = 0.0;         ///< numerical damping lambda, in [0, 1); 0 is none
+  bool damps_gravity = true;    ///< false: a free fall is not damped
+};
+
+/// What a step did to the energy.
+struct StepWork {
+  double kinetic = 0.0;   ///< J, at the moment of the forces
+  double damped = 0.0;    ///< J, taken by numerical damping
+  double external = 0.0;  ///< J, done on the rest by nodes whose motion is prescribed
+
+  StepWork& operator+=(const StepWork& other) noexcept {
+    kinetic += other.kinetic;
+    damped += other.damped;
+    external += other.external;
+    return *this;
+  }
+};
+
+/// Leapfrog: v(t + dt/2) = v(t - dt/2) + a(t) dt, x(t + dt) = x(t) + v(t + dt/2) dt; rotations likewise, each step an
+/// exact rotation. Second order and symplectic.
+///
+/// The kinetic energy at time t is 1/2 m v(t - dt/2).v(t + dt/2): with it the energy of a linear oscillator is exactly
+/// constant. Held motions stay as they are and are left out of the energy: what they do is external work.
+///
+/// Numerical damping scales each component of the acceleration by 1 - lambda sgn(a v), v at the moment of the forces.
+/// It is not frame-indifferent and not for tests of momentum. Cundall; see Potyondy & Cundall, Int. J. Rock Mech. Min.
+/// Sci. 41 (2004) 1329-1364, 2.
+class Leapfrog {
+ public:
+  StepWork step(NodeState& state, const NodeForces& forces, const NodeProperties& properties,
+                const MotionOptions& options, double dt, geometry::ThreadPool& pool);
+
+ private:
+  contact::ChunkedSum<StepWork> sum_;
+};
+
+}  // namespace plekton::dynamics

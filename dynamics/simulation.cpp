@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/simulation.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace plekton::dynamics {
+namespace {
+
+template <class Elements>
+double smallest_radius(const Elements& elements, double so_far) {
+  for (const auto& element : elements) so_far = std::min(so_far, element.radius);
+  return so_far;
+}
+
+double smallest_radius(const geometry::Elements& elements) {
+  const double spheres = smallest_radius(elements.spheres, std::numeric_limits<double>::infinity());
+  return smallest_radius(elements.facets, smallest_radius(elements.cylinders, spheres));
+}
+
+double largest_length(const Scene& scene) {
+  double length = 0.0;
+  for (const auto& sphere : scene.elements.spheres) length = std::max(length, sphere.radius);
+  for (const auto& cylinder : scene.elements.cylinders) length = std::max(length, cylinder.radius);
+  for (const auto& facet : scene.elements.facets) length = std::max(length, facet.radius);
+  for (const BeamBond& bond : scene.bonds) length = std::max(length, bond.length);
+  return length;
+}
+
+double chosen_skin(const Scene& scene, double asked) {
+  if (asked > 0.0) return asked;
+  // Spheres alone set the pace where there are some: they are what moves past others.
+  const double radius = scene.elements.spheres.empty()
+                            ? smallest_radius(scene.elements)
+                            : smallest_radius(scene.elements.spheres, std::numeric_limits<double>::infinity());
+  return std::isfinite(radius) ? 0.2 * radius : 1.0;
+}
+
+const Scene& checked(const Scene& scene, const SimulationOptions& options) {
+  scene.check();
+  std::ostringstream problems;
+  if (!(options.time_step >= 0.0)) problems << "time step " << options.time_step << " s: must be 0 (choose) or more\n";
+  if (!(options.motion.damping >= 0.0 && options.motion.damping < 1.0)) {
+    problems << "numerical damping " << options.motion.damping << ": must be at least 0 and below 1\n";
+  }
+  if (!(options.skin >= 0.0)) problems << "skin " << options.skin << " m: must be 0 (choose) or more\n";
+  if (!options.motion.gravity.allFinite()) problems << "gravity is not finite\n";
+  if (options.threads < 1) problems << "threads " << options.threads << ": must be at least 1\n";
+  if (const std::string text = problems.str(); !text.empty()) {
+    throw std::invalid_argument(text.substr(0, text.size() - 1));
+  }
+  return scene;
+}
+
+template <contact::ContactLaw Law>
+contact::ContactMaterials<Law> contact_materials(const Scene& scene, const geometry::Surface& surface) {
+  std::vector<contact::MaterialId> of_structures(surface.structure_count());
+  for (std::size_t i = 0; i < scene.elements.facets.size(); ++i) {
+    of_structures[index_of(surface.structure_of(scene.elements.facets[i].nodes[0]))] = scene.facet_materials[i];
+  }
+  for (std::size_t i = 0; i < scene.elements.cylinders.size(); ++i) {
+    of_structures[index_of(surface.structure_of(scene.elements.cylinders[i].nodes[0]))] = scene.cylinder_materials[i];
+  }
+  return {contact::MaterialPairs<Law>(scene.materials), scene.sphere_materials, std::move(of_structures)};
+}
+
+/// A node that is held in place does not have to be kept out of walls.
+std::vector<bool> free_nodes(const NodeProperties& properties) {
+  std::vector<bool> is_free(properties.size());
+  for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = !holds_translation(properties.held[i]);
+  return is_free;
+}
+
+double kinetic_energy(const NodeState& state, const NodeProperties& properties) {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    if (!holds_translation(properties.held[i])) energy += 0.5 * properties.mass[i] * state.velocity[i].squaredNorm();
+    if (holds_rotation(properties.held[i])) continue;
+    energy += 0.5 * properties.inertia[i] * state.angular_velocity[i].squaredNorm();
+  }
+  return energy;
+}
+
+}  // namespace
+
+template <contact::ContactLaw Law>
+Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
+    : scene_((checked(scene, options), std::move(scene))),
+      motion_(options.motion),
+      pool_(options.threads),
+      surface_(scene_.elements.cylinders, scene_.elements.facets, scene_.state.size()),
+      contacts_(scene_.elements.spheres, surface_, contact_materials<Law>(scene_, surface_),
+                chosen_skin(scene_, options.skin), free_nodes(scene_.properties)),
+      bonds_(scene_.bonds, scene_.state.size()),
+      forces_(scene_.state.size()),
+      furthest_(10.0 * largest_length(scene_)) {
+  // The first look at the contacts: histories are empty, so nothing is changed by it.
+  bonds_.advance(scene_.state, pool_);
+  contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_);
+  const double critical = critical_step().dt;
+  if (options.time_step > kLargestStep * critical) {
+    std::ostringstream text;
+    text << "time step " << options.time_step << " s: the critical time step of this scene is " << critical
+         << " s; choose at most " << kLargestStep << " of it (" << kLargestStep * critical << " s), or 0 to have "
+         << kSafety << " of it chosen";
+    throw std::invalid_argument(text.str());
+  }
+  dt_ = options.time_step > 0.0 ? options.time_step : kSafety * critical;
+  initial_gravity_energy_ = gravity_energy(0.0);
+  work_.kinetic = kinetic_energy(scene_.state, scene_.properties);
+  initial_energy_ = work_.kinetic + contacts_.elastic_energy() + bonds_.elastic_energy();
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::set_time_step(double dt) {
+  if (!(dt > 0.0) || !std::isfinite(dt)) throw std::invalid_argument("time step must be positive");
+  dt_ = dt;
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::set_velocity(NodeId node, const Vec3& velocity, const Vec3& angular_velocity) {
+  scene_.state.velocity[index_of(node)] = velocity;
+  scene_.state.angular_velocity[index_of(node)] = angular_velocity;
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::account(const StepWork& work) {
+  const StepWork before = work_;
+  work_ = work;
+  work_.damped += before.damped;
+  work_.external += before.external;
+  for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
+    const Vec3& velocity = scene_.planes[i].velocity;
+    if (!velocity.isZero(0.0)) work_.external -= dt_ * contacts_.with_planes().force_on(i).dot(velocity);
+  }
+  largest_overlap_ratio_ = std::max(largest_overlap_ratio_, contacts_.largest_overlap_ratio());
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::move_planes() {
+  for (contact::Plane& plane : scene_.planes) plane.point += dt_ * plane.velocity;
+}
+
+/// Of the free nodes, at a time before now (s).
+template <contact::ContactLaw Law>
+double Simulation<Law>::gravity_energy(double before) const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < scene_.state.size(); ++i) {
+    if (holds_translation(scene_.properties.held[i])) continue;
+    const Vec3 position = scene_.state.position[i] - before * scene_.state.velocity[i];
+    energy -= scene_.properties.mass[i] * motion_.gravity.dot(position);
+  }
+  return energy;
+}
+
+template <contact::ContactLaw Law>
+Energy Simulation<Law>::energy() const {
+  Energy energy;
+  energy.kinetic = work_.kinetic;
+  energy.contact_elastic = contacts_.elastic_energy();
+  energy.bond_elastic = bonds_.elastic_energy();
+  // Kinetic and elastic energy are those at the moment of the last forces, one step before the positions.
+  energy.gravity = gravity_energy(steps_ > 0 ? dt_ : 0.0) - initial_gravity_energy_;
+  energy.friction = contacts_.dissipated();
+  energy.damping = work_.damped;
+  energy.external_work = work_.external;
+  energy.initial = initial_energy_;
+  return energy;
+}
+
+template <contact::ContactLaw Law>
+CriticalStep Simulation<Law>::critical_step() const {
+  NodalStiffness stiffness(scene_.state.size());
+  for (const BeamBond& bond : scene_.bonds) stiffness.add_beam(bond, scene_.state);
+  const contact::MaterialPairs<Law> pairs(scene_.materials);
+  for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
+    const geometry::Sphere& sphere = scene_.elements.spheres[i];
+    const auto material = scene_.sphere_materials[i];
+    const auto parameters = pairs.combine(material, sphere.radius, material, sphere.radius);
+    stiffness.add_dense_packing(sphere.nodes[0], Law::normal_stiffness(parameters, 0.0),
+                                Law::tangential_stiffness(parameters, 0.0), sphere.radius);
+  }
+  contacts_.add_stiffness(stiffness);
+  return stiffness.critical_step(scene_.properties);
+}
+
+template class Simulation<contact::LinearFrictional>;
+
+}  // namespace plekton::dynamics

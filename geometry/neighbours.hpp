@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "geometry/broad_phase.hpp"
+#include "geometry/elements.hpp"
+#include "geometry/skin.hpp"
+#include "geometry/thread_pool.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plekton::geometry {
+
+/// The cells of one structure that a sphere may touch: a part of Neighbours::cells().
+struct NearCells {
+  std::uint32_t first;
+  std::uint32_t count;
+};
+
+/// Which spheres and cells may touch each other, kept up to date while the nodes move.
+///
+/// The lists are supersets: a pair that is not in them does not touch. They are made anew only when some node has moved
+/// by more than half the skin since they were made (skin.hpp has the proof).
+class Neighbours {
+ public:
+  /// @param skin  m, >= 0; 0 makes the lists anew whenever anything moved
+  Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin);
+
+  /// Makes the lists anew if they have to be. @returns whether they were
+  bool update(Positions x, ThreadPool& pool);
+
+  double skin() const noexcept { return 2.0 * skin_.margin(); }
+  /// How often the lists were made.
+  std::int64_t rebuild_count() const noexcept { return rebuild_count_; }
+
+  /// Pairs of spheres, sorted.
+  std::span<const IndexPair> sphere_pairs() const noexcept { return sphere_pairs_; }
+
+  /// Pairs (sphere, structure), sorted.
+  std::span<const IndexPair> sphere_structures() const noexcept { return sphere_structures_; }
+  /// For each of these, which of the cells.
+  std::span<const NearCells> near_cells() const noexcept { return near_cells_; }
+  /// Ascending within each pair.
+  std::span<const CellId> cells() const noexcept { return cells_; }
+
+ private:
+  void rebuild(Positions x);
+  void group_by_structure();
+
+  std::span<const Sphere> spheres_;
+  const Surface* surface_;
+  Skin skin_;
+  BroadPhase sphere_tree_;
+  BroadPhase cell_tree_;
+  std::vector<Box> boxes_;
+  std::vector<IndexPair> sphere_pairs_;
+  std::vector<IndexPair> sphere_cells_;
+  std::vector<IndexPair> sphere_structures_;
+  std::vector<NearCells> near_cells_;
+  std::vector<CellId> cells_;
+  std::int64_t rebuild_count_ = 0;
+};
+
+}  // namespace plekton::geometry
