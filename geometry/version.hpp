@@ -5,8 +5,8 @@
 
 namespace plekton {
 
-/// Version of this library by semantic versioning: "major.minor.patch". Before 1.0 a new minor version may change the
-/// interface.
+/// Version of this library by semantic versioning: "major.minor.patch". Before 1.0 a new minor
+/// version may change the interface.
 inline constexpr std::string_view kVersion = "0.1.0";
 
 }  // namespace plekton

@@ -3,7 +3,7 @@
 # Builds and runs the consumer project against the install tree of BUILD, or with SOURCE as its subdirectory.
 
 function(run)
-  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
 # A header that stops the compiler, for each header that Plekton's sources include of a package a user must not need.

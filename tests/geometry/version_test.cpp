@@ -5,6 +5,8 @@
 
 namespace {
 
-TEST(Version, IsThatOfTheBuild) { EXPECT_EQ(plekton::kVersion, PLEKTON_PROJECT_VERSION); }
+TEST(Version, IsThatOfTheBuild) {
+  EXPECT_EQ(plekton::kVersion, PLEKTON_PROJECT_VERSION);
+}
 
 }  // namespace
