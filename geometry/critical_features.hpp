@@ -17,7 +17,7 @@
 ///     node    falling edges are points, facets with two falling sides join them:   coefficient 1 - edges + facets
 ///
 /// coefficient = 1 - chi(descending link), and the sum of all coefficients is the Euler number of the surface, for
-/// every point: the self-test of the signs. A feature without descending directions is a minimum of the distance; one
+/// every point, as long as facets have an area and edges a length: the self-test of the signs. A feature without descending directions is a minimum of the distance; one
 /// whose link has several pieces (branches) is a pass between as many basins.
 /// Source: Morse theory of distance functions (Edelsbrunner & Harer, Computational Topology, 2010, VI); feasible
 /// regions of contact: Chen et al., Offset Geometric Contact (2025).

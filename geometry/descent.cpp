@@ -9,61 +9,76 @@
 namespace plekton::geometry {
 namespace {
 
-NodeId opposite_corner(const Surface& surface, FaceId face, const std::array<NodeId, 2>& side) noexcept {
+NodeId opposite_corner(const Surface& surface, FaceId face,
+                       const std::array<NodeId, 2>& side) noexcept {
   const auto& n = surface.nodes_of(face);
-  return *std::find_if(n.begin(), n.end(), [&](NodeId node) { return node != side[0] && node != side[1]; });
+  return *std::find_if(n.begin(), n.end(),
+                       [&](NodeId node) { return node != side[0] && node != side[1]; });
 }
 
-Feature closest_on_edge(const Surface& surface, EdgeId edge, const Vec3& point, Positions x) noexcept {
+Feature closest_on_edge(const Surface& surface, EdgeId edge, const Vec3& point,
+                        Positions x) noexcept {
   const auto& [a, b] = surface.nodes_of(edge);
   if (sign_past_vertex(x[index_of(a)], x[index_of(b)], point) <= 0) return Feature(a);
   if (sign_past_vertex(x[index_of(b)], x[index_of(a)], point) <= 0) return Feature(b);
   return Feature(edge);
 }
 
-Feature closest_on_face(const Surface& surface, FaceId face, const Vec3& point, Positions x) noexcept {
+Feature closest_on_face(const Surface& surface, FaceId face, const Vec3& point,
+                        Positions x) noexcept {
   const auto& n = surface.nodes_of(face);
   const auto& sides = surface.edges_of(face);
-  bool inside = true;
+  std::array<bool, 3> outside{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const NodeId a = n[k];
-    const NodeId b = n[(k + 1) % 3];
-    const NodeId o = n[(k + 2) % 3];
-    if (sign_inside_edge(x[index_of(a)], x[index_of(b)], x[index_of(o)], point) > 0) continue;
-    inside = false;
-    if (closest_on_edge(surface, sides[k], point, x).kind == FeatureKind::edge) return Feature(sides[k]);
+    outside[k] = sign_inside_edge(x[index_of(n[k])], x[index_of(n[(k + 1) % 3])],
+                                  x[index_of(n[(k + 2) % 3])], point) <= 0;
   }
-  if (inside) return Feature(face);
+  if (!outside[0] && !outside[1] && !outside[2]) return Feature(face);
+
+  // Corners before sides, and the lowest of several: only a facet without area has a choice.
+  Feature lowest(face);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3& corner = x[index_of(n[k])];
     if (sign_past_vertex(corner, x[index_of(n[(k + 1) % 3])], point) <= 0 &&
         sign_past_vertex(corner, x[index_of(n[(k + 2) % 3])], point) <= 0) {
-      return Feature(n[k]);
+      lowest = std::min(lowest, Feature(n[k]));
     }
   }
-  // Only a facet without area comes here: the first of its sides decides.
-  return closest_on_edge(surface, sides[0], point, x);
+  if (lowest.kind == FeatureKind::node) return lowest;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!outside[k]) continue;
+    const Feature foot = closest_on_edge(surface, sides[k], point, x);
+    if (foot.kind == FeatureKind::edge) lowest = std::min(lowest, foot);
+  }
+  return lowest;
 }
 
 }  // namespace
 
-Feature closest_feature(const Surface& surface, Feature cell, const Vec3& point, Positions x) noexcept {
+Feature closest_feature(const Surface& surface, Feature cell, const Vec3& point,
+                        Positions x) noexcept {
   switch (cell.kind) {
-    case FeatureKind::face: return closest_on_face(surface, FaceId{cell.id}, point, x);
-    case FeatureKind::edge: return closest_on_edge(surface, EdgeId{cell.id}, point, x);
-    case FeatureKind::node: break;
+    case FeatureKind::face:
+      return closest_on_face(surface, FaceId{cell.id}, point, x);
+    case FeatureKind::edge:
+      return closest_on_edge(surface, EdgeId{cell.id}, point, x);
+    case FeatureKind::node:
+      break;
   }
   return cell;
 }
 
-/// A cell next to a feature that holds a nearer point than the feature's own foot; the feature itself if there is none.
-static Feature downhill_from(const Surface& surface, Feature feature, const Vec3& point, Positions x) noexcept {
+/// A cell next to a feature that holds a nearer point than the feature's own foot; the feature
+/// itself if there is none.
+static Feature downhill_from(const Surface& surface, Feature feature, const Vec3& point,
+                             Positions x) noexcept {
   if (feature.kind == FeatureKind::edge) {
     const EdgeId edge{feature.id};
     const auto& ends = surface.nodes_of(edge);
     for (const FaceId face : surface.faces_of(edge)) {
       const Vec3& opposite = x[index_of(opposite_corner(surface, face, ends))];
-      if (sign_inside_edge(x[index_of(ends[0])], x[index_of(ends[1])], opposite, point) > 0) return Feature(face);
+      if (sign_inside_edge(x[index_of(ends[0])], x[index_of(ends[1])], opposite, point) > 0)
+        return Feature(face);
     }
   } else if (feature.kind == FeatureKind::node) {
     const NodeId node{feature.id};

@@ -7,7 +7,7 @@ namespace plekton::geometry {
 
 /// The feature of a closed cell (a facet with its rim, an edge with its ends) that holds the point nearest to a point.
 /// Exact; a tie goes to the lower-dimensional feature, so the answer is unique. A facet without area, or an edge
-/// without length, answers with the lowest of its nearest end features.
+/// without length, answers with the lowest of the features that hold the point, whatever the order of its nodes.
 Feature closest_feature(const Surface& surface, Feature cell, const Vec3& point, Positions x) noexcept;
 
 /// Walks downhill over the surface from a feature to a minimum of the distance to a point.

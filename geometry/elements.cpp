@@ -2,6 +2,7 @@
 #include "geometry/elements.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <sstream>
@@ -22,7 +23,8 @@ class Components {
     return i;
   }
   void join(std::size_t i, std::size_t j) {
-    const auto [low, high] = std::minmax({root(i), root(j)});  // by value: the roots are temporaries
+    const auto [low, high] =
+        std::minmax({root(i), root(j)});  // by value: the roots are temporaries
     parent_[high] = low;
   }
 
@@ -30,7 +32,9 @@ class Components {
   std::vector<std::size_t> parent_;
 };
 
-std::array<NodeId, 2> sorted(NodeId a, NodeId b) { return a < b ? std::array{a, b} : std::array{b, a}; }
+std::array<NodeId, 2> sorted(NodeId a, NodeId b) {
+  return a < b ? std::array{a, b} : std::array{b, a};
+}
 
 /// Collects the problems of the elements one by one.
 class Problems {
@@ -40,8 +44,8 @@ class Problems {
              std::size_t node_count) {
     for (const NodeId node : nodes) {
       if (static_cast<std::int64_t>(node) < 0 || index_of(node) >= node_count) {
-        line(kind, id) << " names node " << static_cast<std::int32_t>(node) << ", but there are " << node_count
-                       << " nodes\n";
+        line(kind, id) << " names node " << static_cast<std::int32_t>(node) << ", but there are "
+                       << node_count << " nodes\n";
       }
     }
     for (std::size_t i = 0; i < N; ++i) {
@@ -51,10 +55,14 @@ class Problems {
                        << "; merge duplicate nodes or delete the element\n";
       }
     }
-    if (!(radius > 0.0)) line(kind, id) << " has radius " << radius << " m; it must be positive\n";
+    if (!(radius > 0.0 && std::isfinite(radius))) {
+      line(kind, id) << " has radius " << radius << " m; it must be positive and finite\n";
+    }
   }
 
-  std::ostream& line(const char* kind, std::size_t id) { return text_ << "surface: " << kind << ' ' << id; }
+  std::ostream& line(const char* kind, std::size_t id) {
+    return text_ << "surface: " << kind << ' ' << id;
+  }
 
   void throw_if_any() const {
     if (const std::string text = text_.str(); !text.empty()) {
@@ -66,7 +74,53 @@ class Problems {
   std::ostringstream text_;
 };
 
-void check_elements(std::span<const Cylinder> cylinders, std::span<const Facet> facets, std::size_t node_count) {
+/// Lists connected elements of different radii. An element with a problem of its own connects
+/// nothing.
+class RadiusCheck {
+ public:
+  RadiusCheck(std::size_t node_count, Problems& problems)
+      : components_(node_count), radius_(node_count, 0.0), problems_(&problems) {}
+
+  template <class Element>
+  void connect(std::span<const Element> elements) {
+    for (const Element& element : elements) {
+      if (!is_usable(element)) continue;
+      for (const NodeId node : element.nodes)
+        components_.join(index_of(element.nodes[0]), index_of(node));
+    }
+  }
+
+  /// After all elements are connected.
+  template <class Element>
+  void compare(const char* kind, std::span<const Element> elements) {
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      if (!is_usable(elements[i])) continue;
+      const double radius = elements[i].radius;
+      double& common = radius_[components_.root(index_of(elements[i].nodes[0]))];
+      if (common == 0.0) common = radius;
+      if (common == radius) continue;
+      problems_->line(kind, i) << " has radius " << radius
+                               << " m, but it is connected to elements of radius " << common
+                               << " m; all connected facets and cylinders need the same radius\n";
+    }
+  }
+
+ private:
+  template <class Element>
+  bool is_usable(const Element& element) const {
+    return element.radius > 0.0 && std::isfinite(element.radius) &&
+           std::all_of(element.nodes.begin(), element.nodes.end(), [this](NodeId node) {
+             return static_cast<std::int64_t>(node) >= 0 && index_of(node) < radius_.size();
+           });
+  }
+
+  Components components_;
+  std::vector<double> radius_;  // m, of the structure with this root; 0 until an element sets it
+  Problems* problems_;
+};
+
+void check_elements(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
+                    std::size_t node_count) {
   Problems problems;
   std::map<std::array<NodeId, 3>, std::size_t> seen;
   for (std::size_t f = 0; f < facets.size(); ++f) {
@@ -75,18 +129,25 @@ void check_elements(std::span<const Cylinder> cylinders, std::span<const Facet> 
     std::sort(key.begin(), key.end());
     const auto [other, is_new] = seen.try_emplace(key, f);
     if (!is_new) {
-      problems.line("facet", f) << " has the same nodes as facet " << other->second << "; delete one of them\n";
+      problems.line("facet", f) << " has the same nodes as facet " << other->second
+                                << "; delete one of them\n";
     }
   }
   for (std::size_t c = 0; c < cylinders.size(); ++c) {
     problems.check("cylinder", c, cylinders[c].nodes, cylinders[c].radius, node_count);
   }
+  RadiusCheck radii(node_count, problems);
+  radii.connect(facets);
+  radii.connect(cylinders);
+  radii.compare("facet", facets);
+  radii.compare("cylinder", cylinders);
   problems.throw_if_any();
 }
 
 }  // namespace
 
-Surface::Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets, std::size_t node_count) {
+Surface::Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
+                 std::size_t node_count) {
   check_elements(cylinders, facets, node_count);
   face_nodes_.reserve(facets.size());
   for (const Facet& facet : facets) face_nodes_.push_back(facet.nodes);
@@ -100,7 +161,8 @@ void Surface::build_edges(std::span<const Cylinder> cylinders) {
   for (const auto& n : face_nodes_) {
     for (std::size_t k = 0; k < 3; ++k) edge_nodes_.push_back(sorted(n[k], n[(k + 1) % 3]));
   }
-  for (const Cylinder& cylinder : cylinders) edge_nodes_.push_back(sorted(cylinder.nodes[0], cylinder.nodes[1]));
+  for (const Cylinder& cylinder : cylinders)
+    edge_nodes_.push_back(sorted(cylinder.nodes[0], cylinder.nodes[1]));
   std::sort(edge_nodes_.begin(), edge_nodes_.end());
   edge_nodes_.erase(std::unique(edge_nodes_.begin(), edge_nodes_.end()), edge_nodes_.end());
 
@@ -116,7 +178,8 @@ void Surface::build_edges(std::span<const Cylinder> cylinders) {
 
 void Surface::build_incidence() {
   // Lists are filled in ascending order of the items, so each comes out sorted.
-  const auto fill = [](auto& lists, std::size_t list_count, std::size_t item_count, auto owners_of) {
+  const auto fill = [](auto& lists, std::size_t list_count, std::size_t item_count,
+                       auto owners_of) {
     using Item = typename std::remove_reference_t<decltype(lists.items)>::value_type;
     lists.start.assign(list_count + 1, 0);
     for (std::size_t i = 0; i < item_count; ++i) {
@@ -167,20 +230,12 @@ void Surface::build_structures(std::span<const Cylinder> cylinders, std::span<co
     }
   }
 
-  Problems problems;
-  const auto set_radius = [&](const char* kind, std::size_t id, NodeId node, double radius) {
-    double& common = structure_radius_[index_of(structure_of(node))];
-    if (common == 0.0) common = radius;
-    if (common != radius) {
-      problems.line(kind, id) << " has radius " << radius << " m, but it is connected to elements of radius " << common
-                              << " m; all connected facets and cylinders need the same radius\n";
-    }
-  };
-  for (std::size_t f = 0; f < facets.size(); ++f) set_radius("facet", f, facets[f].nodes[0], facets[f].radius);
-  for (std::size_t c = 0; c < cylinders.size(); ++c) {
-    set_radius("cylinder", c, cylinders[c].nodes[0], cylinders[c].radius);
+  // Of any of its elements: check_elements found them equal.
+  for (const Facet& facet : facets)
+    structure_radius_[index_of(structure_of(facet.nodes[0]))] = facet.radius;
+  for (const Cylinder& cylinder : cylinders) {
+    structure_radius_[index_of(structure_of(cylinder.nodes[0]))] = cylinder.radius;
   }
-  problems.throw_if_any();
 }
 
 Feature Surface::feature_of(CellId cell) const noexcept {

@@ -23,11 +23,13 @@ FootPoint foot_on_node(const Vec3& point, const Vec3& x) noexcept;
 /// At distance 0 the direction is one perpendicular to the line that depends on the line alone.
 FootPoint foot_on_edge(const Vec3& point, const std::array<Vec3, 2>& x) noexcept;
 
-/// Foot on the plane through a triangle, which has an area. At distance 0 the direction is the triangle's normal.
+/// Foot on a triangle with an area, for a point whose foot is inside by the exact signs. At distance 0 the direction is
+/// the triangle's normal.
 ///
-/// The frame is built on the longest side e: e and the part v of another side that is perpendicular to e. The rounding
-/// error of v, relative to its length large for needles and caps, then only turns the plane about e; the foot point is
-/// nearer to e than the length of v, so the distance keeps the accuracy of the coordinates.
+/// The frame is built on the longest side e: e and the part v of another side that is perpendicular to e. For a sliver
+/// the rounding error of v is large relative to its length and turns the plane about e. The foot point is kept inside
+/// the triangle, so what turns is at most as long as v: the distance keeps the accuracy of the coordinates for any
+/// shape, however thin, and the foot point is off by at most the smaller of the height and error / height.
 FootPoint foot_on_face(const Vec3& point, const std::array<Vec3, 3>& x) noexcept;
 
 }  // namespace plekton::geometry

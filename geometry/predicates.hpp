@@ -10,7 +10,8 @@
 ///
 /// Each is decided in three stages: a double with a proven error bound, then interval arithmetic, then exact
 /// multi-precision arithmetic. The sign is that of the real number defined by the stored doubles, so it is the same for
-/// any compiler, machine and thread. Coordinates must be finite and below 1e75 in magnitude.
+/// any compiler, machine and thread, and in any rounding mode, which is left as it was. Coordinates must be finite and
+/// below 1e75 in magnitude.
 namespace plekton::geometry {
 
 /// How often each stage decided a sign, since the start of the thread. For reports and tests.
@@ -35,7 +36,9 @@ constexpr double kUnderflow = 1e-150;
 /// Sign of (p - a).(b - a): +1 if p lies on b's side of the plane through a that is perpendicular to the edge ab.
 /// Zero on that plane, and for an edge without length.
 /// Error: three products of two rounded differences, each with relative error at most 3 roundoff, and two additions:
-/// |error| <= 5 roundoff sum |terms| to first order; 8 covers the higher orders.
+/// |error| <= 5 roundoff sum |terms| to first order. In a directed rounding mode each error doubles, but a sum that
+/// could have the wrong sign is nearly zero and the sum before it at most half of all terms: 7. 8 covers the higher
+/// orders.
 inline int sign_past_vertex(const Vec3& a, const Vec3& b, const Vec3& p) noexcept {
   const Vec3 terms = (p - a).cwiseProduct(b - a);
   const double sum = terms[0] + terms[1] + terms[2];
@@ -50,7 +53,8 @@ inline int sign_past_vertex(const Vec3& a, const Vec3& b, const Vec3& p) noexcep
 /// half-plane from the edge towards the opposite corner o. Zero at 90 degrees, on the line of the edge, and for a
 /// triangle without area.
 /// Error: a component of a cross product of rounded differences has error at most 4 roundoff times the sum of its two
-/// products' magnitudes, the product of two such 9, the sum of three 11 to first order; 16 covers the higher orders.
+/// products' magnitudes, the product of two such 9, the sum of three 11 to first order, and 22 in a directed rounding
+/// mode; 24 covers the higher orders.
 inline int sign_inside_edge(const Vec3& a, const Vec3& b, const Vec3& o, const Vec3& p) noexcept {
   const Vec3 u = b - a;
   const Vec3 v = o - a;
@@ -67,7 +71,7 @@ inline int sign_inside_edge(const Vec3& a, const Vec3& b, const Vec3& o, const V
     sum += (v_left - v_right) * (w_left - w_right);
     magnitude += (std::abs(v_left) + std::abs(v_right)) * (std::abs(w_left) + std::abs(w_right));
   }
-  if (std::abs(sum) > 16.0 * detail::kRoundoff * magnitude && magnitude > detail::kUnderflow) {
+  if (std::abs(sum) > 24.0 * detail::kRoundoff * magnitude && magnitude > detail::kUnderflow) {
     return sum > 0.0 ? 1 : -1;
   }
   return detail::inside_edge_exact(a, b, o, p);
