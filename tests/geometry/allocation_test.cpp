@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/broad_phase.hpp"
+#include "geometry/critical_features.hpp"
+#include "geometry/descent.hpp"
 #include "geometry/parallel_sum.hpp"
 #include "geometry/skin.hpp"
 #include "geometry/thread_pool.hpp"
 #include "tests/support/allocation_count.hpp"
+#include "tests/support/complexes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,6 +75,26 @@ TEST(Allocation, DoesNotHappenInLoopsSumsAndTheSkinAfterTheFirst) {
   step();
 
   EXPECT_EQ(test::allocations_of(step), 0u);
+}
+
+TEST(Allocation, DoesNotHappenInAWarmSearchForCriticalFeaturesNorInADescent) {
+  const test::Complex cube = test::cube(3);
+  const Surface surface = cube.surface();
+  CriticalFeatureFinder finder(surface);
+  std::vector<CellId> cells(surface.cell_count());
+  for (std::size_t c = 0; c < cells.size(); ++c) cells[c] = id_at<CellId>(c);
+  // On the lattice many signs are ties, which need the exact stage.
+  const auto search = [&] {
+    for (int k = 0; k < 1000; ++k) {
+      const Vec3 point = 0.5 * Vec3(k % 10, k / 10 % 10, k / 100);
+      const auto found = finder.find(point, 10.0, cells, cube.x);
+      finder.branches(found.front().core.feature, point, cube.x);
+      descend(surface, found.back().core.feature, point, cube.x);
+    }
+  };
+  search();
+
+  EXPECT_EQ(test::allocations_of(search), 0u);
 }
 
 }  // namespace
