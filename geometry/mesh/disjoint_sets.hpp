@@ -8,11 +8,13 @@
 
 namespace plekton::geometry {
 
-/// Sets that only ever unite (union-find with path halving). The representative of a set is its lowest member, so the
-/// result does not depend on the order in which sets were united.
+/// Sets that only ever unite (union-find with path halving). The representative of a set is its
+/// lowest member, so the result does not depend on the order in which sets were united.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
 
   std::size_t find(std::size_t i) noexcept {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/mesh/mesh.hpp"
+
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "geometry/mesh/mesh.hpp"
 
 namespace plekton::geometry {
 
@@ -30,7 +30,9 @@ class EdgeTable {
     return {uses_.data() + start_[edge], uses_.data() + start_[edge + 1]};
   }
   /// Edges of a facet; side k joins corners k and k + 1 (mod 3).
-  const std::array<std::uint32_t, 3>& edges_of(std::size_t facet) const noexcept { return facet_edges_[facet]; }
+  const std::array<std::uint32_t, 3>& edges_of(std::size_t facet) const noexcept {
+    return facet_edges_[facet];
+  }
 
  private:
   std::vector<std::array<NodeId, 2>> edges_;

@@ -8,10 +8,15 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-Kernel::Point_3 point(const Vec3& p) { return {p[0], p[1], p[2]}; }
+Kernel::Point_3 point(const Vec3& p) {
+  return {p[0], p[1], p[2]};
+}
 
-// Cyclic order of the axes keeps the orientation: along z the plane is (x, y), along x it is (y, z).
-Kernel::Point_2 seen_along(Axis axis, const Vec3& p) { return {p[(axis.value + 1) % 3], p[(axis.value + 2) % 3]}; }
+// Cyclic order of the axes keeps the orientation: along z the plane is (x, y), along x it is (y,
+// z).
+Kernel::Point_2 seen_along(Axis axis, const Vec3& p) {
+  return {p[(axis.value + 1) % 3], p[(axis.value + 2) % 3]};
+}
 
 }  // namespace
 

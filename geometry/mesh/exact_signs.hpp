@@ -3,8 +3,8 @@
 
 #include "geometry/types.hpp"
 
-/// Decisions of the mesh import that must not depend on rounding: the answers are those of exact arithmetic on the given
-/// doubles. Behind them are CGAL's filtered predicates.
+/// Decisions of the mesh import that must not depend on rounding: the answers are those of exact
+/// arithmetic on the given doubles. Behind them are CGAL's filtered predicates.
 namespace plekton::geometry {
 
 /// True if three points lie on one line, which includes coinciding ones: the triangle has no area.
@@ -15,7 +15,8 @@ struct Axis {
   int value;
 };
 
-/// Seen from far out on the positive side of an axis, do a, b, c turn to the left (1), to the right (-1) or lie on a line (0)?
+/// Seen from far out on the positive side of an axis, do a, b, c turn to the left (1), to the right
+/// (-1) or lie on a line (0)?
 int turn(Axis along, const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace plekton::geometry

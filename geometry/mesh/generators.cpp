@@ -14,12 +14,14 @@ namespace {
 
 void require_length(double length, const char* what) {
   if (!(length > 0.0) || !(length < kLargestCoordinate))
-    throw MeshError(std::string(what) + " of " + std::to_string(length) + " m; expected a positive length");
+    throw MeshError(std::string(what) + " of " + std::to_string(length) +
+                    " m; expected a positive length");
 }
 
 void require_at_least(int least, int count, const char* what) {
   if (count < least)
-    throw MeshError(std::string(what) + ": " + std::to_string(count) + "; expected at least " + std::to_string(least));
+    throw MeshError(std::string(what) + ": " + std::to_string(count) + "; expected at least " +
+                    std::to_string(least));
 }
 
 NodeId add_point(Mesh& mesh, const Vec3& point) {
@@ -29,7 +31,8 @@ NodeId add_point(Mesh& mesh, const Vec3& point) {
 
 /// Node of a grid with a number of columns.
 NodeId grid_node(int i, int j, int columns) {
-  return id_at<NodeId>(static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i));
+  return id_at<NodeId>(static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+                       static_cast<std::size_t>(i));
 }
 
 /// Corners of a cell, counterclockwise.
@@ -55,12 +58,13 @@ Mesh icosahedron() {
   // Corners (0, ±1, ±phi) and their cyclic permutations; facets counterclockwise from outside.
   const double phi = std::numbers::phi;
   Mesh mesh;
-  mesh.points = {{-1, phi, 0}, {1, phi, 0},   {-1, -phi, 0}, {1, -phi, 0}, {0, -1, phi}, {0, 1, phi},
-                 {0, -1, -phi}, {0, 1, -phi}, {phi, 0, -1},  {phi, 0, 1},  {-phi, 0, -1}, {-phi, 0, 1}};
+  mesh.points = {{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0},
+                 {0, -1, phi}, {0, 1, phi}, {0, -1, -phi}, {0, 1, -phi},
+                 {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1}, {-phi, 0, 1}};
   constexpr std::array<std::array<int, 3>, 20> kFacets = {{
-      {0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-      {3, 8, 9},  {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1},
+      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1},
   }};
   for (const auto& [a, b, c] : kFacets) mesh.facets.push_back({NodeId{a}, NodeId{b}, NodeId{c}});
   return mesh;
@@ -71,13 +75,16 @@ Mesh subdivide(const Mesh& coarse) {
   Mesh fine{coarse.points, {}};
   std::map<std::pair<NodeId, NodeId>, NodeId> middles;
   const auto middle = [&](NodeId a, NodeId b) {
-    const auto [entry, is_new] = middles.try_emplace(std::minmax(a, b), NodeId{});
-    if (is_new) entry->second = add_point(fine, 0.5 * (coarse.points[index_of(a)] + coarse.points[index_of(b)]));
+    const auto [entry, is_new] = middles.try_emplace(std::minmax({a, b}), NodeId{});
+    if (is_new)
+      entry->second =
+          add_point(fine, 0.5 * (coarse.points[index_of(a)] + coarse.points[index_of(b)]));
     return entry->second;
   };
   for (const auto& [a, b, c] : coarse.facets) {
     const NodeId ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    for (const std::array<NodeId, 3>& facet : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
+    for (const std::array<NodeId, 3>& facet :
+         {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
       fine.facets.push_back(facet);
   }
   return fine;
@@ -91,8 +98,10 @@ struct BoxSide {
 
 /// @param node  Gives the node at a position in the grid of cells.
 template <class NodeAt>
-void add_side(Mesh& mesh, const NodeAt& node, const std::array<int, 3>& divisions, const BoxSide& side) {
-  const std::size_t u = (side.axis + 1) % 3, v = (side.axis + 2) % 3;  // u x v points along the axis.
+void add_side(Mesh& mesh, const NodeAt& node, const std::array<int, 3>& divisions,
+              const BoxSide& side) {
+  const std::size_t u = (side.axis + 1) % 3,
+                    v = (side.axis + 2) % 3;  // u x v points along the axis.
   const auto corner = [&](int i, int j) {
     std::array<int, 3> ijk{};
     ijk[side.axis] = side.level;
@@ -146,14 +155,16 @@ Mesh tube(const Tube& tube) {
   for (int j = 0; j <= tube.along; ++j) {
     for (int i = 0; i < tube.around; ++i) {
       const double angle = 2.0 * std::numbers::pi * (i + 0.5 * (j % 2)) / tube.around;
-      add_point(mesh, {tube.radius * std::cos(angle), tube.radius * std::sin(angle), tube.length * j / tube.along});
+      add_point(mesh, {tube.radius * std::cos(angle), tube.radius * std::sin(angle),
+                       tube.length * j / tube.along});
     }
   }
   for (int j = 0; j < tube.along; ++j) {
     for (int i = 0; i < tube.around; ++i) {
       const int next = (i + 1) % tube.around;
       const CellNodes nodes = {grid_node(i, j, tube.around), grid_node(next, j, tube.around),
-                               grid_node(next, j + 1, tube.around), grid_node(i, j + 1, tube.around)};
+                               grid_node(next, j + 1, tube.around),
+                               grid_node(i, j + 1, tube.around)};
       // The upper ring is half a cell ahead of an even ring and half a cell behind an odd one.
       cut_cell(mesh, nodes, j % 2 == 1);
     }
@@ -165,7 +176,9 @@ Mesh icosphere(double radius, int subdivisions) {
   require_length(radius, "a sphere radius");
   require_at_least(0, subdivisions, "subdivisions of a sphere");
   constexpr int kMost = 12;  // 335 million facets
-  if (subdivisions > kMost) throw MeshError("subdivisions of a sphere: " + std::to_string(subdivisions) + "; expected at most 12");
+  if (subdivisions > kMost)
+    throw MeshError("subdivisions of a sphere: " + std::to_string(subdivisions) +
+                    "; expected at most 12");
 
   Mesh mesh = icosahedron();
   for (int k = 0; k < subdivisions; ++k) {
@@ -186,7 +199,9 @@ Mesh box_shell(const Vec3& size, const std::array<int, 3>& divisions) {
   const auto node = [&](const std::array<int, 3>& ijk) {
     const auto [entry, is_new] = nodes.try_emplace(ijk, NodeId{});
     if (is_new)
-      entry->second = add_point(mesh, {size[0] * ijk[0] / divisions[0], size[1] * ijk[1] / divisions[1], size[2] * ijk[2] / divisions[2]});
+      entry->second =
+          add_point(mesh, {size[0] * ijk[0] / divisions[0], size[1] * ijk[1] / divisions[1],
+                           size[2] * ijk[2] / divisions[2]});
     return entry->second;
   };
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
-
 #include "geometry/mesh/mesh.hpp"
 
-/// Meshes from a few numbers. All share their nodes; lengths in m. Each throws MeshError for a length that is not positive
-/// and finite and for a number of divisions below its least.
+#include <cstdint>
+
+/// Meshes from a few numbers. All share their nodes; lengths in m. Each throws MeshError for a
+/// length that is not positive and finite and for a number of divisions below its least.
 namespace plekton::geometry {
 
 /// How the cells of a sheet are cut.
@@ -34,11 +34,12 @@ struct Tube {
   int along;      ///< cells along, at least 1
 };
 
-/// Open tube around the z axis from z = 0 to its length, facing outward; every second ring is turned by half a cell.
+/// Open tube around the z axis from z = 0 to its length, facing outward; every second ring is
+/// turned by half a cell.
 Mesh tube(const Tube& tube);
 
-/// Sphere around the origin with its nodes on the given radius: an icosahedron, every facet cut into four as often as told
-/// (at least 0): 20 * 4^subdivisions facets, facing outward.
+/// Sphere around the origin with its nodes on the given radius: an icosahedron, every facet cut
+/// into four as often as told (at least 0): 20 * 4^subdivisions facets, facing outward.
 Mesh icosphere(double radius, int subdivisions);
 
 /// Closed box from the origin to a corner, facing outward, each side cut into cells of two facets.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
-
 #include "geometry/mesh/mesh.hpp"
 #include "geometry/mesh/repair.hpp"
 #include "geometry/mesh/report.hpp"
+
+#include <filesystem>
 
 namespace plekton::geometry {
 
@@ -19,7 +19,8 @@ struct ImportedMesh {
 };
 
 /// Reads a mesh file, repairs it and reports on it.
-/// @throws MeshError if the file cannot be read or holds bad numbers (as read_mesh_file), or if the verdict is refused.
+/// @throws MeshError if the file cannot be read or holds bad numbers (as read_mesh_file), or if the
+/// verdict is refused.
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
 }  // namespace plekton::geometry

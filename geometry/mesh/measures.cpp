@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/measures.hpp"
 
+#include "geometry/mesh/disjoint_sets.hpp"
+#include "geometry/mesh/orientation.hpp"
+#include "geometry/mesh/solid_checks.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,10 +12,6 @@
 #include <numbers>
 #include <span>
 #include <vector>
-
-#include "geometry/mesh/disjoint_sets.hpp"
-#include "geometry/mesh/orientation.hpp"
-#include "geometry/mesh/solid_checks.hpp"
 
 namespace plekton::geometry {
 namespace {
@@ -50,8 +50,10 @@ std::vector<LinkPiece> links_by_node(const Mesh& mesh) {
   std::vector<LinkPiece> pieces;
   pieces.reserve(3 * mesh.facets.size());
   for (const auto& facet : mesh.facets)
-    for (std::size_t k = 0; k < 3; ++k) pieces.push_back({facet[k], {facet[(k + 1) % 3], facet[(k + 2) % 3]}});
-  std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+    for (std::size_t k = 0; k < 3; ++k)
+      pieces.push_back({facet[k], {facet[(k + 1) % 3], facet[(k + 2) % 3]}});
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const auto& a, const auto& b) { return a.node < b.node; });
   return pieces;
 }
 
@@ -65,7 +67,8 @@ bool is_path_or_cycle(std::span<const LinkPiece> link) {
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
 
   const auto place = [&](NodeId node) {
-    return static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end(), node) - ends.begin());
+    return static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end(), node) -
+                                    ends.begin());
   };
   DisjointSets sets(ends.size());
   std::size_t parts = ends.size();
@@ -129,7 +132,8 @@ double volume_of(const Mesh& mesh) {
 bool has_no_boundary(const EdgeTable& edges) {
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto uses = edges.uses(e);
-    const auto forward = std::count_if(uses.begin(), uses.end(), [](const EdgeUse& use) { return use.forward; });
+    const auto forward =
+        std::count_if(uses.begin(), uses.end(), [](const EdgeUse& use) { return use.forward; });
     if (2 * static_cast<std::size_t>(forward) != uses.size()) return false;
   }
   return true;

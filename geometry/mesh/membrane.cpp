@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/membrane.hpp"
 
+#include "geometry/mesh/edge_table.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
-
-#include "geometry/mesh/edge_table.hpp"
 
 namespace plekton::geometry {
 namespace {
@@ -17,7 +17,8 @@ void require_usable(const Mesh& mesh, const MembraneOptions& options) {
     text << "a membrane of thickness " << options.thickness << " m; expected a positive length";
   else if (mesh.facets.empty())
     text << "a membrane of a mesh without facets; expected at least one";
-  else if (options.first_node + mesh.points.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+  else if (options.first_node + mesh.points.size() >
+           static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     text << "a membrane of " << mesh.points.size() << " nodes from number " << options.first_node
          << " on; the numbers of nodes end at 2147483647";
   else
@@ -25,7 +26,8 @@ void require_usable(const Mesh& mesh, const MembraneOptions& options) {
   throw MeshError(text.str());
 }
 
-void warn_about_edges(const Mesh& mesh, const EdgeTable& edges, double thickness, std::vector<std::string>& warnings) {
+void warn_about_edges(const Mesh& mesh, const EdgeTable& edges, double thickness,
+                      std::vector<std::string>& warnings) {
   double shortest = std::numeric_limits<double>::infinity();
   std::size_t short_edges = 0;
   for (const auto& [a, b] : edges.edges()) {
@@ -35,13 +37,16 @@ void warn_about_edges(const Mesh& mesh, const EdgeTable& edges, double thickness
   }
   if (short_edges == 0) return;
   std::ostringstream text;
-  text << "the thickness of " << thickness << " m exceeds the length of " << short_edges << " of " << edges.size()
-       << " edges (shortest " << shortest << " m); use longer edges or a thinner membrane";
+  text << "the thickness of " << thickness << " m exceeds the length of " << short_edges << " of "
+       << edges.size() << " edges (shortest " << shortest
+       << " m); use longer edges or a thinner membrane";
   warnings.push_back(text.str());
 }
 
-/// Radius of the sphere through two facets hinged at their common edge, from the fold angle and the facet heights.
-double fold_radius(const Mesh& mesh, const std::array<NodeId, 2>& edge, NodeId far_a, NodeId far_b) {
+/// Radius of the sphere through two facets hinged at their common edge, from the fold angle and the
+/// facet heights.
+double fold_radius(const Mesh& mesh, const std::array<NodeId, 2>& edge, NodeId far_a,
+                   NodeId far_b) {
   const Vec3& x0 = mesh.points[index_of(edge[0])];
   const Vec3 along = (mesh.points[index_of(edge[1])] - x0).stableNormalized();
   const auto height_of = [&](NodeId far) {
@@ -49,17 +54,19 @@ double fold_radius(const Mesh& mesh, const std::array<NodeId, 2>& edge, NodeId f
     return Vec3(d - d.dot(along) * along);
   };
   const Vec3 a = height_of(far_a), b = height_of(far_b);
-  // The fold angle is the angle between one height and the continuation of the other; the sheet turns by it within half
-  // the height of either facet.
+  // The fold angle is the angle between one height and the continuation of the other; the sheet
+  // turns by it within half the height of either facet.
   const double fold = std::atan2(a.cross(b).norm(), -a.dot(b));
   return fold > 0.0 ? 0.5 * (a.norm() + b.norm()) / fold : std::numeric_limits<double>::infinity();
 }
 
 NodeId far_node(const std::array<NodeId, 3>& facet, const std::array<NodeId, 2>& edge) {
-  return *std::find_if(facet.begin(), facet.end(), [&](NodeId n) { return n != edge[0] && n != edge[1]; });
+  return *std::find_if(facet.begin(), facet.end(),
+                       [&](NodeId n) { return n != edge[0] && n != edge[1]; });
 }
 
-void warn_about_folds(const Mesh& mesh, const EdgeTable& edges, double thickness, std::vector<std::string>& warnings) {
+void warn_about_folds(const Mesh& mesh, const EdgeTable& edges, double thickness,
+                      std::vector<std::string>& warnings) {
   double sharpest = std::numeric_limits<double>::infinity();
   std::size_t sharp_folds = 0;
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -74,7 +81,8 @@ void warn_about_folds(const Mesh& mesh, const EdgeTable& edges, double thickness
   if (sharp_folds == 0) return;
   std::ostringstream text;
   text << "half the thickness of " << thickness << " m exceeds the radius of " << sharp_folds
-       << " folds (sharpest " << sharpest << " m), where the sheet overlaps itself; use a thinner membrane";
+       << " folds (sharpest " << sharpest
+       << " m), where the sheet overlaps itself; use a thinner membrane";
   warnings.push_back(text.str());
 }
 
@@ -83,7 +91,9 @@ void warn_about_folds(const Mesh& mesh, const EdgeTable& edges, double thickness
 Membrane make_membrane(const Mesh& mesh, const MembraneOptions& options) {
   require_usable(mesh, options);
   const EdgeTable edges(mesh);
-  const auto in_scene = [&](NodeId node) { return id_at<NodeId>(index_of(node) + options.first_node); };
+  const auto in_scene = [&](NodeId node) {
+    return id_at<NodeId>(index_of(node) + options.first_node);
+  };
 
   Membrane membrane;
   membrane.nodes = mesh.points;

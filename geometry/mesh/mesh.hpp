@@ -1,30 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/types.hpp"
+
 #include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <vector>
 
-#include "geometry/types.hpp"
-
 namespace plekton::geometry {
 
-/// Triangles over shared nodes. Any number of facets may meet at an edge or a node, and they share it: a node is never
-/// duplicated to make a surface manifold, because what is joined must stay joined when it deforms.
+/// Triangles over shared nodes. Any number of facets may meet at an edge or a node, and they share
+/// it: a node is never duplicated to make a surface manifold, because what is joined must stay
+/// joined when it deforms.
 struct Mesh {
-  std::vector<Vec3> points;                  ///< m, indexed by NodeId
-  std::vector<std::array<NodeId, 3>> facets;  ///< counterclockwise seen from outside, where there is an outside
+  std::vector<Vec3> points;  ///< m, indexed by NodeId
+  std::vector<std::array<NodeId, 3>>
+      facets;  ///< counterclockwise seen from outside, where there is an outside
 };
 
-/// Polygons as a file lists them, before any repair: corners may repeat, points may coincide or be unused.
+/// Polygons as a file lists them, before any repair: corners may repeat, points may coincide or be
+/// unused.
 struct PolygonSoup {
   std::vector<Vec3> points;                        ///< m
   std::vector<std::vector<std::size_t>> polygons;  ///< corners as positions in points
 };
 
-/// A mesh that cannot be read, written or used. The message names the file, the place, what was found, what was
-/// expected and a way out; all problems of a file come in one message.
+/// A mesh that cannot be read, written or used. The message names the file, the place, what was
+/// found, what was expected and a way out; all problems of a file come in one message.
 struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -32,7 +35,8 @@ struct MeshError : std::runtime_error {
 /// The same triangles as polygons.
 PolygonSoup to_soup(const Mesh& mesh);
 
-/// Coordinates (m) at or above this are refused: products of three lengths of this size still fit a double.
+/// Coordinates (m) at or above this are refused: products of three lengths of this size still fit a
+/// double.
 inline constexpr double kLargestCoordinate = 1e75;
 
 }  // namespace plekton::geometry

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/mesh/mesh.hpp"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
 
-#include "geometry/mesh/mesh.hpp"
-
 namespace plekton::geometry {
 
-/// File formats. Reading tells the two kinds of STL apart by content, and likewise the three kinds of PLY.
+/// File formats. Reading tells the two kinds of STL apart by content, and likewise the three kinds
+/// of PLY.
 enum class MeshFormat { off, obj, stl_ascii, stl_binary, ply };
 
-/// Polygons of an OFF, OBJ, STL (ASCII or binary) or PLY (ASCII or binary) file, as they are in it: nothing is merged,
-/// dropped or cut into triangles. A file that holds no polygon is read without complaint.
-/// @throws MeshError for a file that is missing, empty, of another kind, cut off or malformed, and for coordinates that
-///         are not finite or not below kLargestCoordinate and corners that name no point, all of them in one message.
+/// Polygons of an OFF, OBJ, STL (ASCII or binary) or PLY (ASCII or binary) file, as they are in it:
+/// nothing is merged, dropped or cut into triangles. A file that holds no polygon is read without
+/// complaint.
+/// @throws MeshError for a file that is missing, empty, of another kind, cut off or malformed, and
+/// for coordinates that
+///         are not finite or not below kLargestCoordinate and corners that name no point, all of
+///         them in one message.
 PolygonSoup read_mesh_file(const std::filesystem::path& path);
 
-/// The same from memory. Time and memory are linear in the size of the text, whatever counts it claims.
+/// The same from memory. Time and memory are linear in the size of the text, whatever counts it
+/// claims.
 /// @param name  What messages call it.
 PolygonSoup parse_mesh(std::string_view bytes, MeshFormat format, const std::string& name);
 
@@ -26,8 +31,9 @@ PolygonSoup parse_mesh(std::string_view bytes, MeshFormat format, const std::str
 /// @throws MeshError for any other ending.
 MeshFormat mesh_format_of(const std::filesystem::path& path);
 
-/// Writes a mesh such that reading it gives the same coordinates; binary STL rounds them to 24 bits. Either the whole
-/// file appears or none: a temporary file beside it is renamed when it is complete.
+/// Writes a mesh such that reading it gives the same coordinates; binary STL rounds them to 24
+/// bits. Either the whole file appears or none: a temporary file beside it is renamed when it is
+/// complete.
 /// @throws MeshError if the folder does not exist or cannot be written, or the disk is full.
 void write_mesh_file(const std::filesystem::path& path, const Mesh& mesh, MeshFormat format);
 void write_mesh_file(const std::filesystem::path& path, const Mesh& mesh);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/orientation.hpp"
 
+#include "geometry/box.hpp"
+#include "geometry/mesh/solid_angle.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 
 namespace plekton::geometry {
@@ -20,7 +24,8 @@ struct Patches {
   std::vector<bool> orientable;
 };
 
-/// Spreads the side of the first facet of a patch over all facets that hang on through ordinary edges.
+/// Spreads the side of the first facet of a patch over all facets that hang on through ordinary
+/// edges.
 void grow_patch(const EdgeTable& edges, std::uint32_t first, Patches& patches) {
   const auto patch = static_cast<std::uint32_t>(patches.facets.size());
   std::vector<std::uint32_t> members = {first};
@@ -63,7 +68,8 @@ std::vector<bool> closed_patches(const EdgeTable& edges, const Patches& patches)
   for (std::size_t edge = 0; edge < edges.size(); ++edge) {
     runs.clear();
     for (const EdgeUse& use : edges.uses(edge))
-      runs.emplace_back(patches.patch_of[use.facet], use.forward != patches.flip[use.facet] ? 1 : -1);
+      runs.emplace_back(patches.patch_of[use.facet],
+                        use.forward != patches.flip[use.facet] ? 1 : -1);
     std::sort(runs.begin(), runs.end());
     for (std::size_t i = 0; i < runs.size();) {
       const std::uint32_t patch = runs[i].first;
@@ -76,7 +82,8 @@ std::vector<bool> closed_patches(const EdgeTable& edges, const Patches& patches)
 }
 
 /// Signed volume (m³) of a closed patch, times 6, and the sum of the sizes of its terms.
-std::pair<double, double> volume_times_six(const Mesh& mesh, const Patches& patches, std::size_t patch) {
+std::pair<double, double> volume_times_six(const Mesh& mesh, const Patches& patches,
+                                           std::size_t patch) {
   const auto& facets = patches.facets[patch];
   // Relative to a point of the patch, so that its distance from the world's origin costs no digits.
   const Vec3 origin = mesh.points[index_of(mesh.facets[facets.front()][0])];
@@ -93,33 +100,95 @@ std::pair<double, double> volume_times_six(const Mesh& mesh, const Patches& patc
   return {sum, size};
 }
 
-bool turn_whole_patch(const Mesh& mesh, const Patches& patches, std::size_t patch, bool closed) {
-  if (closed) {
+/// A closed patch.
+struct Solid {
+  std::size_t patch;
+  bool faces_inward;
+  Box bounds;
+};
+
+std::array<Vec3, 3> corners(const Mesh& mesh, std::uint32_t facet) {
+  const auto& [a, b, c] = mesh.facets[facet];
+  return {mesh.points[index_of(a)], mesh.points[index_of(b)], mesh.points[index_of(c)]};
+}
+
+Box bounds_of(const Mesh& mesh, const std::vector<std::uint32_t>& facets) {
+  const Vec3 first = corners(mesh, facets.front())[0];
+  Box box{first, first};
+  for (const std::uint32_t f : facets)
+    for (const Vec3& p : corners(mesh, f)) box = {box.lower.cwiseMin(p), box.upper.cwiseMax(p)};
+  return box;
+}
+
+bool encloses(const Mesh& mesh, const Patches& patches, const Solid& outer, const Solid& inner) {
+  if ((outer.bounds.lower.array() > inner.bounds.lower.array()).any() ||
+      (outer.bounds.upper.array() < inner.bounds.upper.array()).any())
+    return false;
+  // The middle of a facet, because a node may be shared with the outer patch.
+  const auto x = corners(mesh, patches.facets[inner.patch].front());
+  const Vec3 point = (x[0] + x[1] + x[2]) / 3.0;
+  double angle = 0.0;
+  for (const std::uint32_t f : patches.facets[outer.patch])
+    angle += (patches.flip[f] ? -1.0 : 1.0) * solid_angle(corners(mesh, f), point);
+  return std::abs(angle) > 2.0 * std::numbers::pi;
+}
+
+/// Closed patches that face inward though they are no cavity, that is not inside an odd number of
+/// others.
+std::vector<bool> inside_out_patches(const Mesh& mesh, const Patches& patches,
+                                     const std::vector<Solid>& solids) {
+  std::vector<bool> inside_out(patches.facets.size(), false);
+  for (const Solid& solid : solids) {
+    if (!solid.faces_inward) continue;
+    const auto outer = std::count_if(solids.begin(), solids.end(), [&](const Solid& other) {
+      return other.patch != solid.patch && encloses(mesh, patches, other, solid);
+    });
+    inside_out[solid.patch] = outer % 2 == 0;
+  }
+  return inside_out;
+}
+
+/// Gives the facets of every orientable patch the sides that most of them came with, the first
+/// one's on a tie.
+void follow_the_majority(Patches& patches) {
+  for (std::size_t patch = 0; patch < patches.facets.size(); ++patch) {
+    const auto& facets = patches.facets[patch];
+    const auto flipped = std::count_if(facets.begin(), facets.end(),
+                                       [&](std::uint32_t f) { return patches.flip[f]; });
+    const bool turn = 2 * static_cast<std::size_t>(flipped) > facets.size();
+    for (const std::uint32_t f : facets)
+      patches.flip[f] = patches.orientable[patch] && patches.flip[f] != turn;
+  }
+}
+
+std::vector<Solid> find_solids(const Mesh& mesh, const EdgeTable& edges, const Patches& patches) {
+  const std::vector<bool> closed = closed_patches(edges, patches);
+  std::vector<Solid> solids;
+  for (std::size_t patch = 0; patch < closed.size(); ++patch) {
+    if (!closed[patch] || !patches.orientable[patch]) continue;
     const auto [volume, size] = volume_times_six(mesh, patches, patch);
     constexpr double kRounding = 1e-13;  // A few ulp of each term: below it the sign is noise.
-    if (std::abs(volume) > kRounding * size) return volume < 0.0;
+    if (std::abs(volume) > kRounding * size)
+      solids.push_back({patch, volume < 0.0, bounds_of(mesh, patches.facets[patch])});
   }
-  const auto& facets = patches.facets[patch];
-  const auto flipped = std::count_if(facets.begin(), facets.end(), [&](std::uint32_t f) { return patches.flip[f]; });
-  return 2 * static_cast<std::size_t>(flipped) > facets.size();
+  return solids;
 }
 
 }  // namespace
 
 Orientation find_orientation(const Mesh& mesh, const EdgeTable& edges) {
   Patches patches = find_patches(mesh.facets.size(), edges);
-  const std::vector<bool> closed = closed_patches(edges, patches);
+  follow_the_majority(patches);
+  const auto inside_out = inside_out_patches(mesh, patches, find_solids(mesh, edges, patches));
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f)
+    if (inside_out[patches.patch_of[f]]) patches.flip[f] = !patches.flip[f];
+
   Orientation result;
   result.patches = patches.facets.size();
-  for (std::size_t patch = 0; patch < patches.facets.size(); ++patch) {
-    if (!patches.orientable[patch]) {
-      ++result.non_orientable_patches;
-      for (const std::uint32_t f : patches.facets[patch]) patches.flip[f] = false;
-    } else if (turn_whole_patch(mesh, patches, patch, closed[patch])) {
-      for (const std::uint32_t f : patches.facets[patch]) patches.flip[f] = !patches.flip[f];
-    }
-  }
-  result.flipped = static_cast<std::size_t>(std::count(patches.flip.begin(), patches.flip.end(), true));
+  result.non_orientable_patches = static_cast<std::size_t>(
+      std::count(patches.orientable.begin(), patches.orientable.end(), false));
+  result.flipped =
+      static_cast<std::size_t>(std::count(patches.flip.begin(), patches.flip.end(), true));
   result.flip = std::move(patches.flip);
   return result;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/ply_header.hpp"
 
+#include "geometry/mesh/text_scanner.hpp"
+
 #include <array>
 #include <optional>
 #include <utility>
-
-#include "geometry/mesh/text_scanner.hpp"
 
 namespace plekton::geometry {
 namespace {
@@ -25,11 +25,21 @@ Words split(std::string_view line) {
 
 std::optional<PlyType> type_named(std::string_view word) {
   constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypes = {{
-      {"char", PlyType::int8},     {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
-      {"uint8", PlyType::uint8},   {"short", PlyType::int16},     {"int16", PlyType::int16},
-      {"ushort", PlyType::uint16}, {"uint16", PlyType::uint16},   {"int", PlyType::int32},
-      {"int32", PlyType::int32},   {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
-      {"float", PlyType::float32}, {"float32", PlyType::float32}, {"double", PlyType::float64},
+      {"char", PlyType::int8},
+      {"int8", PlyType::int8},
+      {"uchar", PlyType::uint8},
+      {"uint8", PlyType::uint8},
+      {"short", PlyType::int16},
+      {"int16", PlyType::int16},
+      {"ushort", PlyType::uint16},
+      {"uint16", PlyType::uint16},
+      {"int", PlyType::int32},
+      {"int32", PlyType::int32},
+      {"uint", PlyType::uint32},
+      {"uint32", PlyType::uint32},
+      {"float", PlyType::float32},
+      {"float32", PlyType::float32},
+      {"double", PlyType::float64},
       {"float64", PlyType::float64},
   }};
   for (const auto& [name, type] : kTypes)
@@ -84,7 +94,8 @@ std::size_t size_of(PlyType type) noexcept {
 PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
   constexpr const char* kLine = "a header line (format, element, property, comment, end_header)";
   TextScanner text(bytes, name);
-  if (text.rest_of_line() != "ply") text.fail("the word ply alone on the first line", "something else");
+  if (text.rest_of_line() != "ply")
+    text.fail("the word ply alone on the first line", "something else");
 
   PlyHeader header{};
   std::optional<PlyEncoding> encoding;

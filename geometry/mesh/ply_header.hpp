@@ -33,7 +33,9 @@ struct PlyHeader {
 };
 
 std::size_t size_of(PlyType type) noexcept;
-constexpr bool is_integer(PlyType type) noexcept { return type < PlyType::float32; }
+constexpr bool is_integer(PlyType type) noexcept {
+  return type < PlyType::float32;
+}
 
 /// @throws MeshError naming the line for anything that is not a header of PLY 1.0.
 PlyHeader read_ply_header(std::string_view bytes, const std::string& name);

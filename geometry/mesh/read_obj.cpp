@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <utility>
-#include <vector>
-
 #include "geometry/mesh/readers.hpp"
 #include "geometry/mesh/soup_builder.hpp"
 #include "geometry/mesh/text_scanner.hpp"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 namespace plekton::geometry {
 namespace {
 
-/// Logical lines of an OBJ file: comments cut off, lines that end in a backslash joined with the next one.
+/// Logical lines of an OBJ file: comments cut off, lines that end in a backslash joined with the
+/// next one.
 class ObjLines {
  public:
   ObjLines(std::string_view text, const std::string& name) : scanner_(text, name) {}
@@ -39,7 +40,8 @@ class ObjLines {
   /// The next word of the line; empty at its end.
   std::string_view next_word(std::size_t& position) const {
     constexpr const char* kBlanks = " \t\v\f";
-    const std::size_t begin = std::min(joined_.find_first_not_of(kBlanks, position), joined_.size());
+    const std::size_t begin =
+        std::min(joined_.find_first_not_of(kBlanks, position), joined_.size());
     position = std::min(joined_.find_first_of(kBlanks, begin), joined_.size());
     return std::string_view(joined_).substr(begin, position - begin);
   }
@@ -47,7 +49,8 @@ class ObjLines {
   /// Line number of the end of the logical line.
   std::size_t line() const noexcept { return line_; }
   [[noreturn]] void fail(std::string_view expected, std::string_view got) const {
-    scanner_.fail(expected, got.empty() ? "the end of the line" : "'" + std::string(got.substr(0, 40)) + "'");
+    scanner_.fail(expected,
+                  got.empty() ? "the end of the line" : "'" + std::string(got.substr(0, 40)) + "'");
   }
 
  private:
@@ -82,8 +85,10 @@ void read_corners(const ObjLines& lines, std::size_t position, std::size_t point
   corners.clear();
   for (auto word = lines.next_word(position); !word.empty(); word = lines.next_word(position)) {
     const auto number = parse_integer(word.substr(0, word.find('/')));
-    if (!number) lines.fail("corners of a facet (point, point/texture or point/texture/normal)", word);
-    corners.push_back(*number < 0 ? static_cast<std::int64_t>(points_so_far) + *number : *number - 1);
+    if (!number)
+      lines.fail("corners of a facet (point, point/texture or point/texture/normal)", word);
+    corners.push_back(*number < 0 ? static_cast<std::int64_t>(points_so_far) + *number
+                                  : *number - 1);
   }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <utility>
-#include <vector>
-
 #include "geometry/mesh/readers.hpp"
 #include "geometry/mesh/soup_builder.hpp"
 #include "geometry/mesh/text_scanner.hpp"
+
+#include <utility>
+#include <vector>
 
 namespace plekton::geometry {
 namespace {
@@ -16,7 +16,8 @@ std::size_t count_of(TextScanner& text, const char* what) {
 }
 
 void read_header(TextScanner& text) {
-  constexpr const char* kExpected = "the word OFF (or COFF, NOFF, CNOFF, STOFF), ASCII, 3 dimensions";
+  constexpr const char* kExpected =
+      "the word OFF (or COFF, NOFF, CNOFF, STOFF), ASCII, 3 dimensions";
   const std::string_view word = text.word(kExpected);
   const bool known = word.ends_with("OFF") &&
                      word.find_first_not_of("STCN") == word.size() - std::string_view("OFF").size();
@@ -36,7 +37,8 @@ PolygonSoup read_off(std::string_view bytes, const std::string& name) {
   soup.expect_points(point_count);
   for (std::size_t i = 0; i < point_count; ++i) {
     Vec3 point;
-    for (double& coordinate : point) coordinate = text.number("a coordinate of point " + std::to_string(i));
+    for (double& coordinate : point)
+      coordinate = text.number("a coordinate of point " + std::to_string(i));
     soup.add_point(point, text.line());
     text.rest_of_line();  // Colour, normal, texture.
   }
@@ -47,7 +49,8 @@ PolygonSoup read_off(std::string_view bytes, const std::string& name) {
     const std::size_t corner_count = count_of(text, "the number of corners of facet");
     corners.clear();
     const std::size_t line = text.line();
-    for (std::size_t k = 0; k < corner_count; ++k) corners.push_back(text.integer("a corner of " + facet));
+    for (std::size_t k = 0; k < corner_count; ++k)
+      corners.push_back(text.integer("a corner of " + facet));
     soup.add_polygon(corners, line);
     text.rest_of_line();  // Colour.
   }

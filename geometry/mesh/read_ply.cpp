@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/byte_order.hpp"
+#include "geometry/mesh/ply_header.hpp"
+#include "geometry/mesh/readers.hpp"
+#include "geometry/mesh/soup_builder.hpp"
+#include "geometry/mesh/text_scanner.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
-
-#include "geometry/mesh/byte_order.hpp"
-#include "geometry/mesh/ply_header.hpp"
-#include "geometry/mesh/readers.hpp"
-#include "geometry/mesh/soup_builder.hpp"
-#include "geometry/mesh/text_scanner.hpp"
 
 namespace plekton::geometry {
 namespace {
@@ -27,19 +27,28 @@ class PlyBody {
 
   double number(PlyType type, const char* what) {
     if (encoding_ == PlyEncoding::ascii) return text_.number(what);
-    const ByteOrder order = encoding_ == PlyEncoding::big_endian ? ByteOrder::big : ByteOrder::little;
+    const ByteOrder order =
+        encoding_ == PlyEncoding::big_endian ? ByteOrder::big : ByteOrder::little;
     require_bytes(size_of(type), what);
     const std::size_t at = position_;
     position_ += size_of(type);
     switch (type) {
-      case PlyType::int8: return load<std::int8_t>(bytes_, at, order);
-      case PlyType::uint8: return load<std::uint8_t>(bytes_, at, order);
-      case PlyType::int16: return load<std::int16_t>(bytes_, at, order);
-      case PlyType::uint16: return load<std::uint16_t>(bytes_, at, order);
-      case PlyType::int32: return load<std::int32_t>(bytes_, at, order);
-      case PlyType::uint32: return load<std::uint32_t>(bytes_, at, order);
-      case PlyType::float32: return static_cast<double>(load<float>(bytes_, at, order));
-      case PlyType::float64: return load<double>(bytes_, at, order);
+      case PlyType::int8:
+        return load<std::int8_t>(bytes_, at, order);
+      case PlyType::uint8:
+        return load<std::uint8_t>(bytes_, at, order);
+      case PlyType::int16:
+        return load<std::int16_t>(bytes_, at, order);
+      case PlyType::uint16:
+        return load<std::uint16_t>(bytes_, at, order);
+      case PlyType::int32:
+        return load<std::int32_t>(bytes_, at, order);
+      case PlyType::uint32:
+        return load<std::uint32_t>(bytes_, at, order);
+      case PlyType::float32:
+        return static_cast<double>(load<float>(bytes_, at, order));
+      case PlyType::float64:
+        return load<double>(bytes_, at, order);
     }
     return 0.0;
   }
@@ -95,11 +104,14 @@ std::size_t find(const PlyElement& element, std::string_view name) {
   return static_cast<std::size_t>(found - list.begin());
 }
 
-void read_points(PlyBody& body, const PlyElement& element, SoupBuilder& soup, const std::string& name) {
-  const std::array<std::size_t, 3> axes = {find(element, "x"), find(element, "y"), find(element, "z")};
+void read_points(PlyBody& body, const PlyElement& element, SoupBuilder& soup,
+                 const std::string& name) {
+  const std::array<std::size_t, 3> axes = {find(element, "x"), find(element, "y"),
+                                           find(element, "z")};
   for (const std::size_t axis : axes)
     if (axis == element.properties.size() || element.properties[axis].is_list)
-      throw MeshError(name + ": the vertices lack a property x, y or z; export the mesh again with positions");
+      throw MeshError(
+          name + ": the vertices lack a property x, y or z; export the mesh again with positions");
 
   for (std::uint64_t i = 0; i < element.count; ++i) {
     Vec3 point = Vec3::Zero();
@@ -108,17 +120,21 @@ void read_points(PlyBody& body, const PlyElement& element, SoupBuilder& soup, co
       if (axis == axes.end())
         body.skip(element.properties[k]);
       else
-        point[axis - axes.begin()] = body.number(element.properties[k].type, "a coordinate of a point");
+        point[axis - axes.begin()] =
+            body.number(element.properties[k].type, "a coordinate of a point");
     }
     soup.add_point(point, body.line());
   }
 }
 
-void read_faces(PlyBody& body, const PlyElement& element, SoupBuilder& soup, const std::string& name) {
+void read_faces(PlyBody& body, const PlyElement& element, SoupBuilder& soup,
+                const std::string& name) {
   const std::size_t list = std::min(find(element, "vertex_indices"), find(element, "vertex_index"));
   if (list == element.properties.size() || !element.properties[list].is_list ||
       !is_integer(element.properties[list].type))
-    throw MeshError(name + ": the faces lack an integer list vertex_indices; export the mesh again with facets");
+    throw MeshError(
+        name +
+        ": the faces lack an integer list vertex_indices; export the mesh again with facets");
 
   std::vector<std::int64_t> corners;
   for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -130,7 +146,8 @@ void read_faces(PlyBody& body, const PlyElement& element, SoupBuilder& soup, con
         continue;
       }
       const std::size_t count = body.length(property);
-      for (std::size_t c = 0; c < count; ++c) corners.push_back(body.integer(property.type, "a corner of a facet"));
+      for (std::size_t c = 0; c < count; ++c)
+        corners.push_back(body.integer(property.type, "a corner of a facet"));
     }
     soup.add_polygon(corners, body.line());
   }
@@ -156,7 +173,8 @@ PolygonSoup read_ply(std::string_view bytes, const std::string& name) {
     else if (element.name == "face")
       read_faces(body, element, soup, name);
     else if (element.name == "tristrips")
-      throw MeshError(name + ": the facets come in triangle strips; export the mesh again with single facets");
+      throw MeshError(
+          name + ": the facets come in triangle strips; export the mesh again with single facets");
     else
       skip_element(body, element);
   }

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <array>
-#include <utility>
-#include <vector>
-
 #include "geometry/mesh/byte_order.hpp"
 #include "geometry/mesh/readers.hpp"
 #include "geometry/mesh/soup_builder.hpp"
 #include "geometry/mesh/text_scanner.hpp"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
 namespace plekton::geometry {
 namespace {
 
 constexpr std::size_t kHeaderSize = 84;  // 80 bytes of anything, then the number of facets in 4
-constexpr std::size_t kFacetSize = 50;   // normal and three corners in 12 floats, then two unused bytes
+constexpr std::size_t kFacetSize =
+    50;  // normal and three corners in 12 floats, then two unused bytes
 
 bool is_text(std::string_view bytes) {
   return std::none_of(bytes.begin(), bytes.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);
-    return byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r' && byte != '\f' && byte != '\v';
+    return byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r' && byte != '\f' &&
+           byte != '\v';
   });
 }
 
@@ -34,12 +36,14 @@ bool is_binary(std::string_view bytes) {
 PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
   if (bytes.size() < kHeaderSize)
     throw MeshError(name + ": a binary STL of " + std::to_string(bytes.size()) +
-                    " bytes, but its header alone has 84; the file is cut off or of another kind; export it again");
+                    " bytes, but its header alone has 84; the file is cut off or of another kind; "
+                    "export it again");
   if (bytes.size() != claimed_size(bytes))
     throw MeshError(name + ": a binary STL whose header claims " +
-                    std::to_string((claimed_size(bytes) - kHeaderSize) / kFacetSize) + " facets, that is " +
-                    std::to_string(claimed_size(bytes)) + " bytes, but the file has " +
-                    std::to_string(bytes.size()) + "; it is cut off or damaged; export it again");
+                    std::to_string((claimed_size(bytes) - kHeaderSize) / kFacetSize) +
+                    " facets, that is " + std::to_string(claimed_size(bytes)) +
+                    " bytes, but the file has " + std::to_string(bytes.size()) +
+                    "; it is cut off or damaged; export it again");
 
   const std::size_t count = (bytes.size() - kHeaderSize) / kFacetSize;
   SoupBuilder soup(name, 0);
@@ -66,7 +70,9 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
   });
 }
 
-std::string quoted(std::string_view word) { return "'" + std::string(word.substr(0, 40)) + "'"; }
+std::string quoted(std::string_view word) {
+  return "'" + std::string(word.substr(0, 40)) + "'";
+}
 
 void expect_keyword(TextScanner& text, std::string_view keyword) {
   const std::string_view word = text.word(keyword);
@@ -82,7 +88,8 @@ void read_facet(TextScanner& text, SoupBuilder& soup, std::vector<std::int64_t>&
   expect_keyword(text, "outer");
   expect_keyword(text, "loop");
   corners.clear();
-  for (auto word = text.word("vertex or endloop"); !is_keyword(word, "endloop"); word = text.word("vertex or endloop")) {
+  for (auto word = text.word("vertex or endloop"); !is_keyword(word, "endloop");
+       word = text.word("vertex or endloop")) {
     if (!is_keyword(word, "vertex")) text.fail("vertex or endloop", quoted(word));
     Vec3 point;
     for (double& coordinate : point) coordinate = text.number("a coordinate of a corner");
@@ -102,7 +109,8 @@ PolygonSoup read_ascii(std::string_view bytes, const std::string& name) {
   do {
     expect_keyword(text, "solid");
     text.rest_of_line();  // The name, in any words.
-    for (auto word = text.word(kInSolid); !is_keyword(word, "endsolid"); word = text.word(kInSolid)) {
+    for (auto word = text.word(kInSolid); !is_keyword(word, "endsolid");
+         word = text.word(kInSolid)) {
       if (!is_keyword(word, "facet")) text.fail(kInSolid, quoted(word));
       read_facet(text, soup, corners);
     }

@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/repair.hpp"
 
+#include "geometry/mesh/edge_table.hpp"
+#include "geometry/mesh/exact_signs.hpp"
+#include "geometry/mesh/orientation.hpp"
+#include "geometry/mesh/soup_builder.hpp"
+#include "geometry/mesh/triangulate_polygon.hpp"
+#include "geometry/mesh/verdict.hpp"
+#include "geometry/mesh/weld.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,18 +19,10 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/mesh/edge_table.hpp"
-#include "geometry/mesh/exact_signs.hpp"
-#include "geometry/mesh/orientation.hpp"
-#include "geometry/mesh/soup_builder.hpp"
-#include "geometry/mesh/triangulate_polygon.hpp"
-#include "geometry/mesh/verdict.hpp"
-#include "geometry/mesh/weld.hpp"
-
 namespace plekton::geometry {
 namespace {
 
-constexpr double kWarpLimit = 0.01;          // of the size of a polygon
+constexpr double kWarpLimit = 0.05;           // of the size of a polygon
 constexpr double kNearDuplicateLimit = 1e-6;  // of the diagonal of the bounds
 
 double diagonal(std::span<const Vec3> points) {
@@ -49,7 +49,8 @@ void weld_points(PolygonSoup& soup, const RepairOptions& options, MeshReport& re
 
   report.found.near_distance = kNearDuplicateLimit * diagonal(soup.points);
   if (report.found.near_distance > 0.0)
-    report.found.near_duplicate_points = weld_near_points(soup.points, report.found.near_distance).merged - equal.merged;
+    report.found.near_duplicate_points =
+        weld_near_points(soup.points, report.found.near_distance).merged - equal.merged;
 
   report.changed.weld_distance = options.weld_distance;
   if (options.weld_distance == 0.0) return;
@@ -73,9 +74,12 @@ bool all_collinear(std::span<const Vec3> x) {
   return true;
 }
 
-NodeId node_at(std::size_t point) { return id_at<NodeId>(point); }
+NodeId node_at(std::size_t point) {
+  return id_at<NodeId>(point);
+}
 
-/// Cuts polygons into facets and drops the degenerate ones, which are kept aside for the count of slits.
+/// Cuts polygons into facets and drops the degenerate ones, which are kept aside for the count of
+/// slits.
 class FacetCutter {
  public:
   FacetCutter(const PolygonSoup& soup, MeshReport& report) : soup_(soup), report_(report) {}
@@ -132,7 +136,8 @@ void drop_duplicates(Mesh& mesh, MeshReport& report) {
   }
   std::sort(keys.begin(), keys.end());
   std::vector<bool> duplicate(mesh.facets.size(), false);
-  for (std::size_t k = 1; k < keys.size(); ++k) duplicate[keys[k].second] = keys[k - 1].first == keys[k].first;
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    duplicate[keys[k].second] = keys[k - 1].first == keys[k].first;
 
   std::vector<std::array<NodeId, 3>> kept;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f)
@@ -142,7 +147,8 @@ void drop_duplicates(Mesh& mesh, MeshReport& report) {
 }
 
 /// Sides of dropped facets that are a border now.
-std::size_t count_slits(const EdgeTable& edges, const std::vector<std::vector<std::size_t>>& dropped) {
+std::size_t count_slits(const EdgeTable& edges,
+                        const std::vector<std::vector<std::size_t>>& dropped) {
   std::vector<std::array<NodeId, 2>> sides;
   for (const auto& corners : dropped) {
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -184,12 +190,13 @@ void remove_unused_points(Mesh& mesh, MeshReport& report) {
   }
   for (auto& facet : mesh.facets)
     for (NodeId& node : facet) node = node_at(number[index_of(node)]);
-  report.changed.unused_points =
-      mesh.points.size() - points.size() - report.changed.points_merged - report.changed.points_welded;
+  report.changed.unused_points = mesh.points.size() - points.size() - report.changed.points_merged -
+                                 report.changed.points_welded;
   mesh.points = std::move(points);
 }
 
-void require_usable_options(const PolygonSoup& soup, const RepairOptions& options, const std::string& name) {
+void require_usable_options(const PolygonSoup& soup, const RepairOptions& options,
+                            const std::string& name) {
   if (!(options.weld_distance >= 0.0) || !std::isfinite(options.weld_distance))
     throw MeshError(name + ": a weld distance of " + std::to_string(options.weld_distance) +
                     " m; expected a length of 0 (only equal points) or more");
@@ -203,8 +210,9 @@ MeshReport start_report(const PolygonSoup& soup, const std::string& source) {
   report.source = source.empty() ? "mesh" : source;
   report.found.points = soup.points.size();
   report.found.polygons = soup.polygons.size();
-  report.found.non_triangles = static_cast<std::size_t>(std::count_if(
-      soup.polygons.begin(), soup.polygons.end(), [](const auto& polygon) { return polygon.size() != 3; }));
+  report.found.non_triangles = static_cast<std::size_t>(
+      std::count_if(soup.polygons.begin(), soup.polygons.end(),
+                    [](const auto& polygon) { return polygon.size() != 3; }));
   return report;
 }
 

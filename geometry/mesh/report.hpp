@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/mesh/measures.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "geometry/mesh/measures.hpp"
 
 namespace plekton::geometry {
 
@@ -28,26 +28,27 @@ struct MeshReport {
     std::size_t points = 0;
     std::size_t polygons = 0;
     std::size_t non_triangles = 0;          ///< polygons with any other number of corners than 3
-    std::size_t warped_polygons = 0;        ///< more than 1 % of their size out of plane: their shape is a matter of how they are cut
+    std::size_t warped_polygons = 0;        ///< more than 5 % of their size out of plane
     std::size_t duplicate_points = 0;       ///< equal to an earlier one
     std::size_t near_duplicate_points = 0;  ///< distinct, but within near_distance of another one
     double near_distance = 0.0;             ///< m, 1e-6 of the diagonal of the bounds
-    std::size_t inconsistent_edges = 0;     ///< ordinary edges along which both facets run the same way
+    std::size_t inconsistent_edges =
+        0;  ///< ordinary edges along which both facets run the same way
   } found;
 
   /// What repair did.
   struct Changed {
-    std::size_t points_merged = 0;           ///< equal ones
-    std::size_t points_welded = 0;           ///< distinct ones, within the weld distance
-    double weld_distance = 0.0;              ///< m
-    double largest_weld_move = 0.0;          ///< m
-    std::size_t polygons_cut = 0;            ///< into triangles
-    std::size_t repeated_node_facets = 0;    ///< dropped: less than three different nodes
-    std::size_t zero_area_facets = 0;        ///< dropped: exactly collinear
-    std::size_t duplicate_facets = 0;        ///< dropped: the nodes of an earlier one, in any order
-    std::size_t slits = 0;                   ///< edges that a dropped zero-area facet leaves open
-    std::size_t flipped_facets = 0;          ///< turned over
-    std::size_t unused_points = 0;           ///< removed: no facet uses them
+    std::size_t points_merged = 0;         ///< equal ones
+    std::size_t points_welded = 0;         ///< distinct ones, within the weld distance
+    double weld_distance = 0.0;            ///< m
+    double largest_weld_move = 0.0;        ///< m
+    std::size_t polygons_cut = 0;          ///< into triangles
+    std::size_t repeated_node_facets = 0;  ///< dropped: less than three different nodes
+    std::size_t zero_area_facets = 0;      ///< dropped: exactly collinear
+    std::size_t duplicate_facets = 0;      ///< dropped: the nodes of an earlier one, in any order
+    std::size_t slits = 0;                 ///< edges that a dropped zero-area facet leaves open
+    std::size_t flipped_facets = 0;        ///< turned over
+    std::size_t unused_points = 0;         ///< removed: no facet uses them
   } changed;
 
   MeshMeasures after;

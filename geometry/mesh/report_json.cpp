@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/report.hpp"
+
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <concepts>
 #include <optional>
 
-#include "geometry/mesh/report.hpp"
-
 namespace plekton::geometry {
 namespace {
 
-std::string json(bool value) { return value ? "true" : "false"; }
+std::string json(bool value) {
+  return value ? "true" : "false";
+}
 
-std::string json(std::integral auto value) { return std::to_string(value); }
+std::string json(std::integral auto value) {
+  return std::to_string(value);
+}
 
 std::string json(double value) {
   if (!std::isfinite(value)) return "null";
@@ -37,7 +41,9 @@ std::string json(std::string_view text) {
   return quoted + '"';
 }
 
-std::string json(const Vec3& v) { return "[" + json(v[0]) + ", " + json(v[1]) + ", " + json(v[2]) + "]"; }
+std::string json(const Vec3& v) {
+  return "[" + json(v[0]) + ", " + json(v[1]) + ", " + json(v[2]) + "]";
+}
 
 template <class Value>
 std::string json(const std::optional<Value>& value) {
@@ -122,7 +128,8 @@ std::string after_object(const MeshMeasures& after) {
 
 std::string to_json(const MeshReport& report) {
   std::string reasons;
-  for (const std::string& reason : report.reasons) reasons += (reasons.empty() ? "" : ", ") + json(std::string_view(reason));
+  for (const std::string& reason : report.reasons)
+    reasons += (reasons.empty() ? "" : ", ") + json(std::string_view(reason));
   return Object(0)
              .add("source", std::string_view(report.source))
              .add("verdict", name_of(report.verdict))

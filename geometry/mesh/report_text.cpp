@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/report.hpp"
+
 #include <array>
 #include <iomanip>
 #include <optional>
 #include <sstream>
-
-#include "geometry/mesh/report.hpp"
 
 namespace plekton::geometry {
 namespace {
@@ -26,7 +26,8 @@ class Table {
     if (count > 0) row(label, count);
   }
   template <class Value>
-  void row_if(std::string_view label, const std::optional<Value>& value, std::string_view unit = "") {
+  void row_if(std::string_view label, const std::optional<Value>& value,
+              std::string_view unit = "") {
     if (value) row(label, *value, unit);
   }
   std::string text() const { return out_.str(); }
@@ -35,7 +36,9 @@ class Table {
   std::ostringstream out_;
 };
 
-std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
+std::string yes_or_no(bool value) {
+  return value ? "yes" : "no";
+}
 
 void add_found(Table& table, const MeshReport::Found& found) {
   table.heading("found");
@@ -98,7 +101,8 @@ void add_after(Table& table, const MeshMeasures& after) {
 }  // namespace
 
 std::string_view name_of(MeshVerdict verdict) noexcept {
-  constexpr std::array<std::string_view, 4> kNames = {"ok", "repaired", "usable with warnings", "refused"};
+  constexpr std::array<std::string_view, 4> kNames = {"ok", "repaired", "usable with warnings",
+                                                      "refused"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 

@@ -25,7 +25,8 @@ std::vector<Kernel::Point_3> cgal_points(const Mesh& mesh) {
 /// Two facets, and whether they meet beyond what they share.
 class FacetPair {
  public:
-  FacetPair(const std::vector<Kernel::Point_3>& points, Facet3 a, Facet3 b) : points_(points), a_(a), b_(b) {
+  FacetPair(const std::vector<Kernel::Point_3>& points, Facet3 a, Facet3 b)
+      : points_(points), a_(a), b_(b) {
     // Shared nodes to the front of both, in the same order.
     for (std::size_t i = 0; i < 3; ++i) {
       const auto found = std::find(b_.begin() + shared_, b_.end(), a_[i]);
@@ -37,15 +38,22 @@ class FacetPair {
   }
 
   bool meet() const {
-    const Kernel::Triangle_3 ta(at(a_[0]), at(a_[1]), at(a_[2])), tb(at(b_[0]), at(b_[1]), at(b_[2]));
+    const Kernel::Triangle_3 ta(at(a_[0]), at(a_[1]), at(a_[2])),
+        tb(at(b_[0]), at(b_[1]), at(b_[2]));
     switch (shared_) {
-      case 0: return CGAL::do_intersect(ta, tb);
-      // The common part is connected and holds the shared node, so if it is more than that it reaches a far side.
-      case 1: return CGAL::do_intersect(Kernel::Segment_3(at(a_[1]), at(a_[2])), tb) ||
-                     CGAL::do_intersect(Kernel::Segment_3(at(b_[1]), at(b_[2])), ta);
-      // Two planes meet in the shared edge only; in one plane the far nodes must lie on different sides of it.
-      default: return CGAL::coplanar(at(a_[0]), at(a_[1]), at(a_[2]), at(b_[2])) &&
-                      CGAL::coplanar_orientation(at(a_[0]), at(a_[1]), at(a_[2]), at(b_[2])) == CGAL::POSITIVE;
+      case 0:
+        return CGAL::do_intersect(ta, tb);
+      // The common part is connected and holds the shared node, so if it is more than that it
+      // reaches a far side.
+      case 1:
+        return CGAL::do_intersect(Kernel::Segment_3(at(a_[1]), at(a_[2])), tb) ||
+               CGAL::do_intersect(Kernel::Segment_3(at(b_[1]), at(b_[2])), ta);
+      // Two planes meet in the shared edge only; in one plane the far nodes must lie on different
+      // sides of it.
+      default:
+        return CGAL::coplanar(at(a_[0]), at(a_[1]), at(a_[2]), at(b_[2])) &&
+               CGAL::coplanar_orientation(at(a_[0]), at(a_[1]), at(a_[2]), at(b_[2])) ==
+                   CGAL::POSITIVE;
     }
   }
 
@@ -76,10 +84,13 @@ std::vector<std::array<std::uint32_t, 2>> self_intersections(const Mesh& mesh) {
   const auto points = cgal_points(mesh);
   auto boxes = boxes_of(mesh, points);
   std::vector<std::array<std::uint32_t, 2>> pairs;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FacetBox& a, const FacetBox& b) {
-    const auto [low, high] = std::minmax(a.info(), b.info());
-    if (FacetPair(points, mesh.facets[low], mesh.facets[high]).meet()) pairs.push_back({low, high});
-  });
+  CGAL::box_self_intersection_d(
+      boxes.begin(), boxes.end(), [&](const FacetBox& a, const FacetBox& b) {
+        const auto [low, high] =
+            std::minmax({a.info(), b.info()});  // By value: info() gives temporaries.
+        if (FacetPair(points, mesh.facets[low], mesh.facets[high]).meet())
+          pairs.push_back({low, high});
+      });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
@@ -87,7 +98,8 @@ std::vector<std::array<std::uint32_t, 2>> self_intersections(const Mesh& mesh) {
 std::optional<bool> bounds_volume(const Mesh& mesh) {
   namespace PMP = CGAL::Polygon_mesh_processing;
   std::vector<std::array<std::size_t, 3>> triangles;
-  for (const auto& [a, b, c] : mesh.facets) triangles.push_back({index_of(a), index_of(b), index_of(c)});
+  for (const auto& [a, b, c] : mesh.facets)
+    triangles.push_back({index_of(a), index_of(b), index_of(c)});
   if (triangles.empty() || !PMP::is_polygon_soup_a_polygon_mesh(triangles)) return std::nullopt;
 
   CGAL::Surface_mesh<Kernel::Point_3> surface;

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/mesh/mesh.hpp"
+
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "geometry/mesh/mesh.hpp"
-
 namespace plekton::geometry {
 
-/// Collects the points and polygons that a reader finds and checks every one, so that all bad ones of a file are
-/// reported together. The number of points must be known before the first polygon is added.
+/// Collects the points and polygons that a reader finds and checks every one, so that all bad ones
+/// of a file are reported together. The number of points must be known before the first polygon is
+/// added.
 class SoupBuilder {
  public:
   /// @param name         What messages call the file.

@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\v\f\r\n";
 
-bool is_blank(char c) { return kBlanks.find(c) != std::string_view::npos; }
+bool is_blank(char c) {
+  return kBlanks.find(c) != std::string_view::npos;
+}
 
 // from_chars leaves the value alone when it does not fit; tell too large from too small.
 double out_of_range_value(std::string_view digits, bool negative) {

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/mesh/mesh.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "geometry/mesh/mesh.hpp"
-
 namespace plekton::geometry {
 
-/// A decimal number that fills a whole word, independent of the locale. "nan" and "inf" are numbers; a value too large
-/// for a double is infinite, one too small is zero. No value if the word is anything else.
+/// A decimal number that fills a whole word, independent of the locale. "nan" and "inf" are
+/// numbers; a value too large for a double is infinite, one too small is zero. No value if the word
+/// is anything else.
 std::optional<double> parse_number(std::string_view word) noexcept;
 std::optional<std::int64_t> parse_integer(std::string_view word) noexcept;
 
-/// Words of a text, separated by white space, with the line each stands in. Line ends may be LF, CR LF or CR.
+/// Words of a text, separated by white space, with the line each stands in. Line ends may be LF, CR
+/// LF or CR.
 class TextScanner {
  public:
   /// @param comment  Starts a comment that runs to the end of its line; '\0' for none.

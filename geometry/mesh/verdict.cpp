@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/verdict.hpp"
 
+#include "geometry/mesh/triangulate_polygon.hpp"
+
 #include <sstream>
 #include <string>
-
-#include "geometry/mesh/triangulate_polygon.hpp"
 
 namespace plekton::geometry {
 namespace {
@@ -19,48 +19,58 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 void add_refusals(MeshReport& report, std::span<const std::size_t> uncut) {
   constexpr std::size_t kListed = 5;
   for (std::size_t k = 0; k < uncut.size() && k < kListed; ++k)
-    report.reasons.push_back("polygon " + std::to_string(uncut[k]) +
-                             " cannot be cut into triangles: it crosses or touches itself, or has more than " +
-                             std::to_string(kLargestPolygon) +
-                             " corners; split it in the program that wrote the file");
-  if (uncut.size() > kListed) report.reasons.push_back("and " + std::to_string(uncut.size() - kListed) + " polygons more");
+    report.reasons.push_back(
+        "polygon " + std::to_string(uncut[k]) +
+        " cannot be cut into triangles: it crosses or touches itself, or has more than " +
+        std::to_string(kLargestPolygon) + " corners; split it in the program that wrote the file");
+  if (uncut.size() > kListed)
+    report.reasons.push_back("and " + std::to_string(uncut.size() - kListed) + " polygons more");
   if (report.after.facets == 0 && uncut.empty())
-    report.reasons.push_back(report.found.polygons == 0
-                                 ? "no facets; expected at least one; export the surface as a mesh"
-                                 : "no facets are left: none of the " + std::to_string(report.found.polygons) +
-                                       " polygons has an area; check the unit and the weld distance");
+    report.reasons.push_back(
+        report.found.polygons == 0
+            ? "no facets; expected at least one; export the surface as a mesh"
+            : "no facets are left: none of the " + std::to_string(report.found.polygons) +
+                  " polygons has an area; check the unit and the weld distance");
 }
 
 void warn_about_shape(MeshReport& report) {
   const MeshMeasures& after = report.after;
   auto& reasons = report.reasons;
   if (after.many_facet_edges > 0)
-    reasons.push_back(counted(after.many_facet_edges, "edge has", "edges have") + " more than two facets; they stay joined");
+    reasons.push_back(counted(after.many_facet_edges, "edge has", "edges have") +
+                      " more than two facets; they stay joined");
   if (after.non_manifold_nodes > 0)
     reasons.push_back(counted(after.non_manifold_nodes, "node joins", "nodes join") +
                       " more than one fan of facets; they stay joined");
   if (after.non_orientable_patches > 0)
-    reasons.push_back(counted(after.non_orientable_patches, "part has", "parts have") +
-                      " only one side (like a Moebius band); its facets keep the sides they came with");
+    reasons.push_back(
+        counted(after.non_orientable_patches, "part has", "parts have") +
+        " only one side (like a Moebius band); its facets keep the sides they came with");
   else if (after.inconsistent_edges > 0)
-    reasons.push_back(counted(after.inconsistent_edges, "edge has", "edges have") + " facets that face opposite sides");
+    reasons.push_back(counted(after.inconsistent_edges, "edge has", "edges have") +
+                      " facets that face opposite sides");
   if (after.self_intersections.value_or(0) > 0)
-    reasons.push_back(counted(*after.self_intersections, "pair of facets intersects", "pairs of facets intersect"));
+    reasons.push_back(counted(*after.self_intersections, "pair of facets intersects",
+                              "pairs of facets intersect"));
   if (after.smallest_angle < kSmallAngle) {
     std::ostringstream text;
-    text << "the smallest angle of a facet is " << after.smallest_angle << " deg; needles make small time steps";
+    text << "the smallest angle of a facet is " << after.smallest_angle
+         << " deg; needles make small time steps";
     reasons.push_back(text.str());
   }
 }
 
 void warn_about_changes(MeshReport& report) {
   if (report.changed.slits > 0)
-    report.reasons.push_back(counted(report.changed.slits, "edge is", "edges are") +
-                             " open where a facet without area was dropped; the nodes on both sides differ");
+    report.reasons.push_back(
+        counted(report.changed.slits, "edge is", "edges are") +
+        " open where a facet without area was dropped; the nodes on both sides differ");
   if (report.found.near_duplicate_points > report.changed.points_welded) {
     std::ostringstream text;
-    text << counted(report.found.near_duplicate_points - report.changed.points_welded, "point lies", "points lie")
-         << " within " << report.found.near_distance << " m of another one and stay apart; a weld distance would join them";
+    text << counted(report.found.near_duplicate_points - report.changed.points_welded, "point lies",
+                    "points lie")
+         << " within " << report.found.near_distance
+         << " m of another one and stay apart; a weld distance would join them";
     report.reasons.push_back(text.str());
   }
   if (report.found.warped_polygons > 0)
@@ -69,8 +79,9 @@ void warn_about_changes(MeshReport& report) {
 }
 
 bool was_repaired(const MeshReport::Changed& changed) {
-  return changed.points_welded + changed.repeated_node_facets + changed.zero_area_facets + changed.duplicate_facets +
-             changed.flipped_facets + changed.unused_points > 0;
+  return changed.points_welded + changed.repeated_node_facets + changed.zero_area_facets +
+             changed.duplicate_facets + changed.flipped_facets + changed.unused_points >
+         0;
 }
 
 }  // namespace

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/mesh/report.hpp"
+
 #include <cstddef>
 #include <span>
-
-#include "geometry/mesh/report.hpp"
 
 namespace plekton::geometry {
 
 /// Writes verdict and reasons from everything else in the report.
-/// @param uncut_polygons  Positions of polygons that could not be cut into triangles; any of them refuses the mesh.
+/// @param uncut_polygons  Positions of polygons that could not be cut into triangles; any of them
+/// refuses the mesh.
 void judge(MeshReport& report, std::span<const std::size_t> uncut_polygons);
 
 }  // namespace plekton::geometry

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/weld.hpp"
 
+#include "geometry/mesh/disjoint_sets.hpp"
+#include "geometry/mesh/mesh.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <sstream>
-
-#include "geometry/mesh/disjoint_sets.hpp"
-#include "geometry/mesh/mesh.hpp"
 
 namespace plekton::geometry {
 namespace {
@@ -37,20 +37,24 @@ Weld weld_of(std::span<const Vec3> points, DisjointSets& sets) {
 
 using Cell = std::array<std::int64_t, 3>;
 
-/// Points sorted into cubic cells, half the weld distance wide, so that all points of one cell are within reach of each
-/// other (the diagonal is 0.87 of the distance) and partners are at most two cells away.
+/// Points sorted into cubic cells, half the weld distance wide, so that all points of one cell are
+/// within reach of each other (the diagonal is 0.87 of the distance) and partners are at most two
+/// cells away.
 class CellGrid {
  public:
-  CellGrid(std::span<const Vec3> points, double distance) : cell_of_(points.size()), order_(points.size()) {
+  CellGrid(std::span<const Vec3> points, double distance)
+      : cell_of_(points.size()), order_(points.size()) {
     Vec3 lower = points[0];
     for (const Vec3& p : points) lower = lower.cwiseMin(p);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 scaled = (points[i] - lower) / (0.5 * distance);
       for (std::size_t k = 0; k < 3; ++k)
-        cell_of_[i][k] = static_cast<std::int64_t>(std::floor(scaled[static_cast<Eigen::Index>(k)]));
+        cell_of_[i][k] =
+            static_cast<std::int64_t>(std::floor(scaled[static_cast<Eigen::Index>(k)]));
     }
     std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::sort(order_.begin(), order_.end(), [&](std::size_t i, std::size_t j) { return cell_of_[i] < cell_of_[j]; });
+    std::sort(order_.begin(), order_.end(),
+              [&](std::size_t i, std::size_t j) { return cell_of_[i] < cell_of_[j]; });
     for (std::size_t k = 0; k < order_.size(); ++k) {
       if (k > 0 && cell_of_[order_[k]] == cells_.back()) continue;
       cells_.push_back(cell_of_[order_[k]]);

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/byte_order.hpp"
+#include "geometry/mesh/mesh_file.hpp"
+
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -6,16 +9,14 @@
 #include <limits>
 #include <system_error>
 
-#include "geometry/mesh/byte_order.hpp"
-#include "geometry/mesh/mesh_file.hpp"
-
 namespace plekton::geometry {
 namespace {
 
 namespace fs = std::filesystem;
 
 void append_number(std::string& text, double value) {
-  std::array<char, 32> digits;  // The shortest text that reads back as the same double needs at most 24.
+  std::array<char, 32>
+      digits;  // The shortest text that reads back as the same double needs at most 24.
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
   text.append(digits.data(), end);
 }
@@ -42,8 +43,8 @@ void append_points(std::string& text, const Mesh& mesh, const char* prefix) {
 }
 
 std::string format_off(const Mesh& mesh) {
-  std::string text =
-      "OFF\n" + std::to_string(mesh.points.size()) + ' ' + std::to_string(mesh.facets.size()) + " 0\n";
+  std::string text = "OFF\n" + std::to_string(mesh.points.size()) + ' ' +
+                     std::to_string(mesh.facets.size()) + " 0\n";
   append_points(text, mesh, "");
   append_facets(text, mesh, "3", 0);
   return text;
@@ -70,11 +71,13 @@ std::string format_ply(const Mesh& mesh) {
 Vec3 unit_normal(const std::array<Vec3, 3>& x) {
   const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
   const double length = normal.stableNorm();
-  return length > 0.0 && length < std::numeric_limits<double>::infinity() ? Vec3(normal / length) : Vec3(Vec3::Zero());
+  return length > 0.0 && length < std::numeric_limits<double>::infinity() ? Vec3(normal / length)
+                                                                          : Vec3(Vec3::Zero());
 }
 
 std::array<Vec3, 3> corners(const Mesh& mesh, const std::array<NodeId, 3>& facet) {
-  return {mesh.points[index_of(facet[0])], mesh.points[index_of(facet[1])], mesh.points[index_of(facet[2])]};
+  return {mesh.points[index_of(facet[0])], mesh.points[index_of(facet[1])],
+          mesh.points[index_of(facet[2])]};
 }
 
 std::string format_stl_ascii(const Mesh& mesh) {
@@ -112,11 +115,16 @@ std::string format_stl_binary(const Mesh& mesh) {
 
 std::string format_mesh(const Mesh& mesh, MeshFormat format) {
   switch (format) {
-    case MeshFormat::off: return format_off(mesh);
-    case MeshFormat::obj: return format_obj(mesh);
-    case MeshFormat::stl_ascii: return format_stl_ascii(mesh);
-    case MeshFormat::stl_binary: return format_stl_binary(mesh);
-    case MeshFormat::ply: return format_ply(mesh);
+    case MeshFormat::off:
+      return format_off(mesh);
+    case MeshFormat::obj:
+      return format_obj(mesh);
+    case MeshFormat::stl_ascii:
+      return format_stl_ascii(mesh);
+    case MeshFormat::stl_binary:
+      return format_stl_binary(mesh);
+    case MeshFormat::ply:
+      return format_ply(mesh);
   }
   throw MeshError("unknown mesh format");
 }
@@ -133,8 +141,9 @@ void write_mesh_file(const fs::path& path, const Mesh& mesh, MeshFormat format) 
   if (!file || error) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
-    throw MeshError(path.string() + ": cannot be written (" + std::to_string(bytes.size()) +
-                    " bytes); check that the folder exists, that it is writable and that the disk has room");
+    throw MeshError(
+        path.string() + ": cannot be written (" + std::to_string(bytes.size()) +
+        " bytes); check that the folder exists, that it is writable and that the disk has room");
   }
 }
 
