@@ -21,7 +21,7 @@ class DisjointSets {
     return i;
   }
 
-  /// @returns  true if the two were in different sets.
+  /// @returns true if the two were in different sets.
   bool unite(std::size_t i, std::size_t j) noexcept {
     i = find(i);
     j = find(j);

@@ -20,7 +20,7 @@ struct ImportedMesh {
 
 /// Reads a mesh file, repairs it and reports on it.
 /// @throws MeshError if the file cannot be read or holds bad numbers (as read_mesh_file), or if the
-/// verdict is refused.
+///         verdict is refused.
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
 }  // namespace plekton::geometry

@@ -28,8 +28,7 @@ struct Membrane {
 
 /// Thickens a mesh. Facets and edges name the nodes by their numbers in the scene.
 /// @throws MeshError if the thickness is not a positive length, the mesh has no facet, or the
-/// numbers of the nodes do
-///         not fit a NodeId.
+///         numbers of the nodes do not fit a NodeId.
 Membrane make_membrane(const Mesh& mesh, const MembraneOptions& options);
 
 }  // namespace plekton::geometry

@@ -17,9 +17,8 @@ enum class MeshFormat { off, obj, stl_ascii, stl_binary, ply };
 /// nothing is merged, dropped or cut into triangles. A file that holds no polygon is read without
 /// complaint.
 /// @throws MeshError for a file that is missing, empty, of another kind, cut off or malformed, and
-/// for coordinates that
-///         are not finite or not below kLargestCoordinate and corners that name no point, all of
-///         them in one message.
+///         for coordinates that are not finite or not below kLargestCoordinate and corners that
+///         name no point, all of them in one message.
 PolygonSoup read_mesh_file(const std::filesystem::path& path);
 
 /// The same from memory. Time and memory are linear in the size of the text, whatever counts it

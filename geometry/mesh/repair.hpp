@@ -21,14 +21,13 @@ struct RepairOptions {
 /// repeat a node, have exactly no area (decided without rounding: a needle stays) or have the nodes
 /// of an earlier one, neighbours oriented alike, and unused points removed. What is not manifold
 /// stays as it is, with its nodes shared. Nodes keep the order of the points and facets that of the
-/// polygons; the outcome does not depend on either order otherwise.
+/// polygons; otherwise the outcome depends on
+/// neither order, except for ties that find_orientation names.
 /// @param report  Its source names the mesh in messages; everything else is written anew. Verdict
-/// refused if no
-///                facet is left or a polygon cannot be cut (it crosses itself); the mesh must then
-///                not be used.
+///        refused if no facet is left or a polygon cannot be cut (it crosses itself); the mesh must
+///        then not be used.
 /// @throws MeshError for points that are not finite, corners that name no point, and a weld
-/// distance that is negative,
-///         not finite, or below the resolution of the coordinates.
+///         distance that is negative, not finite, or below the resolution of the coordinates.
 Mesh repair(const PolygonSoup& soup, const RepairOptions& options, MeshReport& report);
 
 }  // namespace plekton::geometry

@@ -26,8 +26,8 @@ inline constexpr std::size_t kLargestPolygon = 1024;
 /// their neighbours. Convex quadrilaterals are cut along the shorter diagonal, others by removing
 /// ears.
 /// @param x  m. Corners in order, at least three, neighbours distinct, not all on one line.
-/// @returns  No value if the polygon crosses or touches itself in every view, or has more than
-/// kLargestPolygon corners.
+/// @returns No value if the polygon crosses or touches itself in every view, or has more than
+///          kLargestPolygon corners.
 std::optional<PolygonTriangles> triangulate_polygon(std::span<const Vec3> x);
 
 /// Largest distance (m) of a corner from the plane through the mean of the corners along their mean

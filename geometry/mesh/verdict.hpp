@@ -10,7 +10,7 @@ namespace plekton::geometry {
 
 /// Writes verdict and reasons from everything else in the report.
 /// @param uncut_polygons  Positions of polygons that could not be cut into triangles; any of them
-/// refuses the mesh.
+///        refuses the mesh.
 void judge(MeshReport& report, std::span<const std::size_t> uncut_polygons);
 
 }  // namespace plekton::geometry

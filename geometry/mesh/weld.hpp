@@ -25,7 +25,7 @@ Weld weld_equal_points(std::span<const Vec3> points);
 /// their positions are independent of the order of the points. n log n while few points fall into
 /// one ball of that radius.
 /// @throws MeshError if the distance is below 1e-12 of the extent of the points, where it is no
-/// better than rounding.
+///         better than rounding.
 Weld weld_near_points(std::span<const Vec3> points, double distance);
 
 }  // namespace plekton::geometry

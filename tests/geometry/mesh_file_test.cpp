@@ -5,6 +5,7 @@
 #include "geometry/mesh/generators.hpp"
 #include "geometry/mesh/repair.hpp"
 #include "geometry/mesh/text_scanner.hpp"
+#include "tests/support/full_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -92,6 +93,20 @@ TEST(MeshFile, SaysWhyAFileCannotBeWrittenAndLeavesNone) {
   EXPECT_THROW(write_mesh_file(folder / "none/a.off", box_shell({1.0, 1.0, 1.0})), MeshError);
   EXPECT_THROW(write_mesh_file(folder / "a.step", box_shell({1.0, 1.0, 1.0})), MeshError);
   EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(MeshFile, KeepsTheOldFileWhenTheDiskFillsUp) {
+  const test::TemporaryFolder folder;
+  write_mesh_file(folder / "a.off", box_shell({1.0, 1.0, 1.0}));
+  const std::string before = test::bytes_of(folder / "a.off");
+
+  {
+    const test::FileSizeLimit limit(1000);
+    EXPECT_THROW(write_mesh_file(folder / "a.off", icosphere(1.0, 4)), MeshError);
+  }
+
+  EXPECT_EQ(test::bytes_of(folder / "a.off"), before);
+  EXPECT_THAT(folder.names(), ElementsAre("a.off"));
 }
 
 TEST(MeshFile, TellsBinaryFromAsciiStlByContent) {
