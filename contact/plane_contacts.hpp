@@ -39,11 +39,11 @@ class PlaneContacts {
   /// Force (N) of all bodies on a plane in the last step.
   Vec3 force_on(std::size_t plane) const;
 
-  /// Calls visit(ball's node, parameters, gap) for every touching pair.
+  /// Calls visit(ball's node, plane, parameters) for every touching pair.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
     records_.for_each([&](const PlaneForce& record) {
-      visit(record.a, slots_[record.contact].parameters, slots_[record.contact].gap);
+      visit(record.a, record.plane, slots_[record.contact].parameters);
     });
   }
 

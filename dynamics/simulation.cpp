@@ -67,6 +67,17 @@ contact::ContactMaterials<Law> contact_materials(const Scene& scene, const geome
   return {contact::MaterialPairs<Law>(scene.materials), scene.sphere_materials, std::move(of_structures)};
 }
 
+/// Radius (m) of the ball around each node; 0 where there is none.
+std::vector<double> node_radii(const Scene& scene, const geometry::Surface& surface) {
+  std::vector<double> radii(scene.state.size(), 0.0);
+  for (std::size_t n = 0; n < radii.size(); ++n) {
+    const auto structure = surface.structure_of(geometry::id_at<NodeId>(n));
+    if (structure != geometry::StructureId{-1}) radii[n] = surface.radius(structure);
+  }
+  for (const geometry::Sphere& sphere : scene.elements.spheres) radii[index_of(sphere.nodes[0])] = sphere.radius;
+  return radii;
+}
+
 /// A node that is held in place does not have to be kept out of walls.
 std::vector<bool> free_nodes(const NodeProperties& properties) {
   std::vector<bool> is_free(properties.size());
@@ -171,6 +182,28 @@ Energy Simulation<Law>::energy() const {
   return energy;
 }
 
+/// Every touching pair, at the overlap it has.
+template <contact::ContactLaw Law>
+void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
+  const auto& x = scene_.state.position;
+  const std::vector<double> radius = node_radii(scene_, surface_);
+  const auto stiffness_of = [](const typename Law::Parameters& parameters) {
+    return ContactStiffness{Law::normal_stiffness(parameters, 0.0), Law::tangential_stiffness(parameters, 0.0)};
+  };
+  contacts_.with_spheres().for_each_touching([&](NodeId a, NodeId b, const auto& parameters, double) {
+    const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
+    stiffness.add_pair({a, radius[index_of(a)]}, {b, radius[index_of(b)]}, normal, stiffness_of(parameters));
+  });
+  contacts_.with_surfaces().for_each_touching([&](NodeId ball, const auto& core, const auto& parameters) {
+    const Vec3 normal = (geometry::position(core, x) - x[index_of(ball)]).normalized();
+    const double surface_radius = radius[index_of(core.nodes[0])];
+    stiffness.add_on_surface({ball, radius[index_of(ball)]}, core, surface_radius, normal, stiffness_of(parameters));
+  });
+  contacts_.with_planes().for_each_touching([&](NodeId ball, std::size_t plane, const auto& parameters) {
+    stiffness.add_to_wall({ball, radius[index_of(ball)]}, scene_.planes[plane].normal, stiffness_of(parameters));
+  });
+}
+
 template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::critical_step() const {
   NodalStiffness stiffness(scene_.state.size());
@@ -180,10 +213,10 @@ CriticalStep Simulation<Law>::critical_step() const {
     const geometry::Sphere& sphere = scene_.elements.spheres[i];
     const auto material = scene_.sphere_materials[i];
     const auto parameters = pairs.combine(material, sphere.radius, material, sphere.radius);
-    stiffness.add_dense_packing(sphere.nodes[0], Law::normal_stiffness(parameters, 0.0),
-                                Law::tangential_stiffness(parameters, 0.0), sphere.radius);
+    stiffness.add_dense_packing({sphere.nodes[0], sphere.radius}, Law::normal_stiffness(parameters, 0.0),
+                                Law::tangential_stiffness(parameters, 0.0));
   }
-  contacts_.add_stiffness(stiffness);
+  add_contacts_to(stiffness);
   return stiffness.critical_step(scene_.properties);
 }
 

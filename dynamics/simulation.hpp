@@ -67,6 +67,7 @@ class Simulation {
   void account(const StepWork& work);
   void move_planes();
   double gravity_energy(double before) const;
+  void add_contacts_to(NodalStiffness& stiffness) const;
 
   Scene scene_;
   MotionOptions motion_;
