@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/node_state.hpp"
+#include "dynamics/structure/beam_bond.hpp"
+#include "geometry/proximity.hpp"
+
+#include <limits>
+#include <vector>
+
+namespace plekton::dynamics {
+
+/// Largest time step at which the leapfrog is stable, or a little less, and who limits it.
+struct CriticalStep {
+  double dt =
+      std::numeric_limits<double>::infinity();  ///< s; infinite if nothing is stiff and free
+  NodeId node{-1};                              ///< -1 if the step is infinite
+  bool rotation = false;  ///< it is the rotation of the node that limits the step
+};
+
+/// Springs of a contact between a and b.
+struct ContactStiffness {
+  Vec3 normal;                  ///< unit
+  double normal_stiffness;      ///< N/m
+  double tangential_stiffness;  ///< N/m
+  double arm_a;                 ///< m, from the core point of a to the contact point
+  double arm_b;                 ///< m, likewise of b
+};
+
+/// Sums of the stiffness around each node, for a time step that is safe.
+///
+/// The leapfrog is stable for dt < 2 / omega, omega² the largest eigenvalue of K x = omega² M x.
+/// Each spring, of stiffness k and elongation g.x, is put under a diagonal one: for any scales s >
+/// 0
+///
+///     k (g.x)² <= sum_i d_i x_i²,   d_i = k (sum_j |g_j| s_j) |g_i| / s_i         (Cauchy,
+///     Schwarz)
+///
+/// The sum D of all of them is then above K, omega² <= max D_i / M_i, and dt = 2 sqrt(min M_i /
+/// D_i) is never above the true limit, also with the coupling of translations and rotations by
+/// shear, which sums of the diagonal of K alone would miss. Holding nodes only lowers omega.
+/// Translations and rotations of a node are kept as one matrix each, of which the largest
+/// eigenvalue counts.
+///
+/// The scale of a rotation against a translation is free; the choices here are those that fit nodes
+/// with the inertia of their own ball, 2/5 m r² (see the functions). For other inertias the step
+/// stays safe, but falls short of the limit by more.
+///
+/// K is that of the springs as they are now: contacts that open, slide or begin later change it, so
+/// leave a margin, and ask again as a simulation goes on.
+class NodalStiffness {
+ public:
+  explicit NodalStiffness(std::size_t node_count);
+
+  /// Adds a bond as long as it is now, its nodes turned little from the chord (less than 45
+  /// degrees). Tension is included: it resists turning of the chord. So a bond may shorten its step
+  /// as it stretches. A bond of length 0 counts as long as at rest.
+  ///
+  /// Let gamma = 4 rho² / L², rho² = 2/5 A / pi the square of a node's radius of gyration: the
+  /// scale at which translation and rotation limit an unloaded beam alike. For equal beams in a
+  /// chain this gives omega² <= (E / density) / L² (7.5 + 12 A / (pi L²)), which is what Fried's
+  /// theorem gives for single elements, exact for slender ones.
+  void add_beam(const BeamBond& bond, const NodeState& state);
+
+  /// Adds a contact between two balls.
+  void add_pair(NodeId a, NodeId b, const ContactStiffness& contact);
+
+  /// Adds a contact between a ball and a surface, whose nodes share in it by the weights of the
+  /// core point.
+  void add_on_surface(NodeId ball, const geometry::CorePoint& core,
+                      const ContactStiffness& contact);
+
+  /// Adds a contact between a ball and a wall, which does not yield. arm_b has no meaning here.
+  void add_to_wall(NodeId ball, const ContactStiffness& contact);
+
+  /// Adds contacts to a sphere as if it lay among others of its size in the densest packing: 12
+  /// contacts, evenly distributed, so that a third of each acts in any direction. In a mixture it
+  /// is the smallest grains that limit the step. A ball among n larger ones has the stiffness n 2 /
+  /// (1 + size ratio) k, with n at most 12, 9, 6 and 4 for ratios down to 0.90, 0.73, 0.41 and 0.22
+  /// (Tammes' problem): never more than 5 % above 12 k. For a ball that is softer than its
+  /// neighbours, give the stiffness of its contact with the hardest.
+  /// @param radius      m, of the sphere
+  /// @param normal, tangential  N/m, of a contact between two such spheres
+  void add_dense_packing(NodeId sphere, double normal, double tangential, double radius);
+
+  /// Complexity: linear in the number of nodes.
+  CriticalStep critical_step(const NodeProperties& properties) const;
+
+ private:
+  void add_contact_end(NodeId node, const ContactStiffness& contact, double arm, double factor);
+
+  std::vector<Mat3> translation_;  // N/m
+  std::vector<Mat3> rotation_;     // N m
+};
+
+}  // namespace plekton::dynamics
