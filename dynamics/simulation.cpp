@@ -182,42 +182,50 @@ Energy Simulation<Law>::energy() const {
   return energy;
 }
 
-/// Every touching pair, at the overlap it has.
+/// Every touching pair, as it is now.
 template <contact::ContactLaw Law>
 void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
   const auto& x = scene_.state.position;
   const std::vector<double> radius = node_radii(scene_, surface_);
-  const auto stiffness_of = [](const typename Law::Parameters& parameters) {
-    return ContactStiffness{Law::normal_stiffness(parameters, 0.0), Law::tangential_stiffness(parameters, 0.0)};
+  const auto contact = [&](const Vec3& normal, const typename Law::Parameters& parameters, NodeId a, NodeId b) {
+    return ContactStiffness{normal, Law::normal_stiffness(parameters, 0.0), Law::tangential_stiffness(parameters, 0.0),
+                            radius[index_of(a)], radius[index_of(b)]};
   };
   contacts_.with_spheres().for_each_touching([&](NodeId a, NodeId b, const auto& parameters, double) {
     const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
-    stiffness.add_pair({a, radius[index_of(a)]}, {b, radius[index_of(b)]}, normal, stiffness_of(parameters));
+    stiffness.add_pair(a, b, contact(normal, parameters, a, b));
   });
   contacts_.with_surfaces().for_each_touching([&](NodeId ball, const auto& core, const auto& parameters) {
     const Vec3 normal = (geometry::position(core, x) - x[index_of(ball)]).normalized();
-    const double surface_radius = radius[index_of(core.nodes[0])];
-    stiffness.add_on_surface({ball, radius[index_of(ball)]}, core, surface_radius, normal, stiffness_of(parameters));
+    stiffness.add_on_surface(ball, core, contact(normal, parameters, ball, core.nodes[0]));
   });
   contacts_.with_planes().for_each_touching([&](NodeId ball, std::size_t plane, const auto& parameters) {
-    stiffness.add_to_wall({ball, radius[index_of(ball)]}, scene_.planes[plane].normal, stiffness_of(parameters));
+    stiffness.add_to_wall(ball, contact(scene_.planes[plane].normal, parameters, ball, ball));
   });
 }
 
 template <contact::ContactLaw Law>
-CriticalStep Simulation<Law>::critical_step() const {
-  NodalStiffness stiffness(scene_.state.size());
-  for (const BeamBond& bond : scene_.bonds) stiffness.add_beam(bond, scene_.state);
+void Simulation<Law>::add_dense_packing_to(NodalStiffness& stiffness) const {
   const contact::MaterialPairs<Law> pairs(scene_.materials);
   for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
     const geometry::Sphere& sphere = scene_.elements.spheres[i];
     const auto material = scene_.sphere_materials[i];
     const auto parameters = pairs.combine(material, sphere.radius, material, sphere.radius);
-    stiffness.add_dense_packing({sphere.nodes[0], sphere.radius}, Law::normal_stiffness(parameters, 0.0),
-                                Law::tangential_stiffness(parameters, 0.0));
+    stiffness.add_dense_packing(sphere.nodes[0], Law::normal_stiffness(parameters, 0.0),
+                                Law::tangential_stiffness(parameters, 0.0), sphere.radius);
   }
-  add_contacts_to(stiffness);
-  return stiffness.critical_step(scene_.properties);
+}
+
+template <contact::ContactLaw Law>
+CriticalStep Simulation<Law>::critical_step() const {
+  NodalStiffness now(scene_.state.size());
+  for (const BeamBond& bond : scene_.bonds) now.add_beam(bond, scene_.state);
+  NodalStiffness packed = now;
+  add_contacts_to(now);
+  add_dense_packing_to(packed);
+  const CriticalStep step_now = now.critical_step(scene_.properties);
+  const CriticalStep step_packed = packed.critical_step(scene_.properties);
+  return step_now.dt < step_packed.dt ? step_now : step_packed;
 }
 
 template class Simulation<contact::LinearFrictional>;

@@ -68,6 +68,7 @@ class Simulation {
   void move_planes();
   double gravity_energy(double before) const;
   void add_contacts_to(NodalStiffness& stiffness) const;
+  void add_dense_packing_to(NodalStiffness& stiffness) const;
 
   Scene scene_;
   MotionOptions motion_;

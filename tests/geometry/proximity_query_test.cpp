@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/proximity_query.hpp"
+
+#include "geometry/mesh/generators.hpp"
+#include "geometry/primitive_pairs.hpp"
+#include "tests/support/seeded_random.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plekton::geometry {
+namespace {
+
+/// A sheet with a free cylinder at its corner and spheres around it.
+struct Model {
+  Elements elements;
+  std::vector<Vec3> x;
+};
+
+Model random_model(test::Random& random, int sphere_count) {
+  const Mesh mesh = plane_sheet({.width = 1.0, .length = 1.0, .cells_x = 4, .cells_y = 4});
+  Model model;
+  model.x = mesh.points;
+  for (Vec3& point : model.x) point.z() += random.uniform(-0.05, 0.05);
+  for (const auto& nodes : mesh.facets) model.elements.facets.push_back({nodes, 0.02});
+  model.x.push_back(Vec3(0.8, 0.8, 0.3));
+  model.elements.cylinders.push_back({{NodeId{0}, id_at<NodeId>(model.x.size() - 1)}, 0.02});
+  for (int i = 0; i < sphere_count; ++i) {
+    model.elements.spheres.push_back({{id_at<NodeId>(model.x.size())}, random.uniform(0.02, 0.1)});
+    model.x.push_back(random.in_cube(0.6));
+  }
+  return model;
+}
+
+std::vector<Proximity> brute_force(const Model& model, const Surface& surface, double largest_gap) {
+  std::vector<Proximity> found;
+  const auto& spheres = model.elements.spheres;
+  const auto keep = [&](const Proximity& p) {
+    if (p.gap < largest_gap) found.push_back(p);
+  };
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    for (std::size_t j = i + 1; j < spheres.size(); ++j) keep(proximity(spheres[i], spheres[j], model.x));
+  }
+  for (const Sphere& sphere : spheres) {
+    for (std::size_t c = 0; c < surface.cell_count(); ++c) keep(proximity(sphere, surface, id_at<CellId>(c), model.x));
+  }
+  return found;
+}
+
+TEST(ProximityQuery, FindsWhatBruteForceFindsWhileEverythingMoves) {
+  test::Random random(3);
+  Model model = random_model(random, 40);
+  constexpr double kLargestGap = 0.03;
+  ProximityQuery query(model.elements, model.x.size(), kLargestGap);
+
+  for (int step = 0; step < 100; ++step) {
+    for (Vec3& point : model.x) point += random.in_cube(0.01);
+    const auto expected = brute_force(model, query.surface(), kLargestGap);
+    const auto found = query.find(model.x);
+
+    ASSERT_EQ(found.size(), expected.size()) << "step " << step;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].a.nodes, expected[i].a.nodes);
+      EXPECT_EQ(found[i].b.feature, expected[i].b.feature);
+      EXPECT_EQ(found[i].gap, expected[i].gap);
+    }
+  }
+}
+
+TEST(ProximityQuery, RefusesALargestGapThatIsNotPositive) {
+  EXPECT_THROW(ProximityQuery({}, 0, 0.0), std::invalid_argument);
+  EXPECT_THROW(ProximityQuery({}, 0, -1.0), std::invalid_argument);
+}
+
+TEST(PrimitivePairs, PutTheContactPointHalfTheGapAwayFromBothSurfaces) {
+  test::Random random(8);
+  const Model model = random_model(random, 10);
+  const Surface surface(model.elements.cylinders, model.elements.facets, model.x.size());
+
+  for (const Sphere& sphere : model.elements.spheres) {
+    for (std::size_t c = 0; c < surface.cell_count(); ++c) {
+      const Proximity p = proximity(sphere, surface, id_at<CellId>(c), model.x);
+      const Vec3 from_a = position(p.a, model.x) + p.arm_a * p.normal;
+      const Vec3 from_b = position(p.b, model.x) - p.arm_b * p.normal;
+
+      EXPECT_NEAR((from_a - from_b).norm(), 0.0, 1e-14);
+      EXPECT_NEAR(p.arm_a + p.arm_b, p.gap + sphere.radius + 0.02, 1e-15);
+    }
+  }
+}
+
+TEST(PrimitivePairs, AgreeBitForBitAboutAFootOnACommonEdge) {
+  const std::vector<Vec3> x{{0, 0, 0}, {1, 0, 0.1}, {0.3, 1, 0}, {0.4, -1, 0}, {0.37, 0.01, 0.4}};
+  const std::vector<Facet> facets{{{NodeId{0}, NodeId{1}, NodeId{2}}, 0.1}, {{NodeId{1}, NodeId{0}, NodeId{3}}, 0.1}};
+  const Surface surface({}, facets, x.size());
+  std::vector<Vec3> at = x;
+  at[4] = Vec3(0.4, 0.0, 0.4);  // above a ridge: both facets answer with their common edge
+  at[2].z() = at[3].z() = -0.5;
+  const Sphere sphere{{NodeId{4}}, 0.2};
+
+  const Proximity p = proximity(sphere, surface, CellId{0}, at);
+  const Proximity q = proximity(sphere, surface, CellId{1}, at);
+
+  ASSERT_EQ(p.b.feature.kind, FeatureKind::edge);
+  EXPECT_EQ(p.b.feature, q.b.feature);
+  EXPECT_EQ(p.gap, q.gap);
+  EXPECT_EQ(p.normal, q.normal);
+  EXPECT_EQ(p.b.weights, q.b.weights);
+}
+
+}  // namespace
+}  // namespace plekton::geometry
