@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/moving_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace plekton::test {
+namespace {
+
+bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+
+TEST(Contacts, GiveTheSameBitsForAnyNumberOfThreads) {
+  constexpr int kSpheres = 800;  // several chunks of contacts for each thread
+  MovingScene one(kSpheres, 0.05, 1, 1);
+  MovingScene two(kSpheres, 0.05, 1, 2);
+  MovingScene four(kSpheres, 0.05, 1, 4);
+  for (int step = 0; step < 200; ++step) {
+    for (MovingScene* scene : {&one, &two, &four}) scene->step(2e-3);
+    for (const MovingScene* scene : {&two, &four}) {
+      ASSERT_TRUE(same_bits(scene->forces().force, one.forces().force)) << "step " << step;
+      ASSERT_TRUE(same_bits(scene->forces().torque, one.forces().torque)) << "step " << step;
+      ASSERT_EQ(scene->contacts().dissipated(), one.contacts().dissipated());
+      ASSERT_EQ(scene->contacts().counts().sphere_surface, one.contacts().counts().sphere_surface);
+    }
+  }
+  const ContactCounts counts = one.contacts().counts();
+  EXPECT_GE(counts.sphere_sphere, 600u);
+  EXPECT_GE(counts.sphere_surface, 200u);
+  EXPECT_GE(counts.with_planes, 200u);
+}
+
+TEST(Contacts, KeepTheirHistoriesWhenTheListsAreMadeAnew) {
+  // The wider skin lists other pairs, in other places of the lists; what touches does not depend on
+  // it.
+  MovingScene wide(300, 0.5, 2, 1);
+  MovingScene narrow(300, 1e-3, 2, 1);
+  MovingScene none(300, 0.0, 2, 1);
+  for (int step = 0; step < 200; ++step) {
+    for (MovingScene* scene : {&wide, &narrow, &none}) scene->step(2e-3);
+    for (const MovingScene* scene : {&narrow, &none}) {
+      ASSERT_TRUE(same_bits(scene->forces().force, wide.forces().force)) << "step " << step;
+      ASSERT_TRUE(same_bits(scene->forces().torque, wide.forces().torque)) << "step " << step;
+    }
+  }
+  EXPECT_EQ(wide.contacts().neighbours().rebuild_count(), 1);
+  EXPECT_GE(narrow.contacts().neighbours().rebuild_count(), 50);
+  // The sum over the chunks is in another order.
+  EXPECT_NEAR(narrow.contacts().dissipated(), wide.contacts().dissipated(),
+              1e-12 * wide.contacts().dissipated());
+}
+
+/// One sphere that slides on a plane, the lists made anew every few steps.
+TEST(Contacts, LoadOneSpringWhileASphereSlidesOnAPlane) {
+  const std::vector<Sphere> spheres{{{NodeId{0}}, 0.5}};
+  const Surface surface({}, {}, 1);
+  const Material material{1e6, 0.5, 1e3};
+  Contacts<LinearFrictional> contacts(
+      spheres, surface, {MaterialPairs<LinearFrictional>({material}), {MaterialId{0}}, {}}, 0.05);
+  const std::vector<Plane> planes{{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}}};
+  std::vector<Vec3> x{Vec3(0, 0, 0.49)};
+  const std::vector<Vec3> v{Vec3(0.01, 0.02, 0)};
+  const std::vector<Vec3> w{Vec3::Zero()};
+  geometry::ThreadPool pool;
+  for (int step = 1; step <= 100; ++step) {
+    x[0] += v[0];
+    contacts.advance({x, v, w}, planes, 1.0, pool);
+    NodeForces forces(1);
+    contacts.add_forces(forces, pool);
+    const Vec3 expected = -0.5e6 * 0.5 * step * v[0];
+    ASSERT_NEAR((forces.force[0] - forces.force[0][2] * Vec3::UnitZ() - expected).norm(), 0.0,
+                1e-9 * expected.norm());
+  }
+  EXPECT_GE(contacts.neighbours().rebuild_count(), 30);
+}
+
+}  // namespace
+}  // namespace plekton::test

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/contact_surfaces.hpp"
+
+#include <gtest/gtest.h>
+
+/// A grain of radius 1 pressed on nets and on plates with a hole: it is never pulled in, and what
+/// carries it grows with depth.
+namespace plekton::test {
+namespace {
+
+constexpr double kDeepest = 0.05;  ///< m, overlap
+constexpr double kStep = 0.001;    ///< m
+
+/// Distance in the plane from a point to the nearest core point; 0 over a facet.
+double distance_in_plane(const Vec3& p, const Surface& surface, Positions x) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < surface.edge_count(); ++e) {
+    const auto& n = surface.nodes_of(id_at<EdgeId>(e));
+    const Vec3 u = x[index_of(n[1])] - x[index_of(n[0])];
+    const Vec3 w = p - x[index_of(n[0])];
+    nearest = std::min(nearest, (w - std::clamp(w.dot(u) / u.squaredNorm(), 0.0, 1.0) * u).norm());
+  }
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    const auto& n = surface.nodes_of(id_at<FaceId>(f));
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      inside =
+          inside &&
+          (x[index_of(n[(k + 1) % 3])] - x[index_of(n[k])]).cross(p - x[index_of(n[k])])[2] >= 0.0;
+    }
+    if (inside) nearest = 0.0;
+  }
+  return nearest;
+}
+
+/// Presses a grain down over a place in the plane z = 0 and expects a force upwards that grows with
+/// depth.
+class Press {
+ public:
+  Press(const Complex& complex, double radius)
+      : x_(complex.x),
+        surface_(complex.surface()),
+        range_(1.0 + radius),
+        cells_(all_cells(surface_)),
+        finder_(surface_) {}
+
+  void down_at(const Vec3& place) {
+    SCOPED_TRACE(::testing::Message() << "place " << place.transpose());
+    const double across = distance_in_plane(place, surface_, x_);
+    double last = 0.0;
+    for (double overlap = kStep; overlap < kDeepest + 0.5 * kStep; overlap += kStep) {
+      const double distance = range_ - overlap;
+      // A grain over an aperture falls through: even on a single rim its vertical force u sqrt(d² -
+      // a²) / d, with u = range - d, falls from where a² range > d³.
+      if (across * across * range_ > distance * distance * distance) return;
+      const Vec3 centre(place[0], place[1], std::sqrt(distance * distance - across * across));
+
+      const TotalContact total = total_contact(finder_, centre, range_, cells_, x_);
+
+      ASSERT_NEAR(total.weight, total.patches, 1e-11);
+      ASSERT_GT(total.force[2], 0.0) << "overlap " << overlap;
+      ASSERT_GE(total.force[2], last) << "overlap " << overlap;
+      last = total.force[2];
+      most_sideways_ = std::max(most_sideways_, total.force.head<2>().norm() / total.force.norm());
+      ++pressed_;
+    }
+  }
+
+  int pressed() const { return pressed_; }
+  double most_sideways() const { return most_sideways_; }
+
+ private:
+  std::vector<Vec3> x_;
+  Surface surface_;
+  double range_;
+  std::vector<CellId> cells_;
+  PatchFinder finder_;
+  int pressed_ = 0;
+  double most_sideways_ = 0.0;
+};
+
+/// Square net of a spacing, wide enough for all that is in range of the grain.
+Complex square_net(double spacing, double wire_radius) {
+  const double reach =
+      std::min(1.0 + wire_radius, std::sqrt(2.0 * kDeepest * (1.0 + wire_radius)) + spacing);
+  const int n = 2 * static_cast<int>(std::ceil(reach / spacing)) + 2;
+  return centred(net(n), n, spacing);
+}
+
+TEST(GrainOnANet, IsPushedOutHarderTheDeeperItIs) {
+  Random random(1);
+  for (const double wire_radius : {0.05, 0.1, 0.2}) {
+    for (const double aperture : {2.0, 1.5, 1.0, 0.7, 0.5, 0.3, 0.2, 0.1, 0.05}) {
+      SCOPED_TRACE(::testing::Message()
+                   << "wire radius " << wire_radius << ", aperture " << aperture);
+      Press press(square_net(aperture, wire_radius), wire_radius);
+      for (const Vec3& place : {Vec3(0.5, 0.5, 0), Vec3(0, 0.5, 0), Vec3(0, 0, 0),
+                                Vec3(0.25, 0.25, 0), Vec3(1e-6, 0.5, 0)}) {
+        press.down_at(aperture * place);
+      }
+      for (int k = 0; k < 15; ++k) press.down_at(aperture * Vec3(random.unit(), random.unit(), 0));
+      EXPECT_GE(press.pressed(), 800);
+    }
+  }
+}
+
+TEST(GrainOnAPlateWithAHole, IsPushedOutHarderTheDeeperItIs) {
+  Random random(2);
+  for (const int corners : {3, 4, 6, 7, 8, 12, 24, 48, 96}) {
+    for (const double rim : {0.1, 0.25, 0.5, 0.8}) {
+      SCOPED_TRACE(::testing::Message() << corners << " corners, rim radius " << rim);
+      Press press(plate_with_hole(corners, rim, 3.0), 0.05);
+      const double half_side = std::numbers::pi / corners;
+      press.down_at(rim * std::cos(half_side) * Vec3(std::cos(half_side), std::sin(half_side), 0));
+      press.down_at(Vec3(rim, 0, 0));
+      press.down_at(Vec3(1e-6 * rim, 0, 0));
+      for (int k = 0; k < 20; ++k) {
+        const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
+        press.down_at(random.uniform(0.0, 1.1) * rim * Vec3(std::cos(angle), std::sin(angle), 0));
+      }
+      EXPECT_GE(press.pressed(), 1000);
+    }
+  }
+}
+
+TEST(GrainOnAPlateWithAHole, IsCarriedStraightUpOverTheMiddle) {
+  for (const int corners : {3, 4, 6, 8, 12, 24, 48, 96}) {
+    for (const double rim : {0.1, 0.25, 0.5, 0.8}) {
+      Press press(plate_with_hole(corners, rim, 3.0), 0.05);
+
+      press.down_at(Vec3::Zero());
+
+      EXPECT_LT(press.most_sideways(), 1e-9) << corners << " corners, rim radius " << rim;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plekton::test

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/ball_on_surface.hpp"
+
+#include <gtest/gtest.h>
+
+/// The tangential spring of a contact follows the ball, whatever elements it crosses.
+namespace plekton::test {
+namespace {
+
+/// No sliding within the tests below.
+constexpr Material kRough{1e6, 0.5, 1e3};
+constexpr Material kSliding{1e6, 0.5, 0.3};
+
+Vec3 tangential(const ContactRow& row) {
+  return row.tangential_force;
+}
+
+TEST(SlidingBall, LoadsOneSpringAllTheWayOverAFlatMesh) {
+  // Without spin the contact point moves with the ball: F = k_s s, opposite to the motion.
+  const double spacing = 0.25;
+  const double height = 0.95;
+  for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(1, -1, 0), Vec3(0.9, 0.37, 0)}) {
+    for (const double step : {0.004, 0.03, 0.6}) {
+      SCOPED_TRACE(::testing::Message()
+                   << "direction " << direction.transpose() << ", step " << step);
+      BallOnSurface ball(centred(sheet(16), 16, spacing), 0.9, kRough);
+      const Vec3 stride = step * direction.normalized();
+      ball.put(Vec3(-0.9 * direction.normalized() + height * Vec3::UnitZ()));
+      const int steps = static_cast<int>(1.8 / step);
+      for (int k = 1; k <= steps; ++k) {
+        const Vec3 force = ball.move(stride);
+
+        const Vec3 expected = -ball.parameters().tangential_stiffness * k * stride;
+        ASSERT_NEAR((force - force[2] * Vec3::UnitZ() - expected).norm(), 0.0,
+                    1e-9 * expected.norm());
+        ASSERT_EQ(ball.contacts().touching(), 1u);
+      }
+    }
+  }
+}
+
+TEST(SlidingBall, KeepsItsSpringOverMeshesThatAreFlatButForRounding) {
+  Random random(1);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Mat3 turn = random.rotation();
+    BallOnSurface ball(rotated(centred(sheet(16), 16, 0.25), turn), 0.9, kRough);
+    ball.put(turn * Vec3(-1.0, -0.75, 0.95));
+    const Vec3 stride = turn * Vec3(0.01, 0, 0);  // along a line of edges
+    for (int k = 1; k <= 180; ++k) {
+      const Vec3 force = ball.move(stride);
+      const Vec3 expected = -ball.parameters().tangential_stiffness * k * stride;
+      const Vec3 normal = turn.col(2);
+      ASSERT_NEAR((force - force.dot(normal) * normal - expected).norm(), 0.0,
+                  1e-9 * expected.norm());
+    }
+  }
+}
+
+TEST(SlidingBall, FeelsCoulombsForceAtEveryStepOnceItSlides) {
+  BallOnSurface ball(centred(sheet(16), 16, 0.25), 0.9, kSliding);
+  ball.put(Vec3(-1.0, -1.0, 0.95));
+  const Vec3 stride(0.01, 0.0063, 0);
+  const double normal_force = ball.parameters().normal_stiffness * 0.05;
+  for (int k = 1; k <= 150; ++k) {
+    const Vec3 force = ball.move(stride);
+    if (k < 10) continue;
+    ASSERT_NEAR((force.head<2>() + 0.3 * normal_force * stride.head<2>().normalized()).norm(), 0.0,
+                1e-9 * normal_force);
+  }
+}
+
+TEST(SlidingBall, KeepsItsSpringFromAFaceOverTheRimToTheOtherSide) {
+  // First along the rim, then around it; the spring along the rim is square to that motion and
+  // stays as it is.
+  BallOnSurface ball(centred(sheet(8), 8, 0.25), 0.9, kRough);
+  ball.put(Vec3(0.8, -0.3, 0.95));
+  for (int k = 0; k < 60; ++k) ball.move(Vec3(0, 0.01, 0));
+  const double along = ball.forces().force.back()[1];
+  EXPECT_NEAR(along, -0.6 * ball.parameters().tangential_stiffness, 1e-9 * std::abs(along));
+
+  std::vector<Vec3> path;
+  for (int k = 1; k <= 20; ++k) path.push_back(Vec3(0.8 + 0.01 * k, 0.3, 0.95));
+  for (int k = 1; k <= 100; ++k) {
+    const double angle = std::numbers::pi * k / 100;
+    path.push_back(Vec3(1.0 + 0.95 * std::sin(angle), 0.3, 0.95 * std::cos(angle)));
+  }
+  for (int k = 1; k <= 20; ++k) path.push_back(Vec3(1.0 - 0.01 * k, 0.3, -0.95));
+  for (const Vec3& place : path) {
+    const Vec3 force = ball.move(place - ball.centre());
+    ASSERT_EQ(ball.contacts().touching(), 1u);
+    // The chords of the arc have a part along the turning normal, but none along the rim.
+    ASSERT_NEAR(force[1], along, 1e-6 * std::abs(along)) << "at " << place.transpose();
+  }
+}
+
+/// Two large facets that make a valley along y, each rising by this angle (rad).
+Complex valley(double angle) {
+  Complex result;
+  result.node(Vec3(0, -8, 0));
+  result.node(Vec3(0, 8, 0));
+  result.facet(0, 1, result.node(Vec3(8 * std::cos(angle), 0, 8 * std::sin(angle))));
+  result.facet(1, 0, result.node(Vec3(-8 * std::cos(angle), 0, 8 * std::sin(angle))));
+  return result;
+}
+
+TEST(BallInAValley, SharesItsSpringByNormalForceWhenItsContactSplits) {
+  BallOnSurface ball(valley(0.35), 0.9, kRough);
+  const Vec3 off_centre(0.01, 0, 0);
+  ball.put(Vec3(0, -0.1, 0.9995) + off_centre);
+  ASSERT_EQ(ball.contacts().touching(), 1u);
+  for (int k = 0; k < 10; ++k) ball.move(Vec3(0, 0.02, 0));
+  const double whole = ball.forces().force.back()[1];
+
+  ball.move(Vec3(0, 0, 0.001));
+
+  const auto rows = ball.rows();
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_NEAR(ball.forces().force.back()[1], whole, 1e-9 * std::abs(whole));
+  EXPECT_NE(rows[0].normal_force.norm(), rows[1].normal_force.norm());
+  EXPECT_NEAR(tangential(rows[0])[1] / tangential(rows[1])[1],
+              rows[0].normal_force.norm() / rows[1].normal_force.norm(), 1e-9);
+}
+
+TEST(BallInAValley, AddsItsSpringsWhenItsContactsMerge) {
+  BallOnSurface ball(valley(0.35), 0.9, kRough);
+  ball.put(Vec3(0.01, -0.1, 1.0005));
+  ASSERT_EQ(ball.contacts().touching(), 2u);
+  for (int k = 0; k < 10; ++k) ball.move(Vec3(0, 0.02, 0));
+  const auto rows = ball.rows();
+  const double sum = tangential(rows[0])[1] + tangential(rows[1])[1];
+  EXPECT_NEAR(sum, 2.0 * 0.2 * ball.parameters().tangential_stiffness,
+              1e-9 * sum);  // on the surface
+
+  ball.move(Vec3(0, 0, -0.001));
+
+  ASSERT_EQ(ball.contacts().touching(), 1u);
+  EXPECT_NEAR(tangential(ball.rows()[0])[1], sum, 1e-9 * sum);
+}
+
+TEST(BallInAValley, StaysWithinCoulombsConeWhenItsContactsMerge) {
+  BallOnSurface ball(valley(0.35), 0.9, kSliding);
+  ball.put(Vec3(0.01, -0.1, 1.0005));
+  for (int k = 0; k < 20; ++k) ball.move(Vec3(0, 0.02, 0));
+  ball.move(Vec3(0, 0, -0.001));
+
+  const auto rows = ball.rows();
+
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_LE(tangential(rows[0]).norm(), 0.3 * rows[0].normal_force.norm() * (1.0 + 1e-12));
+}
+
+TEST(Ball, StartsANewSpringWhereItTouchesElsewhere) {
+  // A floor and, far from the foot on it, a wall of the same surface.
+  Complex corner;
+  for (const Vec3& x : {Vec3(-9, -9, 0), Vec3(-9, 9, 0), Vec3(2, -9, 0), Vec3(2, 9, 0),
+                        Vec3(2, -9, 9), Vec3(2, 9, 9)}) {
+    corner.node(x);
+  }
+  corner.facet(0, 2, 3);
+  corner.facet(0, 3, 1);
+  corner.facet(2, 4, 5);
+  corner.facet(2, 5, 3);
+  BallOnSurface ball(corner, 0.9, kRough);
+  ball.put(Vec3(0, 0, 0.99));
+  double travelled = 0.0;
+  while (ball.contacts().touching() == 1) {
+    ball.move(Vec3(0.03, 0, 0));
+    travelled += 0.03;
+  }
+
+  const auto rows = ball.rows();
+  ASSERT_EQ(rows.size(), 2u);
+  const bool floor_first = rows[0].normal[2] < -0.5;
+  EXPECT_NEAR(tangential(rows[floor_first ? 0 : 1])[0],
+              ball.parameters().tangential_stiffness * travelled,
+              1e-9 * ball.parameters().tangential_stiffness);
+  EXPECT_NEAR(tangential(rows[floor_first ? 1 : 0]).norm(), 0.0,
+              1e-9 * ball.parameters().tangential_stiffness);
+}
+
+TEST(Ball, LosesItsSpringWhenItLetsGo) {
+  BallOnSurface ball(centred(sheet(8), 8, 0.25), 0.9, kRough);
+  ball.put(Vec3(0, 0, 0.99));
+  ball.move(Vec3(0.1, 0, 0));
+  const double energy = ball.contacts().elastic_energy();
+  const double normal_energy = 0.5 * ball.parameters().normal_stiffness * 0.01 * 0.01;
+
+  ball.move(Vec3(0, 0, 0.1));
+  const double dissipated = ball.dissipated();
+  const Vec3 force = ball.move(Vec3(0, 0, -0.1));
+
+  EXPECT_NEAR(dissipated, energy - normal_energy, 1e-9 * energy);
+  EXPECT_NEAR(force.head<2>().norm(), 0.0, 1e-12 * force.norm());
+}
+
+TEST(Ball, FeelsTheSameWhateverTheOrderInWhichTheSurfaceWasCreated) {
+  Random random(2);
+  for (int trial = 0; trial < 10; ++trial) {
+    const double spacing = 0.4;
+    const Complex complex = roughened(centred(sheet(8), 8, spacing), spacing, 0.05, random);
+    BallOnSurface first(complex, 0.9, kSliding);
+    BallOnSurface second(reordered(complex, random), 0.9, kSliding);
+    const Vec3 start(-0.4, -0.4, 0.98);
+    first.put(start);
+    second.put(start);
+    for (int k = 0; k < 300; ++k) {
+      const Vec3 stride(0.003, 0.004 * std::sin(0.05 * k), 0.001 * std::cos(0.1 * k));
+      first.spin().back() = second.spin().back() = random.in_cube(0.01);
+      const Vec3 force = first.move(stride);
+      ASSERT_NEAR((second.move(stride) - force).norm(), 0.0,
+                  1e-9 * first.parameters().normal_stiffness * 0.02)
+          << "step " << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plekton::test
