@@ -53,7 +53,8 @@ double SizeCurve::largest_diameter() const noexcept {
 }
 
 double SizeCurve::diameter_at(double share_by_number) const noexcept {
-  if (share_by_number >= 1.0) return largest_diameter();  // the sum of the shares is 1 but for rounding
+  if (share_by_number >= 1.0)
+    return largest_diameter();  // the sum of the shares is 1 but for rounding
   double below = 0.0;
   const Bin* bin = &bins_.front();
   for (const Bin& candidate : bins_) {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace plekton::apps {
+
+/// What the program answers to its caller.
+enum ExitCode : int {
+  kDone = 0,
+  kFailed = 1,        ///< a problem of the input or the run
+  kUsage = 2,         ///< a command line that cannot be understood
+  kInterrupted = 130  ///< by Ctrl-C or a request to end, with complete files
+};
+
+/// The program: reads the command line, does what it says, prints to standard output, and problems
+/// to standard error.
+int run_program(int argc, const char* const* argv);
+
+}  // namespace plekton::apps

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "geometry/elements.hpp"
+#include "geometry/neighbours.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace plekton::apps {
+
+/// Which grains a simulation has lost. A grain is lost for good
+/// - when its centre has passed through a facet of a membrane, which no contact force should let
+/// happen, or
+/// - when its centre has left the box around everything at the start, grown on every side by its
+/// own longest side.
+///
+/// Between two looks a grain and the corners of a facet are taken to move straight and evenly. The
+/// centre passes through the facet if it changes sides of its plane and, at the moment it lies in
+/// that plane, lies in the triangle. Going around the rim is therefore no passing. Only pairs that
+/// the broad phase lists are asked: a centre in the plane of a facet touches it.
+class LostGrains {
+ public:
+  /// @param x  m, at the start. The elements must outlive this.
+  LostGrains(const geometry::Elements& elements, geometry::Positions x);
+
+  /// Looks at what happened since the last look. Call it so often that no grain moves by its radius
+  /// in between.
+  void look(geometry::Positions x, const geometry::Neighbours& neighbours);
+
+  std::size_t through_membranes() const noexcept { return through_; }
+  std::size_t out_of_bounds() const noexcept { return out_; }
+  /// Grains that are either.
+  std::size_t total() const noexcept;
+
+ private:
+  void look_for_passing(geometry::Positions x, const geometry::Neighbours& neighbours);
+
+  const geometry::Elements& elements_;
+  geometry::Box bounds_;
+  std::vector<geometry::Vec3> before_;  // m, all nodes at the last look
+  std::vector<bool> is_through_;
+  std::vector<bool> is_out_;
+  std::size_t through_ = 0;
+  std::size_t out_ = 0;
+};
+
+/// Whether a point passes through a triangle while both move straight and evenly.
+bool passes_through(const geometry::Vec3& point0, const geometry::Vec3& point1,
+                    const std::array<geometry::Vec3, 3>& triangle0,
+                    const std::array<geometry::Vec3, 3>& triangle1) noexcept;
+
+}  // namespace plekton::apps

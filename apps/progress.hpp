@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+namespace plekton::apps {
+
+/// How a progress is shown.
+enum class ProgressStyle : std::uint8_t {
+  one_line,  ///< a line that is written over, for a terminal
+  lines,     ///< a line about every tenth of the way, for a file or a pipe
+  none
+};
+
+/// "1 h 02 min", "3 min 05 s" or "12 s".
+std::string duration_text(double seconds);
+
+/// Tells how far a run is: percent, simulated time, steps per second, time left.
+class Progress {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// @param duration  s, of simulated time
+  Progress(std::ostream& out, ProgressStyle style, double duration);
+
+  /// Call it as often as convenient; it writes several times a second, or every tenth of the way.
+  void update(double time, std::int64_t steps, Clock::time_point now = Clock::now());
+
+  /// Ends the line, so that other output can follow.
+  void finish();
+
+ private:
+  std::string text(double time, std::int64_t steps, Clock::time_point now);
+  bool is_due(double time, Clock::time_point now) const;
+
+  std::ostream& out_;
+  ProgressStyle style_;
+  double duration_;
+  Clock::time_point start_;
+  bool started_ = false;
+  Clock::time_point last_;  // of the last text
+  std::int64_t last_steps_ = 0;
+  int tenths_ = 0;         // told so far
+  std::size_t width_ = 0;  // of the line that is written over
+};
+
+}  // namespace plekton::apps

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/summary.hpp"
+
+#include "geometry/mesh/report.hpp"
+
+#include <fmt/format.h>
+
+namespace plekton::apps {
+namespace {
+
+std::string line_of(const BuiltMembrane& m) {
+  return fmt::format(
+      "membrane {}: {} nodes ({} held), {} beams, {} facets, area {:.4g} m2, mass {:.4g} kg, beams "
+      "of E = {:.4g} Pa; mesh {}\n",
+      m.name, m.nodes, m.held_nodes, m.beams, m.facets, m.area, m.mass, m.young_modulus,
+      geometry::name_of(m.report.verdict));
+}
+
+std::string line_of(const BuiltGrains& g) {
+  return fmt::format("grains {}: {} of {:.4g} to {:.4g} m radius, mass {:.4g} kg\n", g.name,
+                     g.count, g.smallest, g.largest, g.mass);
+}
+
+}  // namespace
+
+std::string summary_of(const PreparedRun& prepared) {
+  std::string text;
+  for (const BuiltMembrane& membrane : prepared.built.membranes) text += line_of(membrane);
+  for (const BuiltGrains& grains : prepared.built.grains) text += line_of(grains);
+  if (!prepared.simulation->planes().empty())
+    text += fmt::format("planes: {}\n", prepared.simulation->planes().size());
+  text += fmt::format("time step: {:.4g} s, critical {:.4g} s\n", prepared.simulation->time_step(),
+                      prepared.simulation->critical_step().dt);
+  for (const std::string& warning : prepared.built.warnings) text += "warning: " + warning + '\n';
+  return text;
+}
+
+std::string summary_of(const RunReport& report) {
+  std::string text = fmt::format(
+      "{} at {:.4g} s after {} steps in {} ({:.3g} ms each)\n", name_of(report.status),
+      report.simulated_time, report.steps, duration_text(report.wall_time),
+      report.steps > 0 ? 1e3 * report.wall_time / static_cast<double>(report.steps) : 0.0);
+  text += fmt::format(
+      "contacts {}, largest overlap {:.3g} % of the radius, energy closure {:.2g} %, lost grains "
+      "{}\n",
+      report.contacts, 100.0 * report.largest_overlap_ratio, 100.0 * report.energy.closure(),
+      report.lost_grains);
+  for (const std::string& warning : report.warnings) text += "warning: " + warning + '\n';
+  return text;
+}
+
+}  // namespace plekton::apps
