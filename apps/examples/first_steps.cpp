@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ball falls on a sheet of geotextile that is held at its rim.
+// A ball falls on a sheet of geotextile that is held at its rim. SI units throughout.
 #include "dynamics/simulation.hpp"
 #include "geometry/mesh/generators.hpp"
 #include "geometry/mesh/membrane.hpp"
@@ -8,25 +8,24 @@
 
 int main() {
   using namespace plekton;
+  using dynamics::Held;
+  const contact::MaterialId cloth{0};
   dynamics::Scene scene;
   scene.materials = {{.young_modulus = 5e6, .stiffness_ratio = 0.3, .friction = 0.5}};
-  const contact::MaterialId material{0};
-
-  const auto mesh = geometry::plane_sheet({.width = 0.4, .length = 0.4, .cells_x = 8, .cells_y = 8});
+  const auto mesh = geometry::plane_sheet({0.4, 0.4, 8, 8});  // width, length, cells
   const auto sheet = geometry::make_membrane(mesh, {.thickness = 0.004});
-  for (const auto& x : sheet.nodes) {
-    const bool on_rim = x.cwiseAbs().maxCoeff() > 0.199;
-    scene.add_node(x, on_rim ? dynamics::Held::everything : dynamics::Held::nothing);
-  }
-  for (const auto& f : sheet.facets) scene.add_facet(f.nodes[0], f.nodes[1], f.nodes[2], f.radius, material);
-  const auto fibre = dynamics::circular_section(0.002, 1e7, 0.3);  // radius (m), Young's modulus (Pa), Poisson's ratio
-  for (const auto& [a, b] : sheet.edges) scene.add_beam(a, b, fibre, 300.0);
-  scene.add_sphere({0.01, 0.02, 0.06}, 0.03, 2650.0, material);  // centre (m), radius (m), density (kg/m³)
+  for (const auto& x : sheet.nodes)
+    scene.add_node(x, x.cwiseAbs().maxCoeff() > 0.199 ? Held::everything : Held::nothing);
+  for (const auto& [n, r] : sheet.facets) scene.add_facet(n[0], n[1], n[2], r, cloth);
+  const auto fibre = dynamics::circular_section(0.002, 1e7, 0.3);  // radius, E, Poisson's ratio
+  for (const auto& [a, b] : sheet.edges) scene.add_beam(a, b, fibre, 300.0);  // density
+  scene.add_sphere({0.01, 0.02, 0.06}, 0.03, 2650.0, cloth);  // centre, radius, density
 
-  dynamics::Simulation<contact::LinearFrictional> simulation(scene, {.motion = {.gravity = {0.0, 0.0, -9.81}}});
-  const auto ball = index_of(simulation.elements().spheres[0].nodes[0]);
+  dynamics::Simulation<contact::LinearFrictional> run(scene,
+                                                      {.motion = {.gravity = {0, 0, -9.81}}});
+  const auto ball = index_of(run.elements().spheres[0].nodes[0]);
   for (double next = 0.0; next <= 0.3; next += 0.03) {
-    while (simulation.time() < next) simulation.step();
-    std::cout << simulation.time() << " s: height " << simulation.state().position[ball].z() << " m\n";
+    while (run.time() < next) run.step();
+    std::cout << run.time() << " s: height " << run.state().position[ball].z() << " m\n";
   }
 }
