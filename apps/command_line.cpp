@@ -97,7 +97,8 @@ void add_scenario_options(CLI::App& command, CommandLine& line) {
       .add_option("--set", line.overrides,
                   "Replace a value: path=value, as in simulation.duration=\"1 s\"; may be repeated")
       ->allow_extra_args(false);
-  command.add_option("--threads", line.threads, "Threads; the result does not depend on it");
+  command.add_option("--threads", line.threads, "Threads; the result does not depend on it")
+      ->check(CLI::Range(1, 1024));
 }
 
 /// One problem after the name of the program, several below it.

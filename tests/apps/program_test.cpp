@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program as its user meets it: exit codes, messages, files.
+#include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/mesh_file.hpp"
+#include "tests/apps/program_fixture.hpp"
+#include "tests/support/full_disk.hpp"
+#include "tests/support/vtp_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::string_view kScenario = R"([simulation]
+duration = "20 ms"
+damping = 0.2
+[materials.gravel]
+density = "2650 kg/m3"
+young_modulus = "20 MPa"
+friction_angle = "35 deg"
+[[membranes]]
+name = "sheet"
+mesh = "sheet.off"
+thickness = "2 mm"
+material = "gravel"
+young_modulus = "50 MPa"
+areal_mass = "300 g/m2"
+hold = "rim"
+[[grains]]
+name = "gravel"
+material = "gravel"
+count = 20
+radius = "5 mm"
+velocity = [0, 0, "-1 m/s"]
+box = { min = ["-5 cm", "-5 cm", "1 mm"], max = ["5 cm", "5 cm", "25 mm"] }
+[[planes]]
+name = "floor"
+point = [0, 0, "-5 cm"]
+material = "gravel"
+[output]
+interval = "5 ms"
+)";
+
+class Command : public testing::Test {
+ protected:
+  Command() {
+    geometry::write_mesh_file(folder_ / "sheet.off", geometry::plane_sheet({0.2, 0.2, 10, 10}));
+    test::write_bytes(folder_ / "case.toml", std::string(kScenario));
+  }
+  std::string scenario() const { return (folder_ / "case.toml").string(); }
+  std::string out() const { return (folder_ / "out").string(); }
+  nlohmann::json report() const {
+    return nlohmann::json::parse(test::bytes_of(folder_ / "out/run.json"));
+  }
+
+  /// `plekton run` with values set; every failure must leave no output folder.
+  Outcome failure_of(const std::vector<std::string>& settings) const {
+    std::vector<std::string> arguments = {"run", scenario(), "--out", out()};
+    for (const std::string& setting : settings)
+      arguments.insert(arguments.end(), {"--set", setting});
+    const Outcome outcome = outcome_of(arguments);
+    EXPECT_EQ(outcome.exit_code, kFailed);
+    EXPECT_FALSE(std::filesystem::exists(out()));
+    return outcome;
+  }
+
+  /// Every series names only files that are there, and each of them can be read.
+  void expect_complete_files() const {
+    for (const std::string part : {"grains", "membranes", "contacts"}) {
+      const std::string series = test::bytes_of(folder_ / ("out/" + part + ".pvd"));
+      EXPECT_THAT(series, HasSubstr("</VTKFile>")) << part;
+      std::size_t count = 0;
+      for (std::size_t at = series.find("file=\""); at != std::string::npos;
+           at = series.find("file=\"", at + 1), ++count) {
+        const std::string name = series.substr(at + 6, series.find('"', at + 6) - at - 6);
+        const test::VtpReader frame(test::bytes_of(folder_ / ("out/" + name)));
+        EXPECT_NO_THROW(frame.count("NumberOfPoints")) << name;
+      }
+      EXPECT_GT(count, 0U) << part;
+    }
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(out())) {
+      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    }
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Command, RunWritesSeriesHistoryAndReport) {
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out(), "--threads", "2"});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  expect_complete_files();
+  const auto json = report();
+  EXPECT_EQ(json["status"], "finished");
+  EXPECT_EQ(json["counts"]["grains"], 20);
+  EXPECT_EQ(json["counts"]["facets"], 200);
+  EXPECT_EQ(json["counts"]["frames"], 5);  // at 0, 5, 10, 15 and 20 ms
+  EXPECT_EQ(json["lost_grains"], 0);
+  EXPECT_EQ(json["options"]["threads"], 2);
+  EXPECT_LE(json["dt_over_critical"], 0.8);
+  EXPECT_NEAR(json["timing"]["simulated_time_s"], 0.02, json["timing"]["time_step_s"]);
+  const test::VtpReader grains(test::bytes_of(folder_ / "out/frames/grains_00004.vtp"));
+  EXPECT_EQ(grains.count("NumberOfPoints"), 20U);
+}
+
+TEST_F(Command, RunMeetsTheMembrane) {
+  outcome_of({"run", scenario(), "--out", out()});
+
+  const test::VtpReader contacts(test::bytes_of(folder_ / "out/frames/contacts_00004.vtp"));
+  EXPECT_GT(contacts.count("NumberOfLines"), 0U);
+  const test::VtpReader sheet(test::bytes_of(folder_ / "out/frames/membranes_00004.vtp"));
+  const auto tension = sheet.values<float>("CellData", "tension");
+  EXPECT_TRUE(std::any_of(tension.begin(), tension.end(), [](float t) { return t > 0.0F; }));
+}
+
+TEST_F(Command, RunTellsItsProgressInPlainLinesWithoutATerminal) {
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
+
+  EXPECT_THAT(outcome.out, HasSubstr(" steps/s"));
+  EXPECT_EQ(outcome.out.find('\r'), std::string::npos);
+}
+
+TEST_F(Command, RunGivesTheSameEnergiesForAnyNumberOfThreads) {
+  outcome_of({"run", scenario(), "--out", (folder_ / "one").string(), "--threads", "1"});
+  outcome_of({"run", scenario(), "--out", (folder_ / "three").string(), "--threads", "3"});
+
+  const std::string one = test::bytes_of(folder_ / "one/energy.csv");
+  EXPECT_GT(std::count(one.begin(), one.end(), '\n'), 500);
+  EXPECT_EQ(one, test::bytes_of(folder_ / "three/energy.csv"));
+}
+
+TEST_F(Command, RunStopsAtRest) {
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out(), "--set",
+                                      "stop.kinetic_energy=1 kJ", "--set", "stop.after=5 ms"});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_EQ(report()["status"], "at_rest");
+  EXPECT_NEAR(report()["timing"]["simulated_time_s"], 0.005, 0.001);
+}
+
+TEST_F(Command, RunReplacesWhatAnEarlierRunLeft) {
+  outcome_of({"run", scenario(), "--out", out()});
+  test::write_bytes(folder_ / "out/frames/notes.txt", "mine");
+
+  outcome_of({"run", scenario(), "--out", out(), "--set", "output.interval=1 s"});
+
+  EXPECT_EQ(report()["counts"]["frames"], 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/frames/grains_00002.vtp"));
+  EXPECT_EQ(test::bytes_of(folder_ / "out/frames/notes.txt"), "mine");
+  expect_complete_files();
+}
+
+TEST_F(Command, RunInterruptedEndsCleanlyWithCompleteFiles) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::filesystem::remove_all(out());
+    Program program({"run", scenario(), "--out", out(), "--set", "simulation.duration=1000 s"});
+    ASSERT_TRUE(Program::appears(folder_ / "out/frames/contacts_00001.vtp"));
+    program.send(signal);
+
+    const Outcome outcome = program.wait();
+
+    EXPECT_EQ(outcome.exit_code, kInterrupted) << outcome.err;
+    expect_complete_files();
+    EXPECT_EQ(report()["status"], "interrupted");
+    EXPECT_TRUE(report()["interrupted"]);
+    const std::string history = test::bytes_of(folder_ / "out/energy.csv");
+    EXPECT_EQ(history.back(), '\n');
+  }
+}
+
+TEST_F(Command, RunRefusesATimeStepAboveCriticalAndNamesTheCriticalOne) {
+  const Outcome outcome = failure_of({"simulation.time_step=1 ms"});
+
+  EXPECT_THAT(outcome.err, HasSubstr("simulation.time_step: 0.001 s is not below 0.8 of the "
+                                     "critical time step of this scene, which is "));
+}
+
+TEST_F(Command, RunTakesATimeStepBelowCritical) {
+  EXPECT_EQ(outcome_of({"run", scenario(), "--out", out(), "--set", "simulation.time_step=2 us"})
+                .exit_code,
+            kDone);
+  EXPECT_EQ(report()["timing"]["time_step_s"], 2e-6);
+}
+
+TEST_F(Command, RunRefusesBadScenariosWithNothingWritten) {
+  EXPECT_THAT(failure_of({"simulation.duraton=1 s"}).err, HasSubstr("did you mean \"duration\"?"));
+  EXPECT_THAT(failure_of({"grains.gravel.radius=-5 mm"}).err,
+              HasSubstr("expected a length above 0"));
+  EXPECT_THAT(failure_of({"materials.gravel.friction_angle=95 deg"}).err,
+              HasSubstr("below 90 deg"));
+  EXPECT_THAT(failure_of({"grains.gravel.material=steel"}).err,
+              HasSubstr("there is no material \"steel\""));
+  EXPECT_THAT(failure_of({"membranes.sheet.mesh=none.stl"}).err, HasSubstr("does not exist"));
+  EXPECT_THAT(failure_of({"grains.gravel.count=5000"}).err, HasSubstr("do not fit the box"));
+}
+
+TEST_F(Command, RunRefusesBadMeshesWithNothingWritten) {
+  test::write_bytes(folder_ / "empty.off", "");
+  test::write_bytes(folder_ / "range.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
+  EXPECT_THAT(failure_of({"membranes.sheet.mesh=empty.off"}).err, HasSubstr("the file is empty"));
+  EXPECT_THAT(failure_of({"membranes.sheet.mesh=range.off"}).err, HasSubstr("range.off"));
+}
+
+TEST_F(Command, RunNamesAnOutputFolderThatCannotBeWritten) {
+  test::write_bytes(folder_ / "file", "");
+  const Outcome outcome =
+      outcome_of({"run", scenario(), "--out", (folder_ / "file/below").string()});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("a part of the path is a file"));
+}
+
+TEST_F(Command, RunOnAFullDiskStopsWithWhatIsCompleteInPlace) {
+  // The fourth frame of the contacts finds no room.
+  std::filesystem::create_directories(folder_ / "out/frames");
+  test::fill_disk_at(folder_ / "out/frames/contacts_00003.vtp.part");
+
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("No space left on device"));
+  EXPECT_THAT(outcome.err, HasSubstr("free some space"));
+  expect_complete_files();
+  EXPECT_EQ(report()["status"], "failed");
+  EXPECT_THAT(report()["message"].get<std::string>(), HasSubstr("No space left on device"));
+}
+
+TEST_F(Command, RunOnADiskThatFillsUpAltogetherStillGivesTheMessage) {
+  const auto small_disk = [] { static const test::FileSizeLimit limit(600); };
+
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out()}, small_disk);
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("raise the limit of file sizes"));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out())) {
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+}
+
+TEST_F(Command, RunThatDivergesNamesStepNodePositionAndAdvice) {
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out(), "--set",
+                                      "grains.gravel.velocity=[0, 0, \"-1000000 m/s\"]"});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("step"));
+  EXPECT_THAT(outcome.err, HasSubstr("node"));
+  EXPECT_EQ(report()["status"], "failed");
+}
+
+TEST_F(Command, CheckSaysWhatTheSceneIsAndWritesNothing) {
+  const auto before = folder_.names();
+  const Outcome outcome = outcome_of({"check", scenario()});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("membrane sheet: 121 nodes (40 held)"));
+  EXPECT_THAT(outcome.out, HasSubstr("grains gravel: 20 of 0.005 to 0.005 m radius"));
+  EXPECT_THAT(outcome.out, HasSubstr("critical"));
+  EXPECT_EQ(folder_.names(), before);
+}
+
+TEST_F(Command, CheckListsAllProblems) {
+  const Outcome outcome = outcome_of({"check", scenario(), "--set", "simulation.duration=-1 s",
+                                      "--set", "planes.floor.material=x"});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("plekton: 2 problems\n"));
+}
+
+TEST(CommandLine, ThatCannotBeUnderstoodEndsWithTwo) {
+  EXPECT_EQ(outcome_of({}).exit_code, kUsage);
+  EXPECT_EQ(outcome_of({"fly"}).exit_code, kUsage);
+  EXPECT_EQ(outcome_of({"run"}).exit_code, kUsage);
+  EXPECT_EQ(outcome_of({"run", "case.toml", "--threads", "many"}).exit_code, kUsage);
+}
+
+TEST(CommandLine, HelpsAndTellsItsVersion) {
+  EXPECT_EQ(outcome_of({"--help"}).exit_code, kDone);
+  EXPECT_THAT(outcome_of({"run", "--help"}).out, HasSubstr("--set"));
+  EXPECT_THAT(outcome_of({"--version"}).out, HasSubstr("0."));
+}
+
+TEST(CommandLine, NamesAScenarioThatDoesNotExist) {
+  const Outcome outcome = outcome_of({"run", "/nowhere/case.toml"});
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("/nowhere/case.toml: no such file"));
+}
+
+}  // namespace
+}  // namespace plekton::apps
