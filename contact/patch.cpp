@@ -4,7 +4,6 @@
 #include "geometry/descent.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace plekton::contact {
@@ -33,56 +32,60 @@ std::span<const Patch> PatchFinder::find(const Vec3& centre, double range, std::
   std::sort(minima_.begin(), minima_.end(), nearer);
   std::sort(passes_.begin(), passes_.end(), nearer);
 
-  link_basins(centre, range, x);
+  link_passes(centre, range, x);
   weigh_passes();
   collect_patches();
   return patches_;
 }
 
-void PatchFinder::link_basins(const Vec3& centre, double range, Positions x) {
+void PatchFinder::link_passes(const Vec3& centre, double range, Positions x) {
+  vertices_.clear();
+  const auto vertex_count = static_cast<std::uint32_t>(minima_.size() + passes_.size());
+  for (std::uint32_t i = 0; i < vertex_count; ++i) vertices_.push_back({critical_of(i).core.feature, i});
+  std::sort(vertices_.begin(), vertices_.end());
+
   links_.clear();
   pass_links_.clear();
-  basin_count_ = static_cast<std::uint32_t>(minima_.size());
-  for (const Critical* pass : passes_) add_links(*pass, centre, range, x);
+  for (auto i = static_cast<std::uint32_t>(minima_.size()); i < vertex_count; ++i) add_links(i, centre, range, x);
 }
 
-/// A pass of two branches is a link between their basins. One of more branches is a joint of its own, linked to each
-/// basin, so that no branch is treated differently; a link is then half the way, of twice the conductance.
-void PatchFinder::add_links(const Critical& pass, const Vec3& centre, double range, Positions x) {
+void PatchFinder::add_links(std::uint32_t pass, const Vec3& centre, double range, Positions x) {
+  const Critical& upper = critical_of(pass);
   const auto first = static_cast<std::uint32_t>(links_.size());
-  const double overlap = range - pass.distance;
-  const auto branches = critical_.branches(pass.core.feature, centre, x);
-  basins_.clear();
-  for (const Feature branch : branches) {
-    const std::uint32_t basin = basin_below(branch, centre, x);
-    if (basin == kOutOfRange) return;
-    basins_.push_back(basin);
+  for (const Feature branch : critical_.branches(upper.core.feature, centre, x)) {
+    const std::uint32_t below = vertex_below(branch, centre, x);
+    if (below == kOutOfRange) {
+      links_.resize(first);
+      return;
+    }
+    const double drop = std::max(0.0, upper.distance - critical_of(below).distance);
+    links_.push_back({below, pass, link_resistance(range - upper.distance, drop)});
   }
-  if (basins_.size() == 2) {
-    links_.push_back({basins_[0], basins_[1], overlap});
-  } else {
-    const std::uint32_t joint = basin_count_++;
-    for (const std::uint32_t basin : basins_) links_.push_back({basin, joint, std::sqrt(2.0) * overlap});
-  }
-  pass_links_.push_back({&pass, first, static_cast<std::uint32_t>(links_.size()) - first, basins_[0]});
+  pass_links_.push_back({pass, first, static_cast<std::uint32_t>(links_.size()) - first});
 }
 
-std::uint32_t PatchFinder::basin_below(Feature branch, const Vec3& centre, Positions x) const {
-  const Feature bottom = geometry::descend(*surface_, branch, centre, x);
-  const auto found = std::find_if(minima_.begin(), minima_.end(),
-                                  [&](const Critical* minimum) { return minimum->core.feature == bottom; });
-  return found != minima_.end() ? static_cast<std::uint32_t>(found - minima_.begin()) : kOutOfRange;
+/// The first minimum or pass on the way down.
+std::uint32_t PatchFinder::vertex_below(Feature branch, const Vec3& centre, Positions x) const {
+  Feature foot = geometry::closest_feature(*surface_, branch, centre, x);
+  while (true) {
+    const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), Vertex{foot, 0});
+    if (found != vertices_.end() && found->feature == foot) return found->id;
+    const Feature next = geometry::downhill_from(*surface_, foot, centre, x);
+    if (next == foot) return kOutOfRange;
+    foot = geometry::closest_feature(*surface_, next, centre, x);
+  }
 }
 
 void PatchFinder::weigh_passes() {
-  const auto weights = spanning_.find(basin_count_, links_);
-  for (std::uint32_t basin = 0; basin < minima_.size(); ++basin) {
-    add_term(spanning_.root_of(basin), *minima_[basin], 1.0);
+  const auto weights = spanning_.find(static_cast<std::uint32_t>(vertices_.size()), links_);
+  for (std::uint32_t minimum = 0; minimum < minima_.size(); ++minimum) {
+    add_term(spanning_.root_of(minimum), *minima_[minimum], 1.0);
   }
-  for (const PassLinks& pass : pass_links_) {
-    double joined = pass.link_count > 1 ? -1.0 : 0.0;  // the joint itself is no minimum
-    for (std::uint32_t i = 0; i < pass.link_count; ++i) joined += weights[pass.first_link + i];
-    if (joined > 0.0) add_term(spanning_.root_of(pass.basin), *pass.pass, -joined);
+  for (const PassLinks& links : pass_links_) {
+    double joined = -1.0;  // the pass itself is no minimum
+    for (std::uint32_t i = 0; i < links.link_count; ++i) joined += weights[links.first_link + i];
+    const std::uint32_t root = spanning_.root_of(links.pass);
+    if (joined != 0.0 && root < minima_.size()) add_term(root, critical_of(links.pass), -joined);
   }
 }
 
@@ -92,7 +95,7 @@ void PatchFinder::add_term(std::uint32_t root, const Critical& feature, double w
 }
 
 void PatchFinder::collect_patches() {
-  // minima_ is sorted by distance and a root is the lowest of its basins: the root's minimum is the deepest one.
+  // minima_ is sorted by distance and a root is the lowest of its vertices: the root's minimum is the deepest one.
   const auto root_feature = [this](const RootedTerm& rooted) { return minima_[rooted.root]->core.feature; };
   std::sort(rooted_.begin(), rooted_.end(), [&](const RootedTerm& a, const RootedTerm& b) {
     return a.root != b.root ? root_feature(a) < root_feature(b) : a.order < b.order;

@@ -11,7 +11,7 @@
 /// Contact of a ball with a surface: features in range that hang together are one patch, and a patch is one contact.
 ///
 /// The elastic force of a patch is the sum of weight * f(gap) * normal over its terms: weight 1 for each minimum of the
-/// distance, and for each pass between two of them minus the weight that keeps a connected part counted once
+/// distance, and for each pass between them minus the weight that keeps a connected part counted once
 /// (spanning_weights.hpp). So a flat or convex surface pushes exactly once, a sharp corner from both sides, and the
 /// force is continuous in between, with no tolerance: the natural scale is the overlap itself.
 namespace plekton::contact {
@@ -23,7 +23,8 @@ struct PatchTerm {
   geometry::CorePoint core;  ///< on b
   Vec3 normal;               ///< unit, from the ball's centre to the core point
   double distance;           ///< m
-  double weight;             ///< 1 of a minimum, in [-k, 0) of a pass between k + 1 basins
+  double weight;             ///< 1 of a minimum; minus what it joins of a pass: -k between k + 1 parts where no ring
+                             ///< closes, and above that, up to 1, where rings do
 };
 
 /// One contact of a ball with a surface.
@@ -52,10 +53,13 @@ class PatchFinder {
  private:
   using Critical = geometry::CriticalFeature;
 
-  void link_basins(const Vec3& centre, double range, Positions x);
+  void link_passes(const Vec3& centre, double range, Positions x);
+  void add_links(std::uint32_t pass, const Vec3& centre, double range, Positions x);
+  std::uint32_t vertex_below(Feature branch, const Vec3& centre, Positions x) const;
+  const Critical& critical_of(std::uint32_t vertex) const noexcept {
+    return vertex < minima_.size() ? *minima_[vertex] : *passes_[vertex - minima_.size()];
+  }
   void weigh_passes();
-  void add_links(const Critical& pass, const Vec3& centre, double range, Positions x);
-  std::uint32_t basin_below(Feature branch, const Vec3& centre, Positions x) const;
   void add_term(std::uint32_t root, const Critical& feature, double weight);
   void collect_patches();
 
@@ -65,19 +69,23 @@ class PatchFinder {
   std::vector<Patch> patches_;
   std::vector<PatchTerm> terms_;
 
-  /// A pass and its links; the first minima_.size() basins are the minima, the rest joints of three branches or more.
+  /// The links of a pass down to the minima and passes below it.
   struct PassLinks {
-    const Critical* pass;
+    std::uint32_t pass;  ///< its vertex
     std::uint32_t first_link;
     std::uint32_t link_count;
-    std::uint32_t basin;  ///< one of those it joins
   };
-  std::vector<const Critical*> minima_;
+  /// A feature as a vertex of the graph: minima first, then passes.
+  struct Vertex {
+    Feature feature;
+    std::uint32_t id;
+    friend constexpr auto operator<=>(const Vertex&, const Vertex&) = default;
+  };
+  std::vector<const Critical*> minima_;  ///< nearest first
   std::vector<const Critical*> passes_;  ///< nearest first
+  std::vector<Vertex> vertices_;         ///< by feature
   std::vector<PassLinks> pass_links_;
   std::vector<Link> links_;
-  std::vector<std::uint32_t> basins_;
-  std::uint32_t basin_count_ = 0;
   struct RootedTerm {
     std::uint32_t root;
     std::uint32_t order;

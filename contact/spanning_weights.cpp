@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -14,30 +15,41 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 Eigen::Index as_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
+/// Root of the resistance of a tree link over that of a link that closes a ring with it, which is at least as large. A
+/// ring without any resistance shares evenly.
+double ratio_of(const Link& tree, const Link& closing) noexcept {
+  return closing.resistance > 0.0 ? std::sqrt(tree.resistance / closing.resistance) : 1.0;
+}
+
 }  // namespace
 
-std::span<const double> SpanningWeights::find(std::uint32_t basin_count, std::span<const Link> links) {
-  grow_forest(basin_count, links);
+std::span<const double> SpanningWeights::find(std::uint32_t vertex_count, std::span<const Link> links) {
+  grow_forest(vertex_count, links);
   weights_.assign(links.size(), 0.0);
   for (const std::uint32_t link : tree_links_) weights_[link] = 1.0;
   if (!closing_links_.empty()) {
-    hang_trees(basin_count, links);
+    hang_trees(vertex_count, links);
     share_rings(links);
   }
   return weights_;
 }
 
-std::uint32_t SpanningWeights::root_of(std::uint32_t basin) const noexcept {
-  while (root_[basin] != basin) basin = root_[basin];
-  return basin;
+std::uint32_t SpanningWeights::root_of(std::uint32_t vertex) const noexcept {
+  while (root_[vertex] != vertex) vertex = root_[vertex];
+  return vertex;
 }
 
-void SpanningWeights::grow_forest(std::uint32_t basin_count, std::span<const Link> links) {
-  root_.resize(basin_count);
+void SpanningWeights::grow_forest(std::uint32_t vertex_count, std::span<const Link> links) {
+  root_.resize(vertex_count);
   std::iota(root_.begin(), root_.end(), 0U);
   tree_links_.clear();
   closing_links_.clear();
-  for (std::uint32_t i = 0; i < links.size(); ++i) {
+  order_.resize(links.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return links[i].resistance != links[j].resistance ? links[i].resistance < links[j].resistance : i < j;
+  });
+  for (const std::uint32_t i : order_) {
     if (links[i].a == links[i].b) continue;
     const auto [low, high] = std::minmax({root_of(links[i].a), root_of(links[i].b)});
     if (low == high) {
@@ -49,10 +61,10 @@ void SpanningWeights::grow_forest(std::uint32_t basin_count, std::span<const Lin
   }
 }
 
-void SpanningWeights::hang_trees(std::uint32_t basin_count, std::span<const Link> links) {
-  parent_.assign(basin_count, Parent{kNone, kNone, kNone});
-  for (std::uint32_t basin = 0; basin < basin_count; ++basin) {
-    if (root_[basin] == basin) parent_[basin].depth = 0;
+void SpanningWeights::hang_trees(std::uint32_t vertex_count, std::span<const Link> links) {
+  parent_.assign(vertex_count, Parent{kNone, kNone, kNone});
+  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
+    if (root_[vertex] == vertex) parent_[vertex].depth = 0;
   }
   // Each round hangs at least one more generation; the graphs are small.
   for (bool grew = true; grew;) {
@@ -83,8 +95,8 @@ void SpanningWeights::share_rings(std::span<const Link> links) {
       const bool climb_a = parent_[a].depth >= parent_[b].depth;
       const Parent& up = climb_a ? parent_[a] : parent_[b];
       // Towards the parent the tree link is taken as oriented child -> parent for every cycle alike.
-      cycles_(as_index(c), column[up.link]) = (climb_a ? 1.0 : -1.0) * closing.overlap / links[up.link].overlap;
-      (climb_a ? a : b) = up.basin;
+      cycles_(as_index(c), column[up.link]) = (climb_a ? 1.0 : -1.0) * ratio_of(links[up.link], closing);
+      (climb_a ? a : b) = up.vertex;
     }
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/critical_features.hpp"
 
+#include "geometry/descent.hpp"
 #include "geometry/foot_point.hpp"
 #include "geometry/predicates.hpp"
 
@@ -111,9 +112,16 @@ std::span<const Feature> CriticalFeatureFinder::branches(Feature feature, const 
     }
   } else if (feature.kind == FeatureKind::node) {
     node_link(NodeId{feature.id}, point, x);
+    // The edge that leads nearest stands for its piece; a piece's root is its lowest edge.
     for (std::uint32_t i = 0; i < falling_edges_.size(); ++i) {
-      if (piece_root(i) == i) branches_.push_back(Feature(falling_edges_[i]));
+      if (piece_root(i) != i) continue;
+      Feature best(falling_edges_[i]);
+      for (std::uint32_t j = i + 1; j < falling_edges_.size(); ++j) {
+        if (piece_root(j) == i) best = nearer_cell(*surface_, best, Feature(falling_edges_[j]), point, x);
+      }
+      branches_.push_back(best);
     }
+    std::sort(branches_.begin(), branches_.end());
   }
   return branches_;
 }

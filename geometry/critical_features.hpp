@@ -59,7 +59,8 @@ class CriticalFeatureFinder {
   /// Link of any feature, without a range or ownership.
   DescendingLink link(Feature feature, const Vec3& point, Positions x);
 
-  /// One cell downhill for each branch of the link of an edge or a node that has a foot point; ascending.
+  /// One cell downhill for each branch of the link of an edge or a node that has a foot point: of a branch of several
+  /// the one that comes nearest to the point. Ascending.
   /// @returns  valid until the next call
   std::span<const Feature> branches(Feature feature, const Vec3& point, Positions x);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/descent.hpp"
 
+#include "geometry/foot_point.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
@@ -68,27 +69,43 @@ Feature closest_feature(const Surface& surface, Feature cell, const Vec3& point,
   return cell;
 }
 
-/// A cell next to a feature that holds a nearer point than the feature's own foot; the feature
-/// itself if there is none.
-static Feature downhill_from(const Surface& surface, Feature feature, const Vec3& point,
-                             Positions x) noexcept {
+Feature nearer_cell(const Surface& surface, Feature first, Feature second, const Vec3& point,
+                           Positions x) noexcept {
+  const auto distance_to = [&](Feature cell) {
+    const Feature foot = closest_feature(surface, cell, point, x);
+    const auto corner = [&](const auto& nodes, std::size_t i) { return x[index_of(nodes[i])]; };
+    if (foot.kind == FeatureKind::node) return foot_on_node(point, x[static_cast<std::size_t>(foot.id)]).distance;
+    if (foot.kind == FeatureKind::edge) {
+      const auto& n = surface.nodes_of(EdgeId{foot.id});
+      return foot_on_edge(point, {corner(n, 0), corner(n, 1)}).distance;
+    }
+    const auto& n = surface.nodes_of(FaceId{foot.id});
+    return foot_on_face(point, {corner(n, 0), corner(n, 1), corner(n, 2)}).distance;
+  };
+  return distance_to(second) < distance_to(first) ? second : first;
+}
+
+Feature downhill_from(const Surface& surface, Feature feature, const Vec3& point, Positions x) noexcept {
+  Feature next = feature;
+  const auto offer = [&](Feature cell) {
+    next = next == feature ? cell : nearer_cell(surface, next, cell, point, x);
+  };
   if (feature.kind == FeatureKind::edge) {
     const EdgeId edge{feature.id};
     const auto& ends = surface.nodes_of(edge);
     for (const FaceId face : surface.faces_of(edge)) {
       const Vec3& opposite = x[index_of(opposite_corner(surface, face, ends))];
-      if (sign_inside_edge(x[index_of(ends[0])], x[index_of(ends[1])], opposite, point) > 0)
-        return Feature(face);
+      if (sign_inside_edge(x[index_of(ends[0])], x[index_of(ends[1])], opposite, point) > 0) offer(Feature(face));
     }
   } else if (feature.kind == FeatureKind::node) {
     const NodeId node{feature.id};
     for (const EdgeId edge : surface.edges_of(node)) {
       const auto& ends = surface.nodes_of(edge);
       const NodeId other = ends[0] == node ? ends[1] : ends[0];
-      if (sign_past_vertex(x[index_of(node)], x[index_of(other)], point) > 0) return Feature(edge);
+      if (sign_past_vertex(x[index_of(node)], x[index_of(other)], point) > 0) offer(Feature(edge));
     }
   }
-  return feature;
+  return next;
 }
 
 Feature descend(const Surface& surface, Feature start, const Vec3& point, Positions x) noexcept {

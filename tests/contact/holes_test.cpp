@@ -135,5 +135,74 @@ TEST(GrainOnAPlateWithAHole, IsCarriedStraightUpOverTheMiddle) {
   }
 }
 
+TEST(GrainOnANet, IsCarriedStraightUpOverTheMiddleOfAnAperture) {
+  for (const double aperture : {1.0, 0.5, 0.2, 0.1, 0.05}) {
+    Press press(square_net(aperture, 0.1), 0.1);
+
+    press.down_at(Vec3(0.5 * aperture, 0.5 * aperture, 0));
+
+    EXPECT_LT(press.most_sideways(), 1e-9) << "aperture " << aperture;
+  }
+}
+
+TEST(GrainOnANet, FeelsAForceThatFollowsItsMotionWithoutAJump) {
+  // Per step the force changes by a share of the contact that falls with the step; the slope is at
+  // most a few contacts over the distance in which a wire comes into range, which is overlap /
+  // slope of the grain there.
+  const double wire_radius = 0.05;
+  for (const double aperture : {0.5, 0.2, 0.1}) {
+    for (const double overlap : {0.01, 0.05}) {
+      SCOPED_TRACE(::testing::Message() << "aperture " << aperture << ", overlap " << overlap);
+      const Complex complex = square_net(aperture, wire_radius);
+      const Surface surface = complex.surface();
+      const auto cells = all_cells(surface);
+      PatchFinder finder(surface);
+      const double range = 1.0 + wire_radius;
+      const auto largest_jump = [&](int steps) {
+        double jump = 0.0;
+        Vec3 last = Vec3::Zero();
+        for (int step = 0; step <= steps; ++step) {
+          const double t = static_cast<double>(step) / steps;
+          const Vec3 centre((-0.69 + 1.3 * t) * aperture, (0.07 + 0.9 * t) * aperture,
+                            range - overlap);
+          const Vec3 force = total_contact(finder, centre, range, cells, complex.x).force;
+          if (step > 0) jump = std::max(jump, (force - last).norm() / overlap);
+          last = force;
+        }
+        return jump;
+      };
+
+      const double coarse = largest_jump(200);
+      const double fine = largest_jump(2000);
+
+      EXPECT_LE(fine, 0.2 * coarse);
+      EXPECT_LE(fine, 0.01);
+    }
+  }
+}
+
+TEST(GrainOnANet, FeelsTheSameWhateverTheOrderInWhichTheNetWasCreated) {
+  Random random(3);
+  const double wire_radius = 0.05;
+  const double range = 1.0 + wire_radius;
+  for (const double aperture : {0.2, 0.1, 0.05}) {
+    const Complex first = square_net(aperture, wire_radius);
+    const Complex second = reordered(first, random);
+    const Surface first_surface = first.surface();
+    const Surface second_surface = second.surface();
+    PatchFinder first_finder(first_surface);
+    PatchFinder second_finder(second_surface);
+    const auto cells = all_cells(first_surface);
+    for (int k = 0; k < 100; ++k) {
+      const Vec3 centre(random.unit() * aperture, random.unit() * aperture,
+                        range - random.uniform(0.001, 0.05));
+      const Vec3 force = total_contact(first_finder, centre, range, cells, first.x).force;
+      ASSERT_NEAR(
+          (total_contact(second_finder, centre, range, cells, second.x).force - force).norm(), 0.0,
+          1e-9 * force.norm());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plekton::test

@@ -196,15 +196,18 @@ TEST(Ball, LosesItsSpringWhenItLetsGo) {
 TEST(Ball, FeelsTheSameWhateverTheOrderInWhichTheSurfaceWasCreated) {
   Random random(2);
   for (int trial = 0; trial < 10; ++trial) {
-    const double spacing = 0.4;
-    const Complex complex = roughened(centred(sheet(8), 8, spacing), spacing, 0.05, random);
+    // Every other time so fine and rough that passes close rings.
+    const double spacing = trial % 2 == 0 ? 0.4 : 0.1;
+    const Complex complex =
+        roughened(centred(sheet(16), 16, spacing), spacing, trial % 2 == 0 ? 0.05 : 0.01, random);
     BallOnSurface first(complex, 0.9, kSliding);
     BallOnSurface second(reordered(complex, random), 0.9, kSliding);
-    const Vec3 start(-0.4, -0.4, 0.98);
+    const Vec3 start(-0.3, -0.3, 0.96);
     first.put(start);
     second.put(start);
     for (int k = 0; k < 300; ++k) {
-      const Vec3 stride(0.003, 0.004 * std::sin(0.05 * k), 0.001 * std::cos(0.1 * k));
+      const Vec3 stride =
+          (spacing + 0.1) * Vec3(0.005, 0.006 * std::sin(0.05 * k), 0.002 * std::cos(0.1 * k));
       first.spin().back() = second.spin().back() = random.in_cube(0.01);
       const Vec3 force = first.move(stride);
       ASSERT_NEAR((second.move(stride) - force).norm(), 0.0,
