@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders the picture of the README from a finished run, with ParaView:
 
-    pvpython --force-offscreen-rendering apps/examples/catch/render.py out/catch apps/examples/catch/catch.png
+    xvfb-run -a pvpython apps/examples/catch/render.py out/catch apps/examples/catch/catch.png
 """
 import sys
 
-from paraview.simple import (ColorBy, Calculator, GetActiveViewOrCreate, GetColorTransferFunction, GetScalarBar, Glyph,
-                             PVDReader, Render, SaveScreenshot, Show)
+from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetColorTransferFunction, GetScalarBar, Glyph, PVDReader,
+                             Render, SaveScreenshot, Show)
 
 folder, picture = sys.argv[1:3]
 view = GetActiveViewOrCreate("RenderView")
-view.ViewSize = [1400, 800]
+view.ViewSize = [1200, 640]
 view.OrientationAxesVisibility = 0
 view.UseColorPaletteForBackground = 0
 view.Background = [1.0, 1.0, 1.0]
@@ -29,23 +29,24 @@ stone.RGBPoints = [0.003, 0.86, 0.80, 0.68, 0.0055, 0.66, 0.58, 0.48, 0.008, 0.4
 shown.SetScalarBarVisibility(view, False)
 
 cloth = Show(sheet, view)
-cloth.Representation = "Surface With Edges"
-cloth.EdgeColor = [0.25, 0.35, 0.45]
+cloth.Representation = "Surface"
+cloth.LineWidth = 1.5
 ColorBy(cloth, ("CELLS", "tension"))
 tension = GetColorTransferFunction("tension")
 tension.ApplyPreset("Cool to Warm", True)
-tension.RescaleTransferFunction(-1.0, 1.0)
+tension.RescaleTransferFunction(-0.5, 0.5)
 bar = GetScalarBar(tension, view)
 bar.Title = "tension (N)"
 bar.ComponentTitle = ""
 bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
-bar.ScalarBarLength = 0.4
+bar.ScalarBarLength = 0.35
+bar.WindowLocation = "Lower Right Corner"
 cloth.SetScalarBarVisibility(view, True)
 
 view.ViewTime = last
-view.CameraPosition = [0.10, -0.62, 0.30]
-view.CameraFocalPoint = [0.0, 0.0, -0.03]
+Render(view)  # the first one sets the camera itself
+view.CameraPosition = [0.09, -0.42, 0.29]
+view.CameraFocalPoint = [0.01, -0.01, -0.045]
 view.CameraViewUp = [0.0, 0.0, 1.0]
-view.CameraViewAngle = 34.0
-Render(view)
+view.CameraViewAngle = 40.0
 SaveScreenshot(picture, view)
