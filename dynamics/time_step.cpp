@@ -10,41 +10,29 @@
 namespace plekton::dynamics {
 namespace {
 
-/// Scale of rotations in a contact: s = 1 for a translation, kRolling / arm for a rotation. Alone,
-/// the tangential spring asks for 5/2 (balls of inertia 2/5 m r²); with the normal one beside it,
-/// which acts on translations only, less: 1.5 to 2 for stiffness ratios from 0.3 to 0.5.
-constexpr double kRolling = 2.0;
-
 /// c n n + t (I - n n).
 Mat3 along_and_across(const Vec3& n, double along, double across) noexcept {
   return across * Mat3::Identity() + ((along - across) * n) * n.transpose();
 }
 
-double largest_eigenvalue(const Mat3& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(symmetric, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[2];
-}
-
-/// Shortens the step to 2 sqrt(mass / stiffness) if that is less.
-void limit(CriticalStep& step, const Mat3& stiffness, double mass, std::size_t node,
-           bool rotation) {
-  const double largest = largest_eigenvalue(stiffness);
-  if (!(largest > 0.0)) return;
-  const double dt = 2.0 * std::sqrt(mass / largest);
-  if (dt < step.dt) step = {dt, geometry::id_at<NodeId>(node), rotation};
+/// The matrix of v -> c x v.
+Mat3 cross_matrix(const Vec3& c) noexcept {
+  Mat3 matrix;
+  matrix << 0.0, -c.z(), c.y(), c.z(), 0.0, -c.x(), -c.y(), c.x(), 0.0;
+  return matrix;
 }
 
 }  // namespace
 
-NodalStiffness::NodalStiffness(std::size_t node_count)
-    : translation_(node_count, Mat3::Zero()), rotation_(node_count, Mat3::Zero()) {}
+NodalStiffness::NodalStiffness(std::size_t node_count) : blocks_(node_count) {}
 
 // Let u and t be the sum and difference of the nodes' rotations across the beam, and v the relative
-// displacement across it. The energies of shear and bending are 1/2 of
+// displacement across it. For any gamma > 0 the energies of shear and bending are 1/2 of
 //   12 EI/(L0 L²) (v - L/2 u)² + EI/L0 t²
 //     <= 12 EI/(L0 L²) (1 + 1/gamma) v² + 3 EI/L0 (1 + gamma) u² + EI/L0 t²,
 // with v² <= 2 (v_a² + v_b²), and u² + t² = 2 (u_a² + u_b²) since sum and difference are
-// orthogonal: the larger of their factors holds for both.
+// orthogonal: the larger of their factors holds for both. gamma = 4 rho² / L², with rho² = 2/5 A /
+// pi the square of a node's radius of gyration, makes both parts limit the step alike.
 void NodalStiffness::add_beam(const BeamBond& bond, const NodeState& state) {
   const BeamSection& section = bond.section;
   const Vec3 chord =
@@ -63,26 +51,29 @@ void NodalStiffness::add_beam(const BeamBond& bond, const NodeState& state) {
   const Mat3 translation = along_and_across(n, 2.0 * axial, 2.0 * (shear + tension / length));
   const Mat3 rotation = along_and_across(n, 2.0 * twist, 6.0 * bending * (1.0 + gamma));
   for (const NodeId node : bond.nodes) {
-    translation_[index_of(node)] += translation;
-    rotation_[index_of(node)] += rotation;
+    blocks_[index_of(node)].translation += translation;
+    blocks_[index_of(node)].rotation += rotation;
   }
 }
 
-/// @param factor  the node's part in the contact times the sum of the parts: sum_j |g_j| s_j =
-/// factor
-///                for the normal spring, and 1 + kRolling times that for the tangential one
-void NodalStiffness::add_contact_end(NodeId node, const ContactStiffness& contact, double arm,
-                                     double factor) {
+/// The normal spring has g = (n, 0), the tangential ones (t, lever x t) for both t across n.
+/// @param signed_arm  m, of the lever along the normal, from the node to the contact point
+/// @param factor      of the stiffness: 2 in a pair; times its weight for a node of a surface,
+/// since
+///                    (sum w_i y_i)² <= sum w_i y_i²
+void NodalStiffness::add_contact_end(NodeId node, const ContactStiffness& contact,
+                                     double signed_arm, double factor) {
   const double normal = factor * contact.normal_stiffness;
-  const double tangential = factor * (1.0 + kRolling) * contact.tangential_stiffness;
-  translation_[index_of(node)] += along_and_across(contact.normal, normal, tangential);
-  rotation_[index_of(node)] +=
-      along_and_across(contact.normal, 0.0, arm * arm / kRolling * tangential);
+  const double tangential = factor * contact.tangential_stiffness;
+  Block& block = blocks_[index_of(node)];
+  block.translation += along_and_across(contact.normal, normal, tangential);
+  block.rotation += along_and_across(contact.normal, 0.0, signed_arm * signed_arm * tangential);
+  block.coupling -= (signed_arm * tangential) * contact.normal;
 }
 
 void NodalStiffness::add_pair(NodeId a, NodeId b, const ContactStiffness& contact) {
   add_contact_end(a, contact, contact.arm_a, 2.0);
-  add_contact_end(b, contact, contact.arm_b, 2.0);
+  add_contact_end(b, contact, -contact.arm_b, 2.0);
 }
 
 void NodalStiffness::add_on_surface(NodeId ball, const geometry::CorePoint& core,
@@ -90,7 +81,7 @@ void NodalStiffness::add_on_surface(NodeId ball, const geometry::CorePoint& core
   add_contact_end(ball, contact, contact.arm_a, 2.0);
   for (std::size_t i = 0; i < core.nodes.size(); ++i) {
     const double weight = core.weights[static_cast<Eigen::Index>(i)];
-    if (weight != 0.0) add_contact_end(core.nodes[i], contact, contact.arm_b, 2.0 * weight);
+    if (weight != 0.0) add_contact_end(core.nodes[i], contact, -contact.arm_b, 2.0 * weight);
   }
 }
 
@@ -100,18 +91,41 @@ void NodalStiffness::add_to_wall(NodeId ball, const ContactStiffness& contact) {
 
 void NodalStiffness::add_dense_packing(NodeId sphere, double normal, double tangential,
                                        double radius) {
+  constexpr double kContactsAlongAnAxis = 12.0 / 3.0;
   for (const Vec3& direction : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
     const ContactStiffness contact{direction, normal, tangential, radius, radius};
-    add_contact_end(sphere, contact, radius, 12.0 / 3.0 * 2.0);
+    for (const double side : {-radius, radius}) {  // so that their couplings cancel
+      add_contact_end(sphere, contact, side, kContactsAlongAnAxis);
+    }
   }
+}
+
+/// M^(-1/2) D M^(-1/2) of a node; zero where it is held.
+NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t node,
+                                              const NodeProperties& properties) const {
+  const Block& block = blocks_[node];
+  const Held held = properties.held[node];
+  const double shift = holds_translation(held) ? 0.0 : 1.0 / std::sqrt(properties.mass[node]);
+  const double turn = holds_rotation(held) ? 0.0 : 1.0 / std::sqrt(properties.inertia[node]);
+  const Mat3 coupling = (shift * turn) * cross_matrix(block.coupling);
+  Mat6 matrix;
+  matrix << (shift * shift) * block.translation, coupling, coupling.transpose(),
+      (turn * turn) * block.rotation;
+  return matrix;
 }
 
 CriticalStep NodalStiffness::critical_step(const NodeProperties& properties) const {
   CriticalStep step;
-  for (std::size_t i = 0; i < translation_.size(); ++i) {
-    const Held held = properties.held[i];
-    if (!holds_translation(held)) limit(step, translation_[i], properties.mass[i], i, false);
-    if (!holds_rotation(held)) limit(step, rotation_[i], properties.inertia[i], i, true);
+  double largest = 0.0;  // omega², 1/s²
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const Mat6 matrix = per_mass(i, properties);
+    // The row sums are above the eigenvalues: most nodes need no eigenvalues.
+    if (matrix.cwiseAbs().rowwise().sum().maxCoeff() <= largest) continue;
+    const Eigen::SelfAdjointEigenSolver<Mat6> solver(matrix);
+    if (solver.eigenvalues()[5] <= largest) continue;
+    largest = solver.eigenvalues()[5];
+    const bool mostly_turns = solver.eigenvectors().col(5).tail<3>().squaredNorm() > 0.5;
+    step = {2.0 / std::sqrt(largest), geometry::id_at<NodeId>(i), mostly_turns};
   }
   return step;
 }

@@ -15,7 +15,7 @@ struct CriticalStep {
   double dt =
       std::numeric_limits<double>::infinity();  ///< s; infinite if nothing is stiff and free
   NodeId node{-1};                              ///< -1 if the step is infinite
-  bool rotation = false;  ///< it is the rotation of the node that limits the step
+  bool rotation = false;  ///< it is the node turning that limits the step, more than moving
 };
 
 /// Springs of a contact between a and b.
@@ -30,24 +30,18 @@ struct ContactStiffness {
 /// Sums of the stiffness around each node, for a time step that is safe.
 ///
 /// The leapfrog is stable for dt < 2 / omega, omega² the largest eigenvalue of K x = omega² M x.
-/// Each spring, of stiffness k and elongation g.x, is put under a diagonal one: for any scales s >
-/// 0
+/// Each spring of K is put under springs that each hold a single node: with elongation g_a.x_a +
+/// g_b.x_b, x_a and x_b the motions of two nodes (displacement and rotation), and stiffness k,
 ///
-///     k (g.x)² <= sum_i d_i x_i²,   d_i = k (sum_j |g_j| s_j) |g_i| / s_i         (Cauchy,
-///     Schwarz)
+///     k (g_a.x_a + g_b.x_b)² <= 2 k (g_a.x_a)² + 2 k (g_b.x_b)².
 ///
-/// The sum D of all of them is then above K, omega² <= max D_i / M_i, and dt = 2 sqrt(min M_i /
-/// D_i) is never above the true limit, also with the coupling of translations and rotations by
-/// shear, which sums of the diagonal of K alone would miss. Holding nodes only lowers omega.
-/// Translations and rotations of a node are kept as one matrix each, of which the largest
-/// eigenvalue counts.
+/// With D_i the 6 x 6 sum of these around node i, omega² <= max_i largest eigenvalue of D_i, M_i,
+/// and dt = 2 / omega is never above the true limit, whatever the masses, the shapes and the
+/// coupling of translation and rotation. Holding nodes only lowers omega. (The diagonal of K alone
+/// would not do: it misses that shear moves and turns a node at once.)
 ///
-/// The scale of a rotation against a translation is free; the choices here are those that fit nodes
-/// with the inertia of their own ball, 2/5 m r² (see the functions). For other inertias the step
-/// stays safe, but falls short of the limit by more.
-///
-/// K is that of the springs as they are now: contacts that open, slide or begin later change it, so
-/// leave a margin, and ask again as a simulation goes on.
+/// K is that of the springs as they are now: contacts that begin later, or press harder under a
+/// nonlinear law, change it. So leave a margin, and ask again as a simulation goes on.
 class NodalStiffness {
  public:
   explicit NodalStiffness(std::size_t node_count);
@@ -87,10 +81,20 @@ class NodalStiffness {
   CriticalStep critical_step(const NodeProperties& properties) const;
 
  private:
-  void add_contact_end(NodeId node, const ContactStiffness& contact, double arm, double factor);
+  /// Twice the stiffness around a node: [translation, coupling; coupling^T, rotation] with the
+  /// coupling v -> c x v, since all contacts turn a node across their normal.
+  struct Block {
+    Mat3 translation = Mat3::Zero();  // N/m
+    Mat3 rotation = Mat3::Zero();     // N m
+    Vec3 coupling = Vec3::Zero();     // N
+  };
 
-  std::vector<Mat3> translation_;  // N/m
-  std::vector<Mat3> rotation_;     // N m
+  void add_contact_end(NodeId node, const ContactStiffness& contact, double signed_arm,
+                       double factor);
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
+  Mat6 per_mass(std::size_t node, const NodeProperties& properties) const;
+
+  std::vector<Block> blocks_;
 };
 
 }  // namespace plekton::dynamics

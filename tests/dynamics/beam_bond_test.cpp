@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/structure/beam_bond.hpp"
+
+#include "tests/support/beam_structure.hpp"
+#include "tests/support/seeded_random.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace plekton::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kRadius = 0.2;
+constexpr double kLength = 1.3;
+const BeamSection kSection = dynamics::circular_section(kRadius, 7.0, 0.25);
+
+/// Largest entry of the stiffness matrix that a force is made of, times the length: a force scale.
+double force_scale() {
+  return kSection.young_modulus *
+         (kSection.area + 12.0 * kSection.second_moment / (kLength * kLength));
+}
+
+/// A bond at rest between two nodes that are turned at random, in a random direction.
+Scene bond_at_rest(Random& random) {
+  Scene scene;
+  const Vec3 start = random.in_cube(2.0);
+  scene.add_node(start);
+  scene.add_node(start + kLength * random.direction());
+  for (Quat& orientation : scene.state.orientation) orientation = Quat(random.rotation());
+  scene.add_beam(NodeId{0}, NodeId{1}, kSection, 1000.0);
+  return scene;
+}
+
+/// Each node moved by up to 0.4 lengths and turned by up to 1 rad per axis.
+Eigen::VectorXd large_displacement(Random& random) {
+  Eigen::VectorXd displacement(12);
+  for (Eigen::Index i = 0; i < 12; i += 6) {
+    displacement.segment<3>(i) = random.in_cube(0.4 * kLength);
+    displacement.segment<3>(i + 3) = random.in_cube(1.0);
+  }
+  return displacement;
+}
+
+/// Nodes at random, each joined to the next and to a few others.
+Scene random_frame(std::size_t node_count, Random& random) {
+  Scene scene;
+  for (std::size_t i = 0; i < node_count; ++i) scene.add_node(random.in_cube(3.0));
+  for (std::size_t i = 0; i < 3 * node_count; ++i) {
+    const std::size_t a = random.index(node_count);
+    const std::size_t b = i < node_count ? (a + 1) % node_count : random.index(node_count);
+    if (a != b)
+      scene.add_beam(geometry::id_at<NodeId>(a), geometry::id_at<NodeId>(b), kSection, 1e3);
+  }
+  return scene;
+}
+
+double energy_of(BeamBonds& bonds, const NodeState& state) {
+  geometry::ThreadPool pool;
+  bonds.advance(state, pool);
+  return bonds.elastic_energy();
+}
+
+/// The 12 x 12 matrix of Euler and Bernoulli for a beam along x.
+Eigen::MatrixXd euler_bernoulli_matrix() {
+  const double l = kLength;
+  const double axial = kSection.young_modulus * kSection.area / l;
+  const double bending = kSection.young_modulus * kSection.second_moment / l;
+  const double twist = kSection.shear_modulus * kSection.torsion_constant / l;
+  const auto row = [](double a, double b, double c, double d) {
+    return Eigen::RowVector4d(a, b, c, d);
+  };
+  Eigen::Matrix4d bend;  // v_a, theta_a, v_b, theta_b
+  bend << row(12 / (l * l), 6 / l, -12 / (l * l), 6 / l), row(6 / l, 4, -6 / l, 2),
+      row(-12 / (l * l), -6 / l, 12 / (l * l), -6 / l), row(6 / l, 2, -6 / l, 4);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(12, 12);
+  const std::array<int, 4> in_xy{1, 5, 7, 11};
+  const std::array<int, 4> in_xz{2, 4, 8, 10};
+  const std::array<double, 4> sign{1.0, -1.0, 1.0, -1.0};  // a turn about y lowers z
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double value = bending * bend(static_cast<int>(i), static_cast<int>(j));
+      matrix(in_xy[i], in_xy[j]) += value;
+      matrix(in_xz[i], in_xz[j]) += sign[i] * sign[j] * value;
+    }
+  }
+  for (const int i : {0, 6}) {
+    for (const int j : {0, 6}) {
+      matrix(i, j) = i == j ? axial : -axial;
+      matrix(i + 3, j + 3) = i == j ? twist : -twist;
+    }
+  }
+  return matrix;
+}
+
+TEST(BeamBond, HasExactlyTheStiffnessOfEulerAndBernoulliForSmallRotations) {
+  constexpr double kStep = 1e-5;
+  Scene scene = chain(1, kLength, kSection);
+  BeamBonds bonds(scene.bonds, 2);
+
+  const Eigen::MatrixXd error =
+      stiffness_matrix(bonds, scene.state, kStep) - euler_bernoulli_matrix();
+
+  // Third derivatives of a force are of the order of the stiffness; differences also round.
+  EXPECT_LT(error.cwiseAbs().maxCoeff(),
+            force_scale() * (10.0 * kStep * kStep + 10.0 * kEpsilon / kStep));
+}
+
+TEST(BeamBond, ForceAndTorqueAreTheGradientOfTheEnergyAtLargeRotations) {
+  constexpr double kStep = 1e-5;
+  Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    Scene scene = bond_at_rest(random);
+    const NodeState state = displaced(scene.state, large_displacement(random));
+    BeamBonds bonds(scene.bonds, 2);
+    Eigen::VectorXd gradient(12);
+    for (Eigen::Index k = 0; k < 12; ++k) {
+      const Eigen::VectorXd change = kStep * Eigen::VectorXd::Unit(12, k);
+      gradient[k] = (energy_of(bonds, displaced(state, change)) -
+                     energy_of(bonds, displaced(state, -change))) /
+                    (2.0 * kStep);
+    }
+
+    const Eigen::VectorXd error = bond_forces(bonds, state) + gradient;
+
+    // Shear falls with the third power of the length, so its derivatives grow as the bond shortens.
+    const double shortest = (state.position[1] - state.position[0]).norm() / kLength;
+    EXPECT_LT(error.norm(), force_scale() * (30.0 * kStep * kStep / std::pow(shortest, 4) +
+                                             20.0 * kEpsilon / kStep));
+  }
+}
+
+TEST(BeamBond, BalancesBothMomentaAtLargeRotations) {
+  Random random(2);
+  for (int i = 0; i < 1000; ++i) {
+    Scene scene = bond_at_rest(random);
+    const NodeState state = displaced(scene.state, large_displacement(random));
+    BeamBonds bonds(scene.bonds, 2);
+
+    const Eigen::VectorXd f = bond_forces(bonds, state);
+
+    const Vec3 chord = state.position[1] - state.position[0];
+    const Vec3 moment = f.segment<3>(3) + f.segment<3>(9) + chord.cross(Vec3(f.segment<3>(6)));
+    EXPECT_EQ((f.head<3>() + f.segment<3>(6)).norm(), 0.0);
+    EXPECT_LT(moment.norm(), 32.0 * kEpsilon * force_scale() * kLength);
+  }
+}
+
+TEST(BeamBond, DoesNothingAfterARigidMotion) {
+  Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    Scene scene = bond_at_rest(random);
+    const Quat turn(random.rotation());
+    const Vec3 shift = random.in_cube(2.0);
+    NodeState state = scene.state;
+    for (std::size_t n = 0; n < 2; ++n) {
+      state.position[n] = turn * state.position[n] + shift;
+      state.orientation[n] = turn * state.orientation[n];
+    }
+    BeamBonds bonds(scene.bonds, 2);
+
+    // The positions are rounded at their size of up to 8 m, 6 lengths.
+    EXPECT_LT(bond_forces(bonds, state).norm(), 100.0 * kEpsilon * force_scale());
+    EXPECT_LT(bonds.elastic_energy(), std::pow(100.0 * kEpsilon, 2) * force_scale() * kLength);
+  }
+}
+
+TEST(BeamBond, TurnsItsForceWithARigidMotion) {
+  Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    Scene scene = bond_at_rest(random);
+    NodeState state = displaced(scene.state, large_displacement(random));
+    BeamBonds bonds(scene.bonds, 2);
+    const Eigen::VectorXd before = bond_forces(bonds, state);
+    const double energy = bonds.elastic_energy();
+    const Quat turn(random.rotation());
+    for (std::size_t n = 0; n < 2; ++n) {
+      state.position[n] = turn * state.position[n];
+      state.orientation[n] = turn * state.orientation[n];
+    }
+
+    const Eigen::VectorXd after = bond_forces(bonds, state);
+
+    const double shortest = (state.position[1] - state.position[0]).norm() / kLength;
+    const double tolerance = 200.0 * kEpsilon * force_scale() / (shortest * shortest);
+    for (Eigen::Index k = 0; k < 12; k += 3) {
+      EXPECT_LT((after.segment<3>(k) - turn * Vec3(before.segment<3>(k))).norm(), tolerance);
+    }
+    EXPECT_NEAR(bonds.elastic_energy(), energy, tolerance * kLength);
+  }
+}
+
+TEST(BeamBond, ResistsPureTwistAndPureBendingInProportionToTheAngle) {
+  constexpr double kAngle = 0.5;
+  Scene scene = chain(1, kLength, kSection);
+  BeamBonds bonds(scene.bonds, 2);
+  Eigen::VectorXd twisted = Eigen::VectorXd::Zero(12);
+  twisted[9] = kAngle;
+  Eigen::VectorXd bent = Eigen::VectorXd::Zero(12);
+  bent[5] = -0.5 * kAngle;
+  bent[11] = 0.5 * kAngle;
+
+  const double torque = -bond_forces(bonds, displaced(scene.state, twisted))[9];
+  const double moment = -bond_forces(bonds, displaced(scene.state, bent))[11];
+
+  // From the energy: twist GJ/L0 (phi - 1/30 phi⁵), bending EI/L0 (phi + 71/1920 phi⁵), then phi⁷.
+  const double fourth = std::pow(kAngle, 4);
+  const double twist = kSection.shear_modulus * kSection.torsion_constant / kLength * kAngle;
+  const double bend = kSection.young_modulus * kSection.second_moment / kLength * kAngle;
+  EXPECT_NEAR(torque / twist, 1.0 - fourth / 30.0, 0.02 * fourth * kAngle * kAngle);
+  EXPECT_NEAR(moment / bend, 1.0 + 71.0 / 1920.0 * fourth, 0.02 * fourth * kAngle * kAngle);
+}
+
+TEST(BeamBond, ReportsTensionAsPositive) {
+  Scene scene = chain(2, 2.0 * kLength, kSection);
+  scene.state.position[2].x() += 0.01 * kLength;
+  BeamBonds bonds(scene.bonds, 3);
+
+  bond_forces(bonds, scene.state);
+
+  EXPECT_EQ(bonds.axial_force(0), 0.0);
+  EXPECT_NEAR(bonds.axial_force(1), 0.01 * kSection.young_modulus * kSection.area, 1e-13);
+}
+
+TEST(BeamBond, AnswersCoincidentNodesWithBalancedForces) {
+  Scene scene = chain(1, kLength, kSection);
+  scene.state.position[1] = scene.state.position[0];
+  BeamBonds bonds(scene.bonds, 2);
+
+  const Eigen::VectorXd f = bond_forces(bonds, scene.state);
+
+  const double axial = kSection.young_modulus * kSection.area;
+  EXPECT_NEAR(f[6], axial, 4.0 * kEpsilon * axial);
+  EXPECT_LT((f.segment<3>(3) + f.segment<3>(9)).norm(), 4.0 * kEpsilon * axial);
+}
+
+TEST(BeamBond, WithoutBendingStiffnessIsABar) {
+  BeamSection bar = kSection;
+  bar.second_moment = 0.0;
+  bar.torsion_constant = 0.0;
+  Random random(5);
+  Scene scene = chain(1, kLength, bar);
+  BeamBonds bonds(scene.bonds, 2);
+
+  const Eigen::VectorXd f = bond_forces(bonds, displaced(scene.state, large_displacement(random)));
+
+  EXPECT_EQ(f.segment<3>(3).norm(), 0.0);
+  EXPECT_EQ(f.segment<3>(9).norm(), 0.0);
+  EXPECT_GT(f.head<3>().norm(), 0.0);
+}
+
+TEST(BeamBonds, AddTheSameBitsForAnyNumberOfThreads) {
+  Random random(6);
+  Scene scene = random_frame(300, random);
+  for (Vec3& position : scene.state.position) position += random.in_cube(0.1);
+  const auto forces_with = [&](int threads) {
+    geometry::ThreadPool pool(threads);
+    BeamBonds bonds(scene.bonds, scene.state.size());
+    contact::NodeForces forces(scene.state.size());
+    bonds.advance(scene.state, pool);
+    bonds.add_forces(forces, pool);
+    return forces;
+  };
+
+  const contact::NodeForces one = forces_with(1);
+
+  for (const int threads : {2, 3, 4}) {
+    const contact::NodeForces many = forces_with(threads);
+    EXPECT_EQ(many.force, one.force);
+    EXPECT_EQ(many.torque, one.torque);
+  }
+}
+
+TEST(BeamBonds, AddToWhatIsThereAlready) {
+  Scene scene = chain(1, kLength, kSection);
+  scene.state.position[1].x() += 0.1;
+  BeamBonds bonds(scene.bonds, 2);
+  geometry::ThreadPool pool;
+  contact::NodeForces forces(2);
+  forces.force[1] = Vec3(0.0, 5.0, 0.0);
+
+  bonds.advance(scene.state, pool);
+  bonds.add_forces(forces, pool);
+
+  EXPECT_EQ(forces.force[1].y(), 5.0);
+  EXPECT_LT(forces.force[1].x(), 0.0);
+}
+
+TEST(BeamBonds, ListEveryProblemOfEveryBond) {
+  Scene scene = chain(2, kLength, kSection);
+  std::vector<BeamBond> bonds = scene.bonds;
+  bonds[0].length = 0.0;
+  bonds[0].section.young_modulus = std::numeric_limits<double>::quiet_NaN();
+  bonds[1].nodes = {NodeId{7}, NodeId{7}};
+
+  try {
+    BeamBonds(bonds, 3);
+    FAIL() << "expected std::invalid_argument";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("bond 0 (nodes 0, 1): length at rest is 0 m"));
+    EXPECT_THAT(error.what(), HasSubstr("bond 0 (nodes 0, 1): Young's modulus is nan Pa"));
+    EXPECT_THAT(error.what(), HasSubstr("bond 1 (nodes 7, 7): there is no node 7, only 3 nodes"));
+    EXPECT_THAT(error.what(), HasSubstr("both ends are the same node"));
+  }
+}
+
+TEST(BeamBonds, RefuseABeamWithoutLength) {
+  Scene scene;
+  scene.add_node(Vec3::Zero());
+  scene.add_node(Vec3::Zero());
+
+  EXPECT_THROW(dynamics::make_beam(NodeId{0}, NodeId{1}, scene.state, kSection),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace plekton::test
