@@ -76,7 +76,7 @@ std::vector<Vec3> lattice_sites(const Box& box, double spacing) {
 /// Random vector in the unit ball.
 Vec3 in_ball(Random& random) {
   while (true) {
-    const Vec3 v = random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0));
+    Vec3 v = random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0));
     if (v.squaredNorm() <= 1.0) return v;
   }
 }

@@ -25,6 +25,7 @@ std::vector<std::string> Problems::lines() const {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Problem& a, const Problem& b) { return key(a) < key(b); });
   std::vector<std::string> lines;
+  lines.reserve(sorted.size());
   for (const Problem& problem : sorted)
     lines.push_back(to_string(problem.place) + ": " + problem.text);
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());

@@ -16,7 +16,7 @@ constexpr Range kPoisson{-1.0, 0.5, false, true, " above -1 and at most 0.5"};
 fs::path read_mesh_path(Section& section, const Known& known) {
   const std::string name = section.text("mesh");
   if (name.empty()) return {};
-  const fs::path path = known.folder / name;
+  fs::path path = known.folder / name;
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) {
     const std::string_view what = fs::exists(path, ignored) ? "is not a file" : "does not exist";

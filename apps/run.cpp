@@ -187,7 +187,9 @@ PreparedRun prepare_run(const Scenario& scenario) {
   prepared.simulation = std::make_unique<Simulation>(std::move(prepared.built.scene), options);
   if (!scenario.simulation.time_step) {
     if (std::isfinite(prepared.simulation->time_step())) return prepared;
-    throw InputError("nothing in this scene moves freely, so no time step can be chosen; give simulation.time_step");
+    throw InputError(
+        "nothing in this scene moves freely, so no time step can be chosen; give "
+        "simulation.time_step");
   }
 
   const double asked = *scenario.simulation.time_step;

@@ -166,7 +166,7 @@ bool Section::truth(std::string_view key, bool fallback) {
   return fallback;
 }
 
-std::string Section::text(std::string_view key, std::optional<std::string> fallback) {
+std::string Section::text(std::string_view key, const std::optional<std::string>& fallback) {
   const Value* value = fallback ? find(key) : require(key);
   if (value == nullptr) return fallback.value_or("");
   const auto* text = std::get_if<std::string>(&value->data);

@@ -21,7 +21,7 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();  ///< SI
   bool with_low = true;
   bool with_high = true;
-  std::string_view text = "";  ///< continues "expected a length", as in " above 0"
+  std::string_view text;  ///< continues "expected a length", as in " above 0"
 
   bool holds(double value) const noexcept {
     return (with_low ? value >= low : value > low) && (with_high ? value <= high : value < high);
@@ -75,7 +75,7 @@ class Section {
                        std::optional<std::int64_t> fallback = {});
   bool truth(std::string_view key, bool fallback);
   /// Empty after a problem.
-  std::string text(std::string_view key, std::optional<std::string> fallback = {});
+  std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
   /// Position among the words; 0 after a problem. Without a fallback the key is required.
   std::size_t choice(std::string_view key, std::span<const std::string_view> words,
                      std::optional<std::size_t> fallback = {});

@@ -154,6 +154,7 @@ class UnitParser {
 
   [[noreturn]] void fail_unknown(std::string_view name) {
     std::vector<std::string_view> known;
+    known.reserve(kSymbols.size());
     for (const Symbol& symbol : kSymbols) known.push_back(symbol.text);
     const std::string closest = closest_word(name, known);
     throw UnitError(fmt::format(

@@ -188,6 +188,16 @@ TEST_F(Command, RunTakesATimeStepBelowCritical) {
   EXPECT_EQ(report()["timing"]["time_step_s"], 2e-6);
 }
 
+TEST_F(Command, RunAsksForATimeStepWhereNothingMovesFreely) {
+  std::string text(kScenario);
+  const std::size_t grains = text.find("[[grains]]");
+  text.erase(grains, text.find("[[planes]]") - grains);
+  test::write_bytes(folder_ / "case.toml", text);
+
+  EXPECT_THAT(failure_of({"membranes.sheet.hold=all", "membranes.sheet.hold_rotation=true"}).err,
+              HasSubstr("nothing in this scene moves freely"));
+}
+
 TEST_F(Command, RunRefusesBadScenariosWithNothingWritten) {
   EXPECT_THAT(failure_of({"simulation.duraton=1 s"}).err, HasSubstr("did you mean \"duration\"?"));
   EXPECT_THAT(failure_of({"grains.gravel.radius=-5 mm"}).err,
