@@ -31,7 +31,7 @@ inline NodeState displaced(NodeState state, const Eigen::VectorXd& displacement)
   for (std::size_t i = 0; i < state.size(); ++i) {
     state.position[i] += displacement.segment<3>(first_entry(i));
     state.orientation[i] =
-        dynamics::rotation_of(displacement.segment<3>(first_entry(i) + 3)) * state.orientation[i];
+        dynamics::turned(state.orientation[i], displacement.segment<3>(first_entry(i) + 3), 1.0);
     state.orientation[i].normalize();
   }
   return state;

@@ -27,7 +27,7 @@ TEST(A15BeamRotation, APreShearedLinkKeepsItsForceThroughARevolution) {
     for (Quat& orientation : scene.state.orientation) {
       orientation = dynamics::turned(orientation, Vec3(0.0, 0.0, kSpin), kTimeStep);
     }
-    const Quat turn = dynamics::rotation_of(Vec3(0.0, 0.0, kSpin * kTimeStep * step));
+    const Quat turn = dynamics::turned(Quat::Identity(), Vec3(0.0, 0.0, kSpin), kTimeStep * step);
     scene.state.position[1] = turn * start;
     Eigen::VectorXd co_rotated = bond_forces(bonds, scene.state);
     for (Eigen::Index i = 0; i < co_rotated.size(); i += 3) {
