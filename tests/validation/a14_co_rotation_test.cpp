@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A14: a cylinder and a ball that touch and turn together as one rigid body do not slip, however
+// long the cylinder is. (A spin of the cylinder taken as d x (v2 - v1), without 1 / L², would give
+// |L² - 1| r omega.)
+#include "tests/support/sweep_paths.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plekton::test {
+namespace {
+
+using namespace dragged;
+
+constexpr double kTolerance = 1e-10;  // m/s
+
+/// Gives every node the velocities of a rigid rotation (rad/s) about the origin.
+void turn_rigidly(ContactProbe& probe, const Vec3& spin) {
+  for (std::size_t i = 0; i < probe.positions().size(); ++i) {
+    probe.velocity()[i] = spin.cross(probe.positions()[i]);
+    probe.spin()[i] = spin;
+  }
+}
+
+/// Slip velocity (m/s) at the contact: the tangential force is k_s times it after a step of 1 s.
+double slip_velocity(ContactProbe& probe, const Vec3& normal) {
+  const Vec3 force = probe.feel().force;
+  return (force - force.dot(normal) * normal).norm() / probe.parameters().tangential_stiffness;
+}
+
+TEST(A14CoRotation, ABallOnACylinderOfAnyLengthDoesNotSlip) {
+  for (const double length : {0.1, 0.5, 1.0, 3.0}) {
+    for (const double place : {0.0, 0.3}) {
+      const auto cylinder =
+          chain_of_cylinders({Vec3(-0.5 * length, 0, 0), Vec3(0.5 * length, 0, 0)});
+      for (const Vec3& spin : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0.6, -0.7, 0.5)}) {
+        ContactProbe probe(cylinder, kBallRadius, no_slip());
+        probe.put(Vec3(place * length, 0, kDistance));
+        turn_rigidly(probe, spin);
+
+        EXPECT_LE(slip_velocity(probe, Vec3::UnitZ()), kTolerance)
+            << "length " << length << ", spin " << spin.transpose();
+      }
+    }
+  }
+}
+
+TEST(A14CoRotation, ABallOnAFacetDoesNotSlip) {
+  ContactProbe probe(folded_strip(0.0), kBallRadius, no_slip());
+  probe.put(Vec3(0.21, 0.13, kDistance));
+  turn_rigidly(probe, Vec3(0.6, -0.7, 0.5));
+
+  EXPECT_LE(slip_velocity(probe, Vec3::UnitZ()), kTolerance);
+}
+
+// So that the checks above cannot pass by a probe that feels nothing.
+TEST(A14CoRotation, ABallThatTurnsAloneSlips) {
+  ContactProbe probe(chain_of_cylinders({Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)}), kBallRadius,
+                     no_slip());
+  probe.put(Vec3(0, 0, kDistance));
+  probe.spin().back() = Vec3(0, 0.01, 0);
+
+  EXPECT_NEAR(slip_velocity(probe, Vec3::UnitZ()), 0.01 * (kBallRadius - 0.5 * kOverlap),
+              kTolerance);
+}
+
+}  // namespace
+}  // namespace plekton::test

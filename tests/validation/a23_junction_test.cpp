@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A23: a ball that crosses a junction of cylinders. Along a branch it has one contact, through the
+// node too. Away from the branches the force changes in proportion to the step, without jumps.
+//
+// Between branches the ball sinks in until it rests on two or three of them, and the contact rule
+// goes from one contact to as many as the pass between them leaves the range: with an overlap u at
+// a distance D, each of two branches at a right angle being y away, |F| / F_n = 1 + y² / (2 D u).
+// So |F| is within 2 % of F_n only up to y = sqrt(0.04 D u), 3.1 mm here.
+#include "tests/support/sweep_paths.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace plekton::test {
+namespace {
+
+using namespace dragged;
+
+/// Cylinders of length 1 m from the origin, evenly in the plane z = 0, the first at this angle.
+ProbedSurface junction(int branches, double first) {
+  ProbedSurface star{{Vec3::Zero()}, {}, {}, kSurfaceRadius};
+  for (int k = 0; k < branches; ++k) {
+    const double angle = first + 2.0 * std::numbers::pi * k / branches;
+    star.nodes.push_back(Vec3(std::cos(angle), std::sin(angle), 0.0));
+    star.cylinders.push_back({0, k + 1});
+  }
+  return star;
+}
+
+/// How high over a place the centre is when its distance from the nearest branch is D.
+double height_over(const ProbedSurface& star, const Vec3& place) {
+  double nearest_squared = kDistance * kDistance;
+  for (std::size_t k = 1; k < star.nodes.size(); ++k) {
+    const double along = std::clamp(place.dot(star.nodes[k]), 0.0, 1.0);
+    nearest_squared = std::min(nearest_squared, (place - along * star.nodes[k]).squaredNorm());
+  }
+  return std::sqrt(kDistance * kDistance - nearest_squared);
+}
+
+/// Over the junction, from place to place in the plane.
+std::vector<Vec3> path_over(const ProbedSurface& star, const Vec3& from, const Vec3& to,
+                            int steps) {
+  std::vector<Vec3> path = line(from, to, steps);
+  for (Vec3& centre : path) centre.z() = height_over(star, centre);
+  return path;
+}
+
+TEST(A23Junction, IsOneContactAlongABranchAndThroughTheNode) {
+  const ProbedSurface star = junction(4, 0.0);
+  ContactProbe probe(star, kBallRadius, frictionless());
+
+  const auto felt = sweep(probe, path_over(star, Vec3(-0.6, 0, 0), Vec3(0.61, 0, 0), 6007));
+
+  for (const Felt& step : felt) {
+    EXPECT_EQ(step.contacts, 1u);
+    EXPECT_NEAR(step.force.norm() / kNormalForce, 1.0, 1e-9);
+  }
+}
+
+TEST(A23Junction, IsOneContactOverTheNodeOfAnyNumberOfBranches) {
+  for (int branches = 1; branches <= 8; ++branches) {
+    ContactProbe probe(junction(branches, 0.1), kBallRadius, frictionless());
+
+    const Felt felt = probe.put(Vec3(0, 0, kDistance));
+
+    EXPECT_EQ(felt.contacts, 1u) << branches << " branches";
+    EXPECT_NEAR(felt.force.norm() / kNormalForce, 1.0, 1e-9) << branches << " branches";
+  }
+}
+
+// Six branches are only 60 degrees apart: at the place beside the node where the node leaves the
+// range, s = sqrt((R + r)² - D²) = 22 mm, the ball on one branch rests on both neighbours as well,
+// at a distance of sqrt(D² + 3/4 s²). All three push: |F| = 1.49 F_n.
+TEST(A23Junction, RestsOnThreeOfSixBranchesBesideTheNode) {
+  constexpr double kReach = kBallRadius + kSurfaceRadius;
+  const double beside = std::sqrt(kReach * kReach - kDistance * kDistance);
+  const double distance = std::sqrt(kDistance * kDistance + 0.75 * beside * beside);
+  const double push = 2.0 * kNormalStiffness * (kReach - distance) / distance;
+  const Vec3 exact(0.75 * beside * push, 0.0, kNormalForce + kDistance * push);
+  ContactProbe probe(junction(6, 0.0), kBallRadius, frictionless());
+
+  const Felt felt = probe.put(Vec3(beside, 0, kDistance));
+
+  EXPECT_NEAR((felt.force - exact).norm(), 0.0, 1e-9 * exact.norm());
+  EXPECT_NEAR(felt.force.norm() / kNormalForce, 1.49, 0.005);
+}
+
+TEST(A23Junction, GoesFromOneContactToTwoBetweenBranchesAsThePassLeavesTheRange) {
+  const ProbedSurface star = junction(4, 0.0);
+  for (const double y : {0.001, 0.002, 0.003, 0.004}) {
+    ContactProbe probe(star, kBallRadius, frictionless());
+    const Vec3 between(y, y, 0);
+    const Felt felt = probe.put(between + height_over(star, between) * Vec3::UnitZ());
+
+    const double expected = 1.0 + y * y / (2.0 * kDistance * kOverlap);
+    // The next terms of the distances are y² / D² of this.
+    EXPECT_NEAR(felt.force.norm() / kNormalForce, expected, 2.0 * y * y / (kDistance * kDistance));
+    if (y <= 0.003) {
+      EXPECT_NEAR(felt.force.norm() / kNormalForce, 1.0, 0.02);
+    }
+  }
+}
+
+void expect_change_in_proportion(const ProbedSurface& star, const Vec3& from, const Vec3& to) {
+  double last = 0.0;
+  for (const int steps : {6000, 24000, 96000}) {
+    ContactProbe probe(star, kBallRadius, frictionless());
+    const double jump = largest_jump(sweep(probe, path_over(star, from, to, steps)));
+    // k_n times the way, twice at most: two overlaps change, each by at most the way.
+    EXPECT_LE(jump, 2.0 * kNormalStiffness * (to - from).norm() / steps) << steps << " steps";
+    if (last > 0.0) {
+      EXPECT_NEAR(jump / last, 0.25, 0.05) << steps << " steps";
+    }
+    last = jump;
+  }
+}
+
+TEST(A23Junction, ChangesInProportionToTheStepOffTheAxisOfFourBranches) {
+  expect_change_in_proportion(junction(4, 0.0), Vec3(-0.1, 0.004, 0), Vec3(0.1, 0.004, 0));
+}
+
+TEST(A23Junction, ChangesInProportionToTheStepOverSixBranches) {
+  expect_change_in_proportion(junction(6, 0.1), Vec3(-0.2, -0.02, 0), Vec3(0.2, 0.02, 0));
+}
+
+}  // namespace
+}  // namespace plekton::test
