@@ -125,7 +125,7 @@ int dispatch(int argc, const char* const* argv) {
       "check", "Read a scenario, build its scene, and say what it is or what is wrong with it");
   add_scenario_options(*check, line);
   CLI::App* import = app.add_subcommand(
-      "import", "Read and repair a mesh (.off, .obj, .stl, .ply), and report on it");
+      "import", "Read and repair a mesh (.off, .obj, .stl, .ply, .msh, .vtp), and report on it");
   import->add_option("mesh", line.mesh, "Mesh file")->required();
   import->add_option("--weld", line.weld, "Join points within this distance, as in \"1 um\"");
   import->add_option("--thickness", line.thickness,

@@ -20,9 +20,10 @@ fs::path read_mesh_path(Section& section, const Known& known) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) {
     const std::string_view what = fs::exists(path, ignored) ? "is not a file" : "does not exist";
-    section.complain("mesh", fmt::format("\"{}\" {}; expected a mesh (.off, .obj, .stl, .ply), its "
-                                         "path relative to the scenario",
-                                         path.string(), what));
+    section.complain(
+        "mesh", fmt::format("\"{}\" {}; expected a mesh (.off, .obj, .stl, .ply, .msh, .vtp), its "
+                            "path relative to the scenario",
+                            path.string(), what));
   }
   return path;
 }

@@ -4,7 +4,7 @@
 namespace plekton::geometry {
 
 PolygonSoup to_soup(const Mesh& mesh) {
-  PolygonSoup soup{mesh.points, {}};
+  PolygonSoup soup{mesh.points, {}, 0};
   soup.polygons.reserve(mesh.facets.size());
   for (const auto& [a, b, c] : mesh.facets)
     soup.polygons.push_back({index_of(a), index_of(b), index_of(c)});

@@ -24,6 +24,7 @@ struct Mesh {
 struct PolygonSoup {
   std::vector<Vec3> points;                        ///< m
   std::vector<std::vector<std::size_t>> polygons;  ///< corners as positions in points
+  std::size_t skipped_elements = 0;  ///< points, lines and solids of the file: no part of a surface
 };
 
 /// A mesh that cannot be read, written or used. The message names the file, the place, what was

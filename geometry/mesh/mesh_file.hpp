@@ -9,22 +9,28 @@
 
 namespace plekton::geometry {
 
-/// File formats. Reading tells the two kinds of STL apart by content, and likewise the three kinds
-/// of PLY.
-enum class MeshFormat { off, obj, stl_ascii, stl_binary, ply };
+/// File formats. Reading tells the kinds of STL, PLY, gmsh and VTP apart by content; writing makes
+/// gmsh files of version 2.2 and VTP files with numbers as text.
+enum class MeshFormat { off, obj, stl_ascii, stl_binary, ply, gmsh, vtp };
 
-/// Polygons of an OFF, OBJ, STL (ASCII or binary) or PLY (ASCII or binary) file, as they are in it:
-/// nothing is merged, dropped or cut into triangles. A file that holds no polygon is read without
-/// complaint.
+/// Polygons of an OFF, OBJ, STL (ASCII or binary), PLY (ASCII or binary), gmsh (.msh 2.2 or 4.1,
+/// ASCII) or VTK XML PolyData (.vtp) file, as they are in it: nothing is merged, dropped or cut
+/// into triangles, except triangle strips. A file that holds no polygon is read without complaint.
+/// The format is that of detect_mesh_format.
 /// @throws MeshError for a file that is missing, empty, of another kind, cut off or malformed, and
 ///         for coordinates that are not finite or not below kLargestCoordinate and corners that
 ///         name no point, all of them in one message.
 PolygonSoup read_mesh_file(const std::filesystem::path& path);
 
-/// The same from memory. Time and memory are linear in the size of the text, whatever counts it
-/// claims.
+/// The same from memory. Time and memory are linear in the size of the text (of a .vtp file: of
+/// its arrays once unpacked, as often as its pieces name them), whatever counts it claims.
 /// @param name  What messages call it.
 PolygonSoup parse_mesh(std::string_view bytes, MeshFormat format, const std::string& name);
+
+/// Format by content where it starts with words that only one format has ("ply", "$MeshFormat",
+/// "<VTKFile", "OFF", "solid"), whatever the ending; by the ending otherwise.
+/// @throws MeshError if neither tells.
+MeshFormat detect_mesh_format(std::string_view bytes, const std::filesystem::path& path);
 
 /// Format by the ending of a file name, in upper or lower case; .stl means binary STL.
 /// @throws MeshError for any other ending.

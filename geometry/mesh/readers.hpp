@@ -32,4 +32,16 @@ PolygonSoup read_stl(std::string_view bytes, const std::string& name);
 /// passed over.
 PolygonSoup read_ply(std::string_view bytes, const std::string& name);
 
+/// Triangles and quadrangles of a gmsh .msh file, version 2.2 or 4.1, ASCII. Points, lines and
+/// solids are counted as skipped; groups, partitions and results are passed over. Curved surface
+/// elements (of second order and more) are refused, because their corners alone are another
+/// surface. Source: Gmsh reference manual, "File formats".
+PolygonSoup read_gmsh(std::string_view text, const std::string& name);
+
+/// Polygons and triangle strips of a VTK XML PolyData file: arrays as text, as base64 in place, or
+/// appended as base64 or raw, plain or compressed by zlib, of either byte order; pieces one after
+/// the other. Vertices and lines are counted as skipped, results passed over. Source: VTK User's
+/// Guide, "VTK File Formats" (docs.vtk.org).
+PolygonSoup read_vtp(std::string_view bytes, const std::string& name);
+
 }  // namespace plekton::geometry

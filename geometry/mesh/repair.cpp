@@ -210,6 +210,7 @@ MeshReport start_report(const PolygonSoup& soup, const std::string& source) {
   report.source = source.empty() ? "mesh" : source;
   report.found.points = soup.points.size();
   report.found.polygons = soup.polygons.size();
+  report.found.skipped_elements = soup.skipped_elements;
   report.found.non_triangles = static_cast<std::size_t>(
       std::count_if(soup.polygons.begin(), soup.polygons.end(),
                     [](const auto& polygon) { return polygon.size() != 3; }));

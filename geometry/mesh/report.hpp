@@ -27,6 +27,7 @@ struct MeshReport {
   struct Found {
     std::size_t points = 0;
     std::size_t polygons = 0;
+    std::size_t skipped_elements = 0;       ///< points, lines and solids of the file, left out
     std::size_t non_triangles = 0;          ///< polygons with any other number of corners than 3
     std::size_t warped_polygons = 0;        ///< more than 5 % of their size out of plane
     std::size_t duplicate_points = 0;       ///< equal to an earlier one

@@ -73,6 +73,7 @@ std::string found_object(const MeshReport::Found& found) {
   return Object(1)
       .add("points", found.points)
       .add("polygons", found.polygons)
+      .add("skipped_elements", found.skipped_elements)
       .add("non_triangles", found.non_triangles)
       .add("warped_polygons", found.warped_polygons)
       .add("duplicate_points", found.duplicate_points)

@@ -44,6 +44,7 @@ void add_found(Table& table, const MeshReport::Found& found) {
   table.heading("found");
   table.row("points", found.points);
   table.row("polygons", found.polygons);
+  table.row_if("points, lines and solids left out", found.skipped_elements);
   table.row_if("polygons that are no triangles", found.non_triangles);
   table.row_if("polygons that are not flat", found.warped_polygons);
   table.row_if("points equal to another", found.duplicate_points);

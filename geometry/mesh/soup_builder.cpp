@@ -30,6 +30,10 @@ void SoupBuilder::note_problem(std::string problem) {
   if (problems_.size() < kListedProblems) problems_.push_back(std::move(problem));
 }
 
+void SoupBuilder::add_problem(const std::string& problem, std::size_t line) {
+  note_problem(place(line) + problem);
+}
+
 void SoupBuilder::add_point(const Vec3& point, std::size_t line) {
   if (!is_usable(point)) {
     std::ostringstream text;

@@ -26,6 +26,11 @@ class SoupBuilder {
   /// @param corners  Counted from 0. One out of range is noted as a problem.
   void add_polygon(std::span<const std::int64_t> corners, std::size_t line);
 
+  /// Something else that is wrong with the file, reported with the rest.
+  void add_problem(const std::string& problem, std::size_t line);
+  /// Elements of the file that are no part of a surface.
+  void skip_elements(std::size_t count) { soup_.skipped_elements += count; }
+
   std::size_t point_count() const noexcept { return soup_.points.size(); }
   std::size_t polygon_count() const noexcept { return soup_.polygons.size(); }
 

@@ -59,8 +59,13 @@ std::optional<std::int64_t> parse_integer(std::string_view word) noexcept {
   return value;
 }
 
-TextScanner::TextScanner(std::string_view text, std::string name, char comment)
-    : text_(text), name_(std::move(name)), comment_(comment) {}
+TextScanner::TextScanner(std::string_view text, std::string name, char comment,
+                         std::size_t first_line)
+    : text_(text),
+      name_(std::move(name)),
+      comment_(comment),
+      line_(first_line),
+      word_line_(first_line) {}
 
 void TextScanner::pass_line_end() {
   if (position_ < text_.size() && text_[position_] == '\r') ++position_;

@@ -20,8 +20,10 @@ std::optional<std::int64_t> parse_integer(std::string_view word) noexcept;
 /// LF or CR.
 class TextScanner {
  public:
-  /// @param comment  Starts a comment that runs to the end of its line; '\0' for none.
-  TextScanner(std::string_view text, std::string name, char comment = '\0');
+  /// @param comment     Starts a comment that runs to the end of its line; '\0' for none.
+  /// @param first_line  Line of the file in which the text starts.
+  TextScanner(std::string_view text, std::string name, char comment = '\0',
+              std::size_t first_line = 1);
 
   /// True when nothing but white space and comments is left.
   bool at_end();
@@ -33,7 +35,7 @@ class TextScanner {
   /// The rest of the current line without the line end, which is passed.
   std::string_view rest_of_line();
 
-  /// Line of the last word, counted from 1.
+  /// Line of the last word, as the file counts from 1.
   std::size_t line() const noexcept { return word_line_; }
   /// Position in the text after the last word or line.
   std::size_t position() const noexcept { return position_; }
@@ -49,8 +51,8 @@ class TextScanner {
   std::string name_;
   char comment_;
   std::size_t position_ = 0;
-  std::size_t line_ = 1;
-  std::size_t word_line_ = 1;
+  std::size_t line_;
+  std::size_t word_line_;
 };
 
 }  // namespace plekton::geometry

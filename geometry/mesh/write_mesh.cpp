@@ -67,6 +67,41 @@ std::string format_ply(const Mesh& mesh) {
   return text;
 }
 
+/// Version 2.2, ASCII; every facet an element of type 2 without tags.
+std::string format_gmsh(const Mesh& mesh) {
+  std::string text =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(mesh.points.size()) + '\n';
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    append_point(text += std::to_string(i + 1) + ' ', mesh.points[i]);
+    text += '\n';
+  }
+  text += "$EndNodes\n$Elements\n" + std::to_string(mesh.facets.size()) + '\n';
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    text += std::to_string(f + 1) + " 2 0";
+    for (const NodeId node : mesh.facets[f]) text += ' ' + std::to_string(index_of(node) + 1);
+    text += '\n';
+  }
+  return text += "$EndElements\n";
+}
+
+/// XML PolyData with all numbers as text.
+std::string format_vtp(const Mesh& mesh) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
+      "<Piece NumberOfPoints=\"" +
+      std::to_string(mesh.points.size()) + "\" NumberOfPolys=\"" +
+      std::to_string(mesh.facets.size()) +
+      "\">\n<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n";
+  append_points(text, mesh, "");
+  text +=
+      "</DataArray>\n</Points>\n<Polys>\n"
+      "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
+  append_facets(text, mesh, "", 0);
+  text += "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
+  for (std::size_t f = 1; f <= mesh.facets.size(); ++f) text += std::to_string(3 * f) + '\n';
+  return text += "</DataArray>\n</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+}
+
 /// Unit normal; zero for a facet without area, as STL readers expect.
 Vec3 unit_normal(const std::array<Vec3, 3>& x) {
   const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
@@ -125,6 +160,10 @@ std::string format_mesh(const Mesh& mesh, MeshFormat format) {
       return format_stl_binary(mesh);
     case MeshFormat::ply:
       return format_ply(mesh);
+    case MeshFormat::gmsh:
+      return format_gmsh(mesh);
+    case MeshFormat::vtp:
+      return format_vtp(mesh);
   }
   throw MeshError("unknown mesh format");
 }

@@ -253,13 +253,13 @@ TEST_F(BadMeshFile, IsAFolder) {
 }
 
 TEST_F(BadMeshFile, IsEmpty) {
-  for (const char* name : {"a.off", "a.obj", "a.stl", "a.ply"})
+  for (const char* name : {"a.off", "a.obj", "a.stl", "a.ply", "a.msh", "a.vtp"})
     EXPECT_THAT(import_message(name, ""), HasSubstr(std::string(name) + ": the file is empty"));
 }
 
 TEST_F(BadMeshFile, HasAnUnknownEnding) {
   EXPECT_THAT(import_message("a.step", "x"),
-              AllOf(HasSubstr("'.step'"), HasSubstr(".off, .obj, .stl or .ply")));
+              AllOf(HasSubstr("'.step'"), HasSubstr(".off, .obj, .stl, .ply, .msh or .vtp")));
 }
 
 TEST_F(BadMeshFile, HasNoFacets) {
@@ -286,7 +286,8 @@ TEST(BadMeshInput, NeverCrashesOnACutOffFile) {
   const Mesh mesh = icosphere(1.0, 0);
   const auto start = std::chrono::steady_clock::now();
 
-  for (const MeshFormat format : {kOff, kObj, MeshFormat::stl_ascii, kStl, kPly}) {
+  for (const MeshFormat format :
+       {kOff, kObj, MeshFormat::stl_ascii, kStl, kPly, MeshFormat::gmsh, MeshFormat::vtp}) {
     const std::string whole = format_mesh(mesh, format);
     for (std::size_t size = 0; size < whole.size(); ++size) {
       try {
@@ -304,7 +305,8 @@ TEST(BadMeshInput, NeverCrashesOnACutOffFile) {
 TEST(BadMeshInput, NeverCrashesOnADamagedFile) {
   const Mesh mesh = box_shell({1.0, 2.0, 3.0});
 
-  for (const MeshFormat format : {kOff, kObj, MeshFormat::stl_ascii, kStl, kPly}) {
+  for (const MeshFormat format :
+       {kOff, kObj, MeshFormat::stl_ascii, kStl, kPly, MeshFormat::gmsh, MeshFormat::vtp}) {
     const std::string whole = format_mesh(mesh, format);
     for (std::size_t at = 0; at < whole.size(); ++at) {
       for (const char damage : {'\0', '-', '9', ' ', '\n', 'e', '\xff'}) {

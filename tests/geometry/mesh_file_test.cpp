@@ -59,7 +59,7 @@ TEST_P(EveryTextFormat, ReadsFilesWithWindowsLineEnds) {
 
 INSTANTIATE_TEST_SUITE_P(MeshFile, EveryTextFormat,
                          ::testing::Values(MeshFormat::off, MeshFormat::obj, MeshFormat::stl_ascii,
-                                           MeshFormat::ply));
+                                           MeshFormat::ply, MeshFormat::gmsh, MeshFormat::vtp));
 
 TEST(MeshFile, KeepsBinaryStlToSinglePrecision) {
   const Mesh mesh = icosphere(0.1, 1);
@@ -107,6 +107,21 @@ TEST(MeshFile, KeepsTheOldFileWhenTheDiskFillsUp) {
 
   EXPECT_EQ(test::bytes_of(folder / "a.off"), before);
   EXPECT_THAT(folder.names(), ElementsAre("a.off"));
+}
+
+TEST(MeshFile, TellsTheFormatByItsFirstWordsAndOnlyThenByItsEnding) {
+  const Mesh mesh = box_shell({1.0, 2.0, 4.0});
+  for (const MeshFormat format : {MeshFormat::off, MeshFormat::ply, MeshFormat::stl_ascii,
+                                  MeshFormat::gmsh, MeshFormat::vtp}) {
+    EXPECT_EQ(detect_mesh_format(format_mesh(mesh, format), "renamed.obj"), format);
+    EXPECT_EQ(detect_mesh_format(format_mesh(mesh, format), "without_ending"), format);
+  }
+  EXPECT_EQ(detect_mesh_format("# by hand\n\n NOFF 0 0 0", "a.txt"), MeshFormat::off);
+  EXPECT_EQ(detect_mesh_format("<!-- by hand -->\n<VTKFile type=\"PolyData\"", "a"),
+            MeshFormat::vtp);
+  EXPECT_EQ(detect_mesh_format("v 0 0 0", "a.OBJ"), MeshFormat::obj);
+  EXPECT_EQ(detect_mesh_format("", "a.MSH"), MeshFormat::gmsh);
+  EXPECT_THROW(detect_mesh_format("v 0 0 0", "a.txt"), MeshError);
 }
 
 TEST(MeshFile, TellsBinaryFromAsciiStlByContent) {
