@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/generators.hpp"
 
+#include "geometry/mesh/generator_checks.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,18 +13,6 @@
 
 namespace plekton::geometry {
 namespace {
-
-void require_length(double length, const char* what) {
-  if (!(length > 0.0) || !(length < kLargestCoordinate))
-    throw MeshError(std::string(what) + " of " + std::to_string(length) +
-                    " m; expected a positive length");
-}
-
-void require_at_least(int least, int count, const char* what) {
-  if (count < least)
-    throw MeshError(std::string(what) + ": " + std::to_string(count) + "; expected at least " +
-                    std::to_string(least));
-}
 
 NodeId add_point(Mesh& mesh, const Vec3& point) {
   mesh.points.push_back(point);
