@@ -7,7 +7,8 @@ function(plekton_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # Public, because headers hold arithmetic too: an inline function compiled with fused multiply-add in a user's file and
   # without in ours would give results that depend on which copy the linker keeps.
-  target_compile_options(${target} PUBLIC $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+  # Nobody reads errno after a square root; with it none could be taken side by side.
+  target_compile_options(${target} PUBLIC "$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-fno-math-errno>")
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # GCC 12 reports it for std::string's operator+ at -O3, wrongly (GCC bug 105651)
     $<$<BOOL:${PLEKTON_WARNINGS_AS_ERRORS}>:-Werror> $<$<BOOL:${PLEKTON_NATIVE}>:-march=native>)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/ball_block.hpp"
 #include "contact/bodies.hpp"
 #include "contact/chunks.hpp"
 #include "contact/contact_memory.hpp"
@@ -9,6 +10,7 @@
 #include "contact/material_pairs.hpp"
 #include "contact/rekey.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -27,7 +29,9 @@ class BallContacts {
   /// @returns the energy (J) dissipated
   double advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
 
-  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const { records_.add_to(forces, pool); }
+  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
+    records_.add_to(forces, pool);
+  }
   std::size_t touching() const noexcept { return records_.size(); }
   /// Largest overlap of the last step over the radius of the smaller ball.
   double largest_overlap_ratio() const noexcept { return records_.deepest(); }
@@ -52,6 +56,7 @@ class BallContacts {
     NodeId a;
     NodeId b;
     double range;  ///< m, sum of radii
+    bool touches;  ///< in the last step
   };
   /// What only touching pairs need.
   struct Detail {
@@ -62,9 +67,29 @@ class BallContacts {
     ContactMemory<Law> memory;
   };
 
-  /// @returns the energy (J) dissipated
-  double advance_touching(std::size_t i, const Vec3& separation, double distance, const Motion& motion, double dt,
-                          typename ForceRecords<BallForce>::List& records);
+  using Records = typename ForceRecords<BallForce>::List;
+
+  /// Pairs found to touch, waiting to be asked about together.
+  struct Touching {
+    std::array<std::size_t, kBlockLanes> pair;  ///< place in the list
+    std::size_t count = 0;
+  };
+
+  /// Looks for touching pairs from `first` on, until `end` or until there are enough for a block.
+  /// Contacts that have ended are forgotten; the energy (J) lost is added to dissipated.
+  /// @returns the pair to go on with
+  std::size_t find_touching(std::size_t first, std::size_t end, Positions x, Touching& touching,
+                            double& dissipated);
+
+  template <class Block>
+  void gather(const Touching& touching, const Motion& motion, Block& block) const;
+  template <class Block>
+  double scatter(const Touching& touching, const Block& block, Records& records);
+
+  /// One step of pairs that touch, together if the law allows. @returns the energy (J) dissipated
+  double advance_block(const Touching& touching, const Motion& motion, double dt, Records& records);
+  /// One step of a pair that touches, whatever happened to it. @returns the energy (J) dissipated
+  double advance_one(std::size_t i, const Motion& motion, double dt, Records& records);
 
   std::vector<geometry::IndexPair> keys_;
   std::vector<Pair> pairs_;
@@ -74,18 +99,21 @@ class BallContacts {
 };
 
 template <ContactLaw Law>
-double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys, std::span<const Ball> balls,
+double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
+                                  std::span<const Ball> balls,
                                   const MaterialPairs<Law>& materials) {
   double lost = 0.0;
   pairs_.clear();
   const auto make = [&](std::size_t i, const Detail* old) {
     const Ball& a = balls[static_cast<std::size_t>(keys[i].a)];
     const Ball& b = balls[static_cast<std::size_t>(keys[i].b)];
-    pairs_.push_back({a.node, b.node, a.radius + b.radius});
+    pairs_.push_back({a.node, b.node, a.radius + b.radius, old && !old->memory.is_new()});
     if (old) return *old;
-    return Detail{a.radius, b.radius, 0.0, materials.combine(a.material, a.radius, b.material, b.radius), {}};
+    return Detail{
+        a.radius, b.radius, 0.0, materials.combine(a.material, a.radius, b.material, b.radius), {}};
   };
-  rekey(keys_, details_, keys, make, [&](Detail& old) { lost += forget<Law>(old.parameters, old.memory); });
+  rekey(keys_, details_, keys, make,
+        [&](Detail& old) { lost += forget<Law>(old.parameters, old.memory); });
   return lost;
 }
 
@@ -93,50 +121,124 @@ template <ContactLaw Law>
 double BallContacts<Law>::advance(const Motion& motion, double dt, geometry::ThreadPool& pool) {
   records_.reset(pool.thread_count());
   return sum_(pairs_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {
-    auto& records = records_.of_worker(worker);
     double dissipated = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Pair& pair = pairs_[i];
-      const Vec3 separation = motion.position[index_of(pair.b)] - motion.position[index_of(pair.a)];
-      const double distance_squared = separation.squaredNorm();
-      if (distance_squared < pair.range * pair.range) {
-        dissipated += advance_touching(i, separation, std::sqrt(distance_squared), motion, dt, records);
-      } else if (!details_[i].memory.is_new()) {
-        dissipated += forget<Law>(details_[i].parameters, details_[i].memory);
-      }
+    for (std::size_t next = begin; next < end;) {
+      Touching touching;
+      next = find_touching(next, end, motion.position, touching, dissipated);
+      dissipated += advance_block(touching, motion, dt, records_.of_worker(worker));
     }
     return dissipated;
   });
 }
 
 template <ContactLaw Law>
-double BallContacts<Law>::advance_touching(std::size_t i, const Vec3& separation, double distance,
-                                           const Motion& motion, double dt, typename ForceRecords<BallForce>::List& records) {
+std::size_t BallContacts<Law>::find_touching(std::size_t first, std::size_t end, Positions x,
+                                             Touching& touching, double& dissipated) {
+  std::size_t i = first;
+  std::size_t count = 0;
+  for (; i < end && count < kBlockLanes; ++i) {
+    Pair& pair = pairs_[i];
+    const Vec3& xa = x[index_of(pair.a)];
+    const Vec3& xb = x[index_of(pair.b)];
+    const double dx = xb[0] - xa[0], dy = xb[1] - xa[1], dz = xb[2] - xa[2];
+    const bool touches = dx * dx + dy * dy + dz * dz < pair.range * pair.range;
+    // Written always and counted if true: whether a pair touches cannot be predicted, and a wrong
+    // guess costs more.
+    touching.pair[count] = i;
+    count += touches;
+    if (pair.touches == touches) continue;
+    pair.touches = touches;
+    if (!touches) dissipated += forget<Law>(details_[i].parameters, details_[i].memory);
+  }
+  touching.count = count;
+  return i;
+}
+
+template <ContactLaw Law>
+double BallContacts<Law>::advance_block(const Touching& touching, const Motion& motion, double dt,
+                                        Records& records) {
+  if constexpr (LaneLaw<Law>) {
+    BallBlock<Law> block;
+    gather(touching, motion, block);
+    if (advance_side_by_side(block, touching.count, dt)) return scatter(touching, block, records);
+  }
+  double dissipated = 0.0;
+  for (std::size_t k = 0; k < touching.count; ++k)
+    dissipated += advance_one(touching.pair[k], motion, dt, records);
+  return dissipated;
+}
+
+template <ContactLaw Law>
+template <class Block>
+void BallContacts<Law>::gather(const Touching& touching, const Motion& motion, Block& block) const {
+  for (std::size_t k = 0; k < touching.count; ++k) {
+    const Pair& pair = pairs_[touching.pair[k]];
+    const Detail& detail = details_[touching.pair[k]];
+    const std::size_t a = index_of(pair.a);
+    const std::size_t b = index_of(pair.b);
+    block.separation.set(k, Vec3(motion.position[b] - motion.position[a]));
+    block.velocity.set(k, Vec3(motion.velocity[b] - motion.velocity[a]));
+    block.spin_a.set(k, motion.angular_velocity[a]);
+    block.spin_b.set(k, motion.angular_velocity[b]);
+    block.radius_a.set(k, detail.radius_a);
+    block.radius_b.set(k, detail.radius_b);
+    block.parameters.set(k, detail.parameters);
+    block.history.set(k, detail.memory.history);
+    block.normal.set(k, detail.memory.normal);
+  }
+}
+
+template <ContactLaw Law>
+template <class Block>
+double BallContacts<Law>::scatter(const Touching& touching, const Block& block, Records& records) {
+  double dissipated = 0.0;
+  for (std::size_t k = 0; k < touching.count; ++k) {
+    const std::size_t i = touching.pair[k];
+    Detail& detail = details_[i];
+    block.history.get(k, detail.memory.history);
+    block.normal.get(k, detail.memory.normal);
+    block.gap.get(k, detail.gap);
+    // Written in place: a record built elsewhere would be copied before its numbers have left the
+    // processor.
+    BallForce& record = records.add(block.overlap_ratio.number(k));
+    record.a = pairs_[i].a;
+    record.b = pairs_[i].b;
+    block.force.get(k, record.force);
+    block.torque_a.get(k, record.torque_a);
+    block.torque_b.get(k, record.torque_b);
+    record.contact = i;
+    dissipated += block.dissipated.number(k);
+  }
+  return dissipated;
+}
+
+template <ContactLaw Law>
+double BallContacts<Law>::advance_one(std::size_t i, const Motion& motion, double dt,
+                                      Records& records) {
   const Pair& pair = pairs_[i];
   Detail& detail = details_[i];
   const std::size_t a = index_of(pair.a);
   const std::size_t b = index_of(pair.b);
+  const Vec3 separation = motion.position[b] - motion.position[a];
+  const double distance = separation.norm();
   // Coincident centres have no direction: the last normal goes on, or else any.
-  const Vec3 normal = distance > 0.0             ? Vec3(separation / distance)
+  const Vec3 normal = distance > 0.0           ? Vec3((1.0 / distance) * separation)
                       : detail.memory.is_new() ? Vec3(Vec3::UnitZ())
                                                : detail.memory.normal;
-  const double gap = distance - pair.range;
-  const double arm_a = detail.radius_a + 0.5 * gap;
-  const double arm_b = detail.radius_b + 0.5 * gap;
-  const Vec3& spin_a = motion.angular_velocity[a];
-  const Vec3& spin_b = motion.angular_velocity[b];
-  const Vec3 relative_velocity =
-      motion.velocity[b] - motion.velocity[a] - (arm_a * spin_a + arm_b * spin_b).cross(normal);
-  const RelativeMotion relative =
-      relative_motion(normal, gap, Law::elastic_normal_force(detail.parameters, gap), relative_velocity);
-
-  detail.gap = gap;
-  const double twist_rate = 0.5 * (spin_a + spin_b).dot(normal);
-  detail.memory = {carried_history<Law>(detail.memory, normal, dt * twist_rate), normal};
-  const ContactForce result = Law::force(detail.parameters, relative, detail.memory.history, dt);
-  const Vec3 normal_cross_force = normal.cross(result.force);
-  records.add({pair.a, pair.b, result.force, -arm_a * normal_cross_force, -arm_b * normal_cross_force, i}, -gap / std::min(detail.radius_a, detail.radius_b));
-  return result.dissipated;
+  const BallPairOf<double> balls{normal,
+                                 distance,
+                                 motion.velocity[b] - motion.velocity[a],
+                                 motion.angular_velocity[a],
+                                 motion.angular_velocity[b],
+                                 detail.radius_a,
+                                 detail.radius_b};
+  detail.memory = {carried_history<Law>(detail.memory, normal, dt * balls.twist_rate()), normal};
+  const BallStepOf<double> step =
+      ball_step<Law>(balls, detail.parameters, detail.memory.history, dt);
+  detail.gap = step.gap;
+  records.add({pair.a, pair.b, step.force, step.torque_a, step.torque_b, i},
+              -step.gap / std::min(detail.radius_a, detail.radius_b));
+  return step.dissipated;
 }
 
 template <ContactLaw Law>
@@ -155,7 +257,8 @@ template <class Visit>
 void BallContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
   records_.for_each([&](const BallForce& record) {
     const Detail& detail = details_[record.contact];
-    visit(contact_row(x[index_of(record.a)], x[index_of(record.b)], detail.memory.normal, detail.gap, record.force));
+    visit(contact_row(x[index_of(record.a)], x[index_of(record.b)], detail.memory.normal,
+                      detail.gap, record.force));
   });
 }
 

@@ -83,10 +83,12 @@ class ForceRecords {
     std::vector<Record> records;
     double deepest = 0.0;  ///< largest overlap over the radius of the smaller ball
 
-    void add(const Record& record, double overlap_ratio) {
-      records.push_back(record);
+    /// @returns a record to be filled in
+    Record& add(double overlap_ratio) {
       deepest = std::max(deepest, overlap_ratio);
+      return records.emplace_back();
     }
+    void add(const Record& record, double overlap_ratio) { add(overlap_ratio) = record; }
   };
 
   /// Empty lists, one for each worker; keeps their memory.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/ball_block.hpp"
 #include "contact/bodies.hpp"
 #include "contact/chunks.hpp"
 #include "contact/contact_memory.hpp"
@@ -9,13 +10,14 @@
 #include "contact/material_pairs.hpp"
 #include "contact/rekey.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
 namespace plekton::contact {
 
-/// Contacts of balls (a) with planes (b): one slot for each pair that may touch. A plane has the stiffness of a ball of
-/// its material and of the radius of the ball that touches it.
+/// Contacts of balls (a) with planes (b): one slot for each pair that may touch. A plane has the
+/// stiffness of a ball of its material and of the radius of the ball that touches it.
 template <ContactLaw Law>
 class PlaneContacts {
  public:
@@ -26,9 +28,12 @@ class PlaneContacts {
 
   /// One step of all contacts: forces are written down, not yet added.
   /// @returns the energy (J) dissipated
-  double advance(const Motion& motion, std::span<const Plane> planes, double dt, geometry::ThreadPool& pool);
+  double advance(const Motion& motion, std::span<const Plane> planes, double dt,
+                 geometry::ThreadPool& pool);
 
-  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const { records_.add_to(forces, pool); }
+  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
+    records_.add_to(forces, pool);
+  }
   std::size_t touching() const noexcept { return records_.size(); }
   /// Largest overlap of the last step over the radius of the smaller ball.
   double largest_overlap_ratio() const noexcept { return records_.deepest(); }
@@ -60,8 +65,26 @@ class PlaneContacts {
     ContactMemory<Law> memory;
   };
 
-  double advance_touching(std::size_t i, double gap, const Motion& motion, std::span<const Plane> planes, double dt,
-                          typename ForceRecords<PlaneForce>::List& records);
+  using Records = typename ForceRecords<PlaneForce>::List;
+
+  /// Slots that touch, in the order of the list, and how high (m) their centres are.
+  struct Touching {
+    std::array<std::size_t, kBlockLanes> slot;
+    std::array<double, kBlockLanes> height;
+    std::size_t count = 0;
+  };
+
+  /// One step of slots that touch, side by side if the law allows. @returns the energy (J)
+  /// dissipated
+  double advance_touching(const Touching& touching, const Motion& motion,
+                          std::span<const Plane> planes, double dt, Records& records);
+  template <class Block>
+  void gather(const Touching& touching, const Motion& motion, std::span<const Plane> planes,
+              Block& block) const;
+  template <class Block>
+  double scatter(const Touching& touching, const Block& block, Records& records);
+  double advance_one(std::size_t i, double gap, const Motion& motion, std::span<const Plane> planes,
+                     double dt, Records& records);
 
   std::vector<geometry::IndexPair> keys_;
   std::vector<Slot> slots_;
@@ -70,17 +93,20 @@ class PlaneContacts {
 };
 
 template <ContactLaw Law>
-double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys, std::span<const Ball> balls,
-                                   std::span<const Plane> planes, const MaterialPairs<Law>& materials) {
+double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
+                                   std::span<const Ball> balls, std::span<const Plane> planes,
+                                   const MaterialPairs<Law>& materials) {
   double lost = 0.0;
   const auto make = [&](std::size_t i, const Slot* old) {
     if (old) return *old;
     const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
     const auto plane = static_cast<std::size_t>(keys[i].b);
-    const auto parameters = materials.combine(ball.material, ball.radius, planes[plane].material, ball.radius);
+    const auto parameters =
+        materials.combine(ball.material, ball.radius, planes[plane].material, ball.radius);
     return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}};
   };
-  rekey(keys_, slots_, keys, make, [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });
+  rekey(keys_, slots_, keys, make,
+        [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });
   return lost;
 }
 
@@ -89,26 +115,90 @@ double PlaneContacts<Law>::advance(const Motion& motion, std::span<const Plane> 
                                    geometry::ThreadPool& pool) {
   records_.reset(pool.thread_count());
   return sum_(slots_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {
-    auto& records = records_.of_worker(worker);
+    Records& records = records_.of_worker(worker);
     double dissipated = 0.0;
+    Touching touching;
     for (std::size_t i = begin; i < end; ++i) {
       Slot& slot = slots_[i];
       const Plane& plane = planes[slot.plane];
       const double height = (motion.position[index_of(slot.node)] - plane.point).dot(plane.normal);
       if (height < slot.radius) {
-        dissipated += advance_touching(i, height - slot.radius, motion, planes, dt, records);
+        touching.slot[touching.count] = i;
+        touching.height[touching.count++] = height;
       } else {
         dissipated += forget<Law>(slot.parameters, slot.memory);
       }
+      if (touching.count < kBlockLanes && i + 1 < end) continue;
+      dissipated += advance_touching(touching, motion, planes, dt, records);
+      touching.count = 0;
     }
     return dissipated;
   });
 }
 
 template <ContactLaw Law>
-double PlaneContacts<Law>::advance_touching(std::size_t i, double gap, const Motion& motion,
+double PlaneContacts<Law>::advance_touching(const Touching& touching, const Motion& motion,
                                             std::span<const Plane> planes, double dt,
-                                            typename ForceRecords<PlaneForce>::List& records) {
+                                            Records& records) {
+  if constexpr (LaneLaw<Law>) {
+    BallBlock<Law> block;
+    gather(touching, motion, planes, block);
+    if (advance_side_by_side(block, touching.count, dt)) return scatter(touching, block, records);
+  }
+  double dissipated = 0.0;
+  for (std::size_t k = 0; k < touching.count; ++k) {
+    const std::size_t i = touching.slot[k];
+    dissipated +=
+        advance_one(i, touching.height[k] - slots_[i].radius, motion, planes, dt, records);
+  }
+  return dissipated;
+}
+
+/// To the kernel a plane is the mirror image of the ball, moving with the plane and without spin.
+template <ContactLaw Law>
+template <class Block>
+void PlaneContacts<Law>::gather(const Touching& touching, const Motion& motion,
+                                std::span<const Plane> planes, Block& block) const {
+  for (std::size_t k = 0; k < touching.count; ++k) {
+    const Slot& slot = slots_[touching.slot[k]];
+    const Plane& plane = planes[slot.plane];
+    const std::size_t node = index_of(slot.node);
+    block.separation.set(k, Vec3(-(touching.height[k] + slot.radius) * plane.normal));
+    block.velocity.set(k, Vec3(plane.velocity - motion.velocity[node]));
+    block.spin_a.set(k, motion.angular_velocity[node]);
+    block.spin_b.set(k, Vec3(Vec3::Zero()));
+    block.radius_a.set(k, slot.radius);
+    block.radius_b.set(k, slot.radius);
+    block.parameters.set(k, slot.parameters);
+    block.history.set(k, slot.memory.history);
+    block.normal.set(k, slot.memory.normal);
+  }
+}
+
+template <ContactLaw Law>
+template <class Block>
+double PlaneContacts<Law>::scatter(const Touching& touching, const Block& block, Records& records) {
+  double dissipated = 0.0;
+  for (std::size_t k = 0; k < touching.count; ++k) {
+    const std::size_t i = touching.slot[k];
+    Slot& slot = slots_[i];
+    block.history.get(k, slot.memory.history);
+    block.normal.get(k, slot.memory.normal);
+    block.gap.get(k, slot.gap);
+    PlaneForce& record = records.add(block.overlap_ratio.number(k));
+    record.a = slot.node;
+    record.plane = slot.plane;
+    block.force.get(k, record.force);
+    block.torque_a.get(k, record.torque_a);
+    record.contact = i;
+    dissipated += block.dissipated.number(k);
+  }
+  return dissipated;
+}
+
+template <ContactLaw Law>
+double PlaneContacts<Law>::advance_one(std::size_t i, double gap, const Motion& motion,
+                                       std::span<const Plane> planes, double dt, Records& records) {
   Slot& slot = slots_[i];
   const Plane& plane = planes[slot.plane];
   const std::size_t node = index_of(slot.node);
@@ -116,13 +206,14 @@ double PlaneContacts<Law>::advance_touching(std::size_t i, double gap, const Mot
   const Vec3 lever = (slot.radius + 0.5 * gap) * normal;
   const Vec3& spin = motion.angular_velocity[node];
   const Vec3 relative_velocity = plane.velocity - motion.velocity[node] - spin.cross(lever);
-  const RelativeMotion relative =
-      relative_motion(normal, gap, Law::elastic_normal_force(slot.parameters, gap), relative_velocity);
+  const RelativeMotion relative = relative_motion(
+      normal, gap, Law::elastic_normal_force(slot.parameters, gap), relative_velocity);
 
   slot.gap = gap;
   slot.memory = {carried_history<Law>(slot.memory, normal, dt * 0.5 * spin.dot(normal)), normal};
   const ContactForce result = Law::force(slot.parameters, relative, slot.memory.history, dt);
-  records.add({slot.node, slot.plane, result.force, -lever.cross(result.force), i}, -gap / slot.radius);
+  records.add({slot.node, slot.plane, result.force, -lever.cross(result.force), i},
+              -gap / slot.radius);
   return result.dissipated;
 }
 

@@ -22,6 +22,7 @@ void Neighbours::rebuild(Positions x) {
   for (const Sphere& sphere : spheres_) boxes_.push_back(box(sphere, x, margin));
   sphere_tree_.rebuild(boxes_);
   sphere_tree_.self_pairs(sphere_pairs_);
+  drop_distant_pairs(x);
 
   boxes_.clear();
   for (std::size_t c = 0; c < surface_->cell_count(); ++c) {
@@ -37,14 +38,27 @@ void Neighbours::rebuild(Positions x) {
   group_by_structure();
 }
 
-void Neighbours::group_by_structure() {
-  const auto structure_of = [this](const IndexPair& pair) { return surface_->structure_of(CellId{pair.b}); };
-  std::sort(sphere_cells_.begin(), sphere_cells_.end(), [&](const IndexPair& p, const IndexPair& q) {
-    if (p.a != q.a) return p.a < q.a;
-    const StructureId sp = structure_of(p);
-    const StructureId sq = structure_of(q);
-    return sp != sq ? sp < sq : p.b < q.b;
+void Neighbours::drop_distant_pairs(Positions x) {
+  std::erase_if(sphere_pairs_, [&](const IndexPair& pair) {
+    const Sphere& a = spheres_[static_cast<std::size_t>(pair.a)];
+    const Sphere& b = spheres_[static_cast<std::size_t>(pair.b)];
+    // Squares and sums are within a few eps of their values; the factor pays for all of it.
+    const double range = (1.0 + 1e-12) * (a.radius + b.radius + skin());
+    return (x[index_of(a.nodes[0])] - x[index_of(b.nodes[0])]).squaredNorm() > range * range;
   });
+}
+
+void Neighbours::group_by_structure() {
+  const auto structure_of = [this](const IndexPair& pair) {
+    return surface_->structure_of(CellId{pair.b});
+  };
+  std::sort(sphere_cells_.begin(), sphere_cells_.end(),
+            [&](const IndexPair& p, const IndexPair& q) {
+              if (p.a != q.a) return p.a < q.a;
+              const StructureId sp = structure_of(p);
+              const StructureId sq = structure_of(q);
+              return sp != sq ? sp < sq : p.b < q.b;
+            });
   sphere_structures_.clear();
   near_cells_.clear();
   cells_.clear();

@@ -4,29 +4,36 @@
 #include "contact/contact_law.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <type_traits>
 
 namespace plekton::contact {
 
 /// Linear spring and Coulomb slider. Cundall & Strack, Geotechnique 29 (1979) 47-65.
 ///
-/// Normal force k_n * overlap; tangential force k_s * elastic slip, limited to tan(phi) times the normal force.
-/// Stiffness of a pair: springs E R of both bodies in series, k_n = 2 E_a R_a E_b R_b / (E_a R_a + E_b R_b), and
-/// likewise k_s with E R times the stiffness ratio. Effeindzourou et al., Geotextiles and Geomembranes 44 (2016), 2.
+/// Normal force k_n * overlap; tangential force k_s * elastic slip, limited to tan(phi) times the
+/// normal force. Stiffness of a pair: springs E R of both bodies in series, k_n = 2 E_a R_a E_b R_b
+/// / (E_a R_a + E_b R_b), and likewise k_s with E R times the stiffness ratio. Effeindzourou et
+/// al., Geotextiles and Geomembranes 44 (2016), 2.
 struct LinearFrictional {
   static constexpr std::string_view name = "linear_frictional";
 
-  struct Parameters {
-    double normal_stiffness;      ///< N/m
-    double tangential_stiffness;  ///< N/m
-    double friction;              ///< tan(phi), of the smoother body
+  template <class Real>
+  struct ParametersOf {
+    Real normal_stiffness;      ///< N/m
+    Real tangential_stiffness;  ///< N/m
+    Real friction;              ///< tan(phi), of the smoother body
   };
+  using Parameters = ParametersOf<double>;
 
-  struct History {
-    Vec3 elastic_slip = Vec3::Zero();  ///< m, of b relative to a, tangent to the contact
+  template <class Real>
+  struct HistoryOf {
+    Vec3Of<Real> elastic_slip =
+        Vec3Of<Real>::Zero();  ///< m, of b relative to a, tangent to the contact
   };
+  using History = HistoryOf<double>;
 
-  static Parameters combine(const Material& a, double radius_a, const Material& b, double radius_b) noexcept {
+  static Parameters combine(const Material& a, double radius_a, const Material& b,
+                            double radius_b) noexcept {
     const double normal_a = a.young_modulus * radius_a;
     const double normal_b = b.young_modulus * radius_b;
     return {in_series(normal_a, normal_b),
@@ -34,8 +41,10 @@ struct LinearFrictional {
             std::min(a.friction, b.friction)};
   }
 
-  static double elastic_normal_force(const Parameters& p, double gap) noexcept {
-    return p.normal_stiffness * std::max(0.0, -gap);
+  template <class Real>
+  PLEKTON_INLINE static Real elastic_normal_force(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>& gap) noexcept {
+    return p.normal_stiffness * geometry::positive_part(Real(-gap));
   }
 
   static double elastic_normal_energy(const Parameters& p, double gap) noexcept {
@@ -43,27 +52,41 @@ struct LinearFrictional {
     return 0.5 * p.normal_stiffness * overlap * overlap;
   }
 
-  /// The energy dissipated is that of the mean force over the step on the slip that is not elastic: what the leapfrog
-  /// takes from the kinetic energy, to round-off, for any change of the normal force.
-  static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history, double dt) noexcept {
-    const Vec3 before = history.elastic_slip;
-    const Vec3 trial = before + dt * motion.slip_velocity;
-    const double limit = p.friction * motion.elastic_normal_force;
-    const double trial_force = p.tangential_stiffness * trial.norm();
-    history.elastic_slip = trial_force > limit ? Vec3((limit / trial_force) * trial) : trial;
-    const Vec3 plastic_slip = trial - history.elastic_slip;
-    return {motion.elastic_normal_force * motion.normal - p.tangential_stiffness * history.elastic_slip,
-            0.5 * p.tangential_stiffness * (before + history.elastic_slip).dot(plastic_slip)};
+  /// The energy dissipated is that of the mean force over the step on the slip that is not elastic:
+  /// what the leapfrog takes from the kinetic energy, to round-off, for any change of the normal
+  /// force.
+  template <class Real>
+  PLEKTON_INLINE static ContactForceOf<Real> force(const ParametersOf<Real>& p,
+                                                   const RelativeMotionOf<Real>& motion,
+                                                   HistoryOf<Real>& history, double dt) noexcept {
+    const Vec3Of<Real> before = history.elastic_slip;
+    const Vec3Of<Real> trial = before + Real(dt) * motion.slip_velocity;
+    const Real limit = p.friction * motion.elastic_normal_force;
+    const Real trial_force = p.tangential_stiffness * trial.norm();
+    const Real elastic_part =
+        geometry::select(trial_force > limit, Real(limit / trial_force), Real(1.0));
+    history.elastic_slip = elastic_part * trial;
+    const Vec3Of<Real> plastic_slip = trial - history.elastic_slip;
+    const Vec3Of<Real> twice_mean_slip = before + history.elastic_slip;
+    return {
+        motion.elastic_normal_force * motion.normal - p.tangential_stiffness * history.elastic_slip,
+        Real(0.5) * p.tangential_stiffness * twice_mean_slip.dot(plastic_slip)};
   }
 
   static double history_energy(const Parameters& p, const History& history) noexcept {
     return 0.5 * p.tangential_stiffness * history.elastic_slip.squaredNorm();
   }
 
-  static double normal_stiffness(const Parameters& p, double) noexcept { return p.normal_stiffness; }
-  static double tangential_stiffness(const Parameters& p, double) noexcept { return p.tangential_stiffness; }
+  static double normal_stiffness(const Parameters& p, double) noexcept {
+    return p.normal_stiffness;
+  }
+  static double tangential_stiffness(const Parameters& p, double) noexcept {
+    return p.tangential_stiffness;
+  }
 
-  static void rotate(History& history, const FrameRotation& rotation) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static void rotate(HistoryOf<Real>& history,
+                                    const FrameRotationOf<Real>& rotation) noexcept {
     history.elastic_slip = rotation(history.elastic_slip);
   }
 
@@ -72,8 +95,11 @@ struct LinearFrictional {
   }
 
  private:
-  /// Twice the series stiffness, so that equal bodies give their own stiffness; 0 if one of them is 0.
-  static double in_series(double a, double b) noexcept { return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
+  /// Twice the series stiffness, so that equal bodies give their own stiffness; 0 if one of them is
+  /// 0.
+  static double in_series(double a, double b) noexcept {
+    return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0;
+  }
 };
 
 static_assert(ContactLaw<LinearFrictional>);

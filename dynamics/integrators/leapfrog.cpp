@@ -1,59 +1,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/integrators/leapfrog.hpp"
 
-#include "dynamics/rotation_step.hpp"
+#include "dynamics/integrators/leapfrog_block.hpp"
+#include "geometry/vector_width.hpp"
+
+#include <algorithm>
 
 namespace plekton::dynamics {
 namespace {
 
-/// Steps one velocity. @returns the work, for a mass of 1
-StepWork kick(Vec3& velocity, const Vec3& damped_acceleration, const Vec3& free_acceleration, double damping,
-              double dt) noexcept {
-  const Vec3 before = velocity;
-  const Vec3 undamped = damped_acceleration + free_acceleration;
-  Vec3 removed = Vec3::Zero();
-  if (damping > 0.0) {
-    const Vec3 now = before + 0.5 * dt * undamped;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double power = damped_acceleration[axis] * now[axis];
-      const double sign = power > 0.0 ? 1.0 : power < 0.0 ? -1.0 : 0.0;
-      removed[axis] = damping * sign * damped_acceleration[axis];
-    }
+void gather(const NodeState& state, const NodeForces& forces, const NodeProperties& properties,
+            std::size_t first, std::size_t count, LeapfrogBlock& block) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = first + k;
+    block.translation.velocity.set(k, state.velocity[i]);
+    block.translation.force.set(k, forces.force[i]);
+    block.translation.inertia.set(k, properties.mass[i]);
+    block.translation.is_held.set(k, holds_translation(properties.held[i]) ? 1.0 : 0.0);
+    block.rotation.velocity.set(k, state.angular_velocity[i]);
+    block.rotation.force.set(k, forces.torque[i]);
+    block.rotation.inertia.set(k, properties.inertia[i]);
+    block.rotation.is_held.set(k, holds_rotation(properties.held[i]) ? 1.0 : 0.0);
+    block.orientation.set(k, state.orientation[i]);
   }
-  velocity = before + dt * (undamped - removed);
-  return {0.5 * before.dot(velocity), 0.5 * dt * removed.dot(before + velocity), 0.0};
 }
 
-StepWork scaled(double factor, const StepWork& work) noexcept {
-  return {factor * work.kinetic, factor * work.damped, factor * work.external};
+StepWork scatter(const LeapfrogBlock& block, std::size_t first, std::size_t count, double dt,
+                 NodeState& state) {
+  StepWork work;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = first + k;
+    StepWorkOf<double> of_node;
+    block.work.get(k, of_node);
+    work += {of_node.kinetic, of_node.damped, of_node.external};
+    block.translation.velocity.get(k, state.velocity[i]);
+    block.rotation.velocity.get(k, state.angular_velocity[i]);
+    double half_turn_squared;
+    block.half_turn_squared.get(k, half_turn_squared);
+    if (half_turn_squared < geometry::kSmallAngleSquared) {
+      block.orientation.get(k, state.orientation[i]);
+    } else {
+      state.orientation[i] = turned(state.orientation[i], state.angular_velocity[i], dt);
+    }
+  }
+  // In a loop of its own: a vector that was just written as three numbers cannot be read as one
+  // without a stall.
+  for (std::size_t i = first; i < first + count; ++i) state.position[i] += dt * state.velocity[i];
+  return work;
 }
 
 }  // namespace
 
-StepWork Leapfrog::step(NodeState& state, const NodeForces& forces, const NodeProperties& properties,
-                        const MotionOptions& options, double dt, geometry::ThreadPool& pool) {
-  const Vec3 damped_gravity = options.damps_gravity ? options.gravity : Vec3(Vec3::Zero());
-  const Vec3 free_gravity = options.gravity - damped_gravity;
+StepWork Leapfrog::step(NodeState& state, const NodeForces& forces,
+                        const NodeProperties& properties, const MotionOptions& options, double dt,
+                        geometry::ThreadPool& pool) {
   return sum_(state.size(), pool, [&](std::size_t begin, std::size_t end, int) {
     StepWork work;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (holds_translation(properties.held[i])) {
-        work.external -= dt * forces.force[i].dot(state.velocity[i]);
-      } else {
-        const Vec3 acceleration = forces.force[i] / properties.mass[i] + damped_gravity;
-        work += scaled(properties.mass[i], kick(state.velocity[i], acceleration, free_gravity, options.damping, dt));
-      }
-      if (holds_rotation(properties.held[i])) {
-        work.external -= dt * forces.torque[i].dot(state.angular_velocity[i]);
-      } else {
-        const Vec3 acceleration = forces.torque[i] / properties.inertia[i];
-        work += scaled(properties.inertia[i],
-                       kick(state.angular_velocity[i], acceleration, Vec3::Zero(), options.damping, dt));
-      }
-      state.position[i] += dt * state.velocity[i];
-      if (!state.angular_velocity[i].isZero(0.0)) {
-        state.orientation[i] = turned(state.orientation[i], state.angular_velocity[i], dt);
-      }
+    for (std::size_t first = begin; first < end; first += LeapfrogBlock::kLanes) {
+      const std::size_t count = std::min(LeapfrogBlock::kLanes, end - first);
+      LeapfrogBlock block;
+      gather(state, forces, properties, first, count, block);
+      geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
+        block.step<width>(count, options, dt);
+      });
+      work += scatter(block, first, count, dt, state);
     }
     return work;
   });

@@ -27,15 +27,16 @@ struct StepWork {
   }
 };
 
-/// Leapfrog: v(t + dt/2) = v(t - dt/2) + a(t) dt, x(t + dt) = x(t) + v(t + dt/2) dt; rotations likewise, each step an
-/// exact rotation. Second order and symplectic.
+/// Leapfrog: v(t + dt/2) = v(t - dt/2) + a(t) dt, x(t + dt) = x(t) + v(t + dt/2) dt; rotations
+/// likewise, each step an exact rotation. Second order and symplectic.
 ///
-/// The kinetic energy at time t is 1/2 m v(t - dt/2).v(t + dt/2): with it the energy of a linear oscillator is exactly
-/// constant. Held motions stay as they are and are left out of the energy: what they do is external work.
+/// The kinetic energy at time t is 1/2 m v(t - dt/2).v(t + dt/2): with it the energy of a linear
+/// oscillator is exactly constant. Held motions stay as they are and are left out of the energy:
+/// what they do is external work.
 ///
-/// Numerical damping scales each component of the acceleration by 1 - lambda sgn(a v), v at the moment of the forces.
-/// It is not frame-indifferent and not for tests of momentum. Cundall; see Potyondy & Cundall, Int. J. Rock Mech. Min.
-/// Sci. 41 (2004) 1329-1364, 2.
+/// Numerical damping scales each component of the acceleration by 1 - lambda sgn(a v), v at the
+/// moment of the forces. It is not frame-indifferent and not for tests of momentum. Cundall; see
+/// Potyondy & Cundall, Int. J. Rock Mech. Min. Sci. 41 (2004) 1329-1364, 2.
 class Leapfrog {
  public:
   StepWork step(NodeState& state, const NodeForces& forces, const NodeProperties& properties,

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/ball_block.hpp"
+#include "contact/ball_contacts.hpp"
+#include "contact/laws/linear_frictional.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+// The kernel for contacts side by side against its plain description, one pair after the other: the
+// same bits.
+namespace plekton::contact {
+namespace {
+
+using Law = LinearFrictional;
+using Block = BallBlock<Law>;
+
+constexpr double kStep = 1e-5;  // s
+
+struct Case {
+  BallPairOf<double> pair;
+  Vec3 separation;
+  Law::Parameters parameters;
+  ContactMemory<Law> memory;
+};
+
+/// Overlapping balls in motion; every fourth contact is new, about half of the others slip.
+class RandomCases {
+ public:
+  Case operator()() {
+    Case c;
+    c.pair.radius_a = 1e-3 * (1.0 + 0.3 * number());
+    c.pair.radius_b = 1e-3 * (1.0 + 0.3 * number());
+    const Vec3 direction = vector().normalized();
+    c.separation = (c.pair.radius_a + c.pair.radius_b) * (0.99 + 0.01 * number()) * direction;
+    c.pair.distance = c.separation.norm();
+    c.pair.normal = (1.0 / c.pair.distance) * c.separation;
+    c.pair.velocity = vector();
+    c.pair.spin_a = 100.0 * vector();
+    c.pair.spin_b = 100.0 * vector();
+    c.parameters = {1e4, 3e3, 0.5};
+    if (count_++ % 4 == 0) return c;
+    c.memory.normal = (direction + 0.01 * vector()).normalized();
+    c.memory.history.elastic_slip = 1e-6 * c.memory.normal.cross(vector());
+    return c;
+  }
+
+  double number() { return uniform_(engine_); }
+  Vec3 vector() { return {number(), number(), number()}; }
+
+ private:
+  std::mt19937_64 engine_{20240229};
+  std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
+  int count_ = 0;
+};
+
+void put(const Case& c, std::size_t lane, Block& block) {
+  block.separation.set(lane, c.separation);
+  block.velocity.set(lane, c.pair.velocity);
+  block.spin_a.set(lane, c.pair.spin_a);
+  block.spin_b.set(lane, c.pair.spin_b);
+  block.radius_a.set(lane, c.pair.radius_a);
+  block.radius_b.set(lane, c.pair.radius_b);
+  block.parameters.set(lane, c.parameters);
+  block.history.set(lane, c.memory.history);
+  block.normal.set(lane, c.memory.normal);
+}
+
+template <class Rows>
+Vec3 vector_of(const Rows& rows, std::size_t lane) {
+  Vec3 v;
+  rows.get(lane, v);
+  return v;
+}
+
+void expect_step_of(const Case& c, const Block& block, std::size_t lane) {
+  Law::History history = carried_history<Law>(c.memory, c.pair.normal, kStep * c.pair.twist_rate());
+  const BallStepOf<double> step = ball_step<Law>(c.pair, c.parameters, history, kStep);
+
+  EXPECT_EQ(vector_of(block.normal, lane), c.pair.normal);
+  EXPECT_EQ(vector_of(block.history, lane), history.elastic_slip);
+  EXPECT_EQ(vector_of(block.force, lane), step.force);
+  EXPECT_EQ(vector_of(block.torque_a, lane), step.torque_a);
+  EXPECT_EQ(vector_of(block.torque_b, lane), step.torque_b);
+  EXPECT_EQ(block.gap.number(lane), step.gap);
+  EXPECT_EQ(block.dissipated.number(lane), step.dissipated);
+  EXPECT_EQ(block.overlap_ratio.number(lane),
+            -step.gap / std::min(c.pair.radius_a, c.pair.radius_b));
+}
+
+template <class Width>
+class BallKernel : public testing::Test {};
+using Widths = testing::Types<geometry::Width<2>, geometry::Width<4>, geometry::Width<8>>;
+TYPED_TEST_SUITE(BallKernel, Widths);
+
+TYPED_TEST(BallKernel, GivesTheBitsOfOnePairAfterTheOtherForAnyCount) {
+  RandomCases random;
+  for (std::size_t count = 1; count <= 40; ++count) {
+    std::vector<Case> cases;
+    Block block;
+    for (std::size_t lane = 0; lane < count; ++lane) put(cases.emplace_back(random()), lane, block);
+
+    ASSERT_TRUE(block.template advance<TypeParam::value>(count, kStep));
+
+    for (std::size_t lane = 0; lane < count; ++lane) expect_step_of(cases[lane], block, lane);
+  }
+}
+
+TYPED_TEST(BallKernel, SaysWhenAPairNeedsThePlainWay) {
+  RandomCases random;
+  const auto all_right = [](const Case& odd, std::size_t lane) {
+    RandomCases others;
+    Block block;
+    for (std::size_t k = 0; k < 11; ++k) put(k == lane ? odd : others(), k, block);
+    return block.template advance<TypeParam::value>(11, kStep);
+  };
+  Case ordinary = random();
+  Case flipped = ordinary;
+  flipped.memory.normal = -flipped.pair.normal;
+  Case coincident = ordinary;
+  coincident.separation.setZero();
+  Case twisted = ordinary;
+  twisted.pair.spin_a = twisted.pair.spin_b = 0.11 / kStep * twisted.pair.normal;
+
+  for (std::size_t lane = 0; lane < 11; ++lane) {
+    EXPECT_TRUE(all_right(ordinary, lane));
+    EXPECT_FALSE(all_right(flipped, lane));
+    EXPECT_FALSE(all_right(coincident, lane));
+    EXPECT_FALSE(all_right(twisted, lane));
+  }
+}
+
+TEST(BallKernel, RunsWithTheWidestVectorsOfThisMachine) {
+  RandomCases random;
+  std::vector<Case> cases;
+  Block block;
+  for (std::size_t lane = 0; lane < 37; ++lane) put(cases.emplace_back(random()), lane, block);
+
+  ASSERT_TRUE(advance_side_by_side(block, cases.size(), kStep));
+
+  for (std::size_t lane = 0; lane < cases.size(); ++lane) expect_step_of(cases[lane], block, lane);
+}
+
+/// The same law, written for one contact at a time.
+struct PlainLaw {
+  static constexpr std::string_view name = "plain";
+  using Parameters = Law::Parameters;
+  using History = Law::History;
+  static Parameters combine(const Material& a, double ra, const Material& b, double rb) {
+    return Law::combine(a, ra, b, rb);
+  }
+  static double elastic_normal_force(const Parameters& p, double gap) {
+    return Law::elastic_normal_force(p, gap);
+  }
+  static double elastic_normal_energy(const Parameters& p, double gap) {
+    return Law::elastic_normal_energy(p, gap);
+  }
+  static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
+                            double dt) {
+    return Law::force(p, motion, history, dt);
+  }
+  static double history_energy(const Parameters& p, const History& h) {
+    return Law::history_energy(p, h);
+  }
+  static double normal_stiffness(const Parameters& p, double gap) {
+    return Law::normal_stiffness(p, gap);
+  }
+  static double tangential_stiffness(const Parameters& p, double gap) {
+    return Law::tangential_stiffness(p, gap);
+  }
+  static void rotate(History& history, const FrameRotation& rotation) {
+    Law::rotate(history, rotation);
+  }
+  static void add_share(History& h, const History& other, double share) {
+    Law::add_share(h, other, share);
+  }
+};
+static_assert(ContactLaw<PlainLaw> && !LaneLaw<PlainLaw> && LaneLaw<Law>);
+
+/// A crowd of balls and all their pairs, thrown about anew before every step.
+template <class AnyLaw>
+std::vector<Vec3> forces_of_a_crowd(int threads) {
+  constexpr std::size_t kBalls = 60;
+  std::vector<Ball> balls;
+  std::vector<geometry::IndexPair> pairs;
+  for (std::int32_t b = 0; b < std::int32_t{kBalls}; ++b) {
+    balls.push_back({NodeId{b}, 1e-3, MaterialId{0}});
+    for (std::int32_t a = 0; a < b; ++a) pairs.push_back({a, b});
+  }
+  std::sort(pairs.begin(), pairs.end());
+  BallContacts<AnyLaw> contacts;
+  contacts.rebuild(pairs, balls, MaterialPairs<AnyLaw>({{2e6, 0.3, 0.5}}));
+  geometry::ThreadPool pool(threads);
+  NodeForces forces(kBalls);
+  RandomCases random;
+  std::vector<Vec3> x(kBalls), v(kBalls), w(kBalls);
+  for (Vec3& p : x) p = 3e-3 * random.vector();
+  for (int step = 0; step < 20; ++step) {
+    for (std::size_t i = 0; i < kBalls; ++i) {
+      x[i] += 5e-5 * random.vector();
+      v[i] = random.vector();
+      w[i] = 200.0 * random.vector();
+    }
+    if (step % 5 == 1) x[7] = x[3];                          // no direction
+    if (step % 5 == 2) std::swap(x[11], x[40]);              // flips where they touch
+    if (step % 5 == 3) w[20] = Vec3::Constant(1.0 / kStep);  // a twist beyond any series
+    contacts.advance({x, v, w}, kStep, pool);
+    contacts.add_forces(forces, pool);
+  }
+  std::vector<Vec3> all = forces.force;
+  all.insert(all.end(), forces.torque.begin(), forces.torque.end());
+  return all;
+}
+
+TEST(BallContacts, HaveTheSameBitsSideBySideAndOneAfterTheOther) {
+  EXPECT_EQ(forces_of_a_crowd<Law>(1), forces_of_a_crowd<PlainLaw>(1));
+}
+
+TEST(BallContacts, HaveTheSameBitsForAnyNumberOfThreads) {
+  const std::vector<Vec3> of_one = forces_of_a_crowd<Law>(1);
+
+  EXPECT_EQ(forces_of_a_crowd<Law>(2), of_one);
+  EXPECT_EQ(forces_of_a_crowd<Law>(4), of_one);
+}
+
+}  // namespace
+}  // namespace plekton::contact
