@@ -12,6 +12,9 @@
 /// A configuration file as nested tables, each key and value with the place it comes from.
 namespace plekton::apps {
 
+/// Deepest nesting of tables and lists that is read; no scenario comes near it.
+inline constexpr int kDeepest = 32;
+
 struct Value;
 struct Entry;
 

@@ -72,6 +72,11 @@ void apply_override(Value& root, const std::string& option, Problems& problems) 
     problems.add(place, "the path has an empty part; expected keys with a dot between them");
     return;
   }
+  if (keys.size() > static_cast<std::size_t>(kDeepest)) {
+    problems.add(place, fmt::format("the path has {} parts; no key is more than {} deep",
+                                    keys.size(), kDeepest));
+    return;
+  }
   Value* value = &root;
   std::string reason;
   for (const std::string& key : keys) {

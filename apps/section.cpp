@@ -54,7 +54,8 @@ bool Section::is_table(std::string_view key) const {
 }
 
 const Value* Section::find(std::string_view key) {
-  announced_.emplace_back(key);
+  if (std::find(announced_.begin(), announced_.end(), key) == announced_.end())
+    announced_.emplace_back(key);
   const Entry* entry = table_->find(key);
   return entry ? &entry->value : nullptr;
 }

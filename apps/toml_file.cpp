@@ -19,13 +19,13 @@ Place place_of(const toml::source_region& region, const std::string& source) {
   return {source, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-Value converted(const toml::node& node, const std::string& source);
+Value converted(const toml::node& node, const std::string& source, int depth);
 
-Table converted_table(const toml::table& table, const std::string& source) {
+Table converted_table(const toml::table& table, const std::string& source, int depth) {
   Table result;
   for (const auto& [key, node] : table) {
     result.entries.push_back(
-        {std::string(key.str()), place_of(key.source(), source), converted(node, source)});
+        {std::string(key.str()), place_of(key.source(), source), converted(node, source, depth)});
   }
   const auto place = [](const Entry& e) { return std::tie(e.place.line, e.place.column); };
   std::stable_sort(result.entries.begin(), result.entries.end(),
@@ -33,20 +33,25 @@ Table converted_table(const toml::table& table, const std::string& source) {
   return result;
 }
 
-Array converted_array(const toml::array& array, const std::string& source) {
+Array converted_array(const toml::array& array, const std::string& source, int depth) {
   Array result;
-  for (const toml::node& node : array) result.push_back(converted(node, source));
+  for (const toml::node& node : array) result.push_back(converted(node, source, depth));
   return result;
 }
 
-Value converted(const toml::node& node, const std::string& source) {
+/// @param depth  Levels above this value. @throws InputError beyond kDeepest
+Value converted(const toml::node& node, const std::string& source, int depth) {
   Value value{place_of(node.source(), source), OtherKind{"a date or time of day"}};
+  if (depth > kDeepest) {
+    throw InputError(fmt::format("{}: tables or lists are nested more than {} deep; no key is",
+                                 to_string(value.place), kDeepest));
+  }
   if (const auto* text = node.as_string()) value.data = text->get();
   if (const auto* integer = node.as_integer()) value.data = integer->get();
   if (const auto* number = node.as_floating_point()) value.data = number->get();
   if (const auto* truth = node.as_boolean()) value.data = truth->get();
-  if (const auto* array = node.as_array()) value.data = converted_array(*array, source);
-  if (const auto* table = node.as_table()) value.data = converted_table(*table, source);
+  if (const auto* array = node.as_array()) value.data = converted_array(*array, source, depth + 1);
+  if (const auto* table = node.as_table()) value.data = converted_table(*table, source, depth + 1);
   return value;
 }
 
@@ -68,7 +73,7 @@ void set_place(Value& value, const Place& place) {
 
 Table parse_toml(std::string_view text, const std::string& source) {
   try {
-    return converted_table(toml::parse(text), source);
+    return converted_table(toml::parse(text), source, 0);
   } catch (const toml::parse_error& error) {
     Problems problems;
     problems.add(place_of(error.source(), source),
@@ -99,7 +104,7 @@ Value parse_toml_value(std::string_view text, const Place& place) {
   try {
     const toml::table table = toml::parse("value = " + std::string(text));
     // A line break in the text could add keys; then it is no single value.
-    if (table.size() == 1) value = converted(table.begin()->second, place.source);
+    if (table.size() == 1) value = converted(table.begin()->second, place.source, 0);
   } catch (const toml::parse_error&) {
     // Not TOML, so it is the text itself.
   }

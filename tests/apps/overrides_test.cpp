@@ -92,6 +92,13 @@ TEST(Overrides, ThatLeadNowhereAreRefusedAllAtOnce) {
   EXPECT_THAT(error, HasSubstr("--set simulation.duration.x=1: there is no \"x\" in \"2 s\""));
 }
 
+TEST(Overrides, WithAnEndlessPathAreRefused) {
+  std::string option = "a";
+  for (int i = 0; i < 50'000; ++i) option += ".a";
+
+  EXPECT_THAT(error_of({option + "=1"}), HasSubstr("the path has 50001 parts"));
+}
+
 TEST(Overrides, WithALineBreakAreATextAndAddNoTable) {
   const Table table = with({"simulation.duration=1\n[output]"});
 
