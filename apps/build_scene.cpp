@@ -48,6 +48,14 @@ BuiltGrains add_grains(const GrainSettings& settings, double density, dynamics::
     const auto id = scene.add_sphere(grain.centre, grain.radius, density,
                                      static_cast<contact::MaterialId>(settings.material));
     const geometry::Sphere& sphere = scene.elements.spheres[index_of(id)];
+    const double inertia =
+        density * geometry::volume(sphere) * grain.radius * grain.radius;  // but for a factor
+    if (!std::isnormal(inertia)) {
+      throw InputError(
+          fmt::format("{}: a grain of {:.4g} m radius and {:.4g} kg/m3 has no mass or "
+                      "moment of inertia that can be computed with; check the units",
+                      settings.name, grain.radius, density));
+    }
     scene.state.velocity[index_of(sphere.nodes[0])] = settings.velocity;
     result.mass += density * geometry::volume(sphere);
     result.smallest = std::min(result.smallest, grain.radius);
@@ -78,6 +86,8 @@ BuiltScene build_scene(const Scenario& scenario) {
       built.grains.push_back(
           add_grains(grains, scenario.materials[grains.material].density.value(), built.scene));
     } catch (const DoesNotFit& error) {
+      problems.add(grains.place, fmt::format("grains.{}", error.what()));
+    } catch (const InputError& error) {
       problems.add(grains.place, fmt::format("grains.{}", error.what()));
     }
   }

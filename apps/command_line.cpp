@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line.hpp"
 
+#include "apps/closest_word.hpp"
 #include "apps/import_command.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/run.hpp"
 #include "apps/scenario_reader.hpp"
+#include "apps/section.hpp"
 #include "apps/summary.hpp"
 #include "apps/units.hpp"
 #include "geometry/version.hpp"
@@ -14,11 +16,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace plekton::apps {
@@ -44,6 +50,28 @@ Scenario scenario_of(const CommandLine& line) {
   return read_scenario(line.scenario, overrides);
 }
 
+/// What a run has written to its folder.
+std::string files_in(const fs::path& folder) {
+  std::string files = "run.json, energy.csv";
+  std::string_view before = ", and for ParaView ";
+  for (const std::string_view series : {"grains.pvd", "membranes.pvd", "contacts.pvd"}) {
+    std::error_code ignored;
+    if (!fs::exists(folder / series, ignored)) continue;
+    files += fmt::format("{}{}", before, series);
+    before = ", ";
+  }
+  return files;
+}
+
+/// For commands whose result is what they print. @throws InputError if it has not arrived
+void flush_output() {
+  if (std::cout.flush()) return;
+  throw InputError(
+      fmt::format("standard output: cannot be written: {}; what is missing there is "
+                  "lost, repeat the command",
+                  std::generic_category().message(errno)));
+}
+
 int run_command(const CommandLine& line) {
   const Scenario scenario = scenario_of(line);
   PreparedRun prepared = prepare_run(scenario);
@@ -56,8 +84,7 @@ int run_command(const CommandLine& line) {
                              terminal ? ProgressStyle::one_line : ProgressStyle::lines,
                              [&] { return guard.interrupted(); }};
   const RunReport report = run(scenario, prepared, settings);
-  std::cout << summary_of(report) << "wrote " << out.string()
-            << ": run.json, energy.csv, and for ParaView grains.pvd, membranes.pvd, contacts.pvd\n";
+  std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n';
   return report.status == RunStatus::interrupted ? kInterrupted : kDone;
 }
 
@@ -65,6 +92,7 @@ int check_command(const CommandLine& line) {
   const Scenario scenario = scenario_of(line);
   const PreparedRun prepared = prepare_run(scenario);
   std::cout << summary_of(prepared) << line.scenario.string() << ": no problems\n";
+  flush_output();
   return kDone;
 }
 
@@ -85,6 +113,7 @@ int import_command(const CommandLine& line) {
   if (!line.out.empty()) arguments.out = line.out;
   arguments.json = line.json;
   import_mesh_file(arguments, std::cout);
+  flush_output();
   return kDone;
 }
 
@@ -101,17 +130,36 @@ void add_scenario_options(CLI::App& command, CommandLine& line) {
       ->check(CLI::Range(1, 1024));
 }
 
-/// One problem after the name of the program, several below it.
+/// One problem after the name of the program, several below it. A line that begins with a blank
+/// goes on with the problem before it.
 void print_error(const std::string& text) {
-  const auto more = std::count(text.begin(), text.end(), '\n');
-  if (more > 0) {
-    std::cerr << fmt::format("plekton: {} problems\n{}\n", more + 1, text);
-  } else {
-    std::cerr << "plekton: " << text << '\n';
+  std::istringstream lines(text);
+  std::string shown;
+  int problems = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(' ')) ++problems;
+    shown += printable(line) + '\n';
   }
+  std::cerr << "plekton: " << (problems > 1 ? fmt::format("{} problems\n", problems) : "") << shown;
+}
+
+/// @returns whether the command line begins with a word that is no command, after saying so
+bool is_unknown_command(int argc, const char* const* argv) {
+  constexpr std::array<std::string_view, 3> kCommands = {"run", "check", "import"};
+  if (argc < 2) return false;
+  const std::string_view word = argv[1];
+  if (word.starts_with('-') ||
+      std::find(kCommands.begin(), kCommands.end(), word) != kCommands.end())
+    return false;
+  const std::string closest = closest_word(word, kCommands);
+  print_error(fmt::format("unknown command \"{}\"; {}", word,
+                          closest.empty() ? "the commands are " + listed(kCommands)
+                                          : fmt::format("did you mean \"{}\"?", closest)));
+  return true;
 }
 
 int dispatch(int argc, const char* const* argv) {
+  if (is_unknown_command(argc, argv)) return kUsage;
   CommandLine line;
   CLI::App app("Plekton: discrete elements with deformable structures", "plekton");
   app.set_version_flag("--version", std::string(kVersion));

@@ -39,16 +39,15 @@ FreeSpace::FreeSpace(const Box& box, double largest, std::span<const contact::Pl
     : box_(box), largest_(largest), planes_(planes) {
   const Vec3 size = box.upper - box.lower;
   // Cells of the diameter of the largest ball, but not more of them than fit into memory.
-  const double side = std::max(2.0 * largest, std::cbrt(size.prod() / kMostCells));
-  std::size_t total = 1;
+  // A flat or thin box has one cell across, so the side is found by trying.
+  double side = 2.0 * largest;
+  const auto counts = [&] { return Vec3((size / side).array().floor().max(1.0)); };
+  while (counts().prod() > kMostCells) side *= 2.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto count =
-        static_cast<std::size_t>(std::clamp(std::floor(size[axis] / side), 1.0, kMostCells));
-    cell_counts_[static_cast<std::size_t>(axis)] = count;
-    cell_size_[axis] = size[axis] / static_cast<double>(count);
-    total *= count;
+    cell_counts_[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(counts()[axis]);
+    cell_size_[axis] = size[axis] / counts()[axis];
   }
-  cells_.resize(total);
+  cells_.resize(static_cast<std::size_t>(counts().prod()));
 }
 
 std::array<std::size_t, 3> FreeSpace::cell_of(const Vec3& point) const {

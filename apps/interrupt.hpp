@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <csignal>
 
 namespace plekton::apps {
 
-/// While it lives, SIGINT (Ctrl-C) and SIGTERM are noted instead of ending the program; a second
-/// one ends it as usual. At most one at a time.
+/// While it lives, SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal was closed) are noted instead
+/// of ending the program; a second one ends it as usual. One that was ignored before (nohup) stays
+/// ignored. SIGPIPE is ignored: that nobody reads the progress any more is no reason to lose a run.
+/// At most one at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -17,8 +20,9 @@ class InterruptGuard {
   bool interrupted() const noexcept;
 
  private:
-  struct sigaction before_int_ {};
-  struct sigaction before_term_ {};
+  static constexpr std::array kNoted = {SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, kNoted.size()> before_{};
+  struct sigaction before_pipe_ {};
 };
 
 }  // namespace plekton::apps

@@ -2,6 +2,8 @@
 #include "apps/lost_grains.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace plekton::apps {
 namespace {
@@ -26,6 +28,13 @@ bool foot_is_inside(const Vec3& point, const std::array<Vec3, 3>& triangle) noex
     if (normal.dot((b - a).cross(point - a)) < least) return false;
   }
   return true;
+}
+
+double smallest_radius(const geometry::Elements& elements) noexcept {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const geometry::Sphere& sphere : elements.spheres)
+    smallest = std::min(smallest, sphere.radius);
+  return smallest;
 }
 
 geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positions x) {
@@ -62,6 +71,7 @@ bool passes_through(const Vec3& point0, const Vec3& point1, const std::array<Vec
 LostGrains::LostGrains(const geometry::Elements& elements, geometry::Positions x)
     : elements_(elements),
       bounds_(start_bounds(elements, x)),
+      smallest_radius_(smallest_radius(elements)),
       before_(x.begin(), x.end()),
       is_through_(elements.spheres.size(), false),
       is_out_(elements.spheres.size(), false) {}
@@ -97,6 +107,17 @@ void LostGrains::look(geometry::Positions x, const geometry::Neighbours& neighbo
     ++out_;
   }
   std::copy(x.begin(), x.end(), before_.begin());
+}
+
+std::int64_t LostGrains::steps_to_next_look(std::span<const Vec3> velocities,
+                                            double time_step) const {
+  double fastest_squared = 0.0;
+  for (const Vec3& velocity : velocities)
+    fastest_squared = std::max(fastest_squared, velocity.squaredNorm());
+  // A grain and a facet may move towards each other, so each gets half of half a radius.
+  const double steps = 0.25 * smallest_radius_ / (std::sqrt(fastest_squared) * time_step);
+  return steps < static_cast<double>(kMostSteps) ? std::max<std::int64_t>(1, std::int64_t(steps))
+                                                 : kMostSteps;
 }
 
 std::size_t LostGrains::total() const noexcept {

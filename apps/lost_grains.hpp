@@ -5,6 +5,8 @@
 #include "geometry/neighbours.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace plekton::apps {
@@ -25,8 +27,18 @@ class LostGrains {
   LostGrains(const geometry::Elements& elements, geometry::Positions x);
 
   /// Looks at what happened since the last look. Call it so often that no grain moves by its radius
-  /// in between.
+  /// in between, see steps_to_next_look.
   void look(geometry::Positions x, const geometry::Neighbours& neighbours);
+
+  /// Time steps, from 1 to kMostSteps, within which no grain gets nearer to a facet than by half
+  /// the radius of the smallest grain, at the speeds of now. What moves further in a single step
+  /// can pass unseen.
+  /// @param velocities  m/s, of all nodes
+  /// @param time_step   s
+  std::int64_t steps_to_next_look(std::span<const geometry::Vec3> velocities,
+                                  double time_step) const;
+
+  static constexpr std::int64_t kMostSteps = 16;  ///< so that a look costs little among the steps
 
   std::size_t through_membranes() const noexcept { return through_; }
   std::size_t out_of_bounds() const noexcept { return out_; }
@@ -38,6 +50,7 @@ class LostGrains {
 
   const geometry::Elements& elements_;
   geometry::Box bounds_;
+  double smallest_radius_;              // m, of the grains; infinite if there are none
   std::vector<geometry::Vec3> before_;  // m, all nodes at the last look
   std::vector<bool> is_through_;
   std::vector<bool> is_out_;

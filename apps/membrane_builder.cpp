@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 namespace plekton::apps {
 namespace {
@@ -104,6 +106,20 @@ double beam_modulus(double sheet_stiffness, double area, double section_area, do
   return 3.0 * sheet_stiffness * area / (section_area * length);
 }
 
+/// Scales, thicknesses and moduli so extreme that nothing can be computed with them.
+/// @throws InputError
+void require_computable(const BuiltMembrane& built) {
+  for (const auto& [what, value, unit] :
+       {std::tuple{"area", built.area, "m2"}, std::tuple{"mass", built.mass, "kg"},
+        std::tuple{"Young's modulus of its beams", built.young_modulus, "Pa"}}) {
+    if (std::isnormal(value) && value > 0.0) continue;
+    throw InputError(fmt::format(
+        "\"{}\": {} is {} {}; expected a positive number that is not extreme; check scale, "
+        "translate, thickness, stiffness and density against the size of the mesh",
+        built.name, what, value, unit));
+  }
+}
+
 /// Adds the cylinders, beams and facets, and with them the mass.
 void add_elements(const MembraneSettings& settings, const Membrane& membrane,
                   dynamics::Scene& scene, BuiltMembrane& result) {
@@ -119,6 +135,8 @@ void add_elements(const MembraneSettings& settings, const Membrane& membrane,
   const double beam_density =
       by_edge ? settings.density.value_or(areal_mass * result.area / (section_area * length)) : 0.0;
   result.mass = by_edge ? beam_density * section_area * length : areal_mass * result.area;
+
+  require_computable(result);
 
   const auto material = static_cast<contact::MaterialId>(settings.material);
   const dynamics::BeamSection section =

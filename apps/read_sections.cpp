@@ -67,6 +67,11 @@ geometry::Box read_box(Section section) {
   const Vec3 lower = section.vector("min", {kLength});
   const Vec3 upper = section.vector("max", {kLength});
   for (int axis = 0; axis < 3; ++axis) {
+    if (std::isinf(upper[axis] - lower[axis])) {
+      section.complain("max", fmt::format("component {} is {} m, further from {} m of min than any "
+                                          "double can hold; expected a smaller box",
+                                          "xyz"[axis], upper[axis], lower[axis]));
+    }
     if (!(upper[axis] <= lower[axis])) continue;
     section.complain(
         "max",
@@ -108,7 +113,7 @@ OutputSettings read_output(Section section, double duration) {
 StopSettings read_stop(Section section) {
   StopSettings stop;
   stop.kinetic_energy = section.quantity("kinetic_energy", {kEnergy, kPositive});
-  stop.after = section.quantity("after", {kTime, kNotNegative}, stop.after);
+  if (section.has("after")) stop.after = section.quantity("after", {kTime, kNotNegative});
   section.finish();
   return stop;
 }

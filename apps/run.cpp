@@ -4,6 +4,7 @@
 #include "apps/history.hpp"
 #include "apps/lost_grains.hpp"
 #include "apps/output_folder.hpp"
+#include "apps/run_warnings.hpp"
 #include "dynamics/output/file.hpp"
 
 #include <fmt/format.h>
@@ -18,9 +19,13 @@
 namespace plekton::apps {
 namespace {
 
-constexpr std::int64_t kStepsBetweenLooks = 16;  // at the grains and the clock
+constexpr std::int64_t kStepsBetweenLooks = 16;  // at the clock and for rest
 constexpr std::int64_t kStepsBetweenCriticalSteps =
-    512;  // the critical step costs about as much as a few steps
+    512;                             // the critical step costs about as much as a few steps
+constexpr double kMostSteps = 1e12;  // years, and time still advances by full steps
+/// Membranes start unstressed, so their elastic energy at the start is rounding alone. The energy
+/// of nodes that rattle in the last digits stays well below so many times that.
+constexpr double kRattling = 1e6;
 
 /// One run: what is written, and what is watched.
 class Run {
@@ -34,6 +39,7 @@ class Run {
         history_(settings.out),
         progress_(settings.progress, settings.style, scenario.simulation.duration) {
     report_.warnings = prepared.built.warnings;
+    rounding_energy_ = kRattling * simulation_.energy().bond_elastic;
     describe();
   }
 
@@ -50,6 +56,8 @@ class Run {
     }
     progress_.finish();
     complete_report();
+    for (std::string& warning : warnings_about(report_))
+      report_.warnings.push_back(std::move(warning));
     write_run_report(settings_.out, report_);
     return report_;
   }
@@ -61,7 +69,7 @@ class Run {
     while (simulation_.time() < scenario_.simulation.duration - 0.5 * simulation_.time_step()) {
       simulation_.step();
       const bool looks = simulation_.steps() % kStepsBetweenLooks == 0;
-      if (looks) lost_.look(simulation_.state().position, simulation_.contacts().neighbours());
+      if (simulation_.steps() >= next_look_at_grains_) look_at_grains();
       if (simulation_.steps() % kStepsBetweenCriticalSteps == 0) watch_time_step();
       write_due(simulation_.time());
       if (looks) progress_.update(simulation_.time(), simulation_.steps());
@@ -69,6 +77,13 @@ class Run {
       if (looks && is_at_rest()) return RunStatus::at_rest;
     }
     return RunStatus::finished;
+  }
+
+  void look_at_grains() {
+    lost_.look(simulation_.state().position, simulation_.contacts().neighbours());
+    next_look_at_grains_ =
+        simulation_.steps() +
+        lost_.steps_to_next_look(simulation_.state().velocity, simulation_.time_step());
   }
 
   /// Frames and rows whose time has come.
@@ -92,7 +107,7 @@ class Run {
 
   /// The state at the end, however it came about.
   void write_last() {
-    lost_.look(simulation_.state().position, simulation_.contacts().neighbours());
+    look_at_grains();
     if (last_frame_step_ != simulation_.steps()) {
       history_.add(simulation_, lost_);
       write_frame();
@@ -115,9 +130,13 @@ class Run {
     report_.dt_over_critical = std::max(report_.dt_over_critical, ratio);
   }
 
-  bool is_at_rest() const {
-    if (!scenario_.stop || simulation_.time() < scenario_.stop->after) return false;
-    return simulation_.energy().kinetic < scenario_.stop->kinetic_energy;
+  bool is_at_rest() {
+    if (!scenario_.stop) return false;
+    const bool is_slow = simulation_.energy().kinetic < scenario_.stop->kinetic_energy;
+    if (!is_slow) has_moved_ = true;
+    // Bodies that are let go start without kinetic energy; they are not at rest.
+    if (!scenario_.stop->after) return is_slow && has_moved_;
+    return is_slow && simulation_.time() >= *scenario_.stop->after;
   }
 
   void describe() {
@@ -146,6 +165,8 @@ class Run {
     report_.wall_time = std::chrono::duration<double>(Progress::Clock::now() - start_).count();
     report_.largest_overlap_ratio = simulation_.largest_overlap_ratio();
     report_.energy = simulation_.energy();
+    if (report_.energy.turnover() > rounding_energy_)
+      report_.energy_closure = report_.energy.closure();
     report_.lost_grains = lost_.total();
     report_.lost_through_membranes = lost_.through_membranes();
     report_.lost_out_of_bounds = lost_.out_of_bounds();
@@ -172,7 +193,54 @@ class Run {
   double next_row_ = 0.0;    // s
   double next_frame_ = 0.0;  // s
   std::int64_t last_frame_step_ = -1;
+  std::int64_t next_look_at_grains_ = 1;
+  double rounding_energy_ = 0.0;  // J
+  bool has_moved_ = false;        // its kinetic energy was above that of [stop]
 };
+
+/// @throws InputError
+void require_sound_time_step(const SimulationSettings& settings, double critical) {
+  const double asked = *settings.time_step;
+  Problems problems;
+  if (!(asked < dynamics::kLargestStep * critical)) {
+    problems.add(settings.time_step_place,
+                 fmt::format("simulation.time_step: {:.6g} s is not below {} of the critical time "
+                             "step of this scene, which is {:.6g} s; "
+                             "choose less than {:.6g} s, or \"auto\" for {:.6g} s",
+                             asked, dynamics::kLargestStep, critical,
+                             dynamics::kLargestStep * critical, dynamics::kSafety * critical));
+  }
+  if (asked > settings.duration) {
+    problems.add(settings.time_step_place,
+                 fmt::format("simulation.time_step: {:.6g} s is longer than the duration of {:.6g} "
+                             "s; choose a shorter one, or \"auto\"",
+                             asked, settings.duration));
+  }
+  problems.throw_if_any();
+}
+
+/// @throws InputError
+void choose_time_step(const SimulationSettings& settings, Simulation& simulation) {
+  double chosen = simulation.time_step();
+  if (settings.time_step) {
+    require_sound_time_step(settings, simulation.critical_step().dt);
+    chosen = *settings.time_step;
+  } else if (!std::isfinite(chosen)) {
+    throw InputError(
+        "nothing in this scene moves freely, so no time step can be chosen; give "
+        "simulation.time_step");
+  } else {
+    chosen = std::min(chosen, settings.duration);
+  }
+  if (!(settings.duration <= kMostSteps * chosen)) {
+    throw InputError(fmt::format(
+        "simulation.duration: {:.6g} s are {:.3g} steps of {:.6g} s, above the {:.0e} that a run "
+        "may have; ask for a shorter duration or longer steps (softer, larger and heavier bodies "
+        "allow them)",
+        settings.duration, settings.duration / chosen, chosen, kMostSteps));
+  }
+  simulation.set_time_step(chosen);
+}
 
 }  // namespace
 
@@ -185,31 +253,14 @@ PreparedRun prepare_run(const Scenario& scenario) {
   options.skin = scenario.simulation.skin;
   options.threads = scenario.simulation.threads;
   prepared.simulation = std::make_unique<Simulation>(std::move(prepared.built.scene), options);
-  if (!scenario.simulation.time_step) {
-    if (std::isfinite(prepared.simulation->time_step())) return prepared;
-    throw InputError(
-        "nothing in this scene moves freely, so no time step can be chosen; give "
-        "simulation.time_step");
-  }
-
-  const double asked = *scenario.simulation.time_step;
-  const double critical = prepared.simulation->critical_step().dt;
-  if (!(asked < dynamics::kLargestStep * critical)) {
-    Problems problems;
-    problems.add(scenario.simulation.time_step_place,
-                 fmt::format("simulation.time_step: {:.6g} s is not below {} of the critical time "
-                             "step of this scene, which is {:.6g} s; "
-                             "choose less than {:.6g} s, or \"auto\" for {:.6g} s",
-                             asked, dynamics::kLargestStep, critical,
-                             dynamics::kLargestStep * critical, dynamics::kSafety * critical));
-    problems.throw_if_any();
-  }
-  prepared.simulation->set_time_step(asked);
+  prepared.duration = scenario.simulation.duration;
+  choose_time_step(scenario.simulation, *prepared.simulation);
   return prepared;
 }
 
 RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings) {
   make_output_folder(settings.out);
+  const OutputFolderLock lock(settings.out);
   std::error_code ignored;
   std::filesystem::remove(settings.out / "run.json", ignored);
   return Run(scenario, prepared, settings).execute();

@@ -19,11 +19,13 @@ namespace plekton::apps {
 struct PreparedRun {
   BuiltScene built;  ///< its scene has moved into the simulation
   std::unique_ptr<Simulation> simulation;
+  double duration = 0.0;  ///< s
 };
 
 /// Builds the scene of a scenario and a simulation of it.
+/// An automatic time step is not longer than the duration.
 /// @throws InputError also for a time step that is not below kLargestStep of the critical one,
-/// which it names.
+/// which it names, or longer than the duration, and for more steps than a run can take.
 PreparedRun prepare_run(const Scenario& scenario);
 
 /// How and where to run.

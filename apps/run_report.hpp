@@ -50,6 +50,8 @@ struct RunReport {
   double largest_overlap_ratio = 0.0;
   double dt_over_critical = 0.0;  ///< the largest at any look
   dynamics::Energy energy;        ///< at the end
+  /// Closure error over the energy that went through; 0 where that is no more than rounding.
+  double energy_closure = 0.0;
   std::size_t lost_grains = 0;
   std::size_t lost_through_membranes = 0;
   std::size_t lost_out_of_bounds = 0;

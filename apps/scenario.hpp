@@ -112,7 +112,7 @@ struct OutputSettings {
 /// When to stop before the duration is over.
 struct StopSettings {
   double kinetic_energy = 0.0;  ///< J; the run stops when the kinetic energy is below
-  double after = 0.0;           ///< s, not before this time
+  std::optional<double> after;  ///< s, not before this time; nothing: once it was above
 };
 
 struct Scenario {

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace plekton::apps {
 namespace {
 
@@ -21,6 +23,11 @@ std::string line_of(const BuiltGrains& g) {
                      g.count, g.smallest, g.largest, g.mass);
 }
 
+/// Short times with their digits, long ones in minutes and hours.
+std::string wall_text(double seconds) {
+  return seconds < 60.0 ? fmt::format("{:.3g} s", seconds) : duration_text(seconds);
+}
+
 }  // namespace
 
 std::string summary_of(const PreparedRun& prepared) {
@@ -29,8 +36,9 @@ std::string summary_of(const PreparedRun& prepared) {
   for (const BuiltGrains& grains : prepared.built.grains) text += line_of(grains);
   if (!prepared.simulation->planes().empty())
     text += fmt::format("planes: {}\n", prepared.simulation->planes().size());
-  text += fmt::format("time step: {:.4g} s, critical {:.4g} s\n", prepared.simulation->time_step(),
-                      prepared.simulation->critical_step().dt);
+  text += fmt::format("time step: {:.4g} s, critical {:.4g} s, {:.0f} steps in all\n",
+                      prepared.simulation->time_step(), prepared.simulation->critical_step().dt,
+                      std::ceil(prepared.duration / prepared.simulation->time_step()));
   for (const std::string& warning : prepared.built.warnings) text += "warning: " + warning + '\n';
   return text;
 }
@@ -38,12 +46,12 @@ std::string summary_of(const PreparedRun& prepared) {
 std::string summary_of(const RunReport& report) {
   std::string text = fmt::format(
       "{} at {:.4g} s after {} steps in {} ({:.3g} ms each)\n", name_of(report.status),
-      report.simulated_time, report.steps, duration_text(report.wall_time),
+      report.simulated_time, report.steps, wall_text(report.wall_time),
       report.steps > 0 ? 1e3 * report.wall_time / static_cast<double>(report.steps) : 0.0);
   text += fmt::format(
       "contacts {}, largest overlap {:.3g} % of the radius, energy closure {:.2g} %, lost grains "
       "{}\n",
-      report.contacts, 100.0 * report.largest_overlap_ratio, 100.0 * report.energy.closure(),
+      report.contacts, 100.0 * report.largest_overlap_ratio, 100.0 * report.energy_closure,
       report.lost_grains);
   for (const std::string& warning : report.warnings) text += "warning: " + warning + '\n';
   return text;

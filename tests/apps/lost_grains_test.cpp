@@ -90,6 +90,19 @@ TEST(LostGrains, CountAGrainThatLeavesTheGrownBox) {
   EXPECT_EQ(scene.lost().total(), 1U);
 }
 
+TEST(LostGrains, WantToBeLookedAtTheMoreOftenTheFasterAnythingMoves) {
+  const Scene scene({0.2, 0.2, 0.3});  // its grain has a radius of 0.1 m
+  const auto steps_at = [&](double speed) {
+    return scene.lost().steps_to_next_look(std::vector<Vec3>{Vec3::Zero(), {0.0, 0.0, -speed}},
+                                           1e-3);
+  };
+
+  EXPECT_EQ(steps_at(0.0), LostGrains::kMostSteps);
+  EXPECT_EQ(steps_at(1.0), LostGrains::kMostSteps);
+  EXPECT_EQ(steps_at(5.0), 5);  // 2 x 5 steps x 5 mm = R / 2
+  EXPECT_EQ(steps_at(1000.0), 1);
+}
+
 TEST(PassesThrough, SeesAFacetMoveOverAPointThatRests) {
   const Vec3 point(0.2, 0.2, 0.5);
   EXPECT_TRUE(passes_through(point, point, triangle_at(0.0), triangle_at(1.0)));

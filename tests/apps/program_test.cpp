@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace plekton::apps {
 namespace {
@@ -144,6 +145,92 @@ TEST_F(Command, RunStopsAtRest) {
   EXPECT_NEAR(report()["timing"]["simulated_time_s"], 0.005, 0.001);
 }
 
+TEST_F(Command, RunDoesNotTakeBodiesThatAreAboutToFallForBodiesAtRest) {
+  const Outcome outcome =
+      outcome_of({"run", scenario(), "--out", out(), "--set", "grains.gravel.velocity=[0, 0, 0]",
+                  "--set", "stop.kinetic_energy=1e-9 J"});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_EQ(report()["status"], "finished");
+}
+
+TEST_F(Command, RunShorterThanATimeStepStillTakesOne) {
+  outcome_of({"run", scenario(), "--out", out(), "--set", "simulation.duration=1 ns"});
+
+  EXPECT_EQ(report()["timing"]["steps"], 1);
+  EXPECT_EQ(report()["timing"]["simulated_time_s"], 1e-9);
+}
+
+TEST_F(Command, RunRefusesMoreStepsThanItCouldTakeAndAStepBeyondTheEnd) {
+  EXPECT_THAT(failure_of({"simulation.time_step=1e-300 s"}).err, HasSubstr("steps of 1e-300 s"));
+  EXPECT_THAT(failure_of({"simulation.duration=1e15 h"}).err, HasSubstr("simulation.duration"));
+  EXPECT_THAT(failure_of({"simulation.duration=1 us", "simulation.time_step=2 us"}).err,
+              HasSubstr("longer than the duration"));
+}
+
+TEST_F(Command, RunWarnsOfWhatMakesItsResultsDoubtful) {
+  const Outcome outcome = outcome_of(
+      {"run", scenario(), "--out", out(), "--set", "grains.gravel.velocity=[0, 0, \"-1000 m/s\"]"});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("warning: the largest overlap is"));
+  EXPECT_THAT(outcome.out, HasSubstr("warning: 20 grains are lost"));
+  EXPECT_GE(report()["warnings"].size(), 2U);
+}
+
+TEST_F(Command, RunSeesGrainsPassThroughAMembraneHoweverFast) {
+  // 300 m/s are 3 radii in the 16 steps between two looks at slow grains.
+  outcome_of({"run", scenario(), "--out", out(), "--set",
+              "grains.gravel.velocity=[0, 0, \"-300 m/s\"]", "--set", "simulation.time_step=2 us",
+              "--set", "simulation.duration=1 ms"});
+
+  EXPECT_EQ(report()["lost"]["through_membranes"], 20);
+}
+
+TEST_F(Command, RunInWhichNothingHappensHasNoEnergyErrorButRounding) {
+  outcome_of({"run", scenario(), "--out", out(), "--set", "simulation.gravity=[0, 0, 0]", "--set",
+              "grains.gravel.velocity=[0, 0, 0]", "--set",
+              "membranes.sheet.rotate={ axis = [1, 2, 3], angle = 0.3 }", "--set",
+              "grains.gravel.box={ min = [1, 1, 1], max = [1.1, 1.1, 1.1] }"});
+
+  EXPECT_EQ(report()["energy_closure"], 0.0);
+}
+
+TEST_F(Command, RunNamesOnlyTheSeriesItWrote) {
+  const Outcome outcome =
+      outcome_of({"run", scenario(), "--out", out(), "--set", "output.contacts=false"});
+
+  EXPECT_THAT(outcome.out, HasSubstr("for ParaView grains.pvd, membranes.pvd\n"));
+}
+
+TEST_F(Command, RunKeepsOutOfAFolderThatAnotherRunWritesTo) {
+  Program first({"run", scenario(), "--out", out(), "--set", "simulation.duration=1000 s"});
+  ASSERT_TRUE(Program::appears(folder_ / "out/frames/contacts_00001.vtp"));
+
+  const Outcome second = outcome_of({"run", scenario(), "--out", out()});
+  first.send(SIGINT);
+
+  EXPECT_EQ(second.exit_code, kFailed);
+  EXPECT_THAT(second.err, HasSubstr("another run writes to this folder"));
+  EXPECT_EQ(first.wait().exit_code, kInterrupted);
+  expect_complete_files();
+}
+
+TEST_F(Command, RunGoesOnWhenNobodyReadsItsProgress) {
+  const auto output_to_nobody = [] {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) return;
+    ::dup2(ends[1], STDOUT_FILENO);
+    ::close(ends[0]);
+    ::signal(SIGPIPE, SIG_IGN);  // for what comes before the run, as if it were still read
+  };
+
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out()}, output_to_nobody);
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_EQ(report()["status"], "finished");
+}
+
 TEST_F(Command, RunReplacesWhatAnEarlierRunLeft) {
   outcome_of({"run", scenario(), "--out", out()});
   test::write_bytes(folder_ / "out/frames/notes.txt", "mine");
@@ -157,7 +244,7 @@ TEST_F(Command, RunReplacesWhatAnEarlierRunLeft) {
 }
 
 TEST_F(Command, RunInterruptedEndsCleanlyWithCompleteFiles) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     std::filesystem::remove_all(out());
     Program program({"run", scenario(), "--out", out(), "--set", "simulation.duration=1000 s"});
     ASSERT_TRUE(Program::appears(folder_ / "out/frames/contacts_00001.vtp"));
@@ -274,6 +361,33 @@ TEST_F(Command, CheckSaysWhatTheSceneIsAndWritesNothing) {
   EXPECT_EQ(folder_.names(), before);
 }
 
+TEST_F(Command, CheckThatCannotPrintItsAnswerFails) {
+  const auto full = [] { ::dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); };
+
+  const Outcome outcome = outcome_of({"check", scenario()}, full);
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("standard output: cannot be written: No space left"));
+}
+
+TEST_F(Command, CheckNamesTheBodyWhoseNumbersAreTooExtreme) {
+  EXPECT_THAT(outcome_of({"check", scenario(), "--set", "membranes.sheet.thickness=1e-300 m"}).err,
+              HasSubstr("membranes.sheet: \"sheet\": mass is"));
+  EXPECT_THAT(
+      outcome_of({"check", scenario(), "--set", "membranes.sheet.translate=[1e30, 0, 0]"}).err,
+      HasSubstr("membranes.sheet: \"sheet\": area is 0 m2"));
+  EXPECT_THAT(outcome_of({"check", scenario(), "--set", "grains.gravel.radius=1e-200 m"}).err,
+              HasSubstr("grains.gravel: a grain of 1e-200 m radius"));
+}
+
+TEST_F(Command, CheckFindsRoomInAFlatBoxOfAnySize) {
+  const Outcome outcome =
+      outcome_of({"check", scenario(), "--set",
+                  "grains.gravel.box={ min = [-1e9, -1e9, 0.01], max = [1e9, 1e9, 0.1] }"});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+}
+
 TEST_F(Command, CheckListsAllProblems) {
   const Outcome outcome = outcome_of({"check", scenario(), "--set", "simulation.duration=-1 s",
                                       "--set", "planes.floor.material=x"});
@@ -285,6 +399,8 @@ TEST_F(Command, CheckListsAllProblems) {
 TEST(CommandLine, ThatCannotBeUnderstoodEndsWithTwo) {
   EXPECT_EQ(outcome_of({}).exit_code, kUsage);
   EXPECT_EQ(outcome_of({"fly"}).exit_code, kUsage);
+  EXPECT_THAT(outcome_of({"fly"}).err, HasSubstr("the commands are \"run\""));
+  EXPECT_THAT(outcome_of({"chekc"}).err, HasSubstr("did you mean \"check\"?"));
   EXPECT_EQ(outcome_of({"run"}).exit_code, kUsage);
   EXPECT_EQ(outcome_of({"run", "case.toml", "--threads", "many"}).exit_code, kUsage);
 }

@@ -189,6 +189,13 @@ TEST(ScenarioReader, RefusesABoxInsideOut) {
               HasSubstr("grains.gravel.box.max: component y is -0.1 m"));
 }
 
+TEST(ScenarioReader, RefusesABoxBeyondAllNumbers) {
+  EXPECT_THAT(error_of(edited("min = [\"0 m\"", "min = [-1e308")), testing::IsEmpty());
+  EXPECT_THAT(error_of(edited("min = [\"0 m\", \"0 m\", \"0 m\"], max = [\"10 cm\"",
+                              "min = [-1e308, 0, 0], max = [1e308")),
+              HasSubstr("further from -1e+308 m of min"));
+}
+
 TEST(ScenarioReader, RefusesNumbersThatAreNotFinite) {
   EXPECT_THAT(error_of(edited("[0, 0, \"-9.81 m/s2\"]", "[0, nan, inf]")),
               HasSubstr("simulation.gravity[1]: got nan"));
@@ -228,6 +235,19 @@ TEST(ScenarioReader, RefusesAScenarioWithNothingInIt) {
 TEST(ScenarioReader, NamesThePlaceOfAnErrorOfSyntax) {
   EXPECT_THAT(error_of(edited("duration = ", "duration ")), HasSubstr("case.toml:2:"));
   EXPECT_THAT(error_of(edited("duration = ", "duration ")), HasSubstr("not TOML"));
+}
+
+TEST(ScenarioReader, RefusesTablesNestedWithoutEnd) {
+  std::string key = "a";
+  for (int i = 0; i < 20'000; ++i) key += ".a";
+
+  EXPECT_THAT(error_of(edited("duration", key + " = 1\nduration")),
+              HasSubstr("nested more than 32 deep"));
+}
+
+TEST(ScenarioReader, ListsEveryKnownKeyOnce) {
+  EXPECT_THAT(error_of(edited("density", "colour = 1\ndensity")),
+              HasSubstr("known here: \"density\", \"young_modulus\""));
 }
 
 TEST(ScenarioReader, ChecksAnOverrideAsIfItStoodInTheFile) {
