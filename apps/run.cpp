@@ -239,7 +239,7 @@ void choose_time_step(const SimulationSettings& settings, Simulation& simulation
         "allow them)",
         settings.duration, settings.duration / chosen, chosen, kMostSteps));
   }
-  simulation.set_time_step(chosen);
+  if (chosen != simulation.time_step()) simulation.set_time_step(chosen);
 }
 
 }  // namespace
