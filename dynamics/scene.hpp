@@ -41,7 +41,8 @@ struct Scene {
   std::size_t add_beam(NodeId a, NodeId b, const BeamSection& section, double density);
 
   /// @throws std::invalid_argument listing every problem: arrays of different lengths, ids out of range, a node
-  ///         without mass that is not held, a value that is not finite, a structure of several materials.
+  ///         without mass that is not held, a value that is not finite, a structure of several materials, a
+  ///         facet without area, a cylinder without length, a sphere on a node of another element.
   void check() const;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/scene.hpp"
+#include "dynamics/shape_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,7 @@ class Problems {
     list_materials();
     list_planes();
     list_structures();
+    list_shape_problems(scene_, text_);
   }
 
   void throw_if_any() const {

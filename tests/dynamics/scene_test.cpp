@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -105,6 +106,62 @@ TEST(Scene, ListsEveryProblemAtOnce) {
         "cylinder 0: it has material 1, but it is connected to elements of material 0"}) {
     EXPECT_THAT(problems, HasSubstr(expected));
   }
+}
+
+TEST(Scene, RefusesAFacetWithoutAreaByExactSigns) {
+  Scene scene = sound_scene();
+  scene.state.position[3] = Vec3(0.3, 0.0, 0.0);
+
+  EXPECT_THAT(problems_of(scene),
+              HasSubstr("facet 0 (nodes 1, 2, 3): it has no area: its corners (0 0 0), (1 0 0), "
+                        "(0.3   0   0) are on one line; move one of them or delete the facet"));
+
+  // The smallest number there is beside the line is enough.
+  scene.state.position[3].y() = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(problems_of(scene), "");
+
+  // Off the axes, where one bit is a question of exact signs.
+  const Vec3 direction(0.3, 0.1, 0.7);
+  scene.state.position[2] = direction;
+  scene.state.position[3] = 0.5 * direction;
+  EXPECT_THAT(problems_of(scene), HasSubstr("facet 0 (nodes 1, 2, 3): it has no area"));
+  scene.state.position[3].x() = std::nextafter(scene.state.position[3].x(), 1.0);
+  EXPECT_EQ(problems_of(scene), "");
+}
+
+TEST(Scene, RefusesACylinderWithoutLength) {
+  Scene scene = sound_scene();
+  const NodeId c = scene.add_node(Vec3(2.0, 0.5, 0.0), Held::everything);
+  const NodeId d = scene.add_node(Vec3(2.0, 0.5, 0.0), Held::everything);
+  scene.add_cylinder(c, d, 0.01, MaterialId{1});
+
+  EXPECT_THAT(
+      problems_of(scene),
+      HasSubstr("cylinder 1 (nodes 4, 5): it has no length: both ends are at (  2 0.5   0); "
+                "merge the nodes and delete the cylinder, or move one of them"));
+}
+
+TEST(Scene, RefusesTwoSpheresOnOneNode) {
+  Scene scene = sound_scene();
+  scene.add_sphere(Vec3(5.0, 5.0, 5.0), 0.1, 2600.0, MaterialId{0});
+  scene.elements.spheres[1].nodes = scene.elements.spheres[0].nodes;
+
+  EXPECT_THAT(problems_of(scene),
+              HasSubstr("sphere 1: its node 0 belongs to sphere 0 as well, and the two would push "
+                        "on each other for ever; give the sphere a node of its own"));
+}
+
+TEST(Scene, RefusesASphereOnANodeOfAStructure) {
+  Scene on_facet = sound_scene();
+  on_facet.elements.spheres[0].nodes[0] = NodeId{3};
+  Scene on_cylinder = sound_scene();
+  const NodeId free_end = on_cylinder.add_node(Vec3(2.0, 0.0, 0.0), Held::everything);
+  on_cylinder.add_cylinder(NodeId{2}, free_end, 0.01, MaterialId{1});
+  on_cylinder.elements.spheres[0].nodes[0] = free_end;
+
+  EXPECT_THAT(problems_of(on_facet), HasSubstr("sphere 0: its node 3 belongs to facet 0 as well"));
+  EXPECT_THAT(problems_of(on_cylinder),
+              HasSubstr("sphere 0: its node 4 belongs to cylinder 1 as well"));
 }
 
 TEST(Scene, ReportsElementsOfNodesThatDoNotExist) {
