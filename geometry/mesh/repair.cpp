@@ -4,6 +4,7 @@
 #include "geometry/mesh/edge_table.hpp"
 #include "geometry/mesh/exact_signs.hpp"
 #include "geometry/mesh/orientation.hpp"
+#include "geometry/mesh/reshape.hpp"
 #include "geometry/mesh/soup_builder.hpp"
 #include "geometry/mesh/triangulate_polygon.hpp"
 #include "geometry/mesh/verdict.hpp"
@@ -200,6 +201,12 @@ void require_usable_options(const PolygonSoup& soup, const RepairOptions& option
   if (!(options.weld_distance >= 0.0) || !std::isfinite(options.weld_distance))
     throw MeshError(name + ": a weld distance of " + std::to_string(options.weld_distance) +
                     " m; expected a length of 0 (only equal points) or more");
+  if (!(options.longest_hole >= 0.0))
+    throw MeshError(name + ": a longest hole of " + std::to_string(options.longest_hole) +
+                    " m; expected a length of 0 or more, infinite for all");
+  if (!(options.wrap_detail >= 0.0) || !std::isfinite(options.wrap_detail))
+    throw MeshError(name + ": a wrap detail of " + std::to_string(options.wrap_detail) +
+                    " m; expected a positive length, or 0 for 1/30 of the size of the mesh");
   constexpr auto kMostNodes = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   if (soup.points.size() > kMostNodes || soup.polygons.size() > kMostNodes)
     throw MeshError(name + ": more than 2147483647 points or polygons; split the mesh");
@@ -237,8 +244,13 @@ Mesh repair(const PolygonSoup& input, const RepairOptions& options, MeshReport& 
     orient(mesh, edges, options.orient, report);
   }
   remove_unused_points(mesh, report);
-  report.after = measure(mesh, options.find_intersections);
-  judge(report, cutter.refused());
+  std::vector<std::string> refusals;
+  if (!mesh.facets.empty() && cutter.refused().empty()) refusals = reshape(mesh, options, report);
+  report.after = measure(mesh, options.find_intersections || options.refuse_intersections);
+  if (options.refuse_intersections && report.after.self_intersections.value_or(0) > 0)
+    refusals.push_back(std::to_string(*report.after.self_intersections) +
+                       " pairs of facets intersect; correct the mesh or wrap it");
+  judge(report, cutter.refused(), refusals);
   return mesh;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,20 @@ struct MeshReport {
     std::size_t flipped_facets = 0;        ///< turned over
     std::size_t unused_points = 0;         ///< removed: no facet uses them
   } changed;
+
+  /// Filling of holes, wrapping and remeshing, from the cleaned mesh to the final one.
+  struct Reshaped {
+    std::size_t holes_filled = 0;
+    std::size_t hole_facets = 0;          ///< that fill them
+    std::size_t holes_left = 0;           ///< that could not be filled
+    double wrap_detail = 0.0;             ///< m, 0 if not wrapped
+    double target_edge = 0.0;             ///< m, 0 if not remeshed
+    double area_before = 0.0;             ///< m²
+    std::optional<double> volume_before;  ///< m³, as MeshMeasures::volume
+    double distance = 0.0;  ///< m, largest sampled distance between the old and the new surface
+    double distance_bound = 0.0;  ///< m, the Hausdorff distance is not above this
+  };
+  std::optional<Reshaped> reshaped;  ///< only if any of it was asked for
 
   MeshMeasures after;
   MeshVerdict verdict = MeshVerdict::ok;

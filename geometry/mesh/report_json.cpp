@@ -99,6 +99,20 @@ std::string changed_object(const MeshReport::Changed& changed) {
       .text();
 }
 
+std::string reshaped_object(const MeshReport::Reshaped& reshaped) {
+  return Object(1)
+      .add("holes_filled", reshaped.holes_filled)
+      .add("hole_facets", reshaped.hole_facets)
+      .add("holes_left", reshaped.holes_left)
+      .add("wrap_detail", reshaped.wrap_detail)
+      .add("target_edge", reshaped.target_edge)
+      .add("area_before", reshaped.area_before)
+      .add("volume_before", reshaped.volume_before)
+      .add("distance", reshaped.distance)
+      .add("distance_bound", reshaped.distance_bound)
+      .text();
+}
+
 std::string after_object(const MeshMeasures& after) {
   return Object(1)
       .add("points", after.points)
@@ -137,6 +151,7 @@ std::string to_json(const MeshReport& report) {
              .add_raw("reasons", "[" + reasons + "]")
              .add_raw("found", found_object(report.found))
              .add_raw("changed", changed_object(report.changed))
+             .add_raw("reshaped", report.reshaped ? reshaped_object(*report.reshaped) : "null")
              .add_raw("after", after_object(report.after))
              .text() +
          "\n";

@@ -72,6 +72,19 @@ void add_changed(Table& table, const MeshReport::Changed& changed) {
   table.row_if("unused points removed", changed.unused_points);
 }
 
+void add_reshaped(Table& table, const MeshReport::Reshaped& reshaped) {
+  table.heading("reshaped");
+  table.row_if("holes filled", reshaped.holes_filled);
+  table.row_if("  with facets", reshaped.hole_facets);
+  table.row_if("holes that stay open", reshaped.holes_left);
+  if (reshaped.wrap_detail > 0.0) table.row("wrapped, detail", reshaped.wrap_detail, "m");
+  if (reshaped.target_edge > 0.0) table.row("remeshed, target edge", reshaped.target_edge, "m");
+  table.row("area before", reshaped.area_before, "m2");
+  table.row_if("volume before", reshaped.volume_before, "m3");
+  table.row("distance of old and new surface", reshaped.distance, "m");
+  table.row("  at most", reshaped.distance_bound, "m");
+}
+
 void add_after(Table& table, const MeshMeasures& after) {
   table.heading("after");
   table.row("points", after.points);
@@ -112,6 +125,7 @@ std::string to_text(const MeshReport& report) {
   table.heading(report.source);
   add_found(table, report.found);
   add_changed(table, report.changed);
+  if (report.reshaped) add_reshaped(table, *report.reshaped);
   if (report.after.facets > 0) add_after(table, report.after);
   table.heading("verdict: " + std::string(name_of(report.verdict)));
   for (const std::string& reason : report.reasons) table.heading("  - " + reason);

@@ -104,6 +104,12 @@ std::optional<bool> bounds_volume(const Mesh& mesh) {
 
   CGAL::Surface_mesh<Kernel::Point_3> surface;
   PMP::polygon_soup_to_polygon_mesh(cgal_points(mesh), triangles, surface);
+  // does_bound_a_volume of CGAL 5.5 reads a wild index for a vertex without facets.
+  std::vector<CGAL::SM_Vertex_index> unused;
+  for (const auto vertex : surface.vertices())
+    if (surface.is_isolated(vertex)) unused.push_back(vertex);
+  for (const auto vertex : unused) surface.remove_vertex(vertex);
+  surface.collect_garbage();
   if (!CGAL::is_closed(surface)) return std::nullopt;
   return PMP::does_bound_a_volume(surface);
 }

@@ -25,7 +25,7 @@ void add_refusals(MeshReport& report, std::span<const std::size_t> uncut) {
         std::to_string(kLargestPolygon) + " corners; split it in the program that wrote the file");
   if (uncut.size() > kListed)
     report.reasons.push_back("and " + std::to_string(uncut.size() - kListed) + " polygons more");
-  if (report.after.facets == 0 && uncut.empty())
+  if (report.after.facets == 0 && report.reasons.empty())
     report.reasons.push_back(
         report.found.polygons == 0
             ? "no facets; expected at least one; export the surface as a mesh"
@@ -78,16 +78,36 @@ void warn_about_changes(MeshReport& report) {
                              " not flat; the surface depends on how they were cut");
 }
 
-bool was_repaired(const MeshReport::Changed& changed) {
-  return changed.points_welded + changed.repeated_node_facets + changed.zero_area_facets +
-             changed.duplicate_facets + changed.flipped_facets + changed.unused_points >
-         0;
+void warn_about_reshaping(MeshReport& report) {
+  if (!report.reshaped) return;
+  if (report.reshaped->holes_left > 0)
+    report.reasons.push_back(
+        counted(report.reshaped->holes_left, "hole", "holes") +
+        " could not be filled: the border branches there, or its filling would "
+        "repeat facets or edges that exist");
+  if (report.reshaped->wrap_detail > 0.0) {
+    std::ostringstream text;
+    text << "the surface was wrapped: it is a closed shell now, up to "
+         << report.reshaped->distance_bound << " m away from what it was";
+    report.reasons.push_back(text.str());
+  }
+}
+
+bool was_repaired(const MeshReport& report) {
+  const MeshReport::Changed& changed = report.changed;
+  const bool reshaped =
+      report.reshaped && (report.reshaped->holes_filled > 0 || report.reshaped->target_edge > 0.0);
+  return reshaped || changed.points_welded + changed.repeated_node_facets +
+                             changed.zero_area_facets + changed.duplicate_facets +
+                             changed.flipped_facets + changed.unused_points >
+                         0;
 }
 
 }  // namespace
 
-void judge(MeshReport& report, std::span<const std::size_t> uncut_polygons) {
-  report.reasons.clear();
+void judge(MeshReport& report, std::span<const std::size_t> uncut_polygons,
+           std::span<const std::string> refusals) {
+  report.reasons.assign(refusals.begin(), refusals.end());
   add_refusals(report, uncut_polygons);
   if (!report.reasons.empty()) {
     report.verdict = MeshVerdict::refused;
@@ -95,10 +115,11 @@ void judge(MeshReport& report, std::span<const std::size_t> uncut_polygons) {
   }
   warn_about_shape(report);
   warn_about_changes(report);
+  warn_about_reshaping(report);
   if (!report.reasons.empty())
     report.verdict = MeshVerdict::usable_with_warnings;
   else
-    report.verdict = was_repaired(report.changed) ? MeshVerdict::repaired : MeshVerdict::ok;
+    report.verdict = was_repaired(report) ? MeshVerdict::repaired : MeshVerdict::ok;
 }
 
 }  // namespace plekton::geometry

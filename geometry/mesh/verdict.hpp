@@ -5,12 +5,15 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 
 namespace plekton::geometry {
 
 /// Writes verdict and reasons from everything else in the report.
 /// @param uncut_polygons  Positions of polygons that could not be cut into triangles; any of them
 ///        refuses the mesh.
-void judge(MeshReport& report, std::span<const std::size_t> uncut_polygons);
+/// @param refusals  Other reasons that refuse it.
+void judge(MeshReport& report, std::span<const std::size_t> uncut_polygons,
+           std::span<const std::string> refusals);
 
 }  // namespace plekton::geometry
