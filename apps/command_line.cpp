@@ -40,6 +40,12 @@ struct CommandLine {
   fs::path out;
   fs::path mesh;
   std::string weld = "0 m";
+  bool fill_holes = false;
+  std::string longest_hole;
+  bool wrap = false;
+  std::string wrap_detail;
+  std::string target_edge;
+  bool refuse_intersections = false;
   std::string thickness;
   bool json = false;
 };
@@ -105,10 +111,25 @@ double length_option(const std::string& name, const std::string& text) {
   }
 }
 
+geometry::RepairOptions repair_options(const CommandLine& line) {
+  geometry::RepairOptions options;
+  options.weld_distance = length_option("--weld", line.weld);
+  options.fill_holes = line.fill_holes || !line.longest_hole.empty();
+  if (!line.longest_hole.empty())
+    options.longest_hole = length_option("--longest-hole", line.longest_hole);
+  options.wrap = line.wrap || !line.wrap_detail.empty();
+  if (!line.wrap_detail.empty())
+    options.wrap_detail = length_option("--wrap-detail", line.wrap_detail);
+  if (!line.target_edge.empty())
+    options.target_edge = length_option("--target-edge", line.target_edge);
+  options.refuse_intersections = line.refuse_intersections;
+  return options;
+}
+
 int import_command(const CommandLine& line) {
   ImportArguments arguments;
   arguments.mesh = line.mesh;
-  arguments.weld = length_option("--weld", line.weld);
+  arguments.repair = repair_options(line);
   if (!line.thickness.empty()) arguments.thickness = length_option("--thickness", line.thickness);
   if (!line.out.empty()) arguments.out = line.out;
   arguments.json = line.json;
@@ -176,6 +197,16 @@ int dispatch(int argc, const char* const* argv) {
       "import", "Read and repair a mesh (.off, .obj, .stl, .ply, .msh, .vtp), and report on it");
   import->add_option("mesh", line.mesh, "Mesh file")->required();
   import->add_option("--weld", line.weld, "Join points within this distance, as in \"1 um\"");
+  import->add_flag("--fill-holes", line.fill_holes, "Fill holes, also the rim of an open sheet");
+  import->add_option("--longest-hole", line.longest_hole,
+                     "Fill only holes of at most this perimeter");
+  import->add_option("--target-edge", line.target_edge, "Remesh to edges of about this length");
+  import->add_flag("--wrap", line.wrap,
+                   "Replace the surface by a closed one around it, as the last resort");
+  import->add_option("--wrap-detail", line.wrap_detail,
+                     "Size of the details a wrap keeps; 1/30 of the size if not given");
+  import->add_flag("--refuse-intersections", line.refuse_intersections,
+                   "Refuse a mesh whose facets still intersect at the end");
   import->add_option("--thickness", line.thickness,
                      "Say whether a membrane of this thickness goes with the mesh");
   import->add_option("--out", line.out, "Folder for the repaired mesh and report.json");

@@ -27,7 +27,7 @@ void write_import(const fs::path& folder, const fs::path& mesh_name,
 
 void import_mesh_file(const ImportArguments& arguments, std::ostream& out) {
   geometry::ImportOptions options;
-  options.repair.weld_distance = arguments.weld;
+  options.repair = arguments.repair;
   geometry::ImportedMesh imported = geometry::import_mesh(arguments.mesh, options);
   if (arguments.thickness) {
     const auto warnings = geometry::make_membrane(imported.mesh, {*arguments.thickness}).warnings;

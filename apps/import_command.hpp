@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/mesh/repair.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <ostream>
@@ -10,7 +12,7 @@ namespace plekton::apps {
 /// What `plekton import` is asked to do.
 struct ImportArguments {
   std::filesystem::path mesh;
-  double weld = 0.0;                         ///< m
+  geometry::RepairOptions repair;
   std::optional<double> thickness;           ///< m, to hear whether it goes with the mesh
   std::optional<std::filesystem::path> out;  ///< folder for the repaired mesh and report.json
   bool json = false;                         ///< print the report as JSON

@@ -39,6 +39,18 @@ TEST(ImportCommand, PrintsTheReportAsJson) {
   EXPECT_TRUE(nlohmann::json::parse(outcome.out).contains("verdict"));
 }
 
+TEST(ImportCommand, RemeshesAndFillsHolesWhenAsked) {
+  const Outcome remeshed =
+      outcome_of({"import", kHammock, "--weld", "1 um", "--target-edge", "10 cm", "--json"});
+  const Outcome filled =
+      outcome_of({"import", kHammock, "--weld", "1 um", "--longest-hole", "1 mm", "--json"});
+
+  ASSERT_EQ(remeshed.exit_code, kDone) << remeshed.err;
+  EXPECT_EQ(nlohmann::json::parse(remeshed.out)["reshaped"]["target_edge"], 0.1);
+  ASSERT_EQ(filled.exit_code, kDone) << filled.err;
+  EXPECT_EQ(nlohmann::json::parse(filled.out)["reshaped"]["holes_filled"], 0);
+}
+
 TEST(ImportCommand, SaysWhenAThicknessDoesNotGoWithTheMesh) {
   const Outcome outcome = outcome_of({"import", kHammock, "--weld", "1 um", "--thickness", "5 cm"});
 
