@@ -3,12 +3,12 @@
 
 #include "contact/ball_block.hpp"
 #include "contact/bodies.hpp"
-#include "contact/chunks.hpp"
 #include "contact/contact_memory.hpp"
 #include "contact/contact_row.hpp"
 #include "contact/force_records.hpp"
 #include "contact/material_pairs.hpp"
 #include "contact/rekey.hpp"
+#include "geometry/parallel_sum.hpp"
 
 #include <array>
 #include <span>
@@ -91,11 +91,11 @@ class BallContacts {
   /// One step of a pair that touches, whatever happened to it. @returns the energy (J) dissipated
   double advance_one(std::size_t i, const Motion& motion, double dt, Records& records);
 
-  std::vector<geometry::IndexPair> keys_;
   std::vector<Pair> pairs_;
   std::vector<Detail> details_;
   ForceRecords<BallForce> records_;
-  ChunkedSum<double> sum_;
+  Rekey<Detail> rekey_;
+  geometry::ParallelSum<double> sum_;
 };
 
 template <ContactLaw Law>
@@ -104,6 +104,7 @@ double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
                                   const MaterialPairs<Law>& materials) {
   double lost = 0.0;
   pairs_.clear();
+  make_room(pairs_, keys.size());
   const auto make = [&](std::size_t i, const Detail* old) {
     const Ball& a = balls[static_cast<std::size_t>(keys[i].a)];
     const Ball& b = balls[static_cast<std::size_t>(keys[i].b)];
@@ -112,7 +113,7 @@ double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
     return Detail{
         a.radius, b.radius, 0.0, materials.combine(a.material, a.radius, b.material, b.radius), {}};
   };
-  rekey(keys_, details_, keys, make,
+  rekey_(details_, keys, make,
         [&](Detail& old) { lost += forget<Law>(old.parameters, old.memory); });
   return lost;
 }

@@ -3,12 +3,12 @@
 
 #include "contact/ball_block.hpp"
 #include "contact/bodies.hpp"
-#include "contact/chunks.hpp"
 #include "contact/contact_memory.hpp"
 #include "contact/contact_row.hpp"
 #include "contact/force_records.hpp"
 #include "contact/material_pairs.hpp"
 #include "contact/rekey.hpp"
+#include "geometry/parallel_sum.hpp"
 
 #include <array>
 #include <span>
@@ -86,10 +86,10 @@ class PlaneContacts {
   double advance_one(std::size_t i, double gap, const Motion& motion, std::span<const Plane> planes,
                      double dt, Records& records);
 
-  std::vector<geometry::IndexPair> keys_;
   std::vector<Slot> slots_;
   ForceRecords<PlaneForce> records_;
-  ChunkedSum<double> sum_;
+  Rekey<Slot> rekey_;
+  geometry::ParallelSum<double> sum_;
 };
 
 template <ContactLaw Law>
@@ -105,7 +105,7 @@ double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
         materials.combine(ball.material, ball.radius, planes[plane].material, ball.radius);
     return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}};
   };
-  rekey(keys_, slots_, keys, make,
+  rekey_(slots_, keys, make,
         [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });
   return lost;
 }

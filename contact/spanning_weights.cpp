@@ -15,6 +15,19 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 Eigen::Index as_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
+using Matrix = Eigen::Map<Eigen::MatrixXd>;
+
+/// Room for a number of entries, and for twice what there was if that was less.
+void grow(std::vector<double>& room, std::size_t count) {
+  if (room.size() < count) room.resize(std::max(count, 2 * room.size()));
+}
+
+/// A matrix in room that only grows.
+Matrix matrix_in(std::vector<double>& room, std::size_t rows, std::size_t columns) {
+  grow(room, rows * columns);
+  return {room.data(), as_index(rows), as_index(columns)};
+}
+
 /// Root of the resistance of a tree link over that of a link that closes a ring with it, which is at least as large. A
 /// ring without any resistance shares evenly.
 double ratio_of(const Link& tree, const Link& closing) noexcept {
@@ -80,12 +93,11 @@ void SpanningWeights::hang_trees(std::uint32_t vertex_count, std::span<const Lin
   }
 }
 
-void SpanningWeights::share_rings(std::span<const Link> links) {
-  // Column of a tree link in cycles_.
-  std::vector<Eigen::Index> column(links.size(), -1);
-  for (std::size_t i = 0; i < tree_links_.size(); ++i) column[tree_links_[i]] = as_index(i);
-
-  cycles_.setZero(as_index(closing_links_.size()), as_index(tree_links_.size()));
+void SpanningWeights::fill_cycles(std::span<const Link> links) {
+  tree_place_.assign(links.size(), kNone);
+  for (std::uint32_t i = 0; i < tree_links_.size(); ++i) tree_place_[tree_links_[i]] = i;
+  Matrix cycles = matrix_in(cycles_, closing_links_.size(), tree_links_.size());
+  cycles.setZero();
   for (std::size_t c = 0; c < closing_links_.size(); ++c) {
     const Link& closing = links[closing_links_[c]];
     // The tree path between the two ends; a step up from a counts +, a step up from b counts -.
@@ -95,20 +107,37 @@ void SpanningWeights::share_rings(std::span<const Link> links) {
       const bool climb_a = parent_[a].depth >= parent_[b].depth;
       const Parent& up = climb_a ? parent_[a] : parent_[b];
       // Towards the parent the tree link is taken as oriented child -> parent for every cycle alike.
-      cycles_(as_index(c), column[up.link]) = (climb_a ? 1.0 : -1.0) * ratio_of(links[up.link], closing);
+      cycles(as_index(c), as_index(tree_place_[up.link])) = (climb_a ? 1.0 : -1.0) * ratio_of(links[up.link], closing);
       (climb_a ? a : b) = up.vertex;
     }
   }
+}
 
-  const Eigen::Index rings = cycles_.rows();
-  const Eigen::MatrixXd scaled = Eigen::MatrixXd::Identity(rings, rings) + cycles_ * cycles_.transpose();
-  const Eigen::MatrixXd inverse = scaled.llt().solve(Eigen::MatrixXd::Identity(rings, rings));
-  for (std::size_t c = 0; c < closing_links_.size(); ++c) {
-    weights_[closing_links_[c]] = std::clamp(1.0 - inverse(as_index(c), as_index(c)), 0.0, 1.0);
+void SpanningWeights::share_rings(std::span<const Link> links) {
+  fill_cycles(links);
+  const std::size_t rings = closing_links_.size();
+  const Matrix cycles = matrix_in(cycles_, rings, tree_links_.size());
+  Matrix gram = matrix_in(gram_, rings, rings);
+  // Coefficient by coefficient: Eigen's product of large matrices allocates.
+  gram = cycles.lazyProduct(cycles.transpose());
+  gram.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(gram);  // in place
+
+  // With L L^T = 1 + C C^T, the probability c^T (L L^T)^-1 c to be left out is |L^-1 c|^2; of a closing link, c is a
+  // unit vector.
+  grow(column_, rings);
+  Eigen::Map<Eigen::VectorXd> column(column_.data(), as_index(rings));
+  const auto weight = [&] {
+    factor.matrixL().solveInPlace(column);
+    return std::clamp(1.0 - column.squaredNorm(), 0.0, 1.0);
+  };
+  for (std::size_t c = 0; c < rings; ++c) {
+    column = Eigen::VectorXd::Unit(as_index(rings), as_index(c));
+    weights_[closing_links_[c]] = weight();
   }
   for (std::size_t i = 0; i < tree_links_.size(); ++i) {
-    const auto cycle = cycles_.col(as_index(i));
-    weights_[tree_links_[i]] = std::clamp(1.0 - cycle.dot(inverse * cycle), 0.0, 1.0);
+    column = cycles.col(as_index(i));
+    weights_[tree_links_[i]] = weight();
   }
 }
 

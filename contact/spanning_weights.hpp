@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
-
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -45,7 +43,7 @@ inline double link_resistance(double upper, double drop) noexcept {
   return drop * (upper + lower) / (upper * upper * lower * lower);
 }
 
-/// Keeps its working space, so that a warm call without rings does not allocate.
+/// Keeps its working space, so that a warm call does not allocate.
 class SpanningWeights {
  public:
   /// Weights of the links, each in [0, 1].
@@ -70,6 +68,7 @@ class SpanningWeights {
 
   void grow_forest(std::uint32_t vertex_count, std::span<const Link> links);
   void hang_trees(std::uint32_t vertex_count, std::span<const Link> links);
+  void fill_cycles(std::span<const Link> links);
   void share_rings(std::span<const Link> links);
 
   std::vector<std::uint32_t> order_;  ///< links by rising resistance
@@ -78,7 +77,11 @@ class SpanningWeights {
   std::vector<std::uint32_t> closing_links_;
   std::vector<Parent> parent_;
   std::vector<double> weights_;
-  Eigen::MatrixXd cycles_;  ///< closing link x tree link: signed root of the tree link's share of the closing one's resistance
+  // Working space of share_rings.
+  std::vector<std::uint32_t> tree_place_;  ///< by link: its place in tree_links_
+  std::vector<double> cycles_;  ///< closing link x tree link: signed root of the tree link's share of the closing one's resistance
+  std::vector<double> gram_;    ///< closing link x closing link: 1 + C C^T, then its Cholesky factor
+  std::vector<double> column_;  ///< closing link
 };
 
 }  // namespace plekton::contact

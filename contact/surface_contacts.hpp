@@ -2,7 +2,6 @@
 #pragma once
 
 #include "contact/bodies.hpp"
-#include "contact/chunks.hpp"
 #include "contact/contact_memory.hpp"
 #include "contact/contact_row.hpp"
 #include "contact/force_records.hpp"
@@ -12,6 +11,7 @@
 #include "contact/patch_heirs.hpp"
 #include "contact/rekey.hpp"
 #include "geometry/neighbours.hpp"
+#include "geometry/parallel_sum.hpp"
 
 #include <span>
 #include <vector>
@@ -108,14 +108,14 @@ class SurfaceContacts {
   }
 
   const geometry::Surface* surface_;
-  std::vector<geometry::IndexPair> keys_;
   std::vector<Pair> pairs_;
   std::vector<geometry::CellId> cells_;
   std::vector<Lists> current_;   ///< by worker
   std::vector<Lists> previous_;  ///< by worker
   std::vector<Worker> workers_;
   ForceRecords<SurfaceForce> records_;
-  ChunkedSum<double> sum_;
+  Rekey<Pair> rekey_;
+  geometry::ParallelSum<double> sum_;
 };
 
 template <ContactLaw Law>
@@ -136,7 +136,8 @@ double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys, 
                 materials.combine(ball.material, ball.radius, material_b, radius_b),
                 old ? old->range : Range{}};
   };
-  rekey(keys_, pairs_, keys, make, [&](const Pair& old) { lost += drop(old); });
+  rekey_(pairs_, keys, make, [&](const Pair& old) { lost += drop(old); });
+  make_room(cells_, cells.size());
   cells_.assign(cells.begin(), cells.end());
   return lost;
 }

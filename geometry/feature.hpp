@@ -4,7 +4,6 @@
 #include "geometry/types.hpp"
 
 #include <compare>
-#include <functional>
 #include <ostream>
 
 namespace plekton::geometry {
@@ -31,10 +30,3 @@ inline std::ostream& operator<<(std::ostream& out, const Feature& feature) {
 }
 
 }  // namespace plekton::geometry
-
-template <>
-struct std::hash<plekton::geometry::Feature> {
-  std::size_t operator()(const plekton::geometry::Feature& feature) const noexcept {
-    return std::hash<std::int64_t>{}((static_cast<std::int64_t>(feature.kind) << 32) ^ feature.id);
-  }
-};

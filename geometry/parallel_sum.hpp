@@ -2,52 +2,50 @@
 #pragma once
 
 #include "geometry/thread_pool.hpp"
-#include "geometry/types.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 namespace plekton::geometry {
 
-/// Sums over many indices, the same bits for any number of threads: the terms of each 256 indices
-/// are added in order, then these sums in order. Value is double or Vec3. An object keeps its room,
-/// so that only a longer sum than any before allocates; it must not be used by two threads at once.
-template <class Value>
+/// Sums over many indices, the same bits for any number of threads: what body(begin, end, worker)
+/// returns for each 256 indices is added in order. Sum is a number, an Eigen vector, or anything
+/// that starts at zero when value-initialised and has +=. An object keeps its room, so that only a
+/// longer sum than any before allocates; it must not be used by two threads at once.
+template <class Sum>
 class ParallelSum {
  public:
   static constexpr std::size_t kChunk = 256;
 
-  /// The sum of term(i) over [0, count); zero if there is none. The terms are asked for by several
-  /// threads at once.
-  /// @throws What a term threw.
-  template <class Term>
-  Value operator()(ThreadPool& pool, std::size_t count, const Term& term) {
-    chunk_sums_.resize((count + kChunk - 1) / kChunk);
-    pool.for_each_range(chunk_sums_.size(), [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t chunk = begin; chunk < end; ++chunk) {
-        Value sum = zero();
-        const std::size_t last = std::min(count, (chunk + 1) * kChunk);
-        for (std::size_t i = chunk * kChunk; i < last; ++i) sum += term(i);
-        chunk_sums_[chunk] = sum;
+  /// Calls body once for each chunk of [0, count), on several threads at once; a worker gets its
+  /// chunks in ascending order.
+  /// @returns the sum of what it returned; zero if there is nothing to add
+  /// @throws What body threw.
+  template <class Body>
+  Sum operator()(std::size_t count, ThreadPool& pool, Body&& body) {
+    chunk_sums_.resize((count + kChunk - 1) / kChunk, zero());
+    pool.for_each_range(chunk_sums_.size(), [&](std::size_t first, std::size_t last, int worker) {
+      for (std::size_t chunk = first; chunk < last; ++chunk) {
+        const std::size_t begin = chunk * kChunk;
+        chunk_sums_[chunk] = body(begin, std::min(count, begin + kChunk), worker);
       }
     });
-    Value total = zero();
-    for (const Value& sum : chunk_sums_) total += sum;
+    Sum total = zero();
+    for (const Sum& sum : chunk_sums_) total += sum;
     return total;
   }
 
  private:
-  static Value zero() {
-    if constexpr (std::is_arithmetic_v<Value>) {
-      return Value{0};
+  static Sum zero() {
+    if constexpr (requires { Sum::Zero(); }) {
+      return Sum::Zero();
     } else {
-      return Value::Zero();
+      return Sum{};
     }
   }
 
-  std::vector<Value> chunk_sums_;
+  std::vector<Sum> chunk_sums_;
 };
 
 }  // namespace plekton::geometry

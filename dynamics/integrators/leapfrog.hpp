@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/chunks.hpp"
 #include "dynamics/node_state.hpp"
+#include "geometry/parallel_sum.hpp"
 
 namespace plekton::dynamics {
 
@@ -43,7 +43,7 @@ class Leapfrog {
                 const MotionOptions& options, double dt, geometry::ThreadPool& pool);
 
  private:
-  contact::ChunkedSum<StepWork> sum_;
+  geometry::ParallelSum<StepWork> sum_;
 };
 
 }  // namespace plekton::dynamics

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/simulation.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/beam_structure.hpp"
+#include "tests/support/complexes.hpp"
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace plekton::test {
 namespace {
+
+using dynamics::Held;
+using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+
+constexpr contact::MaterialId kStructure{0};
+constexpr contact::MaterialId kGrains{1};
 
 TEST(Allocation, IsNoneInTheForcesOfBeams) {
   Scene scene = chain(50, 1.0, dynamics::circular_section(0.01, 1e6, 0.3));
@@ -20,6 +30,107 @@ TEST(Allocation, IsNoneInTheForcesOfBeams) {
     });
 
     EXPECT_EQ(count, 0U);
+  }
+}
+
+/// A square grid of n cells a side, of this spacing (m), around the origin in z = 0.
+void add_grid(Scene& scene, const Complex& grid, int n, double spacing, Held inside) {
+  for (const Vec3& x : grid.x) {
+    const bool on_rim = x.head<2>().minCoeff() <= 0.0 || x.head<2>().maxCoeff() >= n;
+    scene.add_node(spacing * (x - Vec3(0.5 * n, 0.5 * n, 0.0)), on_rim ? Held::everything : inside);
+  }
+}
+
+/// A sheet of beams and facets, held at its rim.
+Scene sheet_scene() {
+  constexpr int kCells = 6;
+  Scene scene;
+  scene.materials = {{1e6, 0.3, 0.4}, {1e6, 0.3, 0.6}};
+  const Complex grid = sheet(kCells);
+  add_grid(scene, grid, kCells, 0.02, Held::nothing);
+  for (const auto& facet : grid.facets) {
+    scene.add_facet(facet.nodes[0], facet.nodes[1], facet.nodes[2], 0.0015, kStructure);
+  }
+  const geometry::Surface surface(scene.elements.cylinders, scene.elements.facets,
+                                  scene.state.size());
+  for (std::size_t e = 0; e < surface.edge_count(); ++e) {
+    const auto& [a, b] = surface.nodes_of(geometry::id_at<geometry::EdgeId>(e));
+    scene.add_beam(a, b, dynamics::circular_section(0.0015, 2e7, 0.3), 600.0);
+  }
+  return scene;
+}
+
+/// A rigid net, so fine that a grain lies on many rings of wire at once.
+Scene net_scene() {
+  constexpr int kCells = 40;
+  Scene scene;
+  scene.materials = {{1e5, 0.3, 0.4}, {1e5, 0.3, 0.6}};
+  const Complex grid = net(kCells);
+  add_grid(scene, grid, kCells, 0.0006, Held::everything);
+  for (const auto& wire : grid.cylinders) {
+    scene.add_cylinder(wire.nodes[0], wire.nodes[1], 0.00015, kStructure);
+  }
+  return scene;
+}
+
+/// Grains on their way down, and four walls around them.
+void add_grains(Scene& scene, double radius, int columns, double half_width) {
+  Random random(7);
+  for (int i = 0; i < columns * columns; ++i) {
+    const double x = 2.2 * radius * (i % columns - 0.5 * (columns - 1));
+    const double y = 2.2 * radius * (i / columns - 0.5 * (columns - 1));
+    scene.add_sphere(Vec3(x, y, 1.4 * radius), radius, 2650.0, kGrains);
+    scene.state.velocity.back() = 0.3 * random.direction();
+    scene.state.velocity.back().z() = 0.0;
+  }
+  for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+    scene.planes.push_back({-half_width * normal, normal, Vec3::Zero(), kGrains});
+  }
+}
+
+Simulation simulation_of(Scene scene, int threads) {
+  dynamics::SimulationOptions options;
+  options.motion.gravity = Vec3(0.0, 0.0, -9.81);
+  options.threads = threads;
+  options.time_step = Simulation(scene, options).time_step();
+  return Simulation(std::move(scene), options);
+}
+
+/// Warms up, then counts; the lists are made anew at least three times while it counts.
+std::size_t allocations_of_steps(Simulation& simulation, int warm_up) {
+  for (int i = 0; i < warm_up; ++i) simulation.step();
+  const std::int64_t lists = simulation.contacts().neighbours().rebuild_count();
+  const std::size_t count = allocations_of([&] {
+    while (simulation.contacts().neighbours().rebuild_count() < lists + 3) simulation.step();
+  });
+  return count;
+}
+
+TEST(Allocation, IsNoneInTheStepsOfGrainsOnASheet) {
+  for (const int threads : {1, 2}) {
+    Scene scene = sheet_scene();
+    add_grains(scene, 0.006, 6, 0.05);
+    Simulation simulation = simulation_of(std::move(scene), threads);
+
+    EXPECT_EQ(allocations_of_steps(simulation, 4000), 0u) << threads << " threads";
+    EXPECT_GT(simulation.contacts().counts().sphere_surface, 0u);
+  }
+}
+
+TEST(Allocation, IsNoneInTheStepsOfGrainsOnANet) {
+  for (const int threads : {1, 2}) {
+    Scene scene = net_scene();
+    add_grains(scene, 0.003, 3, 0.011);
+    Simulation simulation = simulation_of(std::move(scene), threads);
+
+    EXPECT_EQ(allocations_of_steps(simulation, 4000), 0u) << threads << " threads";
+
+    std::size_t terms = 0;
+    simulation.contacts().with_surfaces().for_each_touching(
+        [&](NodeId, const geometry::CorePoint&, const auto&) { ++terms; });
+    // Four wires and four crossings close the first ring around a hole.
+    EXPECT_GE(terms, 8 * simulation.contacts().counts().sphere_surface);
+    EXPECT_GT(terms, 0u);
   }
 }
 

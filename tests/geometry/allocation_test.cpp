@@ -68,7 +68,7 @@ TEST(Allocation, DoesNotHappenInLoopsSumsAndTheSkinAfterTheFirst) {
   Skin skin(0.1);
   const auto step = [&] {
     pool.for_each_range(x.size(), [](std::size_t, std::size_t, int) {});
-    sum(pool, x.size(), [&](std::size_t i) { return x[i]; });
+    sum(x.size(), pool, [&](std::size_t begin, std::size_t, int) { return x[begin]; });
     skin.mark_built(x);
     skin.needs_rebuild(x, pool);
   };

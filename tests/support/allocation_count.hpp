@@ -6,8 +6,16 @@
 #include <cstdlib>
 #include <new>
 
-// Counts what operator new gives out, by replacing it in the whole program: include this in exactly
-// one source of an executable.
+// Counts what operator new and malloc give out, by replacing them in the whole program: include
+// this in exactly one source of an executable. Eigen takes the room of its matrices from malloc.
+// Under a sanitizer, which has a malloc of its own, only operator new is counted.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#define PLEKTON_COUNTS_MALLOC 0
+#else
+#define PLEKTON_COUNTS_MALLOC 1
+extern "C" void* __libc_malloc(std::size_t size);
+#endif
+
 namespace plekton::test {
 
 inline std::atomic<std::size_t> allocation_count = 0;
@@ -20,12 +28,26 @@ std::size_t allocations_of(const Work& work) {
   return allocation_count - before;
 }
 
+inline void* counted_memory(std::size_t size) noexcept {
+  ++allocation_count;
+#if PLEKTON_COUNTS_MALLOC
+  return __libc_malloc(size);
+#else
+  return std::malloc(size);
+#endif
+}
+
 }  // namespace plekton::test
+
+#if PLEKTON_COUNTS_MALLOC
+extern "C" [[gnu::noinline]] void* malloc(std::size_t size) noexcept {
+  return plekton::test::counted_memory(size);
+}
+#endif
 
 // Not inlined, lest the compiler see std::free and take it for a mistake.
 [[gnu::noinline]] void* operator new(std::size_t size) {
-  ++plekton::test::allocation_count;
-  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  if (void* const memory = plekton::test::counted_memory(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
 [[gnu::noinline]] void* operator new[](std::size_t size) {
