@@ -12,15 +12,15 @@ namespace plekton::contact {
 /// A patch as one contact of a ball (a) with a surface (b).
 struct PatchState {
   Feature root;
-  Vec3 normal;             ///< unit, direction of the elastic force on b
-  double gap;              ///< m, of the deepest minimum
-  double elastic_force;    ///< N, the terms' elastic forces added as vectors
-  double elastic_energy;   ///< J, of these
-  Vec3 foot;               ///< m, from the ball's centre to the representative point: force-weighted mean of the feet
-  Vec3 lever_a;            ///< m, from the ball's centre to the contact point
-  Vec3 relative_velocity;  ///< m/s, of b relative to a at the contact point
-  double twist_rate;       ///< rad/s, mean angular velocity of both bodies about the normal
-  Vec3 force;              ///< N, on b, once the law has spoken
+  Vec3 normal = Vec3::Zero();   ///< unit, direction of the elastic force on b
+  double gap = 0.0;             ///< m, of the deepest minimum
+  double elastic_force = 0.0;   ///< N, the terms' elastic forces added as vectors
+  double elastic_energy = 0.0;  ///< J, of these
+  Vec3 foot = Vec3::Zero();  ///< m, from the ball's centre to the representative point: force-weighted mean of the feet
+  Vec3 lever_a = Vec3::Zero();            ///< m, from the ball's centre to the contact point
+  Vec3 relative_velocity = Vec3::Zero();  ///< m/s, of b relative to a at the contact point
+  double twist_rate = 0.0;       ///< rad/s, mean angular velocity of both bodies about the normal
+  Vec3 force = Vec3::Zero();              ///< N, on b, once the law has spoken
 };
 
 /// What a term carries of its patch.
@@ -36,7 +36,7 @@ struct PatchTermForce {
 template <class Force, class Energy>
 PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, double range, Force elastic_force,
                        Energy elastic_energy, std::span<PatchTermForce> term_forces) {
-  PatchState state{};
+  PatchState state;
   state.root = patch.root;
   state.gap = terms[0].distance - range;
   double total = 0.0;

@@ -9,8 +9,12 @@
 
 namespace plekton::contact {
 
-/// Which balls may touch which planes: those nearer than a skin (m) when the list was made. Whoever owns it lets the
-/// list expire before a ball has moved by more than half the skin; it sees to the planes itself.
+/// Which balls may touch which planes.
+///
+/// Whoever owns the list lets it expire before a ball has moved by more than half the skin since the last time; the
+/// list itself sees to the planes, and is made anew when one of them has moved by half the skin. Then the balls stand
+/// anywhere within half the skin of where they were at the last expiry, and may still move to anywhere within it: by
+/// the whole skin. So everything nearer than one and a half skins is listed.
 class PlaneNeighbours {
  public:
   explicit PlaneNeighbours(double skin) : skin_(skin) {}

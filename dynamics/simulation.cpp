@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/simulation.hpp"
 
+#include "dynamics/expected_contacts.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <sstream>
@@ -21,13 +23,14 @@ double smallest_radius(const geometry::Elements& elements) {
   return smallest_radius(elements.facets, smallest_radius(elements.cylinders, spheres));
 }
 
-double largest_length(const Scene& scene) {
-  double length = 0.0;
-  for (const auto& sphere : scene.elements.spheres) length = std::max(length, sphere.radius);
-  for (const auto& cylinder : scene.elements.cylinders) length = std::max(length, cylinder.radius);
-  for (const auto& facet : scene.elements.facets) length = std::max(length, facet.radius);
-  for (const BeamBond& bond : scene.bonds) length = std::max(length, bond.length);
-  return length;
+/// What a node may move in one step before nothing could notice it any more: the largest radius. Nodes without elements
+/// may move as they like.
+double furthest_in_a_step(const Scene& scene) {
+  double radius = 0.0;
+  for (const auto& sphere : scene.elements.spheres) radius = std::max(radius, sphere.radius);
+  for (const auto& cylinder : scene.elements.cylinders) radius = std::max(radius, cylinder.radius);
+  for (const auto& facet : scene.elements.facets) radius = std::max(radius, facet.radius);
+  return radius > 0.0 ? radius : std::numeric_limits<double>::infinity();
 }
 
 double chosen_skin(const Scene& scene, double asked) {
@@ -107,7 +110,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
                 chosen_skin(scene_, options.skin), free_nodes(scene_.properties)),
       bonds_(scene_.bonds, scene_.state.size()),
       forces_(scene_.state.size()),
-      furthest_(10.0 * largest_length(scene_)) {
+      furthest_(furthest_in_a_step(scene_)) {
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   bonds_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_);
@@ -119,6 +122,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
          << kSafety << " of it chosen";
     throw std::invalid_argument(text.str());
   }
+  chooses_time_step_ = options.time_step == 0.0;
   dt_ = options.time_step > 0.0 ? options.time_step : kSafety * critical;
   initial_gravity_energy_ = gravity_energy(0.0);
   work_.kinetic = kinetic_energy(scene_.state, scene_.properties);
@@ -127,8 +131,18 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
 
 template <contact::ContactLaw Law>
 void Simulation<Law>::set_time_step(double dt) {
-  if (!(dt > 0.0) || !std::isfinite(dt)) throw std::invalid_argument("time step must be positive");
+  if (!(dt > 0.0) || !std::isfinite(dt)) {
+    throw std::invalid_argument("time step " + std::to_string(dt) + " s: must be positive and finite");
+  }
   dt_ = dt;
+  chooses_time_step_ = false;
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::require_time_step() const {
+  if (std::isfinite(dt_)) return;
+  throw std::logic_error("no time step: nothing in this scene is both free and stiff, so that none could be chosen; "
+                         "give one");
 }
 
 template <contact::ContactLaw Law>
@@ -138,16 +152,21 @@ void Simulation<Law>::set_velocity(NodeId node, const Vec3& velocity, const Vec3
 }
 
 template <contact::ContactLaw Law>
-void Simulation<Law>::account(const StepWork& work) {
+void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) {
   const StepWork before = work_;
   work_ = work;
   work_.damped += before.damped;
   work_.external += before.external;
   for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
     const Vec3& velocity = scene_.planes[i].velocity;
-    if (!velocity.isZero(0.0)) work_.external -= dt_ * contacts_.with_planes().force_on(i).dot(velocity);
+    if (!velocity.isZero(0.0)) work_.external -= lengths.kick * contacts_.with_planes().force_on(i).dot(velocity);
   }
   largest_overlap_ratio_ = std::max(largest_overlap_ratio_, contacts_.largest_overlap_ratio());
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::shorten_time_step() {
+  dt_ = std::min(dt_, kSafety * critical_step().dt);
 }
 
 template <contact::ContactLaw Law>
@@ -174,7 +193,7 @@ Energy Simulation<Law>::energy() const {
   energy.contact_elastic = contacts_.elastic_energy();
   energy.bond_elastic = bonds_.elastic_energy();
   // Kinetic and elastic energy are those at the moment of the last forces, one step before the positions.
-  energy.gravity = gravity_energy(steps_ > 0 ? dt_ : 0.0) - initial_gravity_energy_;
+  energy.gravity = gravity_energy(last_drift_) - initial_gravity_energy_;
   energy.friction = contacts_.dissipated();
   energy.damping = work_.damped;
   energy.external_work = work_.external;
@@ -205,27 +224,15 @@ void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
 }
 
 template <contact::ContactLaw Law>
-void Simulation<Law>::add_dense_packing_to(NodalStiffness& stiffness) const {
-  const contact::MaterialPairs<Law> pairs(scene_.materials);
-  for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
-    const geometry::Sphere& sphere = scene_.elements.spheres[i];
-    const auto material = scene_.sphere_materials[i];
-    const auto parameters = pairs.combine(material, sphere.radius, material, sphere.radius);
-    stiffness.add_dense_packing(sphere.nodes[0], Law::normal_stiffness(parameters, 0.0),
-                                Law::tangential_stiffness(parameters, 0.0), sphere.radius);
-  }
-}
-
-template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::critical_step() const {
   NodalStiffness now(scene_.state.size());
   for (const BeamBond& bond : scene_.bonds) now.add_beam(bond, scene_.state);
-  NodalStiffness packed = now;
+  NodalStiffness expected = now;
   add_contacts_to(now);
-  add_dense_packing_to(packed);
+  add_expected_contacts<Law>(scene_, surface_, expected);
   const CriticalStep step_now = now.critical_step(scene_.properties);
-  const CriticalStep step_packed = packed.critical_step(scene_.properties);
-  return step_now.dt < step_packed.dt ? step_now : step_packed;
+  const CriticalStep step_expected = expected.critical_step(scene_.properties);
+  return step_now.dt < step_expected.dt ? step_now : step_expected;
 }
 
 template class Simulation<contact::LinearFrictional>;

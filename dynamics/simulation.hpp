@@ -15,7 +15,7 @@
 namespace plekton::dynamics {
 
 struct SimulationOptions {
-  double time_step = 0.0;  ///< s; 0 chooses one: kSafety times the critical step
+  double time_step = 0.0;  ///< s; 0 chooses one: kSafety times the critical step, and shortens it where that falls
   MotionOptions motion;
   double skin = 0.0;  ///< m, how far apart a pair may be when it is listed; 0 chooses a fifth of the smallest radius
   int threads = 1;
@@ -23,26 +23,29 @@ struct SimulationOptions {
 
 /// A chosen time step is this part of the critical one.
 constexpr double kSafety = 0.5;
-/// A given time step must be below this part of the critical one.
+/// A given time step must not be above this part of the critical one.
 constexpr double kLargestStep = 0.8;
+/// A chosen time step is looked at again after so many steps.
+constexpr std::int64_t kStepsBetweenLooks = 64;
 
 /// A scene in motion. The state belongs to the simulation; what is given out are views of it.
 template <contact::ContactLaw Law>
 class Simulation {
  public:
-  /// @throws std::invalid_argument listing every problem of the scene or the options, among them a time step that is
-  ///         not below kLargestStep of the critical one
+  /// @throws std::invalid_argument listing every problem of the scene or the options, among them a time step above
+  ///         kLargestStep of the critical one
   Simulation(Scene scene, const SimulationOptions& options);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// One time step. @throws Diverged
+  /// One time step. @throws Diverged; std::logic_error if none was given where nothing sets one
   void step();
 
   double time() const noexcept { return time_; }
   std::int64_t steps() const noexcept { return steps_; }
+  /// s; infinite if none was given and nothing in the scene sets one.
   double time_step() const noexcept { return dt_; }
-  /// @param dt  s, > 0, from the next step on
+  /// @param dt  s, > 0, from the next step on; from then on it is not chosen any more
   void set_time_step(double dt);
 
   const NodeState& state() const noexcept { return scene_.state; }
@@ -60,15 +63,17 @@ class Simulation {
   Energy energy() const;
   /// Largest overlap of any step so far over the radius of the smaller ball.
   double largest_overlap_ratio() const noexcept { return largest_overlap_ratio_; }
-  /// Critical time step of the structures and contacts as they are now, and of the spheres as if packed densely.
+  /// Critical time step: of the structures and contacts as they are now, or with the contacts that may come
+  /// (expected_contacts.hpp), whichever is shorter.
   CriticalStep critical_step() const;
 
  private:
-  void account(const StepWork& work);
+  void account(const StepWork& work, const StepLengths& lengths);
+  void require_time_step() const;
+  void shorten_time_step();
   void move_planes();
   double gravity_energy(double before) const;
   void add_contacts_to(NodalStiffness& stiffness) const;
-  void add_dense_packing_to(NodalStiffness& stiffness) const;
 
   Scene scene_;
   MotionOptions motion_;
@@ -79,6 +84,8 @@ class Simulation {
   NodeForces forces_;
   Leapfrog leapfrog_;
   double dt_ = 0.0;
+  double last_drift_ = 0.0;  ///< s, length of the last step; 0 before the first
+  bool chooses_time_step_ = false;
   double time_ = 0.0;
   std::int64_t steps_ = 0;
   double furthest_ = 0.0;  ///< m, what a node may move in a step
@@ -90,16 +97,19 @@ class Simulation {
 
 template <contact::ContactLaw Law>
 void Simulation<Law>::step() {
+  require_time_step();
   forces_.set_zero();
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
-  contacts_.advance(scene_.state.motion(), scene_.planes, dt_, pool_);
+  contacts_.advance(scene_.state.motion(), scene_.planes, last_drift_, pool_);
   contacts_.add_forces(forces_, pool_);
-  account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, dt_, pool_));
+  const StepLengths lengths{0.5 * (last_drift_ + dt_), dt_};
+  account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_), lengths);
   move_planes();
   check_finite(scene_.state, furthest_, dt_, steps_, time_);
   time_ += dt_;
-  ++steps_;
+  last_drift_ = dt_;
+  if (++steps_ % kStepsBetweenLooks == 0 && chooses_time_step_) shorten_time_step();
 }
 
 extern template class Simulation<contact::LinearFrictional>;

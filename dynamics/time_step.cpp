@@ -100,6 +100,15 @@ void NodalStiffness::add_dense_packing(NodeId sphere, double normal, double tang
   }
 }
 
+void NodalStiffness::add_from_all_sides(NodeId node, double normal, double tangential,
+                                        double radius) {
+  // Along any direction a contact has at most the larger of its stiffnesses, and about any axis the
+  // tangential one at the arm. The coupling of translation and rotation at most doubles either.
+  Block& block = blocks_[index_of(node)];
+  block.translation += std::max(normal, 2.0 * tangential) * Mat3::Identity();
+  block.rotation += 2.0 * radius * radius * tangential * Mat3::Identity();
+}
+
 /// M^(-1/2) D M^(-1/2) of a node; zero where it is held.
 NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t node,
                                               const NodeProperties& properties) const {

@@ -77,6 +77,11 @@ class NodalStiffness {
   /// @param normal, tangential  N/m, of a contact between two such spheres
   void add_dense_packing(NodeId sphere, double normal, double tangential, double radius);
 
+  /// Adds a contact to a node of a surface that may come from any side.
+  /// @param normal, tangential  N/m, with the factor 2 of a partner that moves already in them
+  /// @param radius              m, of the surface
+  void add_from_all_sides(NodeId node, double normal, double tangential, double radius);
+
   /// Complexity: linear in the number of nodes.
   CriticalStep critical_step(const NodeProperties& properties) const;
 

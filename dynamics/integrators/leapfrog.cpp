@@ -52,8 +52,8 @@ StepWork scatter(const LeapfrogBlock& block, std::size_t first, std::size_t coun
 }  // namespace
 
 StepWork Leapfrog::step(NodeState& state, const NodeForces& forces,
-                        const NodeProperties& properties, const MotionOptions& options, double dt,
-                        geometry::ThreadPool& pool) {
+                        const NodeProperties& properties, const MotionOptions& options,
+                        const StepLengths& lengths, geometry::ThreadPool& pool) {
   return sum_(state.size(), pool, [&](std::size_t begin, std::size_t end, int) {
     StepWork work;
     for (std::size_t first = begin; first < end; first += LeapfrogBlock::kLanes) {
@@ -61,9 +61,9 @@ StepWork Leapfrog::step(NodeState& state, const NodeForces& forces,
       LeapfrogBlock block;
       gather(state, forces, properties, first, count, block);
       geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
-        block.step<width>(count, options, dt);
+        block.step<width>(count, options, lengths);
       });
-      work += scatter(block, first, count, dt, state);
+      work += scatter(block, first, count, lengths.drift, state);
     }
     return work;
   });

@@ -13,6 +13,12 @@ struct MotionOptions {
   bool damps_gravity = true;    ///< false: a free fall is not damped
 };
 
+/// How long a step is.
+struct StepLengths {
+  double kick;   ///< s, from the middle of the last drift to the middle of the next one
+  double drift;  ///< s, from these positions to the next ones
+};
+
 /// What a step did to the energy.
 struct StepWork {
   double kinetic = 0.0;   ///< J, at the moment of the forces
@@ -28,7 +34,9 @@ struct StepWork {
 };
 
 /// Leapfrog: v(t + dt/2) = v(t - dt/2) + a(t) dt, x(t + dt) = x(t) + v(t + dt/2) dt; rotations
-/// likewise, each step an exact rotation. Second order and symplectic.
+/// likewise, each step an exact rotation. Second order and symplectic. The first kick is half a
+/// drift long, since the velocities are given at the start itself, and a kick between drifts of
+/// different lengths is their mean.
 ///
 /// The kinetic energy at time t is 1/2 m v(t - dt/2).v(t + dt/2): with it the energy of a linear
 /// oscillator is exactly constant. Held motions stay as they are and are left out of the energy:
@@ -40,7 +48,7 @@ struct StepWork {
 class Leapfrog {
  public:
   StepWork step(NodeState& state, const NodeForces& forces, const NodeProperties& properties,
-                const MotionOptions& options, double dt, geometry::ThreadPool& pool);
+                const MotionOptions& options, const StepLengths& lengths, geometry::ThreadPool& pool);
 
  private:
   geometry::ParallelSum<StepWork> sum_;

@@ -101,7 +101,8 @@ struct LeapfrogBlock {
   /// any numbers. Nodes that turn further than the series of geometry::cosine_and_sinc goes get an
   /// orientation that has to be replaced.
   template <int W>
-  PLEKTON_INLINE void step(std::size_t count, const MotionOptions& options, double dt) noexcept {
+  PLEKTON_INLINE void step(std::size_t count, const MotionOptions& options,
+                           const StepLengths& lengths) noexcept {
     using Real = Pack<W>;
     const Vector<Real> gravity = in_all_lanes<Real>(options.gravity);
     const Vector<Real> zero = Vector<Real>::Zero();
@@ -110,14 +111,14 @@ struct LeapfrogBlock {
     for (std::size_t lane = 0; lane < count; lane += std::size_t{W}) {
       auto moves = translation.load<Real>(lane);
       auto spins = rotation.load<Real>(lane);
-      const auto of_translation = moves.kick(damped_gravity, free_gravity, options.damping, dt);
-      const auto of_rotation = spins.kick(zero, zero, options.damping, dt);
+      const auto of_translation = moves.kick(damped_gravity, free_gravity, options.damping, lengths.kick);
+      const auto of_rotation = spins.kick(zero, zero, options.damping, lengths.kick);
       translation.velocity.store(lane, moves.velocity);
       rotation.velocity.store(lane, spins.velocity);
       work.store(lane, StepWorkOf<Real>{of_translation.kinetic + of_rotation.kinetic,
                                         of_translation.damped + of_rotation.damped,
                                         of_translation.external + of_rotation.external});
-      turn<Real>(lane, spins.velocity, dt);
+      turn<Real>(lane, spins.velocity, lengths.drift);
     }
   }
 

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/material_pairs.hpp"
+#include "dynamics/scene.hpp"
+#include "dynamics/time_step.hpp"
+#include "geometry/elements.hpp"
+
+#include <algorithm>
+#include <vector>
+
+/// Contacts that a scene may come to have, for a time step that stays safe when they begin: a light
+/// sheet on which a stiff grain lands needs a much shorter step than the sheet alone.
+namespace plekton::dynamics {
+
+/// Stiffness of the hardest contact of a kind (N/m).
+struct ExpectedStiffness {
+  double normal = 0.0;
+  double tangential = 0.0;
+
+  void take(double other_normal, double other_tangential) noexcept {
+    normal = std::max(normal, other_normal);
+    tangential = std::max(tangential, other_tangential);
+  }
+};
+
+template <contact::ContactLaw Law>
+class ExpectedContacts {
+ public:
+  ExpectedContacts(const Scene& scene, const geometry::Surface& surface)
+      : scene_(scene), surface_(surface), pairs_(scene.materials) {
+    collect_structures();
+    collect_kinds();
+  }
+
+  /// Spheres as if packed densely among the hardest they can meet, nodes of surfaces as if touched
+  /// by the hardest.
+  void add_to(NodalStiffness& stiffness) const {
+    for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
+      const geometry::Sphere& sphere = scene_.elements.spheres[i];
+      const ExpectedStiffness k = hardest_partner({scene_.sphere_materials[i], sphere.radius});
+      stiffness.add_dense_packing(sphere.nodes[0], k.normal, k.tangential, sphere.radius);
+    }
+    for (std::size_t n = 0; n < surface_.node_count(); ++n) {
+      const auto node = geometry::id_at<NodeId>(n);
+      if (surface_.structure_of(node) != geometry::StructureId{-1}) add_touch(node, stiffness);
+    }
+  }
+
+ private:
+  struct Kind {
+    contact::MaterialId material;
+    double radius;
+  };
+
+  void take(const Kind& a, const Kind& b, ExpectedStiffness& hardest) const {
+    const auto parameters = pairs_.combine(a.material, a.radius, b.material, b.radius);
+    hardest.take(Law::normal_stiffness(parameters, 0.0),
+                 Law::tangential_stiffness(parameters, 0.0));
+  }
+
+  void collect_structures() {
+    structures_.resize(surface_.structure_count());
+    const auto set = [&](NodeId node, contact::MaterialId material, double radius) {
+      structures_[index_of(surface_.structure_of(node))] = {material, radius};
+    };
+    for (std::size_t i = 0; i < scene_.elements.facets.size(); ++i) {
+      const auto& facet = scene_.elements.facets[i];
+      set(facet.nodes[0], scene_.facet_materials[i], facet.radius);
+    }
+    for (std::size_t i = 0; i < scene_.elements.cylinders.size(); ++i) {
+      const auto& cylinder = scene_.elements.cylinders[i];
+      set(cylinder.nodes[0], scene_.cylinder_materials[i], cylinder.radius);
+    }
+  }
+
+  /// The smallest and the largest spheres of each material.
+  void collect_kinds() {
+    std::vector<Kind> smallest(scene_.materials.size());
+    std::vector<Kind> largest(scene_.materials.size());
+    for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
+      const auto material = scene_.sphere_materials[i];
+      const double radius = scene_.elements.spheres[i].radius;
+      Kind& least = smallest[static_cast<std::size_t>(material)];
+      Kind& most = largest[static_cast<std::size_t>(material)];
+      if (least.radius == 0.0 || radius < least.radius) least = {material, radius};
+      if (radius > most.radius) most = {material, radius};
+    }
+    for (const auto& kinds : {smallest, largest}) {
+      for (const Kind& kind : kinds) {
+        if (kind.radius > 0.0) kinds_.push_back(kind);
+      }
+    }
+  }
+
+  ExpectedStiffness hardest_partner(const Kind& sphere) const {
+    ExpectedStiffness hardest;
+    // Of spheres, one as large as itself: add_dense_packing says why this covers other sizes.
+    for (const Kind& other : kinds_) take(sphere, {other.material, sphere.radius}, hardest);
+    for (const Kind& structure : structures_) take(sphere, structure, hardest);
+    for (const contact::Plane& plane : scene_.planes)
+      take(sphere, {plane.material, sphere.radius}, hardest);
+    return hardest;
+  }
+
+  /// The hardest grain, with its full weight, from one side, and a plane from the other. More
+  /// grains on the same node come one after the other: the step is looked at again before they have
+  /// arrived.
+  void add_touch(NodeId node, NodalStiffness& stiffness) const {
+    const Kind& structure = structures_[index_of(surface_.structure_of(node))];
+    ExpectedStiffness grain;
+    for (const Kind& kind : kinds_) take(kind, structure, grain);
+    ExpectedStiffness plane;
+    for (const contact::Plane& other : scene_.planes)
+      take(structure, {other.material, structure.radius}, plane);
+    stiffness.add_from_all_sides(node, 2.0 * grain.normal + plane.normal,
+                                 2.0 * grain.tangential + plane.tangential, structure.radius);
+  }
+
+  const Scene& scene_;
+  const geometry::Surface& surface_;
+  contact::MaterialPairs<Law> pairs_;
+  std::vector<Kind> structures_;
+  std::vector<Kind> kinds_;
+};
+
+/// Adds the contacts that may come to the stiffness around the nodes.
+template <contact::ContactLaw Law>
+void add_expected_contacts(const Scene& scene, const geometry::Surface& surface,
+                           NodalStiffness& stiffness) {
+  ExpectedContacts<Law>(scene, surface).add_to(stiffness);
+}
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/simulation.hpp"
+
+#include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/membrane.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plekton::dynamics {
+namespace {
+
+using geometry::NodeId;
+using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+
+const Vec3 kGravity(0.0, 0.0, -9.81);
+
+/// A sheet of 0.4 m held at its rim, of beams of 10 MPa, and a ball above it.
+Scene ball_over_sheet(double sheet_radius, double ball_radius, double contact_modulus) {
+  Scene scene;
+  scene.materials = {{contact_modulus, 0.3, 0.5}};
+  const contact::MaterialId material{0};
+  const auto sheet = geometry::make_membrane(geometry::plane_sheet({0.4, 0.4, 8, 8}),
+                                             {.thickness = 2.0 * sheet_radius});
+  for (const Vec3& x : sheet.nodes) {
+    scene.add_node(x, x.cwiseAbs().maxCoeff() > 0.199 ? Held::everything : Held::nothing);
+  }
+  for (const auto& facet : sheet.facets) {
+    scene.add_facet(facet.nodes[0], facet.nodes[1], facet.nodes[2], facet.radius, material);
+  }
+  const BeamSection section = circular_section(sheet_radius, 1e7, 0.3);
+  for (const auto& [a, b] : sheet.edges) scene.add_beam(a, b, section, 300.0);
+  const double height = ball_radius + sheet_radius + 0.005;
+  scene.add_sphere(Vec3(0.01, 0.02, height), ball_radius, 2650.0, material);
+  scene.state.velocity.back() = Vec3(0.0, 0.0, -1.0);
+  return scene;
+}
+
+TEST(Simulation, ChoosesAStepThatStaysSafeWhenAStiffBallLandsOnALightSheet) {
+  Simulation simulation(ball_over_sheet(0.001, 0.03, 1e9), {.motion = {.gravity = kGravity}});
+  double largest = 0.0;
+
+  while (simulation.time() < 0.05) {
+    simulation.step();
+    largest = std::max(largest, simulation.time_step() / simulation.critical_step().dt);
+  }
+
+  EXPECT_LE(largest, kLargestStep);
+  EXPECT_GT(simulation.largest_overlap_ratio(), 0.0);  // it has landed
+  EXPECT_LT(simulation.energy().closure(), 5e-3);
+}
+
+TEST(Simulation, RefusesAStepAboveTheCriticalOneAndNamesIt) {
+  try {
+    Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {.time_step = 1.0});
+    FAIL() << "a step of 1 s was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("time step 1 s: the critical time step of this"));
+  }
+}
+
+TEST(Simulation, KeepsItsEnergyBalanceWhenTheStepIsChanged) {
+  Scene scene;
+  scene.materials = {{1e6, 0.3, 0.0}};
+  scene.add_sphere(Vec3::Zero(), 0.01, 2650.0, contact::MaterialId{0});
+  Simulation simulation(scene, {.time_step = 2e-5, .motion = {.gravity = kGravity}});
+
+  for (int i = 0; i < 1000; ++i) simulation.step();
+  const double before = simulation.energy().closure_error();
+  simulation.set_time_step(1e-6);
+  const double at_once = simulation.energy().closure_error();
+  for (int i = 0; i < 1000; ++i) simulation.step();
+  const Energy after = simulation.energy();
+
+  // A free fall: the product form of the kinetic energy differs from the true one by m (g dt)² / 8.
+  const double tolerance = simulation.properties().mass[0] * std::pow(9.81 * 2e-5, 2);
+  EXPECT_NEAR(before, 0.0, tolerance);
+  EXPECT_EQ(at_once, before);
+  EXPECT_NEAR(after.closure_error(), 0.0, tolerance);
+}
+
+TEST(Simulation, FallsAsFarAsAFreeFallFromItsFirstStep) {
+  Scene scene;
+  scene.materials = {{1e6, 0.3, 0.0}};
+  scene.add_sphere(Vec3::Zero(), 0.01, 2650.0, contact::MaterialId{0});
+  Simulation simulation(scene, {.time_step = 1e-5, .motion = {.gravity = kGravity}});
+
+  for (int i = 0; i < 1000; ++i) simulation.step();
+
+  const double t = simulation.time();
+  EXPECT_NEAR(simulation.state().position[0].z(), -0.5 * 9.81 * t * t, 1e-15);
+}
+
+TEST(Simulation, ThrowsWhereNothingSetsAStepAndNoneIsGiven) {
+  Scene scene;
+  scene.add_node(Vec3::Zero());
+  scene.properties.mass[0] = 1.0;
+  scene.properties.inertia[0] = 1.0;
+
+  Simulation simulation(scene, {});
+
+  EXPECT_THROW(simulation.step(), std::logic_error);
+}
+
+TEST(Simulation, LetsPointMassesWithoutElementsMoveAsFastAsTheyLike) {
+  Scene scene;
+  scene.add_node(Vec3::Zero());
+  scene.properties.mass[0] = 1.0;
+  scene.properties.inertia[0] = 1.0;
+  scene.state.velocity[0] = Vec3(1000.0, 0.0, 0.0);
+  Simulation simulation(scene, {.time_step = 1.0});
+
+  simulation.step();
+
+  EXPECT_EQ(simulation.state().position[0].x(), 1000.0);
+}
+
+TEST(Simulation, SaysWhereItDivergedWhenANodeMovesFurtherThanItsElementsCanNotice) {
+  Scene scene;
+  scene.materials = {{1e6, 0.3, 0.0}};
+  scene.add_sphere(Vec3(1.0, 2.0, 3.0), 0.01, 2650.0, contact::MaterialId{0});
+  scene.state.velocity[0] = Vec3(1e6, 0.0, 0.0);
+  Simulation simulation(scene, {.time_step = 1e-5});
+
+  try {
+    simulation.step();
+    FAIL() << "10 m in one step went unnoticed";
+  } catch (const Diverged& error) {
+    EXPECT_EQ(error.step(), 0);
+    EXPECT_EQ(error.node(), NodeId{0});
+    EXPECT_THAT(error.what(), testing::HasSubstr("node 0 at (11  2  3) m"));
+  }
+}
+
+}  // namespace
+}  // namespace plekton::dynamics
