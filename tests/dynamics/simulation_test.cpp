@@ -52,7 +52,7 @@ TEST(Simulation, ChoosesAStepThatStaysSafeWhenAStiffBallLandsOnALightSheet) {
 
 TEST(Simulation, RefusesAStepAboveTheCriticalOneAndNamesIt) {
   try {
-    Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {.time_step = 1.0});
+    Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {.time_step = 1.0, .motion = {}});
     FAIL() << "a step of 1 s was accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("time step 1 s: the critical time step of this"));
@@ -108,7 +108,7 @@ TEST(Simulation, LetsPointMassesWithoutElementsMoveAsFastAsTheyLike) {
   scene.properties.mass[0] = 1.0;
   scene.properties.inertia[0] = 1.0;
   scene.state.velocity[0] = Vec3(1000.0, 0.0, 0.0);
-  Simulation simulation(scene, {.time_step = 1.0});
+  Simulation simulation(scene, {.time_step = 1.0, .motion = {}});
 
   simulation.step();
 
@@ -120,7 +120,7 @@ TEST(Simulation, SaysWhereItDivergedWhenANodeMovesFurtherThanItsElementsCanNotic
   scene.materials = {{1e6, 0.3, 0.0}};
   scene.add_sphere(Vec3(1.0, 2.0, 3.0), 0.01, 2650.0, contact::MaterialId{0});
   scene.state.velocity[0] = Vec3(1e6, 0.0, 0.0);
-  Simulation simulation(scene, {.time_step = 1e-5});
+  Simulation simulation(scene, {.time_step = 1e-5, .motion = {}});
 
   try {
     simulation.step();
