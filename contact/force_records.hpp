@@ -7,17 +7,17 @@
 #include <algorithm>
 #include <vector>
 
-/// Forces of contacts, written down by whoever computes them and summed afterwards, node by node in the order of the
-/// contacts: the sums have the same bits for any number of threads.
+/// Forces of contacts, written down by whoever computes them and summed afterwards, node by node in
+/// the order of the contacts: the sums have the same bits for any number of threads.
 namespace plekton::contact {
 
 /// Force between two balls.
 struct BallForce {
   NodeId a;
   NodeId b;
-  Vec3 force;     ///< N, on b
-  Vec3 torque_a;  ///< N m, on a
-  Vec3 torque_b;  ///< N m, on b
+  Vec3 force;           ///< N, on b
+  Vec3 torque_a;        ///< N m, on a
+  Vec3 torque_b;        ///< N m, on b
   std::size_t contact;  ///< place of the pair in its list
 
   template <class Owns>
@@ -74,19 +74,23 @@ struct PlaneForce {
   }
 };
 
-/// The records of all contacts of a kind, in the order of the contacts: those of the first worker first.
+/// The records of all contacts of a kind, in the order of the contacts: those of the first worker
+/// first.
 template <class Record>
 class ForceRecords {
  public:
   /// What one worker wrote down.
   struct alignas(64) List {
-    std::vector<Record> records;
+    std::vector<Record> records;  ///< the first count of them
+    std::size_t count = 0;
     double deepest = 0.0;  ///< largest overlap over the radius of the smaller ball
 
-    /// @returns a record to be filled in
+    /// @returns a record to be filled in; before that it holds anything
     Record& add(double overlap_ratio) {
       deepest = std::max(deepest, overlap_ratio);
-      return records.emplace_back();
+      // The vector keeps its size from step to step: making a record again would write it twice.
+      if (count == records.size()) records.resize(2 * count + 64);
+      return records[count++];
     }
     void add(const Record& record, double overlap_ratio) { add(overlap_ratio) = record; }
   };
@@ -95,7 +99,7 @@ class ForceRecords {
   void reset(int worker_count) {
     lists_.resize(static_cast<std::size_t>(worker_count));
     for (List& list : lists_) {
-      list.records.clear();
+      list.count = 0;
       list.deepest = 0.0;
     }
   }
@@ -105,13 +109,13 @@ class ForceRecords {
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (const List& list : lists_) {
-      for (const Record& record : list.records) visit(record);
+      for (std::size_t i = 0; i < list.count; ++i) visit(list.records[i]);
     }
   }
 
   std::size_t size() const noexcept {
     std::size_t count = 0;
-    for (const List& list : lists_) count += list.records.size();
+    for (const List& list : lists_) count += list.count;
     return count;
   }
 
@@ -122,14 +126,17 @@ class ForceRecords {
     return deepest;
   }
 
-  /// Adds all forces to the nodes. Each thread goes through all records and adds to the nodes it owns.
+  /// Adds all forces to the nodes. Each thread goes through all records and adds to the nodes it
+  /// owns.
   void add_to(NodeForces& forces, geometry::ThreadPool& pool) const {
     if (pool.thread_count() == 1) {
       for_each([&](const Record& record) { record.add_to(forces, [](NodeId) { return true; }); });
       return;
     }
     pool.for_each_range(forces.force.size(), [&](std::size_t begin, std::size_t end, int) {
-      const auto owns = [begin, end](NodeId node) { return index_of(node) >= begin && index_of(node) < end; };
+      const auto owns = [begin, end](NodeId node) {
+        return index_of(node) >= begin && index_of(node) < end;
+      };
       for_each([&](const Record& record) { record.add_to(forces, owns); });
     });
   }

@@ -23,8 +23,8 @@ double smallest_radius(const geometry::Elements& elements) {
   return smallest_radius(elements.facets, smallest_radius(elements.cylinders, spheres));
 }
 
-/// What a node may move in one step before nothing could notice it any more: the largest radius. Nodes without elements
-/// may move as they like.
+/// What a node may move in one step before nothing could notice it any more: the largest radius.
+/// Nodes without elements may move as they like.
 double furthest_in_a_step(const Scene& scene) {
   double radius = 0.0;
   for (const auto& sphere : scene.elements.spheres) radius = std::max(radius, sphere.radius);
@@ -36,20 +36,24 @@ double furthest_in_a_step(const Scene& scene) {
 double chosen_skin(const Scene& scene, double asked) {
   if (asked > 0.0) return asked;
   // Spheres alone set the pace where there are some: they are what moves past others.
-  const double radius = scene.elements.spheres.empty()
-                            ? smallest_radius(scene.elements)
-                            : smallest_radius(scene.elements.spheres, std::numeric_limits<double>::infinity());
+  const double radius =
+      scene.elements.spheres.empty()
+          ? smallest_radius(scene.elements)
+          : smallest_radius(scene.elements.spheres, std::numeric_limits<double>::infinity());
   return std::isfinite(radius) ? 0.2 * radius : 1.0;
 }
 
 const Scene& checked(const Scene& scene, const SimulationOptions& options) {
   scene.check();
   std::ostringstream problems;
-  if (!(options.time_step >= 0.0)) problems << "time step " << options.time_step << " s: must be 0 (choose) or more\n";
+  if (!(options.time_step >= 0.0))
+    problems << "time step " << options.time_step << " s: must be 0 (choose) or more\n";
   if (!(options.motion.damping >= 0.0 && options.motion.damping < 1.0)) {
-    problems << "numerical damping " << options.motion.damping << ": must be at least 0 and below 1\n";
+    problems << "numerical damping " << options.motion.damping
+             << ": must be at least 0 and below 1\n";
   }
-  if (!(options.skin >= 0.0)) problems << "skin " << options.skin << " m: must be 0 (choose) or more\n";
+  if (!(options.skin >= 0.0))
+    problems << "skin " << options.skin << " m: must be 0 (choose) or more\n";
   if (!options.motion.gravity.allFinite()) problems << "gravity is not finite\n";
   if (options.threads < 1) problems << "threads " << options.threads << ": must be at least 1\n";
   if (const std::string text = problems.str(); !text.empty()) {
@@ -59,15 +63,19 @@ const Scene& checked(const Scene& scene, const SimulationOptions& options) {
 }
 
 template <contact::ContactLaw Law>
-contact::ContactMaterials<Law> contact_materials(const Scene& scene, const geometry::Surface& surface) {
+contact::ContactMaterials<Law> contact_materials(const Scene& scene,
+                                                 const geometry::Surface& surface) {
   std::vector<contact::MaterialId> of_structures(surface.structure_count());
   for (std::size_t i = 0; i < scene.elements.facets.size(); ++i) {
-    of_structures[index_of(surface.structure_of(scene.elements.facets[i].nodes[0]))] = scene.facet_materials[i];
+    of_structures[index_of(surface.structure_of(scene.elements.facets[i].nodes[0]))] =
+        scene.facet_materials[i];
   }
   for (std::size_t i = 0; i < scene.elements.cylinders.size(); ++i) {
-    of_structures[index_of(surface.structure_of(scene.elements.cylinders[i].nodes[0]))] = scene.cylinder_materials[i];
+    of_structures[index_of(surface.structure_of(scene.elements.cylinders[i].nodes[0]))] =
+        scene.cylinder_materials[i];
   }
-  return {contact::MaterialPairs<Law>(scene.materials), scene.sphere_materials, std::move(of_structures)};
+  return {contact::MaterialPairs<Law>(scene.materials), scene.sphere_materials,
+          std::move(of_structures)};
 }
 
 /// Radius (m) of the ball around each node; 0 where there is none.
@@ -77,21 +85,24 @@ std::vector<double> node_radii(const Scene& scene, const geometry::Surface& surf
     const auto structure = surface.structure_of(geometry::id_at<NodeId>(n));
     if (structure != geometry::StructureId{-1}) radii[n] = surface.radius(structure);
   }
-  for (const geometry::Sphere& sphere : scene.elements.spheres) radii[index_of(sphere.nodes[0])] = sphere.radius;
+  for (const geometry::Sphere& sphere : scene.elements.spheres)
+    radii[index_of(sphere.nodes[0])] = sphere.radius;
   return radii;
 }
 
 /// A node that is held in place does not have to be kept out of walls.
 std::vector<bool> free_nodes(const NodeProperties& properties) {
   std::vector<bool> is_free(properties.size());
-  for (std::size_t i = 0; i < is_free.size(); ++i) is_free[i] = !holds_translation(properties.held[i]);
+  for (std::size_t i = 0; i < is_free.size(); ++i)
+    is_free[i] = !holds_translation(properties.held[i]);
   return is_free;
 }
 
 double kinetic_energy(const NodeState& state, const NodeProperties& properties) {
   double energy = 0.0;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    if (!holds_translation(properties.held[i])) energy += 0.5 * properties.mass[i] * state.velocity[i].squaredNorm();
+    if (!holds_translation(properties.held[i]))
+      energy += 0.5 * properties.mass[i] * state.velocity[i].squaredNorm();
     if (holds_rotation(properties.held[i])) continue;
     energy += 0.5 * properties.inertia[i] * state.angular_velocity[i].squaredNorm();
   }
@@ -117,9 +128,9 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
   const double critical = critical_step().dt;
   if (options.time_step > kLargestStep * critical) {
     std::ostringstream text;
-    text << "time step " << options.time_step << " s: the critical time step of this scene is " << critical
-         << " s; choose at most " << kLargestStep << " of it (" << kLargestStep * critical << " s), or 0 to have "
-         << kSafety << " of it chosen";
+    text << "time step " << options.time_step << " s: the critical time step of this scene is "
+         << critical << " s; choose at most " << kLargestStep << " of it ("
+         << kLargestStep * critical << " s), or 0 to have " << kSafety << " of it chosen";
     throw std::invalid_argument(text.str());
   }
   chooses_time_step_ = options.time_step == 0.0;
@@ -132,7 +143,8 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
 template <contact::ContactLaw Law>
 void Simulation<Law>::set_time_step(double dt) {
   if (!(dt > 0.0) || !std::isfinite(dt)) {
-    throw std::invalid_argument("time step " + std::to_string(dt) + " s: must be positive and finite");
+    throw std::invalid_argument("time step " + std::to_string(dt) +
+                                " s: must be positive and finite");
   }
   dt_ = dt;
   chooses_time_step_ = false;
@@ -141,26 +153,33 @@ void Simulation<Law>::set_time_step(double dt) {
 template <contact::ContactLaw Law>
 void Simulation<Law>::require_time_step() const {
   if (std::isfinite(dt_)) return;
-  throw std::logic_error("no time step: nothing in this scene is both free and stiff, so that none could be chosen; "
-                         "give one");
+  throw std::logic_error(
+      "no time step: nothing in this scene is both free and stiff, so that none could be chosen; "
+      "give one");
 }
 
 template <contact::ContactLaw Law>
-void Simulation<Law>::set_velocity(NodeId node, const Vec3& velocity, const Vec3& angular_velocity) {
+void Simulation<Law>::set_velocity(NodeId node, const Vec3& velocity,
+                                   const Vec3& angular_velocity) {
   scene_.state.velocity[index_of(node)] = velocity;
   scene_.state.angular_velocity[index_of(node)] = angular_velocity;
 }
 
 template <contact::ContactLaw Law>
 void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) {
-  const StepWork before = work_;
-  work_ = work;
-  work_.damped += before.damped;
-  work_.external += before.external;
+  StepWork step = work;
   for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
     const Vec3& velocity = scene_.planes[i].velocity;
-    if (!velocity.isZero(0.0)) work_.external -= lengths.kick * contacts_.with_planes().force_on(i).dot(velocity);
+    if (!velocity.isZero(0.0))
+      step.external -= lengths.kick * contacts_.with_planes().force_on(i).dot(velocity);
   }
+  // The part of the kick that comes after the moment of the forces: all of the first one, half of
+  // one between drifts of equal lengths.
+  const double later = 0.5 * lengths.drift / lengths.kick;
+  pending_ = {0.0, later * step.damped, later * step.external};
+  if (last_drift_ > 0.0) work_.kinetic = step.kinetic;
+  work_.damped += step.damped;
+  work_.external += step.external;
   largest_overlap_ratio_ = std::max(largest_overlap_ratio_, contacts_.largest_overlap_ratio());
 }
 
@@ -192,11 +211,12 @@ Energy Simulation<Law>::energy() const {
   energy.kinetic = work_.kinetic;
   energy.contact_elastic = contacts_.elastic_energy();
   energy.bond_elastic = bonds_.elastic_energy();
-  // Kinetic and elastic energy are those at the moment of the last forces, one step before the positions.
+  // Kinetic and elastic energy are those at the moment of the last forces, one step before the
+  // positions.
   energy.gravity = gravity_energy(last_drift_) - initial_gravity_energy_;
   energy.friction = contacts_.dissipated();
-  energy.damping = work_.damped;
-  energy.external_work = work_.external;
+  energy.damping = work_.damped - pending_.damped;
+  energy.external_work = work_.external - pending_.external;
   energy.initial = initial_energy_;
   return energy;
 }
@@ -206,21 +226,26 @@ template <contact::ContactLaw Law>
 void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
   const auto& x = scene_.state.position;
   const std::vector<double> radius = node_radii(scene_, surface_);
-  const auto contact = [&](const Vec3& normal, const typename Law::Parameters& parameters, NodeId a, NodeId b) {
-    return ContactStiffness{normal, Law::normal_stiffness(parameters, 0.0), Law::tangential_stiffness(parameters, 0.0),
-                            radius[index_of(a)], radius[index_of(b)]};
+  const auto contact = [&](const Vec3& normal, const typename Law::Parameters& parameters, NodeId a,
+                           NodeId b) {
+    return ContactStiffness{normal, Law::normal_stiffness(parameters, 0.0),
+                            Law::tangential_stiffness(parameters, 0.0), radius[index_of(a)],
+                            radius[index_of(b)]};
   };
-  contacts_.with_spheres().for_each_touching([&](NodeId a, NodeId b, const auto& parameters, double) {
-    const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
-    stiffness.add_pair(a, b, contact(normal, parameters, a, b));
-  });
-  contacts_.with_surfaces().for_each_touching([&](NodeId ball, const auto& core, const auto& parameters) {
-    const Vec3 normal = (geometry::position(core, x) - x[index_of(ball)]).normalized();
-    stiffness.add_on_surface(ball, core, contact(normal, parameters, ball, core.nodes[0]));
-  });
-  contacts_.with_planes().for_each_touching([&](NodeId ball, std::size_t plane, const auto& parameters) {
-    stiffness.add_to_wall(ball, contact(scene_.planes[plane].normal, parameters, ball, ball));
-  });
+  contacts_.with_spheres().for_each_touching(
+      [&](NodeId a, NodeId b, const auto& parameters, double) {
+        const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
+        stiffness.add_pair(a, b, contact(normal, parameters, a, b));
+      });
+  contacts_.with_surfaces().for_each_touching(
+      [&](NodeId ball, const auto& core, const auto& parameters) {
+        const Vec3 normal = (geometry::position(core, x) - x[index_of(ball)]).normalized();
+        stiffness.add_on_surface(ball, core, contact(normal, parameters, ball, core.nodes[0]));
+      });
+  contacts_.with_planes().for_each_touching(
+      [&](NodeId ball, std::size_t plane, const auto& parameters) {
+        stiffness.add_to_wall(ball, contact(scene_.planes[plane].normal, parameters, ball, ball));
+      });
 }
 
 template <contact::ContactLaw Law>

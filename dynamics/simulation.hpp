@@ -15,9 +15,11 @@
 namespace plekton::dynamics {
 
 struct SimulationOptions {
-  double time_step = 0.0;  ///< s; 0 chooses one: kSafety times the critical step, and shortens it where that falls
+  double time_step =
+      0.0;  ///< s; 0 chooses one: kSafety times the critical step, and shortens it where that falls
   MotionOptions motion;
-  double skin = 0.0;  ///< m, how far apart a pair may be when it is listed; 0 chooses a fifth of the smallest radius
+  double skin = 0.0;  ///< m, how far apart a pair may be when it is listed; 0 chooses a fifth of
+                      ///< the smallest radius
   int threads = 1;
 };
 
@@ -32,7 +34,8 @@ constexpr std::int64_t kStepsBetweenLooks = 64;
 template <contact::ContactLaw Law>
 class Simulation {
  public:
-  /// @throws std::invalid_argument listing every problem of the scene or the options, among them a time step above
+  /// @throws std::invalid_argument listing every problem of the scene or the options, among them a
+  /// time step above
   ///         kLargestStep of the critical one
   Simulation(Scene scene, const SimulationOptions& options);
   Simulation(const Simulation&) = delete;
@@ -63,8 +66,8 @@ class Simulation {
   Energy energy() const;
   /// Largest overlap of any step so far over the radius of the smaller ball.
   double largest_overlap_ratio() const noexcept { return largest_overlap_ratio_; }
-  /// Critical time step: of the structures and contacts as they are now, or with the contacts that may come
-  /// (expected_contacts.hpp), whichever is shorter.
+  /// Critical time step: of the structures and contacts as they are now, or with the contacts that
+  /// may come (expected_contacts.hpp), whichever is shorter.
   CriticalStep critical_step() const;
 
  private:
@@ -90,6 +93,7 @@ class Simulation {
   std::int64_t steps_ = 0;
   double furthest_ = 0.0;  ///< m, what a node may move in a step
   StepWork work_;          ///< kinetic: of the last step; the rest: of all steps
+  StepWork pending_;  ///< what of damped and external comes after the moment of the last forces
   double initial_energy_ = 0.0;
   double initial_gravity_energy_ = 0.0;
   double largest_overlap_ratio_ = 0.0;
@@ -104,7 +108,8 @@ void Simulation<Law>::step() {
   contacts_.advance(scene_.state.motion(), scene_.planes, last_drift_, pool_);
   contacts_.add_forces(forces_, pool_);
   const StepLengths lengths{0.5 * (last_drift_ + dt_), dt_};
-  account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_), lengths);
+  account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_),
+          lengths);
   move_planes();
   check_finite(scene_.state, furthest_, dt_, steps_, time_);
   time_ += dt_;
