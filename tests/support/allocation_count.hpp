@@ -53,6 +53,12 @@ extern "C" [[gnu::noinline]] void* malloc(std::size_t size) noexcept {
 [[gnu::noinline]] void* operator new[](std::size_t size) {
   return operator new(size);
 }
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return plekton::test::counted_memory(size == 0 ? 1 : size);
+}
+[[gnu::noinline]] void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept {
+  return operator new(size, tag);
+}
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);
 }
