@@ -29,7 +29,7 @@ concept ContactLaw = requires(const typename Law::Parameters& parameters, const 
   { Law::force(parameters, motion, history, number) } -> std::same_as<ContactForce>;
   /// Energy (J) stored by the history.
   { Law::history_energy(parameters, other) } -> std::same_as<double>;
-  /// Largest tangential stiffness (N/m) over normal stiffness at a gap, for the time step.
+  /// Stiffness (N/m) of one feature at a gap (m), normal and tangential, for the time step.
   { Law::normal_stiffness(parameters, number) } -> std::same_as<double>;
   { Law::tangential_stiffness(parameters, number) } -> std::same_as<double>;
   /// Turns the history with the contact frame.
