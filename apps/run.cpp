@@ -23,9 +23,6 @@ constexpr std::int64_t kStepsBetweenLooks = 16;  // at the clock and for rest
 constexpr std::int64_t kStepsBetweenCriticalSteps =
     512;                             // the critical step costs about as much as a few steps
 constexpr double kMostSteps = 1e12;  // years, and time still advances by full steps
-/// Membranes start unstressed, so their elastic energy at the start is rounding alone. The energy
-/// of nodes that rattle in the last digits stays well below so many times that.
-constexpr double kRattling = 1e6;
 
 /// One run: what is written, and what is watched.
 class Run {
@@ -39,7 +36,6 @@ class Run {
         history_(settings.out),
         progress_(settings.progress, settings.style, scenario.simulation.duration) {
     report_.warnings = prepared.built.warnings;
-    rounding_energy_ = kRattling * simulation_.energy().bond_elastic;
     describe();
   }
 
@@ -65,12 +61,15 @@ class Run {
  private:
   RunStatus loop() {
     watch_time_step();
+    watch_motion();
     write_due(0.0);
     while (simulation_.time() < scenario_.simulation.duration - 0.5 * simulation_.time_step()) {
       simulation_.step();
       const bool looks = simulation_.steps() % kStepsBetweenLooks == 0;
       if (simulation_.steps() >= next_look_at_grains_) look_at_grains();
       if (simulation_.steps() % kStepsBetweenCriticalSteps == 0) watch_time_step();
+      // Where a chosen step has just been looked at, so that it is seen as it was chosen.
+      if (simulation_.steps() % dynamics::kStepsBetweenLooks == 0) watch_motion();
       write_due(simulation_.time());
       if (looks) progress_.update(simulation_.time(), simulation_.steps());
       if (settings_.is_interrupted()) return RunStatus::interrupted;
@@ -117,9 +116,6 @@ class Run {
 
   void watch_time_step() {
     const double critical = simulation_.critical_step().dt;
-    if (!scenario_.simulation.time_step && dynamics::kSafety * critical < simulation_.time_step()) {
-      simulation_.set_time_step(dynamics::kSafety * critical);
-    }
     const double ratio = simulation_.time_step() / critical;
     if (ratio > dynamics::kLargestStep && report_.dt_over_critical <= dynamics::kLargestStep) {
       report_.warnings.push_back(
@@ -128,6 +124,11 @@ class Run {
                       simulation_.time(), ratio, critical));
     }
     report_.dt_over_critical = std::max(report_.dt_over_critical, ratio);
+  }
+
+  void watch_motion() {
+    report_.largest_motion_ratio =
+        std::max(report_.largest_motion_ratio, simulation_.motion_ratio());
   }
 
   bool is_at_rest() {
@@ -165,8 +166,7 @@ class Run {
     report_.wall_time = std::chrono::duration<double>(Progress::Clock::now() - start_).count();
     report_.largest_overlap_ratio = simulation_.largest_overlap_ratio();
     report_.energy = simulation_.energy();
-    if (report_.energy.turnover() > rounding_energy_)
-      report_.energy_closure = report_.energy.closure();
+    report_.energy_closure = report_.energy.closure();
     report_.lost_grains = lost_.total();
     report_.lost_through_membranes = lost_.through_membranes();
     report_.lost_out_of_bounds = lost_.out_of_bounds();
@@ -194,8 +194,7 @@ class Run {
   double next_frame_ = 0.0;  // s
   std::int64_t last_frame_step_ = -1;
   std::int64_t next_look_at_grains_ = 1;
-  double rounding_energy_ = 0.0;  // J
-  bool has_moved_ = false;        // its kinetic energy was above that of [stop]
+  bool has_moved_ = false;  // its kinetic energy was above that of [stop]
 };
 
 /// @throws InputError

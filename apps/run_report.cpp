@@ -64,6 +64,7 @@ std::string to_json(const RunReport& report) {
   json["timing"] = timing_of(report);
   json["largest_overlap_ratio"] = report.largest_overlap_ratio;
   json["dt_over_critical"] = report.dt_over_critical;
+  json["largest_motion_ratio"] = report.largest_motion_ratio;
   json["energy_closure"] = report.energy_closure;
   json["energy"] = energy_of(report.energy);
   json["lost_grains"] = report.lost_grains;

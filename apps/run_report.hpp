@@ -48,8 +48,9 @@ struct RunReport {
   double wall_time = 0.0;  ///< s
 
   double largest_overlap_ratio = 0.0;
-  double dt_over_critical = 0.0;  ///< the largest at any look
-  dynamics::Energy energy;        ///< at the end
+  double dt_over_critical = 0.0;      ///< the largest at any look
+  double largest_motion_ratio = 0.0;  ///< likewise: motion in a step over the smallest radius
+  dynamics::Energy energy;            ///< at the end
   /// Closure error over the energy that went through; 0 where that is no more than rounding.
   double energy_closure = 0.0;
   std::size_t lost_grains = 0;

@@ -14,6 +14,13 @@ std::vector<std::string> warnings_about(const RunReport& report) {
         "down what moves fast",
         100.0 * report.largest_overlap_ratio, 100.0 * kDeepOverlap));
   }
+  if (report.largest_motion_ratio > kFastMotion) {
+    warnings.push_back(fmt::format(
+        "the fastest node moves by {:.3g} % of the smallest radius in one step, above {:.0f} %: "
+        "contacts are seen late; run with simulation.time_step \"auto\" or {:.2g} of this one",
+        100.0 * report.largest_motion_ratio, 100.0 * dynamics::kLargestMotion,
+        dynamics::kLargestMotion / report.largest_motion_ratio));
+  }
   if (report.energy_closure > kPoorClosure) {
     warnings.push_back(
         fmt::format("the energy balance is off by {:.2g} % of what went through, above {:.0f} %; "

@@ -23,6 +23,20 @@ std::string line_of(const BuiltGrains& g) {
                      g.count, g.smallest, g.largest, g.mass);
 }
 
+/// The time step, and what limits it where that is not what is stiff.
+std::string line_of_step(const PreparedRun& prepared) {
+  const Simulation& simulation = *prepared.simulation;
+  const double dt = simulation.time_step();
+  const double ratio = simulation.motion_ratio();
+  return fmt::format(
+      "time step: {:.4g} s, critical {:.4g} s, {:.0f} steps in all{}\n", dt,
+      simulation.critical_step().dt, std::ceil(prepared.duration / dt),
+      ratio > 0.9 * dynamics::kLargestMotion
+          ? fmt::format("; something moves by {:.3g} % of the smallest radius in each",
+                        100.0 * ratio)
+          : "");
+}
+
 /// Short times with their digits, long ones in minutes and hours.
 std::string wall_text(double seconds) {
   return seconds < 60.0 ? fmt::format("{:.3g} s", seconds) : duration_text(seconds);
@@ -36,9 +50,7 @@ std::string summary_of(const PreparedRun& prepared) {
   for (const BuiltGrains& grains : prepared.built.grains) text += line_of(grains);
   if (!prepared.simulation->planes().empty())
     text += fmt::format("planes: {}\n", prepared.simulation->planes().size());
-  text += fmt::format("time step: {:.4g} s, critical {:.4g} s, {:.0f} steps in all\n",
-                      prepared.simulation->time_step(), prepared.simulation->critical_step().dt,
-                      std::ceil(prepared.duration / prepared.simulation->time_step()));
+  text += line_of_step(prepared);
   for (const std::string& warning : prepared.built.warnings) text += "warning: " + warning + '\n';
   return text;
 }

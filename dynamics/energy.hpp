@@ -5,25 +5,34 @@
 
 namespace plekton::dynamics {
 
-/// Where the energy of a simulation is, and where it went. All in J, at the moment of the last forces.
+/// Where the energy of a simulation is, and where it went. All in J, at the moment of the last
+/// forces.
 struct Energy {
-  double kinetic = 0.0;          ///< of all motions that are free
+  double kinetic = 0.0;  ///< of all motions that are free
   double contact_elastic = 0.0;
   double bond_elastic = 0.0;
-  double gravity = 0.0;          ///< of the nodes that are free, from their places at the start
-  double friction = 0.0;         ///< dissipated in contacts
-  double damping = 0.0;          ///< taken by numerical damping
-  double external_work = 0.0;    ///< done on the bodies by what moves as prescribed
-  double initial = 0.0;          ///< kinetic + elastic at the start
+  double gravity = 0.0;        ///< of the nodes that are free, from their places at the start
+  double friction = 0.0;       ///< dissipated in contacts
+  double damping = 0.0;        ///< taken by numerical damping
+  double external_work = 0.0;  ///< done on the bodies by what moves as prescribed
+  double initial = 0.0;        ///< kinetic + elastic at the start
+  double rounding = 0.0;       ///< what rounding alone may add up to in closure_error()
 
   /// What is not accounted for: 0 but for the error of the time integration.
   double closure_error() const noexcept {
-    return kinetic + contact_elastic + bond_elastic + gravity + friction + damping - external_work - initial;
+    return kinetic + contact_elastic + bond_elastic + gravity + friction + damping - external_work -
+           initial;
   }
   /// What went through: all that is or was something else than energy of position.
-  double turnover() const noexcept { return kinetic + contact_elastic + bond_elastic + friction + damping; }
-  /// Closure error over turnover; 0 if nothing has happened.
-  double closure() const noexcept { return turnover() > 0.0 ? std::abs(closure_error()) / turnover() : 0.0; }
+  double turnover() const noexcept {
+    return kinetic + contact_elastic + bond_elastic + friction + damping;
+  }
+  /// Closure error over turnover; 0 where the error is no more than rounding, as when nothing has
+  /// happened.
+  double closure() const noexcept {
+    const double error = std::abs(closure_error());
+    return error > rounding ? error / turnover() : 0.0;
+  }
 };
 
 }  // namespace plekton::dynamics

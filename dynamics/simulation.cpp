@@ -33,13 +33,16 @@ double furthest_in_a_step(const Scene& scene) {
   return radius > 0.0 ? radius : std::numeric_limits<double>::infinity();
 }
 
+/// Smallest radius of what moves past others: of the spheres where there are some. Infinite if
+/// there are no elements.
+double pace_radius(const geometry::Elements& elements) {
+  if (elements.spheres.empty()) return smallest_radius(elements);
+  return smallest_radius(elements.spheres, std::numeric_limits<double>::infinity());
+}
+
 double chosen_skin(const Scene& scene, double asked) {
   if (asked > 0.0) return asked;
-  // Spheres alone set the pace where there are some: they are what moves past others.
-  const double radius =
-      scene.elements.spheres.empty()
-          ? smallest_radius(scene.elements)
-          : smallest_radius(scene.elements.spheres, std::numeric_limits<double>::infinity());
+  const double radius = pace_radius(scene.elements);
   return std::isfinite(radius) ? 0.2 * radius : 1.0;
 }
 
@@ -121,11 +124,18 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
                 chosen_skin(scene_, options.skin), free_nodes(scene_.properties)),
       bonds_(scene_.bonds, scene_.state.size()),
       forces_(scene_.state.size()),
-      furthest_(furthest_in_a_step(scene_)) {
+      radii_(node_radii(scene_, surface_)),
+      expected_(scene_.state.size()),
+      furthest_(furthest_in_a_step(scene_)),
+      pace_radius_(pace_radius(scene_.elements)) {
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   bonds_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_);
-  const double critical = critical_step().dt;
+  add_expected_contacts<Law>(scene_, surface_, expected_);
+  NodalStiffness stiffness = expected_;
+  add_bonds_to(stiffness);
+  initial_stiffness_ = stiffness.total();
+  const double critical = critical_step(stiffness).dt;
   if (options.time_step > kLargestStep * critical) {
     std::ostringstream text;
     text << "time step " << options.time_step << " s: the critical time step of this scene is "
@@ -134,7 +144,13 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
     throw std::invalid_argument(text.str());
   }
   chooses_time_step_ = options.time_step == 0.0;
-  dt_ = options.time_step > 0.0 ? options.time_step : kSafety * critical;
+  dt_ = options.time_step;
+  if (chooses_time_step_) {
+    space_ = std::move(stiffness);
+    stable_step_ = kSafety * critical;
+    // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
+    dt_ = std::isfinite(critical) ? std::min(stable_step_, motion_step()) : stable_step_;
+  }
   initial_gravity_energy_ = gravity_energy(0.0);
   work_.kinetic = kinetic_energy(scene_.state, scene_.properties);
   initial_energy_ = work_.kinetic + contacts_.elastic_energy() + bonds_.elastic_energy();
@@ -163,6 +179,19 @@ void Simulation<Law>::set_velocity(NodeId node, const Vec3& velocity,
                                    const Vec3& angular_velocity) {
   scene_.state.velocity[index_of(node)] = velocity;
   scene_.state.angular_velocity[index_of(node)] = angular_velocity;
+  if (!chooses_time_step_ || !std::isfinite(dt_)) return;
+  dt_ = std::min(dt_, longest_step(velocity.norm(), motion_.gravity.norm(), pace_radius_));
+}
+
+template <contact::ContactLaw Law>
+double Simulation<Law>::motion_ratio() const noexcept {
+  return largest_speed(scene_.state) * dt_ / pace_radius_;
+}
+
+/// Longest step that contacts can follow at the speeds of now (s).
+template <contact::ContactLaw Law>
+double Simulation<Law>::motion_step() const noexcept {
+  return longest_step(largest_speed(scene_.state), motion_.gravity.norm(), pace_radius_);
 }
 
 template <contact::ContactLaw Law>
@@ -184,8 +213,9 @@ void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) 
 }
 
 template <contact::ContactLaw Law>
-void Simulation<Law>::shorten_time_step() {
-  dt_ = std::min(dt_, kSafety * critical_step().dt);
+void Simulation<Law>::choose_time_step() {
+  stable_step_ = std::min(stable_step_, kSafety * critical_step(space_).dt);
+  dt_ = std::min(stable_step_, motion_step());
 }
 
 template <contact::ContactLaw Law>
@@ -218,19 +248,41 @@ Energy Simulation<Law>::energy() const {
   energy.damping = work_.damped - pending_.damped;
   energy.external_work = work_.external - pending_.external;
   energy.initial = initial_energy_;
+  energy.rounding = rounding_energy();
   return energy;
+}
+
+/// What rounding may add up to in the ledger. A place is rounded by eps |x| and a turn by eps in
+/// each step, which is worth 1/2 k (eps |x|)² in a spring; these add up like the variances of a
+/// random walk. The sum over nodes that gives the energy of gravity is rounded by n eps of its
+/// absolute terms, and their change in each step by eps.
+template <contact::ContactLaw Law>
+double Simulation<Law>::rounding_energy() const {
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  double furthest = 0.0;  // m, from the origin
+  double weight = 0.0;    // J, sum of m |g.x|
+  for (std::size_t i = 0; i < scene_.state.size(); ++i) {
+    const Vec3& x = scene_.state.position[i];
+    furthest = std::max(furthest, x.cwiseAbs().maxCoeff());
+    if (holds_translation(scene_.properties.held[i])) continue;
+    weight += scene_.properties.mass[i] * motion_.gravity.cwiseAbs().dot(x.cwiseAbs());
+  }
+  const auto steps = static_cast<double>(steps_);
+  const double springs =
+      initial_stiffness_.translation * furthest * furthest + initial_stiffness_.rotation;
+  return 0.5 * kEps * kEps * springs * (1.0 + steps) +
+         kEps * weight * (static_cast<double>(scene_.state.size()) + steps);
 }
 
 /// Every touching pair, as it is now.
 template <contact::ContactLaw Law>
 void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
   const auto& x = scene_.state.position;
-  const std::vector<double> radius = node_radii(scene_, surface_);
   const auto contact = [&](const Vec3& normal, const typename Law::Parameters& parameters, NodeId a,
                            NodeId b) {
     return ContactStiffness{normal, Law::normal_stiffness(parameters, 0.0),
-                            Law::tangential_stiffness(parameters, 0.0), radius[index_of(a)],
-                            radius[index_of(b)]};
+                            Law::tangential_stiffness(parameters, 0.0), radii_[index_of(a)],
+                            radii_[index_of(b)]};
   };
   contacts_.with_spheres().for_each_touching(
       [&](NodeId a, NodeId b, const auto& parameters, double) {
@@ -249,14 +301,26 @@ void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
 }
 
 template <contact::ContactLaw Law>
+void Simulation<Law>::add_bonds_to(NodalStiffness& stiffness) const {
+  for (const BeamBond& bond : scene_.bonds) stiffness.add_beam(bond, scene_.state);
+}
+
+template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::critical_step() const {
-  NodalStiffness now(scene_.state.size());
-  for (const BeamBond& bond : scene_.bonds) now.add_beam(bond, scene_.state);
-  NodalStiffness expected = now;
-  add_contacts_to(now);
-  add_expected_contacts<Law>(scene_, surface_, expected);
-  const CriticalStep step_now = now.critical_step(scene_.properties);
-  const CriticalStep step_expected = expected.critical_step(scene_.properties);
+  NodalStiffness space(scene_.state.size());
+  return critical_step(space);
+}
+
+/// @param space  for as many nodes as there are; its contents are overwritten
+template <contact::ContactLaw Law>
+CriticalStep Simulation<Law>::critical_step(NodalStiffness& space) const {
+  space = expected_;
+  add_bonds_to(space);
+  const CriticalStep step_expected = space.critical_step(scene_.properties);
+  space.set_zero();
+  add_bonds_to(space);
+  add_contacts_to(space);
+  const CriticalStep step_now = space.critical_step(scene_.properties);
   return step_now.dt < step_expected.dt ? step_now : step_expected;
 }
 

@@ -6,17 +6,19 @@
 #include "dynamics/diverged.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/integrators/leapfrog.hpp"
+#include "dynamics/motion_step.hpp"
 #include "dynamics/scene.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/time_step.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace plekton::dynamics {
 
 struct SimulationOptions {
-  double time_step =
-      0.0;  ///< s; 0 chooses one: kSafety times the critical step, and shortens it where that falls
+  double time_step = 0.0;  ///< s; 0 chooses one: kSafety times the critical step, shortened where
+                           ///< that falls, and while something is fast (dynamics/motion_step.hpp)
   MotionOptions motion;
   double skin = 0.0;  ///< m, how far apart a pair may be when it is listed; 0 chooses a fifth of
                       ///< the smallest radius
@@ -27,9 +29,6 @@ struct SimulationOptions {
 constexpr double kSafety = 0.5;
 /// A given time step must not be above this part of the critical one.
 constexpr double kLargestStep = 0.8;
-/// A chosen time step is looked at again after so many steps.
-constexpr std::int64_t kStepsBetweenLooks = 64;
-
 /// A scene in motion. The state belongs to the simulation; what is given out are views of it.
 template <contact::ContactLaw Law>
 class Simulation {
@@ -69,14 +68,22 @@ class Simulation {
   /// Critical time step: of the structures and contacts as they are now, or with the contacts that
   /// may come (expected_contacts.hpp), whichever is shorter.
   CriticalStep critical_step() const;
+  /// How far the fastest node moves in a step over the smallest radius: of the spheres, or of the
+  /// structures if there are none. Above kLargestMotion (dynamics/motion_step.hpp) contacts are
+  /// seen late; a chosen step keeps below that, a given one may not.
+  double motion_ratio() const noexcept;
 
  private:
   void account(const StepWork& work, const StepLengths& lengths);
   void require_time_step() const;
-  void shorten_time_step();
+  void choose_time_step();
+  double motion_step() const noexcept;
   void move_planes();
   double gravity_energy(double before) const;
+  double rounding_energy() const;
+  void add_bonds_to(NodalStiffness& stiffness) const;
   void add_contacts_to(NodalStiffness& stiffness) const;
+  CriticalStep critical_step(NodalStiffness& space) const;
 
   Scene scene_;
   MotionOptions motion_;
@@ -86,16 +93,22 @@ class Simulation {
   BeamBonds bonds_;
   NodeForces forces_;
   Leapfrog leapfrog_;
+  std::vector<double> radii_;  ///< m, of the ball around each node; 0 where there is none
+  NodalStiffness expected_;    ///< of the contacts that may come, without bonds
+  NodalStiffness space_{0};    ///< to choose a time step without allocation; empty if one was given
   double dt_ = 0.0;
-  double last_drift_ = 0.0;  ///< s, length of the last step; 0 before the first
+  double stable_step_ = 0.0;  ///< s, kSafety times the smallest critical step so far
+  double last_drift_ = 0.0;   ///< s, length of the last step; 0 before the first
   bool chooses_time_step_ = false;
   double time_ = 0.0;
   std::int64_t steps_ = 0;
-  double furthest_ = 0.0;  ///< m, what a node may move in a step
-  StepWork work_;          ///< kinetic: of the last step; the rest: of all steps
+  double furthest_ = 0.0;     ///< m, what a node may move in a step
+  double pace_radius_ = 0.0;  ///< m, against which the motion in a chosen step is measured
+  StepWork work_;             ///< kinetic: of the last step; the rest: of all steps
   StepWork pending_;  ///< what of damped and external comes after the moment of the last forces
   double initial_energy_ = 0.0;
   double initial_gravity_energy_ = 0.0;
+  NodalStiffness::Total initial_stiffness_;  ///< with the contacts that may come
   double largest_overlap_ratio_ = 0.0;
 };
 
@@ -114,7 +127,7 @@ void Simulation<Law>::step() {
   check_finite(scene_.state, furthest_, dt_, steps_, time_);
   time_ += dt_;
   last_drift_ = dt_;
-  if (++steps_ % kStepsBetweenLooks == 0 && chooses_time_step_) shorten_time_step();
+  if (++steps_ % kStepsBetweenLooks == 0 && chooses_time_step_) choose_time_step();
 }
 
 extern template class Simulation<contact::LinearFrictional>;

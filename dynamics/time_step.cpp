@@ -26,6 +26,10 @@ Mat3 cross_matrix(const Vec3& c) noexcept {
 
 NodalStiffness::NodalStiffness(std::size_t node_count) : blocks_(node_count) {}
 
+void NodalStiffness::set_zero() noexcept {
+  std::fill(blocks_.begin(), blocks_.end(), Block{});
+}
+
 // Let u and t be the sum and difference of the nodes' rotations across the beam, and v the relative
 // displacement across it. For any gamma > 0 the energies of shear and bending are 1/2 of
 //   12 EI/(L0 L²) (v - L/2 u)² + EI/L0 t²
@@ -107,6 +111,15 @@ void NodalStiffness::add_from_all_sides(NodeId node, double normal, double tange
   Block& block = blocks_[index_of(node)];
   block.translation += std::max(normal, 2.0 * tangential) * Mat3::Identity();
   block.rotation += 2.0 * radius * radius * tangential * Mat3::Identity();
+}
+
+NodalStiffness::Total NodalStiffness::total() const noexcept {
+  Total total;
+  for (const Block& block : blocks_) {
+    total.translation += block.translation.trace();
+    total.rotation += block.rotation.trace();
+  }
+  return total;
 }
 
 /// M^(-1/2) D M^(-1/2) of a node; zero where it is held.

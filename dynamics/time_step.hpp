@@ -46,6 +46,9 @@ class NodalStiffness {
  public:
   explicit NodalStiffness(std::size_t node_count);
 
+  /// Forgets what was added; keeps its space, so that nothing is allocated.
+  void set_zero() noexcept;
+
   /// Adds a bond as long as it is now, its nodes turned little from the chord (less than 45
   /// degrees). Tension is included: it resists turning of the chord. So a bond may shorten its step
   /// as it stretches. A bond of length 0 counts as long as at rest.
@@ -81,6 +84,13 @@ class NodalStiffness {
   /// @param normal, tangential  N/m, with the factor 2 of a partner that moves already in them
   /// @param radius              m, of the surface
   void add_from_all_sides(NodeId node, double normal, double tangential, double radius);
+
+  /// Sums of the stiffness around all nodes.
+  struct Total {
+    double translation = 0.0;  ///< N/m, traces added up
+    double rotation = 0.0;     ///< N m, likewise
+  };
+  Total total() const noexcept;
 
   /// Complexity: linear in the number of nodes.
   CriticalStep critical_step(const NodeProperties& properties) const;

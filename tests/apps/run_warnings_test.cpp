@@ -7,6 +7,7 @@
 namespace plekton::apps {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -15,8 +16,18 @@ TEST(RunWarnings, AreNoneForASoundRun) {
   RunReport report;
   report.largest_overlap_ratio = 0.02;
   report.energy_closure = 0.005;
+  report.largest_motion_ratio = dynamics::kLargestMotion * (1.0 + 1e-15);  // chosen to be this
 
   EXPECT_THAT(warnings_about(report), IsEmpty());
+}
+
+TEST(RunWarnings, NameAStepThatIsTooLongForTheMotion) {
+  RunReport report;
+  report.largest_motion_ratio = 0.4;
+
+  EXPECT_THAT(warnings_about(report),
+              ElementsAre(AllOf(HasSubstr("by 40 % of the smallest radius in one step, above 10 %"),
+                                HasSubstr("0.25 of this one"))));
 }
 
 TEST(RunWarnings, NameDeepOverlapsEnergyThatDoesNotAddUpAndLostGrains) {
