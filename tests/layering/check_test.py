@@ -53,6 +53,17 @@ class SeededTree(unittest.TestCase):
                 self.assert_flagged(path, TAG + f'#include "{header}"\n', "against the arrow")
                 (self.root / path).unlink()
 
+    def test_includes_against_the_order_of_the_folders_of_apps_are_flagged(self):
+        for path in ("apps/scenario/units.hpp", "apps/run/run.hpp"):
+            self.write(path, TAG)
+        self.assert_clean("apps/run/frames.cpp", TAG + '#include "apps/scenario/units.hpp"\n#include "apps/run/run.hpp"\n')
+        self.assert_clean("apps/main.cpp", TAG + '#include "apps/run/run.hpp"\n')
+        self.assert_flagged("apps/scenario/units.cpp", TAG + '#include "apps/run/run.hpp"\n', "against the order of apps")
+
+    def test_a_source_of_the_program_outside_its_folders_is_flagged(self):
+        self.assert_clean("apps/examples/first_steps.cpp", TAG)
+        self.assert_flagged("apps/units.cpp", TAG, "none of the folders of apps")
+
     def test_the_line_of_an_include_is_named_and_spaces_do_not_hide_it(self):
         self.assert_flagged("geometry/box.cpp", TAG + '\n  #  include <contact/patch.hpp>\n', "geometry/box.cpp:3")
 

@@ -11,6 +11,9 @@ from pathlib import Path
 LIBRARIES = ("geometry", "contact", "dynamics", "apps")
 """In the order of the arrow: a file may include its own folder and those before it."""
 
+APP_FOLDERS = ("grains", "scenario", "scene", "run", "command_line")
+"""The folders of apps, in the order of their arrow; main.cpp and the examples may include any."""
+
 MAX_LINES = 400
 
 ONLY_HOME = {"fcl": "geometry/broad_phase.cpp", "ccd": "geometry/closest/deep.cpp"}
@@ -76,6 +79,26 @@ def layers(source, root):
             yield f'{source.path}:{include.line}: includes "{include.header}" against the arrow {" <- ".join(LIBRARIES)}'
 
 
+def app_layers(source, root):
+    """No include against the order of the folders of apps; sources of the program are in one of them."""
+    parts = source.path.split("/")
+    if parts[0] != "apps" or parts[1] == "examples" or not source.path.endswith((".cpp", ".hpp")):
+        return
+    if source.path == "apps/main.cpp":
+        return
+    if parts[1] not in APP_FOLDERS:
+        yield f"{source.path}:1: is in none of the folders of apps: {', '.join(APP_FOLDERS)}"
+        return
+    allowed = APP_FOLDERS[: APP_FOLDERS.index(parts[1]) + 1]
+    for include in source.includes:
+        target = include.header.split("/")
+        if target[0] == "apps" and target[1] not in allowed:
+            yield (
+                f'{source.path}:{include.line}: includes "{include.header}" against the order of apps: '
+                f'{" <- ".join(APP_FOLDERS)}'
+            )
+
+
 def mesh_stays_outside_the_core(source, root):
     """The GPL parts of CGAL live in geometry/mesh, so the rest of geometry and contact do not lean on it."""
     if source.folder not in ("geometry", "contact") or source.path.startswith("geometry/mesh/"):
@@ -130,4 +153,4 @@ def size(source, root):
         yield f"{source.path}: {lines} lines, at most {MAX_LINES}; split it by topic"
 
 
-RULES = (layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, size)
+RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, size)

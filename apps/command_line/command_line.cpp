@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/command_line.hpp"
+
+#include "apps/command_line/import_command.hpp"
+#include "apps/command_line/interrupt.hpp"
+#include "apps/command_line/summary.hpp"
+#include "apps/run/run.hpp"
+#include "apps/scenario/closest_word.hpp"
+#include "apps/scenario/scenario_reader.hpp"
+#include "apps/scenario/section.hpp"
+#include "apps/scenario/units.hpp"
+#include "geometry/version.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the command line says; the parts of the commands that are not given stay empty.
+struct CommandLine {
+  fs::path scenario;
+  std::vector<std::string> overrides;
+  std::optional<int> threads;
+  fs::path out;
+  fs::path mesh;
+  std::string weld = "0 m";
+  bool fill_holes = false;
+  std::string longest_hole;
+  bool wrap = false;
+  std::string wrap_detail;
+  std::string target_edge;
+  bool refuse_intersections = false;
+  std::string thickness;
+  bool json = false;
+};
+
+Scenario scenario_of(const CommandLine& line) {
+  std::vector<std::string> overrides = line.overrides;
+  if (line.threads) overrides.push_back(fmt::format("simulation.threads={}", *line.threads));
+  return read_scenario(line.scenario, overrides);
+}
+
+/// What a run has written to its folder.
+std::string files_in(const fs::path& folder) {
+  std::string files = "run.json, energy.csv";
+  std::string_view before = ", and for ParaView ";
+  for (const std::string_view series : {"grains.pvd", "membranes.pvd", "contacts.pvd"}) {
+    std::error_code ignored;
+    if (!fs::exists(folder / series, ignored)) continue;
+    files += fmt::format("{}{}", before, series);
+    before = ", ";
+  }
+  return files;
+}
+
+/// For commands whose result is what they print. @throws InputError if it has not arrived
+void flush_output() {
+  if (std::cout.flush()) return;
+  throw InputError(
+      fmt::format("standard output: cannot be written: {}; what is missing there is "
+                  "lost, repeat the command",
+                  std::generic_category().message(errno)));
+}
+
+int run_command(const CommandLine& line) {
+  const Scenario scenario = scenario_of(line);
+  PreparedRun prepared = prepare_run(scenario);
+  const fs::path out = line.out.empty() ? fs::path("out") / line.scenario.stem() : line.out;
+  std::cout << summary_of(prepared) << std::flush;
+
+  const InterruptGuard guard;
+  const bool terminal = ::isatty(STDOUT_FILENO) != 0;
+  const RunSettings settings{out, line.overrides, std::cout,
+                             terminal ? ProgressStyle::one_line : ProgressStyle::lines,
+                             [&] { return guard.interrupted(); }};
+  const RunReport report = run(scenario, prepared, settings);
+  std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n';
+  return report.status == RunStatus::interrupted ? kInterrupted : kDone;
+}
+
+int check_command(const CommandLine& line) {
+  const Scenario scenario = scenario_of(line);
+  const PreparedRun prepared = prepare_run(scenario);
+  std::cout << summary_of(prepared) << line.scenario.string() << ": no problems\n";
+  flush_output();
+  return kDone;
+}
+
+/// A length of the command line.
+double length_option(const std::string& name, const std::string& text) {
+  try {
+    return parse_quantity(text, kLength);
+  } catch (const UnitError& error) {
+    throw InputError(fmt::format("{}: {}", name, error.what()));
+  }
+}
+
+geometry::RepairOptions repair_options(const CommandLine& line) {
+  geometry::RepairOptions options;
+  options.weld_distance = length_option("--weld", line.weld);
+  options.fill_holes = line.fill_holes || !line.longest_hole.empty();
+  if (!line.longest_hole.empty())
+    options.longest_hole = length_option("--longest-hole", line.longest_hole);
+  options.wrap = line.wrap || !line.wrap_detail.empty();
+  if (!line.wrap_detail.empty())
+    options.wrap_detail = length_option("--wrap-detail", line.wrap_detail);
+  if (!line.target_edge.empty())
+    options.target_edge = length_option("--target-edge", line.target_edge);
+  options.refuse_intersections = line.refuse_intersections;
+  return options;
+}
+
+int import_command(const CommandLine& line) {
+  ImportArguments arguments;
+  arguments.mesh = line.mesh;
+  arguments.repair = repair_options(line);
+  if (!line.thickness.empty()) arguments.thickness = length_option("--thickness", line.thickness);
+  if (!line.out.empty()) arguments.out = line.out;
+  arguments.json = line.json;
+  import_mesh_file(arguments, std::cout);
+  flush_output();
+  return kDone;
+}
+
+void add_scenario_options(CLI::App& command, CommandLine& line) {
+  command
+      .add_option("scenario", line.scenario,
+                  "Scenario file (.toml); apps/scenario.md documents its keys")
+      ->required();
+  command
+      .add_option("--set", line.overrides,
+                  "Replace a value: path=value, as in simulation.duration=\"1 s\"; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--threads", line.threads, "Threads; the result does not depend on it")
+      ->check(CLI::Range(1, 1024));
+}
+
+/// One problem after the name of the program, several below it. A line that begins with a blank
+/// goes on with the problem before it.
+void print_error(const std::string& text) {
+  std::istringstream lines(text);
+  std::string shown;
+  int problems = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(' ')) ++problems;
+    shown += printable(line) + '\n';
+  }
+  std::cerr << "plekton: " << (problems > 1 ? fmt::format("{} problems\n", problems) : "") << shown;
+}
+
+/// @returns whether the command line begins with a word that is no command, after saying so
+bool is_unknown_command(int argc, const char* const* argv) {
+  constexpr std::array<std::string_view, 3> kCommands = {"run", "check", "import"};
+  if (argc < 2) return false;
+  const std::string_view word = argv[1];
+  if (word.starts_with('-') ||
+      std::find(kCommands.begin(), kCommands.end(), word) != kCommands.end())
+    return false;
+  const std::string closest = closest_word(word, kCommands);
+  print_error(fmt::format("unknown command \"{}\"; {}", word,
+                          closest.empty() ? "the commands are " + listed(kCommands)
+                                          : fmt::format("did you mean \"{}\"?", closest)));
+  return true;
+}
+
+int dispatch(int argc, const char* const* argv) {
+  if (is_unknown_command(argc, argv)) return kUsage;
+  CommandLine line;
+  CLI::App app("Plekton: discrete elements with deformable structures", "plekton");
+  app.set_version_flag("--version", std::string(kVersion));
+  app.require_subcommand(1);
+
+  CLI::App* run = app.add_subcommand("run", "Run a scenario");
+  add_scenario_options(*run, line);
+  run->add_option("--out", line.out,
+                  "Folder for the results; out/<name of the scenario> if not given");
+  CLI::App* check = app.add_subcommand(
+      "check", "Read a scenario, build its scene, and say what it is or what is wrong with it");
+  add_scenario_options(*check, line);
+  CLI::App* import = app.add_subcommand(
+      "import", "Read and repair a mesh (.off, .obj, .stl, .ply, .msh, .vtp), and report on it");
+  import->add_option("mesh", line.mesh, "Mesh file")->required();
+  import->add_option("--weld", line.weld, "Join points within this distance, as in \"1 um\"");
+  import->add_flag("--fill-holes", line.fill_holes, "Fill holes, also the rim of an open sheet");
+  import->add_option("--longest-hole", line.longest_hole,
+                     "Fill only holes of at most this perimeter");
+  import->add_option("--target-edge", line.target_edge, "Remesh to edges of about this length");
+  import->add_flag("--wrap", line.wrap,
+                   "Replace the surface by a closed one around it, as the last resort");
+  import->add_option("--wrap-detail", line.wrap_detail,
+                     "Size of the details a wrap keeps; 1/30 of the size if not given");
+  import->add_flag("--refuse-intersections", line.refuse_intersections,
+                   "Refuse a mesh whose facets still intersect at the end");
+  import->add_option("--thickness", line.thickness,
+                     "Say whether a membrane of this thickness goes with the mesh");
+  import->add_option("--out", line.out, "Folder for the repaired mesh and report.json");
+  import->add_flag("--json", line.json, "Print the report as JSON");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kUsage;
+  }
+  if (run->parsed()) return run_command(line);
+  return check->parsed() ? check_command(line) : import_command(line);
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "plekton: out of memory; ask for fewer grains or a coarser mesh\n";
+  } catch (const std::exception& error) {
+    print_error(error.what());
+  }
+  return kFailed;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/import_command.hpp"
+
+#include "apps/run/output_folder.hpp"
+#include "dynamics/output/file.hpp"
+#include "geometry/mesh/import.hpp"
+#include "geometry/mesh/membrane.hpp"
+#include "geometry/mesh/mesh_file.hpp"
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_import(const fs::path& folder, const fs::path& mesh_name,
+                  const geometry::ImportedMesh& imported) {
+  make_output_folder(folder);
+  dynamics::OutputFile mesh(folder / mesh_name);
+  mesh.write(geometry::format_mesh(imported.mesh, geometry::MeshFormat::off));
+  dynamics::OutputFile report(folder / "report.json");
+  report.write(geometry::to_json(imported.report));
+  mesh.commit();
+  report.commit();
+}
+
+}  // namespace
+
+void import_mesh_file(const ImportArguments& arguments, std::ostream& out) {
+  geometry::ImportOptions options;
+  options.repair = arguments.repair;
+  geometry::ImportedMesh imported = geometry::import_mesh(arguments.mesh, options);
+  if (arguments.thickness) {
+    const auto warnings = geometry::make_membrane(imported.mesh, {*arguments.thickness}).warnings;
+    imported.report.reasons.insert(imported.report.reasons.end(), warnings.begin(), warnings.end());
+    if (!warnings.empty()) imported.report.verdict = geometry::MeshVerdict::usable_with_warnings;
+  }
+  const fs::path mesh_name = arguments.mesh.stem().string() + "-repaired.off";
+  if (arguments.out) write_import(*arguments.out, mesh_name, imported);
+
+  out << (arguments.json ? geometry::to_json(imported.report) : geometry::to_text(imported.report));
+  if (arguments.out && !arguments.json) {
+    out << "wrote " << (*arguments.out / mesh_name).string() << " and "
+        << (*arguments.out / "report.json").string() << '\n';
+  }
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/summary.hpp"
+
+#include "geometry/mesh/report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace plekton::apps {
+namespace {
+
+std::string line_of(const BuiltMembrane& m) {
+  return fmt::format(
+      "membrane {}: {} nodes ({} held), {} beams, {} facets, area {:.4g} m2, mass {:.4g} kg, beams "
+      "of E = {:.4g} Pa; mesh {}\n",
+      m.name, m.nodes, m.held_nodes, m.beams, m.facets, m.area, m.mass, m.young_modulus,
+      geometry::name_of(m.report.verdict));
+}
+
+std::string line_of(const BuiltGrains& g) {
+  return fmt::format("grains {}: {} of {:.4g} to {:.4g} m radius, mass {:.4g} kg\n", g.name,
+                     g.count, g.smallest, g.largest, g.mass);
+}
+
+/// The time step, and what limits it where that is not what is stiff.
+std::string line_of_step(const PreparedRun& prepared) {
+  const Simulation& simulation = *prepared.simulation;
+  const double dt = simulation.time_step();
+  const double ratio = simulation.motion_ratio();
+  return fmt::format(
+      "time step: {:.4g} s, critical {:.4g} s, {:.0f} steps in all{}\n", dt,
+      simulation.critical_step().dt, std::ceil(prepared.duration / dt),
+      ratio > 0.9 * dynamics::kLargestMotion
+          ? fmt::format("; something moves by {:.3g} % of the smallest radius in each",
+                        100.0 * ratio)
+          : "");
+}
+
+/// Short times with their digits, long ones in minutes and hours.
+std::string wall_text(double seconds) {
+  return seconds < 60.0 ? fmt::format("{:.3g} s", seconds) : duration_text(seconds);
+}
+
+}  // namespace
+
+std::string summary_of(const PreparedRun& prepared) {
+  std::string text;
+  for (const BuiltMembrane& membrane : prepared.built.membranes) text += line_of(membrane);
+  for (const BuiltGrains& grains : prepared.built.grains) text += line_of(grains);
+  if (!prepared.simulation->planes().empty())
+    text += fmt::format("planes: {}\n", prepared.simulation->planes().size());
+  text += line_of_step(prepared);
+  for (const std::string& warning : prepared.built.warnings) text += "warning: " + warning + '\n';
+  return text;
+}
+
+std::string summary_of(const RunReport& report) {
+  std::string text = fmt::format(
+      "{} at {:.4g} s after {} steps in {} ({:.3g} ms each)\n", name_of(report.status),
+      report.simulated_time, report.steps, wall_text(report.wall_time),
+      report.steps > 0 ? 1e3 * report.wall_time / static_cast<double>(report.steps) : 0.0);
+  text += fmt::format(
+      "contacts {}, largest overlap {:.3g} % of the radius, energy closure {:.2g} %, lost grains "
+      "{}\n",
+      report.contacts, 100.0 * report.largest_overlap_ratio, 100.0 * report.energy_closure,
+      report.lost_grains);
+  for (const std::string& warning : report.warnings) text += "warning: " + warning + '\n';
+  return text;
+}
+
+}  // namespace plekton::apps

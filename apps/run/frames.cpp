@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/frames.hpp"
+
+#include "apps/run/output_folder.hpp"
+#include "dynamics/output/file.hpp"
+#include "dynamics/output/scene_frame.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <numeric>
+#include <string_view>
+#include <system_error>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 3> kParts = {"grains", "membranes", "contacts"};
+
+/// Whether a file name is one that write_part makes.
+bool is_frame(const std::string& name) {
+  for (const std::string_view part : kParts) {
+    if (!name.starts_with(part) || !name.ends_with(".vtp")) continue;
+    const std::string_view middle =
+        std::string_view(name).substr(part.size(), name.size() - part.size() - 4);
+    if (middle.starts_with('_') &&
+        middle.find_first_not_of("0123456789", 1) == std::string_view::npos)
+      return true;
+  }
+  return false;
+}
+
+/// What cannot be removed will be replaced, or its replacement fails with a message of its own.
+void remove_earlier(const fs::path& folder) {
+  std::error_code ignored;
+  for (const std::string_view part : kParts)
+    fs::remove(folder / fmt::format("{}.pvd", part), ignored);
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder / "frames", ignored)) {
+    if (is_frame(entry.path().filename().string())) old.push_back(entry.path());
+  }
+  for (const fs::path& file : old) fs::remove(file, ignored);
+}
+
+/// Beam i is along cylinder i (build_scene.hpp).
+std::vector<double> tensions_of(const Simulation& simulation) {
+  std::vector<double> tensions(simulation.elements().cylinders.size());
+  for (std::size_t i = 0; i < tensions.size(); ++i) tensions[i] = simulation.bonds().axial_force(i);
+  return tensions;
+}
+
+std::vector<dynamics::ContactRow> contact_rows(const Simulation& simulation) {
+  std::vector<dynamics::ContactRow> rows;
+  simulation.contacts().for_each_row(
+      simulation.state().position, [&](const contact::ContactRow& row) {
+        rows.push_back({row.point_a, row.point_b, row.normal_force, row.tangential_force, row.gap});
+      });
+  return rows;
+}
+
+}  // namespace
+
+Frames::Frames(const fs::path& folder, const OutputSettings& settings, const Simulation& simulation,
+               const Vec3& gravity)
+    : folder_(folder),
+      settings_(settings),
+      gravity_(gravity),
+      sphere_ids_(simulation.elements().spheres.size()),
+      grains_(folder / "grains.pvd"),
+      membranes_(folder / "membranes.pvd"),
+      contacts_(folder / "contacts.pvd") {
+  std::iota(sphere_ids_.begin(), sphere_ids_.end(), 0);
+  settings_.grains = settings_.grains && !simulation.elements().spheres.empty();
+  settings_.membranes = settings_.membranes && !simulation.elements().facets.empty();
+  make_output_folder(folder_ / "frames");
+  remove_earlier(folder_);
+}
+
+std::vector<Vec3> Frames::node_forces(const Simulation& simulation) const {
+  std::vector<Vec3> forces = simulation.forces().force;
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    forces[i] += simulation.properties().mass[i] * gravity_;
+  return forces;
+}
+
+void Frames::write_part(const std::string& name, dynamics::PvdSeries& series,
+                        const dynamics::PolyData& data) {
+  const fs::path file = folder_ / "frames" / fmt::format("{}_{:05}.vtp", name, count_);
+  dynamics::write_vtp(file, data);
+  series.add({{data.time, name, file}});
+}
+
+void Frames::write(const Simulation& simulation) {
+  const dynamics::NodeState& state = simulation.state();
+  const std::vector<Vec3> forces = node_forces(simulation);
+  const dynamics::NodesView nodes{state.position, state.velocity, state.angular_velocity, forces};
+  const double time = simulation.time();
+  if (settings_.grains) {
+    write_part("grains", grains_,
+               dynamics::grains_frame({nodes, simulation.elements().spheres, sphere_ids_}, time));
+  }
+  if (settings_.membranes) {
+    const std::vector<double> tensions = tensions_of(simulation);
+    const auto& elements = simulation.elements();
+    write_part(
+        "membranes", membranes_,
+        dynamics::surface_frame({nodes, elements.cylinders, tensions, elements.facets}, time));
+  }
+  if (settings_.contacts)
+    write_part("contacts", contacts_, dynamics::contacts_frame(contact_rows(simulation), time));
+  ++count_;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scenario/scenario.hpp"
+#include "contact/laws/linear_frictional.hpp"
+#include "dynamics/output/pvd_series.hpp"
+#include "dynamics/output/vtk_writer.hpp"
+#include "dynamics/simulation.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace plekton::apps {
+
+using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+
+/// Writes what a simulation looks like for ParaView: the time series grains.pvd, membranes.pvd and
+/// contacts.pvd in a folder, their data sets in its folder frames. The series are valid after every
+/// frame.
+class Frames {
+ public:
+  /// Removes the series and frames that an earlier run left under the same names. @throws
+  /// dynamics::OutputError
+  Frames(const std::filesystem::path& folder, const OutputSettings& settings,
+         const Simulation& simulation, const Vec3& gravity);
+
+  /// Writes the state of now. @throws dynamics::OutputError
+  void write(const Simulation& simulation);
+
+  std::size_t count() const noexcept { return count_; }
+
+ private:
+  void write_part(const std::string& name, dynamics::PvdSeries& series,
+                  const dynamics::PolyData& data);
+  /// Sum of contacts, bonds and gravity on each node (N).
+  std::vector<Vec3> node_forces(const Simulation& simulation) const;
+
+  std::filesystem::path folder_;
+  OutputSettings settings_;
+  Vec3 gravity_;
+  std::vector<std::int64_t> sphere_ids_;
+  dynamics::PvdSeries grains_;
+  dynamics::PvdSeries membranes_;
+  dynamics::PvdSeries contacts_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace plekton::apps

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/history.hpp"
+
+#include <array>
+
+namespace plekton::apps {
+namespace {
+
+const std::array<dynamics::CsvColumn, 15> kColumns = {{{"time", "s"},
+                                                       {"kinetic", "J"},
+                                                       {"contact_elastic", "J"},
+                                                       {"bond_elastic", "J"},
+                                                       {"gravity", "J"},
+                                                       {"friction", "J"},
+                                                       {"damping", "J"},
+                                                       {"external_work", "J"},
+                                                       {"closure_error", "J"},
+                                                       {"grain_grain_contacts", ""},
+                                                       {"grain_membrane_contacts", ""},
+                                                       {"plane_contacts", ""},
+                                                       {"largest_overlap_ratio", ""},
+                                                       {"time_step", "s"},
+                                                       {"lost_grains", ""}}};
+
+}  // namespace
+
+History::History(const std::filesystem::path& folder)
+    : writer_(folder / "energy.csv", kColumns, dynamics::CsvWriter::Flush::on_request) {}
+
+void History::add(const Simulation& simulation, const LostGrains& lost) {
+  const dynamics::Energy energy = simulation.energy();
+  const contact::ContactCounts counts = simulation.contacts().counts();
+  writer_.add({simulation.time(), energy.kinetic, energy.contact_elastic, energy.bond_elastic,
+               energy.gravity, energy.friction, energy.damping, energy.external_work,
+               energy.closure_error(), static_cast<double>(counts.sphere_sphere),
+               static_cast<double>(counts.sphere_surface), static_cast<double>(counts.with_planes),
+               simulation.contacts().largest_overlap_ratio(), simulation.time_step(),
+               static_cast<double>(lost.total())});
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/run/frames.hpp"
+#include "apps/run/lost_grains.hpp"
+#include "dynamics/output/csv_writer.hpp"
+
+namespace plekton::apps {
+
+/// Writes energy.csv: time, the energies and their closure error, contacts, overlap, lost grains.
+class History {
+ public:
+  /// @throws dynamics::OutputError
+  explicit History(const std::filesystem::path& folder);
+
+  /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
+  /// dynamics::OutputError
+  void add(const Simulation& simulation, const LostGrains& lost);
+  void flush() { writer_.flush(); }
+  void close() { writer_.close(); }
+
+ private:
+  dynamics::CsvWriter writer_;
+};
+
+}  // namespace plekton::apps

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/lost_grains.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plekton::apps {
+namespace {
+
+using geometry::index_of;
+using geometry::Vec3;
+
+/// Six times the volume between a triangle and a point; its sign is the side of the point.
+double side_of(const Vec3& point, const std::array<Vec3, 3>& triangle) noexcept {
+  return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).dot(point - triangle[0]);
+}
+
+/// Whether the foot of a point in the plane of a triangle lies in it, with a margin so that none
+/// slips between two triangles.
+bool foot_is_inside(const Vec3& point, const std::array<Vec3, 3>& triangle) noexcept {
+  constexpr double kMargin = 1e-6;  // of the area
+  const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  const double least = -kMargin * normal.squaredNorm();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3& a = triangle[k];
+    const Vec3& b = triangle[(k + 1) % 3];
+    if (normal.dot((b - a).cross(point - a)) < least) return false;
+  }
+  return true;
+}
+
+double smallest_radius(const geometry::Elements& elements) noexcept {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const geometry::Sphere& sphere : elements.spheres)
+    smallest = std::min(smallest, sphere.radius);
+  return smallest;
+}
+
+geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positions x) {
+  geometry::Box bounds{Vec3::Constant(std::numeric_limits<double>::max()),
+                       Vec3::Constant(std::numeric_limits<double>::lowest())};
+  const auto include = [&](const auto& list) {
+    for (const auto& element : list) {
+      const geometry::Box box = geometry::box(element, x);
+      bounds.lower = bounds.lower.cwiseMin(box.lower);
+      bounds.upper = bounds.upper.cwiseMax(box.upper);
+    }
+  };
+  include(elements.spheres);
+  include(elements.cylinders);
+  include(elements.facets);
+  const double margin = (bounds.upper - bounds.lower).maxCoeff();
+  return {bounds.lower.array() - margin, bounds.upper.array() + margin};
+}
+
+}  // namespace
+
+bool passes_through(const Vec3& point0, const Vec3& point1, const std::array<Vec3, 3>& triangle0,
+                    const std::array<Vec3, 3>& triangle1) noexcept {
+  const double side0 = side_of(point0, triangle0);
+  const double side1 = side_of(point1, triangle1);
+  if ((side0 > 0.0) == (side1 > 0.0)) return false;
+  const double t = side0 / (side0 - side1);  // the sides differ, so this is in [0, 1]
+  std::array<Vec3, 3> triangle;
+  for (std::size_t k = 0; k < 3; ++k)
+    triangle[k] = triangle0[k] + t * (triangle1[k] - triangle0[k]);
+  return foot_is_inside(point0 + t * (point1 - point0), triangle);
+}
+
+LostGrains::LostGrains(const geometry::Elements& elements, geometry::Positions x)
+    : elements_(elements),
+      bounds_(start_bounds(elements, x)),
+      smallest_radius_(smallest_radius(elements)),
+      before_(x.begin(), x.end()),
+      is_through_(elements.spheres.size(), false),
+      is_out_(elements.spheres.size(), false) {}
+
+void LostGrains::look_for_passing(geometry::Positions x, const geometry::Neighbours& neighbours) {
+  const auto pairs = neighbours.sphere_structures();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::size_t sphere = static_cast<std::size_t>(pairs[i].a);
+    if (is_through_[sphere]) continue;
+    const std::size_t node = index_of(elements_.spheres[sphere].nodes[0]);
+    const geometry::NearCells near = neighbours.near_cells()[i];
+    for (const geometry::CellId cell : neighbours.cells().subspan(near.first, near.count)) {
+      if (index_of(cell) >= elements_.facets.size()) continue;  // a free cylinder
+      const geometry::Facet& facet = elements_.facets[index_of(cell)];
+      if (!passes_through(before_[node], x[node], geometry::core(facet, before_),
+                          geometry::core(facet, x)))
+        continue;
+      is_through_[sphere] = true;
+      ++through_;
+      break;
+    }
+  }
+}
+
+void LostGrains::look(geometry::Positions x, const geometry::Neighbours& neighbours) {
+  look_for_passing(x, neighbours);
+  for (std::size_t i = 0; i < elements_.spheres.size(); ++i) {
+    const Vec3& centre = x[index_of(elements_.spheres[i].nodes[0])];
+    const bool inside = (centre.array() >= bounds_.lower.array()).all() &&
+                        (centre.array() <= bounds_.upper.array()).all();
+    if (inside || is_out_[i]) continue;
+    is_out_[i] = true;
+    ++out_;
+  }
+  std::copy(x.begin(), x.end(), before_.begin());
+}
+
+std::int64_t LostGrains::steps_to_next_look(std::span<const Vec3> velocities,
+                                            double time_step) const {
+  double fastest_squared = 0.0;
+  for (const Vec3& velocity : velocities)
+    fastest_squared = std::max(fastest_squared, velocity.squaredNorm());
+  // A grain and a facet may move towards each other, so each gets half of half a radius.
+  const double steps = 0.25 * smallest_radius_ / (std::sqrt(fastest_squared) * time_step);
+  return steps < static_cast<double>(kMostSteps) ? std::max<std::int64_t>(1, std::int64_t(steps))
+                                                 : kMostSteps;
+}
+
+std::size_t LostGrains::total() const noexcept {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < is_out_.size(); ++i) count += is_out_[i] || is_through_[i] ? 1U : 0U;
+  return count;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace plekton::apps {
+namespace {
+
+constexpr std::chrono::milliseconds kPause{200};
+
+double seconds(Progress::Clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::ceil(std::clamp(seconds, 0.0, 1e9)));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+Progress::Progress(std::ostream& out, ProgressStyle style, double duration)
+    : out_(out), style_(style), duration_(duration) {}
+
+bool Progress::is_due(double time, Clock::time_point now) const {
+  if (style_ == ProgressStyle::one_line) return now - last_ >= kPause;
+  return static_cast<int>(10.0 * time / duration_) > tenths_;
+}
+
+std::string Progress::text(double time, std::int64_t steps, Clock::time_point now) {
+  const double since_last = seconds(now - last_);
+  const double rate =
+      since_last > 0.0 ? static_cast<double>(steps - last_steps_) / since_last : 0.0;
+  const double share = std::clamp(time / duration_, 0.0, 1.0);
+  // From the whole run so far: steadier than the rate of a moment.
+  const double left = share > 0.0 ? seconds(now - start_) * (1.0 - share) / share : 0.0;
+  return fmt::format("{:3.0f} %  {:.4g} of {:.4g} s  {:.0f} steps/s  {} left", 100.0 * share, time,
+                     duration_, rate, duration_text(left));
+}
+
+void Progress::update(double time, std::int64_t steps, Clock::time_point now) {
+  if (style_ == ProgressStyle::none) return;
+  if (!started_) {
+    started_ = true;
+    start_ = last_ = now;
+    last_steps_ = steps;
+    tenths_ = static_cast<int>(10.0 * time / duration_);
+    return;
+  }
+  if (!is_due(time, now)) return;
+  const std::string line = text(time, steps, now);
+  if (style_ == ProgressStyle::one_line) {
+    out_ << '\r' << line << std::string(width_ > line.size() ? width_ - line.size() : 0, ' ')
+         << std::flush;
+    width_ = line.size();
+  } else {
+    out_ << line << std::endl;
+  }
+  last_ = now;
+  last_steps_ = steps;
+  tenths_ = static_cast<int>(10.0 * time / duration_);
+}
+
+void Progress::finish() {
+  if (width_ > 0) out_ << std::endl;
+  width_ = 0;
+}
+
+}  // namespace plekton::apps

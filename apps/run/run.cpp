@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/run.hpp"
+
+#include "apps/run/history.hpp"
+#include "apps/run/lost_grains.hpp"
+#include "apps/run/output_folder.hpp"
+#include "apps/run/run_warnings.hpp"
+#include "dynamics/output/file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <system_error>
+#include <utility>
+
+namespace plekton::apps {
+namespace {
+
+constexpr std::int64_t kStepsBetweenLooks = 16;  // at the clock and for rest
+constexpr std::int64_t kStepsBetweenCriticalSteps =
+    512;                             // the critical step costs about as much as a few steps
+constexpr double kMostSteps = 1e12;  // years, and time still advances by full steps
+
+/// One run: what is written, and what is watched.
+class Run {
+ public:
+  Run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings)
+      : scenario_(scenario),
+        settings_(settings),
+        simulation_(*prepared.simulation),
+        lost_(simulation_.elements(), simulation_.state().position),
+        frames_(settings.out, scenario.output, simulation_, scenario.simulation.gravity),
+        history_(settings.out),
+        progress_(settings.progress, settings.style, scenario.simulation.duration) {
+    report_.warnings = prepared.built.warnings;
+    describe();
+  }
+
+  RunReport execute() {
+    try {
+      report_.status = loop();
+      write_last();
+    } catch (const std::exception& error) {
+      report_.status = RunStatus::failed;
+      report_.message = error.what();
+      progress_.finish();
+      write_report_if_possible();
+      throw;
+    }
+    progress_.finish();
+    complete_report();
+    for (std::string& warning : warnings_about(report_))
+      report_.warnings.push_back(std::move(warning));
+    write_run_report(settings_.out, report_);
+    return report_;
+  }
+
+ private:
+  RunStatus loop() {
+    watch_time_step();
+    watch_motion();
+    write_due(0.0);
+    while (simulation_.time() < scenario_.simulation.duration - 0.5 * simulation_.time_step()) {
+      simulation_.step();
+      const bool looks = simulation_.steps() % kStepsBetweenLooks == 0;
+      if (simulation_.steps() >= next_look_at_grains_) look_at_grains();
+      if (simulation_.steps() % kStepsBetweenCriticalSteps == 0) watch_time_step();
+      // Where a chosen step has just been looked at, so that it is seen as it was chosen.
+      if (simulation_.steps() % dynamics::kStepsBetweenLooks == 0) watch_motion();
+      write_due(simulation_.time());
+      if (looks) progress_.update(simulation_.time(), simulation_.steps());
+      if (settings_.is_interrupted()) return RunStatus::interrupted;
+      if (looks && is_at_rest()) return RunStatus::at_rest;
+    }
+    return RunStatus::finished;
+  }
+
+  void look_at_grains() {
+    lost_.look(simulation_.state().position, simulation_.contacts().neighbours());
+    next_look_at_grains_ =
+        simulation_.steps() +
+        lost_.steps_to_next_look(simulation_.state().velocity, simulation_.time_step());
+  }
+
+  /// Frames and rows whose time has come.
+  void write_due(double time) {
+    const double soon = 0.5 * simulation_.time_step();
+    if (time >= next_row_ - soon) {
+      history_.add(simulation_, lost_);
+      next_row_ = std::max(next_row_ + scenario_.output.history_interval, time);
+    }
+    if (time >= next_frame_ - soon) {
+      write_frame();
+      next_frame_ = std::max(next_frame_ + scenario_.output.interval, time);
+    }
+  }
+
+  void write_frame() {
+    frames_.write(simulation_);
+    history_.flush();
+    last_frame_step_ = simulation_.steps();
+  }
+
+  /// The state at the end, however it came about.
+  void write_last() {
+    look_at_grains();
+    if (last_frame_step_ != simulation_.steps()) {
+      history_.add(simulation_, lost_);
+      write_frame();
+    }
+    history_.close();
+  }
+
+  void watch_time_step() {
+    const double critical = simulation_.critical_step().dt;
+    const double ratio = simulation_.time_step() / critical;
+    if (ratio > dynamics::kLargestStep && report_.dt_over_critical <= dynamics::kLargestStep) {
+      report_.warnings.push_back(
+          fmt::format("from {:.4g} s on the time step is {:.2f} of the critical one ({:.4g} s); "
+                      "run with a smaller one",
+                      simulation_.time(), ratio, critical));
+    }
+    report_.dt_over_critical = std::max(report_.dt_over_critical, ratio);
+  }
+
+  void watch_motion() {
+    report_.largest_motion_ratio =
+        std::max(report_.largest_motion_ratio, simulation_.motion_ratio());
+  }
+
+  bool is_at_rest() {
+    if (!scenario_.stop) return false;
+    const bool is_slow = simulation_.energy().kinetic < scenario_.stop->kinetic_energy;
+    if (!is_slow) has_moved_ = true;
+    // Bodies that are let go start without kinetic energy; they are not at rest.
+    if (!scenario_.stop->after) return is_slow && has_moved_;
+    return is_slow && simulation_.time() >= *scenario_.stop->after;
+  }
+
+  void describe() {
+    report_.scenario = scenario_.file.string();
+    report_.overrides = settings_.overrides;
+    report_.duration = scenario_.simulation.duration;
+    report_.threads = scenario_.simulation.threads;
+    report_.seed = scenario_.simulation.seed;
+    report_.damping = scenario_.simulation.damping;
+    const geometry::Elements& elements = simulation_.elements();
+    report_.grains = elements.spheres.size();
+    report_.nodes = simulation_.state().size();
+    report_.facets = elements.facets.size();
+    report_.cylinders = elements.cylinders.size();
+    report_.bonds = simulation_.bonds().size();
+    report_.planes = simulation_.planes().size();
+  }
+
+  void complete_report() {
+    const contact::ContactCounts counts = simulation_.contacts().counts();
+    report_.contacts = counts.sphere_sphere + counts.sphere_surface + counts.with_planes;
+    report_.frames = frames_.count();
+    report_.simulated_time = simulation_.time();
+    report_.steps = simulation_.steps();
+    report_.time_step = simulation_.time_step();
+    report_.wall_time = std::chrono::duration<double>(Progress::Clock::now() - start_).count();
+    report_.largest_overlap_ratio = simulation_.largest_overlap_ratio();
+    report_.energy = simulation_.energy();
+    report_.energy_closure = report_.energy.closure();
+    report_.lost_grains = lost_.total();
+    report_.lost_through_membranes = lost_.through_membranes();
+    report_.lost_out_of_bounds = lost_.out_of_bounds();
+  }
+
+  /// After an error: its message matters more than that the report cannot be written either.
+  void write_report_if_possible() noexcept {
+    try {
+      complete_report();
+      write_run_report(settings_.out, report_);
+    } catch (const std::exception&) {
+    }
+  }
+
+  const Scenario& scenario_;
+  const RunSettings& settings_;
+  Simulation& simulation_;
+  LostGrains lost_;
+  Frames frames_;
+  History history_;
+  Progress progress_;
+  RunReport report_;
+  Progress::Clock::time_point start_ = Progress::Clock::now();
+  double next_row_ = 0.0;    // s
+  double next_frame_ = 0.0;  // s
+  std::int64_t last_frame_step_ = -1;
+  std::int64_t next_look_at_grains_ = 1;
+  bool has_moved_ = false;  // its kinetic energy was above that of [stop]
+};
+
+/// @throws InputError
+void require_sound_time_step(const SimulationSettings& settings, double critical) {
+  const double asked = *settings.time_step;
+  Problems problems;
+  if (!(asked < dynamics::kLargestStep * critical)) {
+    problems.add(settings.time_step_place,
+                 fmt::format("simulation.time_step: {:.6g} s is not below {} of the critical time "
+                             "step of this scene, which is {:.6g} s; "
+                             "choose less than {:.6g} s, or \"auto\" for {:.6g} s",
+                             asked, dynamics::kLargestStep, critical,
+                             dynamics::kLargestStep * critical, dynamics::kSafety * critical));
+  }
+  if (asked > settings.duration) {
+    problems.add(settings.time_step_place,
+                 fmt::format("simulation.time_step: {:.6g} s is longer than the duration of {:.6g} "
+                             "s; choose a shorter one, or \"auto\"",
+                             asked, settings.duration));
+  }
+  problems.throw_if_any();
+}
+
+/// @throws InputError
+void choose_time_step(const SimulationSettings& settings, Simulation& simulation) {
+  double chosen = simulation.time_step();
+  if (settings.time_step) {
+    require_sound_time_step(settings, simulation.critical_step().dt);
+    chosen = *settings.time_step;
+  } else if (!std::isfinite(chosen)) {
+    throw InputError(
+        "nothing in this scene moves freely, so no time step can be chosen; give "
+        "simulation.time_step");
+  } else {
+    chosen = std::min(chosen, settings.duration);
+  }
+  if (!(settings.duration <= kMostSteps * chosen)) {
+    throw InputError(fmt::format(
+        "simulation.duration: {:.6g} s are {:.3g} steps of {:.6g} s, above the {:.0e} that a run "
+        "may have; ask for a shorter duration or longer steps (softer, larger and heavier bodies "
+        "allow them)",
+        settings.duration, settings.duration / chosen, chosen, kMostSteps));
+  }
+  if (chosen != simulation.time_step()) simulation.set_time_step(chosen);
+}
+
+}  // namespace
+
+PreparedRun prepare_run(const Scenario& scenario) {
+  PreparedRun prepared;
+  prepared.built = build_scene(scenario);
+  dynamics::SimulationOptions options;
+  options.motion = {scenario.simulation.gravity, scenario.simulation.damping,
+                    scenario.simulation.damp_gravity};
+  options.skin = scenario.simulation.skin;
+  options.threads = scenario.simulation.threads;
+  prepared.simulation = std::make_unique<Simulation>(std::move(prepared.built.scene), options);
+  prepared.duration = scenario.simulation.duration;
+  choose_time_step(scenario.simulation, *prepared.simulation);
+  return prepared;
+}
+
+RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings) {
+  make_output_folder(settings.out);
+  const OutputFolderLock lock(settings.out);
+  std::error_code ignored;
+  std::filesystem::remove(settings.out / "run.json", ignored);
+  return Run(scenario, prepared, settings).execute();
+}
+
+}  // namespace plekton::apps

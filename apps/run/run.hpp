@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/run/frames.hpp"
+#include "apps/run/progress.hpp"
+#include "apps/run/run_report.hpp"
+#include "apps/scenario/scenario.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace plekton::apps {
+
+/// A simulation that is ready to run, and what was built for it.
+struct PreparedRun {
+  BuiltScene built;  ///< its scene has moved into the simulation
+  std::unique_ptr<Simulation> simulation;
+  double duration = 0.0;  ///< s
+};
+
+/// Builds the scene of a scenario and a simulation of it.
+/// An automatic time step is not longer than the duration.
+/// @throws InputError also for a time step that is not below kLargestStep of the critical one,
+/// which it names, or longer than the duration, and for more steps than a run can take.
+PreparedRun prepare_run(const Scenario& scenario);
+
+/// How and where to run.
+struct RunSettings {
+  std::filesystem::path out;           ///< folder for all that is written
+  std::vector<std::string> overrides;  ///< for the report
+  std::ostream& progress;
+  ProgressStyle style;
+  std::function<bool()> is_interrupted;  ///< asked after every step
+};
+
+/// Runs a prepared simulation to its end, or until it is at rest or interrupted, and writes frames,
+/// energy.csv and run.json.
+///
+/// run.json appears last, also after an interruption and after an error as far as it can be
+/// written; before the run an old one is removed. All other files are complete at any moment. With
+/// an automatic time step the critical step is looked at again and again and the step made shorter
+/// where it has fallen.
+/// @throws dynamics::OutputError if something cannot be written, dynamics::Diverged
+RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings);
+
+}  // namespace plekton::apps

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/run_report.hpp"
+
+#include "dynamics/output/file.hpp"
+#include "geometry/version.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+
+namespace plekton::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json options_of(const RunReport& report) {
+  return {{"scenario", report.scenario}, {"set", report.overrides}, {"duration_s", report.duration},
+          {"threads", report.threads},   {"seed", report.seed},     {"damping", report.damping}};
+}
+
+Json counts_of(const RunReport& report) {
+  return {{"grains", report.grains},       {"nodes", report.nodes},  {"facets", report.facets},
+          {"cylinders", report.cylinders}, {"bonds", report.bonds},  {"planes", report.planes},
+          {"contacts", report.contacts},   {"frames", report.frames}};
+}
+
+Json timing_of(const RunReport& report) {
+  const double steps = static_cast<double>(report.steps);
+  return {{"simulated_time_s", report.simulated_time},
+          {"steps", report.steps},
+          {"time_step_s", report.time_step},
+          {"wall_time_s", report.wall_time},
+          {"ms_per_step", report.steps > 0 ? 1e3 * report.wall_time / steps : 0.0}};
+}
+
+Json energy_of(const dynamics::Energy& energy) {
+  return {{"kinetic_J", energy.kinetic},
+          {"contact_elastic_J", energy.contact_elastic},
+          {"bond_elastic_J", energy.bond_elastic},
+          {"gravity_J", energy.gravity},
+          {"friction_J", energy.friction},
+          {"damping_J", energy.damping},
+          {"external_work_J", energy.external_work},
+          {"initial_J", energy.initial},
+          {"closure_error_J", energy.closure_error()},
+          {"turnover_J", energy.turnover()}};
+}
+
+}  // namespace
+
+std::string_view name_of(RunStatus status) noexcept {
+  constexpr std::array<std::string_view, 4> kNames = {"finished", "at_rest", "interrupted",
+                                                      "failed"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+std::string to_json(const RunReport& report) {
+  Json json = {{"plekton", kVersion},
+               {"status", name_of(report.status)},
+               {"interrupted", report.status == RunStatus::interrupted}};
+  if (!report.message.empty()) json["message"] = report.message;
+  json["options"] = options_of(report);
+  json["counts"] = counts_of(report);
+  json["timing"] = timing_of(report);
+  json["largest_overlap_ratio"] = report.largest_overlap_ratio;
+  json["dt_over_critical"] = report.dt_over_critical;
+  json["largest_motion_ratio"] = report.largest_motion_ratio;
+  json["energy_closure"] = report.energy_closure;
+  json["energy"] = energy_of(report.energy);
+  json["lost_grains"] = report.lost_grains;
+  json["lost"] = {{"through_membranes", report.lost_through_membranes},
+                  {"out_of_bounds", report.lost_out_of_bounds}};
+  json["warnings"] = report.warnings;
+  // A path need not be UTF-8; what is not becomes a replacement character.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+void write_run_report(const std::filesystem::path& folder, const RunReport& report) {
+  dynamics::OutputFile file(folder / "run.json");
+  file.write(to_json(report));
+  file.commit();
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scene/build_scene.hpp"
+#include "dynamics/energy.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plekton::apps {
+
+/// How a run ended.
+enum class RunStatus : std::uint8_t {
+  finished,     ///< the duration is over
+  at_rest,      ///< the criterion of [stop] was met
+  interrupted,  ///< by a signal
+  failed        ///< by an error; see the message
+};
+std::string_view name_of(RunStatus status) noexcept;
+
+/// What a run was asked to do and what came of it: the content of run.json.
+struct RunReport {
+  RunStatus status = RunStatus::finished;
+  std::string message;  ///< of the error, if failed
+
+  std::string scenario;
+  std::vector<std::string> overrides;
+  double duration = 0.0;  ///< s, asked for
+  int threads = 1;
+  std::uint64_t seed = 0;
+  double damping = 0.0;
+
+  std::size_t grains = 0;
+  std::size_t nodes = 0;
+  std::size_t facets = 0;
+  std::size_t cylinders = 0;
+  std::size_t bonds = 0;
+  std::size_t planes = 0;
+  std::size_t contacts = 0;  ///< at the end
+  std::size_t frames = 0;
+
+  double simulated_time = 0.0;  ///< s
+  std::int64_t steps = 0;
+  double time_step = 0.0;  ///< s, at the end
+  double wall_time = 0.0;  ///< s
+
+  double largest_overlap_ratio = 0.0;
+  double dt_over_critical = 0.0;      ///< the largest at any look
+  double largest_motion_ratio = 0.0;  ///< likewise: motion in a step over the smallest radius
+  dynamics::Energy energy;            ///< at the end
+  /// Closure error over the energy that went through; 0 where that is no more than rounding.
+  double energy_closure = 0.0;
+  std::size_t lost_grains = 0;
+  std::size_t lost_through_membranes = 0;
+  std::size_t lost_out_of_bounds = 0;
+  std::vector<std::string> warnings;
+};
+
+/// The report as a JSON object.
+std::string to_json(const RunReport& report);
+
+/// Writes run.json into a folder, complete or not at all. @throws dynamics::OutputError
+void write_run_report(const std::filesystem::path& folder, const RunReport& report);
+
+}  // namespace plekton::apps

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/run_warnings.hpp"
+
+#include <fmt/format.h>
+
+namespace plekton::apps {
+
+std::vector<std::string> warnings_about(const RunReport& report) {
+  std::vector<std::string> warnings;
+  if (report.largest_overlap_ratio > kDeepOverlap) {
+    warnings.push_back(fmt::format(
+        "the largest overlap is {:.3g} % of a radius, above {:.0f} %: too deep for a contact, and "
+        "grains may pass through what they press on; raise young_modulus of the materials, or slow "
+        "down what moves fast",
+        100.0 * report.largest_overlap_ratio, 100.0 * kDeepOverlap));
+  }
+  if (report.largest_motion_ratio > kFastMotion) {
+    warnings.push_back(fmt::format(
+        "the fastest node moves by {:.3g} % of the smallest radius in one step, above {:.0f} %: "
+        "contacts are seen late; run with simulation.time_step \"auto\" or {:.2g} of this one",
+        100.0 * report.largest_motion_ratio, 100.0 * dynamics::kLargestMotion,
+        dynamics::kLargestMotion / report.largest_motion_ratio));
+  }
+  if (report.energy_closure > kPoorClosure) {
+    warnings.push_back(
+        fmt::format("the energy balance is off by {:.2g} % of what went through, above {:.0f} %; "
+                    "run with a smaller simulation.time_step",
+                    100.0 * report.energy_closure, 100.0 * kPoorClosure));
+  }
+  if (report.lost_grains > 0) {
+    warnings.push_back(
+        fmt::format("{} grains are lost: {} passed through a membrane (smaller time steps or "
+                    "stiffer contacts hold them), {} left the box around everything at the start, "
+                    "grown on every side by its longest side (a plane or a membrane can stop them)",
+                    report.lost_grains, report.lost_through_membranes, report.lost_out_of_bounds));
+  }
+  return warnings;
+}
+
+}  // namespace plekton::apps

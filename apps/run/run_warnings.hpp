@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/run/run_report.hpp"
+#include "dynamics/motion_step.hpp"
+
+#include <string>
+#include <vector>
+
+namespace plekton::apps {
+
+/// Overlap over radius above which a contact is no small deformation any more.
+inline constexpr double kDeepOverlap = 0.05;
+/// Closure error over the energy that went through, above which the motion cannot be trusted.
+inline constexpr double kPoorClosure = 0.01;
+/// Motion in a step over the smallest radius above which contacts are seen late. A chosen step
+/// comes to kLargestMotion itself but for rounding.
+inline constexpr double kFastMotion = 1.001 * dynamics::kLargestMotion;
+
+/// What in a report makes its results doubtful, each with what to do about it: deep overlaps,
+/// steps too long for the motion, energy that does not add up, lost grains.
+std::vector<std::string> warnings_about(const RunReport& report);
+
+}  // namespace plekton::apps

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/read_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace plekton::apps {
+namespace {
+
+constexpr std::int64_t kMostGrains = 100'000'000;
+constexpr double kWholeTolerance = 1e-9;  // of a passing share: what sums of percentages are off by
+
+/// The rows of a sieve table; empty after a problem.
+std::vector<Sieve> read_sieves(Section& section) {
+  std::vector<Sieve> sieves;
+  bool broken = false;
+  for (Section& row : section.tables("sieves")) {
+    const Sieve sieve{row.quantity("sieve", {kLength, kPositive}),
+                      row.quantity("passing", {kNumber, kFraction})};
+    row.finish();
+    const auto complain = [&](std::string_view key, const std::string& what) {
+      row.complain(key, what);
+      broken = true;
+    };
+    if (std::isnan(sieve.size) || std::isnan(sieve.passing)) broken = true;
+    if (!sieves.empty() && sieve.size <= sieves.back().size) {
+      complain("sieve",
+               fmt::format(
+                   "{} m is not above {} m of the row before; list the sieves from small to large",
+                   sieve.size, sieves.back().size));
+    }
+    if (!sieves.empty() && sieve.passing < sieves.back().passing) {
+      complain("passing",
+               fmt::format("{} is below {} of the row before; a larger sieve lets no less pass",
+                           sieve.passing, sieves.back().passing));
+    }
+    sieves.push_back(sieve);
+  }
+  if (broken) return {};
+  if (sieves.size() < 2) {
+    section.complain("sieves", fmt::format("got {} rows; expected at least two", sieves.size()));
+    return {};
+  }
+  if (sieves.front().passing != 0.0 || std::abs(sieves.back().passing - 1.0) > kWholeTolerance) {
+    section.complain("sieves", fmt::format("passing goes from {} to {}; expected from 0 (nothing "
+                                           "is smaller) to 1 (nothing is larger)",
+                                           sieves.front().passing, sieves.back().passing));
+    return {};
+  }
+  return sieves;
+}
+
+/// From the keys radius, or sieves and passing_by.
+SizeCurve read_sizes(Section& section) {
+  constexpr std::array<std::string_view, 2> kWords = {"mass", "number"};
+  const bool has_radius = section.has("radius");
+  const bool has_sieves = section.has("sieves");
+  const bool has_passing_by = section.has("passing_by");
+  if (has_radius == has_sieves) {
+    section.complain(has_radius ? "radius" : "sieves",
+                     fmt::format("got {} of radius and sieves; expected exactly one of them",
+                                 has_radius ? "both" : "none"));
+  }
+  double radius = 1.0;
+  if (has_radius) radius = section.quantity("radius", {kLength, kPositive});
+  if (has_passing_by && !has_sieves)
+    section.complain("passing_by", "goes with sieves only; there are none");
+  const auto by = static_cast<PassingBy>(section.choice("passing_by", kWords, 0));
+  if (!has_sieves) return SizeCurve(2.0 * radius);
+  const std::vector<Sieve> sieves = read_sieves(section);
+  return sieves.empty() ? SizeCurve(1.0) : SizeCurve(sieves, by);
+}
+
+/// From one of the keys count, mass and volume.
+std::variant<std::size_t, double> read_amount(Section& section, std::optional<double> density) {
+  constexpr std::array<std::string_view, 3> kKeys = {"count", "mass", "volume"};
+  const auto given = std::count_if(kKeys.begin(), kKeys.end(),
+                                   [&](std::string_view key) { return section.has(key); });
+  if (given != 1) {
+    section.complain(
+        "count", fmt::format("got {} of {}; expected exactly one of them", given, listed(kKeys)));
+    return std::size_t{1};
+  }
+  if (section.has("count"))
+    return static_cast<std::size_t>(section.integer("count", 1, kMostGrains));
+  if (section.has("volume")) return section.quantity("volume", {kVolume, kPositive});
+  return section.quantity("mass", {kMass, kPositive}) / density.value_or(1.0);
+}
+
+}  // namespace
+
+GrainSettings read_grains(Section section, const Known& known, std::size_t number) {
+  GrainSettings grains;
+  grains.name = section.text("name", fmt::format("grains {}", number));
+  grains.place = section.place();
+  std::optional<double> density;
+  if (const auto material = read_material_of(section, known)) {
+    grains.material = *material;
+    density = known.materials[*material].density;
+    if (!density) {
+      section.complain("material", fmt::format("material \"{}\" has no density, which grains need",
+                                               known.materials[*material].name));
+    }
+  }
+  grains.sizes = read_sizes(section);
+  grains.amount = read_amount(section, density);
+  if (const auto box = section.table("box")) {
+    grains.box = read_box(*box);
+  } else if (!section.has("box")) {
+    section.complain("box",
+                     "missing; expected the corners of the space for the grains, box = { min = "
+                     "[...], max = [...] }");
+  }
+  grains.velocity = section.vector("velocity", {kVelocity}, grains.velocity);
+  const auto seed = section.integer("seed", 0, std::numeric_limits<std::int64_t>::max(),
+                                    static_cast<std::int64_t>(known.seed));
+  grains.seed = static_cast<std::uint64_t>(seed) + (section.has("seed") ? 0 : number);
+  section.finish();
+  return grains;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/read_sections.hpp"
+
+#include "apps/scenario/closest_word.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace plekton::apps {
+namespace {
+
+constexpr Quantity kAnyNumber{kNumber};
+constexpr Range kFrictionAngle{0.0, 0.5 * std::numbers::pi, true, false,
+                               " from 0 deg to below 90 deg"};
+constexpr std::int64_t kLargestSeed = std::numeric_limits<std::int64_t>::max();
+constexpr int kMostThreads = 1024;
+
+}  // namespace
+
+SimulationSettings read_simulation(Section section) {
+  SimulationSettings settings;
+  settings.duration = section.quantity("duration", {kTime, kPositive});
+  settings.time_step = section.quantity_unless("time_step", "auto", {kTime, kPositive});
+  settings.time_step_place = section.place_of("time_step");
+  settings.gravity = section.vector("gravity", {kAcceleration}, settings.gravity);
+  settings.damping = section.quantity("damping", {kNumber, kBelowOne}, settings.damping);
+  settings.damp_gravity = section.truth("damp_gravity", settings.damp_gravity);
+  settings.skin = section.quantity_unless("skin", "auto", {kLength, kPositive}).value_or(0.0);
+  settings.seed = static_cast<std::uint64_t>(section.integer("seed", 0, kLargestSeed, 1));
+  settings.threads = static_cast<int>(section.integer("threads", 1, kMostThreads, 1));
+  section.finish();
+  return settings;
+}
+
+MaterialSettings read_material(const std::string& name, Section section) {
+  MaterialSettings material;
+  material.name = name;
+  if (section.has("density")) material.density = section.quantity("density", {kDensity, kPositive});
+  material.young_modulus = section.quantity("young_modulus", {kPressure, kPositive});
+  material.stiffness_ratio =
+      section.quantity("stiffness_ratio", {kNumber, kNotNegative}, material.stiffness_ratio);
+  material.friction_angle = section.quantity("friction_angle", {kAngle, kFrictionAngle});
+  section.finish();
+  return material;
+}
+
+std::optional<std::size_t> read_material_of(Section& section, const Known& known) {
+  const std::string name = section.text("material");
+  if (name.empty()) return std::nullopt;
+  std::vector<std::string_view> names;
+  for (const MaterialSettings& material : known.materials) {
+    if (material.name == name) return names.size();
+    names.push_back(material.name);
+  }
+  const std::string closest = closest_word(name, names);
+  const std::string hint = !closest.empty() ? fmt::format("did you mean \"{}\"?", closest)
+                           : names.empty()
+                               ? fmt::format("describe it in a table [materials.{}]", name)
+                               : "the materials are " + listed(names);
+  section.complain("material", fmt::format("there is no material \"{}\"; {}", name, hint));
+  return std::nullopt;
+}
+
+geometry::Box read_box(Section section) {
+  const Vec3 lower = section.vector("min", {kLength});
+  const Vec3 upper = section.vector("max", {kLength});
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::isinf(upper[axis] - lower[axis])) {
+      section.complain("max", fmt::format("component {} is {} m, further from {} m of min than any "
+                                          "double can hold; expected a smaller box",
+                                          "xyz"[axis], upper[axis], lower[axis]));
+    }
+    if (!(upper[axis] <= lower[axis])) continue;
+    section.complain(
+        "max",
+        fmt::format("component {} is {} m, not above {} m of min; expected the larger corner",
+                    "xyz"[axis], upper[axis], lower[axis]));
+  }
+  section.finish();
+  return {lower, upper};
+}
+
+PlaneSettings read_plane(Section section, const Known& known) {
+  PlaneSettings plane;
+  plane.name = section.text("name", "");
+  plane.point = section.vector("point", {kLength});
+  plane.normal = section.vector("normal", kAnyNumber, plane.normal);
+  plane.velocity = section.vector("velocity", {kVelocity}, plane.velocity);
+  plane.material = read_material_of(section, known).value_or(0);
+  const double length = plane.normal.stableNorm();
+  if (length == 0.0)
+    section.complain(
+        "normal", "got a vector of no length; expected the direction into the space of the bodies");
+  if (length > 0.0) plane.normal.stableNormalize();
+  section.finish();
+  return plane;
+}
+
+OutputSettings read_output(Section section, double duration) {
+  OutputSettings output;
+  output.interval = section.quantity("interval", {kTime, kPositive}, duration / 100.0);
+  output.history_interval =
+      section.quantity("history_interval", {kTime, kPositive}, duration / 1000.0);
+  output.grains = section.truth("grains", output.grains);
+  output.membranes = section.truth("membranes", output.membranes);
+  output.contacts = section.truth("contacts", output.contacts);
+  section.finish();
+  return output;
+}
+
+StopSettings read_stop(Section section) {
+  StopSettings stop;
+  stop.kinetic_energy = section.quantity("kinetic_energy", {kEnergy, kPositive});
+  if (section.has("after")) stop.after = section.quantity("after", {kTime, kNotNegative});
+  section.finish();
+  return stop;
+}
+
+}  // namespace plekton::apps

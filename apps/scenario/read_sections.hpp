@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scenario/scenario.hpp"
+#include "apps/scenario/section.hpp"
+
+#include <span>
+#include <string>
+
+/// One function for each kind of table of a scenario. Each reads all its keys and finishes the
+/// section.
+namespace plekton::apps {
+
+/// What tables refer to.
+struct Known {
+  const std::vector<MaterialSettings>& materials;
+  std::filesystem::path folder;  ///< of the scenario
+  std::uint64_t seed;            ///< of the scenario
+};
+
+SimulationSettings read_simulation(Section section);
+MaterialSettings read_material(const std::string& name, Section section);
+MembraneSettings read_membrane(Section section, const Known& known);
+/// @param number  Position among the tables: grains without a seed of their own differ by it.
+GrainSettings read_grains(Section section, const Known& known, std::size_t number);
+PlaneSettings read_plane(Section section, const Known& known);
+/// @param duration  s, from which the intervals have their defaults
+OutputSettings read_output(Section section, double duration);
+StopSettings read_stop(Section section);
+
+/// The material that the key `material` names; nothing after a problem.
+std::optional<std::size_t> read_material_of(Section& section, const Known& known);
+/// A box from the keys min and max of a table.
+geometry::Box read_box(Section section);
+
+}  // namespace plekton::apps

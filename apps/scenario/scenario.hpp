@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/grains/size_curve.hpp"
+#include "apps/scenario/problems.hpp"
+#include "geometry/box.hpp"
+#include "geometry/types.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// A scenario as data, all values in SI units. apps/scenario.md documents every key, its unit and
+/// its default.
+namespace plekton::apps {
+
+using geometry::Vec3;
+
+struct SimulationSettings {
+  double duration = 0.0;            ///< s
+  std::optional<double> time_step;  ///< s; nothing: chosen from the stiffness
+  Place time_step_place;
+  Vec3 gravity{0.0, 0.0, -9.81};  ///< m/s²
+  double damping = 0.0;           ///< numerical, in [0, 1)
+  bool damp_gravity = true;
+  double skin = 0.0;  ///< m; 0: chosen
+  std::uint64_t seed = 1;
+  int threads = 1;
+};
+
+struct MaterialSettings {
+  std::string name;
+  std::optional<double> density;  ///< kg/m³
+  double young_modulus = 0.0;     ///< Pa
+  double stiffness_ratio = 0.3;   ///< tangential over normal stiffness
+  double friction_angle = 0.0;    ///< rad
+};
+
+/// Where a mesh is put: scaled, then turned, then moved.
+struct Placement {
+  double scale = 1.0;
+  Vec3 axis{0.0, 0.0, 1.0};
+  double angle = 0.0;               ///< rad
+  Vec3 translation = Vec3::Zero();  ///< m
+};
+
+/// Which nodes of a membrane are held.
+enum class HoldWhich : std::uint8_t { none, rim, box, all };
+
+struct HoldSettings {
+  HoldWhich which = HoldWhich::none;
+  geometry::Box box{Vec3::Zero(), Vec3::Zero()};  ///< m, for HoldWhich::box
+  bool rotation = false;                          ///< rotations are held too
+  Vec3 velocity = Vec3::Zero();                   ///< m/s
+};
+
+/// How the mass of a membrane goes to its nodes: half of each edge to its ends, or a third of each
+/// facet to its corners.
+enum class MassMode : std::uint8_t { edge, area };
+
+struct MembraneSettings {
+  std::string name;
+  std::filesystem::path mesh;  ///< relative to the current folder
+  Place mesh_place;
+  double weld = 0.0;  ///< m, after scaling
+  Placement placement;
+  double thickness = 0.0;  ///< m
+  std::size_t material = 0;
+  std::optional<double>
+      young_modulus;             ///< Pa, of the beams along the edges; else from sheet_stiffness
+  double sheet_stiffness = 0.0;  ///< N/m, of the membrane as a sheet
+  double poisson_ratio = 0.3;    ///< of the beams, for their torsion
+  MassMode mass_mode = MassMode::edge;
+  std::optional<double>
+      density;  ///< kg/m³, of the beams (edge) or the plate (area); else from areal_mass
+  double areal_mass = 0.0;  ///< kg/m²
+  HoldSettings hold;
+};
+
+struct GrainSettings {
+  std::string name;
+  Place place;
+  std::size_t material = 0;
+  SizeCurve sizes{1.0};
+  std::variant<std::size_t, double> amount{
+      std::size_t{0}};                            ///< count, or volume of the solids (m³)
+  geometry::Box box{Vec3::Zero(), Vec3::Zero()};  ///< m, holds the grains wholly
+  Vec3 velocity = Vec3::Zero();                   ///< m/s
+  std::uint64_t seed = 0;
+};
+
+struct PlaneSettings {
+  std::string name;
+  Vec3 point = Vec3::Zero();     ///< m
+  Vec3 normal{0.0, 0.0, 1.0};    ///< unit, into the space of the bodies
+  Vec3 velocity = Vec3::Zero();  ///< m/s
+  std::size_t material = 0;
+};
+
+struct OutputSettings {
+  double interval = 0.0;          ///< s, between frames
+  double history_interval = 0.0;  ///< s, between rows of energy.csv
+  bool grains = true;
+  bool membranes = true;
+  bool contacts = true;
+};
+
+/// When to stop before the duration is over.
+struct StopSettings {
+  double kinetic_energy = 0.0;  ///< J; the run stops when the kinetic energy is below
+  std::optional<double> after;  ///< s, not before this time; nothing: once it was above
+};
+
+struct Scenario {
+  std::filesystem::path file;
+  SimulationSettings simulation;
+  std::vector<MaterialSettings> materials;
+  std::vector<MembraneSettings> membranes;
+  std::vector<GrainSettings> grains;
+  std::vector<PlaneSettings> planes;
+  OutputSettings output;
+  std::optional<StopSettings> stop;
+};
+
+}  // namespace plekton::apps

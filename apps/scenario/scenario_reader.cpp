@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/scenario_reader.hpp"
+
+#include "apps/scenario/overrides.hpp"
+#include "apps/scenario/read_sections.hpp"
+#include "apps/scenario/toml_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Complains about a name that an earlier table of the same kind has.
+template <class Settings>
+void require_new_name(const std::vector<Settings>& earlier, const Settings& added,
+                      Section& section) {
+  const bool taken = std::any_of(earlier.begin(), earlier.end(),
+                                 [&](const Settings& s) { return s.name == added.name; });
+  if (taken && !added.name.empty())
+    section.complain("name",
+                     fmt::format("\"{}\" has this name already; names must differ", added.name));
+}
+
+void read_bodies(Section& root, Scenario& scenario) {
+  const Known known{scenario.materials, scenario.file.parent_path(), scenario.simulation.seed};
+  for (Section& section : root.tables("membranes")) {
+    MembraneSettings membrane = read_membrane(section, known);
+    require_new_name(scenario.membranes, membrane, section);
+    scenario.membranes.push_back(std::move(membrane));
+  }
+  for (Section& section : root.tables("grains")) {
+    GrainSettings grains = read_grains(section, known, scenario.grains.size());
+    require_new_name(scenario.grains, grains, section);
+    scenario.grains.push_back(std::move(grains));
+  }
+  for (Section& section : root.tables("planes")) {
+    PlaneSettings plane = read_plane(section, known);
+    require_new_name(scenario.planes, plane, section);
+    scenario.planes.push_back(std::move(plane));
+  }
+}
+
+Scenario scenario_of(const Table& table, const fs::path& path) {
+  Problems problems;
+  Scenario scenario;
+  scenario.file = path;
+  Section root(table, {path.string(), 1, 1}, "", problems);
+  const Table none;
+
+  if (const auto section = root.table("simulation")) {
+    scenario.simulation = read_simulation(*section);
+  } else if (table.find("simulation") == nullptr) {
+    problems.add(root.place(),
+                 "simulation: missing; a scenario needs a table [simulation] with a duration");
+  }
+  if (auto section = root.table("materials")) {
+    for (auto& [name, material] : section->all_tables())
+      scenario.materials.push_back(read_material(name, material));
+  }
+  read_bodies(root, scenario);
+  const auto output = root.table("output");
+  scenario.output = read_output(output.value_or(Section(none, root.place(), "output", problems)),
+                                scenario.simulation.duration);
+  if (const auto section = root.table("stop")) scenario.stop = read_stop(*section);
+  root.finish();
+  if (problems.empty() && scenario.membranes.empty() && scenario.grains.empty()) {
+    problems.add(root.place(),
+                 "nothing to simulate; expected at least one table [[grains]] or [[membranes]]");
+  }
+  problems.throw_if_any();
+  return scenario;
+}
+
+}  // namespace
+
+Scenario parse_scenario(std::string_view text, const fs::path& path,
+                        std::span<const std::string> overrides) {
+  Table table = parse_toml(text, path.string());
+  apply_overrides(table, overrides);
+  return scenario_of(table, path);
+}
+
+Scenario read_scenario(const fs::path& path, std::span<const std::string> overrides) {
+  Table table = read_toml_file(path);
+  apply_overrides(table, overrides);
+  return scenario_of(table, path);
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scenario/scenario.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace plekton::apps {
+
+/// Reads a scenario file.
+/// @param overrides  "path=value" each, applied before anything is checked (overrides.hpp).
+/// @throws InputError listing every problem of the file, each with its place, what was found, what
+/// was expected, and a suggestion:
+///         keys that are unknown or missing, wrong kinds and units, values out of range, materials
+///         and mesh files that do not exist, sieve tables that do not rise.
+Scenario read_scenario(const std::filesystem::path& path,
+                       std::span<const std::string> overrides = {});
+
+/// The same from memory.
+/// @param path  What messages call it; mesh files are relative to its folder.
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& path,
+                        std::span<const std::string> overrides = {});
+
+}  // namespace plekton::apps

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/section.hpp"
+
+#include "apps/scenario/closest_word.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace plekton::apps {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::string suggestion(std::string_view written, std::span<const std::string_view> known) {
+  const std::string closest = closest_word(written, known);
+  return closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest);
+}
+
+/// The number of a value that is one, without its unit.
+std::optional<double> plain_number(const Value& value) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value.data))
+    return static_cast<double>(*integer);
+  if (const auto* number = std::get_if<double>(&value.data)) return *number;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string listed(std::span<const std::string_view> words) {
+  return words.empty() ? "" : fmt::format("\"{}\"", fmt::join(words, "\", \""));
+}
+
+Section::Section(const Table& table, Place place, std::string path, Problems& problems)
+    : table_(&table), place_(std::move(place)), path_(std::move(path)), problems_(&problems) {}
+
+const Place& Section::place_of(std::string_view key) const {
+  const Entry* entry = table_->find(key);
+  return entry ? entry->value.place : place_;
+}
+
+std::string Section::path_of(std::string_view key) const {
+  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+}
+
+bool Section::has(std::string_view key) {
+  return find(key) != nullptr;
+}
+
+bool Section::is_table(std::string_view key) const {
+  const Entry* entry = table_->find(key);
+  return entry && std::holds_alternative<Table>(entry->value.data);
+}
+
+const Value* Section::find(std::string_view key) {
+  if (std::find(announced_.begin(), announced_.end(), key) == announced_.end())
+    announced_.emplace_back(key);
+  const Entry* entry = table_->find(key);
+  return entry ? &entry->value : nullptr;
+}
+
+const Value* Section::require(std::string_view key) {
+  const Value* value = find(key);
+  if (value == nullptr)
+    problems_->add(place_, fmt::format("{}: missing; this key is required", path_of(key)));
+  return value;
+}
+
+void Section::complain(std::string_view key, const std::string& what) {
+  problems_->add(place_of(key), fmt::format("{}: {}", path_of(key), what));
+}
+
+double Section::read_quantity(const Value& value, const std::string& path,
+                              const Quantity& expected) {
+  const auto problem = [&](const std::string& what) {
+    problems_->add(value.place, fmt::format("{}: {}", path, what));
+    return kNaN;
+  };
+  const Dimension& dimension = expected.dimension;
+  const std::optional<double> plain = plain_number(value);
+  double number = plain.value_or(kNaN);
+  if (const auto* text = std::get_if<std::string>(&value.data)) {
+    try {
+      number = parse_quantity(*text, dimension);
+    } catch (const UnitError& error) {
+      return problem(error.what());
+    }
+  } else if (!plain) {
+    return problem(
+        fmt::format("got {}; expected {} ({})", shown(value), dimension.name, dimension.units));
+  }
+  if (!std::isfinite(number))
+    return problem(fmt::format("got {}; expected {}, finite", shown(value), dimension.name));
+  if (expected.range.holds(number)) return number;
+  const bool degrees =
+      plain &&
+      dimension.powers == kAngle.powers;  // a number alone is in rad, seldom what was meant
+  return problem(fmt::format("got {}{}; expected {}{}{}", shown(value), degrees ? " rad" : "",
+                             dimension.name, expected.range.text,
+                             degrees ? fmt::format("; did you mean \"{} deg\"?", number) : ""));
+}
+
+double Section::quantity(std::string_view key, const Quantity& expected) {
+  const Value* value = require(key);
+  return value ? read_quantity(*value, path_of(key), expected) : kNaN;
+}
+
+double Section::quantity(std::string_view key, const Quantity& expected, double fallback) {
+  const Value* value = find(key);
+  return value ? read_quantity(*value, path_of(key), expected) : fallback;
+}
+
+std::optional<double> Section::quantity_unless(std::string_view key, std::string_view word,
+                                               const Quantity& expected) {
+  const Value* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  const auto* text = std::get_if<std::string>(&value->data);
+  if (text && *text == word) return std::nullopt;
+  return read_quantity(*value, path_of(key), expected);
+}
+
+geometry::Vec3 Section::read_vector(const Value& value, const std::string& path,
+                                    const Quantity& expected) {
+  const auto* array = std::get_if<Array>(&value.data);
+  if (array == nullptr || array->size() != 3) {
+    problems_->add(value.place,
+                   fmt::format("{}: got {}; expected a list of three components, x, y and z", path,
+                               shown(value)));
+    return geometry::Vec3::Constant(kNaN);
+  }
+  geometry::Vec3 vector;
+  for (std::size_t i = 0; i < 3; ++i) {
+    vector[static_cast<Eigen::Index>(i)] =
+        read_quantity((*array)[i], fmt::format("{}[{}]", path, i), expected);
+  }
+  return vector;
+}
+
+geometry::Vec3 Section::vector(std::string_view key, const Quantity& expected) {
+  const Value* value = require(key);
+  return value ? read_vector(*value, path_of(key), expected) : geometry::Vec3::Constant(kNaN);
+}
+
+geometry::Vec3 Section::vector(std::string_view key, const Quantity& expected,
+                               const geometry::Vec3& fallback) {
+  const Value* value = find(key);
+  return value ? read_vector(*value, path_of(key), expected) : fallback;
+}
+
+std::int64_t Section::integer(std::string_view key, std::int64_t low, std::int64_t high,
+                              std::optional<std::int64_t> fallback) {
+  const Value* value = fallback ? find(key) : require(key);
+  if (value == nullptr) return fallback.value_or(0);
+  const auto* number = std::get_if<std::int64_t>(&value->data);
+  if (number && *number >= low && *number <= high) return *number;
+  complain(key,
+           fmt::format("got {}; expected a whole number from {} to {}", shown(*value), low, high));
+  return fallback.value_or(0);
+}
+
+bool Section::truth(std::string_view key, bool fallback) {
+  const Value* value = find(key);
+  if (value == nullptr) return fallback;
+  if (const auto* truth = std::get_if<bool>(&value->data)) return *truth;
+  complain(key, fmt::format("got {}; expected true or false", shown(*value)));
+  return fallback;
+}
+
+std::string Section::text(std::string_view key, const std::optional<std::string>& fallback) {
+  const Value* value = fallback ? find(key) : require(key);
+  if (value == nullptr) return fallback.value_or("");
+  const auto* text = std::get_if<std::string>(&value->data);
+  if (text && !text->empty()) return *text;
+  complain(key, fmt::format("got {}; expected a text in quotes, not empty", shown(*value)));
+  return "";
+}
+
+std::size_t Section::choice(std::string_view key, std::span<const std::string_view> words,
+                            std::optional<std::size_t> fallback) {
+  const Value* value = fallback ? find(key) : require(key);
+  if (value == nullptr) return fallback.value_or(0);
+  const auto* text = std::get_if<std::string>(&value->data);
+  const auto found = text ? std::find(words.begin(), words.end(), *text) : words.end();
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  complain(key, fmt::format("got {}; expected one of {}{}", shown(*value), listed(words),
+                            text ? suggestion(*text, words) : ""));
+  return 0;
+}
+
+std::optional<Section> Section::table(std::string_view key) {
+  const Value* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (const auto* table = std::get_if<Table>(&value->data))
+    return Section(*table, value->place, path_of(key), *problems_);
+  complain(key, fmt::format("got {}; expected a table", shown(*value)));
+  return std::nullopt;
+}
+
+std::vector<Section> Section::tables(std::string_view key) {
+  const Value* value = find(key);
+  if (value == nullptr) return {};
+  const auto* array = std::get_if<Array>(&value->data);
+  if (array == nullptr) {
+    complain(key, fmt::format("got {}; expected a list of tables, each under [[{}]]", shown(*value),
+                              path_of(key)));
+    return {};
+  }
+  std::vector<Section> sections;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const Value& item = (*array)[i];
+    std::string path = fmt::format("{}[{}]", path_of(key), i);
+    const auto* table = std::get_if<Table>(&item.data);
+    if (table == nullptr) {
+      problems_->add(item.place, fmt::format("{}: got {}; expected a table", path, shown(item)));
+      continue;
+    }
+    const Entry* name = table->find("name");
+    const auto* text = name ? std::get_if<std::string>(&name->value.data) : nullptr;
+    if (text) path = fmt::format("{}.{}", path_of(key), *text);
+    sections.push_back(Section(*table, item.place, std::move(path), *problems_));
+  }
+  return sections;
+}
+
+std::vector<std::pair<std::string, Section>> Section::all_tables() {
+  std::vector<std::pair<std::string, Section>> sections;
+  for (const Entry& entry : table_->entries) {
+    if (auto section = table(entry.key)) sections.emplace_back(entry.key, *section);
+  }
+  return sections;
+}
+
+void Section::finish() {
+  const std::vector<std::string_view> known(announced_.begin(), announced_.end());
+  for (const Entry& entry : table_->entries) {
+    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    const std::string closest = suggestion(entry.key, known);
+    problems_->add(entry.place,
+                   fmt::format("{}: unknown key{}", path_of(entry.key),
+                               closest.empty() ? "; known here: " + listed(known) : closest));
+  }
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scenario/config_tree.hpp"
+#include "apps/scenario/units.hpp"
+#include "geometry/types.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plekton::apps {
+
+/// Values that are allowed.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();  ///< SI
+  double high = std::numeric_limits<double>::infinity();  ///< SI
+  bool with_low = true;
+  bool with_high = true;
+  std::string_view text;  ///< continues "expected a length", as in " above 0"
+
+  bool holds(double value) const noexcept {
+    return (with_low ? value >= low : value > low) && (with_high ? value <= high : value < high);
+  }
+};
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr Range kAny{};
+inline constexpr Range kPositive{0.0, kInfinity, false, true, " above 0"};
+inline constexpr Range kNotNegative{0.0, kInfinity, true, true, " of at least 0"};
+inline constexpr Range kFraction{0.0, 1.0, true, true, " from 0 to 1"};
+inline constexpr Range kBelowOne{0.0, 1.0, true, false, " from 0 to below 1"};
+
+/// A kind of quantity and its range.
+struct Quantity {
+  Dimension dimension;
+  Range range = kAny;
+};
+
+/// Reads the keys of one table and collects what is wrong with them: missing keys, wrong kinds,
+/// values out of range, and, in finish(), keys that nobody asked for. After a problem a reading
+/// function returns a value that makes no further problem.
+class Section {
+ public:
+  /// @param path  What messages call it, as in "membranes.hammock"; empty for the whole file.
+  /// @param place  Of the table, for missing keys.
+  Section(const Table& table, Place place, std::string path, Problems& problems);
+
+  const Place& place() const noexcept { return place_; }
+  const std::string& path() const noexcept { return path_; }
+  /// Of the value of a key, or of the table if there is no such key.
+  const Place& place_of(std::string_view key) const;
+  /// "membranes.hammock.thickness"
+  std::string path_of(std::string_view key) const;
+
+  /// Also announces the key, so that it is not unknown.
+  bool has(std::string_view key);
+  bool is_table(std::string_view key) const;
+
+  /// NaN after a problem.
+  double quantity(std::string_view key, const Quantity& expected);
+  double quantity(std::string_view key, const Quantity& expected, double fallback);
+  /// Nothing if the key is missing or a text of its own, such as "auto".
+  std::optional<double> quantity_unless(std::string_view key, std::string_view word,
+                                        const Quantity& expected);
+  geometry::Vec3 vector(std::string_view key, const Quantity& expected);
+  geometry::Vec3 vector(std::string_view key, const Quantity& expected,
+                        const geometry::Vec3& fallback);
+  /// 0 or the fallback after a problem. Limits included.
+  std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high,
+                       std::optional<std::int64_t> fallback = {});
+  bool truth(std::string_view key, bool fallback);
+  /// Empty after a problem.
+  std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
+  /// Position among the words; 0 after a problem. Without a fallback the key is required.
+  std::size_t choice(std::string_view key, std::span<const std::string_view> words,
+                     std::optional<std::size_t> fallback = {});
+
+  /// A table in this one.
+  std::optional<Section> table(std::string_view key);
+  /// The tables [[key]], each called by its key `name` or its number.
+  std::vector<Section> tables(std::string_view key);
+  /// All keys with the tables they hold, such as [materials.sand].
+  std::vector<std::pair<std::string, Section>> all_tables();
+
+  /// Adds a problem of a key: "path: what".
+  void complain(std::string_view key, const std::string& what);
+
+  /// Adds a problem for each key that was not asked for, with the closest one that was.
+  void finish();
+
+ private:
+  const Value* find(std::string_view key);
+  const Value* require(std::string_view key);
+  double read_quantity(const Value& value, const std::string& path, const Quantity& expected);
+  geometry::Vec3 read_vector(const Value& value, const std::string& path, const Quantity& expected);
+
+  const Table* table_;
+  Place place_;
+  std::string path_;
+  Problems* problems_;
+  std::vector<std::string> announced_;
+};
+
+/// Words in quotes with commas between them.
+std::string listed(std::span<const std::string_view> words);
+
+}  // namespace plekton::apps

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/toml_file.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <tuple>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+Place place_of(const toml::source_region& region, const std::string& source) {
+  return {source, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+Value converted(const toml::node& node, const std::string& source, int depth);
+
+Table converted_table(const toml::table& table, const std::string& source, int depth) {
+  Table result;
+  for (const auto& [key, node] : table) {
+    result.entries.push_back(
+        {std::string(key.str()), place_of(key.source(), source), converted(node, source, depth)});
+  }
+  const auto place = [](const Entry& e) { return std::tie(e.place.line, e.place.column); };
+  std::stable_sort(result.entries.begin(), result.entries.end(),
+                   [&](const Entry& a, const Entry& b) { return place(a) < place(b); });
+  return result;
+}
+
+Array converted_array(const toml::array& array, const std::string& source, int depth) {
+  Array result;
+  for (const toml::node& node : array) result.push_back(converted(node, source, depth));
+  return result;
+}
+
+/// @param depth  Levels above this value. @throws InputError beyond kDeepest
+Value converted(const toml::node& node, const std::string& source, int depth) {
+  Value value{place_of(node.source(), source), OtherKind{"a date or time of day"}};
+  if (depth > kDeepest) {
+    throw InputError(fmt::format("{}: tables or lists are nested more than {} deep; no key is",
+                                 to_string(value.place), kDeepest));
+  }
+  if (const auto* text = node.as_string()) value.data = text->get();
+  if (const auto* integer = node.as_integer()) value.data = integer->get();
+  if (const auto* number = node.as_floating_point()) value.data = number->get();
+  if (const auto* truth = node.as_boolean()) value.data = truth->get();
+  if (const auto* array = node.as_array()) value.data = converted_array(*array, source, depth + 1);
+  if (const auto* table = node.as_table()) value.data = converted_table(*table, source, depth + 1);
+  return value;
+}
+
+/// Every place of a value, and of what is in it, becomes this one.
+void set_place(Value& value, const Place& place) {
+  value.place = place;
+  if (auto* array = std::get_if<Array>(&value.data)) {
+    for (Value& item : *array) set_place(item, place);
+  }
+  if (auto* table = std::get_if<Table>(&value.data)) {
+    for (Entry& entry : table->entries) {
+      entry.place = place;
+      set_place(entry.value, place);
+    }
+  }
+}
+
+}  // namespace
+
+Table parse_toml(std::string_view text, const std::string& source) {
+  try {
+    return converted_table(toml::parse(text), source, 0);
+  } catch (const toml::parse_error& error) {
+    Problems problems;
+    problems.add(place_of(error.source(), source),
+                 fmt::format("not TOML: {}", error.description()));
+    problems.throw_if_any();
+    throw;
+  }
+}
+
+Table read_toml_file(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) {
+    throw InputError(path.string() +
+                     ": no such file; check the path (it counts from the current folder)");
+  }
+  if (!fs::is_regular_file(path, ignored))
+    throw InputError(path.string() + ": not a file; expected a scenario (.toml)");
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  if (file.peek() != std::ifstream::traits_type::eof()) bytes << file.rdbuf();
+  if (!file.is_open() || file.bad() || bytes.bad())
+    throw InputError(path.string() + ": cannot be read; check its permissions");
+  return parse_toml(bytes.view(), path.string());
+}
+
+Value parse_toml_value(std::string_view text, const Place& place) {
+  Value value{place, std::string(text)};
+  try {
+    const toml::table table = toml::parse("value = " + std::string(text));
+    // A line break in the text could add keys; then it is no single value.
+    if (table.size() == 1) value = converted(table.begin()->second, place.source, 0);
+  } catch (const toml::parse_error&) {
+    // Not TOML, so it is the text itself.
+  }
+  set_place(value, place);
+  return value;
+}
+
+}  // namespace plekton::apps

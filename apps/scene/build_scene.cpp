@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scene/build_scene.hpp"
+
+#include "apps/scene/grain_generator.hpp"
+#include "apps/scene/membrane_builder.hpp"
+#include "geometry/mesh/mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace plekton::apps {
+namespace {
+
+using geometry::index_of;
+
+void add_materials_and_planes(const Scenario& scenario, dynamics::Scene& scene) {
+  for (const MaterialSettings& material : scenario.materials) {
+    scene.materials.push_back(
+        {material.young_modulus, material.stiffness_ratio, std::tan(material.friction_angle)});
+  }
+  for (const PlaneSettings& plane : scenario.planes) {
+    scene.planes.push_back({plane.point, plane.normal, plane.velocity,
+                            static_cast<contact::MaterialId>(plane.material)});
+  }
+}
+
+/// Everything in the scene that has a place, for the grains to keep clear of.
+std::vector<Obstacle> obstacles_of(const dynamics::Scene& scene) {
+  const geometry::Positions x = scene.state.position;
+  std::vector<Obstacle> obstacles;
+  for (const geometry::Facet& facet : scene.elements.facets)
+    obstacles.push_back({geometry::core(facet, x), facet.radius});
+  for (const geometry::Sphere& sphere : scene.elements.spheres) {
+    const Vec3& centre = x[index_of(sphere.nodes[0])];
+    obstacles.push_back({{centre, centre, centre}, sphere.radius});
+  }
+  return obstacles;
+}
+
+BuiltGrains add_grains(const GrainSettings& settings, double density, dynamics::Scene& scene) {
+  const std::vector<Obstacle> obstacles = obstacles_of(scene);
+  const std::vector<PlacedGrain> grains = generate_grains(settings, {obstacles, scene.planes});
+  BuiltGrains result{settings.name, grains.size(), 0.0, grains.front().radius,
+                     grains.front().radius};
+  for (const PlacedGrain& grain : grains) {
+    const auto id = scene.add_sphere(grain.centre, grain.radius, density,
+                                     static_cast<contact::MaterialId>(settings.material));
+    const geometry::Sphere& sphere = scene.elements.spheres[index_of(id)];
+    const double inertia =
+        density * geometry::volume(sphere) * grain.radius * grain.radius;  // but for a factor
+    if (!std::isnormal(inertia)) {
+      throw InputError(
+          fmt::format("{}: a grain of {:.4g} m radius and {:.4g} kg/m3 has no mass or "
+                      "moment of inertia that can be computed with; check the units",
+                      settings.name, grain.radius, density));
+    }
+    scene.state.velocity[index_of(sphere.nodes[0])] = settings.velocity;
+    result.mass += density * geometry::volume(sphere);
+    result.smallest = std::min(result.smallest, grain.radius);
+    result.largest = std::max(result.largest, grain.radius);
+  }
+  return result;
+}
+
+}  // namespace
+
+BuiltScene build_scene(const Scenario& scenario) {
+  BuiltScene built;
+  Problems problems;
+  add_materials_and_planes(scenario, built.scene);
+  for (const MembraneSettings& membrane : scenario.membranes) {
+    try {
+      built.membranes.push_back(add_membrane(membrane, built));
+    } catch (const geometry::MeshError& error) {
+      problems.add(membrane.mesh_place,
+                   fmt::format("membranes.{}: {}", membrane.name, error.what()));
+    } catch (const InputError& error) {
+      problems.add(membrane.mesh_place,
+                   fmt::format("membranes.{}: {}", membrane.name, error.what()));
+    }
+  }
+  for (const GrainSettings& grains : scenario.grains) {
+    try {
+      built.grains.push_back(
+          add_grains(grains, scenario.materials[grains.material].density.value(), built.scene));
+    } catch (const DoesNotFit& error) {
+      problems.add(grains.place, fmt::format("grains.{}", error.what()));
+    } catch (const InputError& error) {
+      problems.add(grains.place, fmt::format("grains.{}", error.what()));
+    }
+  }
+  problems.throw_if_any();
+  return built;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scenario/scenario.hpp"
+#include "dynamics/scene.hpp"
+#include "geometry/mesh/report.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace plekton::apps {
+
+/// A membrane in the scene, and what its settings came to.
+struct BuiltMembrane {
+  std::string name;
+  geometry::MeshReport report;  ///< of the import
+  std::size_t first_node = 0;
+  std::size_t nodes = 0;
+  std::size_t facets = 0;
+  std::size_t beams = 0;  ///< one for each edge of the mesh, with a cylinder of the same nodes
+  std::size_t held_nodes = 0;
+  double area = 0.0;           ///< m²
+  double mass = 0.0;           ///< kg
+  double young_modulus = 0.0;  ///< Pa, of the beams
+};
+
+/// Grains of one table in the scene.
+struct BuiltGrains {
+  std::string name;
+  std::size_t count = 0;
+  double mass = 0.0;      ///< kg
+  double smallest = 0.0;  ///< m, radius
+  double largest = 0.0;   ///< m, radius
+};
+
+struct BuiltScene {
+  dynamics::Scene scene;
+  std::vector<BuiltMembrane> membranes;
+  std::vector<BuiltGrains> grains;
+  std::vector<std::string> warnings;
+};
+
+/// Builds the scene of a scenario: membranes, then grains clear of them and of the planes.
+///
+/// Every edge of a membrane's mesh becomes a beam of full circular section, radius half the
+/// thickness, and a cylinder; every facet a thick facet. The cylinders, like the facets, are
+/// numbered in the order of the membranes, and beam i is along cylinder i.
+/// @throws InputError listing every problem that only the files and the geometry show: meshes that
+/// cannot be used, nothing to hold,
+///         grains that do not fit.
+BuiltScene build_scene(const Scenario& scenario);
+
+}  // namespace plekton::apps

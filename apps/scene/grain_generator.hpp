@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/grains/free_space.hpp"
+#include "apps/scenario/scenario.hpp"
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace plekton::apps {
+
+/// Spheres to be made.
+struct PlacedGrain {
+  Vec3 centre;    ///< m
+  double radius;  ///< m
+};
+
+/// What must be kept clear of.
+struct Surroundings {
+  std::span<const Obstacle> obstacles;
+  std::span<const contact::Plane> planes;
+};
+
+/// Grains that do not fit the space they are given. The message names both volumes, how far it
+/// went, and ways out.
+struct DoesNotFit : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Draws grains from the size curve and places them in the box without overlap, the largest first.
+///
+/// Each is tried at random positions, with a bounded number of trials. Where that ends before all
+/// are placed, which is at about 0.38 of the box for equal grains, they are put on a face-centred
+/// cubic lattice of the largest diameter instead, each moved by a random part of the room it has
+/// there; that goes up to 0.74 less what the edges of the box take. The result depends on the
+/// settings and the surroundings alone, not on the standard library.
+/// @throws DoesNotFit
+std::vector<PlacedGrain> generate_grains(const GrainSettings& settings,
+                                         const Surroundings& surroundings);
+
+}  // namespace plekton::apps

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scene/membrane_builder.hpp"
+
+#include "dynamics/structure/lumped_mass.hpp"
+#include "geometry/mesh/import.hpp"
+#include "geometry/mesh/membrane.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+namespace plekton::apps {
+namespace {
+
+using dynamics::Held;
+using geometry::index_of;
+using geometry::Membrane;
+using geometry::NodeId;
+
+void put_in_place(geometry::Mesh& mesh, const Placement& placement) {
+  const geometry::Mat3 rotation =
+      Eigen::AngleAxisd(placement.angle, placement.axis).toRotationMatrix();
+  for (Vec3& point : mesh.points)
+    point = rotation * (placement.scale * point) + placement.translation;
+}
+
+/// Total length (m) of the edges.
+double edge_length(const dynamics::Scene& scene, const Membrane& membrane) {
+  double length = 0.0;
+  for (const auto& [a, b] : membrane.edges)
+    length += (scene.state.position[index_of(b)] - scene.state.position[index_of(a)]).norm();
+  return length;
+}
+
+double area_of(const dynamics::Scene& scene, const geometry::Facet& facet) {
+  const auto [x0, x1, x2] = geometry::core(facet, scene.state.position);
+  return 0.5 * (x1 - x0).cross(x2 - x0).norm();
+}
+
+/// Whether each node is on an edge with one facet, by number among the nodes of the membrane.
+std::vector<bool> rim_nodes(const Membrane& membrane, std::size_t first_node) {
+  std::map<std::array<NodeId, 2>, int> uses;
+  for (const geometry::Facet& facet : membrane.facets) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const NodeId a = facet.nodes[k], b = facet.nodes[(k + 1) % 3];
+      ++uses[{std::min(a, b), std::max(a, b)}];
+    }
+  }
+  std::vector<bool> on_rim(membrane.nodes.size(), false);
+  for (const auto& [edge, count] : uses) {
+    if (count != 1) continue;
+    for (const NodeId node : edge) on_rim[index_of(node) - first_node] = true;
+  }
+  return on_rim;
+}
+
+std::vector<bool> held_nodes(const HoldSettings& hold, const Membrane& membrane,
+                             const BuiltScene& built, std::size_t first_node) {
+  if (hold.which == HoldWhich::rim) return rim_nodes(membrane, first_node);
+  std::vector<bool> held(membrane.nodes.size(), hold.which == HoldWhich::all);
+  if (hold.which != HoldWhich::box) return held;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const Vec3& x = built.scene.state.position[first_node + i];
+    held[i] =
+        (x.array() >= hold.box.lower.array()).all() && (x.array() <= hold.box.upper.array()).all();
+  }
+  return held;
+}
+
+std::size_t add_nodes(const MembraneSettings& settings, const Membrane& membrane,
+                      BuiltScene& built) {
+  const std::size_t first_node = built.scene.state.size();
+  for (const Vec3& position : membrane.nodes) built.scene.add_node(position);
+  const std::vector<bool> held = held_nodes(settings.hold, membrane, built, first_node);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (!held[i]) continue;
+    built.scene.properties.held[first_node + i] =
+        settings.hold.rotation ? Held::everything : Held::translation;
+    built.scene.state.velocity[first_node + i] = settings.hold.velocity;
+  }
+  const auto count = static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
+  if (count == 0 && settings.hold.which == HoldWhich::rim) {
+    throw InputError(fmt::format(
+        "\"{}\" has no rim to hold: its mesh is closed; hold the nodes in a box", settings.name));
+  }
+  if (count == 0 && settings.hold.which == HoldWhich::box) {
+    throw InputError(
+        fmt::format("\"{}\" has no node in the box of hold; the box counts in the scene, after "
+                    "scale, rotate and translate",
+                    settings.name));
+  }
+  return count;
+}
+
+/// Sheet stiffness to modulus of the beams.
+///
+/// Under a strain e that is the same in all directions each beam of section A stores 1/2 E A L e²,
+/// a sheet of stiffness J and Poisson ratio 1/3 (that of a lattice) 1/2 2 J e² / (1 - 1/3) for each
+/// of its area; so E = 3 J area / (A sum L). For the equilateral lattice that is J = 2 E A /
+/// (sqrt(3) L).
+double beam_modulus(double sheet_stiffness, double area, double section_area, double length) {
+  return 3.0 * sheet_stiffness * area / (section_area * length);
+}
+
+/// Scales, thicknesses and moduli so extreme that nothing can be computed with them.
+/// @throws InputError
+void require_computable(const BuiltMembrane& built) {
+  for (const auto& [what, value, unit] :
+       {std::tuple{"area", built.area, "m2"}, std::tuple{"mass", built.mass, "kg"},
+        std::tuple{"Young's modulus of its beams", built.young_modulus, "Pa"}}) {
+    if (std::isnormal(value) && value > 0.0) continue;
+    throw InputError(fmt::format(
+        "\"{}\": {} is {} {}; expected a positive number that is not extreme; check scale, "
+        "translate, thickness, stiffness and density against the size of the mesh",
+        built.name, what, value, unit));
+  }
+}
+
+/// Adds the cylinders, beams and facets, and with them the mass.
+void add_elements(const MembraneSettings& settings, const Membrane& membrane,
+                  dynamics::Scene& scene, BuiltMembrane& result) {
+  const double radius = 0.5 * settings.thickness;
+  const double section_area = std::numbers::pi * radius * radius;
+  const double length = edge_length(scene, membrane);
+  for (const geometry::Facet& facet : membrane.facets) result.area += area_of(scene, facet);
+  result.young_modulus = settings.young_modulus.value_or(
+      beam_modulus(settings.sheet_stiffness, result.area, section_area, length));
+  const double areal_mass =
+      settings.density ? *settings.density * settings.thickness : settings.areal_mass;
+  const bool by_edge = settings.mass_mode == MassMode::edge;
+  const double beam_density =
+      by_edge ? settings.density.value_or(areal_mass * result.area / (section_area * length)) : 0.0;
+  result.mass = by_edge ? beam_density * section_area * length : areal_mass * result.area;
+
+  require_computable(result);
+
+  const auto material = static_cast<contact::MaterialId>(settings.material);
+  const dynamics::BeamSection section =
+      dynamics::circular_section(radius, result.young_modulus, settings.poisson_ratio);
+  for (const auto& [a, b] : membrane.edges) {
+    scene.add_cylinder(a, b, radius, material);
+    scene.add_beam(a, b, section, beam_density);
+  }
+  for (const geometry::Facet& facet : membrane.facets) {
+    scene.add_facet(facet.nodes[0], facet.nodes[1], facet.nodes[2], radius, material);
+    if (!by_edge) {
+      dynamics::add_facet_mass(scene.properties, facet, scene.state.position,
+                               areal_mass / settings.thickness);
+    }
+  }
+}
+
+}  // namespace
+
+BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) {
+  geometry::ImportOptions import;
+  import.repair.weld_distance = settings.weld / settings.placement.scale;
+  geometry::ImportedMesh imported = geometry::import_mesh(settings.mesh, import);
+  put_in_place(imported.mesh, settings.placement);
+
+  BuiltMembrane result;
+  result.name = settings.name;
+  result.report = std::move(imported.report);
+  result.first_node = built.scene.state.size();
+  const Membrane membrane =
+      geometry::make_membrane(imported.mesh, {settings.thickness, result.first_node});
+  for (const std::string& warning : membrane.warnings)
+    built.warnings.push_back(settings.name + ": " + warning);
+  result.nodes = membrane.nodes.size();
+  result.facets = membrane.facets.size();
+  result.beams = membrane.edges.size();
+  result.held_nodes = add_nodes(settings, membrane, built);
+  add_elements(settings, membrane, built.scene, result);
+  return result;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/import_command.hpp"
+
+#include "geometry/mesh/mesh_file.hpp"
+#include "tests/apps/command_line/program_fixture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kHammock = PLEKTON_SOURCE_DIR "/apps/examples/catch/hammock.stl";
+
+TEST(ImportCommand, WritesTheRepairedMeshAndItsReport) {
+  const test::TemporaryFolder folder;
+
+  const Outcome outcome =
+      outcome_of({"import", kHammock, "--weld", "1 um", "--out", (folder / "a/b").string()});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("hammock-repaired.off"));
+  const auto report = nlohmann::json::parse(test::bytes_of(folder / "a/b/report.json"));
+  EXPECT_EQ(report["after"]["points"], 22 * 22);
+  const auto soup = geometry::read_mesh_file(folder / "a/b/hammock-repaired.off");
+  EXPECT_EQ(soup.points.size(), 22U * 22U);
+  EXPECT_EQ(soup.polygons.size(), 2U * 21U * 21U);
+}
+
+TEST(ImportCommand, PrintsTheReportAsJson) {
+  const Outcome outcome = outcome_of({"import", kHammock, "--json"});
+
+  EXPECT_EQ(outcome.exit_code, kDone);
+  EXPECT_TRUE(nlohmann::json::parse(outcome.out).contains("verdict"));
+}
+
+TEST(ImportCommand, RemeshesAndFillsHolesWhenAsked) {
+  const Outcome remeshed =
+      outcome_of({"import", kHammock, "--weld", "1 um", "--target-edge", "10 cm", "--json"});
+  const Outcome filled =
+      outcome_of({"import", kHammock, "--weld", "1 um", "--longest-hole", "1 mm", "--json"});
+
+  ASSERT_EQ(remeshed.exit_code, kDone) << remeshed.err;
+  EXPECT_EQ(nlohmann::json::parse(remeshed.out)["reshaped"]["target_edge"], 0.1);
+  ASSERT_EQ(filled.exit_code, kDone) << filled.err;
+  EXPECT_EQ(nlohmann::json::parse(filled.out)["reshaped"]["holes_filled"], 0);
+}
+
+TEST(ImportCommand, SaysWhenAThicknessDoesNotGoWithTheMesh) {
+  const Outcome outcome = outcome_of({"import", kHammock, "--weld", "1 um", "--thickness", "5 cm"});
+
+  EXPECT_EQ(outcome.exit_code, kDone);
+  EXPECT_THAT(outcome.out, HasSubstr("thickness of 0.05 m exceeds the length"));
+}
+
+TEST(ImportCommand, RefusesBadMeshesWithOneMessageAndWritesNothing) {
+  const test::TemporaryFolder folder;
+  const std::vector<std::pair<std::string, std::string>> bad = {
+      {"empty.off", ""},
+      {"nan.off", "OFF\n3 1 0\n0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n"},
+      {"no_facets.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n"},
+      {"range.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"},
+      {"mesh.xyz", "0 0 0\n"}};
+  for (const auto& [name, bytes] : bad) {
+    test::write_bytes(folder / name, bytes);
+
+    const Outcome outcome =
+        outcome_of({"import", (folder / name).string(), "--out", (folder / "out").string()});
+
+    EXPECT_EQ(outcome.exit_code, kFailed) << name;
+    EXPECT_THAT(outcome.err, HasSubstr("plekton: ")) << name;
+    EXPECT_THAT(outcome.err, HasSubstr(name)) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out")) << name;
+  }
+}
+
+TEST(ImportCommand, RefusesAMissingMeshAndABadLength) {
+  EXPECT_EQ(outcome_of({"import", "/nowhere/mesh.off"}).exit_code, kFailed);
+  const Outcome outcome = outcome_of({"import", kHammock, "--weld", "1 kg"});
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("--weld: got \"1 kg\", a mass; expected a length"));
+}
+
+TEST(ImportCommand, LeavesNoHalfOfItsFilesWhenTheFolderCannotBeWritten) {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "file", "");
+
+  const Outcome outcome = outcome_of({"import", kHammock, "--out", (folder / "file/out").string()});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("a part of the path is a file"));
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"file"});
+}
+
+}  // namespace
+}  // namespace plekton::apps

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/lost_grains.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plekton::apps {
+namespace {
+
+using geometry::id_at;
+using geometry::NodeId;
+using geometry::Vec3;
+
+constexpr std::array<std::array<double, 3>, 3> kCorners = {
+    {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};
+
+/// A triangle in the plane z = height.
+std::array<Vec3, 3> triangle_at(double height) {
+  std::array<Vec3, 3> triangle;
+  for (std::size_t k = 0; k < 3; ++k) triangle[k] = Vec3(kCorners[k][0], kCorners[k][1], height);
+  return triangle;
+}
+
+/// A facet and a grain of radius 0.1 m, to be moved step by step.
+class Scene {
+ public:
+  explicit Scene(const Vec3& grain)
+      : positions_{{triangle_at(0.0)[0], triangle_at(0.0)[1], triangle_at(0.0)[2], grain}} {
+    elements_.facets.push_back({{id_at<NodeId>(0), id_at<NodeId>(1), id_at<NodeId>(2)}, 0.01});
+    elements_.spheres.push_back({{id_at<NodeId>(3)}, 0.1});
+    surface_ = geometry::Surface({}, elements_.facets, positions_.size());
+    neighbours_.emplace(elements_.spheres, surface_, 0.05);
+    neighbours_->update(positions_, pool_);
+    lost_.emplace(elements_, positions_);
+  }
+
+  /// Moves the grain on a straight way in small steps, with a look after each.
+  void move_to(const Vec3& target) {
+    const Vec3 start = positions_[3];
+    constexpr int kSteps = 100;
+    for (int i = 1; i <= kSteps; ++i) {
+      positions_[3] = start + (target - start) * (static_cast<double>(i) / kSteps);
+      neighbours_->update(positions_, pool_);
+      lost_->look(positions_, *neighbours_);
+    }
+  }
+  const LostGrains& lost() const { return *lost_; }
+
+ private:
+  std::vector<Vec3> positions_;
+  geometry::Elements elements_;
+  geometry::Surface surface_;
+  geometry::ThreadPool pool_{1};
+  std::optional<geometry::Neighbours> neighbours_;
+  std::optional<LostGrains> lost_;
+};
+
+TEST(LostGrains, CountAGrainThatPassesThroughAFacet) {
+  Scene scene({0.2, 0.2, 0.3});
+  scene.move_to({0.2, 0.2, -0.3});
+
+  EXPECT_EQ(scene.lost().through_membranes(), 1U);
+  EXPECT_EQ(scene.lost().total(), 1U);
+}
+
+TEST(LostGrains, CountNoGrainThatGoesAroundTheRim) {
+  Scene scene({0.2, 0.2, 0.3});
+  scene.move_to({-0.3, 0.2, 0.3});
+  scene.move_to({-0.3, 0.2, -0.3});
+  scene.move_to({0.2, 0.2, -0.3});
+
+  EXPECT_EQ(scene.lost().total(), 0U);
+}
+
+TEST(LostGrains, StayLostWhenTheyComeBack) {
+  Scene scene({0.2, 0.2, 0.3});
+  scene.move_to({0.2, 0.2, -0.3});
+  scene.move_to({0.2, 0.2, 0.3});
+
+  EXPECT_EQ(scene.lost().total(), 1U);
+}
+
+TEST(LostGrains, CountAGrainThatLeavesTheGrownBox) {
+  Scene scene({0.2, 0.2, 0.3});
+  scene.move_to(
+      {0.2, 2.0, 0.3});  // the box is 1.01 m at its longest, grown by that it ends at 2.02 m
+  EXPECT_EQ(scene.lost().total(), 0U);
+  scene.move_to({0.2, 2.1, 0.3});
+
+  EXPECT_EQ(scene.lost().out_of_bounds(), 1U);
+  EXPECT_EQ(scene.lost().total(), 1U);
+}
+
+TEST(LostGrains, WantToBeLookedAtTheMoreOftenTheFasterAnythingMoves) {
+  const Scene scene({0.2, 0.2, 0.3});  // its grain has a radius of 0.1 m
+  const auto steps_at = [&](double speed) {
+    return scene.lost().steps_to_next_look(std::vector<Vec3>{Vec3::Zero(), {0.0, 0.0, -speed}},
+                                           1e-3);
+  };
+
+  EXPECT_EQ(steps_at(0.0), LostGrains::kMostSteps);
+  EXPECT_EQ(steps_at(1.0), LostGrains::kMostSteps);
+  EXPECT_EQ(steps_at(5.0), 5);  // 2 x 5 steps x 5 mm = R / 2
+  EXPECT_EQ(steps_at(1000.0), 1);
+}
+
+TEST(PassesThrough, SeesAFacetMoveOverAPointThatRests) {
+  const Vec3 point(0.2, 0.2, 0.5);
+  EXPECT_TRUE(passes_through(point, point, triangle_at(0.0), triangle_at(1.0)));
+  EXPECT_FALSE(passes_through(point, point, triangle_at(0.0), triangle_at(0.4)));
+}
+
+TEST(PassesThrough, SeesNothingWhenBothMoveAlike) {
+  EXPECT_FALSE(
+      passes_through({0.2, 0.2, 0.5}, {0.2, 0.2, 1.5}, triangle_at(0.0), triangle_at(1.0)));
+}
+
+TEST(PassesThrough, MissesNoPointOnTheSeamBetweenTwoTriangles) {
+  const auto left = triangle_at(0.0);
+  const std::array<Vec3, 3> right = {Vec3(1.0, 0.0, 0.0), Vec3(1.0, 1.0, 0.0), Vec3(0.0, 1.0, 0.0)};
+  for (int i = 1; i < 100; ++i) {
+    const double t = i / 100.0;
+    const Vec3 above(t, 1.0 - t, 0.3), below(t, 1.0 - t, -0.2);
+    EXPECT_TRUE(passes_through(above, below, left, left) ||
+                passes_through(above, below, right, right))
+        << t;
+  }
+}
+
+TEST(PassesThrough, IsImpossibleForATriangleWithoutArea) {
+  const std::array<Vec3, 3> line = {Vec3::Zero(), Vec3(1.0, 0.0, 0.0), Vec3(2.0, 0.0, 0.0)};
+  EXPECT_FALSE(passes_through({0.5, 0.0, 1.0}, {0.5, 0.0, -1.0}, line, line));
+}
+
+}  // namespace
+}  // namespace plekton::apps

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/progress.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace plekton::apps {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+/// What a run of 10 s wall time, 2 s simulated and 1000 steps shows.
+std::string shown(ProgressStyle style) {
+  std::ostringstream out;
+  Progress progress(out, style, 2.0);
+  const Progress::Clock::time_point start{};
+  for (int i = 0; i <= 1000; ++i) progress.update(0.002 * i, i, start + milliseconds(10 * i));
+  progress.finish();
+  return out.str();
+}
+
+TEST(Progress, IsTenPlainLinesWhereThereIsNoTerminal) {
+  const std::string text = shown(ProgressStyle::lines);
+
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10) << text;
+  EXPECT_EQ(text.find('\r'), std::string::npos);
+  EXPECT_THAT(text, HasSubstr(" 50 %  1 of 2 s  100 steps/s  5 s left\n"));
+}
+
+TEST(Progress, IsOneLineWrittenOverOnATerminal) {
+  const std::string text = shown(ProgressStyle::one_line);
+
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\r'), 50);  // five a second
+}
+
+TEST(Progress, CoversALongerLineWhollyByAShorterOne) {
+  std::istringstream lines(shown(ProgressStyle::one_line));
+  std::string part;
+  std::size_t width = 0;
+  while (std::getline(lines, part, '\r')) {
+    part.erase(std::remove(part.begin(), part.end(), '\n'), part.end());
+    const std::size_t visible = part.find_last_not_of(' ') + 1;
+    EXPECT_GE(part.size(), width);
+    width = visible;
+  }
+}
+
+TEST(Progress, CanBeSilent) {
+  EXPECT_EQ(shown(ProgressStyle::none), "");
+}
+
+TEST(DurationText, ShowsTwoUnits) {
+  EXPECT_EQ(duration_text(0.0), "0 s");
+  EXPECT_EQ(duration_text(11.2), "12 s");
+  EXPECT_EQ(duration_text(185.0), "3 min 05 s");
+  EXPECT_EQ(duration_text(3720.0), "1 h 02 min");
+}
+
+}  // namespace
+}  // namespace plekton::apps

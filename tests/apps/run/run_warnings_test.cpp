@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/run_warnings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plekton::apps {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(RunWarnings, AreNoneForASoundRun) {
+  RunReport report;
+  report.largest_overlap_ratio = 0.02;
+  report.energy_closure = 0.005;
+  report.largest_motion_ratio = dynamics::kLargestMotion * (1.0 + 1e-15);  // chosen to be this
+
+  EXPECT_THAT(warnings_about(report), IsEmpty());
+}
+
+TEST(RunWarnings, NameAStepThatIsTooLongForTheMotion) {
+  RunReport report;
+  report.largest_motion_ratio = 0.4;
+
+  EXPECT_THAT(warnings_about(report),
+              ElementsAre(AllOf(HasSubstr("by 40 % of the smallest radius in one step, above 10 %"),
+                                HasSubstr("0.25 of this one"))));
+}
+
+TEST(RunWarnings, NameDeepOverlapsEnergyThatDoesNotAddUpAndLostGrains) {
+  RunReport report;
+  report.largest_overlap_ratio = 11.3;
+  report.energy_closure = 0.91;
+  report.lost_grains = 20;
+  report.lost_through_membranes = 4;
+  report.lost_out_of_bounds = 17;  // one did both
+
+  EXPECT_THAT(warnings_about(report),
+              ElementsAre(HasSubstr("1.13e+03 % of a radius"), HasSubstr("off by 91 %"),
+                          HasSubstr("20 grains are lost: 4 passed through")));
+}
+
+}  // namespace
+}  // namespace plekton::apps

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/scenario_reader.hpp"
+
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::string_view kGood = R"([simulation]
+duration = "2 s"
+gravity = [0, 0, "-9.81 m/s2"]
+
+[materials.gravel]
+density = "2650 kg/m3"
+young_modulus = "20 MPa"
+friction_angle = "35 deg"
+
+[[grains]]
+name = "gravel"
+material = "gravel"
+count = 10
+sieves = [{ sieve = "6 mm", passing = 0 }, { sieve = "8 mm", passing = "30 %" }, { sieve = "16 mm", passing = 1 }]
+box = { min = ["0 m", "0 m", "0 m"], max = ["10 cm", "10 cm", "10 cm"] }
+
+[[planes]]
+name = "floor"
+point = [0, 0, 0]
+normal = [0, 0, 2]
+material = "gravel"
+)";
+
+/// kGood with one text replaced by another.
+std::string edited(std::string_view before, std::string_view after) {
+  std::string text(kGood);
+  const std::size_t at = text.find(before);
+  if (at == std::string::npos) throw std::logic_error("not in the file: " + std::string(before));
+  return text.replace(at, before.size(), after);
+}
+
+std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    parse_scenario(text, "case.toml", overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+auto lines_in(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n') + 1;
+}
+
+TEST(ScenarioReader, ReadsValuesInSiUnits) {
+  const Scenario scenario = parse_scenario(kGood, "case.toml");
+
+  EXPECT_EQ(scenario.simulation.duration, 2.0);
+  EXPECT_EQ(scenario.simulation.gravity, Vec3(0.0, 0.0, -9.81));
+  EXPECT_FALSE(scenario.simulation.time_step);
+  ASSERT_EQ(scenario.materials.size(), 1U);
+  EXPECT_EQ(scenario.materials[0].young_modulus, 20e6);
+  EXPECT_DOUBLE_EQ(scenario.materials[0].friction_angle, 35.0 * std::numbers::pi / 180.0);
+  ASSERT_EQ(scenario.grains.size(), 1U);
+  EXPECT_EQ(std::get<std::size_t>(scenario.grains[0].amount), 10U);
+  EXPECT_EQ(scenario.grains[0].sizes.largest_diameter(), 0.016);
+  EXPECT_EQ(scenario.grains[0].box.upper, Vec3::Constant(0.1));
+  EXPECT_EQ(scenario.planes[0].normal, Vec3(0.0, 0.0, 1.0));
+}
+
+TEST(ScenarioReader, HasDefaultsThatFollowTheDuration) {
+  const Scenario scenario = parse_scenario(kGood, "case.toml");
+
+  EXPECT_EQ(scenario.output.interval, 0.02);
+  EXPECT_EQ(scenario.output.history_interval, 0.002);
+  EXPECT_FALSE(scenario.stop);
+}
+
+TEST(ScenarioReader, NamesATypoWithPlaceAndSuggestion) {
+  EXPECT_THAT(
+      error_of(edited("duration", "duraton")),
+      HasSubstr("case.toml:2:1: simulation.duraton: unknown key; did you mean \"duration\"?"));
+  EXPECT_THAT(error_of(edited("[[planes]]", "[[plane]]")),
+              HasSubstr("plane: unknown key; did you mean \"planes\"?"));
+  EXPECT_THAT(error_of(edited("count = 10", "count = 10\ncolour = 1")),
+              HasSubstr("grains.gravel.colour: unknown key; known here: "));
+}
+
+TEST(ScenarioReader, NamesAWrongUnit) {
+  EXPECT_THAT(error_of(edited("20 MPa", "20 mm")),
+              HasSubstr("case.toml:7:17: materials.gravel.young_modulus: got \"20 mm\", a length; "
+                        "expected a pressure"));
+}
+
+TEST(ScenarioReader, RefusesANegativeRadius) {
+  const std::string text = edited(
+      "sieves = [{ sieve = \"6 mm\", passing = 0 }, { sieve = \"8 mm\", passing = \"30 %\" }, "
+      "{ sieve = \"16 mm\", passing = 1 }]",
+      "radius = \"-5 mm\"");
+  EXPECT_THAT(error_of(text),
+              HasSubstr("grains.gravel.radius: got \"-5 mm\"; expected a length above 0"));
+}
+
+TEST(ScenarioReader, RefusesAFrictionAngleOf95Degrees) {
+  EXPECT_THAT(error_of(edited("35 deg", "95 deg")),
+              HasSubstr("materials.gravel.friction_angle: got \"95 deg\"; expected an angle from 0 "
+                        "deg to below 90 deg"));
+}
+
+TEST(ScenarioReader, AsksBackWhenAnAngleHasNoUnit) {
+  EXPECT_THAT(
+      error_of(edited("\"35 deg\"", "35")),
+      HasSubstr(
+          "got 35 rad; expected an angle from 0 deg to below 90 deg; did you mean \"35 deg\"?"));
+}
+
+TEST(ScenarioReader, NamesAMaterialThatDoesNotExist) {
+  EXPECT_THAT(
+      error_of(edited("material = \"gravel\"", "material = \"gravle\"")),
+      HasSubstr(
+          "grains.gravel.material: there is no material \"gravle\"; did you mean \"gravel\"?"));
+  EXPECT_THAT(error_of(edited("material = \"gravel\"", "material = \"steel\"")),
+              HasSubstr("the materials are \"gravel\""));
+}
+
+TEST(ScenarioReader, NamesAMeshThatDoesNotExist) {
+  const std::string text = std::string(kGood) + R"([[membranes]]
+name = "sheet"
+mesh = "sheet.stl"
+thickness = "2 mm"
+material = "gravel"
+young_modulus = "50 MPa"
+areal_mass = "300 g/m2"
+)";
+  EXPECT_THAT(error_of(text),
+              HasSubstr("case.toml:24:8: membranes.sheet.mesh: \"sheet.stl\" does not exist"));
+}
+
+TEST(ScenarioReader, ReportsAllProblemsAtOnceInTheOrderOfTheFile) {
+  std::string text = edited("duration = \"2 s\"", "duration = \"2 kg\"");
+  text.replace(text.find("35 deg"), 6, "95 deg");
+  text.replace(text.find("count"), 5, "coutn");
+
+  const std::string error = error_of(text);
+
+  EXPECT_EQ(lines_in(error), 4) << error;  // the missing count is one, the unknown coutn another
+  EXPECT_LT(error.find("case.toml:2:12"), error.find("case.toml:8:18"));
+  EXPECT_LT(error.find("case.toml:8:18"), error.find("case.toml:13:1"));
+}
+
+TEST(ScenarioReader, RefusesSieveTablesThatDoNotRise) {
+  EXPECT_THAT(error_of(edited("\"8 mm\"", "\"5 mm\"")),
+              HasSubstr("grains.gravel.sieves[1].sieve: 0.005 m is not above 0.006 m"));
+  EXPECT_THAT(error_of(edited("passing = 1 ", "passing = 0.2 ")),
+              HasSubstr("sieves[2].passing: 0.2 is below 0.3"));
+  EXPECT_THAT(error_of(edited("passing = 1 ", "passing = 0.9 ")),
+              HasSubstr("passing goes from 0 to 0.9; expected from 0"));
+  EXPECT_THAT(error_of(edited("passing = 0 ", "passing = 0.1 ")),
+              HasSubstr("passing goes from 0.1 to 1"));
+  EXPECT_THAT(error_of(edited("passing = 1 ", "passing = 1.5 ")),
+              HasSubstr("got 1.5; expected a number without unit from 0 to 1"));
+  EXPECT_THAT(error_of(edited("\"6 mm\"", "\"0 mm\"")),
+              HasSubstr("got \"0 mm\"; expected a length above 0"));
+}
+
+TEST(ScenarioReader, RefusesGrainsWithoutOrWithTwoAmounts) {
+  EXPECT_THAT(error_of(edited("count = 10", "")),
+              HasSubstr("got 0 of \"count\", \"mass\", \"volume\"; expected exactly one"));
+  EXPECT_THAT(error_of(edited("count = 10", "count = 10\nmass = \"1 kg\"")), HasSubstr("got 2 of"));
+  EXPECT_THAT(error_of(edited("count = 10", "count = 0")),
+              HasSubstr("got 0; expected a whole number from 1"));
+  EXPECT_THAT(error_of(edited("count = 10", "count = 10\nradius = \"1 mm\"")),
+              HasSubstr("got both of radius and sieves"));
+}
+
+TEST(ScenarioReader, RefusesGrainsOfAMaterialWithoutDensity) {
+  EXPECT_THAT(error_of(edited("density = \"2650 kg/m3\"\n", "")),
+              HasSubstr("grains.gravel.material: material \"gravel\" has no density"));
+}
+
+TEST(ScenarioReader, RefusesABoxInsideOut) {
+  EXPECT_THAT(error_of(edited("[\"10 cm\", \"10 cm\"", "[\"10 cm\", \"-10 cm\"")),
+              HasSubstr("grains.gravel.box.max: component y is -0.1 m"));
+}
+
+TEST(ScenarioReader, RefusesABoxBeyondAllNumbers) {
+  EXPECT_THAT(error_of(edited("min = [\"0 m\"", "min = [-1e308")), testing::IsEmpty());
+  EXPECT_THAT(error_of(edited("min = [\"0 m\", \"0 m\", \"0 m\"], max = [\"10 cm\"",
+                              "min = [-1e308, 0, 0], max = [1e308")),
+              HasSubstr("further from -1e+308 m of min"));
+}
+
+TEST(ScenarioReader, RefusesNumbersThatAreNotFinite) {
+  EXPECT_THAT(error_of(edited("[0, 0, \"-9.81 m/s2\"]", "[0, nan, inf]")),
+              HasSubstr("simulation.gravity[1]: got nan"));
+  EXPECT_THAT(error_of(edited("count = 10", "count = nan")),
+              HasSubstr("grains.gravel.count: got nan; expected a whole number"));
+}
+
+TEST(ScenarioReader, RefusesValuesOfAnotherKind) {
+  EXPECT_THAT(error_of(edited("[0, 0, \"-9.81 m/s2\"]", "-9.81")),
+              HasSubstr("got -9.81; expected a list of three components"));
+  EXPECT_THAT(error_of(edited("[[planes]]", "[planes]")),
+              HasSubstr("planes: got a table; expected a list of tables, each under [[planes]]"));
+  EXPECT_THAT(error_of(edited("\"2 s\"", "2026-01-01")),
+              HasSubstr("got a date or time of day; expected a time"));
+  EXPECT_THAT(error_of(edited("\"2 s\"", "true")), HasSubstr("got true; expected a time"));
+}
+
+TEST(ScenarioReader, RefusesTwoOfTheSameName) {
+  const std::string text =
+      std::string(kGood) +
+      "[[planes]]\nname = \"floor\"\npoint = [0, 0, 0]\nmaterial = \"gravel\"\n";
+
+  EXPECT_THAT(error_of(text), HasSubstr("planes.floor.name: \"floor\" has this name already"));
+}
+
+TEST(ScenarioReader, NamesWhatATableLacks) {
+  EXPECT_THAT(error_of(edited("duration = \"2 s\"", "")),
+              HasSubstr("case.toml:1:1: simulation.duration: missing"));
+  EXPECT_THAT(error_of(edited("point = [0, 0, 0]", "")), HasSubstr("planes.floor.point: missing"));
+  EXPECT_THAT(error_of(""), HasSubstr("case.toml:1:1: simulation: missing"));
+}
+
+TEST(ScenarioReader, RefusesAScenarioWithNothingInIt) {
+  EXPECT_THAT(error_of("[simulation]\nduration = \"1 s\"\n"), HasSubstr("nothing to simulate"));
+}
+
+TEST(ScenarioReader, NamesThePlaceOfAnErrorOfSyntax) {
+  EXPECT_THAT(error_of(edited("duration = ", "duration ")), HasSubstr("case.toml:2:"));
+  EXPECT_THAT(error_of(edited("duration = ", "duration ")), HasSubstr("not TOML"));
+}
+
+TEST(ScenarioReader, RefusesTablesNestedWithoutEnd) {
+  std::string key = "a";
+  for (int i = 0; i < 20'000; ++i) key += ".a";
+
+  EXPECT_THAT(error_of(edited("duration", key + " = 1\nduration")),
+              HasSubstr("nested more than 32 deep"));
+}
+
+TEST(ScenarioReader, ListsEveryKnownKeyOnce) {
+  EXPECT_THAT(error_of(edited("density", "colour = 1\ndensity")),
+              HasSubstr("known here: \"density\", \"young_modulus\""));
+}
+
+TEST(ScenarioReader, ChecksAnOverrideAsIfItStoodInTheFile) {
+  const std::vector<std::string> good = {"grains.gravel.count=7", "simulation.duration=1 min"};
+  EXPECT_EQ(parse_scenario(kGood, "case.toml", good).simulation.duration, 60.0);
+  EXPECT_THAT(
+      error_of(std::string(kGood), {"simulation.duration=1 kg"}),
+      HasSubstr("--set simulation.duration=1 kg: simulation.duration: got \"1 kg\", a mass"));
+  EXPECT_THAT(error_of(std::string(kGood), {"simulation.duratoin=1 s"}),
+              HasSubstr("unknown key; did you mean \"duration\"?"));
+}
+
+TEST(ScenarioReader, TakesGrainsByMass) {
+  const Scenario scenario = parse_scenario(edited("count = 10", "mass = \"5.3 kg\""), "case.toml");
+
+  EXPECT_DOUBLE_EQ(std::get<double>(scenario.grains[0].amount), 0.002);  // m³ of solids
+}
+
+TEST(ScenarioReader, GivesGrainsWithoutSeedDifferentOnes) {
+  const std::string text = std::string(kGood) + R"([[grains]]
+material = "gravel"
+count = 10
+radius = "1 mm"
+box = { min = [0, 0, 0], max = [1, 1, 1] }
+)";
+  const Scenario scenario = parse_scenario(text, "case.toml");
+
+  EXPECT_NE(scenario.grains[0].seed, scenario.grains[1].seed);
+}
+
+TEST(ScenarioReader, FindsMeshesRelativeToTheScenario) {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "sheet.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  test::write_bytes(folder / "case.toml", std::string(kGood) + R"([[membranes]]
+name = "sheet"
+mesh = "sheet.off"
+thickness = "2 mm"
+material = "gravel"
+sheet_stiffness = "20 kN/m"
+areal_mass = "300 g/m2"
+hold = { min = [0, 0, -1], max = [1, 0, 1] }
+)");
+
+  const Scenario scenario =
+      read_scenario(folder / "case.toml", std::vector<std::string>{"membranes.sheet.hold=rim"});
+
+  ASSERT_EQ(scenario.membranes.size(), 1U);
+  EXPECT_EQ(scenario.membranes[0].mesh, folder / "sheet.off");
+  EXPECT_EQ(scenario.membranes[0].hold.which, HoldWhich::rim);
+  EXPECT_FALSE(scenario.membranes[0].young_modulus);
+  EXPECT_EQ(scenario.membranes[0].sheet_stiffness, 20e3);
+}
+
+TEST(ScenarioReader, RefusesAMissingFileAndAFolder) {
+  const test::TemporaryFolder folder;
+  EXPECT_THROW(read_scenario(folder / "none.toml"), InputError);
+  EXPECT_THROW(read_scenario(folder.path()), InputError);
+}
+
+}  // namespace
+}  // namespace plekton::apps

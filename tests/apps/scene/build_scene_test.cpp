@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scene/build_scene.hpp"
+
+#include "apps/scenario/scenario_reader.hpp"
+#include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/mesh_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace plekton::apps {
+namespace {
+
+using dynamics::Held;
+using geometry::index_of;
+using testing::HasSubstr;
+
+constexpr std::string_view kScenario = R"([simulation]
+duration = "1 s"
+[materials.gravel]
+density = "2650 kg/m3"
+young_modulus = "20 MPa"
+friction_angle = "35 deg"
+[[membranes]]
+name = "sheet"
+mesh = "sheet.off"
+thickness = "2 mm"
+material = "gravel"
+sheet_stiffness = "20 kN/m"
+areal_mass = "300 g/m2"
+hold = "rim"
+[[grains]]
+name = "gravel"
+material = "gravel"
+count = 50
+radius = "5 mm"
+box = { min = ["-0.1 m", "-0.1 m", "-2 cm"], max = ["0.1 m", "0.1 m", "3 cm"] }
+[[planes]]
+point = [0, 0, "-5 cm"]
+material = "gravel"
+)";
+
+/// A folder with a flat sheet of 0.2 m x 0.3 m, cells of 10 mm and 15 mm, and the scenario above.
+class BuildScene : public testing::Test {
+ protected:
+  BuildScene() {
+    geometry::write_mesh_file(folder_ / "sheet.off", geometry::plane_sheet({0.2, 0.3, 20, 20}));
+    geometry::write_mesh_file(folder_ / "ball.off", geometry::icosphere(0.05, 1));
+  }
+  BuiltScene built(const std::vector<std::string>& overrides = {}) {
+    return build_scene(parse_scenario(kScenario, folder_ / "case.toml", overrides));
+  }
+  std::string error_of(const std::vector<std::string>& overrides) {
+    try {
+      built(overrides);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+double total_mass(const dynamics::Scene& scene, std::size_t first, std::size_t count) {
+  double mass = 0.0;
+  for (std::size_t i = first; i < first + count; ++i) mass += scene.properties.mass[i];
+  return mass;
+}
+
+/// Rounding of a sum of a few thousand masses.
+constexpr double kSum = 1e-12;
+
+TEST_F(BuildScene, MakesAThickMembraneOfAMesh) {
+  const BuiltScene scene = built();
+
+  const BuiltMembrane& sheet = scene.membranes.at(0);
+  EXPECT_EQ(sheet.nodes, 21U * 21U);
+  EXPECT_EQ(sheet.facets, 800U);
+  EXPECT_EQ(sheet.beams, 21U * 20U * 2U + 400U);
+  EXPECT_EQ(scene.scene.elements.facets.size(), sheet.facets);
+  EXPECT_EQ(scene.scene.elements.cylinders.size(), sheet.beams);
+  EXPECT_EQ(scene.scene.bonds.size(), sheet.beams);
+  for (const geometry::Facet& facet : scene.scene.elements.facets) EXPECT_EQ(facet.radius, 0.001);
+  EXPECT_NEAR(sheet.area, 0.06, kSum * 0.06);
+}
+
+TEST_F(BuildScene, PutsEachBeamAlongItsCylinder) {
+  const BuiltScene scene = built();
+
+  for (std::size_t i = 0; i < scene.scene.bonds.size(); ++i) {
+    EXPECT_EQ(scene.scene.bonds[i].nodes, scene.scene.elements.cylinders[i].nodes);
+  }
+}
+
+TEST_F(BuildScene, GivesTheSheetItsMassInBothModes) {
+  for (const char* mode : {"edge", "area"}) {
+    const BuiltScene scene = built({std::string("membranes.sheet.mass_mode=") + mode});
+
+    const BuiltMembrane& sheet = scene.membranes.at(0);
+    EXPECT_NEAR(sheet.mass, 0.3 * 0.06, kSum * sheet.mass) << mode;
+    EXPECT_NEAR(total_mass(scene.scene, sheet.first_node, sheet.nodes), sheet.mass,
+                kSum * sheet.mass)
+        << mode;
+  }
+}
+
+TEST_F(BuildScene, GivesTheLatticeTheStiffnessOfTheSheet) {
+  const BuiltScene scene = built();
+
+  // Energy per area under the same strain e in all directions: that of a plane-stress sheet of
+  // stiffness J and Poisson ratio 1/3.
+  double energy = 0.0;
+  constexpr double kStrain = 1e-3;
+  for (const dynamics::BeamBond& bond : scene.scene.bonds) {
+    energy +=
+        0.5 * bond.section.young_modulus * bond.section.area * bond.length * kStrain * kStrain;
+  }
+  const double expected = 20e3 / (1.0 - 1.0 / 3.0) * kStrain * kStrain * 0.06;
+  EXPECT_NEAR(energy, expected, kSum * expected);
+}
+
+TEST_F(BuildScene, HoldsTheRimOnly) {
+  const BuiltScene scene = built();
+
+  EXPECT_EQ(scene.membranes[0].held_nodes, 80U);
+  for (std::size_t i = 0; i < scene.membranes[0].nodes; ++i) {
+    const Vec3& x = scene.scene.state.position[i];
+    const bool on_rim =
+        std::abs(std::abs(x[0]) - 0.1) < 1e-9 || std::abs(std::abs(x[1]) - 0.15) < 1e-9;
+    EXPECT_EQ(scene.scene.properties.held[i], on_rim ? Held::translation : Held::nothing);
+  }
+}
+
+TEST_F(BuildScene, HoldsNodesInABoxAndMovesThem) {
+  const BuiltScene scene =
+      built({"membranes.sheet.hold={min=[0.095, -1, -1], max=[1, 1, 1]}",
+             "membranes.sheet.hold_rotation=true", "membranes.sheet.velocity=[\"1 mm/s\", 0, 0]"});
+
+  EXPECT_EQ(scene.membranes[0].held_nodes, 21U);
+  for (std::size_t i = 0; i < scene.membranes[0].nodes; ++i) {
+    const bool held = scene.scene.state.position[i][0] > 0.095;
+    EXPECT_EQ(scene.scene.properties.held[i], held ? Held::everything : Held::nothing);
+    EXPECT_EQ(scene.scene.state.velocity[i], Vec3(held ? 0.001 : 0.0, 0.0, 0.0));
+  }
+}
+
+TEST_F(BuildScene, ScalesThenTurnsThenMovesAMesh) {
+  const BuiltScene scene =
+      built({"membranes.sheet.scale=2", "membranes.sheet.rotate={axis=[1, 0, 0], angle=\"90 deg\"}",
+             "membranes.sheet.translate=[0, 0, \"1 m\"]"});
+
+  Vec3 lower = Vec3::Constant(1e9), upper = -lower;
+  for (std::size_t i = 0; i < scene.membranes[0].nodes; ++i) {
+    lower = lower.cwiseMin(scene.scene.state.position[i]);
+    upper = upper.cwiseMax(scene.scene.state.position[i]);
+  }
+  const double rounding = 1e-15;  // of coordinates up to 1.3 m
+  EXPECT_LE((lower - Vec3(-0.2, 0.0, 0.7)).norm(), rounding);
+  EXPECT_LE((upper - Vec3(0.2, 0.0, 1.3)).norm(), rounding);
+}
+
+TEST_F(BuildScene, PlacesGrainsClearOfSheetAndPlane) {
+  const BuiltScene scene = built();
+
+  EXPECT_EQ(scene.grains.at(0).count, 50U);
+  EXPECT_NEAR(scene.grains[0].mass, 50.0 * 2650.0 * 4.0 / 3.0 * std::numbers::pi * 1.25e-7, kSum);
+  for (const geometry::Sphere& sphere : scene.scene.elements.spheres) {
+    const Vec3& x = scene.scene.state.position[index_of(sphere.nodes[0])];
+    EXPECT_GE(std::abs(x[2]), 0.006 - 1e-15);
+  }
+}
+
+TEST_F(BuildScene, PlacesTheGrainsOfALaterTableClearOfAnEarlier) {
+  std::string text(kScenario);
+  text += R"([[grains]]
+name = "more"
+material = "gravel"
+count = 50
+radius = "5 mm"
+box = { min = ["-0.1 m", "-0.1 m", "-2 cm"], max = ["0.1 m", "0.1 m", "3 cm"] }
+)";
+  const BuiltScene scene = build_scene(parse_scenario(text, folder_ / "case.toml"));
+
+  const auto& spheres = scene.scene.elements.spheres;
+  ASSERT_EQ(spheres.size(), 100U);
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec3 between = scene.scene.state.position[index_of(spheres[i].nodes[0])] -
+                           scene.scene.state.position[index_of(spheres[j].nodes[0])];
+      EXPECT_GE(between.norm(), 0.01 - 1e-15);
+    }
+  }
+}
+
+TEST_F(BuildScene, TellsTheFrictionCoefficientFromTheAngle) {
+  EXPECT_DOUBLE_EQ(built().scene.materials.at(0).friction,
+                   std::tan(35.0 * std::numbers::pi / 180.0));
+}
+
+TEST_F(BuildScene, PassesTheChecksOfTheScene) {
+  EXPECT_NO_THROW(built().scene.check());
+}
+
+TEST_F(BuildScene, ReportsAllThatOnlyTheFilesShow) {
+  test::write_bytes(folder_ / "bad.off", "OFF\n3 1 0\n0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n");
+
+  const std::string error =
+      error_of({"membranes.sheet.mesh=bad.off", "grains.gravel.count=100000"});
+
+  EXPECT_THAT(error, HasSubstr("--set membranes.sheet.mesh=bad.off: membranes.sheet: "));
+  EXPECT_THAT(error, HasSubstr("bad.off"));
+  EXPECT_THAT(error, HasSubstr("case.toml:15:1: grains.gravel: 100000 grains of"));
+}
+
+TEST_F(BuildScene, RefusesToHoldWhatIsNotThere) {
+  EXPECT_THAT(error_of({"membranes.sheet.mesh=ball.off"}),
+              HasSubstr("has no rim to hold: its mesh is closed"));
+  EXPECT_THAT(error_of({"membranes.sheet.hold={min=[5, 5, 5], max=[6, 6, 6]}"}),
+              HasSubstr("has no node in the box of hold"));
+}
+
+TEST_F(BuildScene, WarnsOfAThicknessThatDoesNotGoWithTheMesh) {
+  const BuiltScene scene = built({"membranes.sheet.thickness=1.2 cm"});
+
+  EXPECT_THAT(
+      scene.warnings,
+      testing::Contains(HasSubstr("sheet: the thickness of 0.012 m exceeds the length of")));
+}
+
+}  // namespace
+}  // namespace plekton::apps

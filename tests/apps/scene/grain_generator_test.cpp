@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scene/grain_generator.hpp"
+
+#include "tests/support/seeded_random.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+
+GrainSettings graded(std::size_t count, const Vec3& size) {
+  GrainSettings settings;
+  settings.name = "gravel";
+  settings.sizes =
+      SizeCurve(std::vector<Sieve>{{0.006, 0.0}, {0.008, 0.3}, {0.016, 1.0}}, PassingBy::mass);
+  settings.amount = count;
+  settings.box = {Vec3(-0.1, 0.2, 0.0), Vec3(-0.1, 0.2, 0.0) + size};
+  settings.seed = 5;
+  return settings;
+}
+
+GrainSettings equal(std::size_t count, double radius, const Vec3& size) {
+  GrainSettings settings = graded(count, size);
+  settings.sizes = SizeCurve(2.0 * radius);
+  return settings;
+}
+
+/// Overlap is decided on rounded distances: a gap may be below 0 by the rounding of coordinates of
+/// this size (m).
+constexpr double kRounding = 1e-15;
+
+void expect_apart_and_inside(const std::vector<PlacedGrain>& grains, const Box& box) {
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      ASSERT_GE(grains[i].centre[axis] - grains[i].radius, box.lower[axis] - kRounding);
+      ASSERT_LE(grains[i].centre[axis] + grains[i].radius, box.upper[axis] + kRounding);
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      ASSERT_GE((grains[i].centre - grains[j].centre).norm() - grains[i].radius - grains[j].radius,
+                -kRounding)
+          << i << ' ' << j;
+    }
+  }
+}
+
+std::string error_of(const GrainSettings& settings) {
+  try {
+    generate_grains(settings, {});
+  } catch (const DoesNotFit& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(GrainGenerator, PlacesGradedGrainsApartAndInside) {
+  const GrainSettings settings = graded(1000, {0.12, 0.12, 0.12});
+
+  const std::vector<PlacedGrain> grains = generate_grains(settings, {});
+
+  ASSERT_EQ(grains.size(), 1000U);
+  expect_apart_and_inside(grains, settings.box);
+}
+
+TEST(GrainGenerator, PlacesEqualGrainsDenserThanChanceAllows) {
+  // Random sequential placement of equal balls jams at 0.384 of the volume (Zhang and Torquato
+  // 2013).
+  const GrainSettings settings = equal(900, 0.005, {0.1, 0.1, 0.1});
+  ASSERT_GT(900.0 * settings.sizes.mean_volume(), 0.45 * 1e-3);
+
+  const std::vector<PlacedGrain> grains = generate_grains(settings, {});
+
+  ASSERT_EQ(grains.size(), 900U);
+  expect_apart_and_inside(grains, settings.box);
+}
+
+TEST(GrainGenerator, FillsABoxOfExactlyOneGrain) {
+  GrainSettings settings = equal(1, 0.5, {1.0, 1.0, 1.0});
+  settings.box = {Vec3::Zero(), Vec3::Ones()};
+  const std::vector<PlacedGrain> grains = generate_grains(settings, {});
+
+  ASSERT_EQ(grains.size(), 1U);
+  expect_apart_and_inside(grains, settings.box);
+}
+
+TEST(GrainGenerator, GivesTheSameGrainsForTheSameSeedOnly) {
+  GrainSettings settings = graded(100, {0.1, 0.1, 0.1});
+  const auto first = generate_grains(settings, {});
+  const auto again = generate_grains(settings, {});
+  settings.seed = 6;
+  const auto other = generate_grains(settings, {});
+
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].centre, again[i].centre);
+    EXPECT_EQ(first[i].radius, again[i].radius);
+  }
+  EXPECT_NE(first[0].centre, other[0].centre);
+}
+
+TEST(GrainGenerator, ReachesAVolumeToHalfAGrain) {
+  GrainSettings settings = graded(1, {0.2, 0.2, 0.2});
+  settings.amount = 1e-3;
+
+  double volume = 0.0;
+  for (const PlacedGrain& grain : generate_grains(settings, {})) {
+    volume += 4.0 / 3.0 * std::numbers::pi * std::pow(grain.radius, 3);
+  }
+
+  // The count is rounded, and each grain is drawn from a part of the curve: together at most 1.5 of
+  // the largest.
+  EXPECT_NEAR(volume, 1e-3, 1.5 * std::numbers::pi / 6.0 * std::pow(0.016, 3));
+}
+
+TEST(GrainGenerator, KeepsClearOfFacetsBallsAndPlanes) {
+  const GrainSettings settings = equal(200, 0.005, {0.1, 0.1, 0.1});
+  const Vec3 corner = settings.box.lower;
+  const Vec3 middle = corner + Vec3::Constant(0.05);
+  const std::vector<Obstacle> obstacles = {
+      {{corner + Vec3(-0.1, -0.1, 0.03), corner + Vec3(0.3, -0.1, 0.03),
+        corner + Vec3(-0.1, 0.3, 0.03)},
+       0.002},
+      {{middle, middle, middle}, 0.02}};
+  const std::vector<contact::Plane> planes = {
+      {corner + Vec3(0.02, 0.0, 0.0), Vec3(1.0, 0.0, 0.0), Vec3::Zero(), {}}};
+
+  for (const PlacedGrain& grain : generate_grains(settings, {obstacles, planes})) {
+    EXPECT_GE(std::abs(grain.centre[2] - corner[2] - 0.03), 0.007 - kRounding);
+    EXPECT_GE((grain.centre - middle).norm(), 0.025 - kRounding);
+    EXPECT_GE(grain.centre[0] - grain.radius, corner[0] + 0.02 - kRounding);
+  }
+}
+
+TEST(GrainGenerator, SaysHowFarItWentWhenGrainsDoNotFit) {
+  const std::string error = error_of(equal(1200, 0.005, {0.1, 0.1, 0.1}));
+
+  EXPECT_THAT(error, HasSubstr("gravel: 1200 grains of 0.0006283 m3 in all"));
+  EXPECT_THAT(
+      error,
+      HasSubstr(
+          "do not fit the box of 0.1 m x 0.1 m x 0.1 m, 0.001 m3, 63 % of which they would fill"));
+  EXPECT_THAT(error, testing::ContainsRegex("[0-9]+ of them found room, filling [0-9]+ %"));
+  EXPECT_THAT(error, HasSubstr("make the box larger"));
+}
+
+TEST(GrainGenerator, RefusesAGrainLargerThanTheBox) {
+  EXPECT_THAT(error_of(equal(1, 0.06, {0.1, 0.2, 0.2})), HasSubstr("0 of them found room"));
+}
+
+TEST(GrainGenerator, RefusesMoreGrainsThanMemoryHoldsWithoutDrawingThem) {
+  EXPECT_THAT(error_of(equal(100'000'000'000'000, 0.005, {0.1, 0.1, 0.1})),
+              HasSubstr("no arrangement of balls can"));
+}
+
+TEST(DistanceToTriangle, IsTheSmallestOverThePointsOfTheTriangle) {
+  test::Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const std::array<Vec3, 3> triangle = {random.in_cube(1.0), random.in_cube(1.0),
+                                          random.in_cube(1.0)};
+    const Vec3 point = random.in_cube(2.0);
+    double sampled = 1e9;
+    constexpr int kSteps = 100;
+    for (int a = 0; a <= kSteps; ++a) {
+      for (int b = 0; a + b <= kSteps; ++b) {
+        const Vec3 w = Vec3(a, b, kSteps - a - b) / kSteps;
+        sampled = std::min(
+            sampled, (w[0] * triangle[0] + w[1] * triangle[1] + w[2] * triangle[2] - point).norm());
+      }
+    }
+    const double distance = distance_to_triangle(point, triangle);
+    EXPECT_LE(distance, sampled + 1e-12);
+    EXPECT_GE(distance,
+              sampled - 2.0 * 3.5 /
+                            kSteps);  // half the widest distance between samples, sides up to 3.5 m
+  }
+}
+
+TEST(DistanceToTriangle, KnowsCollinearAndPointTriangles) {
+  const Vec3 o = Vec3::Zero(), x(1.0, 0.0, 0.0), far(2.0, 0.0, 0.0);
+  EXPECT_DOUBLE_EQ(distance_to_triangle({3.0, 0.0, 0.0}, {o, x, far}), 1.0);
+  EXPECT_DOUBLE_EQ(distance_to_triangle({0.5, 2.0, 0.0}, {o, x, far}), 2.0);
+  EXPECT_DOUBLE_EQ(distance_to_triangle({0.0, 0.0, 3.0}, {o, o, o}), 3.0);
+}
+
+}  // namespace
+}  // namespace plekton::apps
