@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/scene.hpp"
 #include "dynamics/shape_check.hpp"
+#include "geometry/problems.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +16,9 @@ namespace {
 using contact::MaterialId;
 
 /// Collects the problems of a scene one by one.
-class Problems {
+class SceneProblems {
  public:
-  explicit Problems(const Scene& scene) : scene_(scene) {}
+  explicit SceneProblems(const Scene& scene) : scene_(scene) {}
 
   void list_all() {
     if (!list_lengths()) return;  // the rest would read beyond the ends
@@ -32,11 +33,7 @@ class Problems {
     list_shape_problems(scene_, text_);
   }
 
-  void throw_if_any() const {
-    if (const std::string text = text_.str(); !text.empty()) {
-      throw std::invalid_argument(text.substr(0, text.size() - 1));
-    }
-  }
+  void throw_if_any() const { geometry::throw_if_any(text_); }
 
  private:
   std::ostream& line(std::string_view kind, std::size_t id) {
@@ -193,7 +190,7 @@ class Problems {
 }  // namespace
 
 void Scene::check() const {
-  Problems problems(*this);
+  SceneProblems problems(*this);
   problems.list_all();
   problems.throw_if_any();
 }

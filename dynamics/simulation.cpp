@@ -2,6 +2,7 @@
 #include "dynamics/simulation.hpp"
 
 #include "dynamics/expected_contacts.hpp"
+#include "geometry/problems.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -59,9 +60,7 @@ const Scene& checked(const Scene& scene, const SimulationOptions& options) {
     problems << "skin " << options.skin << " m: must be 0 (choose) or more\n";
   if (!options.motion.gravity.allFinite()) problems << "gravity is not finite\n";
   if (options.threads < 1) problems << "threads " << options.threads << ": must be at least 1\n";
-  if (const std::string text = problems.str(); !text.empty()) {
-    throw std::invalid_argument(text.substr(0, text.size() - 1));
-  }
+  geometry::throw_if_any(problems);
   return scene;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/elements.hpp"
 
+#include "geometry/problems.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <sstream>
-#include <stdexcept>
-#include <string>
 
 namespace plekton::geometry {
 namespace {
@@ -37,7 +37,7 @@ std::array<NodeId, 2> sorted(NodeId a, NodeId b) {
 }
 
 /// Collects the problems of the elements one by one.
-class Problems {
+class ElementProblems {
  public:
   template <std::size_t N>
   void check(const char* kind, std::size_t id, const std::array<NodeId, N>& nodes, double radius,
@@ -64,11 +64,7 @@ class Problems {
     return text_ << "surface: " << kind << ' ' << id;
   }
 
-  void throw_if_any() const {
-    if (const std::string text = text_.str(); !text.empty()) {
-      throw std::invalid_argument(text.substr(0, text.size() - 1));
-    }
-  }
+  void throw_if_any() const { geometry::throw_if_any(text_); }
 
  private:
   std::ostringstream text_;
@@ -78,7 +74,7 @@ class Problems {
 /// nothing.
 class RadiusCheck {
  public:
-  RadiusCheck(std::size_t node_count, Problems& problems)
+  RadiusCheck(std::size_t node_count, ElementProblems& problems)
       : components_(node_count), radius_(node_count, 0.0), problems_(&problems) {}
 
   template <class Element>
@@ -116,12 +112,12 @@ class RadiusCheck {
 
   Components components_;
   std::vector<double> radius_;  // m, of the structure with this root; 0 until an element sets it
-  Problems* problems_;
+  ElementProblems* problems_;
 };
 
 void check_elements(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
                     std::size_t node_count) {
-  Problems problems;
+  ElementProblems problems;
   std::map<std::array<NodeId, 3>, std::size_t> seen;
   for (std::size_t f = 0; f < facets.size(); ++f) {
     problems.check("facet", f, facets[f].nodes, facets[f].radius, node_count);

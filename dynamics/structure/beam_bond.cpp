@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/beam_bond.hpp"
 
+#include "geometry/problems.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <ostream>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 namespace plekton::dynamics {
@@ -17,12 +18,6 @@ namespace {
 Vec3 x_axis(const Quat& q) noexcept {
   return {1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()), 2.0 * (q.x() * q.y() + q.w() * q.z()),
           2.0 * (q.x() * q.z() - q.w() * q.y())};
-}
-
-void throw_if_any(const std::ostringstream& problems) {
-  if (const std::string text = problems.str(); !text.empty()) {
-    throw std::invalid_argument(text.substr(0, text.size() - 1));
-  }
 }
 
 /// One quantity of a bond that has to be finite and above (or at) zero.
@@ -84,7 +79,7 @@ BeamBond make_beam(NodeId a, NodeId b, const NodeState& at_rest, const BeamSecti
   std::ostringstream problems;
   BeamBond bond{{a, b}, 1.0, section, Quat::Identity(), Quat::Identity()};
   list_problems(bond, at_rest.size(), "beam", problems);
-  throw_if_any(problems);
+  geometry::throw_if_any(problems);
 
   const Vec3 chord = at_rest.position[index_of(b)] - at_rest.position[index_of(a)];
   const Quat frame(Quat::FromTwoVectors(Vec3::UnitX(), chord));
@@ -92,7 +87,7 @@ BeamBond make_beam(NodeId a, NodeId b, const NodeState& at_rest, const BeamSecti
   bond.rest_a = at_rest.orientation[index_of(a)].conjugate() * frame;
   bond.rest_b = at_rest.orientation[index_of(b)].conjugate() * frame;
   list_problems(bond, at_rest.size(), "beam", problems);
-  throw_if_any(problems);
+  geometry::throw_if_any(problems);
   return bond;
 }
 
@@ -101,7 +96,7 @@ BeamBonds::BeamBonds(std::span<const BeamBond> bonds, std::size_t node_count) {
   for (std::size_t i = 0; i < bonds.size(); ++i) {
     list_problems(bonds[i], node_count, "bond " + std::to_string(i), problems);
   }
-  throw_if_any(problems);
+  geometry::throw_if_any(problems);
 
   springs_.reserve(bonds.size());
   for (const BeamBond& bond : bonds) {
