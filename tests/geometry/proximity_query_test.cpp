@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <stdexcept>
+
 namespace plekton::geometry {
 namespace {
 
@@ -38,10 +41,12 @@ std::vector<Proximity> brute_force(const Model& model, const Surface& surface, d
     if (p.gap < largest_gap) found.push_back(p);
   };
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    for (std::size_t j = i + 1; j < spheres.size(); ++j) keep(proximity(spheres[i], spheres[j], model.x));
+    for (std::size_t j = i + 1; j < spheres.size(); ++j)
+      keep(proximity(spheres[i], spheres[j], model.x));
   }
   for (const Sphere& sphere : spheres) {
-    for (std::size_t c = 0; c < surface.cell_count(); ++c) keep(proximity(sphere, surface, id_at<CellId>(c), model.x));
+    for (std::size_t c = 0; c < surface.cell_count(); ++c)
+      keep(proximity(sphere, surface, id_at<CellId>(c), model.x));
   }
   return found;
 }
@@ -71,6 +76,36 @@ TEST(ProximityQuery, RefusesALargestGapThatIsNotPositive) {
   EXPECT_THROW(ProximityQuery({}, 0, -1.0), std::invalid_argument);
 }
 
+TEST(ProximityQuery, ListsAllProblemsOfItsElementsTogether) {
+  Elements elements;
+  elements.spheres = {{{NodeId{0}}, 0.1}, {{NodeId{5}}, 0.1}, {{NodeId{-1}}, -0.1}};
+  elements.spheres.push_back({{NodeId{1}}, std::numeric_limits<double>::infinity()});
+  elements.facets = {{{NodeId{0}, NodeId{1}, NodeId{1}}, 0.1}};
+
+  try {
+    ProximityQuery query(elements, 3, -1.0);
+    FAIL() << "was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "sphere 1 names node 5, but there are 3 nodes\n"
+                 "sphere 2 names node -1, but there are 3 nodes\n"
+                 "sphere 2 has radius -0.1 m; it must be positive and finite\n"
+                 "sphere 3 has radius inf m; it must be positive and finite\n"
+                 "largest gap is -1 m; it must be positive and finite\n"
+                 "surface: facet 0 repeats node 1; merge duplicate nodes or delete the element");
+  }
+}
+
+TEST(ProximityQuery, RefusesPositionsOfAnotherNumberOfNodes) {
+  Elements elements;
+  elements.spheres = {{{NodeId{2}}, 0.1}};
+  ProximityQuery query(elements, 3, 0.01);
+
+  EXPECT_THROW(query.find(std::vector<Vec3>(2, Vec3::Zero())), std::invalid_argument);
+  EXPECT_THROW(query.find(std::vector<Vec3>(4, Vec3::Zero())), std::invalid_argument);
+  EXPECT_NO_THROW(query.find(std::vector<Vec3>(3, Vec3::Zero())));
+}
+
 TEST(PrimitivePairs, PutTheContactPointHalfTheGapAwayFromBothSurfaces) {
   test::Random random(8);
   const Model model = random_model(random, 10);
@@ -90,7 +125,8 @@ TEST(PrimitivePairs, PutTheContactPointHalfTheGapAwayFromBothSurfaces) {
 
 TEST(PrimitivePairs, AgreeBitForBitAboutAFootOnACommonEdge) {
   const std::vector<Vec3> x{{0, 0, 0}, {1, 0, 0.1}, {0.3, 1, 0}, {0.4, -1, 0}, {0.37, 0.01, 0.4}};
-  const std::vector<Facet> facets{{{NodeId{0}, NodeId{1}, NodeId{2}}, 0.1}, {{NodeId{1}, NodeId{0}, NodeId{3}}, 0.1}};
+  const std::vector<Facet> facets{{{NodeId{0}, NodeId{1}, NodeId{2}}, 0.1},
+                                  {{NodeId{1}, NodeId{0}, NodeId{3}}, 0.1}};
   const Surface surface({}, facets, x.size());
   std::vector<Vec3> at = x;
   at[4] = Vec3(0.4, 0.0, 0.4);  // above a ridge: both facets answer with their common edge
