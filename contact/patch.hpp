@@ -49,6 +49,9 @@ class PatchFinder {
   std::span<const PatchTerm> terms(const Patch& patch) const noexcept {
     return {terms_.data() + patch.first_term, patch.term_count};
   }
+  std::span<PatchTerm> terms(const Patch& patch) noexcept {
+    return {terms_.data() + patch.first_term, patch.term_count};
+  }
 
  private:
   using Critical = geometry::CriticalFeature;

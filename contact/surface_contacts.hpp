@@ -5,6 +5,7 @@
 #include "contact/contact_memory.hpp"
 #include "contact/contact_row.hpp"
 #include "contact/force_records.hpp"
+#include "contact/last_side.hpp"
 #include "contact/material_pairs.hpp"
 #include "contact/patch.hpp"
 #include "contact/patch_force.hpp"
@@ -13,6 +14,7 @@
 #include "geometry/neighbours.hpp"
 #include "geometry/parallel_sum.hpp"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -98,6 +100,7 @@ class SurfaceContacts {
   };
 
   double advance_pair(Pair& pair, const Motion& motion, double dt, int worker);
+  void keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x, Worker& worker);
   void find_states(const Pair& pair, std::span<const Patch> patches, const Motion& motion, Worker& worker);
   double inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion, double dt, Worker& worker);
   void write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
@@ -179,6 +182,7 @@ double SurfaceContacts<Law>::advance_pair(Pair& pair, const Motion& motion, doub
   const auto patches =
       worker.patches.find(motion.position[index_of(pair.node)], pair.reach, cells, motion.position);
 
+  keep_sides(pair, patches, motion.position, worker);
   find_states(pair, patches, motion, worker);
   double dissipated = inherit(pair, patches, motion, dt, worker);
   pair.range = {worker_index, static_cast<std::uint32_t>(lists.contacts.size()),
@@ -201,6 +205,25 @@ double SurfaceContacts<Law>::advance_pair(Pair& pair, const Motion& motion, doub
     lists.contacts.push_back(contact);
   }
   return dissipated;
+}
+
+/// Where a ball's centre lies on the surface itself, the contact of the last step says on which side it is.
+template <ContactLaw Law>
+void SurfaceContacts<Law>::keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x, Worker& worker) {
+  for (std::size_t j = 0; j < patches.size(); ++j) {
+    const std::span<PatchTerm> terms = worker.patches.terms(patches[j]);
+    if (terms[0].distance > 0.0 || pair.range.count == 0) continue;  // the first is the nearest
+    const auto& minima = previous_[static_cast<std::size_t>(pair.range.worker)].minima;
+    for (const Contact& old : contacts_of(pair, previous_)) {
+      const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
+                                           x[index_of(pair.node)], x, patches, worker.patches);
+      if (std::find(heirs.begin(), heirs.end(), j) == heirs.end()) continue;
+      for (PatchTerm& term : terms) {
+        if (term.distance == 0.0) term.normal = normal_on_last_side(term, old.memory.normal, x);
+      }
+      break;
+    }
+  }
 }
 
 template <ContactLaw Law>
