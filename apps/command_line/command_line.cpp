@@ -9,6 +9,7 @@
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/units.hpp"
+#include "geometry/printable.hpp"
 #include "geometry/version.hpp"
 
 #include <CLI/CLI.hpp>
@@ -159,7 +160,7 @@ void print_error(const std::string& text) {
   int problems = 0;
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with(' ')) ++problems;
-    shown += printable(line) + '\n';
+    shown += geometry::printable(line) + '\n';
   }
   std::cerr << "plekton: " << (problems > 1 ? fmt::format("{} problems\n", problems) : "") << shown;
 }

@@ -18,10 +18,6 @@ struct Place {
 /// "catch.toml:12:8", or the source alone.
 std::string to_string(const Place& place);
 
-/// A text for a terminal, in one line: control characters are written as in "\\n" and "\\x1b". A
-/// line break before two spaces goes on with the same message and stays.
-std::string printable(std::string_view text);
-
 /// Input that cannot be used. The message lists every problem, a line each.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;

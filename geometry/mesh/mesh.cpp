@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/mesh.hpp"
 
+#include "geometry/printable.hpp"
+
 namespace plekton::geometry {
+
+MeshError::MeshError(const std::string& text) : std::runtime_error(printable(text)) {}
 
 PolygonSoup to_soup(const Mesh& mesh) {
   PolygonSoup soup{mesh.points, {}, 0};

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace plekton::geometry {
@@ -28,9 +29,10 @@ struct PolygonSoup {
 };
 
 /// A mesh that cannot be read, written or used. The message names the file, the place, what was
-/// found, what was expected and a way out; all problems of a file come in one message.
+/// found, what was expected and a way out; all problems of a file come in one message. What it
+/// quotes of a file may be any bytes: control characters come out as in geometry/printable.hpp.
 struct MeshError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit MeshError(const std::string& text);
 };
 
 /// The same triangles as polygons.

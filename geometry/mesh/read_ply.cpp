@@ -20,10 +20,10 @@ class PlyBody {
  public:
   PlyBody(std::string_view bytes, const PlyHeader& header, const std::string& name)
       : bytes_(bytes.substr(header.body)),
-        text_(header.encoding == PlyEncoding::ascii ? bytes_ : std::string_view(), name),
+        text_(header.encoding == PlyEncoding::ascii ? bytes_ : std::string_view(), name, '\0',
+              header.body_line),
         name_(name),
-        encoding_(header.encoding),
-        first_line_(header.body_line) {}
+        encoding_(header.encoding) {}
 
   double number(PlyType type, const char* what) {
     if (encoding_ == PlyEncoding::ascii) return text_.number(what);
@@ -75,16 +75,15 @@ class PlyBody {
   }
 
   /// Line of the last number in the file; 0 in a binary file.
-  std::size_t line() const {
-    return encoding_ == PlyEncoding::ascii ? first_line_ + text_.line() - 1 : 0;
-  }
+  std::size_t line() const { return encoding_ == PlyEncoding::ascii ? text_.line() : 0; }
 
  private:
   void require_bytes(std::size_t size, const char* what) const {
     if (bytes_.size() - position_ < size) fail(what, "the end of the file");
   }
   [[noreturn]] void fail(const std::string& expected, const std::string& got) const {
-    throw MeshError(name_ + ": expected " + expected + ", got " + got +
+    const std::string place = line() == 0 ? "" : ": line " + std::to_string(line());
+    throw MeshError(name_ + place + ": expected " + expected + ", got " + got +
                     "; the file is cut off or damaged; export it again");
   }
 
@@ -92,7 +91,6 @@ class PlyBody {
   TextScanner text_;
   std::string name_;
   PlyEncoding encoding_;
-  std::size_t first_line_;
   std::size_t position_ = 0;
 };
 

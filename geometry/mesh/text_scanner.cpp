@@ -28,11 +28,7 @@ double out_of_range_value(std::string_view digits, bool negative) {
 
 std::string quoted(std::string_view word) {
   constexpr std::size_t kLongestQuote = 40;
-  std::string text = "'";
-  for (const char c : word.substr(0, kLongestQuote)) {
-    const bool printable = static_cast<unsigned char>(c) >= 0x20 && c != 0x7f;
-    text += printable ? c : '?';
-  }
+  const std::string text = "'" + std::string(word.substr(0, kLongestQuote));
   return text + (word.size() > kLongestQuote ? "...'" : "'");
 }
 

@@ -186,6 +186,18 @@ INSTANTIATE_TEST_SUITE_P(
                 kPly,
                 kPlyHeader + kPoints + "3 0 1 1.5\n",
                 {"corner of a facet", "1.5"}},
+        BadText{"a word",
+                kPly,
+                kPlyHeader + "0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n",
+                {"line 11: expected a coordinate of a point, got 'zero'"}},
+        BadText{"a fraction of a corner",
+                kPly,
+                kPlyHeader + "0 0 0\n1 0 0\n0 1 0\n3 0 1.5 2\n",
+                {"line 13: expected a corner of a facet, got the number 1.5"}},
+        BadText{"cut off",
+                kPly,
+                kPlyHeader + "0 0 0\n1 0 0\n0 1 0\n3 0 1",
+                {"line 13: expected a corner of a facet, got the end of the file"}},
         BadText{"no header", kPly, "plonk\n", {"line 1: expected the word ply"}},
         BadText{"no end of the header",
                 kPly,
@@ -216,6 +228,26 @@ TEST(BadMeshInput, ReportsAllProblemsOfAFileTogether) {
 
   EXPECT_THAT(message, AllOf(HasSubstr("3 problems"), HasSubstr("line 3"), HasSubstr("line 6"),
                              HasSubstr("line 7")));
+}
+
+// A terminal would obey them.
+TEST(BadMeshInput, ShowsTheControlCharactersOfAFileInEveryFormat) {
+  const std::string bell = "\x1b[2J\a";
+  for (const auto& [text, format] :
+       std::vector<std::pair<std::string, MeshFormat>>{{bell + "\n", kOff},
+                                                       {"OFF\n1 0 0\n0 0 " + bell, kOff},
+                                                       {"v 0 0 " + bell + "\n", kObj},
+                                                       {bell + "\n", kStl},
+                                                       {"ply\n" + bell + "\n", kPly},
+                                                       {"ply\nformat " + bell + "\n", kPly},
+                                                       {"$" + bell + "\n", MeshFormat::gmsh},
+                                                       {"<" + bell, MeshFormat::vtp}}) {
+    const std::string message = message_of(text, format);
+
+    EXPECT_NE(message, "accepted");
+    EXPECT_EQ(message.find_first_of("\x1b\a"), std::string::npos) << message;
+  }
+  EXPECT_THAT(message_of("OFF\n1 0 0\n0 0 " + bell, kOff), HasSubstr("got '\\x1b[2J\\x07'"));
 }
 
 TEST(BadMeshInput, CutsALongListOfProblemsShort) {

@@ -23,9 +23,5 @@ TEST(Problems, ShowControlCharactersOfTheInputInsteadOfSendingThemToTheTerminal)
   EXPECT_EQ(problems.lines().front(), "a.toml:1:1: got \"1 s\\n\", \"\\x1b[2J\", \"µm\"\\x00");
 }
 
-TEST(Problems, KeepTheIndentedLinesOfOneMessage) {
-  EXPECT_EQ(printable("mesh.off: refused\n  one\n  two"), "mesh.off: refused\n  one\n  two");
-}
-
 }  // namespace
 }  // namespace plekton::apps
