@@ -15,7 +15,7 @@ say "Running apps/examples/catch/catch.toml"
 build/release/apps/plekton run apps/examples/catch/catch.toml --out out/catch --threads 2
 
 say "Summary, from out/catch/run.json"
-sed -n 's/^ *"\([a-z_]*\(lost\|closure\|overlap\|critical\|seconds\|steps\)[a-z_]*\)": *\([^,{[]*\),*$/  \1: \3/p' out/catch/run.json
+cmake -DREPORT=out/catch/run.json -P cmake/run_summary.cmake
 say "Written; open the .pvd files with ParaView"
 for file in out/catch/*.pvd out/catch/*.csv out/catch/run.json; do
   if [ -e "$file" ]; then

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=sh
 # Functions for the scripts of the project, read with `.` from the root of the tree. POSIX sh.
 
 # say TEXT: tell the user what happens.
@@ -15,12 +16,32 @@ packages_for() {
 
 # stop_and_name USE... : ends the script with 1 after naming the packages for these uses, each with its reason.
 stop_and_name() {
-  echo "Plekton installs packages by itself on Debian 12 only. It needs, under Debian's names:" >&2
+  echo "This is $(system_name). Plekton installs packages by itself on Debian 12 only. It needs, under Debian's names:" >&2
   for use in "$@"; do
     sed -n "s/^$use  */  /p" cmake/debian-packages.txt >&2
   done
   echo "With these installed: cmake --preset release && cmake --build --preset release" >&2
   exit 1
+}
+
+# The file that names the system; see os-release(5).
+os_release=${PLEKTON_OS_RELEASE:-/etc/os-release}
+
+# os_value KEY: the value of a key of that file, without quotes; nothing where there is none.
+os_value() {
+  [ -r "$os_release" ] || return 0
+  awk -F= -v key="$1" '$1 == key { gsub(/["\047]/, "", $2); print $2; exit }' "$os_release"
+}
+
+# system_name: what the system calls itself.
+system_name() {
+  name=$(os_value PRETTY_NAME)
+  echo "${name:-a system without a name in $os_release}"
+}
+
+# is_debian_12: whether packages can be installed under the names that are known here.
+is_debian_12() {
+  [ "$(os_value ID)" = debian ] && [ "$(os_value VERSION_ID)" = 12 ] && command -v apt-get > /dev/null
 }
 
 # missing_packages PACKAGE...: those that are not installed, one a line.
@@ -43,9 +64,10 @@ apt_get() {
   fi
 }
 
-# need_packages USE...: installs what is missing for these uses; where that cannot be done, names it and ends with 1.
+# need_packages USE...: installs what is missing for these uses on Debian 12; elsewhere, or where that cannot be done,
+# names it and ends with 1. A system that is made of Debian packages and has them all may go on.
 need_packages() {
-  if ! command -v apt-get > /dev/null || ! command -v dpkg-query > /dev/null; then
+  if ! command -v dpkg-query > /dev/null; then
     stop_and_name "$@"
   fi
   # One word a package, here and below.
@@ -55,6 +77,7 @@ need_packages() {
     say "All packages are installed"
     return
   fi
+  is_debian_12 || stop_and_name "$@"
   say "Installing: $missing"
   # shellcheck disable=SC2086
   if ! { apt_get update && apt_get install -y --no-install-recommends $missing; }; then
