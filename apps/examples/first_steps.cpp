@@ -24,8 +24,8 @@ int main() {
   dynamics::Simulation<contact::LinearFrictional> run(scene,
                                                       {.motion = {.gravity = {0, 0, -9.81}}});
   const auto ball = index_of(run.elements().spheres[0].nodes[0]);
-  for (double next = 0.0; next <= 0.3; next += 0.03) {
-    while (run.time() < next) run.step();
+  for (int i = 0; i <= 10; ++i) {
+    while (run.time() < 0.03 * i) run.step();
     std::cout << run.time() << " s: height " << run.state().position[ball].z() << " m\n";
   }
 }
