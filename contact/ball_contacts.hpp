@@ -114,7 +114,7 @@ double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
         a.radius, b.radius, 0.0, materials.combine(a.material, a.radius, b.material, b.radius), {}};
   };
   rekey_(details_, keys, make,
-        [&](Detail& old) { lost += forget<Law>(old.parameters, old.memory); });
+         [&](Detail& old) { lost += forget<Law>(old.parameters, old.memory); });
   return lost;
 }
 

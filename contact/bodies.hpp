@@ -15,7 +15,8 @@ struct Ball {
   MaterialId material;
 };
 
-/// A rigid half-space: a wall, a floor, a plate. It moves with a velocity of its own and does not turn.
+/// A rigid half-space: a wall, a floor, a plate. It moves with a velocity of its own and does not
+/// turn.
 struct Plane {
   Vec3 point;                    ///< m, any point of the plane
   Vec3 normal;                   ///< unit, out of the solid, into the space of the bodies

@@ -16,10 +16,12 @@ struct ContactMemory {
 
 /// The history of a contact, turned from its last normal into a new contact frame.
 ///
-/// A normal that turned by more than 120 degrees in one step belongs to another contact: nothing is carried over.
+/// A normal that turned by more than 120 degrees in one step belongs to another contact: nothing is
+/// carried over.
 /// @param twist  rad, rotation of both bodies about the new normal during the step (mean)
 template <ContactLaw Law>
-typename Law::History carried_history(const ContactMemory<Law>& memory, const Vec3& normal, double twist) noexcept {
+typename Law::History carried_history(const ContactMemory<Law>& memory, const Vec3& normal,
+                                      double twist) noexcept {
   if (memory.is_new() || memory.normal.dot(normal) < -0.5) return {};
   typename Law::History history = memory.history;
   Law::rotate(history, FrameRotation{memory.normal, normal, twist});

@@ -16,8 +16,8 @@ struct ContactRow {
 };
 
 /// Splits a force on b along the normal.
-inline ContactRow contact_row(const Vec3& point_a, const Vec3& point_b, const Vec3& normal, double gap,
-                              const Vec3& force) noexcept {
+inline ContactRow contact_row(const Vec3& point_a, const Vec3& point_b, const Vec3& normal,
+                              double gap, const Vec3& force) noexcept {
   const Vec3 normal_force = force.dot(normal) * normal;
   return {point_a, point_b, normal, gap, normal_force, force - normal_force};
 }

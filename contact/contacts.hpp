@@ -28,18 +28,22 @@ struct ContactCounts {
   std::size_t with_planes = 0;
 };
 
-/// All contacts of a scene: spheres with spheres, spheres with surfaces, spheres and nodes of surfaces with planes.
+/// All contacts of a scene: spheres with spheres, spheres with surfaces, spheres and nodes of
+/// surfaces with planes.
 template <ContactLaw Law>
 class Contacts {
  public:
   /// @param spheres, surface  must outlive this
   /// @param skin  m, how far a pair may be apart when it is listed as a candidate
   /// @param meets_planes  by NodeId: which nodes of the surface touch planes; empty: all of them
-  Contacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface, ContactMaterials<Law> materials,
-           double skin, const std::vector<bool>& meets_planes = {});
+  Contacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
+           ContactMaterials<Law> materials, double skin,
+           const std::vector<bool>& meets_planes = {});
 
-  /// One step: finds who touches whom, carries histories over, and asks the law. Forces are not yet added.
-  void advance(const Motion& motion, std::span<const Plane> planes, double dt, geometry::ThreadPool& pool);
+  /// One step: finds who touches whom, carries histories over, and asks the law. Forces are not yet
+  /// added.
+  void advance(const Motion& motion, std::span<const Plane> planes, double dt,
+               geometry::ThreadPool& pool);
 
   /// Adds the forces of the last step to the nodes.
   void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
@@ -54,7 +58,8 @@ class Contacts {
 
   /// Energy (J) stored at the positions of the last step.
   double elastic_energy() const {
-    return with_spheres_.elastic_energy() + with_surfaces_.elastic_energy() + with_planes_.elastic_energy();
+    return with_spheres_.elastic_energy() + with_surfaces_.elastic_energy() +
+           with_planes_.elastic_energy();
   }
   /// Energy (J) dissipated since the beginning.
   double dissipated() const noexcept { return dissipated_; }
@@ -91,7 +96,8 @@ class Contacts {
 
 template <ContactLaw Law>
 Contacts<Law>::Contacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
-                        ContactMaterials<Law> materials, double skin, const std::vector<bool>& meets_planes)
+                        ContactMaterials<Law> materials, double skin,
+                        const std::vector<bool>& meets_planes)
     : materials_(std::move(materials)),
       neighbours_(spheres, surface, skin),
       plane_neighbours_(skin),
@@ -101,9 +107,10 @@ Contacts<Law>::Contacts(std::span<const geometry::Sphere> spheres, const geometr
   }
   for (std::size_t n = 0; n < surface.node_count(); ++n) {
     const auto structure = surface.structure_of(geometry::id_at<NodeId>(n));
-    if (structure == geometry::StructureId{-1} || (!meets_planes.empty() && !meets_planes[n])) continue;
-    balls_.push_back(
-        {geometry::id_at<NodeId>(n), surface.radius(structure), materials_.of_structures[index_of(structure)]});
+    if (structure == geometry::StructureId{-1} || (!meets_planes.empty() && !meets_planes[n]))
+      continue;
+    balls_.push_back({geometry::id_at<NodeId>(n), surface.radius(structure),
+                      materials_.of_structures[index_of(structure)]});
   }
 }
 
@@ -113,11 +120,13 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
   if (neighbours_.update(motion.position, pool)) {
     dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs);
     dissipated_ += with_surfaces_.rebuild(neighbours_.sphere_structures(), neighbours_.near_cells(),
-                                          neighbours_.cells(), balls_, materials_.of_structures, materials_.pairs);
+                                          neighbours_.cells(), balls_, materials_.of_structures,
+                                          materials_.pairs);
     plane_neighbours_.expire();
   }
   if (plane_neighbours_.update(balls_, planes, motion.position)) {
-    dissipated_ += with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
+    dissipated_ +=
+        with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
   }
   dissipated_ += with_spheres_.advance(motion, dt, pool);
   dissipated_ += with_surfaces_.advance(motion, dt, pool);

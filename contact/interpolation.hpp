@@ -4,13 +4,16 @@
 #include "contact/motion.hpp"
 #include "geometry/proximity.hpp"
 
-/// How a point of an element follows its nodes, and how a force there reaches them. The two functions are transposes
-/// of each other, side by side: the power of a force at a point is the power it brings to the nodes, and its moment
-/// is the nodes' moment, to round-off, for every primitive.
+/// How a point of an element follows its nodes, and how a force there reaches them. The two
+/// functions are transposes of each other, side by side: the power of a force at a point is the
+/// power it brings to the nodes, and its moment is the nodes' moment, to round-off, for every
+/// primitive.
 namespace plekton::contact {
 
-/// Velocity (m/s) of the material point that is at lever (m) from a core point: v = sum w_i (v_i + omega_i x lever).
-inline Vec3 velocity_at(const geometry::CorePoint& core, const Vec3& lever, const Motion& motion) noexcept {
+/// Velocity (m/s) of the material point that is at lever (m) from a core point: v = sum w_i (v_i +
+/// omega_i x lever).
+inline Vec3 velocity_at(const geometry::CorePoint& core, const Vec3& lever,
+                        const Motion& motion) noexcept {
   Vec3 velocity = Vec3::Zero();
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t node = index_of(core.nodes[i]);
@@ -24,7 +27,8 @@ inline Vec3 velocity_at(const geometry::CorePoint& core, const Vec3& lever, cons
 inline Vec3 angular_velocity_at(const geometry::CorePoint& core, const Motion& motion) noexcept {
   Vec3 angular_velocity = Vec3::Zero();
   for (std::size_t i = 0; i < 3; ++i) {
-    angular_velocity += core.weights[static_cast<int>(i)] * motion.angular_velocity[index_of(core.nodes[i])];
+    angular_velocity +=
+        core.weights[static_cast<int>(i)] * motion.angular_velocity[index_of(core.nodes[i])];
   }
   return angular_velocity;
 }

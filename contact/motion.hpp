@@ -15,11 +15,12 @@ using geometry::NodeId;
 using geometry::Positions;
 using geometry::Vec3;
 
-/// Where the nodes are and how they move; the only thing contacts know of the state. Views of equal length.
+/// Where the nodes are and how they move; the only thing contacts know of the state. Views of equal
+/// length.
 struct Motion {
-  Positions position;                     ///< m
-  std::span<const Vec3> velocity;         ///< m/s
-  std::span<const Vec3> angular_velocity; ///< rad/s
+  Positions position;                      ///< m
+  std::span<const Vec3> velocity;          ///< m/s
+  std::span<const Vec3> angular_velocity;  ///< rad/s
 };
 
 /// Forces (N) and torques (N m) that act on the nodes.

@@ -9,8 +9,8 @@
 namespace plekton::contact {
 namespace {
 
-/// A walk downhill from a pass in range ends in range, but for the last ulp of the distances: there the overlap of the
-/// pass is nothing but rounding, and the pass is left out.
+/// A walk downhill from a pass in range ends in range, but for the last ulp of the distances: there
+/// the overlap of the pass is nothing but rounding, and the pass is left out.
 constexpr std::uint32_t kOutOfRange = std::numeric_limits<std::uint32_t>::max();
 
 bool nearer(const geometry::CriticalFeature* a, const geometry::CriticalFeature* b) noexcept {
@@ -19,8 +19,8 @@ bool nearer(const geometry::CriticalFeature* a, const geometry::CriticalFeature*
 
 }  // namespace
 
-std::span<const Patch> PatchFinder::find(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
-                                         Positions x) {
+std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
+                                         std::span<const geometry::CellId> cells, Positions x) {
   const auto critical = critical_.find(centre, range, cells, x);
   minima_.clear();
   passes_.clear();
@@ -41,12 +41,14 @@ std::span<const Patch> PatchFinder::find(const Vec3& centre, double range, std::
 void PatchFinder::link_passes(const Vec3& centre, double range, Positions x) {
   vertices_.clear();
   const auto vertex_count = static_cast<std::uint32_t>(minima_.size() + passes_.size());
-  for (std::uint32_t i = 0; i < vertex_count; ++i) vertices_.push_back({critical_of(i).core.feature, i});
+  for (std::uint32_t i = 0; i < vertex_count; ++i)
+    vertices_.push_back({critical_of(i).core.feature, i});
   std::sort(vertices_.begin(), vertices_.end());
 
   links_.clear();
   pass_links_.clear();
-  for (auto i = static_cast<std::uint32_t>(minima_.size()); i < vertex_count; ++i) add_links(i, centre, range, x);
+  for (auto i = static_cast<std::uint32_t>(minima_.size()); i < vertex_count; ++i)
+    add_links(i, centre, range, x);
 }
 
 void PatchFinder::add_links(std::uint32_t pass, const Vec3& centre, double range, Positions x) {
@@ -90,13 +92,17 @@ void PatchFinder::weigh_passes() {
 }
 
 void PatchFinder::add_term(std::uint32_t root, const Critical& feature, double weight) {
-  rooted_.push_back({root, static_cast<std::uint32_t>(rooted_.size()),
+  rooted_.push_back({root,
+                     static_cast<std::uint32_t>(rooted_.size()),
                      {feature.core, feature.direction, feature.distance, weight}});
 }
 
 void PatchFinder::collect_patches() {
-  // minima_ is sorted by distance and a root is the lowest of its vertices: the root's minimum is the deepest one.
-  const auto root_feature = [this](const RootedTerm& rooted) { return minima_[rooted.root]->core.feature; };
+  // minima_ is sorted by distance and a root is the lowest of its vertices: the root's minimum is
+  // the deepest one.
+  const auto root_feature = [this](const RootedTerm& rooted) {
+    return minima_[rooted.root]->core.feature;
+  };
   std::sort(rooted_.begin(), rooted_.end(), [&](const RootedTerm& a, const RootedTerm& b) {
     return a.root != b.root ? root_feature(a) < root_feature(b) : a.order < b.order;
   });

@@ -8,12 +8,14 @@
 #include <span>
 #include <vector>
 
-/// Contact of a ball with a surface: features in range that hang together are one patch, and a patch is one contact.
+/// Contact of a ball with a surface: features in range that hang together are one patch, and a
+/// patch is one contact.
 ///
-/// The elastic force of a patch is the sum of weight * f(gap) * normal over its terms: weight 1 for each minimum of the
-/// distance, and for each pass between them minus the weight that keeps a connected part counted once
-/// (spanning_weights.hpp). So a flat or convex surface pushes exactly once, a sharp corner from both sides, and the
-/// force is continuous in between, with no tolerance: the natural scale is the overlap itself.
+/// The elastic force of a patch is the sum of weight * f(gap) * normal over its terms: weight 1 for
+/// each minimum of the distance, and for each pass between them minus the weight that keeps a
+/// connected part counted once (spanning_weights.hpp). So a flat or convex surface pushes exactly
+/// once, a sharp corner from both sides, and the force is continuous in between, with no tolerance:
+/// the natural scale is the overlap itself.
 namespace plekton::contact {
 
 using geometry::Feature;
@@ -23,13 +25,13 @@ struct PatchTerm {
   geometry::CorePoint core;  ///< on b
   Vec3 normal;               ///< unit, from the ball's centre to the core point
   double distance;           ///< m
-  double weight;             ///< 1 of a minimum; minus what it joins of a pass: -k between k + 1 parts where no ring
-                             ///< closes, and above that, up to 1, where rings do
+  double weight;  ///< 1 of a minimum; minus what it joins of a pass: -k between k + 1 parts where
+                  ///< no ring closes, and above that, up to 1, where rings do
 };
 
 /// One contact of a ball with a surface.
 struct Patch {
-  Feature root;             ///< its deepest minimum; of equals the lowest feature
+  Feature root;  ///< its deepest minimum; of equals the lowest feature
   std::uint32_t first_term;
   std::uint32_t term_count;
 };
@@ -44,7 +46,8 @@ class PatchFinder {
   /// @param range   m, ball's radius + radius of the cells: what counts as in range
   /// @param cells   ascending; every cell nearer than range, all of one radius
   /// @returns       sorted by root; valid until the next call
-  std::span<const Patch> find(const Vec3& centre, double range, std::span<const geometry::CellId> cells, Positions x);
+  std::span<const Patch> find(const Vec3& centre, double range,
+                              std::span<const geometry::CellId> cells, Positions x);
 
   std::span<const PatchTerm> terms(const Patch& patch) const noexcept {
     return {terms_.data() + patch.first_term, patch.term_count};

@@ -16,11 +16,12 @@ struct PatchState {
   double gap = 0.0;             ///< m, of the deepest minimum
   double elastic_force = 0.0;   ///< N, the terms' elastic forces added as vectors
   double elastic_energy = 0.0;  ///< J, of these
-  Vec3 foot = Vec3::Zero();  ///< m, from the ball's centre to the representative point: force-weighted mean of the feet
-  Vec3 lever_a = Vec3::Zero();            ///< m, from the ball's centre to the contact point
+  Vec3 foot = Vec3::Zero();     ///< m, from the ball's centre to the representative point:
+                                ///< force-weighted mean of the feet
+  Vec3 lever_a = Vec3::Zero();  ///< m, from the ball's centre to the contact point
   Vec3 relative_velocity = Vec3::Zero();  ///< m/s, of b relative to a at the contact point
-  double twist_rate = 0.0;       ///< rad/s, mean angular velocity of both bodies about the normal
-  Vec3 force = Vec3::Zero();              ///< N, on b, once the law has spoken
+  double twist_rate = 0.0;    ///< rad/s, mean angular velocity of both bodies about the normal
+  Vec3 force = Vec3::Zero();  ///< N, on b, once the law has spoken
 };
 
 /// What a term carries of its patch.
@@ -29,13 +30,15 @@ struct PatchTermForce {
   double share;    ///< of every other force of the patch; the shares of a patch add up to 1
 };
 
-/// Adds up the elastic forces of a patch. Each term pushes at its own foot, through the ball's centre.
+/// Adds up the elastic forces of a patch. Each term pushes at its own foot, through the ball's
+/// centre.
 /// @param elastic_force   gap -> N, of one feature
 /// @param elastic_energy  gap -> J
 /// @param term_forces     of the same length as terms
 template <class Force, class Energy>
-PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, double range, Force elastic_force,
-                       Energy elastic_energy, std::span<PatchTermForce> term_forces) {
+PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, double range,
+                       Force elastic_force, Energy elastic_energy,
+                       std::span<PatchTermForce> term_forces) {
   PatchState state;
   state.root = patch.root;
   state.gap = terms[0].distance - range;
@@ -66,13 +69,15 @@ PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, dou
   return state;
 }
 
-/// Places the contact point and finds the relative motion there. Any point would balance the momenta, as long as both
-/// sides use the same; this one is half the gap away from either surface, on the line to the representative point.
+/// Places the contact point and finds the relative motion there. Any point would balance the
+/// momenta, as long as both sides use the same; this one is half the gap away from either surface,
+/// on the line to the representative point.
 inline void set_kinematics(PatchState& state, NodeId ball, double radius, double range,
-                           std::span<const PatchTerm> terms, std::span<const PatchTermForce> term_forces,
-                           const Motion& motion) {
+                           std::span<const PatchTerm> terms,
+                           std::span<const PatchTermForce> term_forces, const Motion& motion) {
   const double distance = range + state.gap;
-  state.lever_a = distance > 0.0 ? Vec3((radius + 0.5 * state.gap) / distance * state.foot) : Vec3(Vec3::Zero());
+  state.lever_a = distance > 0.0 ? Vec3((radius + 0.5 * state.gap) / distance * state.foot)
+                                 : Vec3(Vec3::Zero());
   Vec3 velocity = Vec3::Zero();
   Vec3 spin = Vec3::Zero();
   for (std::size_t i = 0; i < terms.size(); ++i) {
@@ -81,7 +86,8 @@ inline void set_kinematics(PatchState& state, NodeId ball, double radius, double
     spin += term_forces[i].share * angular_velocity_at(terms[i].core, motion);
   }
   const Vec3& spin_a = motion.angular_velocity[index_of(ball)];
-  state.relative_velocity = velocity - motion.velocity[index_of(ball)] - spin_a.cross(state.lever_a);
+  state.relative_velocity =
+      velocity - motion.velocity[index_of(ball)] - spin_a.cross(state.lever_a);
   state.twist_rate = 0.5 * (spin_a + spin).dot(state.normal);
 }
 

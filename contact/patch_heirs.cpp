@@ -9,7 +9,8 @@ namespace plekton::contact {
 namespace {
 
 /// The patch that has a feature as a minimum; patches.size() if none has.
-std::uint32_t patch_with_minimum(Feature feature, std::span<const Patch> patches, const PatchFinder& finder) {
+std::uint32_t patch_with_minimum(Feature feature, std::span<const Patch> patches,
+                                 const PatchFinder& finder) {
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     for (const PatchTerm& term : finder.terms(patches[i])) {
       if (term.weight > 0.0 && term.core.feature == feature) return i;
@@ -20,8 +21,9 @@ std::uint32_t patch_with_minimum(Feature feature, std::span<const Patch> patches
 
 }  // namespace
 
-std::span<const std::uint32_t> PatchHeirs::find(std::span<const Feature> minima, const Vec3& centre, Positions x,
-                                                std::span<const Patch> patches, const PatchFinder& finder) {
+std::span<const std::uint32_t> PatchHeirs::find(std::span<const Feature> minima, const Vec3& centre,
+                                                Positions x, std::span<const Patch> patches,
+                                                const PatchFinder& finder) {
   heirs_.clear();
   for (const Feature minimum : minima) {
     std::uint32_t heir = patch_with_minimum(minimum, patches, finder);

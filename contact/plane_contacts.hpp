@@ -105,8 +105,7 @@ double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
         materials.combine(ball.material, ball.radius, planes[plane].material, ball.radius);
     return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}};
   };
-  rekey_(slots_, keys, make,
-        [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });
+  rekey_(slots_, keys, make, [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });
   return lost;
 }
 

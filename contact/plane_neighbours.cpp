@@ -5,12 +5,15 @@
 
 namespace plekton::contact {
 
-bool PlaneNeighbours::update(std::span<const Ball> balls, std::span<const Plane> planes, Positions x) {
+bool PlaneNeighbours::update(std::span<const Ball> balls, std::span<const Plane> planes,
+                             Positions x) {
   const auto has_moved = [this](const Plane& now, const Plane& then) {
-    return now.normal != then.normal || 2.0 * std::abs((now.point - then.point).dot(then.normal)) >= skin_;
+    return now.normal != then.normal ||
+           2.0 * std::abs((now.point - then.point).dot(then.normal)) >= skin_;
   };
-  const bool planes_moved = !std::equal(planes.begin(), planes.end(), built_for_.begin(), built_for_.end(),
-                                        [&](const Plane& now, const Plane& then) { return !has_moved(now, then); });
+  const bool planes_moved =
+      !std::equal(planes.begin(), planes.end(), built_for_.begin(), built_for_.end(),
+                  [&](const Plane& now, const Plane& then) { return !has_moved(now, then); });
   if (!expired_ && !planes_moved) return false;
 
   pairs_.clear();

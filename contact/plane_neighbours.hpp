@@ -11,10 +11,11 @@ namespace plekton::contact {
 
 /// Which balls may touch which planes.
 ///
-/// Whoever owns the list lets it expire before a ball has moved by more than half the skin since the last time; the
-/// list itself sees to the planes, and is made anew when one of them has moved by half the skin. Then the balls stand
-/// anywhere within half the skin of where they were at the last expiry, and may still move to anywhere within it: by
-/// the whole skin. So everything nearer than one and a half skins is listed.
+/// Whoever owns the list lets it expire before a ball has moved by more than half the skin since
+/// the last time; the list itself sees to the planes, and is made anew when one of them has moved
+/// by half the skin. Then the balls stand anywhere within half the skin of where they were at the
+/// last expiry, and may still move to anywhere within it: by the whole skin. So everything nearer
+/// than one and a half skins is listed.
 class PlaneNeighbours {
  public:
   explicit PlaneNeighbours(double skin) : skin_(skin) {}
@@ -22,7 +23,8 @@ class PlaneNeighbours {
   /// Has the list made anew at the next update.
   void expire() noexcept { expired_ = true; }
 
-  /// Makes the list anew if it has expired or a plane has moved by more than half the skin. @returns whether it did
+  /// Makes the list anew if it has expired or a plane has moved by more than half the skin.
+  /// @returns whether it did
   bool update(std::span<const Ball> balls, std::span<const Plane> planes, Positions x);
 
   /// Pairs (ball, plane), sorted.

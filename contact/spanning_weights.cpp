@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-Eigen::Index as_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+Eigen::Index as_index(std::size_t i) {
+  return static_cast<Eigen::Index>(i);
+}
 
 using Matrix = Eigen::Map<Eigen::MatrixXd>;
 
@@ -28,15 +30,16 @@ Matrix matrix_in(std::vector<double>& room, std::size_t rows, std::size_t column
   return {room.data(), as_index(rows), as_index(columns)};
 }
 
-/// Root of the resistance of a tree link over that of a link that closes a ring with it, which is at least as large. A
-/// ring without any resistance shares evenly.
+/// Root of the resistance of a tree link over that of a link that closes a ring with it, which is
+/// at least as large. A ring without any resistance shares evenly.
 double ratio_of(const Link& tree, const Link& closing) noexcept {
   return closing.resistance > 0.0 ? std::sqrt(tree.resistance / closing.resistance) : 1.0;
 }
 
 }  // namespace
 
-std::span<const double> SpanningWeights::find(std::uint32_t vertex_count, std::span<const Link> links) {
+std::span<const double> SpanningWeights::find(std::uint32_t vertex_count,
+                                              std::span<const Link> links) {
   grow_forest(vertex_count, links);
   weights_.assign(links.size(), 0.0);
   for (const std::uint32_t link : tree_links_) weights_[link] = 1.0;
@@ -60,7 +63,8 @@ void SpanningWeights::grow_forest(std::uint32_t vertex_count, std::span<const Li
   order_.resize(links.size());
   std::iota(order_.begin(), order_.end(), 0U);
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
-    return links[i].resistance != links[j].resistance ? links[i].resistance < links[j].resistance : i < j;
+    return links[i].resistance != links[j].resistance ? links[i].resistance < links[j].resistance
+                                                      : i < j;
   });
   for (const std::uint32_t i : order_) {
     if (links[i].a == links[i].b) continue;
@@ -106,8 +110,10 @@ void SpanningWeights::fill_cycles(std::span<const Link> links) {
     while (a != b) {
       const bool climb_a = parent_[a].depth >= parent_[b].depth;
       const Parent& up = climb_a ? parent_[a] : parent_[b];
-      // Towards the parent the tree link is taken as oriented child -> parent for every cycle alike.
-      cycles(as_index(c), as_index(tree_place_[up.link])) = (climb_a ? 1.0 : -1.0) * ratio_of(links[up.link], closing);
+      // Towards the parent the tree link is taken as oriented child -> parent for every cycle
+      // alike.
+      cycles(as_index(c), as_index(tree_place_[up.link])) =
+          (climb_a ? 1.0 : -1.0) * ratio_of(links[up.link], closing);
       (climb_a ? a : b) = up.vertex;
     }
   }
@@ -123,8 +129,8 @@ void SpanningWeights::share_rings(std::span<const Link> links) {
   gram.diagonal().array() += 1.0;
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(gram);  // in place
 
-  // With L L^T = 1 + C C^T, the probability c^T (L L^T)^-1 c to be left out is |L^-1 c|^2; of a closing link, c is a
-  // unit vector.
+  // With L L^T = 1 + C C^T, the probability c^T (L L^T)^-1 c to be left out is |L^-1 c|^2; of a
+  // closing link, c is a unit vector.
   grow(column_, rings);
   Eigen::Map<Eigen::VectorXd> column(column_.data(), as_index(rings));
   const auto weight = [&] {

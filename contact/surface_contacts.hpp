@@ -22,26 +22,29 @@ namespace plekton::contact {
 
 using geometry::NearCells;
 
-/// Contacts of balls (a) with deformable surfaces (b). A contact belongs to a ball and a structure, never to a pair of
-/// elements: it lives on a patch (patch.hpp), and follows it over the surface.
+/// Contacts of balls (a) with deformable surfaces (b). A contact belongs to a ball and a structure,
+/// never to a pair of elements: it lives on a patch (patch.hpp), and follows it over the surface.
 template <ContactLaw Law>
 class SurfaceContacts {
  public:
   explicit SurfaceContacts(const geometry::Surface& surface) : surface_(&surface) {}
 
-  /// Takes a new list of pairs (ball, structure), sorted, with their cells in ascending order; pairs in both lists keep
-  /// their patches.
+  /// Takes a new list of pairs (ball, structure), sorted, with their cells in ascending order;
+  /// pairs in both lists keep their patches.
   /// @param materials_of_structures  by StructureId
   /// @returns the energy (J) lost with contacts that left the list
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const NearCells> near,
                  std::span<const geometry::CellId> cells, std::span<const Ball> balls,
-                 std::span<const MaterialId> materials_of_structures, const MaterialPairs<Law>& materials);
+                 std::span<const MaterialId> materials_of_structures,
+                 const MaterialPairs<Law>& materials);
 
   /// One step of all contacts: forces are written down, not yet added.
   /// @returns the energy (J) dissipated
   double advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
 
-  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const { records_.add_to(forces, pool); }
+  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
+    records_.add_to(forces, pool);
+  }
 
   /// Largest overlap of the last step over the radius of the ball.
   double largest_overlap_ratio() const noexcept { return records_.deepest(); }
@@ -101,13 +104,17 @@ class SurfaceContacts {
 
   double advance_pair(Pair& pair, const Motion& motion, double dt, int worker);
   void keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x, Worker& worker);
-  void find_states(const Pair& pair, std::span<const Patch> patches, const Motion& motion, Worker& worker);
-  double inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion, double dt, Worker& worker);
+  void find_states(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
+                   Worker& worker);
+  double inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion, double dt,
+                 Worker& worker);
   void write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
-                    std::span<const PatchTermForce> term_forces, typename ForceRecords<SurfaceForce>::List& records) const;
+                    std::span<const PatchTermForce> term_forces,
+                    typename ForceRecords<SurfaceForce>::List& records) const;
   double drop(const Pair& pair) const;
   std::span<const Contact> contacts_of(const Pair& pair, const std::vector<Lists>& lists) const {
-    return {lists[static_cast<std::size_t>(pair.range.worker)].contacts.data() + pair.range.first, pair.range.count};
+    return {lists[static_cast<std::size_t>(pair.range.worker)].contacts.data() + pair.range.first,
+            pair.range.count};
   }
 
   const geometry::Surface* surface_;
@@ -122,8 +129,10 @@ class SurfaceContacts {
 };
 
 template <ContactLaw Law>
-double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys, std::span<const NearCells> near,
-                                     std::span<const geometry::CellId> cells, std::span<const Ball> balls,
+double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
+                                     std::span<const NearCells> near,
+                                     std::span<const geometry::CellId> cells,
+                                     std::span<const Ball> balls,
                                      std::span<const MaterialId> materials_of_structures,
                                      const MaterialPairs<Law>& materials) {
   double lost = 0.0;
@@ -169,13 +178,15 @@ double SurfaceContacts<Law>::advance(const Motion& motion, double dt, geometry::
   records_.reset(pool.thread_count());
   return sum_(pairs_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {
     double dissipated = 0.0;
-    for (std::size_t i = begin; i < end; ++i) dissipated += advance_pair(pairs_[i], motion, dt, worker);
+    for (std::size_t i = begin; i < end; ++i)
+      dissipated += advance_pair(pairs_[i], motion, dt, worker);
     return dissipated;
   });
 }
 
 template <ContactLaw Law>
-double SurfaceContacts<Law>::advance_pair(Pair& pair, const Motion& motion, double dt, int worker_index) {
+double SurfaceContacts<Law>::advance_pair(Pair& pair, const Motion& motion, double dt,
+                                          int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const std::span<const geometry::CellId> cells{cells_.data() + pair.near.first, pair.near.count};
@@ -190,13 +201,17 @@ double SurfaceContacts<Law>::advance_pair(Pair& pair, const Motion& motion, doub
   for (std::size_t j = 0; j < patches.size(); ++j) {
     const auto terms = worker.patches.terms(patches[j]);
     PatchState& state = worker.states[j];
-    Contact contact{state, {worker.histories[j], state.normal}, static_cast<std::uint32_t>(lists.minima.size()), 0};
+    Contact contact{state,
+                    {worker.histories[j], state.normal},
+                    static_cast<std::uint32_t>(lists.minima.size()),
+                    0};
     const RelativeMotion relative =
         relative_motion(state.normal, state.gap, state.elastic_force, state.relative_velocity);
     const ContactForce result = Law::force(pair.parameters, relative, contact.memory.history, dt);
     dissipated += result.dissipated;
     contact.state.force = result.force;
-    write_forces(pair, terms, contact.state, {worker.term_forces.data() + patches[j].first_term, terms.size()},
+    write_forces(pair, terms, contact.state,
+                 {worker.term_forces.data() + patches[j].first_term, terms.size()},
                  records_.of_worker(worker_index));
     for (const PatchTerm& term : terms) {
       if (term.weight > 0.0) lists.minima.push_back(term.core.feature);
@@ -207,9 +222,11 @@ double SurfaceContacts<Law>::advance_pair(Pair& pair, const Motion& motion, doub
   return dissipated;
 }
 
-/// Where a ball's centre lies on the surface itself, the contact of the last step says on which side it is.
+/// Where a ball's centre lies on the surface itself, the contact of the last step says on which
+/// side it is.
 template <ContactLaw Law>
-void SurfaceContacts<Law>::keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x, Worker& worker) {
+void SurfaceContacts<Law>::keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x,
+                                      Worker& worker) {
   for (std::size_t j = 0; j < patches.size(); ++j) {
     const std::span<PatchTerm> terms = worker.patches.terms(patches[j]);
     if (terms[0].distance > 0.0 || pair.range.count == 0) continue;  // the first is the nearest
@@ -227,50 +244,57 @@ void SurfaceContacts<Law>::keep_sides(const Pair& pair, std::span<const Patch> p
 }
 
 template <ContactLaw Law>
-void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
-                                       Worker& worker) {
+void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> patches,
+                                       const Motion& motion, Worker& worker) {
   worker.states.clear();
   worker.term_forces.clear();
   for (const Patch& patch : patches) {
     const auto terms = worker.patches.terms(patch);
     worker.term_forces.resize(patch.first_term + terms.size());
-    const std::span<PatchTermForce> term_forces{worker.term_forces.data() + patch.first_term, terms.size()};
+    const std::span<PatchTermForce> term_forces{worker.term_forces.data() + patch.first_term,
+                                                terms.size()};
     worker.states.push_back(patch_state(
-        patch, terms, pair.reach, [&](double gap) { return Law::elastic_normal_force(pair.parameters, gap); },
+        patch, terms, pair.reach,
+        [&](double gap) { return Law::elastic_normal_force(pair.parameters, gap); },
         [&](double gap) { return Law::elastic_normal_energy(pair.parameters, gap); }, term_forces));
-    set_kinematics(worker.states.back(), pair.node, pair.radius, pair.reach, terms, term_forces, motion);
+    set_kinematics(worker.states.back(), pair.node, pair.radius, pair.reach, terms, term_forces,
+                   motion);
   }
 }
 
-/// Hands the histories of the last step's contacts to this step's patches. A contact that splits shares its history in
-/// proportion to the elastic forces. @returns the energy (J) that is lost on the way
+/// Hands the histories of the last step's contacts to this step's patches. A contact that splits
+/// shares its history in proportion to the elastic forces. @returns the energy (J) that is lost on
+/// the way
 template <ContactLaw Law>
-double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion, double dt,
-                                     Worker& worker) {
+double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> patches,
+                                     const Motion& motion, double dt, Worker& worker) {
   worker.histories.assign(patches.size(), typename Law::History{});
   if (pair.range.count == 0) return 0.0;
   double lost = 0.0;
   const auto& minima = previous_[static_cast<std::size_t>(pair.range.worker)].minima;
   for (const Contact& old : contacts_of(pair, previous_)) {
     lost += Law::history_energy(pair.parameters, old.memory.history);
-    const auto heirs =
-        worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
-                          motion.position[index_of(pair.node)], motion.position, patches, worker.patches);
+    const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
+                                         motion.position[index_of(pair.node)], motion.position,
+                                         patches, worker.patches);
     double total = 0.0;
     for (const std::uint32_t heir : heirs) total += worker.states[heir].elastic_force;
     for (const std::uint32_t heir : heirs) {
       const PatchState& state = worker.states[heir];
-      const double share = total > 0.0 ? state.elastic_force / total : 1.0 / static_cast<double>(heirs.size());
-      Law::add_share(worker.histories[heir], carried_history<Law>(old.memory, state.normal, dt * state.twist_rate),
-                     share);
+      const double share =
+          total > 0.0 ? state.elastic_force / total : 1.0 / static_cast<double>(heirs.size());
+      Law::add_share(worker.histories[heir],
+                     carried_history<Law>(old.memory, state.normal, dt * state.twist_rate), share);
     }
   }
-  for (const auto& history : worker.histories) lost -= Law::history_energy(pair.parameters, history);
+  for (const auto& history : worker.histories)
+    lost -= Law::history_energy(pair.parameters, history);
   return lost;
 }
 
 template <ContactLaw Law>
-void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
+void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchTerm> terms,
+                                        const PatchState& state,
                                         std::span<const PatchTermForce> term_forces,
                                         typename ForceRecords<SurfaceForce>::List& records) const {
   const Vec3 other_force = state.force - state.elastic_force * state.normal;
@@ -278,8 +302,9 @@ void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchT
     const Vec3 other = term_forces[i].share * other_force;
     const Vec3 lever_b = state.lever_a - terms[i].distance * terms[i].normal;
     records.add({pair.node, terms[i].core, term_forces[i].elastic * terms[i].normal + other,
-                       -state.lever_a.cross(other), lever_b.cross(other),
-                       static_cast<std::size_t>(&pair - pairs_.data())}, -state.gap / pair.radius);
+                 -state.lever_a.cross(other), lever_b.cross(other),
+                 static_cast<std::size_t>(&pair - pairs_.data())},
+                -state.gap / pair.radius);
   }
 }
 
@@ -296,7 +321,8 @@ double SurfaceContacts<Law>::elastic_energy() const {
   for (const Pair& pair : pairs_) {
     if (pair.range.count == 0) continue;
     for (const Contact& contact : contacts_of(pair, current_)) {
-      energy += contact.state.elastic_energy + Law::history_energy(pair.parameters, contact.memory.history);
+      energy += contact.state.elastic_energy +
+                Law::history_energy(pair.parameters, contact.memory.history);
     }
   }
   return energy;

@@ -7,8 +7,9 @@
 
 namespace plekton::dynamics {
 
-/// The simulation has become meaningless: a node is no longer anywhere, or has moved further in one step than the
-/// elements could notice. The message names step, time, node, position and what to do.
+/// The simulation has become meaningless: a node is no longer anywhere, or has moved further in one
+/// step than the elements could notice. The message names step, time, node, position and what to
+/// do.
 class Diverged : public std::runtime_error {
  public:
   Diverged(std::int64_t step, double time, NodeId node, const Vec3& position, const Vec3& velocity);
@@ -23,6 +24,7 @@ class Diverged : public std::runtime_error {
 
 /// @param furthest  m, what a node may move in a step of dt (s)
 /// @throws Diverged naming the first node that moved further, or whose position is not finite
-void check_finite(const NodeState& state, double furthest, double dt, std::int64_t step, double time);
+void check_finite(const NodeState& state, double furthest, double dt, std::int64_t step,
+                  double time);
 
 }  // namespace plekton::dynamics

@@ -15,7 +15,8 @@ using geometry::NodeId;
 using geometry::Quat;
 using geometry::Vec3;
 
-/// Position, rotation and velocities of every node: the only state of a simulation. Arrays of equal length, by NodeId.
+/// Position, rotation and velocities of every node: the only state of a simulation. Arrays of equal
+/// length, by NodeId.
 struct NodeState {
   std::vector<Vec3> position;          ///< m
   std::vector<Vec3> velocity;          ///< m/s
@@ -26,11 +27,16 @@ struct NodeState {
   contact::Motion motion() const noexcept { return {position, velocity, angular_velocity}; }
 };
 
-/// Which motions of a node are prescribed: then its velocity is what the loads say, and forces do not change it.
+/// Which motions of a node are prescribed: then its velocity is what the loads say, and forces do
+/// not change it.
 enum class Held : std::uint8_t { nothing = 0, translation = 1, rotation = 2, everything = 3 };
 
-constexpr bool holds_translation(Held held) noexcept { return (static_cast<std::uint8_t>(held) & 1U) != 0; }
-constexpr bool holds_rotation(Held held) noexcept { return (static_cast<std::uint8_t>(held) & 2U) != 0; }
+constexpr bool holds_translation(Held held) noexcept {
+  return (static_cast<std::uint8_t>(held) & 1U) != 0;
+}
+constexpr bool holds_rotation(Held held) noexcept {
+  return (static_cast<std::uint8_t>(held) & 2U) != 0;
+}
 
 /// What does not change about a node. Arrays of equal length, by NodeId.
 struct NodeProperties {

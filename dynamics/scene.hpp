@@ -11,23 +11,26 @@
 
 namespace plekton::dynamics {
 
-/// Everything a simulation starts from: plain data that can be built by hand, by a reader or by a generator.
+/// Everything a simulation starts from: plain data that can be built by hand, by a reader or by a
+/// generator.
 struct Scene {
   NodeState state;
   NodeProperties properties;
   geometry::Elements elements;
   std::vector<BeamBond> bonds;
   std::vector<contact::Plane> planes;
-  std::vector<contact::Material> materials;              ///< by MaterialId
-  std::vector<contact::MaterialId> sphere_materials;     ///< by SphereId
-  std::vector<contact::MaterialId> cylinder_materials;   ///< one for each cylinder; one material for a connected structure
-  std::vector<contact::MaterialId> facet_materials;      ///< one for each facet
+  std::vector<contact::Material> materials;           ///< by MaterialId
+  std::vector<contact::MaterialId> sphere_materials;  ///< by SphereId
+  std::vector<contact::MaterialId>
+      cylinder_materials;  ///< one for each cylinder; one material for a connected structure
+  std::vector<contact::MaterialId> facet_materials;  ///< one for each facet
 
   /// Adds a node at rest. Mass and inertia are filled in by what is attached to it.
   NodeId add_node(const Vec3& position, Held held = Held::nothing);
 
   /// Adds a sphere with its node: mass 4/3 pi r³ density, inertia 2/5 m r².
-  geometry::SphereId add_sphere(const Vec3& centre, double radius, double density, contact::MaterialId material);
+  geometry::SphereId add_sphere(const Vec3& centre, double radius, double density,
+                                contact::MaterialId material);
 
   /// Adds a cylinder between nodes: its geometry only.
   void add_cylinder(NodeId a, NodeId b, double radius, contact::MaterialId material);
@@ -35,14 +38,16 @@ struct Scene {
   /// Adds a thick facet between nodes: its geometry only.
   void add_facet(NodeId a, NodeId b, NodeId c, double radius, contact::MaterialId material);
 
-  /// Adds a beam between nodes, at rest as they are now, with half of its mass to either: m += 1/2 rho A L, and
-  /// inertia += 2/5 of that times r² (edge mode, as in Effeindzourou et al. 2016).
+  /// Adds a beam between nodes, at rest as they are now, with half of its mass to either: m += 1/2
+  /// rho A L, and inertia += 2/5 of that times r² (edge mode, as in Effeindzourou et al. 2016).
   /// @returns  its place in bonds
   std::size_t add_beam(NodeId a, NodeId b, const BeamSection& section, double density);
 
-  /// @throws std::invalid_argument listing every problem: arrays of different lengths, ids out of range, a node
-  ///         without mass that is not held, a value that is not finite, a structure of several materials, a
-  ///         facet without area, a cylinder without length, a sphere on a node of another element.
+  /// @throws std::invalid_argument listing every problem: arrays of different lengths, ids out of
+  /// range, a node
+  ///         without mass that is not held, a value that is not finite, a structure of several
+  ///         materials, a facet without area, a cylinder without length, a sphere on a node of
+  ///         another element.
   void check() const;
 };
 

@@ -13,8 +13,9 @@ struct Box {
   Vec3 upper;
 };
 
-/// Smallest box around points (m), grown by a margin (m) on every side and rounded outward, so that it holds the
-/// Minkowski sum of their hull with a ball of that radius in exact arithmetic too. At least one point.
+/// Smallest box around points (m), grown by a margin (m) on every side and rounded outward, so that
+/// it holds the Minkowski sum of their hull with a ball of that radius in exact arithmetic too. At
+/// least one point.
 Box bounding_box(std::span<const Vec3> points, double margin) noexcept;
 
 }  // namespace plekton::geometry

@@ -13,7 +13,8 @@ namespace {
 
 constexpr DescendingLink kFootOutside{0, -1};
 
-/// Room for rounding in the quick range tests below: relative error of a squared length from coordinate differences.
+/// Room for rounding in the quick range tests below: relative error of a squared length from
+/// coordinate differences.
 constexpr double kRoom = 1.0 + 1e-12;
 
 std::array<Vec3, 2> corners(const Surface& surface, EdgeId edge, Positions x) {
@@ -33,7 +34,8 @@ bool line_is_beyond(const Vec3& point, const std::array<Vec3, 2>& x, double rang
   const double along = w.dot(u);
   const double w_squared = w.squaredNorm();
   // |w|² - along²/|u|² > range², with the rounding of both terms on the safe side.
-  return (w_squared - range * range * kRoom) * u.squaredNorm() > along * along + 1e-12 * w_squared * u.squaredNorm();
+  return (w_squared - range * range * kRoom) * u.squaredNorm() >
+         along * along + 1e-12 * w_squared * u.squaredNorm();
 }
 
 /// Whether the plane through a triangle is surely farther than range from a point.
@@ -51,7 +53,8 @@ bool plane_is_beyond(const Vec3& point, const std::array<Vec3, 3>& x, double ran
 }  // namespace
 
 std::span<const CriticalFeature> CriticalFeatureFinder::find(const Vec3& point, double range,
-                                                             std::span<const CellId> cells, Positions x) {
+                                                             std::span<const CellId> cells,
+                                                             Positions x) {
   found_.clear();
   for (const CellId cell : cells) {
     const Feature feature = surface_->feature_of(cell);
@@ -74,16 +77,20 @@ std::span<const CriticalFeature> CriticalFeatureFinder::find(const Vec3& point, 
 
 DescendingLink CriticalFeatureFinder::link(Feature feature, const Vec3& point, Positions x) {
   switch (feature.kind) {
-    case FeatureKind::face: return face_link(FaceId{feature.id}, point, x);
-    case FeatureKind::edge: return edge_link(EdgeId{feature.id}, point, x);
-    case FeatureKind::node: break;
+    case FeatureKind::face:
+      return face_link(FaceId{feature.id}, point, x);
+    case FeatureKind::edge:
+      return edge_link(EdgeId{feature.id}, point, x);
+    case FeatureKind::node:
+      break;
   }
   return node_link(NodeId{feature.id}, point, x);
 }
 
 DescendingLink CriticalFeatureFinder::face_link(FaceId face, const Vec3& point, Positions x) const {
   const auto c = corners(*surface_, face, x);
-  const bool inside = sign_inside_edge(c[0], c[1], c[2], point) > 0 && sign_inside_edge(c[1], c[2], c[0], point) > 0 &&
+  const bool inside = sign_inside_edge(c[0], c[1], c[2], point) > 0 &&
+                      sign_inside_edge(c[1], c[2], c[0], point) > 0 &&
                       sign_inside_edge(c[2], c[0], c[1], point) > 0;
   return inside ? DescendingLink{1, 0} : kFootOutside;
 }
@@ -92,18 +99,22 @@ DescendingLink CriticalFeatureFinder::edge_link(EdgeId edge, const Vec3& point, 
   const auto [a, b] = corners(*surface_, edge, x);
   if (sign_past_vertex(a, b, point) <= 0 || sign_past_vertex(b, a, point) <= 0) return kFootOutside;
   int falling_facets = 0;
-  for (const FaceId face : surface_->faces_of(edge)) falling_facets += falls_into(face, edge, point, x);
+  for (const FaceId face : surface_->faces_of(edge))
+    falling_facets += falls_into(face, edge, point, x);
   return {1 - falling_facets, falling_facets};
 }
 
-bool CriticalFeatureFinder::falls_into(FaceId face, EdgeId edge, const Vec3& point, Positions x) const {
+bool CriticalFeatureFinder::falls_into(FaceId face, EdgeId edge, const Vec3& point,
+                                       Positions x) const {
   const auto& [a, b] = surface_->nodes_of(edge);
   const auto& n = surface_->nodes_of(face);
-  const NodeId opposite = *std::find_if(n.begin(), n.end(), [&](NodeId node) { return node != a && node != b; });
+  const NodeId opposite =
+      *std::find_if(n.begin(), n.end(), [&](NodeId node) { return node != a && node != b; });
   return sign_inside_edge(x[index_of(a)], x[index_of(b)], x[index_of(opposite)], point) > 0;
 }
 
-std::span<const Feature> CriticalFeatureFinder::branches(Feature feature, const Vec3& point, Positions x) {
+std::span<const Feature> CriticalFeatureFinder::branches(Feature feature, const Vec3& point,
+                                                         Positions x) {
   branches_.clear();
   if (feature.kind == FeatureKind::edge) {
     const EdgeId edge{feature.id};
@@ -117,7 +128,8 @@ std::span<const Feature> CriticalFeatureFinder::branches(Feature feature, const 
       if (piece_root(i) != i) continue;
       Feature best(falling_edges_[i]);
       for (std::uint32_t j = i + 1; j < falling_edges_.size(); ++j) {
-        if (piece_root(j) == i) best = nearer_cell(*surface_, best, Feature(falling_edges_[j]), point, x);
+        if (piece_root(j) == i)
+          best = nearer_cell(*surface_, best, Feature(falling_edges_[j]), point, x);
       }
       branches_.push_back(best);
     }
@@ -144,7 +156,8 @@ DescendingLink CriticalFeatureFinder::node_link(NodeId node, const Vec3& point, 
   std::iota(piece_.begin(), piece_.end(), 0U);
   if (edge_count <= 1) return {1 - edge_count, edge_count};
 
-  // Facets with two falling sides at the node join the pieces of the link; falling_edges_ is sorted.
+  // Facets with two falling sides at the node join the pieces of the link; falling_edges_ is
+  // sorted.
   int joining_facets = 0;
   int branches = edge_count;
   for (const FaceId face : surface_->faces_of(node)) {
@@ -153,7 +166,8 @@ DescendingLink CriticalFeatureFinder::node_link(NodeId node, const Vec3& point, 
     for (const EdgeId side : surface_->edges_of(face)) {
       const auto found = std::lower_bound(falling_edges_.begin(), falling_edges_.end(), side);
       if (found == falling_edges_.end() || *found != side) continue;
-      falling[static_cast<std::size_t>(count++)] = static_cast<std::uint32_t>(found - falling_edges_.begin());
+      falling[static_cast<std::size_t>(count++)] =
+          static_cast<std::uint32_t>(found - falling_edges_.begin());
     }
     if (count < 2) continue;
     ++joining_facets;
@@ -165,15 +179,22 @@ DescendingLink CriticalFeatureFinder::node_link(NodeId node, const Vec3& point, 
   return {1 - edge_count + joining_facets, branches};
 }
 
-void CriticalFeatureFinder::find_on_face(FaceId face, const Vec3& point, double range, Positions x) {
+void CriticalFeatureFinder::find_on_face(FaceId face, const Vec3& point, double range,
+                                         Positions x) {
   const DescendingLink link = face_link(face, point, x);
   if (link.coefficient == 0) return;
   const FootPoint foot = foot_on_face(point, corners(*surface_, face, x));
   if (!(foot.distance < range)) return;
-  keep({{surface_->nodes_of(face), foot.weights, Feature(face)}, foot.direction, foot.distance, 0, 0}, link);
+  keep({{surface_->nodes_of(face), foot.weights, Feature(face)},
+        foot.direction,
+        foot.distance,
+        0,
+        0},
+       link);
 }
 
-void CriticalFeatureFinder::find_on_edge(EdgeId edge, const Vec3& point, double range, Positions x) {
+void CriticalFeatureFinder::find_on_edge(EdgeId edge, const Vec3& point, double range,
+                                         Positions x) {
   const auto c = corners(*surface_, edge, x);
   if (line_is_beyond(point, c, range)) return;
   const DescendingLink link = edge_link(edge, point, x);
@@ -181,10 +202,12 @@ void CriticalFeatureFinder::find_on_edge(EdgeId edge, const Vec3& point, double 
   const FootPoint foot = foot_on_edge(point, c);
   if (!(foot.distance < range)) return;
   const auto& n = surface_->nodes_of(edge);
-  keep({{{n[0], n[1], n[0]}, foot.weights, Feature(edge)}, foot.direction, foot.distance, 0, 0}, link);
+  keep({{{n[0], n[1], n[0]}, foot.weights, Feature(edge)}, foot.direction, foot.distance, 0, 0},
+       link);
 }
 
-void CriticalFeatureFinder::find_on_node(NodeId node, const Vec3& point, double range, Positions x) {
+void CriticalFeatureFinder::find_on_node(NodeId node, const Vec3& point, double range,
+                                         Positions x) {
   const Vec3& centre = x[index_of(node)];
   if ((point - centre).squaredNorm() > range * range * kRoom) return;
   const DescendingLink link = node_link(node, point, x);

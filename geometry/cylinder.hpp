@@ -8,7 +8,8 @@
 
 namespace plekton::geometry {
 
-/// Capsule between two nodes: the Minkowski sum of a segment with a ball. Coincident nodes make it a sphere.
+/// Capsule between two nodes: the Minkowski sum of a segment with a ball. Coincident nodes make it
+/// a sphere.
 struct Cylinder {
   std::array<NodeId, 2> nodes;
   double radius;  ///< m, > 0

@@ -70,11 +70,12 @@ Feature closest_feature(const Surface& surface, Feature cell, const Vec3& point,
 }
 
 Feature nearer_cell(const Surface& surface, Feature first, Feature second, const Vec3& point,
-                           Positions x) noexcept {
+                    Positions x) noexcept {
   const auto distance_to = [&](Feature cell) {
     const Feature foot = closest_feature(surface, cell, point, x);
     const auto corner = [&](const auto& nodes, std::size_t i) { return x[index_of(nodes[i])]; };
-    if (foot.kind == FeatureKind::node) return foot_on_node(point, x[static_cast<std::size_t>(foot.id)]).distance;
+    if (foot.kind == FeatureKind::node)
+      return foot_on_node(point, x[static_cast<std::size_t>(foot.id)]).distance;
     if (foot.kind == FeatureKind::edge) {
       const auto& n = surface.nodes_of(EdgeId{foot.id});
       return foot_on_edge(point, {corner(n, 0), corner(n, 1)}).distance;
@@ -85,7 +86,8 @@ Feature nearer_cell(const Surface& surface, Feature first, Feature second, const
   return distance_to(second) < distance_to(first) ? second : first;
 }
 
-Feature downhill_from(const Surface& surface, Feature feature, const Vec3& point, Positions x) noexcept {
+Feature downhill_from(const Surface& surface, Feature feature, const Vec3& point,
+                      Positions x) noexcept {
   Feature next = feature;
   const auto offer = [&](Feature cell) {
     next = next == feature ? cell : nearer_cell(surface, next, cell, point, x);
@@ -95,7 +97,8 @@ Feature downhill_from(const Surface& surface, Feature feature, const Vec3& point
     const auto& ends = surface.nodes_of(edge);
     for (const FaceId face : surface.faces_of(edge)) {
       const Vec3& opposite = x[index_of(opposite_corner(surface, face, ends))];
-      if (sign_inside_edge(x[index_of(ends[0])], x[index_of(ends[1])], opposite, point) > 0) offer(Feature(face));
+      if (sign_inside_edge(x[index_of(ends[0])], x[index_of(ends[1])], opposite, point) > 0)
+        offer(Feature(face));
     }
   } else if (feature.kind == FeatureKind::node) {
     const NodeId node{feature.id};

@@ -21,17 +21,21 @@ struct Elements {
 
 /// How facets and cylinders hang together: every node, edge and face once, and who touches whom.
 ///
-/// Nodes and edges are shared, never copied: any number of facets may meet at an edge, and facets and free cylinders
-/// at a node. A cylinder along a side of a facet is the facet's own rim and adds no edge. The maximal cells are the
-/// facets, then the free cylinders; a feature is owned by its lowest cell.
+/// Nodes and edges are shared, never copied: any number of facets may meet at an edge, and facets
+/// and free cylinders at a node. A cylinder along a side of a facet is the facet's own rim and adds
+/// no edge. The maximal cells are the facets, then the free cylinders; a feature is owned by its
+/// lowest cell.
 class Surface {
  public:
   Surface() = default;
 
   /// Time and memory grow linearly with the number of elements, times log for sorting the edges.
-  /// @throws std::invalid_argument listing every problem: a node id out of range, an element that repeats a node, two
-  ///         facets on the same three nodes, a radius that is not positive and finite, connected elements with different radii.
-  Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets, std::size_t node_count);
+  /// @throws std::invalid_argument listing every problem: a node id out of range, an element that
+  /// repeats a node, two
+  ///         facets on the same three nodes, a radius that is not positive and finite, connected
+  ///         elements with different radii.
+  Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
+          std::size_t node_count);
 
   std::size_t face_count() const noexcept { return face_nodes_.size(); }
   std::size_t edge_count() const noexcept { return edge_nodes_.size(); }
@@ -40,17 +44,29 @@ class Surface {
   /// Nodes of the scene, also those that no facet or cylinder uses.
   std::size_t node_count() const noexcept { return node_structure_.size(); }
 
-  const std::array<NodeId, 3>& nodes_of(FaceId face) const noexcept { return face_nodes_[index_of(face)]; }
+  const std::array<NodeId, 3>& nodes_of(FaceId face) const noexcept {
+    return face_nodes_[index_of(face)];
+  }
   /// Lower node first.
-  const std::array<NodeId, 2>& nodes_of(EdgeId edge) const noexcept { return edge_nodes_[index_of(edge)]; }
+  const std::array<NodeId, 2>& nodes_of(EdgeId edge) const noexcept {
+    return edge_nodes_[index_of(edge)];
+  }
   /// Side k joins corners k and k + 1 (mod 3).
-  const std::array<EdgeId, 3>& edges_of(FaceId face) const noexcept { return face_edges_[index_of(face)]; }
+  const std::array<EdgeId, 3>& edges_of(FaceId face) const noexcept {
+    return face_edges_[index_of(face)];
+  }
   /// Ascending.
-  std::span<const EdgeId> edges_of(NodeId node) const noexcept { return node_edges_[index_of(node)]; }
+  std::span<const EdgeId> edges_of(NodeId node) const noexcept {
+    return node_edges_[index_of(node)];
+  }
   /// Ascending.
-  std::span<const FaceId> faces_of(NodeId node) const noexcept { return node_faces_[index_of(node)]; }
+  std::span<const FaceId> faces_of(NodeId node) const noexcept {
+    return node_faces_[index_of(node)];
+  }
   /// Ascending.
-  std::span<const FaceId> faces_of(EdgeId edge) const noexcept { return edge_faces_[index_of(edge)]; }
+  std::span<const FaceId> faces_of(EdgeId edge) const noexcept {
+    return edge_faces_[index_of(edge)];
+  }
 
   /// A cell as a feature: its face, or its free edge.
   Feature feature_of(CellId cell) const noexcept;
@@ -62,9 +78,13 @@ class Surface {
 
   /// The connected structure of a node; -1 for a node that no cell uses.
   StructureId structure_of(NodeId node) const noexcept { return node_structure_[index_of(node)]; }
-  StructureId structure_of(CellId cell) const noexcept { return structure_of(nodes_of(cell).front()); }
+  StructureId structure_of(CellId cell) const noexcept {
+    return structure_of(nodes_of(cell).front());
+  }
   /// Radius (m) of every cell of a structure.
-  double radius(StructureId structure) const noexcept { return structure_radius_[index_of(structure)]; }
+  double radius(StructureId structure) const noexcept {
+    return structure_radius_[index_of(structure)];
+  }
 
   /// Nodes in use - edges + faces.
   int euler_characteristic() const noexcept;

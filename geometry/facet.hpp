@@ -7,7 +7,8 @@
 
 namespace plekton::geometry {
 
-/// Thick triangle between three nodes: the Minkowski sum of a triangle with a ball, thickness 2 radius. Collinear nodes are allowed.
+/// Thick triangle between three nodes: the Minkowski sum of a triangle with a ball, thickness 2
+/// radius. Collinear nodes are allowed.
 struct Facet {
   std::array<NodeId, 3> nodes;
   double radius;  ///< m, > 0
@@ -23,7 +24,8 @@ inline Box box(const Facet& facet, Positions x, double margin = 0.0) noexcept {
   return bounding_box(core(facet, x), facet.radius + margin);
 }
 
-/// Volume (m³) of the plate between the nodes, without its rounded rim, which neighbouring facets share.
+/// Volume (m³) of the plate between the nodes, without its rounded rim, which neighbouring facets
+/// share.
 inline double volume(const Facet& facet, Positions x) noexcept {
   const auto [x0, x1, x2] = core(facet, x);
   return facet.radius * (x1 - x0).cross(x2 - x0).norm();

@@ -16,9 +16,12 @@ struct Feature {
   std::int32_t id = -1;  ///< NodeId, EdgeId or FaceId, by kind
 
   constexpr Feature() = default;
-  constexpr explicit Feature(NodeId node) : kind(FeatureKind::node), id(static_cast<std::int32_t>(node)) {}
-  constexpr explicit Feature(EdgeId edge) : kind(FeatureKind::edge), id(static_cast<std::int32_t>(edge)) {}
-  constexpr explicit Feature(FaceId face) : kind(FeatureKind::face), id(static_cast<std::int32_t>(face)) {}
+  constexpr explicit Feature(NodeId node)
+      : kind(FeatureKind::node), id(static_cast<std::int32_t>(node)) {}
+  constexpr explicit Feature(EdgeId edge)
+      : kind(FeatureKind::edge), id(static_cast<std::int32_t>(edge)) {}
+  constexpr explicit Feature(FaceId face)
+      : kind(FeatureKind::face), id(static_cast<std::int32_t>(face)) {}
 
   /// Nodes before edges before faces, then by id.
   friend constexpr auto operator<=>(const Feature&, const Feature&) = default;

@@ -5,8 +5,9 @@
 
 #include <array>
 
-/// Perpendicular foot points, computed from coordinate differences only: no accuracy is lost far from the origin.
-/// Whether the foot lies inside the segment or triangle is for the exact signs to say, not for these.
+/// Perpendicular foot points, computed from coordinate differences only: no accuracy is lost far
+/// from the origin. Whether the foot lies inside the segment or triangle is for the exact signs to
+/// say, not for these.
 namespace plekton::geometry {
 
 /// Foot of the perpendicular from a point.
@@ -23,13 +24,14 @@ FootPoint foot_on_node(const Vec3& point, const Vec3& x) noexcept;
 /// At distance 0 the direction is one perpendicular to the line that depends on the line alone.
 FootPoint foot_on_edge(const Vec3& point, const std::array<Vec3, 2>& x) noexcept;
 
-/// Foot on a triangle with an area, for a point whose foot is inside by the exact signs. At distance 0 the direction is
-/// the triangle's normal.
+/// Foot on a triangle with an area, for a point whose foot is inside by the exact signs. At
+/// distance 0 the direction is the triangle's normal.
 ///
-/// The frame is built on the longest side e: e and the part v of another side that is perpendicular to e. For a sliver
-/// the rounding error of v is large relative to its length and turns the plane about e. The foot point is kept inside
-/// the triangle, so what turns is at most as long as v: the distance keeps the accuracy of the coordinates for any
-/// shape, however thin, and the foot point is off by at most the smaller of the height and error / height.
+/// The frame is built on the longest side e: e and the part v of another side that is perpendicular
+/// to e. For a sliver the rounding error of v is large relative to its length and turns the plane
+/// about e. The foot point is kept inside the triangle, so what turns is at most as long as v: the
+/// distance keeps the accuracy of the coordinates for any shape, however thin, and the foot point
+/// is off by at most the smaller of the height and error / height.
 FootPoint foot_on_face(const Vec3& point, const std::array<Vec3, 3>& x) noexcept;
 
 }  // namespace plekton::geometry

@@ -17,7 +17,8 @@ template <class Number>
 struct Difference {
   std::array<Number, 3> v;
   Difference(const Vec3& to, const Vec3& from)
-      : v{Number(to[0]) - Number(from[0]), Number(to[1]) - Number(from[1]), Number(to[2]) - Number(from[2])} {}
+      : v{Number(to[0]) - Number(from[0]), Number(to[1]) - Number(from[1]),
+          Number(to[2]) - Number(from[2])} {}
 };
 
 template <class Number>
@@ -45,9 +46,12 @@ int sign_if_certain(const Interval& value) noexcept {
   return value.inf() == 0.0 && value.sup() == 0.0 ? 0 : 2;
 }
 
-int sign_of(const CGAL::Mpzf& value) { return static_cast<int>(CGAL::sign(value)); }
+int sign_of(const CGAL::Mpzf& value) {
+  return static_cast<int>(CGAL::sign(value));
+}
 
-/// Evaluates a polynomial in interval arithmetic with the rounding mode it needs, and restores the mode.
+/// Evaluates a polynomial in interval arithmetic with the rounding mode it needs, and restores the
+/// mode.
 template <class Polynomial>
 int interval_sign(Polynomial polynomial) noexcept {
   ++sign_counters().interval;

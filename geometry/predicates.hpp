@@ -8,10 +8,10 @@
 
 /// Exact signs: every decision of the contact rule rests on these two, and on nothing else.
 ///
-/// Each is decided in three stages: a double with a proven error bound, then interval arithmetic, then exact
-/// multi-precision arithmetic. The sign is that of the real number defined by the stored doubles, so it is the same for
-/// any compiler, machine and thread, and in any rounding mode, which is left as it was. Coordinates must be finite and
-/// below 1e75 in magnitude.
+/// Each is decided in three stages: a double with a proven error bound, then interval arithmetic,
+/// then exact multi-precision arithmetic. The sign is that of the real number defined by the stored
+/// doubles, so it is the same for any compiler, machine and thread, and in any rounding mode, which
+/// is left as it was. Coordinates must be finite and below 1e75 in magnitude.
 namespace plekton::geometry {
 
 /// How often each stage decided a sign, since the start of the thread. For reports and tests.
@@ -28,17 +28,18 @@ int inside_edge_exact(const Vec3& a, const Vec3& b, const Vec3& o, const Vec3& p
 
 /// Half an ulp of 1.
 constexpr double kRoundoff = 0x1p-53;
-/// Below this an underflow in one product (5e-324, times other factors up to 1e150) could outweigh the error bounds.
+/// Below this an underflow in one product (5e-324, times other factors up to 1e150) could outweigh
+/// the error bounds.
 constexpr double kUnderflow = 1e-150;
 
 }  // namespace detail
 
-/// Sign of (p - a).(b - a): +1 if p lies on b's side of the plane through a that is perpendicular to the edge ab.
-/// Zero on that plane, and for an edge without length.
-/// Error: three products of two rounded differences, each with relative error at most 3 roundoff, and two additions:
-/// |error| <= 5 roundoff sum |terms| to first order. In a directed rounding mode each error doubles, but a sum that
-/// could have the wrong sign is nearly zero and the sum before it at most half of all terms: 7. 8 covers the higher
-/// orders.
+/// Sign of (p - a).(b - a): +1 if p lies on b's side of the plane through a that is perpendicular
+/// to the edge ab. Zero on that plane, and for an edge without length. Error: three products of two
+/// rounded differences, each with relative error at most 3 roundoff, and two additions: |error| <=
+/// 5 roundoff sum |terms| to first order. In a directed rounding mode each error doubles, but a sum
+/// that could have the wrong sign is nearly zero and the sum before it at most half of all
+/// terms: 7. 8 covers the higher orders.
 inline int sign_past_vertex(const Vec3& a, const Vec3& b, const Vec3& p) noexcept {
   const Vec3 terms = (p - a).cwiseProduct(b - a);
   const double sum = terms[0] + terms[1] + terms[2];
@@ -49,12 +50,12 @@ inline int sign_past_vertex(const Vec3& a, const Vec3& b, const Vec3& p) noexcep
   return detail::past_vertex_exact(a, b, p);
 }
 
-/// Sign of ((b - a) x (o - a)).((b - a) x (p - a)): +1 if, seen along the edge ab, p lies less than 90 degrees off the
-/// half-plane from the edge towards the opposite corner o. Zero at 90 degrees, on the line of the edge, and for a
-/// triangle without area.
-/// Error: a component of a cross product of rounded differences has error at most 4 roundoff times the sum of its two
-/// products' magnitudes, the product of two such 9, the sum of three 11 to first order, and 22 in a directed rounding
-/// mode; 24 covers the higher orders.
+/// Sign of ((b - a) x (o - a)).((b - a) x (p - a)): +1 if, seen along the edge ab, p lies less than
+/// 90 degrees off the half-plane from the edge towards the opposite corner o. Zero at 90 degrees,
+/// on the line of the edge, and for a triangle without area. Error: a component of a cross product
+/// of rounded differences has error at most 4 roundoff times the sum of its two products'
+/// magnitudes, the product of two such 9, the sum of three 11 to first order, and 22 in a directed
+/// rounding mode; 24 covers the higher orders.
 inline int sign_inside_edge(const Vec3& a, const Vec3& b, const Vec3& o, const Vec3& p) noexcept {
   const Vec3 u = b - a;
   const Vec3 v = o - a;

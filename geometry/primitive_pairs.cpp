@@ -32,13 +32,16 @@ Proximity proximity(const Sphere& a, const Surface& surface, CellId cell, Positi
   switch (feature.kind) {
     case FeatureKind::face: {
       const auto& n = surface.nodes_of(FaceId{feature.id});
-      return answer(n, foot_on_face(centre, {x[index_of(n[0])], x[index_of(n[1])], x[index_of(n[2])]}));
+      return answer(
+          n, foot_on_face(centre, {x[index_of(n[0])], x[index_of(n[1])], x[index_of(n[2])]}));
     }
     case FeatureKind::edge: {
       const auto& n = surface.nodes_of(EdgeId{feature.id});
-      return answer({n[0], n[1], n[0]}, foot_on_edge(centre, {x[index_of(n[0])], x[index_of(n[1])]}));
+      return answer({n[0], n[1], n[0]},
+                    foot_on_edge(centre, {x[index_of(n[0])], x[index_of(n[1])]}));
     }
-    case FeatureKind::node: break;
+    case FeatureKind::node:
+      break;
   }
   const NodeId node{feature.id};
   return answer({node, node, node}, foot_on_node(centre, x[index_of(node)]));

@@ -10,8 +10,10 @@
 ///   - the sides of a pair are a and b; the normal is the unit vector from a to b;
 ///   - gap = distance of the cores - radius_a - radius_b, negative when the bodies overlap;
 ///   - forces are given on side b; side a gets the opposite;
-///   - the contact point lies on the line through both core points, half the gap away from either surface:
-///     arm_a = radius_a + gap / 2 from the core point of a, arm_b = radius_b + gap / 2 from that of b.
+///   - the contact point lies on the line through both core points, half the gap away from either
+///   surface:
+///     arm_a = radius_a + gap / 2 from the core point of a, arm_b = radius_b + gap / 2 from that of
+///     b.
 namespace plekton::geometry {
 
 /// A point of the core of an element: the weighted mean of up to three nodes.
@@ -23,7 +25,8 @@ struct CorePoint {
 
 /// World position (m) of a core point.
 inline Vec3 position(const CorePoint& point, Positions x) noexcept {
-  return point.weights[0] * x[index_of(point.nodes[0])] + point.weights[1] * x[index_of(point.nodes[1])] +
+  return point.weights[0] * x[index_of(point.nodes[0])] +
+         point.weights[1] * x[index_of(point.nodes[1])] +
          point.weights[2] * x[index_of(point.nodes[2])];
 }
 

@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <span>
 
-/// Exact proximity between spheres, cylinders and thick facets: Minkowski sums of a point, a segment or a triangle with a ball.
+/// Exact proximity between spheres, cylinders and thick facets: Minkowski sums of a point, a
+/// segment or a triangle with a ball.
 namespace plekton::geometry {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
-/// A rotation, scalar part last in memory. Not over-aligned, so that it can live in any std::vector.
+/// A rotation, scalar part last in memory. Not over-aligned, so that it can live in any
+/// std::vector.
 using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
 
 /// Index of a node: a point with position and rotation, shared by every element that names it.

@@ -48,7 +48,8 @@ struct StepWork {
 class Leapfrog {
  public:
   StepWork step(NodeState& state, const NodeForces& forces, const NodeProperties& properties,
-                const MotionOptions& options, const StepLengths& lengths, geometry::ThreadPool& pool);
+                const MotionOptions& options, const StepLengths& lengths,
+                geometry::ThreadPool& pool);
 
  private:
   geometry::ParallelSum<StepWork> sum_;

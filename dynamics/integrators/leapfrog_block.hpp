@@ -111,7 +111,8 @@ struct LeapfrogBlock {
     for (std::size_t lane = 0; lane < count; lane += std::size_t{W}) {
       auto moves = translation.load<Real>(lane);
       auto spins = rotation.load<Real>(lane);
-      const auto of_translation = moves.kick(damped_gravity, free_gravity, options.damping, lengths.kick);
+      const auto of_translation =
+          moves.kick(damped_gravity, free_gravity, options.damping, lengths.kick);
       const auto of_rotation = spins.kick(zero, zero, options.damping, lengths.kick);
       translation.velocity.store(lane, moves.velocity);
       rotation.velocity.store(lane, spins.velocity);

@@ -12,13 +12,15 @@ Bed read_bed(const std::filesystem::path& file) {
   std::size_t count = 0;
   Bed bed{};
   if (!(in >> count >> bed.side >> bed.extent)) {
-    throw std::runtime_error(file.string() + ": line 1 must be: number of spheres, side (m), extent");
+    throw std::runtime_error(file.string() +
+                             ": line 1 must be: number of spheres, side (m), extent");
   }
   bed.grains.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     auto& [x, r, v, w] = bed.grains[i];
     if (!(in >> x[0] >> x[1] >> x[2] >> r >> v[0] >> v[1] >> v[2] >> w[0] >> w[1] >> w[2])) {
-      throw std::runtime_error(file.string() + ": line " + std::to_string(i + 2) + " must have 10 numbers");
+      throw std::runtime_error(file.string() + ": line " + std::to_string(i + 2) +
+                               " must have 10 numbers");
     }
   }
   return bed;

@@ -8,8 +8,8 @@
 
 namespace plekton::benchmarks {
 
-/// A packing of spheres in a box, as all codes that are compared read it. Text: a line `count side extent`, then one
-/// line `x y z radius vx vy vz wx wy wz` for each sphere, SI units.
+/// A packing of spheres in a box, as all codes that are compared read it. Text: a line `count side
+/// extent`, then one line `x y z radius vx vy vz wx wy wz` for each sphere, SI units.
 struct Bed {
   struct Grain {
     geometry::Vec3 position;

@@ -25,7 +25,9 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 double peak_memory_mib() {
   rusage usage{};
@@ -36,10 +38,12 @@ double peak_memory_mib() {
 nlohmann::ordered_json run(const Options& options) {
   namespace bench = plekton::benchmarks;
   const bench::Bed bed = bench::read_bed(options.bed);
-  bench::BenchmarkScene made =
-      options.scene == "s1" ? bench::sphere_bed(bed) : bench::spheres_on_membrane(bed, options.cells);
+  bench::BenchmarkScene made = options.scene == "s1"
+                                   ? bench::sphere_bed(bed)
+                                   : bench::spheres_on_membrane(bed, options.cells);
   made.options.threads = options.threads;
-  plekton::dynamics::Simulation<plekton::contact::LinearFrictional> simulation(std::move(made.scene), made.options);
+  plekton::dynamics::Simulation<plekton::contact::LinearFrictional> simulation(
+      std::move(made.scene), made.options);
 
   for (int i = 0; i < options.warm_up; ++i) simulation.step();
   const double wall = wall_seconds();
@@ -71,7 +75,8 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   app.add_option("--cells", options.cells, "s2: squares along a side")->check(CLI::PositiveNumber);
   app.add_option("--threads", options.threads)->check(CLI::PositiveNumber);
-  app.add_option("--warm-up", options.warm_up, "steps before the clock starts")->check(CLI::NonNegativeNumber);
+  app.add_option("--warm-up", options.warm_up, "steps before the clock starts")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--steps", options.steps, "steps that are timed")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   try {

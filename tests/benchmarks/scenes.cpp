@@ -40,8 +40,9 @@ std::vector<NodeId> add_sheet_nodes(double side, int cells, double radius, dynam
   for (int j = 0; j <= cells; ++j) {
     for (int i = 0; i <= cells; ++i) {
       const bool on_rim = i == 0 || j == 0 || i == cells || j == cells;
-      nodes.push_back(scene.add_node(Vec3(i * side / cells, j * side / cells, -radius),
-                                     on_rim ? dynamics::Held::everything : dynamics::Held::nothing));
+      nodes.push_back(
+          scene.add_node(Vec3(i * side / cells, j * side / cells, -radius),
+                         on_rim ? dynamics::Held::everything : dynamics::Held::nothing));
     }
   }
   return nodes;
@@ -49,7 +50,9 @@ std::vector<NodeId> add_sheet_nodes(double side, int cells, double radius, dynam
 
 std::vector<std::array<NodeId, 3>> sheet_facets(const std::vector<NodeId>& nodes, int cells) {
   std::vector<std::array<NodeId, 3>> facets;
-  const auto at = [&](int i, int j) { return nodes[static_cast<std::size_t>(j * (cells + 1) + i)]; };
+  const auto at = [&](int i, int j) {
+    return nodes[static_cast<std::size_t>(j * (cells + 1) + i)];
+  };
   for (int j = 0; j < cells; ++j) {
     for (int i = 0; i < cells; ++i) {
       const NodeId a = at(i, j);
