@@ -11,8 +11,20 @@ say "Configuring build/release"
 cmake --preset release -DPLEKTON_BUILD_TESTS=OFF
 say "Building the program"
 cmake --build --preset release --parallel "$(nproc)" --target plekton
-say "Running apps/examples/catch/catch.toml"
-build/release/apps/plekton run apps/examples/catch/catch.toml --out out/catch --threads 2
+
+# is_done: whether the run has come to its end and neither the program nor the scenario has changed since.
+is_done() {
+  grep -Eq '"status": *"(at_rest|finished)"' out/catch/run.json 2> /dev/null || return 1
+  [ -z "$(find -L build/release/apps/plekton build/release/*/libplekton_*.so apps/examples/catch/catch.toml \
+    apps/examples/catch/hammock.stl -newer out/catch/run.json)" ]
+}
+
+if is_done; then
+  say "The run of apps/examples/catch/catch.toml is done; remove out/catch to do it again"
+else
+  say "Running apps/examples/catch/catch.toml"
+  build/release/apps/plekton run apps/examples/catch/catch.toml --out out/catch --threads 2
+fi
 
 say "Summary, from out/catch/run.json"
 cmake -DREPORT=out/catch/run.json -P cmake/run_summary.cmake
