@@ -10,17 +10,22 @@
 
 namespace plekton::contact {
 
-/// What a contact law is: stateless functions of parameters, relative motion and history. It never sees a shape.
+/// What a contact law is: stateless functions of parameters, relative motion and history. It never
+/// sees a shape.
 ///
-/// The elastic normal force depends on the gap alone and is summed over the features of a patch by the contact rule;
-/// everything else (friction, viscosity, cohesion) is decided once per patch by force().
+/// The elastic normal force depends on the gap alone and is summed over the features of a patch by
+/// the contact rule; everything else (friction, viscosity, cohesion) is decided once per patch by
+/// force().
 template <class Law>
-concept ContactLaw = requires(const typename Law::Parameters& parameters, const RelativeMotion& motion,
-                              typename Law::History& history, const typename Law::History& other,
-                              const Material& material, const FrameRotation& rotation, double number) {
+concept ContactLaw = requires(const typename Law::Parameters& parameters,
+                              const RelativeMotion& motion, typename Law::History& history,
+                              const typename Law::History& other, const Material& material,
+                              const FrameRotation& rotation, double number) {
   { Law::name } -> std::convertible_to<std::string_view>;
   /// Parameters of a pair of bodies; the numbers are their radii (m).
   { Law::combine(material, number, material, number) } -> std::same_as<typename Law::Parameters>;
+  /// Parameters of that many equal contacts side by side.
+  { Law::multiplied(parameters, number) } -> std::same_as<typename Law::Parameters>;
   /// Elastic normal force (N) of one feature at a gap (m); 0 for a gap >= 0.
   { Law::elastic_normal_force(parameters, number) } -> std::same_as<double>;
   /// Energy (J) stored by that force.

@@ -4,7 +4,9 @@
 #include "contact/ball_contacts.hpp"
 #include "contact/plane_contacts.hpp"
 #include "contact/plane_neighbours.hpp"
+#include "contact/structure_contacts.hpp"
 #include "contact/surface_contacts.hpp"
+#include "geometry/cell_neighbours.hpp"
 #include "geometry/neighbours.hpp"
 
 #include <span>
@@ -25,10 +27,12 @@ struct ContactMaterials {
 struct ContactCounts {
   std::size_t sphere_sphere = 0;
   std::size_t sphere_surface = 0;
+  std::size_t between_structures = 0;
   std::size_t with_planes = 0;
 };
 
-/// All contacts of a scene: spheres with spheres, spheres with surfaces, spheres and nodes of
+/// All contacts of a scene: spheres with spheres, spheres with surfaces, structures with each other
+/// and with themselves, spheres and nodes of
 /// surfaces with planes.
 template <ContactLaw Law>
 class Contacts {
@@ -36,9 +40,10 @@ class Contacts {
   /// @param spheres, surface  must outlive this
   /// @param skin  m, how far a pair may be apart when it is listed as a candidate
   /// @param meets_planes  by NodeId: which nodes of the surface touch planes; empty: all of them
+  /// @param rest  m, of all nodes, for structures that may touch themselves; empty: they do not
   Contacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
-           ContactMaterials<Law> materials, double skin,
-           const std::vector<bool>& meets_planes = {});
+           ContactMaterials<Law> materials, double skin, const std::vector<bool>& meets_planes = {},
+           Positions rest = {});
 
   /// One step: finds who touches whom, carries histories over, and asks the law. Forces are not yet
   /// added.
@@ -49,17 +54,19 @@ class Contacts {
   void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
     with_spheres_.add_forces(forces, pool);
     with_surfaces_.add_forces(forces, pool);
+    between_structures_.add_forces(forces);
     with_planes_.add_forces(forces, pool);
   }
 
   ContactCounts counts() const noexcept {
-    return {with_spheres_.touching(), with_surfaces_.touching(), with_planes_.touching()};
+    return {with_spheres_.touching(), with_surfaces_.touching(), between_structures_.touching(),
+            with_planes_.touching()};
   }
 
   /// Energy (J) stored at the positions of the last step.
   double elastic_energy() const {
     return with_spheres_.elastic_energy() + with_surfaces_.elastic_energy() +
-           with_planes_.elastic_energy();
+           between_structures_.elastic_energy() + with_planes_.elastic_energy();
   }
   /// Energy (J) dissipated since the beginning.
   double dissipated() const noexcept { return dissipated_; }
@@ -67,6 +74,7 @@ class Contacts {
   /// Largest overlap of the last step over the radius of the smaller ball.
   double largest_overlap_ratio() const noexcept {
     return std::max({with_spheres_.largest_overlap_ratio(), with_surfaces_.largest_overlap_ratio(),
+                     between_structures_.largest_overlap_ratio(),
                      with_planes_.largest_overlap_ratio()});
   }
 
@@ -75,11 +83,13 @@ class Contacts {
   void for_each_row(Positions x, Visit&& visit) const {
     with_spheres_.for_each_row(x, visit);
     with_surfaces_.for_each_row(x, visit);
+    between_structures_.for_each_row(visit);
     with_planes_.for_each_row(x, visit);
   }
 
   const BallContacts<Law>& with_spheres() const noexcept { return with_spheres_; }
   const SurfaceContacts<Law>& with_surfaces() const noexcept { return with_surfaces_; }
+  const StructureContacts<Law>& between_structures() const noexcept { return between_structures_; }
   const PlaneContacts<Law>& with_planes() const noexcept { return with_planes_; }
   const geometry::Neighbours& neighbours() const noexcept { return neighbours_; }
 
@@ -87,21 +97,34 @@ class Contacts {
   ContactMaterials<Law> materials_;
   std::vector<Ball> balls_;  ///< the spheres, then the nodes of the surface
   geometry::Neighbours neighbours_;
+  geometry::CellNeighbours cell_neighbours_;
   PlaneNeighbours plane_neighbours_;
   BallContacts<Law> with_spheres_;
   SurfaceContacts<Law> with_surfaces_;
+  StructureContacts<Law> between_structures_;
   PlaneContacts<Law> with_planes_;
   double dissipated_ = 0.0;
 };
 
+/// Structures are thinner than grains are wide: with the grains' skin a net would list half of
+/// itself.
+inline double skin_of_structures(const geometry::Surface& surface, double skin) {
+  for (std::size_t i = 0; i < surface.structure_count(); ++i) {
+    skin = std::min(skin, 0.5 * surface.radius(geometry::id_at<geometry::StructureId>(i)));
+  }
+  return skin;
+}
+
 template <ContactLaw Law>
 Contacts<Law>::Contacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
                         ContactMaterials<Law> materials, double skin,
-                        const std::vector<bool>& meets_planes)
+                        const std::vector<bool>& meets_planes, Positions rest)
     : materials_(std::move(materials)),
       neighbours_(spheres, surface, skin),
+      cell_neighbours_(surface, rest, skin_of_structures(surface, skin), !rest.empty()),
       plane_neighbours_(skin),
-      with_surfaces_(surface) {
+      with_surfaces_(surface),
+      between_structures_(surface) {
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     balls_.push_back({spheres[i].nodes[0], spheres[i].radius, materials_.of_spheres[i]});
   }
@@ -124,12 +147,17 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
                                           materials_.pairs);
     plane_neighbours_.expire();
   }
+  if (cell_neighbours_.update(motion.position, pool)) {
+    dissipated_ += between_structures_.rebuild(cell_neighbours_.pairs(), materials_.of_structures,
+                                               materials_.pairs);
+  }
   if (plane_neighbours_.update(balls_, planes, motion.position)) {
     dissipated_ +=
         with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
   }
   dissipated_ += with_spheres_.advance(motion, dt, pool);
   dissipated_ += with_surfaces_.advance(motion, dt, pool);
+  dissipated_ += between_structures_.advance(motion, dt, pool);
   dissipated_ += with_planes_.advance(motion, planes, dt, pool);
 }
 

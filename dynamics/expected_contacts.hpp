@@ -31,6 +31,7 @@ class ExpectedContacts {
       : scene_(scene), surface_(surface), pairs_(scene.materials) {
     collect_structures();
     collect_kinds();
+    if (structures_.size() > 1) collect_extents();
   }
 
   /// Spheres as if packed densely among the hardest they can meet, nodes of surfaces as if touched
@@ -93,6 +94,40 @@ class ExpectedContacts {
     }
   }
 
+  /// What of its structure lies around each node.
+  void collect_extents() {
+    length_.assign(surface_.node_count(), 0.0);
+    area_.assign(surface_.node_count(), 0.0);
+    const auto& x = scene_.state.position;
+    for (std::size_t f = 0; f < surface_.face_count(); ++f) {
+      const auto& nodes = surface_.nodes_of(geometry::id_at<geometry::FaceId>(f));
+      const Vec3 side = x[index_of(nodes[1])] - x[index_of(nodes[0])];
+      const double area = 0.5 * side.cross(x[index_of(nodes[2])] - x[index_of(nodes[0])]).norm();
+      for (const NodeId node : nodes) area_[index_of(node)] += area / 3.0;
+    }
+    for (const auto& cylinder : scene_.elements.cylinders) {
+      const Vec3 along = x[index_of(cylinder.nodes[1])] - x[index_of(cylinder.nodes[0])];
+      for (const NodeId node : cylinder.nodes) length_[index_of(node)] += 0.5 * along.norm();
+    }
+  }
+
+  /// Of another structure that lies on all that is around the node (structure/extended.hpp).
+  ExpectedStiffness hardest_structure(NodeId node) const {
+    ExpectedStiffness hardest;
+    const Kind& own = structures_[index_of(surface_.structure_of(node))];
+    for (std::size_t i = 0; structures_.size() > 1 && i < structures_.size(); ++i) {
+      if (geometry::id_at<geometry::StructureId>(i) == surface_.structure_of(node)) continue;
+      const Kind& other = structures_[i];
+      const double range = own.radius + other.radius;
+      const double count =
+          1.0 + length_[index_of(node)] / range + area_[index_of(node)] / (range * range);
+      const auto one = pairs_.combine(own.material, own.radius, other.material, other.radius);
+      const auto all = Law::multiplied(one, count);
+      hardest.take(Law::normal_stiffness(all, 0.0), Law::tangential_stiffness(all, 0.0));
+    }
+    return hardest;
+  }
+
   ExpectedStiffness hardest_partner(const Kind& sphere) const {
     ExpectedStiffness hardest;
     // Of spheres, one as large as itself: add_dense_packing says why this covers other sizes.
@@ -103,9 +138,9 @@ class ExpectedContacts {
     return hardest;
   }
 
-  /// The hardest grain, with its full weight, from one side, and a plane from the other. More
-  /// grains on the same node come one after the other: the step is looked at again before they have
-  /// arrived.
+  /// The hardest grain, with its full weight, from one side, another structure, and a plane from
+  /// the other. More grains on the same node come one after the other: the step is looked at again
+  /// before they have arrived.
   void add_touch(NodeId node, NodalStiffness& stiffness) const {
     const Kind& structure = structures_[index_of(surface_.structure_of(node))];
     ExpectedStiffness grain;
@@ -113,8 +148,10 @@ class ExpectedContacts {
     ExpectedStiffness plane;
     for (const contact::Plane& other : scene_.planes)
       take(structure, {other.material, structure.radius}, plane);
-    stiffness.add_from_all_sides(node, 2.0 * grain.normal + plane.normal,
-                                 2.0 * grain.tangential + plane.tangential, structure.radius);
+    const ExpectedStiffness other = hardest_structure(node);
+    stiffness.add_from_all_sides(node, 2.0 * (grain.normal + other.normal) + plane.normal,
+                                 2.0 * (grain.tangential + other.tangential) + plane.tangential,
+                                 structure.radius);
   }
 
   const Scene& scene_;
@@ -122,6 +159,8 @@ class ExpectedContacts {
   contact::MaterialPairs<Law> pairs_;
   std::vector<Kind> structures_;
   std::vector<Kind> kinds_;
+  std::vector<double> length_;  ///< m, of cylinders, by node
+  std::vector<double> area_;    ///< m², of facets, by node
 };
 
 /// Adds the contacts that may come to the stiffness around the nodes.

@@ -120,7 +120,9 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
       pool_(options.threads),
       surface_(scene_.elements.cylinders, scene_.elements.facets, scene_.state.size()),
       contacts_(scene_.elements.spheres, surface_, contact_materials<Law>(scene_, surface_),
-                chosen_skin(scene_, options.skin), free_nodes(scene_.properties)),
+                chosen_skin(scene_, options.skin), free_nodes(scene_.properties),
+                options.self_contact ? geometry::Positions(scene_.state.position)
+                                     : geometry::Positions()),
       bonds_(scene_.bonds, scene_.state.size()),
       forces_(scene_.state.size()),
       radii_(node_radii(scene_, surface_)),
@@ -292,6 +294,10 @@ void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
       [&](NodeId ball, const auto& core, const auto& parameters) {
         const Vec3 normal = (geometry::position(core, x) - x[index_of(ball)]).normalized();
         stiffness.add_on_surface(ball, core, contact(normal, parameters, ball, core.nodes[0]));
+      });
+  contacts_.between_structures().for_each_stiffness(
+      [&](NodeId node, double normal, double tangential, double radius) {
+        stiffness.add_from_all_sides(node, 2.0 * normal, 2.0 * tangential, radius);
       });
   contacts_.with_planes().for_each_touching(
       [&](NodeId ball, std::size_t plane, const auto& parameters) {

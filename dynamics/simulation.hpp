@@ -23,6 +23,7 @@ struct SimulationOptions {
   double skin = 0.0;  ///< m, how far apart a pair may be when it is listed; 0 chooses a fifth of
                       ///< the smallest radius
   int threads = 1;
+  bool self_contact = true;  ///< whether a structure may touch itself where it folds
 };
 
 /// A chosen time step is this part of the critical one.

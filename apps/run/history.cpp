@@ -6,7 +6,7 @@
 namespace plekton::apps {
 namespace {
 
-const std::array<dynamics::CsvColumn, 15> kColumns = {{{"time", "s"},
+const std::array<dynamics::CsvColumn, 16> kColumns = {{{"time", "s"},
                                                        {"kinetic", "J"},
                                                        {"contact_elastic", "J"},
                                                        {"bond_elastic", "J"},
@@ -17,6 +17,7 @@ const std::array<dynamics::CsvColumn, 15> kColumns = {{{"time", "s"},
                                                        {"closure_error", "J"},
                                                        {"grain_grain_contacts", ""},
                                                        {"grain_membrane_contacts", ""},
+                                                       {"membrane_membrane_contacts", ""},
                                                        {"plane_contacts", ""},
                                                        {"largest_overlap_ratio", ""},
                                                        {"time_step", "s"},
@@ -30,12 +31,13 @@ History::History(const std::filesystem::path& folder)
 void History::add(const Simulation& simulation, const LostGrains& lost) {
   const dynamics::Energy energy = simulation.energy();
   const contact::ContactCounts counts = simulation.contacts().counts();
-  writer_.add({simulation.time(), energy.kinetic, energy.contact_elastic, energy.bond_elastic,
-               energy.gravity, energy.friction, energy.damping, energy.external_work,
-               energy.closure_error(), static_cast<double>(counts.sphere_sphere),
-               static_cast<double>(counts.sphere_surface), static_cast<double>(counts.with_planes),
-               simulation.contacts().largest_overlap_ratio(), simulation.time_step(),
-               static_cast<double>(lost.total())});
+  writer_.add(
+      {simulation.time(), energy.kinetic, energy.contact_elastic, energy.bond_elastic,
+       energy.gravity, energy.friction, energy.damping, energy.external_work,
+       energy.closure_error(), static_cast<double>(counts.sphere_sphere),
+       static_cast<double>(counts.sphere_surface), static_cast<double>(counts.between_structures),
+       static_cast<double>(counts.with_planes), simulation.contacts().largest_overlap_ratio(),
+       simulation.time_step(), static_cast<double>(lost.total())});
 }
 
 }  // namespace plekton::apps

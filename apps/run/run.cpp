@@ -158,7 +158,8 @@ class Run {
 
   void complete_report() {
     const contact::ContactCounts counts = simulation_.contacts().counts();
-    report_.contacts = counts.sphere_sphere + counts.sphere_surface + counts.with_planes;
+    report_.contacts = counts.sphere_sphere + counts.sphere_surface + counts.between_structures +
+                       counts.with_planes;
     report_.frames = frames_.count();
     report_.simulated_time = simulation_.time();
     report_.steps = simulation_.steps();

@@ -41,6 +41,10 @@ struct LinearFrictional {
             std::min(a.friction, b.friction)};
   }
 
+  static Parameters multiplied(const Parameters& p, double count) noexcept {
+    return {count * p.normal_stiffness, count * p.tangential_stiffness, p.friction};
+  }
+
   template <class Real>
   PLEKTON_INLINE static Real elastic_normal_force(const ParametersOf<Real>& p,
                                                   const std::type_identity_t<Real>& gap) noexcept {

@@ -149,6 +149,9 @@ struct PlainLaw {
   static constexpr std::string_view name = "plain";
   using Parameters = Law::Parameters;
   using History = Law::History;
+  static Parameters multiplied(const Parameters& p, double count) {
+    return LinearFrictional::multiplied(p, count);
+  }
   static Parameters combine(const Material& a, double ra, const Material& b, double rb) {
     return Law::combine(a, ra, b, rb);
   }

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/structure/pair_term.hpp"
+
+#include "contact/structure/extended.hpp"
+#include "contact/structure/nearest.hpp"
+
+namespace plekton::contact::structure {
+namespace {
+
+using geometry::Feature;
+using geometry::FeatureKind;
+
+std::array<bool, 3> seams_of(const geometry::Surface& surface, const Feature& feature) {
+  if (feature.kind == FeatureKind::node) return {};
+  if (feature.kind == FeatureKind::edge) {
+    return {!surface.faces_of(geometry::EdgeId{feature.id}).empty(), false, false};
+  }
+  std::array<bool, 3> is_seam{};
+  const auto& edges = surface.edges_of(geometry::FaceId{feature.id});
+  for (std::size_t k = 0; k < 3; ++k) is_seam[k] = surface.faces_of(edges[k]).size() > 1;
+  return is_seam;
+}
+
+Simplex simplex_at(const geometry::FeatureNodes& nodes, const std::array<bool, 3>& is_seam,
+                   geometry::Positions x) {
+  Simplex simplex;
+  simplex.count = nodes.count;
+  simplex.is_seam = is_seam;
+  for (std::size_t i = 0; i < nodes.count; ++i) simplex.x[i] = x[geometry::index_of(nodes.ids[i])];
+  return simplex;
+}
+
+/// Whether the boxes of two cores are further apart than range.
+bool is_far(const Simplex& a, const Simplex& b, double range) {
+  for (int k = 0; k < 3; ++k) {
+    double low_a = a.x[0][k], high_a = low_a, low_b = b.x[0][k], high_b = low_b;
+    for (std::size_t i = 1; i < a.count; ++i) {
+      low_a = std::min(low_a, a.x[i][k]);
+      high_a = std::max(high_a, a.x[i][k]);
+    }
+    for (std::size_t i = 1; i < b.count; ++i) {
+      low_b = std::min(low_b, b.x[i][k]);
+      high_b = std::max(high_b, b.x[i][k]);
+    }
+    if (low_a - high_b > range || low_b - high_a > range) return true;
+  }
+  return false;
+}
+
+void add(const PairForces& from, double weight, PairForces& to) {
+  to.energy += weight * from.energy;
+  for (std::size_t i = 0; i < 3; ++i) {
+    to.on_a[i] += weight * from.on_a[i];
+    to.on_b[i] += weight * from.on_b[i];
+  }
+}
+
+}  // namespace
+
+PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair& pair) {
+  PairTerm term{};
+  term.a = geometry::nodes_of(surface, pair.a);
+  term.b = geometry::nodes_of(surface, pair.b);
+  term.is_seam_a = seams_of(surface, pair.a);
+  term.is_seam_b = seams_of(surface, pair.b);
+  term.weight = pair.weight;
+  term.first_holder = pair.first_holder;
+  term.holder_count = pair.holder_count;
+  return term;
+}
+
+void evaluate(PairTerm& term, const NormalSpring& spring, geometry::Positions x) {
+  term.in_range = false;
+  const Simplex a = simplex_at(term.a, term.is_seam_a, x);
+  const Simplex b = simplex_at(term.b, term.is_seam_b, x);
+  if (is_far(a, b, spring.range())) return;
+  const NearestPoints nearest = geometry::nearest_points(corners_of(a), corners_of(b));
+  if (!(nearest.distance < spring.range())) return;
+  term.in_range = true;
+  term.overlap = spring.range() - nearest.distance;
+  term.forces = PairForces{};
+  add(nearest_part(a, b, nearest, spring), term.weight, term.forces);
+  if (can_extend(a, b)) add(extended_part(a, b, spring), term.weight, term.forces);
+}
+
+}  // namespace plekton::contact::structure

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/motion.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace plekton::contact::structure {
+
+/// The nodes of one side of a patch, each with its share of the patch's force. A share may be
+/// negative; the shares add up to 1.
+class PatchSide {
+ public:
+  void clear() noexcept { shares_.clear(); }
+  void add(NodeId node, double share) { shares_.emplace_back(node, share); }
+
+  /// Adds up what each node was given; finds the point on which the force acts.
+  void finish(Positions x) {
+    std::stable_sort(shares_.begin(), shares_.end(),
+                     [](const auto& p, const auto& q) { return p.first < q.first; });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < shares_.size(); ++i) {
+      if (kept > 0 && shares_[kept - 1].first == shares_[i].first) {
+        shares_[kept - 1].second += shares_[i].second;
+      } else {
+        shares_[kept++] = shares_[i];
+      }
+    }
+    shares_.resize(kept);
+    point_ = Vec3::Zero();
+    const Vec3 origin = shares_.empty() ? Vec3(Vec3::Zero()) : x[index_of(shares_[0].first)];
+    double sum = 0.0;
+    for (const auto& [node, share] : shares_) {
+      point_ += share * (x[index_of(node)] - origin);
+      sum += share;
+    }
+    for (auto& entry : shares_) entry.second /= sum;
+    point_ = origin + point_ / sum;
+  }
+
+  /// m, weighted mean of the nodes.
+  const Vec3& point() const noexcept { return point_; }
+
+  /// Velocity (m/s) of the material point at a lever (m) from point().
+  Vec3 velocity_at(const Vec3& lever, const Motion& motion) const {
+    Vec3 velocity = Vec3::Zero();
+    for (const auto& [node, share] : shares_) {
+      const std::size_t i = index_of(node);
+      velocity += share * (motion.velocity[i] + motion.angular_velocity[i].cross(lever));
+    }
+    return velocity;
+  }
+  Vec3 angular_velocity(const Motion& motion) const {
+    Vec3 spin = Vec3::Zero();
+    for (const auto& [node, share] : shares_)
+      spin += share * motion.angular_velocity[index_of(node)];
+    return spin;
+  }
+
+  /// Transpose of velocity_at.
+  void add_force_at(const Vec3& lever, const Vec3& force, NodeForces& forces) const {
+    const Vec3 torque = lever.cross(force);
+    for (const auto& [node, share] : shares_) {
+      forces.force[index_of(node)] += share * force;
+      forces.torque[index_of(node)] += share * torque;
+    }
+  }
+
+  template <class Visit>
+  void for_each_share(Visit&& visit) const {
+    for (const auto& [node, share] : shares_) visit(node, share);
+  }
+
+ private:
+  std::vector<std::pair<NodeId, double>> shares_;
+  Vec3 point_ = Vec3::Zero();
+};
+
+}  // namespace plekton::contact::structure

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/contact_memory.hpp"
+#include "contact/relative_motion.hpp"
+#include "contact/structure/patch_side.hpp"
+
+#include <cstdint>
+
+namespace plekton::contact::structure {
+
+/// Two structures that may touch, or one that may touch itself.
+template <ContactLaw Law>
+struct Meeting {
+  typename Law::Parameters parameters;
+  double radius_first;  ///< m, of the lower structure
+  double radius_second;
+};
+
+/// A part of the contact region of two structures that hangs together: one contact, as far as the
+/// law is concerned, as stiff as the contacts it counts.
+template <ContactLaw Law>
+struct StructurePatch {
+  std::uint32_t meeting = 0;
+  double energy = 0.0;                ///< J, elastic
+  Vec3 elastic_force = Vec3::Zero();  ///< N, on the second side
+  double normal_force = 0.0;          ///< N, its magnitude
+  double count = 0.0;                 ///< how many contacts it is
+  double gap = 0.0;                   ///< m, mean over the forces
+  PatchSide first;
+  PatchSide second;
+  ContactMemory<Law> memory;
+  Vec3 other_force = Vec3::Zero();  ///< N, on the second side: all that is not elastic
+
+  /// Empty; keeps its room.
+  void clear() {
+    first.clear();
+    second.clear();
+    energy = 0.0;
+    elastic_force = Vec3::Zero();
+    memory = {};
+    other_force = Vec3::Zero();
+  }
+
+  bool pushes() const noexcept { return normal_force > 0.0; }
+
+  /// Mean overlap, that of a linear spring with this force and energy; how many springs that are.
+  void find_mean(const Meeting<Law>& bodies) {
+    normal_force = elastic_force.norm();
+    gap = pushes() ? -2.0 * energy / normal_force : 0.0;
+    const double one = Law::elastic_normal_force(bodies.parameters, gap);
+    count = one > 0.0 ? normal_force / one : 0.0;
+  }
+
+  typename Law::Parameters parameters(const Meeting<Law>& bodies) const {
+    return Law::multiplied(bodies.parameters, count);
+  }
+
+  double history_energy(const Meeting<Law>& bodies) const {
+    return Law::history_energy(parameters(bodies), memory.history);
+  }
+
+  /// @returns the energy (J) dissipated
+  double apply_law(const Meeting<Law>& bodies, const Motion& motion, double dt) {
+    if (!pushes()) return 0.0;
+    const Vec3 velocity = second.velocity_at(lever_of_second(bodies), motion) -
+                          first.velocity_at(lever_of_first(bodies), motion);
+    memory.normal = elastic_force / normal_force;
+    const RelativeMotion relative = relative_motion(memory.normal, gap, normal_force, velocity);
+    const ContactForce result = Law::force(parameters(bodies), relative, memory.history, dt);
+    other_force = result.force - elastic_force;
+    return result.dissipated;
+  }
+
+  void add_other_force(const Meeting<Law>& bodies, NodeForces& forces) const {
+    if (!pushes()) return;
+    first.add_force_at(lever_of_first(bodies), -other_force, forces);
+    second.add_force_at(lever_of_second(bodies), other_force, forces);
+  }
+
+  /// The contact point lies between the two points on which the elastic force acts.
+  Vec3 lever_of_first(const Meeting<Law>& bodies) const {
+    return bodies.radius_first / range(bodies) * (second.point() - first.point());
+  }
+  Vec3 lever_of_second(const Meeting<Law>& bodies) const {
+    return bodies.radius_second / range(bodies) * (first.point() - second.point());
+  }
+
+ private:
+  static double range(const Meeting<Law>& bodies) {
+    return bodies.radius_first + bodies.radius_second;
+  }
+};
+
+}  // namespace plekton::contact::structure

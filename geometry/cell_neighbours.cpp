@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/cell_neighbours.hpp"
+
+#include "geometry/nearest_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace plekton::geometry {
+namespace {
+
+/// In radii. Half a turn takes pi of them; what is nearer than a diameter across a flat sheet is at
+/// most 2 sqrt(2) away along the edges of a square grid.
+constexpr double kSharpestFold = 4.0;
+
+/// Nodes at most a length away along edges (Dijkstra), the start among them; sorted.
+std::vector<NodeId> within_reach(const Surface& surface, NodeId start, double reach, Positions x) {
+  std::map<NodeId, double> settled;
+  std::multimap<double, NodeId> open{{0.0, start}};
+  while (!open.empty()) {
+    const auto [length, node] = *open.begin();
+    open.erase(open.begin());
+    if (!settled.try_emplace(node, length).second) continue;
+    for (const EdgeId edge : surface.edges_of(node)) {
+      const auto& ends = surface.nodes_of(edge);
+      const NodeId next = ends[0] == node ? ends[1] : ends[0];
+      const double further = length + (x[index_of(next)] - x[index_of(node)]).norm();
+      if (further <= reach) open.emplace(further, next);
+    }
+  }
+  std::vector<NodeId> nodes;
+  for (const auto& entry : settled) nodes.push_back(entry.first);
+  return nodes;
+}
+
+}  // namespace
+
+Box box(const Surface& surface, CellId cell, Positions x, double margin) noexcept {
+  std::array<Vec3, 3> corners;
+  std::size_t count = 0;
+  for (const NodeId node : surface.nodes_of(cell)) corners[count++] = x[index_of(node)];
+  const double radius = surface.radius(surface.structure_of(cell));
+  return bounding_box({corners.data(), count}, radius + margin);
+}
+
+CellNeighbours::CellNeighbours(const Surface& surface, Positions rest, double skin,
+                               bool self_contact)
+    : surface_(&surface), skin_(skin), self_contact_(self_contact) {
+  for (std::size_t n = 0; n < surface.node_count(); ++n) {
+    const NodeId node = id_at<NodeId>(n);
+    if (surface.structure_of(node) != StructureId{-1}) own_nodes_.push_back(node);
+  }
+  if (self_contact) collect_near_nodes(rest);
+}
+
+/// Grains that fly past do not make a list of cells old.
+void CellNeighbours::gather_own_nodes(Positions x) {
+  own_x_.clear();
+  for (const NodeId node : own_nodes_) own_x_.push_back(x[index_of(node)]);
+}
+
+void CellNeighbours::collect_near_nodes(Positions rest) {
+  near_nodes_.resize(surface_->node_count());
+  for (std::size_t n = 0; n < near_nodes_.size(); ++n) {
+    const NodeId node = id_at<NodeId>(n);
+    const StructureId structure = surface_->structure_of(node);
+    if (structure == StructureId{-1}) continue;
+    near_nodes_[n] =
+        within_reach(*surface_, node, kSharpestFold * surface_->radius(structure), rest);
+  }
+}
+
+bool CellNeighbours::may_touch(CellId a, CellId b) const {
+  if (surface_->structure_of(a) != surface_->structure_of(b)) return true;
+  if (!self_contact_) return false;
+  const auto nodes_b = surface_->nodes_of(b);
+  for (const NodeId node : surface_->nodes_of(a)) {
+    const auto& near = near_nodes_[index_of(node)];
+    for (const NodeId other : nodes_b) {
+      if (std::binary_search(near.begin(), near.end(), other)) return false;
+    }
+  }
+  return true;
+}
+
+/// Cells further apart than both radii and the skin cannot touch before the list is made anew: no
+/// point of theirs moves by more than half the skin.
+bool CellNeighbours::are_distant(CellId a, CellId b, Positions x) const {
+  const auto corners = [&](CellId cell) {
+    std::array<Vec3, 3> found;
+    std::size_t count = 0;
+    for (const NodeId node : surface_->nodes_of(cell)) found[count++] = x[index_of(node)];
+    return std::pair(found, count);
+  };
+  const auto [x_a, count_a] = corners(a);
+  const auto [x_b, count_b] = corners(b);
+  const double radii =
+      surface_->radius(surface_->structure_of(a)) + surface_->radius(surface_->structure_of(b));
+  const double reach = (1.0 + 1e-12) * (radii + 2.0 * skin_.margin());
+  return nearest_points({x_a.data(), count_a}, {x_b.data(), count_b}).distance > reach;
+}
+
+bool CellNeighbours::update(Positions x, ThreadPool& pool) {
+  if (surface_->cell_count() < 2) return false;
+  if (!self_contact_ && surface_->structure_count() < 2) return false;
+  gather_own_nodes(x);
+  if (!skin_.needs_rebuild(own_x_, pool)) return false;
+  boxes_.clear();
+  for (std::size_t c = 0; c < surface_->cell_count(); ++c) {
+    boxes_.push_back(box(*surface_, id_at<CellId>(c), x, skin_.margin()));
+  }
+  tree_.rebuild(boxes_);
+  tree_.self_pairs(overlaps_);
+  previous_.swap(pairs_);
+  pairs_.clear();
+  for (const IndexPair& pair : overlaps_) {
+    const CellId a{pair.a};
+    const CellId b{pair.b};
+    if (!may_touch(a, b) || are_distant(a, b, x)) continue;
+    const bool keeps = surface_->structure_of(a) <= surface_->structure_of(b);
+    pairs_.push_back(keeps ? CellPair{a, b} : CellPair{b, a});
+  }
+  std::sort(pairs_.begin(), pairs_.end());
+  skin_.mark_built(own_x_);
+  return pairs_ != previous_;
+}
+
+}  // namespace plekton::geometry

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "geometry/broad_phase.hpp"
+#include "geometry/elements.hpp"
+#include "geometry/product_features.hpp"
+#include "geometry/skin.hpp"
+#include "geometry/thread_pool.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plekton::geometry {
+
+/// Which cells of a surface may touch each other: of different structures, and of one structure
+/// with itself where it folds.
+///
+/// The list is a superset, made anew only when some node has moved by more than half the skin
+/// (skin.hpp). Cells of one structure that hang together are not in it: those that share a node,
+/// and those with nodes at most two diameters apart along edges at rest, because a thick body
+/// cannot fold more sharply than that.
+class CellNeighbours {
+ public:
+  /// @param surface       must outlive this
+  /// @param rest          m, where the nodes are when the structures are at rest
+  /// @param skin          m, >= 0; 0 makes the list anew whenever anything moved
+  /// @param self_contact  whether cells of one structure are listed
+  CellNeighbours(const Surface& surface, Positions rest, double skin, bool self_contact);
+
+  /// Makes the list anew if it has to be. @returns whether it has changed
+  bool update(Positions x, ThreadPool& pool);
+
+  /// Sorted; a on the lower structure, or on the same and lower itself.
+  std::span<const CellPair> pairs() const noexcept { return pairs_; }
+
+ private:
+  bool may_touch(CellId a, CellId b) const;
+  bool are_distant(CellId a, CellId b, Positions x) const;
+  void gather_own_nodes(Positions x);
+  void collect_near_nodes(Positions rest);
+
+  const Surface* surface_;
+  Skin skin_;
+  bool self_contact_;
+  std::vector<NodeId> own_nodes_;  ///< those of cells
+  std::vector<Vec3> own_x_;
+  BroadPhase tree_;
+  std::vector<Box> boxes_;
+  std::vector<IndexPair> overlaps_;
+  std::vector<CellPair> pairs_;
+  std::vector<CellPair> previous_;
+  std::vector<std::vector<NodeId>>
+      near_nodes_;  ///< of each node: itself and what is near along edges; sorted
+};
+
+/// Box (m) of a cell, grown by its radius and a margin.
+Box box(const Surface& surface, CellId cell, Positions x, double margin) noexcept;
+
+}  // namespace plekton::geometry
