@@ -251,6 +251,7 @@ PreparedRun prepare_run(const Scenario& scenario) {
   options.motion = {scenario.simulation.gravity, scenario.simulation.damping,
                     scenario.simulation.damp_gravity};
   options.skin = scenario.simulation.skin;
+  options.self_contact = scenario.simulation.self_contact;
   options.threads = scenario.simulation.threads;
   prepared.simulation = std::make_unique<Simulation>(std::move(prepared.built.scene), options);
   prepared.duration = scenario.simulation.duration;

@@ -27,6 +27,7 @@ SimulationSettings read_simulation(Section section) {
   settings.gravity = section.vector("gravity", {kAcceleration}, settings.gravity);
   settings.damping = section.quantity("damping", {kNumber, kBelowOne}, settings.damping);
   settings.damp_gravity = section.truth("damp_gravity", settings.damp_gravity);
+  settings.self_contact = section.truth("self_contact", settings.self_contact);
   settings.skin = section.quantity_unless("skin", "auto", {kLength, kPositive}).value_or(0.0);
   settings.seed = static_cast<std::uint64_t>(section.integer("seed", 0, kLargestSeed, 1));
   settings.threads = static_cast<int>(section.integer("threads", 1, kMostThreads, 1));

@@ -27,7 +27,8 @@ struct SimulationSettings {
   Vec3 gravity{0.0, 0.0, -9.81};  ///< m/s²
   double damping = 0.0;           ///< numerical, in [0, 1)
   bool damp_gravity = true;
-  double skin = 0.0;  ///< m; 0: chosen
+  bool self_contact = true;  ///< whether a structure may touch itself
+  double skin = 0.0;         ///< m; 0: chosen
   std::uint64_t seed = 1;
   int threads = 1;
 };
