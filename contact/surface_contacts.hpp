@@ -49,6 +49,10 @@ class SurfaceContacts {
   /// Largest overlap of the last step over the radius of the ball.
   double largest_overlap_ratio() const noexcept { return records_.deepest(); }
 
+  /// How many balls had their centre on the other side of a surface than in the step before: they
+  /// pass through it. In the last step.
+  std::int64_t pass_throughs() const noexcept;
+
   /// Number of patches in contact.
   std::size_t touching() const noexcept;
 
@@ -100,6 +104,7 @@ class SurfaceContacts {
     std::vector<PatchState> states;
     std::vector<PatchTermForce> term_forces;  ///< in the order of the patches and their terms
     std::vector<typename Law::History> histories;
+    std::int64_t pass_throughs = 0;  ///< in this step
   };
 
   double advance_pair(Pair& pair, const Motion& motion, double dt, int worker);
@@ -175,6 +180,7 @@ double SurfaceContacts<Law>::advance(const Motion& motion, double dt, geometry::
     lists.contacts.clear();
     lists.minima.clear();
   }
+  for (Worker& worker : workers_) worker.pass_throughs = 0;
   records_.reset(pool.thread_count());
   return sum_(pairs_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {
     double dissipated = 0.0;
@@ -279,6 +285,12 @@ double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> pa
                                          patches, worker.patches);
     double total = 0.0;
     for (const std::uint32_t heir : heirs) total += worker.states[heir].elastic_force;
+    // A ball rolls around an edge little by little: a normal that turns over in one step has gone
+    // through the surface.
+    worker.pass_throughs +=
+        !heirs.empty() && std::all_of(heirs.begin(), heirs.end(), [&](std::uint32_t heir) {
+          return is_turned_over(old.memory.normal, worker.states[heir].normal);
+        });
     for (const std::uint32_t heir : heirs) {
       const PatchState& state = worker.states[heir];
       const double share =
@@ -306,6 +318,13 @@ void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchT
                  static_cast<std::size_t>(&pair - pairs_.data())},
                 -state.gap / pair.radius);
   }
+}
+
+template <ContactLaw Law>
+std::int64_t SurfaceContacts<Law>::pass_throughs() const noexcept {
+  std::int64_t count = 0;
+  for (const Worker& worker : workers_) count += worker.pass_throughs;
+  return count;
 }
 
 template <ContactLaw Law>

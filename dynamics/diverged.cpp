@@ -24,12 +24,12 @@ Diverged::Diverged(std::int64_t step, double time, NodeId node, const Vec3& posi
                    const Vec3& velocity)
     : std::runtime_error(message(step, time, node, position, velocity)), step_(step), node_(node) {}
 
-void check_finite(const NodeState& state, double furthest, double dt, std::int64_t step,
-                  double time) {
-  const double limit = (furthest / dt) * (furthest / dt);
+void check_finite(const NodeState& state, std::span<const double> furthest, double dt,
+                  std::int64_t step, double time) {
   for (std::size_t i = 0; i < state.size(); ++i) {
     // Comparisons with NaN are false.
-    if (state.velocity[i].squaredNorm() <= limit && state.angular_velocity[i].squaredNorm() < 1e300)
+    if (state.velocity[i].squaredNorm() * (dt * dt) <= furthest[i] * furthest[i] &&
+        state.angular_velocity[i].squaredNorm() < 1e300)
       continue;
     throw Diverged(step, time, geometry::id_at<NodeId>(i), state.position[i], state.velocity[i]);
   }

@@ -3,6 +3,7 @@
 
 #include "dynamics/node_state.hpp"
 
+#include <span>
 #include <stdexcept>
 
 namespace plekton::dynamics {
@@ -22,9 +23,9 @@ class Diverged : public std::runtime_error {
   NodeId node_;
 };
 
-/// @param furthest  m, what a node may move in a step of dt (s)
+/// @param furthest  m, by node: what it may move in a step of dt (s)
 /// @throws Diverged naming the first node that moved further, or whose position is not finite
-void check_finite(const NodeState& state, double furthest, double dt, std::int64_t step,
-                  double time);
+void check_finite(const NodeState& state, std::span<const double> furthest, double dt,
+                  std::int64_t step, double time);
 
 }  // namespace plekton::dynamics

@@ -24,14 +24,19 @@ double smallest_radius(const geometry::Elements& elements) {
   return smallest_radius(elements.facets, smallest_radius(elements.cylinders, spheres));
 }
 
-/// What a node may move in one step before nothing could notice it any more: the largest radius.
-/// Nodes without elements may move as they like.
-double furthest_in_a_step(const Scene& scene) {
+/// What nodes may move in one step before nothing could notice it any more: a sphere its own
+/// radius, so that it cannot jump over what it should touch; nodes of structures the largest
+/// radius; nodes without elements what they like.
+std::vector<double> furthest_in_a_step(const Scene& scene) {
   double radius = 0.0;
   for (const auto& sphere : scene.elements.spheres) radius = std::max(radius, sphere.radius);
   for (const auto& cylinder : scene.elements.cylinders) radius = std::max(radius, cylinder.radius);
   for (const auto& facet : scene.elements.facets) radius = std::max(radius, facet.radius);
-  return radius > 0.0 ? radius : std::numeric_limits<double>::infinity();
+  std::vector<double> furthest(scene.state.size(),
+                               radius > 0.0 ? radius : std::numeric_limits<double>::infinity());
+  for (const auto& sphere : scene.elements.spheres)
+    furthest[index_of(sphere.nodes[0])] = sphere.radius;
+  return furthest;
 }
 
 /// Smallest radius of what moves past others: of the spheres where there are some. Infinite if
@@ -211,6 +216,7 @@ void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) 
   work_.damped += step.damped;
   work_.external += step.external;
   largest_overlap_ratio_ = std::max(largest_overlap_ratio_, contacts_.largest_overlap_ratio());
+  pass_throughs_ += contacts_.with_surfaces().pass_throughs();
 }
 
 template <contact::ContactLaw Law>

@@ -66,6 +66,9 @@ class Simulation {
   Energy energy() const;
   /// Largest overlap of any step so far over the radius of the smaller ball.
   double largest_overlap_ratio() const noexcept { return largest_overlap_ratio_; }
+  /// How often so far a sphere's centre went through a facet or a cylinder: its overlap was deeper
+  /// than both radii. From then on it is pushed out on the other side.
+  std::int64_t pass_throughs() const noexcept { return pass_throughs_; }
   /// Critical time step: of the structures and contacts as they are now, or with the contacts that
   /// may come (expected_contacts.hpp), whichever is shorter.
   CriticalStep critical_step() const;
@@ -103,14 +106,15 @@ class Simulation {
   bool chooses_time_step_ = false;
   double time_ = 0.0;
   std::int64_t steps_ = 0;
-  double furthest_ = 0.0;     ///< m, what a node may move in a step
-  double pace_radius_ = 0.0;  ///< m, against which the motion in a chosen step is measured
-  StepWork work_;             ///< kinetic: of the last step; the rest: of all steps
+  std::vector<double> furthest_;  ///< m, by node, what it may move in a step
+  double pace_radius_ = 0.0;      ///< m, against which the motion in a chosen step is measured
+  StepWork work_;                 ///< kinetic: of the last step; the rest: of all steps
   StepWork pending_;  ///< what of damped and external comes after the moment of the last forces
   double initial_energy_ = 0.0;
   double initial_gravity_energy_ = 0.0;
   NodalStiffness::Total initial_stiffness_;  ///< with the contacts that may come
   double largest_overlap_ratio_ = 0.0;
+  std::int64_t pass_throughs_ = 0;
 };
 
 template <contact::ContactLaw Law>

@@ -48,6 +48,7 @@ struct RunReport {
   double wall_time = 0.0;  ///< s
 
   double largest_overlap_ratio = 0.0;
+  std::int64_t pass_throughs = 0;     ///< of grain centres through facets and cylinders
   double dt_over_critical = 0.0;      ///< the largest at any look
   double largest_motion_ratio = 0.0;  ///< likewise: motion in a step over the smallest radius
   dynamics::Energy energy;            ///< at the end

@@ -21,6 +21,12 @@ std::vector<std::string> warnings_about(const RunReport& report) {
         100.0 * report.largest_motion_ratio, 100.0 * dynamics::kLargestMotion,
         dynamics::kLargestMotion / report.largest_motion_ratio));
   }
+  if (report.pass_throughs > 0) {
+    warnings.push_back(fmt::format(
+        "{} times the centre of a grain went through a facet or a cylinder; stiffer contacts or "
+        "slower grains are held",
+        report.pass_throughs));
+  }
   if (report.energy_closure > kPoorClosure) {
     warnings.push_back(
         fmt::format("the energy balance is off by {:.2g} % of what went through, above {:.0f} %; "
