@@ -48,6 +48,7 @@ Polygon in_range(const FacetOverlap& facets, double range) {
 }
 
 Real of_facets(const Simplex& a, const Simplex& b, const NormalSpring& spring) {
+  if (std::abs(normal_of(a).dot(normal_of(b))) <= kCosineOfCrossing) return {0.0};
   const FacetOverlap facets = face_to_face(corners(a, Side::a), corners(b, Side::b));
   const Real factor = parallel_factor(facets.cosine);
   if (factor.value == 0.0 || facets.region.size() == 0) return {0.0};

@@ -25,10 +25,6 @@ std::size_t edge_count(const Simplex& simplex) {
   return simplex.count == 3 ? 3 : simplex.count - 1;
 }
 
-Vec3 normal_of(const Simplex& facet) {
-  return (facet.x[1] - facet.x[0]).cross(facet.x[2] - facet.x[0]).normalized();
-}
-
 double slope_of(const Simplex& simplex, const EdgeOf& edge, const Vec3& normal) {
   const Vec3 along = simplex.x[edge.last] - simplex.x[edge.first];
   return std::abs(along.dot(normal)) / along.norm();

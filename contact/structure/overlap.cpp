@@ -12,55 +12,59 @@ Vector normal_of(const std::array<Vector, 3>& facet) {
 /// that lies in a plane up to that crosses it nowhere.
 constexpr double kRoundoff = 1e-12;
 
-/// Height of a point over a plane, in units of the length of its normal, and the size of its terms.
-struct Height {
-  Real value;
-  double size;
-
-  Height(const Vector& point, const Vector& origin, const Vector& inward)
-      : value((point - origin).dot(inward)),
-        size(std::sqrt((point - origin).squaredNorm().value * inward.squaredNorm().value)) {}
-  bool is_zero() const { return std::abs(value.value) <= kRoundoff * size; }
-};
-
-/// The part of a polygon on the inner side of a plane.
-Polygon clipped(const Polygon& polygon, const Vector& origin, const Vector& inward) {
-  Polygon kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector& here = polygon[i];
-    const Vector& there = polygon.next(i);
-    const Height height_here(here, origin, inward);
-    const Height height_there(there, origin, inward);
-    const bool is_inside = height_here.value.value >= 0.0 || height_here.is_zero();
-    const bool next_inside = height_there.value.value >= 0.0 || height_there.is_zero();
-    if (is_inside) kept.add(here);
-    if (is_inside != next_inside) {
-      const Real drop = height_here.value - height_there.value;
-      kept.add(here + (height_here.value / drop) * (there - here));
-    }
-  }
-  return kept;
+/// Height of a point over a plane, in units of the length of its normal; 0 up to round-off.
+double height_now(const Vector& point, const Vector& origin, const Vector& normal) {
+  const Vec3 up = still(point) - still(origin);
+  const Vec3 n = still(normal);
+  const double height = up.dot(n);
+  return std::abs(height) <= kRoundoff * std::sqrt(up.squaredNorm() * n.squaredNorm()) ? 0.0
+                                                                                       : height;
 }
 
-/// Without corners that repeat the one before: they have no direction to the next one.
-Polygon without_repeats(const Polygon& polygon) {
-  double size = 0.0;
-  for (std::size_t i = 1; i < polygon.size(); ++i) {
-    size = std::max(size, (polygon[i] - polygon[0]).squaredNorm().value);
+/// Keeps the part of a polygon on the inner side of a plane.
+void clip(Polygon& polygon, const Vector& origin, const Vector& inward) {
+  std::array<bool, Polygon::kMostCorners> inside{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    inside[i] = height_now(polygon[i], origin, inward) >= 0.0;
+    count += inside[i];
   }
+  if (count == polygon.size()) return;
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size() && count > 0; ++i) {
+    const Vector& here = polygon[i];
+    const Vector& there = polygon.next(i);
+    if (inside[i]) kept.add(here);
+    if (inside[i] == inside[i + 1 == polygon.size() ? 0 : i + 1]) continue;
+    const Real height = (here - origin).dot(inward);
+    const Real drop = height - (there - origin).dot(inward);
+    kept.add(here + (height / drop) * (there - here));
+  }
+  polygon = kept;
+}
+
+/// Takes out corners that repeat the one before: they have no direction to the next one.
+void drop_repeats(Polygon& polygon) {
+  const auto step = [&](std::size_t i) {
+    return (still(polygon.next(i)) - still(polygon[i])).squaredNorm();
+  };
+  double size = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    size = std::max(size, (still(polygon[i]) - still(polygon[0])).squaredNorm());
+  }
+  const double least = kRoundoff * kRoundoff * size;
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const double step = (polygon.next(i) - polygon[i]).squaredNorm().value;
-    if (step > kRoundoff * kRoundoff * size) kept.add(polygon[i]);
+    if (step(i) > least) kept.add(polygon[i]);
   }
-  return kept;
+  if (kept.size() < polygon.size()) polygon = kept;
 }
 
 }  // namespace
 
 bool lies_in_plane(const Vector& first, const Vector& last, const Vector& origin,
                    const Vector& normal) {
-  return Height(first, origin, normal).is_zero() && Height(last, origin, normal).is_zero();
+  return height_now(first, origin, normal) == 0.0 && height_now(last, origin, normal) == 0.0;
 }
 
 bool cut(Interval& interval, const Vector& first, const Vector& last, const Vector& origin,
@@ -94,20 +98,23 @@ FacetOverlap face_to_face(const std::array<Vector, 3>& a, const std::array<Vecto
   found.axis = unit(normal_a + found.normal_b);
   found.cosine = normal_a.dot(found.normal_b);
   found.half_cosine = found.axis.dot(normal_a);
-  Polygon region;
+  Polygon& region = found.region;
   for (const Vector& x : a) region.add(x);
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector side = b[(i + 1) % 3] - b[i];
-    region = clipped(region, b[i], Real(sign) * found.axis.cross(side));
+    clip(region, b[i], Real(sign) * found.axis.cross(side));
+    if (region.size() < 3) break;
   }
-  region = without_repeats(region);
-  if (region.size() < 3) return found;
-  found.region = region;
-  Real height(0.0);
+  drop_repeats(region);
+  if (region.size() < 3) {
+    region.clear();
+    return found;
+  }
+  double height = 0.0;
   for (std::size_t i = 0; i < region.size(); ++i) {
-    height = height + (found.origin_b - region[i]).dot(found.normal_b);
+    height += (still(found.origin_b) - still(region[i])).dot(still(found.normal_b));
   }
-  found.side = height.value >= 0.0 ? 1.0 : -1.0;
+  found.side = height >= 0.0 ? 1.0 : -1.0;
   // Planes z = -(n - axis (n.axis)).y / (n.axis) over the plane perpendicular to the axis.
   const Vector across_a = normal_a - found.half_cosine * found.axis;
   const Vector across_b = found.normal_b - found.axis.dot(found.normal_b) * found.axis;

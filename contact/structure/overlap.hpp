@@ -19,6 +19,17 @@ struct Interval {
 /// A convex polygon with room for what two triangles and a cut leave.
 class Polygon {
  public:
+  static constexpr std::size_t kMostCorners = 8;
+
+  Polygon() = default;
+  Polygon(const Polygon& other) { *this = other; }
+  /// Copies the corners that there are: each is large.
+  Polygon& operator=(const Polygon& other) noexcept {
+    size_ = other.size_;
+    for (std::size_t i = 0; i < size_; ++i) corners_[i] = other.corners_[i];
+    return *this;
+  }
+
   std::size_t size() const noexcept { return size_; }
   const Vector& operator[](std::size_t i) const noexcept { return corners_[i]; }
   const Vector& next(std::size_t i) const noexcept { return corners_[i + 1 == size_ ? 0 : i + 1]; }
@@ -26,7 +37,7 @@ class Polygon {
   void clear() noexcept { size_ = 0; }
 
  private:
-  std::array<Vector, 8> corners_;
+  std::array<Vector, kMostCorners> corners_;
   std::size_t size_ = 0;
 };
 

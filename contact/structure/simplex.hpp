@@ -23,6 +23,11 @@ inline std::span<const Vec3> corners_of(const Simplex& simplex) noexcept {
   return {simplex.x.data(), simplex.count};
 }
 
+/// Unit, by the order of the corners.
+inline Vec3 normal_of(const Simplex& facet) {
+  return (facet.x[1] - facet.x[0]).cross(facet.x[2] - facet.x[0]).normalized();
+}
+
 /// What a pair of simplices adds to the energy, and what pushes their nodes.
 struct PairForces {
   double energy = 0.0;                                                 ///< J

@@ -29,6 +29,11 @@ using Vector = geometry::PackVec3<Real>;
 /// mesh of any real body means.
 inline constexpr double kLargestTilt = 3e-4;
 
+/// Where a vector is now.
+inline geometry::Vec3 still(const Vector& v) {
+  return {v.x.value, v.y.value, v.z.value};
+}
+
 inline Vector unit(const Vector& v) {
   return (Real(1.0) / v.norm()) * v;
 }
