@@ -11,32 +11,46 @@ namespace plekton::geometry {
 namespace {
 
 using Interval = CGAL::Interval_nt<false>;
+using Exact = CGAL::Mpzf;
 
-/// The two polynomials, for any ring of numbers.
+/// The polynomials, for any ring of numbers.
 template <class Number>
 struct Difference {
   std::array<Number, 3> v;
   Difference(const Vec3& to, const Vec3& from)
       : v{Number(to[0]) - Number(from[0]), Number(to[1]) - Number(from[1]),
           Number(to[2]) - Number(from[2])} {}
+  explicit Difference(const Arrow& arrow) : Difference(arrow.to, arrow.from) {}
 };
 
 template <class Number>
-Number past_vertex(const Vec3& a, const Vec3& b, const Vec3& p) {
-  const Difference<Number> u(b, a);
-  const Difference<Number> w(p, a);
-  return u.v[0] * w.v[0] + u.v[1] * w.v[1] + u.v[2] * w.v[2];
+using Triple = std::array<Number, 3>;
+
+template <class Number>
+Number dot(const Triple<Number>& u, const Triple<Number>& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
 template <class Number>
-Number inside_edge(const Vec3& a, const Vec3& b, const Vec3& o, const Vec3& p) {
-  const Difference<Number> u(b, a);
-  const Difference<Number> v(o, a);
-  const Difference<Number> w(p, a);
-  const auto term = [&](std::size_t j, std::size_t k) {
-    return Number((u.v[j] * v.v[k] - u.v[k] * v.v[j]) * (u.v[j] * w.v[k] - u.v[k] * w.v[j]));
-  };
-  return term(1, 2) + term(2, 0) + term(0, 1);
+Triple<Number> cross(const Triple<Number>& u, const Triple<Number>& v) {
+  return {Number(u[1] * v[2] - u[2] * v[1]), Number(u[2] * v[0] - u[0] * v[2]),
+          Number(u[0] * v[1] - u[1] * v[0])};
+}
+
+template <class Number>
+Number past_vertex(const Vec3& a, const Vec3& b, const Vec3& p) {
+  return dot(Difference<Number>(b, a).v, Difference<Number>(p, a).v);
+}
+
+template <class Number>
+Number product_of_crosses(const Arrow& u, const Arrow& v, const Arrow& w) {
+  const Difference<Number> along(u);
+  return dot(cross(along.v, Difference<Number>(v).v), cross(along.v, Difference<Number>(w).v));
+}
+
+template <class Number>
+Number volume(const Arrow& u, const Arrow& v, const Arrow& w) {
+  return dot(cross(Difference<Number>(u).v, Difference<Number>(v).v), Difference<Number>(w).v);
 }
 
 /// Sign of an interval, or 2 if it holds both signs.
@@ -46,7 +60,7 @@ int sign_if_certain(const Interval& value) noexcept {
   return value.inf() == 0.0 && value.sup() == 0.0 ? 0 : 2;
 }
 
-int sign_of(const CGAL::Mpzf& value) {
+int sign_of(const Exact& value) {
   return static_cast<int>(CGAL::sign(value));
 }
 
@@ -57,6 +71,35 @@ int interval_sign(Polynomial polynomial) noexcept {
   ++sign_counters().interval;
   const CGAL::Protect_FPU_rounding<true> rounding;
   return sign_if_certain(polynomial());
+}
+
+/// A number as mantissa * 2^exponent: what a double alone may be too short for.
+struct Scaled {
+  double mantissa;
+  int exponent;
+};
+
+/// Rounded to a double or next to it.
+Scaled scaled(Exact number) {
+  constexpr int kStep = 600;
+  int exponent = 0;
+  while (true) {
+    const double value = CGAL::to_double(number);
+    const bool is_small = std::abs(value) < 0x1p-600 && CGAL::sign(number) != CGAL::ZERO;
+    if (!is_small && std::abs(value) < 0x1p600) return {value, exponent};
+    number = number * Exact(is_small ? 0x1p600 : 0x1p-600);
+    exponent += is_small ? -kStep : kStep;
+  }
+}
+
+Vec3 quotient(const Triple<Exact>& numerator, const Exact& denominator) {
+  const Scaled below = scaled(denominator);
+  Vec3 result;
+  for (int i = 0; i < 3; ++i) {
+    const Scaled above = scaled(numerator[static_cast<std::size_t>(i)]);
+    result[i] = std::ldexp(above.mantissa / below.mantissa, above.exponent - below.exponent);
+  }
+  return result;
 }
 
 }  // namespace
@@ -72,15 +115,40 @@ int past_vertex_exact(const Vec3& a, const Vec3& b, const Vec3& p) noexcept {
   const int sign = interval_sign([&] { return past_vertex<Interval>(a, b, p); });
   if (sign != 2) return sign;
   ++sign_counters().exact;
-  return sign_of(past_vertex<CGAL::Mpzf>(a, b, p));
+  return sign_of(past_vertex<Exact>(a, b, p));
 }
 
-int inside_edge_exact(const Vec3& a, const Vec3& b, const Vec3& o, const Vec3& p) noexcept {
-  const int sign = interval_sign([&] { return inside_edge<Interval>(a, b, o, p); });
+int crosses_exact(const Arrow& u, const Arrow& v, const Arrow& w) noexcept {
+  const int sign = interval_sign([&] { return product_of_crosses<Interval>(u, v, w); });
   if (sign != 2) return sign;
   ++sign_counters().exact;
-  return sign_of(inside_edge<CGAL::Mpzf>(a, b, o, p));
+  return sign_of(product_of_crosses<Exact>(u, v, w));
+}
+
+int volume_exact(const Arrow& u, const Arrow& v, const Arrow& w) noexcept {
+  const int sign = interval_sign([&] { return volume<Interval>(u, v, w); });
+  if (sign != 2) return sign;
+  ++sign_counters().exact;
+  return sign_of(volume<Exact>(u, v, w));
 }
 
 }  // namespace detail
+
+Vec3 exact_part_across(const Arrow& w, const Arrow& u) noexcept {
+  const Triple<Exact> along = Difference<Exact>(u).v;
+  const Triple<Exact> part = cross(cross(along, Difference<Exact>(w).v), along);
+  return quotient(part, dot(along, along));
+}
+
+Vec3 exact_part_along_normal(const Arrow& w, const Arrow& u, const Arrow& v) noexcept {
+  const Triple<Exact> normal = cross(Difference<Exact>(u).v, Difference<Exact>(v).v);
+  const Exact height = dot(normal, Difference<Exact>(w).v);
+  return quotient({Exact(normal[0] * height), Exact(normal[1] * height), Exact(normal[2] * height)},
+                  dot(normal, normal));
+}
+
+double exact_volume(const Arrow& u, const Arrow& v, const Arrow& w) noexcept {
+  return CGAL::to_double(volume<Exact>(u, v, w));
+}
+
 }  // namespace plekton::geometry

@@ -3,6 +3,7 @@
 
 #include "tests/support/exact.hpp"
 #include "tests/support/point_triangle_families.hpp"
+#include "tests/support/simplex_families.hpp"
 
 #include <gtest/gtest.h>
 
@@ -85,6 +86,43 @@ TEST(Signs, AreExactWhenCoordinatesOfVeryDifferentSizeMeet) {
   }
 
   EXPECT_EQ(wrong, 0);
+}
+
+/// Three arrows between corners of hard pairs of triangles.
+TEST(SignsOfThreeArrows, AgreeWithExactArithmeticOnAdversarialFamilies) {
+  test::SimplexFamilies<3, 3> families(7);
+  for (std::size_t k = 0; k < test::kPairFamilies.size(); ++k) {
+    int wrong = 0;
+
+    for (int trial = 0; trial < 5000; ++trial) {
+      const auto [a, b] = families.draw(test::kPairFamilies[k]);
+      for (const double factor : {1.0, 1e-60, 1e-160}) {
+        std::array<Vec3, 6> x{a[0], a[1], a[2], b[0], b[1], b[2]};
+        for (Vec3& point : x) point *= factor;
+        const auto s = test::scaled(x).points;
+        const auto u = test::difference(s[1], s[0]);
+        const auto v = test::difference(s[4], s[3]);
+        const auto w = test::difference(s[3], s[2]);
+        const int crosses = test::dot(test::cross(u, v), test::cross(u, w)).sign();
+        const int volume = test::dot(test::cross(u, v), w).sign();
+        wrong += sign_of_crosses({x[0], x[1]}, {x[3], x[4]}, {x[2], x[3]}) != crosses;
+        wrong += sign_of_volume({x[0], x[1]}, {x[3], x[4]}, {x[2], x[3]}) != volume;
+      }
+    }
+
+    EXPECT_EQ(wrong, 0) << test::kPairFamilyNames[k];
+  }
+}
+
+TEST(ExactLengths, KeepAllDigitsWhereDoublesCancel) {
+  const Vec3 origin = Vec3::Zero();
+  const Vec3 along(1, 1, 0);
+  const Vec3 end(0.5, 0.5, 1e-30);
+
+  EXPECT_EQ(exact_part_across({origin, end}, {origin, along}), Vec3(0, 0, 1e-30));
+  EXPECT_EQ(exact_part_along_normal({origin, end}, {origin, along}, {origin, Vec3(1, 2, 0)}),
+            Vec3(0, 0, 1e-30));
+  EXPECT_EQ(exact_volume({origin, along}, {origin, Vec3(1, 2, 0)}, {origin, end}), 1e-30);
 }
 
 TEST(SignPastVertex, IsZeroOnThePlaneAndForAnEdgeWithoutLength) {

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/closest/decide.hpp"
+
+#include <array>
+#include <optional>
+
+namespace plekton::geometry {
+
+ClosestCounters& closest_counters() noexcept {
+  thread_local ClosestCounters counters;
+  return counters;
+}
+
+namespace closest {
+namespace {
+
+constexpr std::array kCorners{1U, 2U, 4U};
+constexpr std::array kSidesInOrder{3U, 5U, 6U};
+constexpr std::array kFace{7U};
+
+/// Features of one dimension that a core has.
+std::span<const unsigned> features(std::size_t dimension, Corners x) {
+  if (dimension >= x.size()) return {};
+  if (dimension == 0) return {kCorners.data(), x.size()};
+  if (dimension == 2) return kFace;
+  return {kSidesInOrder.data(), x.size() == 2 ? std::size_t{1} : std::size_t{3}};
+}
+
+/// The first pair of features of these dimensions that carries nearest points.
+std::optional<Decision> search(Corners a, std::size_t dimension_a, Corners b,
+                               std::size_t dimension_b) {
+  for (const unsigned of_a : features(dimension_a, a)) {
+    for (const unsigned of_b : features(dimension_b, b)) {
+      const Verdict verdict = certify(a, b, {of_a, of_b});
+      if (verdict == Verdict::refuted) continue;
+      const bool is_meeting = verdict == Verdict::meeting;
+      return Decision{{of_a, of_b}, is_meeting ? Relation::touching_or_crossing : Relation::apart};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Cores of which no lower features meet, but which cross: a side of one goes through the face of
+/// the other.
+std::optional<Decision> search_crossing(Corners a, Corners b) {
+  if (b.size() == 3) {
+    for (const unsigned side : features(1, a)) {
+      if (crosses(a, side, b)) return Decision{{side, 7U}, Relation::touching_or_crossing};
+    }
+  }
+  if (a.size() == 3) {
+    for (const unsigned side : features(1, b)) {
+      if (crosses(b, side, a)) return Decision{{7U, side}, Relation::touching_or_crossing};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Decision enumerate(Corners a, Corners b) noexcept {
+  if (is_lower_side(b, a)) {
+    const Decision swapped = enumerate(b, a);
+    return {{swapped.carriers.b, swapped.carriers.a}, swapped.relation};
+  }
+  ++closest_counters().enumerated;
+  constexpr std::array<std::array<std::size_t, 2>, 6> kDimensions{
+      {{0, 0}, {0, 1}, {1, 0}, {0, 2}, {2, 0}, {1, 1}}};
+  for (const auto& [of_a, of_b] : kDimensions) {
+    if (const auto found = search(a, of_a, b, of_b)) return *found;
+  }
+  if (const auto found = search_crossing(a, b)) return *found;
+  return {{1U, 1U}, Relation::touching_or_crossing};  // only coordinates out of range come here
+}
+
+}  // namespace closest
+}  // namespace plekton::geometry

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/closest/decide.hpp"
+#include "geometry/foot_point.hpp"
+#include "geometry/predicates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace plekton::geometry::closest {
+namespace {
+
+/// Distances below this share of the size of what they are computed from come from exact
+/// arithmetic. The double results below are within 1e-15 of the size (foot_point_test.cpp,
+/// side_side()), which is 2.6e-13 of a distance of this share.
+constexpr double kShortest = 0x1p-8;
+
+std::size_t first_of(unsigned corners) {
+  return static_cast<std::size_t>(std::countr_zero(corners));
+}
+std::size_t last_of(unsigned corners) {
+  return static_cast<std::size_t>(std::bit_width(corners)) - 1;
+}
+
+/// Weights of both sides, and the separation from a to b (m).
+struct Points {
+  Vec3 weights_a;
+  Vec3 weights_b;
+  Vec3 separation;
+};
+
+Vec3 corner_weights(unsigned corner) {
+  return Vec3::Unit(static_cast<Eigen::Index>(first_of(corner)));
+}
+
+Vec3 side_weights(unsigned side, double share_of_last) {
+  Vec3 weights = Vec3::Zero();
+  weights[static_cast<Eigen::Index>(first_of(side))] = 1.0 - share_of_last;
+  weights[static_cast<Eigen::Index>(last_of(side))] = share_of_last;
+  return weights;
+}
+
+bool is_short(double distance, double size) {
+  if (distance >= kShortest * size) return false;
+  ++closest_counters().exact_lengths;
+  return true;
+}
+
+Points corner_side(const Vec3& p, unsigned corner, Corners b, unsigned side) {
+  const Vec3& c = b[first_of(side)];
+  const Vec3& d = b[last_of(side)];
+  const FootPoint foot = foot_on_edge(p, {c, d});
+  Points points{corner_weights(corner), side_weights(side, foot.weights[1]),
+                foot.distance * foot.direction};
+  if (is_short(foot.distance, (d - c).norm()))
+    points.separation = exact_part_across({p, c}, {c, d});
+  return points;
+}
+
+Points corner_face(const Vec3& p, unsigned corner, Corners b) {
+  const FootPoint foot = foot_on_face(p, {b[0], b[1], b[2]});
+  Points points{corner_weights(corner), foot.weights, foot.distance * foot.direction};
+  const double size = std::sqrt(std::max(
+      {(b[1] - b[0]).squaredNorm(), (b[2] - b[1]).squaredNorm(), (b[0] - b[2]).squaredNorm()}));
+  if (is_short(foot.distance, size))
+    points.separation = exact_part_along_normal({p, b[0]}, {b[0], b[1]}, {b[0], b[2]});
+  return points;
+}
+
+/// The part of w across v. Done twice, because the first pass leaves a rest of the size of the
+/// rounding error of w, which may exceed the result.
+Vec3 part_across(const Vec3& w, const Vec3& v, double v_squared) {
+  const Vec3 first = w - (w.dot(v) / v_squared) * v;
+  return first - (first.dot(v) / v_squared) * v;
+}
+
+/// Of two lines with the common perpendicular inside both sides. Everything is taken across the
+/// longer side v: there the other one is u' and the way between their starts w', the parameter s =
+/// w'.u' / u'.u' is a least-squares fit and w' - s u' its residual. However small the angle, and
+/// however wrong s may be for it, the residual is as accurate as u' and w': a few ulps of the size.
+/// Where s leads past an end of v the points face each other at that end.
+Points side_side(Corners a, Corners b, Carriers carriers) {
+  const Vec3& a0 = a[first_of(carriers.a)];
+  const Vec3& a1 = a[last_of(carriers.a)];
+  const Vec3& b0 = b[first_of(carriers.b)];
+  const Vec3& b1 = b[last_of(carriers.b)];
+  const Vec3 u = a1 - a0;
+  const Vec3 v = b1 - b0;
+  const Vec3 w = b0 - a0;
+  const double uu = u.squaredNorm();
+  const double vv = v.squaredNorm();
+  const Vec3 u_across = part_across(u, v, vv);
+  const Vec3 w_across = part_across(w, v, vv);
+  const double across = u_across.squaredNorm();
+  double s = across > 0.0 ? std::clamp(w_across.dot(u_across) / across, 0.0, 1.0) : 0.5;
+  const Vec3 residual = w_across - s * u_across;
+  const double free_t = (s * u - w).dot(v) / vv;
+  const double t = std::clamp(free_t, 0.0, 1.0);
+  if (t != free_t) s = std::clamp((t * v + w).dot(u) / uu, 0.0, 1.0);
+  Points points{side_weights(carriers.a, s), side_weights(carriers.b, t), residual};
+  const double size = std::sqrt(std::max({uu, vv, w.squaredNorm()}));
+  if (is_short(points.separation.norm(), size))
+    points.separation = exact_part_along_normal({a0, b0}, {a0, a1}, {b0, b1});
+  return points;
+}
+
+/// The sides are taken in an order that does not depend on which is called a.
+Points side_side_in_order(Corners a, Corners b, Carriers carriers) {
+  const auto length = [](Corners x, unsigned side) {
+    return (x[last_of(side)] - x[first_of(side)]).squaredNorm();
+  };
+  const double length_a = length(a, carriers.a);
+  const double length_b = length(b, carriers.b);
+  const bool keeps = length_a < length_b || (length_a == length_b && !is_lower_side(b, a));
+  if (keeps) return side_side(a, b, carriers);
+  const Points swapped = side_side(b, a, {carriers.b, carriers.a});
+  return {swapped.weights_b, swapped.weights_a, -swapped.separation};
+}
+
+Points apart(Corners a, Corners b, Carriers carriers) {
+  const int count_a = std::popcount(carriers.a);
+  const int count_b = std::popcount(carriers.b);
+  if (count_a == 2 && count_b == 2) return side_side_in_order(a, b, carriers);
+  if (count_a > 1) {
+    const Points swapped = apart(b, a, {carriers.b, carriers.a});
+    return {swapped.weights_b, swapped.weights_a, -swapped.separation};
+  }
+  const Vec3& p = a[first_of(carriers.a)];
+  if (count_b == 3) return corner_face(p, carriers.a, b);
+  if (count_b == 2) return corner_side(p, carriers.a, b, carriers.b);
+  return {corner_weights(carriers.a), corner_weights(carriers.b), b[first_of(carriers.b)] - p};
+}
+
+/// The common point of a side and a face, which it goes through at any angle: shares of volumes,
+/// from exact arithmetic.
+Points crossing(Corners a, unsigned side, Corners b) {
+  const Vec3& from = a[first_of(side)];
+  const Vec3& to = a[last_of(side)];
+  const Arrow u{b[0], b[1]};
+  const Arrow v{b[0], b[2]};
+  const double before = std::abs(exact_volume(u, v, {b[0], from}));
+  const double behind = std::abs(exact_volume(u, v, {b[0], to}));
+  Vec3 weights;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double opposite =
+        exact_volume({from, to}, {from, b[(k + 1) % 3]}, {from, b[(k + 2) % 3]});
+    weights[static_cast<Eigen::Index>(k)] = std::abs(opposite);
+  }
+  const double height = before + behind;
+  const double sum = weights.sum();
+  return {side_weights(side, height > 0.0 ? before / height : 0.5),
+          sum > 0.0 ? Vec3(weights / sum) : Vec3(Vec3::Constant(1.0 / 3.0)), Vec3::Zero()};
+}
+
+Points meeting(Corners a, Corners b, Carriers carriers) {
+  const int count_a = std::popcount(carriers.a);
+  const int count_b = std::popcount(carriers.b);
+  if (count_a + count_b < 5) {
+    Points points = apart(a, b, carriers);
+    points.separation.setZero();
+    return points;
+  }
+  if (count_a == 2) return crossing(a, carriers.a, b);
+  const Points swapped = crossing(b, carriers.b, a);
+  return {swapped.weights_b, swapped.weights_a, Vec3::Zero()};
+}
+
+Vec3 equal_weights(unsigned corners) {
+  Vec3 weights = Vec3::Zero();
+  for (unsigned k = 0; k < 3; ++k) {
+    if ((corners >> k & 1U) != 0) weights[k] = 1.0 / std::popcount(corners);
+  }
+  return weights;
+}
+
+/// Of features so small (below 1e-150 m) that the squares of their lengths vanish.
+Points of_vanishing_features(Corners a, Corners b, Carriers carriers) {
+  const int count_a = std::popcount(carriers.a);
+  const int count_b = std::popcount(carriers.b);
+  const Arrow w{a[first_of(carriers.a)], b[first_of(carriers.b)]};
+  const Arrow u{w.from, a[last_of(carriers.a)]};
+  const Arrow v{w.to, b[last_of(carriers.b)]};
+  Vec3 separation = w.rounded();
+  if (count_a + count_b == 3) separation = exact_part_across(w, count_a == 2 ? u : v);
+  if (count_a == 2 && count_b == 2) separation = exact_part_along_normal(w, u, v);
+  if (count_a == 3) separation = exact_part_along_normal(w, {a[0], a[1]}, {a[0], a[2]});
+  if (count_b == 3) separation = exact_part_along_normal(w, {b[0], b[1]}, {b[0], b[2]});
+  return {equal_weights(carriers.a), equal_weights(carriers.b), separation};
+}
+
+}  // namespace
+
+ClosestPoints evaluate(Corners a, Corners b, const Decision& decision) noexcept {
+  const bool is_apart = decision.relation == Relation::apart;
+  Points points = is_apart ? apart(a, b, decision.carriers) : meeting(a, b, decision.carriers);
+  if (!std::isfinite((points.weights_a + points.weights_b + points.separation).sum())) {
+    points = of_vanishing_features(a, b, decision.carriers);
+    if (!is_apart) points.separation.setZero();
+  }
+  return {points.weights_a,    points.weights_b,    points.separation, points.separation.norm(),
+          decision.carriers.a, decision.carriers.b, decision.relation};
+}
+
+}  // namespace plekton::geometry::closest
