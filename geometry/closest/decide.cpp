@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/closest/decide.hpp"
 
+#include "geometry/predicates.hpp"
+
 #include <array>
+#include <bit>
 #include <optional>
 
 namespace plekton::geometry {
@@ -56,6 +59,21 @@ std::optional<Decision> search_crossing(Corners a, Corners b) {
   return std::nullopt;
 }
 
+/// Whether other corners lie where a corner is, or on the line of a side.
+bool has_rivals(Corners x, unsigned feature) {
+  const auto first = static_cast<std::size_t>(std::countr_zero(feature));
+  const auto last = static_cast<std::size_t>(std::bit_width(feature)) - 1;
+  if (feature == 7U) return false;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (k == first || k == last) continue;
+    if (first == last && x[k] == x[first]) return true;
+    const Arrow along{x[first], x[last]};
+    const Arrow other{x[first], x[k]};
+    if (first != last && sign_of_crosses(along, other, other) == 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Decision enumerate(Corners a, Corners b) noexcept {
@@ -71,6 +89,14 @@ Decision enumerate(Corners a, Corners b) noexcept {
   }
   if (const auto found = search_crossing(a, b)) return *found;
   return {{1U, 1U}, Relation::touching_or_crossing};  // only coordinates out of range come here
+}
+
+Decision decide_for_point(Corners a, Corners b, unsigned guess) noexcept {
+  const Verdict verdict = certify(a, b, {1U, guess});
+  if (verdict == Verdict::unique) return {{1U, guess}, Relation::apart};
+  if (verdict == Verdict::refuted || has_rivals(b, guess)) return enumerate(a, b);
+  const bool is_meeting = verdict == Verdict::meeting;
+  return {{1U, guess}, is_meeting ? Relation::touching_or_crossing : Relation::apart};
 }
 
 }  // namespace closest

@@ -21,6 +21,10 @@ inline Decision decide(Corners a, Corners b, Carriers guess) noexcept {
   return enumerate(a, b);
 }
 
+/// Of a point a. The nearest point of b is unique, so a tie is one of features that hold the same
+/// point, and the guess is the lowest of them unless corners coincide or lie on a line.
+Decision decide_for_point(Corners a, Corners b, unsigned guess) noexcept;
+
 /// Weights and separation for features that were decided.
 ClosestPoints evaluate(Corners a, Corners b, const Decision& decision) noexcept;
 

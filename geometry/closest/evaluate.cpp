@@ -41,29 +41,33 @@ Vec3 side_weights(unsigned side, double share_of_last) {
   return weights;
 }
 
-bool is_short(double distance, double size) {
-  if (distance >= kShortest * size) return false;
+bool is_short(double distance, double size, Relation relation) {
+  if (distance >= kShortest * size || relation != Relation::apart) return false;
   ++closest_counters().exact_lengths;
   return true;
 }
 
-Points corner_side(const Vec3& p, unsigned corner, Corners b, unsigned side) {
+Points corner_side(Corners a, Corners b, const Decision& decision) {
+  const auto [corner, side] = decision.carriers;
+  const Vec3& p = a[first_of(corner)];
   const Vec3& c = b[first_of(side)];
   const Vec3& d = b[last_of(side)];
   const FootPoint foot = foot_on_edge(p, {c, d});
   Points points{corner_weights(corner), side_weights(side, foot.weights[1]),
                 foot.distance * foot.direction};
-  if (is_short(foot.distance, (d - c).norm()))
+  if (is_short(foot.distance, (d - c).norm(), decision.relation))
     points.separation = exact_part_across({p, c}, {c, d});
   return points;
 }
 
-Points corner_face(const Vec3& p, unsigned corner, Corners b) {
+Points corner_face(Corners a, Corners b, const Decision& decision) {
+  const unsigned corner = decision.carriers.a;
+  const Vec3& p = a[first_of(corner)];
   const FootPoint foot = foot_on_face(p, {b[0], b[1], b[2]});
   Points points{corner_weights(corner), foot.weights, foot.distance * foot.direction};
   const double size = std::sqrt(std::max(
       {(b[1] - b[0]).squaredNorm(), (b[2] - b[1]).squaredNorm(), (b[0] - b[2]).squaredNorm()}));
-  if (is_short(foot.distance, size))
+  if (is_short(foot.distance, size, decision.relation))
     points.separation = exact_part_along_normal({p, b[0]}, {b[0], b[1]}, {b[0], b[2]});
   return points;
 }
@@ -80,7 +84,8 @@ Vec3 part_across(const Vec3& w, const Vec3& v, double v_squared) {
 /// w'.u' / u'.u' is a least-squares fit and w' - s u' its residual. However small the angle, and
 /// however wrong s may be for it, the residual is as accurate as u' and w': a few ulps of the size.
 /// Where s leads past an end of v the points face each other at that end.
-Points side_side(Corners a, Corners b, Carriers carriers) {
+Points side_side(Corners a, Corners b, const Decision& decision) {
+  const Carriers& carriers = decision.carriers;
   const Vec3& a0 = a[first_of(carriers.a)];
   const Vec3& a1 = a[last_of(carriers.a)];
   const Vec3& b0 = b[first_of(carriers.b)];
@@ -100,36 +105,40 @@ Points side_side(Corners a, Corners b, Carriers carriers) {
   if (t != free_t) s = std::clamp((t * v + w).dot(u) / uu, 0.0, 1.0);
   Points points{side_weights(carriers.a, s), side_weights(carriers.b, t), residual};
   const double size = std::sqrt(std::max({uu, vv, w.squaredNorm()}));
-  if (is_short(points.separation.norm(), size))
+  if (is_short(points.separation.norm(), size, decision.relation))
     points.separation = exact_part_along_normal({a0, b0}, {a0, a1}, {b0, b1});
   return points;
 }
 
+Decision reversed(const Decision& decision) {
+  return {{decision.carriers.b, decision.carriers.a}, decision.relation};
+}
+Points reversed(const Points& points) {
+  return {points.weights_b, points.weights_a, -points.separation};
+}
+
 /// The sides are taken in an order that does not depend on which is called a.
-Points side_side_in_order(Corners a, Corners b, Carriers carriers) {
+Points side_side_in_order(Corners a, Corners b, const Decision& decision) {
   const auto length = [](Corners x, unsigned side) {
     return (x[last_of(side)] - x[first_of(side)]).squaredNorm();
   };
-  const double length_a = length(a, carriers.a);
-  const double length_b = length(b, carriers.b);
+  const double length_a = length(a, decision.carriers.a);
+  const double length_b = length(b, decision.carriers.b);
   const bool keeps = length_a < length_b || (length_a == length_b && !is_lower_side(b, a));
-  if (keeps) return side_side(a, b, carriers);
-  const Points swapped = side_side(b, a, {carriers.b, carriers.a});
-  return {swapped.weights_b, swapped.weights_a, -swapped.separation};
+  return keeps ? side_side(a, b, decision) : reversed(side_side(b, a, reversed(decision)));
 }
 
-Points apart(Corners a, Corners b, Carriers carriers) {
-  const int count_a = std::popcount(carriers.a);
-  const int count_b = std::popcount(carriers.b);
-  if (count_a == 2 && count_b == 2) return side_side_in_order(a, b, carriers);
-  if (count_a > 1) {
-    const Points swapped = apart(b, a, {carriers.b, carriers.a});
-    return {swapped.weights_b, swapped.weights_a, -swapped.separation};
-  }
-  const Vec3& p = a[first_of(carriers.a)];
-  if (count_b == 3) return corner_face(p, carriers.a, b);
-  if (count_b == 2) return corner_side(p, carriers.a, b, carriers.b);
-  return {corner_weights(carriers.a), corner_weights(carriers.b), b[first_of(carriers.b)] - p};
+/// Of all but a side that goes through a face.
+Points at_feet(Corners a, Corners b, const Decision& decision) {
+  const int count_a = std::popcount(decision.carriers.a);
+  const int count_b = std::popcount(decision.carriers.b);
+  if (count_a == 2 && count_b == 2) return side_side_in_order(a, b, decision);
+  if (count_a > 1) return reversed(at_feet(b, a, reversed(decision)));
+  if (count_b == 3) return corner_face(a, b, decision);
+  if (count_b == 2) return corner_side(a, b, decision);
+  const auto [corner_a, corner_b] = decision.carriers;
+  return {corner_weights(corner_a), corner_weights(corner_b),
+          b[first_of(corner_b)] - a[first_of(corner_a)]};
 }
 
 /// The common point of a side and a face, which it goes through at any angle: shares of volumes,
@@ -153,17 +162,11 @@ Points crossing(Corners a, unsigned side, Corners b) {
           sum > 0.0 ? Vec3(weights / sum) : Vec3(Vec3::Constant(1.0 / 3.0)), Vec3::Zero()};
 }
 
-Points meeting(Corners a, Corners b, Carriers carriers) {
-  const int count_a = std::popcount(carriers.a);
-  const int count_b = std::popcount(carriers.b);
-  if (count_a + count_b < 5) {
-    Points points = apart(a, b, carriers);
-    points.separation.setZero();
-    return points;
-  }
-  if (count_a == 2) return crossing(a, carriers.a, b);
-  const Points swapped = crossing(b, carriers.b, a);
-  return {swapped.weights_b, swapped.weights_a, Vec3::Zero()};
+Points points_of(Corners a, Corners b, const Decision& decision) {
+  const auto [of_a, of_b] = decision.carriers;
+  if (of_a == 7U && std::popcount(of_b) == 2) return reversed(crossing(b, of_b, a));
+  if (of_b == 7U && std::popcount(of_a) == 2) return crossing(a, of_a, b);
+  return at_feet(a, b, decision);
 }
 
 Vec3 equal_weights(unsigned corners) {
@@ -192,12 +195,10 @@ Points of_vanishing_features(Corners a, Corners b, Carriers carriers) {
 }  // namespace
 
 ClosestPoints evaluate(Corners a, Corners b, const Decision& decision) noexcept {
-  const bool is_apart = decision.relation == Relation::apart;
-  Points points = is_apart ? apart(a, b, decision.carriers) : meeting(a, b, decision.carriers);
-  if (!std::isfinite((points.weights_a + points.weights_b + points.separation).sum())) {
+  Points points = points_of(a, b, decision);
+  if (!std::isfinite((points.weights_a + points.weights_b + points.separation).sum()))
     points = of_vanishing_features(a, b, decision.carriers);
-    if (!is_apart) points.separation.setZero();
-  }
+  if (decision.relation != Relation::apart) points.separation.setZero();
   return {points.weights_a,    points.weights_b,    points.separation, points.separation.norm(),
           decision.carriers.a, decision.carriers.b, decision.relation};
 }

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/closest/point_triangle.hpp"
+
+#include "geometry/closest/decide.hpp"
+#include "geometry/closest/guess.hpp"
+
+namespace plekton::geometry {
+
+ClosestPoints point_triangle(const Vec3& p, const std::array<Vec3, 3>& b) noexcept {
+  ++closest_counters().pairs;
+  const closest::Corners a(&p, 1);
+  return closest::evaluate(a, b,
+                           closest::decide_for_point(a, b, closest::guess_foot(p, b).carriers));
+}
+
+}  // namespace plekton::geometry
