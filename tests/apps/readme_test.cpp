@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -27,11 +26,15 @@ std::string code_after(const std::string& text) {
   return readme.substr(begin, readme.find("\n```", begin) + 1 - begin);
 }
 
+/// Every --word: a letter, then letters and dashes.
 Words options_in(const std::string& text) {
-  const std::regex option("--[a-z][a-z-]*");
+  constexpr const char* kLetters = "abcdefghijklmnopqrstuvwxyz";
   Words options;
-  for (std::sregex_iterator match(text.begin(), text.end(), option), end; match != end; ++match)
-    options.insert(match->str());
+  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at + 2)) {
+    if (text.find_first_of(kLetters, at + 2) != at + 2) continue;
+    const std::size_t end = text.find_first_not_of(std::string(kLetters) + "-", at + 2);
+    options.insert(text.substr(at, end == std::string::npos ? end : end - at));
+  }
   return options;
 }
 
