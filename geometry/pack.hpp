@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 /// Several numbers at once: a formula written for a type Real runs with Real = double for one
 /// thing, or with Real = Pack<W> for W things side by side, in vector instructions. Every lane has
@@ -21,7 +22,8 @@ namespace plekton::geometry {
 // the rest of the file.
 #define PLEKTON_INLINE [[gnu::always_inline]] inline
 
-/// Answers of a comparison, lane by lane.
+/// Answers of a comparison, lane by lane. For select and bits_of only: anything else that is done
+/// with them is taken apart by GCC 12.
 template <int W>
 struct PackMask {
   using Vector [[gnu::vector_size(W * sizeof(double))]] = std::int64_t;
@@ -77,6 +79,50 @@ PLEKTON_INLINE Pack<W> select(const PackMask<W>& condition, const Pack<W>& x,
 }
 PLEKTON_INLINE double select(bool condition, double x, double y) noexcept {
   return condition ? x : y;
+}
+
+namespace detail {
+
+template <int W, int... kLane>
+PLEKTON_INLINE double sum_of_lanes(const Pack<W>& x,
+                                   std::integer_sequence<int, kLane...>) noexcept {
+  if constexpr (W == 1) {
+    return x.lanes[0];
+  } else {
+    using Half = Pack<W / 2>;
+    const Half sum = Half(__builtin_shufflevector(x.lanes, x.lanes, kLane...)) +
+                     Half(__builtin_shufflevector(x.lanes, x.lanes, (W / 2 + kLane)...));
+    return sum_of_lanes(sum, std::make_integer_sequence<int, W / 4>());
+  }
+}
+
+}  // namespace detail
+
+/// 1 where a comparison holds, else 0.
+template <int W>
+PLEKTON_INLINE Pack<W> flag(const PackMask<W>& condition) noexcept {
+  return select(condition, Pack<W>(1.0), 0.0);
+}
+PLEKTON_INLINE double flag(bool condition) noexcept {
+  return condition ? 1.0 : 0.0;
+}
+
+/// Bit l is the flag of lane l.
+template <int W>
+PLEKTON_INLINE unsigned bits_of(const Pack<W>& flags) noexcept {
+  constexpr double kBits[] = {1, 2, 4, 8, 16, 32, 64, 128};
+  const Pack<W> bits = flags * Pack<W>::load(kBits);
+  return static_cast<unsigned>(
+      static_cast<int>(detail::sum_of_lanes(bits, std::make_integer_sequence<int, W / 2>())));
+}
+/// bits_of flags that are all 1.
+template <int W>
+constexpr unsigned kAllBits = (1U << W) - 1U;
+
+/// The smaller of two numbers; y if they cannot be compared.
+template <class Real>
+PLEKTON_INLINE Real smaller_of(const Real& x, const Real& y) noexcept {
+  return select(y > x, x, y);
 }
 
 /// x if it is positive, otherwise (also for NaN) 0.

@@ -28,6 +28,19 @@ class Rows {
     for (std::size_t n = 0; n < kNumbers; ++n) numbers[n] = rows_[n][lane];
   }
 
+  /// Writes a thing of other rows into a lane.
+  PLEKTON_INLINE void set_from(const Rows& other, std::size_t other_lane,
+                               std::size_t lane) noexcept {
+    for (std::size_t n = 0; n < kNumbers; ++n) rows_[n][lane] = other.rows_[n][other_lane];
+  }
+
+  template <class Thing>
+  PLEKTON_INLINE Thing at(std::size_t lane) const noexcept {
+    Thing thing;
+    get(lane, thing);
+    return thing;
+  }
+
   /// The first number of a lane.
   PLEKTON_INLINE double number(std::size_t lane) const noexcept { return rows_[0][lane]; }
 
@@ -47,6 +60,17 @@ class Rows {
     constexpr std::size_t kBytes = sizeof(Packs) / kNumbers;
     for (std::size_t n = 0; n < kNumbers; ++n) {
       std::memcpy(&rows_[n][lane], reinterpret_cast<const char*>(&packs) + n * kBytes, kBytes);
+    }
+  }
+
+  /// The same in the lanes whose flag is 1, and 0 in the others.
+  template <class Packs, int W>
+  PLEKTON_INLINE void store(std::size_t lane, const Packs& packs, const Pack<W>& flags) noexcept {
+    static_assert(sizeof(Packs) == kNumbers * sizeof(Pack<W>));
+    for (std::size_t n = 0; n < kNumbers; ++n) {
+      Pack<W> pack;
+      std::memcpy(&pack, reinterpret_cast<const char*>(&packs) + n * sizeof(pack), sizeof(pack));
+      select(flags > 0.0, pack, 0.0).store(&rows_[n][lane]);
     }
   }
 

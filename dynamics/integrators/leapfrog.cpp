@@ -1,52 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/integrators/leapfrog.hpp"
 
-#include "dynamics/integrators/leapfrog_block.hpp"
+#include "dynamics/integrators/leapfrog_lanes.hpp"
+#include "geometry/rows.hpp"
 #include "geometry/vector_width.hpp"
-
-#include <algorithm>
 
 namespace plekton::dynamics {
 namespace {
 
-void gather(const NodeState& state, const NodeForces& forces, const NodeProperties& properties,
-            std::size_t first, std::size_t count, LeapfrogBlock& block) {
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = first + k;
-    block.translation.velocity.set(k, state.velocity[i]);
-    block.translation.force.set(k, forces.force[i]);
-    block.translation.inertia.set(k, properties.mass[i]);
-    block.translation.is_held.set(k, holds_translation(properties.held[i]) ? 1.0 : 0.0);
-    block.rotation.velocity.set(k, state.angular_velocity[i]);
-    block.rotation.force.set(k, forces.torque[i]);
-    block.rotation.inertia.set(k, properties.inertia[i]);
-    block.rotation.is_held.set(k, holds_rotation(properties.held[i]) ? 1.0 : 0.0);
-    block.orientation.set(k, state.orientation[i]);
-  }
+NodeArrays arrays(NodeState& state, const NodeForces& forces, const NodeProperties& properties) {
+  return {state.position.data(),    state.velocity.data(),     state.angular_velocity.data(),
+          state.orientation.data(), forces.force.data(),       forces.torque.data(),
+          properties.mass.data(),   properties.inertia.data(), properties.held.data()};
 }
 
-StepWork scatter(const LeapfrogBlock& block, std::size_t first, std::size_t count, double dt,
-                 NodeState& state) {
-  StepWork work;
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = first + k;
+template <class Rows>
+StepWork total(const Rows& work, std::size_t count) noexcept {
+  StepWork total;
+  for (std::size_t i = 0; i < count; ++i) {
     StepWorkOf<double> of_node;
-    block.work.get(k, of_node);
-    work += {of_node.kinetic, of_node.damped, of_node.external};
-    block.translation.velocity.get(k, state.velocity[i]);
-    block.rotation.velocity.get(k, state.angular_velocity[i]);
-    double half_turn_squared;
-    block.half_turn_squared.get(k, half_turn_squared);
-    if (half_turn_squared < geometry::kSmallAngleSquared) {
-      block.orientation.get(k, state.orientation[i]);
-    } else {
-      state.orientation[i] = turned(state.orientation[i], state.angular_velocity[i], dt);
-    }
+    work.get(i, of_node);
+    total += {of_node.kinetic, of_node.damped, of_node.external};
   }
-  // In a loop of its own: a vector that was just written as three numbers cannot be read as one
-  // without a stall.
-  for (std::size_t i = first; i < first + count; ++i) state.position[i] += dt * state.velocity[i];
-  return work;
+  return total;
 }
 
 }  // namespace
@@ -54,18 +30,17 @@ StepWork scatter(const LeapfrogBlock& block, std::size_t first, std::size_t coun
 StepWork Leapfrog::step(NodeState& state, const NodeForces& forces,
                         const NodeProperties& properties, const MotionOptions& options,
                         const StepLengths& lengths, geometry::ThreadPool& pool) {
+  const NodeArrays nodes = arrays(state, forces, properties);
   return sum_(state.size(), pool, [&](std::size_t begin, std::size_t end, int) {
-    StepWork work;
-    for (std::size_t first = begin; first < end; first += LeapfrogBlock::kLanes) {
-      const std::size_t count = std::min(LeapfrogBlock::kLanes, end - first);
-      LeapfrogBlock block;
-      gather(state, forces, properties, first, count, block);
-      geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
-        block.step<width>(count, options, lengths);
-      });
-      work += scatter(block, first, count, lengths.drift, state);
-    }
-    return work;
+    geometry::RowsOf<StepWorkOf<double>, geometry::ParallelSum<StepWork>::kChunk> work;
+    geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
+      const std::size_t last = end - (end - begin) % std::size_t{width};
+      for (std::size_t i = begin; i < last; i += std::size_t{width})
+        work.store(i - begin, step_lanes<width>(nodes.from(i), options, lengths));
+      for (std::size_t i = last; i < end; ++i)
+        work.store(i - begin, step_lanes<1>(nodes.from(i), options, lengths));
+    });
+    return total(work, end - begin);
   });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/integrators/leapfrog.hpp"
 
+#include "dynamics/integrators/leapfrog_lanes.hpp"
+#include "geometry/vector_width.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <gtest/gtest.h>
@@ -199,10 +201,10 @@ TEST(Leapfrog, StepsManyNodesToTheBitAsEachAlone) {
   Nodes all(kCount);
   for (std::size_t i = 0; i < kCount; ++i) {
     all.state.velocity[i] = random.in_cube(1.0);
-    all.state.angular_velocity[i] = random.in_cube(i % 7 == 0 ? 100.0 : 1.0);
+    all.state.angular_velocity[i] = random.in_cube(i % 7 == 0 && i < 300 ? 100.0 : 1.0);
     all.forces.force[i] = random.in_cube(10.0);
     all.forces.torque[i] = random.in_cube(10.0);
-    all.properties.held[i] = static_cast<Held>(i % 4);
+    if (i > 100 && i < 400) all.properties.held[i] = static_cast<Held>(i % 4);
   }
   std::vector<NodeState> alone;
   for (std::size_t i = 0; i < kCount; ++i) {
@@ -222,6 +224,53 @@ TEST(Leapfrog, StepsManyNodesToTheBitAsEachAlone) {
     ASSERT_EQ(all.state.velocity[i], alone[i].velocity[0]) << i;
     ASSERT_EQ(all.state.angular_velocity[i], alone[i].angular_velocity[0]) << i;
     ASSERT_EQ(all.state.orientation[i].coeffs(), alone[i].orientation[0].coeffs()) << i;
+  }
+}
+
+template <class Width>
+class LeapfrogLanes : public testing::Test {};
+using Widths = testing::Types<geometry::Width<2>, geometry::Width<4>, geometry::Width<8>>;
+TYPED_TEST_SUITE(LeapfrogLanes, Widths);
+
+NodeArrays arrays(Nodes& nodes) {
+  return {nodes.state.position.data(),         nodes.state.velocity.data(),
+          nodes.state.angular_velocity.data(), nodes.state.orientation.data(),
+          nodes.forces.force.data(),           nodes.forces.torque.data(),
+          nodes.properties.mass.data(),        nodes.properties.inertia.data(),
+          nodes.properties.held.data()};
+}
+
+TYPED_TEST(LeapfrogLanes, HaveTheBitsOfOneNodeAfterTheOther) {
+  constexpr int W = TypeParam::value;
+  const MotionOptions options{Vec3(0, 0, -9.81), 0.3, true};
+  test::Random random(5);
+  for (const double spin : {1.0, 100.0}) {  // rad/s: the short series, and beyond
+    Nodes together(std::size_t{W});
+    for (std::size_t i = 0; i < std::size_t{W}; ++i) {
+      together.state.velocity[i] = random.in_cube(1.0);
+      together.state.angular_velocity[i] = random.in_cube(spin);
+      together.forces.force[i] = random.in_cube(10.0);
+      together.forces.torque[i] = random.in_cube(10.0);
+      if (spin > 1.0) together.properties.held[i] = static_cast<Held>(i % 4);
+    }
+    Nodes apart(std::size_t{W});
+    apart.state = together.state;
+    apart.forces = together.forces;
+    apart.properties = together.properties;
+
+    const auto work = step_lanes<W>(arrays(together), options, {0.1, 0.1});
+
+    for (int i = 0; i < W; ++i) {
+      const auto node = static_cast<std::size_t>(i);
+      const auto work_of_one = step_lanes<1>(arrays(apart).from(node), options, {0.1, 0.1});
+      EXPECT_EQ(work.kinetic.lanes[i], work_of_one.kinetic.lanes[0]);
+      EXPECT_EQ(work.damped.lanes[i], work_of_one.damped.lanes[0]);
+      EXPECT_EQ(work.external.lanes[i], work_of_one.external.lanes[0]);
+      EXPECT_EQ(together.state.position[node], apart.state.position[node]);
+      EXPECT_EQ(together.state.velocity[node], apart.state.velocity[node]);
+      EXPECT_EQ(together.state.angular_velocity[node], apart.state.angular_velocity[node]);
+      EXPECT_EQ(together.state.orientation[node].coeffs(), apart.state.orientation[node].coeffs());
+    }
   }
 }
 

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/integrators/leapfrog.hpp"
+#include "dynamics/rotation_step.hpp"
+#include "geometry/lanes.hpp"
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+/// The arithmetic of the leapfrog for some nodes side by side.
+namespace plekton::dynamics {
+
+using geometry::Pack;
+
+template <class Real>
+using Vector = geometry::PackVec3<Real>;
+
+template <class Real>
+PLEKTON_INLINE Vector<Real> in_all_lanes(const Vec3& v) noexcept {
+  return {v[0], v[1], v[2]};
+}
+
+template <class Real>
+struct StepWorkOf {
+  Real kinetic, damped, external;  ///< J, as in StepWork
+};
+
+/// One motion of nodes, translation or rotation.
+template <class Real>
+struct NodeMotion {
+  Vector<Real> velocity;  ///< m/s or rad/s
+  Vector<Real> force;     ///< N or N m
+  Real inertia;           ///< kg or kg m²
+  Real is_held;           ///< 1 or 0
+
+  /// Steps the velocity. The acceleration is force over inertia plus two parts of gravity, of which
+  /// one is damped.
+  PLEKTON_INLINE StepWorkOf<Real> kick(const Vector<Real>& damped_gravity,
+                                       const Vector<Real>& free_gravity, const Real& damping,
+                                       const Real& dt) noexcept;
+};
+
+/// Acceleration that numerical damping takes from a component: lambda |a| against the velocity.
+template <class Real>
+PLEKTON_INLINE Real damping_of(const Real& acceleration, const Real& velocity,
+                               const Real& damping) noexcept {
+  const Real zero = 0.0;
+  const Real drag = damping * select(acceleration > zero, acceleration, -acceleration);
+  return select(velocity > zero, drag, select(zero > velocity, -drag, zero));
+}
+
+template <class Real>
+PLEKTON_INLINE StepWorkOf<Real> NodeMotion<Real>::kick(const Vector<Real>& damped_gravity,
+                                                       const Vector<Real>& free_gravity,
+                                                       const Real& damping,
+                                                       const Real& dt) noexcept {
+  const Real zero = 0.0;
+  const Real half = 0.5;
+  const Vector<Real> before = velocity;
+  const Vector<Real> subject = (Real(1.0) / inertia) * force + damped_gravity;
+  const Vector<Real> undamped = subject + free_gravity;
+  const Vector<Real> now = before + (half * dt) * undamped;
+  const Vector<Real> removed{damping_of(subject.x, now.x, damping),
+                             damping_of(subject.y, now.y, damping),
+                             damping_of(subject.z, now.z, damping)};
+  const Vector<Real> after = before + dt * (undamped - removed);
+
+  velocity = {select(is_held > zero, before.x, after.x), select(is_held > zero, before.y, after.y),
+              select(is_held > zero, before.z, after.z)};
+  return {select(is_held > zero, zero, half * inertia * before.dot(after)),
+          select(is_held > zero, zero, half * dt * inertia * removed.dot(before + after)),
+          select(is_held > zero, -dt * force.dot(before), zero)};
+}
+
+/// Nodes one after the other in memory.
+struct NodeArrays {
+  Vec3* position;          ///< m
+  Vec3* velocity;          ///< m/s
+  Vec3* angular_velocity;  ///< rad/s
+  Quat* orientation;
+  const Vec3* force;      ///< N
+  const Vec3* torque;     ///< N m
+  const double* mass;     ///< kg
+  const double* inertia;  ///< kg m²
+  const Held* held;
+
+  /// The arrays from a node on.
+  PLEKTON_INLINE NodeArrays from(std::size_t i) const noexcept {
+    return {position + i, velocity + i, angular_velocity + i, orientation + i, force + i,
+            torque + i,   mass + i,     inertia + i,          held + i};
+  }
+};
+
+template <class Thing>
+PLEKTON_INLINE auto* numbers_of(Thing* things) noexcept {
+  using Number = std::conditional_t<std::is_const_v<Thing>, const double, double>;
+  return reinterpret_cast<Number*>(things);
+}
+
+template <int W>
+PLEKTON_INLINE Vector<Pack<W>> load_vectors(const Vec3* from) noexcept {
+  const auto [x, y, z] = geometry::load_things<W, 3>(numbers_of(from));
+  return {x, y, z};
+}
+
+template <int W>
+PLEKTON_INLINE void store_vectors(const Vector<Pack<W>>& v, Vec3* to) noexcept {
+  geometry::store_things<W, 3>({v.x, v.y, v.z}, numbers_of(to));
+}
+
+/// 1 for each node of which a motion is held, else 0.
+template <int W>
+PLEKTON_INLINE Pack<W> load_held(const Held* from, bool (*holds)(Held)) noexcept {
+  std::uint64_t any_held = 0;
+  std::memcpy(&any_held, from, std::size_t{W} * sizeof(Held));
+  // Most often nothing is; and numbers just written one by one are slow to be read as a vector.
+  if (any_held == 0) return 0.0;
+  std::array<double, std::size_t{W}> is_held;
+  for (std::size_t lane = 0; lane < std::size_t{W}; ++lane)
+    is_held[lane] = holds(from[lane]) ? 1.0 : 0.0;
+  return Pack<W>::load(is_held.data());
+}
+
+/// Turns the orientations of nodes by any angle. What does not spin keeps its orientation to the
+/// bit.
+inline void turn_one_by_one(int count, const Vec3* spins, double dt, Quat* orientations) noexcept {
+  for (int i = 0; i < count; ++i) {
+    if (!spins[i].isZero(0.0)) orientations[i] = turned(orientations[i], spins[i], dt);
+  }
+}
+
+/// The same for W nodes side by side, of which none turns further than the series of
+/// geometry::cosine_and_sinc goes.
+/// @returns whether that is so; otherwise nothing has been done
+template <int W>
+PLEKTON_INLINE bool turn_side_by_side(const Vector<Pack<W>>& spin, double dt,
+                                      Quat* orientations) noexcept {
+  using Real = Pack<W>;
+  const auto [x, y, z, w] = geometry::load_things<W, 4>(numbers_of(orientations));
+  const QuatOf<Real> after = turned_numbers<Real>({x, y, z, w}, spin, dt);
+  const Real rests = geometry::flag(spin.squaredNorm() == Real(0.0));
+  const Vector<Real> half_turn = Real(0.5 * dt) * spin;
+  const Real is_small =
+      geometry::flag(Real(geometry::kSmallAngleSquared) > half_turn.squaredNorm());
+  if (bits_of(is_small) != geometry::kAllBits<W>) return false;
+  geometry::store_things<W, 4>({select(rests > 0.0, x, after.x), select(rests > 0.0, y, after.y),
+                                select(rests > 0.0, z, after.z), select(rests > 0.0, w, after.w)},
+                               numbers_of(orientations));
+  return true;
+}
+
+/// Moves W nodes; which component a number is makes no difference.
+template <int W>
+PLEKTON_INLINE void drift(const Vec3* velocities, double dt, Vec3* positions) noexcept {
+  using Real = Pack<W>;
+  for (int k = 0; k < 3; ++k) {
+    const Real velocity = Real::load(numbers_of(velocities) + k * W);
+    double* const position = numbers_of(positions) + k * W;
+    (Real::load(position) + Real(dt) * velocity).store(position);
+  }
+}
+
+/// One step of W nodes.
+template <int W>
+PLEKTON_INLINE StepWorkOf<Pack<W>> step_lanes(const NodeArrays& nodes, const MotionOptions& options,
+                                              const StepLengths& lengths) noexcept {
+  using Real = Pack<W>;
+  const Vector<Real> gravity = in_all_lanes<Real>(options.gravity);
+  const Vector<Real> zero = Vector<Real>::Zero();
+  NodeMotion<Real> moves{load_vectors<W>(nodes.velocity), load_vectors<W>(nodes.force),
+                         Real::load(nodes.mass), load_held<W>(nodes.held, holds_translation)};
+  NodeMotion<Real> spins{load_vectors<W>(nodes.angular_velocity), load_vectors<W>(nodes.torque),
+                         Real::load(nodes.inertia), load_held<W>(nodes.held, holds_rotation)};
+  const auto of_translation =
+      moves.kick(options.damps_gravity ? gravity : zero, options.damps_gravity ? zero : gravity,
+                 options.damping, lengths.kick);
+  const auto of_rotation = spins.kick(zero, zero, options.damping, lengths.kick);
+  store_vectors<W>(moves.velocity, nodes.velocity);
+  store_vectors<W>(spins.velocity, nodes.angular_velocity);
+  if (!turn_side_by_side<W>(spins.velocity, lengths.drift, nodes.orientation))
+    turn_one_by_one(W, nodes.angular_velocity, lengths.drift, nodes.orientation);
+  drift<W>(nodes.velocity, lengths.drift, nodes.position);
+  return {of_translation.kinetic + of_rotation.kinetic, of_translation.damped + of_rotation.damped,
+          of_translation.external + of_rotation.external};
+}
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/lanes.hpp"
+
+#include "geometry/vector_width.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <vector>
+
+namespace plekton::geometry {
+namespace {
+
+/// 0, 1, 2, ...: every number tells where it was.
+std::vector<double> counted(std::size_t count) {
+  std::vector<double> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0.0);
+  return numbers;
+}
+
+template <int W>
+double lane(const Pack<W>& pack, int l) {
+  return pack.lanes[l];
+}
+
+template <class Width>
+class Lanes : public testing::Test {};
+using Widths = testing::Types<Width<1>, Width<2>, Width<4>, Width<8>>;
+TYPED_TEST_SUITE(Lanes, Widths);
+
+template <int W, int N>
+void expect_things_in_a_row_are_loaded_and_stored() {
+  const std::vector<double> numbers = counted(std::size_t{W * N});
+  std::vector<double> copies(numbers.size(), -1.0);
+
+  const auto packs = load_things<W, N>(numbers.data());
+  store_things<W, N>(packs, copies.data());
+
+  for (int n = 0; n < N; ++n) {
+    for (int l = 0; l < W; ++l) EXPECT_EQ(lane(packs[static_cast<std::size_t>(n)], l), l * N + n);
+  }
+  EXPECT_EQ(copies, numbers);
+}
+
+TYPED_TEST(Lanes, HoldThingsThatLieOneAfterTheOther) {
+  expect_things_in_a_row_are_loaded_and_stored<TypeParam::value, 3>();
+  expect_things_in_a_row_are_loaded_and_stored<TypeParam::value, 4>();
+}
+
+template <int W, int N>
+void expect_things_anywhere_are_gathered() {
+  const std::vector<double> numbers = counted(100);
+  const auto at = [&](std::size_t l) { return numbers.data() + 3 + (7 * l) % 31; };
+
+  const auto packs = gather_things<W, N>(at);
+
+  for (int n = 0; n < N; ++n) {
+    for (int l = 0; l < W; ++l)
+      EXPECT_EQ(lane(packs[static_cast<std::size_t>(n)], l), at(static_cast<std::size_t>(l))[n]);
+  }
+}
+
+TYPED_TEST(Lanes, HoldThingsThatLieAnywhere) {
+  expect_things_anywhere_are_gathered<TypeParam::value, 4>();
+  expect_things_anywhere_are_gathered<TypeParam::value, 8>();
+}
+
+TYPED_TEST(Lanes, ScatterThingsInTheOrderOfTheLanes) {
+  constexpr int W = TypeParam::value;
+  const std::vector<double> numbers = counted(8 * W);
+  std::vector<double> scattered(9 * W, -1.0);
+
+  // One place is used by two lanes in turn: the last one stays.
+  const auto place = [](std::size_t l) { return l == 1 ? 0 : 9 * l; };
+  scatter_things<W, 8>(gather_things<W, 8>([&](std::size_t l) { return numbers.data() + 8 * l; }),
+                       [&](std::size_t l) { return scattered.data() + place(l); });
+
+  for (std::size_t l = W > 1 ? 1 : 0; l < std::size_t{W}; ++l) {
+    for (std::size_t n = 0; n < 8; ++n) EXPECT_EQ(scattered[place(l) + n], numbers[8 * l + n]);
+  }
+}
+
+TYPED_TEST(Lanes, GiveTheirFlagsAsBits) {
+  constexpr int W = TypeParam::value;
+  for (unsigned bits = 0; bits <= kAllBits<W>; ++bits) {
+    Pack<W> numbers;
+    for (int l = 0; l < W; ++l) numbers.lanes[l] = (bits >> l & 1U) != 0 ? 2.5 : -1.0;
+
+    EXPECT_EQ(bits_of(flag(numbers > Pack<W>(0.0))), bits);
+  }
+}
+
+}  // namespace
+}  // namespace plekton::geometry
