@@ -33,6 +33,44 @@ concept LaneLaw = ContactLaw<Law> &&
   Law::rotate(history, rotation);
 };
 
+/// What a step of pairs side by side came to.
+template <LaneLaw Law, class Real>
+struct LaneStepOf {
+  BallStepOf<Real> step;
+  typename Law::template HistoryOf<Real> history;
+  Vec3Of<Real> normal;
+  Real overlap_ratio;  ///< overlap over the radius of the smaller ball
+  /// Positive where the answer is right: the centres do not coincide, the normal has not turned by
+  /// more than 90 degrees, nor the pair twisted further than the series of
+  /// geometry::cosine_and_sinc goes.
+  Real is_right;
+};
+
+/// One step of pairs that touch.
+/// @param history, last_normal  of the last step; all zero in a new contact
+template <LaneLaw Law, class Real>
+PLEKTON_INLINE LaneStepOf<Law, Real> advance_lanes(
+    const BallMotionOf<Real>& balls, const typename Law::template ParametersOf<Real>& parameters,
+    typename Law::template HistoryOf<Real> history, const Vec3Of<Real>& last_normal,
+    double dt) noexcept {
+  const Real distance = balls.separation.norm();
+  const BallPairOf<Real> pair{(Real(1.0) / distance) * balls.separation,
+                              distance,
+                              balls.velocity,
+                              balls.spin_a,
+                              balls.spin_b,
+                              balls.radius_a,
+                              balls.radius_b};
+  const FrameRotationOf<Real> rotation{last_normal, pair.normal, Real(dt) * pair.twist_rate()};
+  Law::rotate(history, rotation);
+  const BallStepOf<Real> step = ball_step<Law>(pair, parameters, history, dt);
+  const Real smaller = geometry::smaller_of(pair.radius_a, pair.radius_b);
+  const Real untwisted = Real(geometry::kSmallAngleSquared) - rotation.twist * rotation.twist;
+  const Real unturned = select(Real(0.0) > rotation.from.dot(rotation.to), Real(-1.0), Real(1.0));
+  return {step, history, pair.normal, -step.gap / smaller,
+          geometry::smaller_of(distance, geometry::smaller_of(untwisted, unturned))};
+}
+
 /// Pairs in a block: all rows together fit into the first level of a cache.
 constexpr std::size_t kBlockLanes = 64;
 
@@ -57,24 +95,20 @@ struct BallBlock {
   RowsOf<double> gap;            ///< m
   RowsOf<Vec3> force;            ///< N, on b
   RowsOf<Vec3> torque_a;         ///< N m, on a
-  RowsOf<Vec3> torque_b;         ///< N m, on b
   RowsOf<double> dissipated;     ///< J
   RowsOf<double> overlap_ratio;  ///< overlap over the radius of the smaller ball
-  RowsOf<double> carries_on;  ///< 1 if the history could be carried over side by side, else 0: the
-                              ///< answer is wrong
+  RowsOf<double> is_right;       ///< positive if these are the answers; see LaneStepOf
 
   /// One step of the first count pairs, W at a time; the lanes up to the next multiple of W hold
   /// any numbers.
-  /// @returns whether all answers are right: no centres coincide, no normal turned by more than 90
-  /// degrees, no pair
-  ///          twisted further than the series of geometry::cosine_and_sinc goes
+  /// @returns whether all answers are right
   template <int W>
   PLEKTON_INLINE bool advance(std::size_t count, double dt) noexcept {
     for (std::size_t lane = 0; lane < count; lane += std::size_t{W})
       advance_lanes<Pack<W>>(lane, dt);
-    bool all_carry_on = true;
-    for (std::size_t lane = 0; lane < count; ++lane) all_carry_on &= carries_on.number(lane) > 0.0;
-    return all_carry_on;
+    bool all_right = true;
+    for (std::size_t lane = 0; lane < count; ++lane) all_right &= is_right.number(lane) > 0.0;
+    return all_right;
   }
 
  private:
@@ -86,44 +120,32 @@ template <LaneLaw Law>
 template <class Real>
 PLEKTON_INLINE void BallBlock<Law>::advance_lanes(std::size_t lane, double dt) noexcept {
   using Vector = Vec3Of<Real>;
-  const auto between = separation.template load<Vector>(lane);
-  const Real distance = between.norm();
-  const BallPairOf<Real> pair{
-      (Real(1.0) / distance) * between,     distance,
-      velocity.template load<Vector>(lane), spin_a.template load<Vector>(lane),
-      spin_b.template load<Vector>(lane),   radius_a.template load<Real>(lane),
-      radius_b.template load<Real>(lane)};
-  const FrameRotationOf<Real> rotation{normal.template load<Vector>(lane), pair.normal,
-                                       Real(dt) * pair.twist_rate()};
-  auto turned = history.template load<typename Law::template HistoryOf<Real>>(lane);
-  Law::rotate(turned, rotation);
-  const BallStepOf<Real> step = ball_step<Law>(
-      pair, parameters.template load<typename Law::template ParametersOf<Real>>(lane), turned, dt);
-  history.store(lane, turned);
-  normal.store(lane, pair.normal);
-  gap.store(lane, step.gap);
-  force.store(lane, step.force);
-  torque_a.store(lane, step.torque_a);
-  torque_b.store(lane, step.torque_b);
-  dissipated.store(lane, step.dissipated);
-  overlap_ratio.store(
-      lane, -step.gap / select(pair.radius_b > pair.radius_a, pair.radius_a, pair.radius_b));
-  const Real zero = 0.0;
-  const Real one = 1.0;
-  const Real untwisted =
-      select(Real(geometry::kSmallAngleSquared) > rotation.twist * rotation.twist, one, zero);
-  const Real unturned = select(zero > rotation.from.dot(rotation.to), zero, untwisted);
-  carries_on.store(lane, select(distance > zero, unturned, zero));
+  const BallMotionOf<Real> balls{
+      separation.template load<Vector>(lane), velocity.template load<Vector>(lane),
+      spin_a.template load<Vector>(lane),     spin_b.template load<Vector>(lane),
+      radius_a.template load<Real>(lane),     radius_b.template load<Real>(lane)};
+  const auto answer = contact::advance_lanes<Law, Real>(
+      balls, parameters.template load<typename Law::template ParametersOf<Real>>(lane),
+      history.template load<typename Law::template HistoryOf<Real>>(lane),
+      normal.template load<Vector>(lane), dt);
+  history.store(lane, answer.history);
+  normal.store(lane, answer.normal);
+  gap.store(lane, answer.step.gap);
+  force.store(lane, answer.step.force);
+  torque_a.store(lane, answer.step.arm_a * answer.step.force_cross_normal);
+  dissipated.store(lane, answer.step.dissipated);
+  overlap_ratio.store(lane, answer.overlap_ratio);
+  is_right.store(lane, answer.is_right);
 }
 
 /// BallBlock::advance with the widest vectors there are.
 template <LaneLaw Law>
 bool advance_side_by_side(BallBlock<Law>& block, std::size_t count, double dt) noexcept {
-  bool is_right = false;
+  bool all_right = false;
   geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
-    is_right = block.template advance<width>(count, dt);
+    all_right = block.template advance<width>(count, dt);
   });
-  return is_right;
+  return all_right;
 }
 
 }  // namespace plekton::contact

@@ -2,16 +2,18 @@
 #pragma once
 
 #include "contact/ball_block.hpp"
-#include "contact/bodies.hpp"
-#include "contact/contact_memory.hpp"
+#include "contact/ball_forces.hpp"
+#include "contact/ball_rows.hpp"
 #include "contact/contact_row.hpp"
-#include "contact/force_records.hpp"
 #include "contact/material_pairs.hpp"
+#include "contact/pair_rows.hpp"
 #include "contact/rekey.hpp"
-#include "geometry/parallel_sum.hpp"
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace plekton::contact {
@@ -29,12 +31,11 @@ class BallContacts {
   /// @returns the energy (J) dissipated
   double advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
 
-  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
-    records_.add_to(forces, pool);
-  }
-  std::size_t touching() const noexcept { return records_.size(); }
+  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const;
+
+  std::size_t touching() const noexcept { return forces_.size(); }
   /// Largest overlap of the last step over the radius of the smaller ball.
-  double largest_overlap_ratio() const noexcept { return records_.deepest(); }
+  double largest_overlap_ratio() const noexcept;
 
   /// Energy (J) stored in all contacts, at the positions of the last step.
   double elastic_energy() const;
@@ -42,8 +43,10 @@ class BallContacts {
   /// Calls visit(a, b, parameters, gap) for every touching pair.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
-    records_.for_each([&](const BallForce& record) {
-      visit(record.a, record.b, details_[record.contact].parameters, details_[record.contact].gap);
+    forces_.for_each([&](std::size_t i, const BallForce&) {
+      visit(balls_.node(pairs_[i].a), balls_.node(pairs_[i].b),
+            rows_of(i).parameters.template at<typename Law::Parameters>(lane_of(i)),
+            rows_of(i).gap.number(lane_of(i)));
     });
   }
 
@@ -51,51 +54,42 @@ class BallContacts {
   void for_each_row(Positions x, Visit&& visit) const;
 
  private:
-  /// What the search for touching pairs reads.
-  struct Pair {
-    NodeId a;
-    NodeId b;
-    double range;  ///< m, sum of radii
-    bool touches;  ///< in the last step
-  };
-  /// What only touching pairs need.
-  struct Detail {
-    double radius_a;
-    double radius_b;
-    double gap = 0.0;  ///< m, of the last step
-    typename Law::Parameters parameters;
-    ContactMemory<Law> memory;
+  using Rows = PairRows<Law>;
+  static constexpr std::size_t kLanes = Rows::kLanes;
+
+  /// A part of the list that one thread works on; sums lane by lane, so that they do not depend on
+  /// how many pairs are computed at once.
+  struct Chunk {
+    BallForces::Chunk forces;
+    std::array<double, kLanes> dissipated{};  ///< J
+    std::array<double, kLanes> deepest{};     ///< largest overlap over the smaller radius
   };
 
-  using Records = typename ForceRecords<BallForce>::List;
+  static std::size_t lane_of(std::size_t pair) noexcept { return pair % kLanes; }
+  const Rows& rows_of(std::size_t pair) const noexcept { return rows_[pair / kLanes]; }
+  Rows& rows_of(std::size_t pair) noexcept { return rows_[pair / kLanes]; }
 
-  /// Pairs found to touch, waiting to be asked about together.
-  struct Touching {
-    std::array<std::size_t, kBlockLanes> pair;  ///< place in the list
-    std::size_t count = 0;
-  };
+  /// One step of the pairs of a chunk, W at a time where that is possible.
+  template <int W>
+  PLEKTON_INLINE void advance_chunk(std::size_t begin, std::size_t end, double dt, Chunk& chunk);
 
-  /// Looks for touching pairs from `first` on, until `end` or until there are enough for a block.
-  /// Contacts that have ended are forgotten; the energy (J) lost is added to dissipated.
-  /// @returns the pair to go on with
-  std::size_t find_touching(std::size_t first, std::size_t end, Positions x, Touching& touching,
-                            double& dissipated);
+  /// One step of W pairs from i on. @returns whether all of them could be computed side by side;
+  /// otherwise nothing has been done
+  template <int W>
+  PLEKTON_INLINE bool advance_side_by_side(std::size_t i, double dt, Chunk& chunk);
 
-  template <class Block>
-  void gather(const Touching& touching, const Motion& motion, Block& block) const;
-  template <class Block>
-  double scatter(const Touching& touching, const Block& block, Records& records);
+  /// One step of a pair, whatever happened to it.
+  void advance_one(std::size_t i, double dt, Chunk& chunk);
 
-  /// One step of pairs that touch, together if the law allows. @returns the energy (J) dissipated
-  double advance_block(const Touching& touching, const Motion& motion, double dt, Records& records);
-  /// One step of a pair that touches, whatever happened to it. @returns the energy (J) dissipated
-  double advance_one(std::size_t i, const Motion& motion, double dt, Records& records);
-
-  std::vector<Pair> pairs_;
-  std::vector<Detail> details_;
-  ForceRecords<BallForce> records_;
-  Rekey<Detail> rekey_;
+  BallRows balls_;
+  std::vector<geometry::IndexPair> pairs_;  ///< of balls; filled up to whole rows
+  std::vector<Rows> rows_;
+  BallForces forces_;
+  std::vector<double> deepest_;  ///< by chunk
   geometry::ParallelSum<double> sum_;
+  std::vector<geometry::IndexPair> old_pairs_;
+  std::vector<Rows> old_rows_;
+  std::size_t pair_count_ = 0;
 };
 
 template <ContactLaw Law>
@@ -103,152 +97,171 @@ double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
                                   std::span<const Ball> balls,
                                   const MaterialPairs<Law>& materials) {
   double lost = 0.0;
-  pairs_.clear();
-  make_room(pairs_, keys.size());
-  const auto make = [&](std::size_t i, const Detail* old) {
+  std::int32_t last = -1;
+  for (const geometry::IndexPair& key : keys) last = std::max(last, key.b);
+  balls_.assign(balls.first(static_cast<std::size_t>(last + 1)));
+  const std::size_t old_count = std::exchange(pair_count_, keys.size());
+  pairs_.swap(old_pairs_);
+  rows_.swap(old_rows_);
+  make_room(rows_, keys.size() / kLanes + 1);
+  make_room(pairs_, keys.size() + kLanes);
+  rows_.resize((keys.size() + kLanes - 1) / kLanes);
+  pairs_.assign(keys.begin(), keys.end());
+  pairs_.resize(rows_.size() * kLanes, {balls_.none(), balls_.none()});
+  for (std::size_t i = keys.size(); i < pairs_.size(); ++i) rows_of(i).set_new(lane_of(i), {});
+  const auto match = [&](std::size_t i, bool is_known, std::size_t old) {
     const Ball& a = balls[static_cast<std::size_t>(keys[i].a)];
     const Ball& b = balls[static_cast<std::size_t>(keys[i].b)];
-    pairs_.push_back({a.node, b.node, a.radius + b.radius, old && !old->memory.is_new()});
-    if (old) return *old;
-    return Detail{
-        a.radius, b.radius, 0.0, materials.combine(a.material, a.radius, b.material, b.radius), {}};
+    if (is_known) {
+      rows_of(i).set_from(old_rows_[old / kLanes], lane_of(old), lane_of(i));
+    } else {
+      rows_of(i).set_new(lane_of(i), materials.combine(a.material, a.radius, b.material, b.radius));
+    }
   };
-  rekey_(details_, keys, make,
-         [&](Detail& old) { lost += forget<Law>(old.parameters, old.memory); });
+  match_keys({old_pairs_.data(), old_count}, keys, match, [&](std::size_t old) {
+    const Rows& rows = old_rows_[old / kLanes];
+    ContactMemory<Law> memory = rows.memory(lane_of(old));
+    lost +=
+        forget<Law>(rows.parameters.template at<typename Law::Parameters>(lane_of(old)), memory);
+  });
+  forces_.assign(keys, balls_.size());
+  deepest_.assign(forces_.chunk_count(), 0.0);
   return lost;
 }
 
 template <ContactLaw Law>
 double BallContacts<Law>::advance(const Motion& motion, double dt, geometry::ThreadPool& pool) {
-  records_.reset(pool.thread_count());
-  return sum_(pairs_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {
-    double dissipated = 0.0;
-    for (std::size_t next = begin; next < end;) {
-      Touching touching;
-      next = find_touching(next, end, motion.position, touching, dissipated);
-      dissipated += advance_block(touching, motion, dt, records_.of_worker(worker));
+  balls_.update(motion, pool);
+  const bool alone = pool.thread_count() == 1;
+  if (alone) forces_.set_sums_zero();
+  const double dissipated = sum_(pair_count_, pool, [&](std::size_t begin, std::size_t end, int) {
+    const std::size_t c = begin / BallForces::kChunk;
+    Chunk chunk{forces_.chunk(c)};
+    geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
+      advance_chunk<width>(begin, end, dt, chunk);
+      forces_.finish(c, chunk.forces);
+      if (alone) forces_.add_chunk(c, pairs_);
+    });
+    deepest_[c] = *std::max_element(chunk.deepest.begin(), chunk.deepest.end());
+    return std::accumulate(chunk.dissipated.begin(), chunk.dissipated.end(), 0.0);
+  });
+  if (!alone) forces_.add_all(pairs_, pool);
+  return dissipated;
+}
+
+template <ContactLaw Law>
+template <int W>
+PLEKTON_INLINE void BallContacts<Law>::advance_chunk(std::size_t begin, std::size_t end, double dt,
+                                                     Chunk& chunk) {
+  for (std::size_t i = begin; i < end; i += std::size_t{W}) {
+    if constexpr (LaneLaw<Law>) {
+      if (advance_side_by_side<W>(i, dt, chunk)) continue;
     }
-    return dissipated;
+    for (std::size_t lane = 0; lane < std::size_t{W}; ++lane) advance_one(i + lane, dt, chunk);
+  }
+}
+
+template <ContactLaw Law>
+template <int W>
+PLEKTON_INLINE bool BallContacts<Law>::advance_side_by_side(std::size_t i, double dt,
+                                                            Chunk& chunk) {
+  using Real = Pack<W>;
+  using Vector = Vec3Of<Real>;
+  using History = typename Law::template HistoryOf<Real>;
+  Rows& rows = rows_of(i);
+  const std::size_t lane = lane_of(i);
+  const BallMotionOf<Real> balls = balls_.pairs<W>(&pairs_[i]);
+  const Real touch = balls.touch();
+  const auto last_normal = rows.normal.template load<Vector>(lane);
+  const unsigned touching = bits_of(touch);
+  const unsigned touched = bits_of(geometry::flag(last_normal.squaredNorm() > 0.0));
+  if ((touching | touched) == 0) return true;
+
+  const auto answer = advance_lanes<Law, Real>(
+      balls, rows.parameters.template load<typename Law::template ParametersOf<Real>>(lane),
+      rows.history.template load<History>(lane), last_normal, dt);
+  const unsigned right = bits_of(geometry::flag(answer.is_right > 0.0));
+  if ((touching & right) != (touching | touched)) return false;
+
+  rows.history.store(lane, answer.history, touch);
+  rows.normal.store(lane, answer.normal, touch);
+  rows.gap.store(lane, answer.step.gap);
+  double* const dissipated = &chunk.dissipated[lane];
+  (Real::load(dissipated) + select(touch > 0.0, answer.step.dissipated, 0.0)).store(dissipated);
+  double* const deepest = &chunk.deepest[lane];
+  const Real ratio = select(touch > 0.0, answer.overlap_ratio, 0.0);
+  select(ratio > Real::load(deepest), ratio, Real::load(deepest)).store(deepest);
+  const Vector& force = answer.step.force;
+  const Vector& cross = answer.step.force_cross_normal;
+  std::array<double*, std::size_t{W}> to;
+  for (std::size_t k = 0; k < std::size_t{W}; ++k) {
+    BallForce& force_of_lane =
+        chunk.forces.next(i % BallForces::kChunk + k, (touching >> k & 1U) != 0);
+    to[k] = force_of_lane.force.data();
+  }
+  geometry::scatter_things<W, 8>(
+      {force.x, force.y, force.z, cross.x, cross.y, cross.z, answer.step.arm_a, answer.step.arm_b},
+      [&](std::size_t k) __attribute__((always_inline)) { return to[k]; });
+  return true;
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::advance_one(std::size_t i, double dt, Chunk& chunk) {
+  const BallMotionOf<double> balls = balls_.pair(pairs_[i]);
+  Rows& rows = rows_of(i);
+  const std::size_t lane = lane_of(i);
+  const auto parameters = rows.parameters.template at<typename Law::Parameters>(lane);
+  ContactMemory<Law> memory = rows.memory(lane);
+  if (balls.touch() == 0.0) {
+    chunk.dissipated[lane] += forget<Law>(parameters, memory);
+    rows.set_memory(lane, memory);
+    return;
+  }
+  const double distance = balls.separation.norm();
+  // Coincident centres have no direction: the last normal goes on, or else any.
+  const Vec3 normal = distance > 0.0    ? Vec3((1.0 / distance) * balls.separation)
+                      : memory.is_new() ? Vec3(Vec3::UnitZ())
+                                        : memory.normal;
+  const BallPairOf<double> pair{normal,       distance,       balls.velocity, balls.spin_a,
+                                balls.spin_b, balls.radius_a, balls.radius_b};
+  memory = {carried_history<Law>(memory, normal, dt * pair.twist_rate()), normal};
+  const BallStepOf<double> step = ball_step<Law>(pair, parameters, memory.history, dt);
+  rows.set_memory(lane, memory);
+  rows.gap.set(lane, step.gap);
+  chunk.dissipated[lane] += step.dissipated;
+  chunk.deepest[lane] =
+      std::max(chunk.deepest[lane], -step.gap / std::min(pair.radius_a, pair.radius_b));
+  chunk.forces.next(i % BallForces::kChunk, true) = {step.force, step.force_cross_normal,
+                                                     step.arm_a, step.arm_b};
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
+  const std::span<const BallSum> sums = forces_.sums();
+  pool.for_each_range(sums.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t ball = begin; ball < end; ++ball) {
+      const std::size_t node = index_of(balls_.node(static_cast<std::int32_t>(ball)));
+      forces.force[node] += sums[ball].force;
+      forces.torque[node] += sums[ball].torque;
+    }
   });
 }
 
 template <ContactLaw Law>
-std::size_t BallContacts<Law>::find_touching(std::size_t first, std::size_t end, Positions x,
-                                             Touching& touching, double& dissipated) {
-  std::size_t i = first;
-  std::size_t count = 0;
-  for (; i < end && count < kBlockLanes; ++i) {
-    Pair& pair = pairs_[i];
-    const Vec3& xa = x[index_of(pair.a)];
-    const Vec3& xb = x[index_of(pair.b)];
-    const double dx = xb[0] - xa[0], dy = xb[1] - xa[1], dz = xb[2] - xa[2];
-    const bool touches = dx * dx + dy * dy + dz * dz < pair.range * pair.range;
-    // Written always and counted if true: whether a pair touches cannot be predicted, and a wrong
-    // guess costs more.
-    touching.pair[count] = i;
-    count += touches;
-    if (pair.touches == touches) continue;
-    pair.touches = touches;
-    if (!touches) dissipated += forget<Law>(details_[i].parameters, details_[i].memory);
-  }
-  touching.count = count;
-  return i;
-}
-
-template <ContactLaw Law>
-double BallContacts<Law>::advance_block(const Touching& touching, const Motion& motion, double dt,
-                                        Records& records) {
-  if constexpr (LaneLaw<Law>) {
-    BallBlock<Law> block;
-    gather(touching, motion, block);
-    if (advance_side_by_side(block, touching.count, dt)) return scatter(touching, block, records);
-  }
-  double dissipated = 0.0;
-  for (std::size_t k = 0; k < touching.count; ++k)
-    dissipated += advance_one(touching.pair[k], motion, dt, records);
-  return dissipated;
-}
-
-template <ContactLaw Law>
-template <class Block>
-void BallContacts<Law>::gather(const Touching& touching, const Motion& motion, Block& block) const {
-  for (std::size_t k = 0; k < touching.count; ++k) {
-    const Pair& pair = pairs_[touching.pair[k]];
-    const Detail& detail = details_[touching.pair[k]];
-    const std::size_t a = index_of(pair.a);
-    const std::size_t b = index_of(pair.b);
-    block.separation.set(k, Vec3(motion.position[b] - motion.position[a]));
-    block.velocity.set(k, Vec3(motion.velocity[b] - motion.velocity[a]));
-    block.spin_a.set(k, motion.angular_velocity[a]);
-    block.spin_b.set(k, motion.angular_velocity[b]);
-    block.radius_a.set(k, detail.radius_a);
-    block.radius_b.set(k, detail.radius_b);
-    block.parameters.set(k, detail.parameters);
-    block.history.set(k, detail.memory.history);
-    block.normal.set(k, detail.memory.normal);
-  }
-}
-
-template <ContactLaw Law>
-template <class Block>
-double BallContacts<Law>::scatter(const Touching& touching, const Block& block, Records& records) {
-  double dissipated = 0.0;
-  for (std::size_t k = 0; k < touching.count; ++k) {
-    const std::size_t i = touching.pair[k];
-    Detail& detail = details_[i];
-    block.history.get(k, detail.memory.history);
-    block.normal.get(k, detail.memory.normal);
-    block.gap.get(k, detail.gap);
-    // Written in place: a record built elsewhere would be copied before its numbers have left the
-    // processor.
-    BallForce& record = records.add(block.overlap_ratio.number(k));
-    record.a = pairs_[i].a;
-    record.b = pairs_[i].b;
-    block.force.get(k, record.force);
-    block.torque_a.get(k, record.torque_a);
-    block.torque_b.get(k, record.torque_b);
-    record.contact = i;
-    dissipated += block.dissipated.number(k);
-  }
-  return dissipated;
-}
-
-template <ContactLaw Law>
-double BallContacts<Law>::advance_one(std::size_t i, const Motion& motion, double dt,
-                                      Records& records) {
-  const Pair& pair = pairs_[i];
-  Detail& detail = details_[i];
-  const std::size_t a = index_of(pair.a);
-  const std::size_t b = index_of(pair.b);
-  const Vec3 separation = motion.position[b] - motion.position[a];
-  const double distance = separation.norm();
-  // Coincident centres have no direction: the last normal goes on, or else any.
-  const Vec3 normal = distance > 0.0           ? Vec3((1.0 / distance) * separation)
-                      : detail.memory.is_new() ? Vec3(Vec3::UnitZ())
-                                               : detail.memory.normal;
-  const BallPairOf<double> balls{normal,
-                                 distance,
-                                 motion.velocity[b] - motion.velocity[a],
-                                 motion.angular_velocity[a],
-                                 motion.angular_velocity[b],
-                                 detail.radius_a,
-                                 detail.radius_b};
-  detail.memory = {carried_history<Law>(detail.memory, normal, dt * balls.twist_rate()), normal};
-  const BallStepOf<double> step =
-      ball_step<Law>(balls, detail.parameters, detail.memory.history, dt);
-  detail.gap = step.gap;
-  records.add({pair.a, pair.b, step.force, step.torque_a, step.torque_b, i},
-              -step.gap / std::min(detail.radius_a, detail.radius_b));
-  return step.dissipated;
+double BallContacts<Law>::largest_overlap_ratio() const noexcept {
+  double deepest = 0.0;
+  for (const double of_chunk : deepest_) deepest = std::max(deepest, of_chunk);
+  return deepest;
 }
 
 template <ContactLaw Law>
 double BallContacts<Law>::elastic_energy() const {
   double energy = 0.0;
-  records_.for_each([&](const BallForce& record) {
-    const Detail& detail = details_[record.contact];
-    energy += Law::elastic_normal_energy(detail.parameters, detail.gap) +
-              Law::history_energy(detail.parameters, detail.memory.history);
+  forces_.for_each([&](std::size_t i, const BallForce&) {
+    const Rows& rows = rows_of(i);
+    const auto parameters = rows.parameters.template at<typename Law::Parameters>(lane_of(i));
+    energy += Law::elastic_normal_energy(parameters, rows.gap.number(lane_of(i))) +
+              Law::history_energy(parameters, rows.memory(lane_of(i)).history);
   });
   return energy;
 }
@@ -256,10 +269,11 @@ double BallContacts<Law>::elastic_energy() const {
 template <ContactLaw Law>
 template <class Visit>
 void BallContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
-  records_.for_each([&](const BallForce& record) {
-    const Detail& detail = details_[record.contact];
-    visit(contact_row(x[index_of(record.a)], x[index_of(record.b)], detail.memory.normal,
-                      detail.gap, record.force));
+  forces_.for_each([&](std::size_t i, const BallForce& force) {
+    const Vec3& xa = x[index_of(balls_.node(pairs_[i].a))];
+    const Vec3& xb = x[index_of(balls_.node(pairs_[i].b))];
+    visit(contact_row(xa, xb, rows_of(i).normal.template at<Vec3>(lane_of(i)),
+                      rows_of(i).gap.number(lane_of(i)), force.force));
   });
 }
 

@@ -9,6 +9,23 @@
 /// side (Real = Pack).
 namespace plekton::contact {
 
+/// How two balls stand and move.
+template <class Real>
+struct BallMotionOf {
+  Vec3Of<Real> separation;  ///< m, from centre a to centre b
+  Vec3Of<Real> velocity;    ///< m/s, of centre b relative to centre a
+  Vec3Of<Real> spin_a;      ///< rad/s
+  Vec3Of<Real> spin_b;      ///< rad/s
+  Real radius_a;            ///< m
+  Real radius_b;            ///< m
+
+  /// 1 if the balls overlap, else 0; without a square root.
+  PLEKTON_INLINE Real touch() const noexcept {
+    const Real range = radius_a + radius_b;
+    return geometry::flag(range * range > separation.squaredNorm());
+  }
+};
+
 /// Two balls that touch.
 template <class Real>
 struct BallPairOf {
@@ -30,11 +47,12 @@ struct BallPairOf {
 /// What a step of a pair came to.
 template <class Real>
 struct BallStepOf {
-  Real gap;               ///< m
-  Vec3Of<Real> force;     ///< N, on b
-  Vec3Of<Real> torque_a;  ///< N m, on a
-  Vec3Of<Real> torque_b;  ///< N m, on b
-  Real dissipated;        ///< J
+  Real gap;                         ///< m
+  Vec3Of<Real> force;               ///< N, on b
+  Vec3Of<Real> force_cross_normal;  ///< N; times an arm it is the torque on that ball
+  Real arm_a;                       ///< m
+  Real arm_b;                       ///< m
+  Real dissipated;                  ///< J
 };
 
 /// Asks the law. The forces act at the point half way through the overlap.
@@ -50,9 +68,7 @@ PLEKTON_INLINE BallStepOf<Real> ball_step(const BallPairOf<Real>& pair,
   const RelativeMotionOf<Real> motion = relative_motion<Real>(
       pair.normal, gap, Law::elastic_normal_force(parameters, gap), pair.velocity - slip_of_spins);
   const ContactForceOf<Real> answer = Law::force(parameters, motion, history, dt);
-  const Vec3Of<Real> force_cross_normal = answer.force.cross(pair.normal);
-  return {gap, answer.force, arm_a * force_cross_normal, arm_b * force_cross_normal,
-          answer.dissipated};
+  return {gap, answer.force, answer.force.cross(pair.normal), arm_a, arm_b, answer.dissipated};
 }
 
 }  // namespace plekton::contact

@@ -11,28 +11,6 @@
 /// the order of the contacts: the sums have the same bits for any number of threads.
 namespace plekton::contact {
 
-/// Force between two balls.
-struct BallForce {
-  NodeId a;
-  NodeId b;
-  Vec3 force;           ///< N, on b
-  Vec3 torque_a;        ///< N m, on a
-  Vec3 torque_b;        ///< N m, on b
-  std::size_t contact;  ///< place of the pair in its list
-
-  template <class Owns>
-  void add_to(NodeForces& forces, Owns owns) const {
-    if (owns(a)) {
-      forces.force[index_of(a)] -= force;
-      forces.torque[index_of(a)] += torque_a;
-    }
-    if (owns(b)) {
-      forces.force[index_of(b)] += force;
-      forces.torque[index_of(b)] += torque_b;
-    }
-  }
-};
-
 /// Force of one term of a patch: on a ball (a) and at a core point of a surface (b).
 struct SurfaceForce {
   NodeId a;

@@ -16,6 +16,22 @@ void make_room(std::vector<Thing>& list, std::size_t count) {
   if (count > list.capacity()) list.reserve(count + count / 4);
 }
 
+/// Finds the keys of one list in another; both sorted, linear time.
+/// @param match  (place in new_keys, whether it is in old_keys, place in old_keys if it is)
+/// @param drop   (place in old_keys of a key that is not in new_keys)
+template <class Match, class Drop>
+void match_keys(std::span<const geometry::IndexPair> old_keys,
+                std::span<const geometry::IndexPair> new_keys, Match match, Drop drop) {
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < new_keys.size(); ++i) {
+    for (; old < old_keys.size() && old_keys[old] < new_keys[i]; ++old) drop(old);
+    const bool is_known = old < old_keys.size() && old_keys[old] == new_keys[i];
+    match(i, is_known, old);
+    old += is_known;
+  }
+  for (; old < old_keys.size(); ++old) drop(old);
+}
+
 /// Moves a list of things with keys to a new list of keys, again and again; both sorted, linear
 /// time. Keeps its room: a list that is not much longer than any before does not allocate.
 template <class Thing>
@@ -29,14 +45,12 @@ class Rekey {
                   Make make, Drop drop) {
     moved_.clear();
     make_room(moved_, new_keys.size());
-    std::size_t old = 0;
-    for (std::size_t i = 0; i < new_keys.size(); ++i) {
-      for (; old < keys_.size() && keys_[old] < new_keys[i]; ++old) drop(things[old]);
-      const bool known = old < keys_.size() && keys_[old] == new_keys[i];
-      moved_.push_back(make(i, known ? &things[old] : nullptr));
-      old += known;
-    }
-    for (; old < keys_.size(); ++old) drop(things[old]);
+    match_keys(
+        keys_, new_keys,
+        [&](std::size_t i, bool is_known, std::size_t old) {
+          moved_.push_back(make(i, is_known ? &things[old] : nullptr));
+        },
+        [&](std::size_t old) { drop(things[old]); });
     make_room(keys_, new_keys.size());
     keys_.assign(new_keys.begin(), new_keys.end());
     things.swap(moved_);
