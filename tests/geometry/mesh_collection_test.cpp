@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -25,6 +25,13 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kCollection = fs::path(PLEKTON_SOURCE_DIR) / "../shared/meshes";
+
+/// s of processor time, so that other work on the machine does not count; sanitizers slow it down.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr double kLongestImport = 200.0;
+#else
+constexpr double kLongestImport = 10.0;
+#endif
 
 bool is_mesh(const fs::path& path) {
   const std::string ending = path.extension().string();
@@ -101,12 +108,12 @@ TEST_F(MeshCollection, ImportsEveryFileWithinTenSecondsOrSaysWhyNot) {
 
   for (const fs::path& file : mesh_files()) {
     SCOPED_TRACE(file.filename().string());
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     if (refused.contains(file.filename().string()))
       EXPECT_THROW(import_mesh(file), MeshError);
     else
       EXPECT_NO_THROW(import_mesh(file));
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, kLongestImport);
   }
 }
 
