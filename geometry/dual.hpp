@@ -54,11 +54,11 @@ Dual<N> chain(const Dual<N>& x, double value, double derivative) {
   return {value, derivative * x.slopes};
 }
 
-/// Of a positive number.
+/// Of a number that is not negative. At 0, where no derivative exists, it counts as constant.
 template <int N>
 Dual<N> square_root(const Dual<N>& x) {
   const double root = std::sqrt(x.value);
-  return chain(x, root, 0.5 / root);
+  return chain(x, root, root > 0.0 ? 0.5 / root : 0.0);
 }
 
 }  // namespace plekton::geometry

@@ -34,17 +34,6 @@ bool holds(const EdgeOf& edge, unsigned corners) {
   return (corners & ~(1u << edge.first | 1u << edge.last)) == 0;
 }
 
-PairForces at_nearest_points(const NearestPoints& nearest, const NormalSpring& spring) {
-  PairForces pair;
-  pair.energy = spring.energy(nearest.distance);
-  const Vec3 force = spring.force(nearest.distance) * nearest.normal;
-  for (std::size_t i = 0; i < 3; ++i) {
-    pair.on_a[i] = -nearest.weights_a[i] * force;
-    pair.on_b[i] = nearest.weights_b[i] * force;
-  }
-  return pair;
-}
-
 std::optional<PairForces> parallel_facets(const Simplex& a, const Simplex& b,
                                           const NormalSpring& spring) {
   if (normal_of(a).cross(normal_of(b)).norm() > kParallelPlanes) return {};
@@ -148,6 +137,17 @@ std::optional<PairForces> edge_beside_edge(const Simplex& a, const Simplex& b,
 }
 
 }  // namespace
+
+PairForces at_nearest_points(const NearestPoints& nearest, const NormalSpring& spring) {
+  PairForces pair;
+  pair.energy = spring.energy(nearest.distance);
+  const Vec3 force = spring.force(nearest.distance) * nearest.normal;
+  for (std::size_t i = 0; i < 3; ++i) {
+    pair.on_a[i] = -nearest.weights_a[i] * force;
+    pair.on_b[i] = nearest.weights_b[i] * force;
+  }
+  return pair;
+}
 
 PairForces nearest_part(const Simplex& a, const Simplex& b, const NearestPoints& nearest,
                         const NormalSpring& spring) {

@@ -26,4 +26,7 @@ using geometry::NearestPoints;
 PairForces nearest_part(const Simplex& a, const Simplex& b, const NearestPoints& nearest,
                         const NormalSpring& spring);
 
+/// Of simplices of any kind: energy and force along the line of the nearest points.
+PairForces at_nearest_points(const NearestPoints& nearest, const NormalSpring& spring);
+
 }  // namespace plekton::contact::structure

@@ -30,6 +30,10 @@ Simplex simplex_at(const geometry::FeatureNodes& nodes, const std::array<bool, 3
   return simplex;
 }
 
+/// Of the range. Cores nearer than that meet, up to what matters: side by side has no meaning, and
+/// the direction is that of the nearest points.
+constexpr double kMeeting = 1e-6;
+
 /// Whether the boxes of two cores are further apart than range.
 bool is_far(const Simplex& a, const Simplex& b, double range) {
   for (int k = 0; k < 3; ++k) {
@@ -79,6 +83,10 @@ void evaluate(PairTerm& term, const NormalSpring& spring, geometry::Positions x)
   term.in_range = true;
   term.overlap = spring.range() - nearest.distance;
   term.forces = PairForces{};
+  if (nearest.distance < kMeeting * spring.range()) {
+    add(at_nearest_points(nearest, spring), term.weight, term.forces);
+    return;
+  }
   add(nearest_part(a, b, nearest, spring), term.weight, term.forces);
   if (can_extend(a, b)) add(extended_part(a, b, spring), term.weight, term.forces);
 }

@@ -34,8 +34,10 @@ inline geometry::Vec3 still(const Vector& v) {
   return {v.x.value, v.y.value, v.z.value};
 }
 
+/// Of a vector without length: itself.
 inline Vector unit(const Vector& v) {
-  return (Real(1.0) / v.norm()) * v;
+  const Real length = v.norm();
+  return length.value > 0.0 ? (Real(1.0) / length) * v : v;
 }
 
 /// Integral of 2 sqrt(1 - x^2) from 0: half the area of the unit disc between the lines at -x and

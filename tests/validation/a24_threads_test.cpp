@@ -25,6 +25,9 @@ constexpr contact::MaterialId kFabric{0};
 constexpr contact::MaterialId kGrains{1};
 constexpr double kHalfWidth = 0.06;  // m, of sheet and wires
 
+/// m; the sheet lies 0.2 mm under the wires that sink onto it.
+constexpr double kBelowTheWires = 0.0027;
+
 void add_sheet(dynamics::Scene& scene) {
   const auto mesh = geometry::plane_sheet(
       {.width = 2.0 * kHalfWidth, .length = 2.0 * kHalfWidth, .cells_x = 6, .cells_y = 6});
@@ -33,7 +36,7 @@ void add_sheet(dynamics::Scene& scene) {
   const auto node = [&](NodeId point) { return geometry::id_at<NodeId>(first + index_of(point)); };
   for (const Vec3& x : mesh.points) {
     const bool on_rim = x.cwiseAbs().maxCoeff() > 0.999 * kHalfWidth;
-    scene.add_node(x, on_rim ? Held::everything : Held::nothing);
+    scene.add_node(x - Vec3(0.0, 0.0, kBelowTheWires), on_rim ? Held::everything : Held::nothing);
   }
   for (const auto& [a, b, c] : mesh.facets) {
     scene.add_facet(node(a), node(b), node(c), 0.0015, kFabric);
