@@ -197,6 +197,24 @@ TEST(StructureContacts, CountACylinderAlongASeamOnce) {
   }
 }
 
+TEST(StructureContacts, AnswerCoresThatMeetWithFiniteForces) {
+  const Pose poses[] = {{{0, 0, 0}, {0, 0, 0}},
+                        {{0, 0, 0.3}, {0.1, 0.05, 0}},
+                        {{0, 0.7, 0}, {0.1, 0.05, 0}},
+                        {{0.5 * std::numbers::pi, 0, 0}, {0, 0, 0}}};
+  for (const Body& a : {sheet(2, 2, 1.0, 1.0), chain(3, 1.2)}) {
+    for (const Body& b :
+         {sheet(2, 2, 1.0, 1.0), sheet(1, 1, 0.4, 0.4), chain(3, 1.2), chain(2, 1)}) {
+      for (const Pose& pose : poses) {
+        Meeting meeting(a, b, kRange);
+        at(meeting, b, pose);
+        EXPECT_TRUE(std::isfinite(meeting.energy()));
+        for (const Vec3& force : meeting.forces()) EXPECT_TRUE(force.allFinite());
+      }
+    }
+  }
+}
+
 /// Random poses of random bodies, from parallel to steep, whose cores do not meet.
 template <class Visit>
 void for_each_random_meeting(int count, Visit visit) {
