@@ -11,6 +11,7 @@ function(plekton_options target)
   target_compile_options(${target} PUBLIC "$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-fno-math-errno>")
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # GCC 12 reports it for std::string's operator+ at -O3, wrongly (GCC bug 105651)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>  # notes on how vectors of lanes are passed; they never leave one file
     $<$<BOOL:${PLEKTON_WARNINGS_AS_ERRORS}>:-Werror> $<$<BOOL:${PLEKTON_NATIVE}>:-march=native>)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
