@@ -1,26 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/closest/core_pair.hpp"
 #include "geometry/elements.hpp"
 #include "geometry/proximity.hpp"
 
 /// The pairs of primitives that can touch, and where they are nearest to each other.
 ///
-///               sphere        cylinder            facet
-///     sphere    sphere        cell of a surface   cell of a surface
+///               sphere          cylinder          facet
+///     sphere    two spheres     sphere and cell   sphere and cell
+///     cylinder                  two cells         two cells
+///     facet                                       two cells
 ///
 /// A cylinder or a facet is asked as a cell of its Surface, so that the answer names the node, edge
-/// or face that neighbouring cells share: two facets agree bit for bit about a foot point on their
-/// common edge.
+/// or face that neighbouring cells share. Which features are nearest is decided exactly
+/// (closest/closest_points.hpp), and corners are taken in the order of their node ids: two facets
+/// agree bit for bit about a foot point on their common edge. A tie, as between parallel edges,
+/// goes to the lowest-dimensional features, then to the lowest ids. A facet without area is the
+/// union of its sides, a cylinder without length its node.
+///
+/// The relative error of the distance of the cores is at most 1e-12. Coordinates must be finite and
+/// below 1e75 m.
 namespace plekton::geometry {
 
 /// Two spheres. Of coincident centres the normal is the z axis.
 Proximity proximity(const Sphere& a, const Sphere& b, Positions x) noexcept;
 
-/// A sphere (a) and a cell of a surface (b), rim and ends included. Which feature of the cell is
-/// nearest is decided exactly. A centre on the core itself gets a normal perpendicular to the
-/// feature, chosen by the feature alone. A facet without area is the union of its sides, a cylinder
-/// without length its node.
+/// A sphere (a) and a cell of a surface (b), rim and ends included. A centre on the core itself
+/// gets a normal perpendicular to the feature, chosen by the feature alone.
 Proximity proximity(const Sphere& a, const Surface& surface, CellId cell, Positions x) noexcept;
+
+/// Two cells of one surface, of the same structure or of two. Cells that share a node touch there.
+Proximity proximity(const Surface& surface, CellId a, CellId b, Positions x) noexcept;
+
+/// A surface and the positions of its nodes (m), for queries between scenes.
+struct PlacedSurface {
+  const Surface& surface;
+  Positions x;
+};
+
+/// A cell each of two surfaces, which may be the same one.
+Proximity proximity(const PlacedSurface& on_a, CellId a, const PlacedSurface& on_b,
+                    CellId b) noexcept;
+
+/// A primitive that belongs to no scene: a point, ball, cylinder or facet to ask a surface with.
+struct Probe {
+  Core core;      ///< m
+  double radius;  ///< m, >= 0
+
+  static Probe point(const Vec3& x) { return {{{x}, 1}, 0.0}; }
+  static Probe ball(const Vec3& centre, double radius) { return {{{centre}, 1}, radius}; }
+  static Probe cylinder(const Vec3& x0, const Vec3& x1, double radius) {
+    return {{{x0, x1}, 2}, radius};
+  }
+  static Probe facet(const std::array<Vec3, 3>& x, double radius) { return {{x, 3}, radius}; }
+};
+
+/// A probe (a) and a cell (b). The core point of the probe names its corners as nodes 0, 1, 2; its
+/// sides are edges 0, 1, 2 between corners 0 1, 1 2 and 2 0; its face is 0.
+Proximity proximity(const Probe& a, const PlacedSurface& on_b, CellId b) noexcept;
 
 }  // namespace plekton::geometry

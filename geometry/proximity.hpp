@@ -35,7 +35,16 @@ inline CorePoint core_point(NodeId node) noexcept {
   return {{node, node, node}, Vec3(1.0, 0.0, 0.0), Feature(node)};
 }
 
+enum class Relation : std::uint8_t {
+  apart,
+  touching_or_crossing  ///< the cores have a point in common
+};
+
 /// Two elements, where they are nearest to each other.
+///
+/// Cores that meet have relation touching_or_crossing; then the core points are one that they have
+/// in common, the normal is the shortest way for b out of a (closest/deep.hpp), and the gap is
+/// -(length of that way + radius_a + radius_b).
 struct Proximity {
   CorePoint a;
   CorePoint b;
@@ -43,6 +52,7 @@ struct Proximity {
   double gap;    ///< m, negative when overlapping
   double arm_a;  ///< m, from the core point of a to the contact point, along the normal
   double arm_b;  ///< m, from the core point of b to the contact point, against the normal
+  Relation relation = Relation::apart;  ///< of the cores; decided exactly
 };
 
 }  // namespace plekton::geometry

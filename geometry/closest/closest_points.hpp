@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/proximity.hpp"
 #include "geometry/types.hpp"
 
 #include <cstdint>
@@ -24,11 +25,6 @@
 ///
 /// Coordinates must be finite and below 1e75 in magnitude (m).
 namespace plekton::geometry {
-
-enum class Relation : std::uint8_t {
-  apart,
-  touching_or_crossing  ///< the cores have a point in common
-};
 
 struct ClosestPoints {
   Vec3 weights_a;  ///< of the corners of a: each >= 0, sum 1, 0 for corners that do not exist

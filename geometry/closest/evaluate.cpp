@@ -117,14 +117,18 @@ Points reversed(const Points& points) {
   return {points.weights_b, points.weights_a, -points.separation};
 }
 
-/// The sides are taken in an order that does not depend on which is called a.
+/// The sides are taken in an order that depends neither on which is called a, nor on the faces they
+/// belong to.
 Points side_side_in_order(Corners a, Corners b, const Decision& decision) {
-  const auto length = [](Corners x, unsigned side) {
-    return (x[last_of(side)] - x[first_of(side)]).squaredNorm();
+  const auto ends = [](Corners x, unsigned side) {
+    return std::array{x[first_of(side)], x[last_of(side)]};
   };
-  const double length_a = length(a, decision.carriers.a);
-  const double length_b = length(b, decision.carriers.b);
-  const bool keeps = length_a < length_b || (length_a == length_b && !is_lower_side(b, a));
+  const auto ends_a = ends(a, decision.carriers.a);
+  const auto ends_b = ends(b, decision.carriers.b);
+  const double length_a = (ends_a[1] - ends_a[0]).squaredNorm();
+  const double length_b = (ends_b[1] - ends_b[0]).squaredNorm();
+  const bool keeps =
+      length_a < length_b || (length_a == length_b && !is_lower_side(ends_b, ends_a));
   return keeps ? side_side(a, b, decision) : reversed(side_side(b, a, reversed(decision)));
 }
 

@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace plekton::geometry {
 namespace {
@@ -68,6 +69,103 @@ TEST(ProximityQuery, FindsWhatBruteForceFindsWhileEverythingMoves) {
       EXPECT_EQ(found[i].b.feature, expected[i].b.feature);
       EXPECT_EQ(found[i].gap, expected[i].gap);
     }
+  }
+}
+
+/// Two crumpled sheets and a few bars, each a structure.
+Model three_structures(test::Random& random) {
+  Model model;
+  for (const double height : {0.0, 0.15}) {
+    const Mesh mesh = plane_sheet({.width = 1.0, .length = 1.0, .cells_x = 4, .cells_y = 4});
+    const auto first = static_cast<std::int32_t>(model.x.size());
+    for (const Vec3& x : mesh.points)
+      model.x.push_back(x + random.in_cube(0.08) + height * Vec3::UnitZ());
+    for (const auto& nodes : mesh.facets) {
+      Facet facet{nodes, 0.02};
+      for (NodeId& node : facet.nodes) node = NodeId{static_cast<std::int32_t>(node) + first};
+      model.elements.facets.push_back(facet);
+    }
+  }
+  for (int i = 0; i < 6; ++i) {
+    const NodeId first = id_at<NodeId>(model.x.size());
+    for (int k = 0; k < 2; ++k) model.x.push_back(random.in_cube(0.5));
+    model.elements.cylinders.push_back(
+        {{first, NodeId{static_cast<std::int32_t>(first) + 1}}, 0.03});
+  }
+  return model;
+}
+
+bool share_a_node(const Surface& surface, CellId a, CellId b) {
+  for (const NodeId node : surface.nodes_of(a)) {
+    for (const NodeId other : surface.nodes_of(b)) {
+      if (node == other) return true;
+    }
+  }
+  return false;
+}
+
+/// Gaps and cells of all cell pairs that are chosen.
+std::vector<std::pair<IndexPair, double>> cells_by_brute_force(const Model& model,
+                                                               const Surface& surface,
+                                                               const PairChoice& choice) {
+  std::vector<std::pair<IndexPair, double>> found;
+  for (std::size_t i = 0; i < surface.cell_count(); ++i) {
+    for (std::size_t k = i + 1; k < surface.cell_count(); ++k) {
+      const CellId a = id_at<CellId>(i);
+      const CellId b = id_at<CellId>(k);
+      const bool is_one = surface.structure_of(a) == surface.structure_of(b);
+      if (is_one ? !choice.within_structures || share_a_node(surface, a, b)
+                 : !choice.cells_with_cells) {
+        continue;
+      }
+      const double gap = proximity(surface, a, b, model.x).gap;
+      if (gap < choice.largest_gap)
+        found.push_back({{static_cast<std::int32_t>(i), static_cast<std::int32_t>(k)}, gap});
+    }
+  }
+  return found;
+}
+
+TEST(ProximityQuery, FindsCellPairsBetweenAndWithinStructuresWhileTheyMove) {
+  test::Random random(4);
+  for (const auto& [between, within] : {std::pair(true, false), {false, true}, {true, true}}) {
+    Model model = three_structures(random);
+    const PairChoice choice{0.05, between, within};
+    ProximityQuery query(model.elements, model.x.size(), choice, 2);
+
+    for (int step = 0; step < 20; ++step) {
+      for (Vec3& x : model.x) x += random.in_cube(0.01);
+      const auto expected = cells_by_brute_force(model, query.surface(), choice);
+
+      const auto found = query.find(model.x);
+
+      ASSERT_EQ(found.size(), expected.size());
+      ASSERT_EQ(query.found_elements().size(), expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(query.found_elements()[i].a.id, expected[i].first.a);
+        EXPECT_EQ(query.found_elements()[i].b.id, expected[i].first.b);
+        EXPECT_EQ(found[i].gap, expected[i].second);
+      }
+    }
+    EXPECT_FALSE(query.found_elements().empty());
+  }
+}
+
+TEST(ProximityQuery, GivesTheSameForAnyNumberOfThreads) {
+  test::Random random(5);
+  const Model model = three_structures(random);
+  const PairChoice choice{0.05, true, true};
+  ProximityQuery one(model.elements, model.x.size(), choice, 1);
+  ProximityQuery three(model.elements, model.x.size(), choice, 3);
+
+  const auto first = one.find(model.x);
+  const auto second = three.find(model.x);
+
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(one.found_elements()[i], three.found_elements()[i]);
+    EXPECT_EQ(first[i].gap, second[i].gap);
+    EXPECT_EQ(first[i].normal, second[i].normal);
   }
 }
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/closest/core_pair.hpp"
+
+#include "geometry/closest/decide.hpp"
+#include "geometry/closest/deep.hpp"
+#include "geometry/closest/point_segment.hpp"
+#include "geometry/closest/point_triangle.hpp"
+#include "geometry/closest/segment_segment.hpp"
+#include "geometry/closest/segment_triangle.hpp"
+#include "geometry/closest/triangle_triangle.hpp"
+
+namespace plekton::geometry {
+namespace {
+
+std::array<Vec3, 2> segment(const Core& core) {
+  return {core.x[0], core.x[1]};
+}
+
+ClosestPoints of_two_points(const Core& a, const Core& b) {
+  const bool meet = a.x[0] == b.x[0];
+  return closest::evaluate(a.corners(), b.corners(),
+                           {{1U, 1U}, meet ? Relation::touching_or_crossing : Relation::apart});
+}
+
+ClosestPoints reversed(const ClosestPoints& p) {
+  return {p.weights_b, p.weights_a, -p.separation, p.distance,
+          p.corners_b, p.corners_a, p.relation};
+}
+
+Core feature_of(const Core& core, unsigned corners) {
+  Core feature;
+  for (std::size_t k = 0; k < core.count; ++k) {
+    if ((corners >> k & 1U) != 0) feature.x[feature.count++] = core.x[k];
+  }
+  return feature;
+}
+
+/// Of a point on a core it depends on the feature it lies in alone, so that cells that share the
+/// feature agree.
+DeepSeparation way_out(const Core& a, const Core& b, const ClosestPoints& points,
+                       const Vec3& side) {
+  if (closest::is_lower_side(b.corners(), a.corners())) {  // the same from both sides
+    const DeepSeparation way = way_out(b, a, reversed(points), -side);
+    return {-way.direction, way.depth};
+  }
+  if (a.count > 1) return deep_separation(a.corners(), b.corners(), side);
+  const Core of_b = feature_of(b, points.corners_b);
+  return deep_separation(a.corners(), of_b.corners(), side);
+}
+
+}  // namespace
+
+ClosestPoints closest_points(const Core& a, const Core& b) noexcept {
+  if (a.count > b.count) return reversed(closest_points(b, a));
+  if (b.count == 1) return of_two_points(a, b);
+  if (a.count == 1) {
+    return b.count == 2 ? point_segment(a.x[0], segment(b)) : point_triangle(a.x[0], b.x);
+  }
+  if (b.count == 2) return segment_segment(segment(a), segment(b));
+  return a.count == 2 ? segment_triangle(segment(a), b.x) : triangle_triangle(a.x, b.x);
+}
+
+CoreProximity core_proximity(const Core& a, const Core& b, const Vec3& side) noexcept {
+  const ClosestPoints points = closest_points(a, b);
+  // A separation whose square vanishes has no direction in double.
+  if (points.relation == Relation::apart && points.distance > 0.0) {
+    return {points, (points.separation / points.distance).normalized(), points.distance};
+  }
+  const DeepSeparation way = way_out(a, b, points, side);
+  return {points, way.direction, points.relation == Relation::apart ? 0.0 : -way.depth};
+}
+
+}  // namespace plekton::geometry

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/closest/core_pair.hpp"
+
+#include "tests/support/exact_pair.hpp"
+#include "tests/support/simplex_families.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plekton::geometry {
+namespace {
+
+Core core_of(std::span<const Vec3> corners) {
+  Core core;
+  for (const Vec3& x : corners) core.x[core.count++] = x;
+  return core;
+}
+
+/// All nine combinations of points, segments and triangles.
+template <class Check>
+void for_all_kinds(const test::SimplexPair<3, 3>& pair, Check check) {
+  for (std::size_t count_a = 1; count_a <= 3; ++count_a) {
+    for (std::size_t count_b = 1; count_b <= 3; ++count_b)
+      check(core_of({pair.a.data(), count_a}), core_of({pair.b.data(), count_b}));
+  }
+}
+
+TEST(CoreProximity, HasAUnitNormalAndATrueDistanceForCoresOfAllKinds) {
+  test::SimplexFamilies<3, 3> families(1);
+  for (std::size_t f = 0; f < test::kPairFamilies.size(); ++f) {
+    SCOPED_TRACE(test::kPairFamilyNames[f]);
+    for (int trial = 0; trial < 300 && !::testing::Test::HasNonfatalFailure(); ++trial) {
+      for_all_kinds(families.draw(test::kPairFamilies[f]), [](const Core& a, const Core& b) {
+        const CoreProximity found = core_proximity(a, b);
+        const test::Judgement judgement = test::judge(a.corners(), b.corners(), found.points);
+
+        EXPECT_NEAR(found.normal.norm(), 1.0, 1e-15);
+        EXPECT_FALSE(judgement.wrong_region || judgement.wrong_relation || judgement.not_a_number);
+        if (found.points.relation == Relation::apart) {
+          EXPECT_EQ(found.signed_distance, found.points.distance);
+          EXPECT_LE((found.points.separation - found.signed_distance * found.normal).norm(),
+                    1e-15 * found.signed_distance);
+        } else {
+          EXPECT_LE(found.signed_distance, 0.0);
+        }
+      });
+    }
+  }
+}
+
+TEST(CoreProximity, GoesOutAlongTheAskedSide) {
+  const Core sheet = core_of(std::array{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)});
+  const Core bar = core_of(std::array{Vec3(1, 1, -1), Vec3(1, 1, 1)});
+
+  EXPECT_EQ(core_proximity(sheet, bar, Vec3(0, 0, 1)).normal, Vec3(0, 0, 1));
+  EXPECT_EQ(core_proximity(sheet, bar, Vec3(0, 0, -1)).normal, Vec3(0, 0, -1));
+  EXPECT_EQ(core_proximity(sheet, bar).signed_distance, -1.0);
+}
+
+TEST(CoreProximity, OfAPointOnAnEdgeDependsOnTheEdgeAlone) {
+  const Vec3 from(0, 0, 0);
+  const Vec3 to(4, 2, 8);
+  const Core point = core_of(std::array{Vec3(1, 0.5, 2)});
+
+  const CoreProximity first = core_proximity(point, core_of(std::array{from, to, Vec3(9, 1, 0)}));
+  const CoreProximity second = core_proximity(point, core_of(std::array{from, to, Vec3(-1, 5, 3)}));
+
+  EXPECT_EQ(first.normal, second.normal);
+  EXPECT_EQ(first.points.weights_b, second.points.weights_b);
+  EXPECT_EQ(first.signed_distance, 0.0);
+}
+
+}  // namespace
+}  // namespace plekton::geometry
