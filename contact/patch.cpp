@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace plekton::contact {
 namespace {
@@ -19,23 +20,39 @@ bool nearer(const geometry::CriticalFeature* a, const geometry::CriticalFeature*
 
 }  // namespace
 
+PatchFinder::PatchFinder(const geometry::Surface& surface)
+    : surface_(&surface), critical_(surface), has_facets_(surface.structure_count(), 0) {
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    const NodeId corner = surface.nodes_of(geometry::id_at<geometry::FaceId>(f))[0];
+    has_facets_[index_of(surface.structure_of(corner))] = 1;
+  }
+}
+
 std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
                                          std::span<const geometry::CellId> cells, Positions x) {
-  const auto critical = critical_.find(centre, range, cells, x);
-  minima_.clear();
-  passes_.clear();
-  rooted_.clear();
-  for (const Critical& feature : critical) {
-    if (feature.is_minimum()) minima_.push_back(&feature);
-    if (feature.is_pass()) passes_.push_back(&feature);
-  }
-  std::sort(minima_.begin(), minima_.end(), nearer);
-  std::sort(passes_.begin(), passes_.end(), nearer);
-
+  sort_out(critical_.find(centre, range, cells, x));
   link_passes(centre, range, x);
-  weigh_passes();
+  join_parts();
+  ring_terms_.clear();
+  if (!events_.empty()) {
+    if (has_facets_[index_of(surface_->structure_of(cells.front()))] != 0) {
+      share_rings(centre, range, cells, x);
+    } else {
+      share_rings_of_wires();
+    }
+  }
+  add_terms();
   collect_patches();
   return patches_;
+}
+
+void PatchFinder::sort_out(std::span<const Critical> critical) {
+  minima_.clear();
+  passes_.clear();
+  for (const Critical& feature : critical)
+    (feature.is_minimum() ? minima_ : passes_).push_back(&feature);
+  std::sort(minima_.begin(), minima_.end(), nearer);
+  std::sort(passes_.begin(), passes_.end(), nearer);
 }
 
 void PatchFinder::link_passes(const Vec3& centre, double range, Positions x) {
@@ -66,35 +83,94 @@ void PatchFinder::add_links(std::uint32_t pass, const Vec3& centre, double range
   pass_links_.push_back({pass, first, static_cast<std::uint32_t>(links_.size()) - first});
 }
 
-/// The first minimum or pass on the way down.
+/// The vertex that a foot is; kOutOfRange if it is none.
+std::uint32_t PatchFinder::vertex_of(Feature foot) const noexcept {
+  const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), Vertex{foot, 0});
+  return found != vertices_.end() && found->feature == foot ? found->id : kOutOfRange;
+}
+
+/// The first vertex on the way down.
 std::uint32_t PatchFinder::vertex_below(Feature branch, const Vec3& centre, Positions x) const {
   Feature foot = geometry::closest_feature(*surface_, branch, centre, x);
   while (true) {
-    const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), Vertex{foot, 0});
-    if (found != vertices_.end() && found->feature == foot) return found->id;
+    if (const std::uint32_t vertex = vertex_of(foot); vertex != kOutOfRange) return vertex;
     const Feature next = geometry::downhill_from(*surface_, foot, centre, x);
     if (next == foot) return kOutOfRange;
     foot = geometry::closest_feature(*surface_, next, centre, x);
   }
 }
 
-void PatchFinder::weigh_passes() {
-  const auto weights = spanning_.find(static_cast<std::uint32_t>(vertices_.size()), links_);
-  for (std::uint32_t minimum = 0; minimum < minima_.size(); ++minimum) {
-    add_term(spanning_.root_of(minimum), *minima_[minimum], 1.0);
-  }
-  for (const PassLinks& links : pass_links_) {
-    double joined = -1.0;  // the pass itself is no minimum
-    for (std::uint32_t i = 0; i < links.link_count; ++i) joined += weights[links.first_link + i];
-    const std::uint32_t root = spanning_.root_of(links.pass);
-    if (joined != 0.0 && root < minima_.size()) add_term(root, critical_of(links.pass), -joined);
+std::uint32_t PatchFinder::root_of(std::uint32_t vertex) const noexcept {
+  while (root_[vertex] != vertex) vertex = root_[vertex];
+  return vertex;
+}
+
+/// Level by level: which parts hang together, and at which levels rings are born and filled.
+void PatchFinder::join_parts() {
+  root_.resize(vertices_.size());
+  std::iota(root_.begin(), root_.end(), 0U);
+  events_.clear();
+  weights_.assign(vertices_.size(), 0.0);
+  for (std::uint32_t minimum = 0; minimum < minima_.size(); ++minimum) weights_[minimum] = 1.0;
+  for (const PassLinks& pass : pass_links_) {
+    const Critical& feature = critical_of(pass.pass);
+    weights_[pass.pass] = feature.coefficient;
+    int rings = 1 - feature.branches - feature.coefficient;  // minus the number that it fills
+    bool is_event = rings != 0;
+    for (std::uint32_t i = 0; i < pass.link_count; ++i) {
+      const Link& link = links_[pass.first_link + i];
+      const auto [low, high] = std::minmax({root_of(link.a), root_of(link.b)});
+      if (low == high) {
+        ++rings;
+        is_event = true;
+      }
+      root_[high] = low;
+    }
+    if (is_event) events_.push_back({feature.distance, pass.pass, rings});
   }
 }
 
-void PatchFinder::add_term(std::uint32_t root, const Critical& feature, double weight) {
-  rooted_.push_back({root,
-                     static_cast<std::uint32_t>(rooted_.size()),
-                     {feature.core, feature.direction, feature.distance, weight}});
+void PatchFinder::share_rings_of_wires() {
+  const auto weights = spanning_.find(static_cast<std::uint32_t>(vertices_.size()), links_);
+  for (const PassLinks& pass : pass_links_) {
+    weights_[pass.pass] = 1.0;  // the pass itself is no minimum
+    for (std::uint32_t i = 0; i < pass.link_count; ++i)
+      weights_[pass.pass] -= weights[pass.first_link + i];
+  }
+}
+
+void PatchFinder::share_rings(const Vec3& centre, double range,
+                              std::span<const geometry::CellId> cells, Positions x) {
+  for (const RingWeights::Share& share : rings_.find(*surface_, centre, range, cells, x, events_)) {
+    const NearComplex::Vertex& foot = *share.foot;
+    const std::uint32_t below = vertex_below(foot.core.feature, centre, x);
+    if (below == kOutOfRange) continue;
+    if (critical_of(below).core.feature == foot.core.feature) {
+      weights_[below] += share.weight;
+    } else {
+      ring_terms_.push_back(
+          {root_of(below), {foot.core, foot.normal, foot.distance, share.weight}});
+    }
+  }
+  for (std::size_t i = 0; i < events_.size(); ++i)
+    weights_[events_[i].vertex] -= rings_.hollows()[i];
+}
+
+void PatchFinder::add_terms() {
+  rooted_.clear();
+  for (std::uint32_t vertex = 0; vertex < vertices_.size(); ++vertex) {
+    const Critical& feature = critical_of(vertex);
+    if (weights_[vertex] != 0.0) {
+      add_term(root_of(vertex),
+               {feature.core, feature.direction, feature.distance, weights_[vertex]});
+    }
+  }
+  for (const RingTerm& ring : ring_terms_) add_term(ring.root, ring.term);
+}
+
+void PatchFinder::add_term(std::uint32_t root, const PatchTerm& term) {
+  if (root < minima_.size())
+    rooted_.push_back({root, static_cast<std::uint32_t>(rooted_.size()), term});
 }
 
 void PatchFinder::collect_patches() {

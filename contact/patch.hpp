@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/motion.hpp"
+#include "contact/ring_weights.hpp"
 #include "contact/spanning_weights.hpp"
 #include "geometry/critical_features.hpp"
 
@@ -11,11 +12,26 @@
 /// Contact of a ball with a surface: features in range that hang together are one patch, and a
 /// patch is one contact.
 ///
-/// The elastic force of a patch is the sum of weight * f(gap) * normal over its terms: weight 1 for
-/// each minimum of the distance, and for each pass between them minus the weight that keeps a
-/// connected part counted once (spanning_weights.hpp). So a flat or convex surface pushes exactly
-/// once, a sharp corner from both sides, and the force is continuous in between, with no tolerance:
-/// the natural scale is the overlap itself.
+/// The elastic force of a patch is the sum of weight * f(gap) * normal over its terms. Their
+/// weights are the coefficients of the critical features (geometry/critical_features.hpp): 1 of a
+/// minimum, -1 of a pass between two of them, 1 of a top that fills a ring. So a flat or convex
+/// surface pushes exactly once, a sharp corner from both sides, and the force is continuous in
+/// between, with no tolerance: the natural scale is the overlap itself.
+///
+/// Coefficients count pieces minus holes of the part of the surface nearer than s, for every level
+/// s; what shall count is the pieces. So each hole gets its one back, at the levels where it is
+/// open, shared over the ring around it (near_complex.hpp, spanning_weights.hpp): at every level
+/// the shares of the links of all rings add up to the number of holes, and a link pushes as its
+/// upper vertex does. Taken over all levels from the first ring to the range this is continuous
+/// where rings are born (the new pass begins with the whole share, as it must), are filled, join
+/// and part, because each of these is an event in level alone; shares at one level only, or at the
+/// end of the range, jump by up to half a contact. With a linear law the weights are exact: the sum
+/// of weight * overlap is the integral of the number of pieces over the levels. A structure without
+/// facets has no fillings; its passes get the weights of the last level, which depend on the
+/// position continuously already and cost less.
+///
+/// Between two events the shares are taken at the middle. This is no gradient of a potential: the
+/// potential of counted pieces has kinks where two passes of a ring tie, and its force jumps there.
 namespace plekton::contact {
 
 using geometry::Feature;
@@ -25,8 +41,8 @@ struct PatchTerm {
   geometry::CorePoint core;  ///< on b
   Vec3 normal;               ///< unit, from the ball's centre to the core point
   double distance;           ///< m
-  double weight;  ///< 1 of a minimum; minus what it joins of a pass: -k between k + 1 parts where
-                  ///< no ring closes, and above that, up to 1, where rings do
+  double weight;  ///< 1 of a minimum, -k of a pass between k + 1 parts where no ring closes; more
+                  ///< of what lies on a ring
 };
 
 /// One contact of a ball with a surface.
@@ -39,7 +55,7 @@ struct Patch {
 /// Finds patches; keeps its working space. One per thread.
 class PatchFinder {
  public:
-  explicit PatchFinder(const geometry::Surface& surface) : surface_(&surface), critical_(surface) {}
+  explicit PatchFinder(const geometry::Surface& surface);
 
   /// Patches of a ball on the surface's cells.
   /// @param centre  m, of the ball
@@ -59,19 +75,28 @@ class PatchFinder {
  private:
   using Critical = geometry::CriticalFeature;
 
+  void sort_out(std::span<const Critical> critical);
   void link_passes(const Vec3& centre, double range, Positions x);
   void add_links(std::uint32_t pass, const Vec3& centre, double range, Positions x);
+  std::uint32_t vertex_of(Feature foot) const noexcept;
   std::uint32_t vertex_below(Feature branch, const Vec3& centre, Positions x) const;
   const Critical& critical_of(std::uint32_t vertex) const noexcept {
     return vertex < minima_.size() ? *minima_[vertex] : *passes_[vertex - minima_.size()];
   }
-  void weigh_passes();
-  void add_term(std::uint32_t root, const Critical& feature, double weight);
+  std::uint32_t root_of(std::uint32_t vertex) const noexcept;
+  void join_parts();
+  void share_rings_of_wires();
+  void share_rings(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
+                   Positions x);
+  void add_term(std::uint32_t root, const PatchTerm& term);
+  void add_terms();
   void collect_patches();
 
   const geometry::Surface* surface_;
   geometry::CriticalFeatureFinder critical_;
+  std::vector<char> has_facets_;  ///< by structure
   SpanningWeights spanning_;
+  RingWeights rings_;
   std::vector<Patch> patches_;
   std::vector<PatchTerm> terms_;
 
@@ -88,10 +113,20 @@ class PatchFinder {
     friend constexpr auto operator<=>(const Vertex&, const Vertex&) = default;
   };
   std::vector<const Critical*> minima_;  ///< nearest first
-  std::vector<const Critical*> passes_;  ///< nearest first
+  std::vector<const Critical*> passes_;  ///< and tops: what is no minimum; nearest first
   std::vector<Vertex> vertices_;         ///< by feature
   std::vector<PassLinks> pass_links_;
   std::vector<Link> links_;
+  std::vector<std::uint32_t> root_;  ///< by vertex: the lowest of those that hang together, or one
+                                     ///< on the way to it
+  std::vector<double> weights_;      ///< by vertex
+  std::vector<RingEvent> events_;
+  /// What lies on a ring and is no critical feature.
+  struct RingTerm {
+    std::uint32_t root;
+    PatchTerm term;
+  };
+  std::vector<RingTerm> ring_terms_;
   struct RootedTerm {
     std::uint32_t root;
     std::uint32_t order;

@@ -69,19 +69,28 @@ Feature closest_feature(const Surface& surface, Feature cell, const Vec3& point,
   return cell;
 }
 
+SurfaceFoot foot_on(const Surface& surface, Feature feature, const Vec3& point,
+                    Positions x) noexcept {
+  const auto at = [&](const CorePoint& core, const FootPoint& foot) {
+    return SurfaceFoot{{core.nodes, foot.weights, core.feature}, foot.direction, foot.distance};
+  };
+  const auto corner = [&](const auto& nodes, std::size_t i) { return x[index_of(nodes[i])]; };
+  if (feature.kind == FeatureKind::node) {
+    const NodeId node{feature.id};
+    return at(core_point(node), foot_on_node(point, x[index_of(node)]));
+  }
+  if (feature.kind == FeatureKind::edge) {
+    const auto& n = surface.nodes_of(EdgeId{feature.id});
+    return at({{n[0], n[1], n[0]}, {}, feature}, foot_on_edge(point, {corner(n, 0), corner(n, 1)}));
+  }
+  const auto& n = surface.nodes_of(FaceId{feature.id});
+  return at({n, {}, feature}, foot_on_face(point, {corner(n, 0), corner(n, 1), corner(n, 2)}));
+}
+
 Feature nearer_cell(const Surface& surface, Feature first, Feature second, const Vec3& point,
                     Positions x) noexcept {
   const auto distance_to = [&](Feature cell) {
-    const Feature foot = closest_feature(surface, cell, point, x);
-    const auto corner = [&](const auto& nodes, std::size_t i) { return x[index_of(nodes[i])]; };
-    if (foot.kind == FeatureKind::node)
-      return foot_on_node(point, x[static_cast<std::size_t>(foot.id)]).distance;
-    if (foot.kind == FeatureKind::edge) {
-      const auto& n = surface.nodes_of(EdgeId{foot.id});
-      return foot_on_edge(point, {corner(n, 0), corner(n, 1)}).distance;
-    }
-    const auto& n = surface.nodes_of(FaceId{foot.id});
-    return foot_on_face(point, {corner(n, 0), corner(n, 1), corner(n, 2)}).distance;
+    return foot_on(surface, closest_feature(surface, cell, point, x), point, x).distance;
   };
   return distance_to(second) < distance_to(first) ? second : first;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/elements.hpp"
+#include "geometry/proximity.hpp"
 
 namespace plekton::geometry {
 
@@ -11,6 +12,15 @@ namespace plekton::geometry {
 /// hold the point, whatever the order of its nodes.
 Feature closest_feature(const Surface& surface, Feature cell, const Vec3& point,
                         Positions x) noexcept;
+
+/// The foot point of a point on a feature that holds it (as closest_feature() says).
+struct SurfaceFoot {
+  CorePoint core;
+  Vec3 direction;   ///< unit, from the point to the foot
+  double distance;  ///< m
+};
+SurfaceFoot foot_on(const Surface& surface, Feature feature, const Vec3& point,
+                    Positions x) noexcept;
 
 /// The cell whose closed part comes nearer to a point; the first one of a tie.
 Feature nearer_cell(const Surface& surface, Feature first, Feature second, const Vec3& point,

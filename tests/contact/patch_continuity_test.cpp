@@ -62,7 +62,8 @@ TEST(BallOnAFlatMesh, IsOneContactAtEveryStep) {
           ASSERT_EQ(total.patches, 1);
           // The features in range, a few dozen at most, are at one height but for the rounding of
           // the coordinates.
-          ASSERT_NEAR(total.weight, 1.0, 64 * kEps);
+          ASSERT_NEAR(total.overlaps / (place.scale * overlap), 1.0,
+                      64 * place.rounding() / (place.scale * overlap));
           ASSERT_NEAR(total.effective_number(place.scale * range), 1.0,
                       64 * place.rounding() / (place.scale * overlap));
         }
@@ -166,7 +167,7 @@ TEST(BallInACorner, IsTwoContactsWhenTheEdgeIsOutOfRange) {
   const TotalContact corner = on_hinge(std::numbers::pi / 4.0, 1.0, 0.99 * std::numbers::sqrt2);
 
   EXPECT_EQ(corner.patches, 2);
-  EXPECT_DOUBLE_EQ(corner.weight, 2.0);
+  EXPECT_NEAR(corner.overlaps, 2.0 * 0.01, 8 * kEps);
   EXPECT_NEAR(corner.force[2], 2.0 * 0.01 * std::numbers::sqrt2 / 2.0, 8 * kEps);
 }
 

@@ -91,7 +91,7 @@ struct Comparison {
     ASSERT_EQ(total.patches, expected.components);
     // Each term of the reference carries a few roundings of the range, and the terms are a few
     // hundred.
-    ASSERT_NEAR(total.weight, total.patches, 1e-12);
+    ASSERT_NEAR(total.overlaps, expected.overlaps, 1e-12 * range);
     if (closes_a_ring(critical, centre, range, cells, complex.x, total.patches)) {
       ++rings;
       return;

@@ -72,7 +72,9 @@ class ReferenceSimplex {
 struct ReferenceContact {
   Vec3 force = Vec3::Zero();  ///< on the ball
   int components = 0;
-  int cells = 0;  ///< in range
+  double overlaps = 0.0;  ///< m, sum of the overlaps of the cells minus those of the seams taken
+                          ///< away: the integral of the number of components over the levels
+  int cells = 0;          ///< in range
   double nearest = std::numeric_limits<double>::infinity();
 };
 
@@ -86,6 +88,7 @@ ReferenceContact reference_contact(const Vec3& p, double range,
   ReferenceContact result;
   const auto add = [&](const ReferenceFoot& foot, double sign) {
     result.force -= sign * f(range - foot.distance) / foot.distance * foot.separation;
+    result.overlaps += sign * (range - foot.distance);
   };
   std::vector<ReferenceSimplex> near;
   for (const auto& nodes : cells) {

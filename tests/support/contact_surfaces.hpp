@@ -19,6 +19,23 @@ inline std::vector<CellId> all_cells(const Surface& surface) {
   return cells;
 }
 
+/// Those with a bounding box nearer than a range, ascending.
+inline std::vector<CellId> cells_near(const Surface& surface, const Vec3& centre, double range,
+                                      Positions x) {
+  std::vector<CellId> cells;
+  for (const CellId cell : all_cells(surface)) {
+    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 upper = -lower;
+    for (const NodeId node : surface.nodes_of(cell)) {
+      lower = lower.cwiseMin(x[index_of(node)]);
+      upper = upper.cwiseMax(x[index_of(node)]);
+    }
+    const Vec3 apart = (lower - centre).cwiseMax(centre - upper).cwiseMax(Vec3::Zero());
+    if (apart.norm() <= range) cells.push_back(cell);
+  }
+  return cells;
+}
+
 /// Node lists of the maximal cells: the facets, then the cylinders that are no side of a facet.
 inline std::vector<std::vector<int>> cell_nodes(const Surface& surface) {
   std::vector<std::vector<int>> cells;
@@ -121,7 +138,7 @@ inline Complex reordered(const Complex& old, Random& random) {
 /// What all patches of a ball add up to, for the force f(overlap) = overlap.
 struct TotalContact {
   Vec3 force = Vec3::Zero();  ///< on the ball
-  double weight = 0.0;        ///< sum of the weights of all terms
+  double overlaps = 0.0;      ///< m, sum of weight * overlap of all terms
   int patches = 0;
   double nearest = std::numeric_limits<double>::infinity();  ///< m, the least distance of a term
 
@@ -136,7 +153,7 @@ inline TotalContact total_contact(PatchFinder& finder, const Vec3& centre, doubl
     ++total.patches;
     for (const PatchTerm& term : finder.terms(patch)) {
       total.force -= term.weight * (range - term.distance) * term.normal;
-      total.weight += term.weight;
+      total.overlaps += term.weight * (range - term.distance);
       total.nearest = std::min(total.nearest, term.distance);
     }
   }

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/harmonic_shares.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace plekton::contact {
+namespace {
+
+using Row = Eigen::Map<Eigen::VectorXd>;
+
+Row row_of(std::vector<double>& matrix, std::size_t row, std::size_t columns) {
+  return {matrix.data() + row * columns, static_cast<Eigen::Index>(columns)};
+}
+
+/// Room for a number of entries, all zero; it only grows.
+void clear(std::vector<double>& room, std::size_t count) {
+  if (room.size() < count) room.resize(std::max(count, 2 * room.size()));
+  std::fill_n(room.begin(), count, 0.0);
+}
+
+/// Two vertices at one distance have a link without resistance; this share of the largest is as
+/// good as none, and finite.
+constexpr double kLeastResistance = 1e-20;
+
+}  // namespace
+
+void HarmonicShares::build(std::uint32_t vertex_count, std::span<const Link> links,
+                           std::span<const Filling> fillings) {
+  find_closings(vertex_count, links);
+  currents_.clear();
+  clear(row_, closings_.size());
+  for (const Filling& filling : fillings) reduce(filling);
+}
+
+void HarmonicShares::find_closings(std::uint32_t vertex_count, std::span<const Link> links) {
+  root_.resize(vertex_count);
+  std::iota(root_.begin(), root_.end(), 0U);
+  const auto root_of = [this](std::uint32_t vertex) {
+    while (root_[vertex] != vertex) vertex = root_[vertex] = root_[root_[vertex]];
+    return vertex;
+  };
+  closings_.clear();
+  place_.assign(links.size(), kNone);
+  for (std::uint32_t i = 0; i < links.size(); ++i) {
+    const auto [low, high] = std::minmax({root_of(links[i].a), root_of(links[i].b)});
+    if (low != high) {
+      root_[high] = low;
+      continue;
+    }
+    place_[i] = static_cast<std::uint32_t>(closings_.size());
+    closings_.push_back({i, links[i].a, kNone, 0, 0});
+  }
+}
+
+/// Finds the youngest ring that the filling, with older ones, is the first to close. (Pieces of a
+/// surface in space have boundaries without torsion, so the currents stay -1, 0 and 1, or small
+/// whole numbers.)
+void HarmonicShares::reduce(const Filling& filling) {
+  for (std::size_t k = 0; k < filling.count; ++k) {
+    const std::uint32_t place = place_[filling.links[k]];
+    if (place != kNone) row_[place] += filling.signs[k];
+  }
+  for (std::size_t last = closings_.size(); last-- > 0;) {
+    const double current = row_[last];
+    if (current == 0.0) continue;
+    Closing& closing = closings_[last];
+    if (closing.filled_at == kNone) {
+      closing.filled_at = filling.upper;
+      closing.first = static_cast<std::uint32_t>(currents_.size());
+      for (std::uint32_t i = 0; i <= last; ++i) {
+        if (row_[i] != 0.0) currents_.push_back({i, std::exchange(row_[i], 0.0)});
+      }
+      closing.count = static_cast<std::uint32_t>(currents_.size()) - closing.first;
+      return;
+    }
+    const auto older = std::span(currents_).subspan(closing.first, closing.count);
+    const double factor = current / older.back().current;
+    for (const Current& entry : older) row_[entry.closing] -= factor * entry.current;
+  }
+}
+
+std::size_t HarmonicShares::hole_count(std::uint32_t vertex_count) const noexcept {
+  return static_cast<std::size_t>(
+      std::count_if(closings_.begin(), closings_.end(),
+                    [&](const Closing& closing) { return closing.is_open(vertex_count); }));
+}
+
+std::span<const double> HarmonicShares::find(std::uint32_t vertex_count,
+                                             std::span<const Link> all_links) {
+  const auto end = std::partition_point(all_links.begin(), all_links.end(),
+                                        [&](const Link& link) { return link.a < vertex_count; });
+  const auto links = all_links.first(static_cast<std::size_t>(end - all_links.begin()));
+  shares_.assign(links.size(), 0.0);
+  const std::size_t holes = hole_count(vertex_count);
+  if (holes == 0) return shares_;
+
+  eliminate(vertex_count, links);
+  clear(flows_, holes * links.size());
+  std::size_t hole = 0;
+  for (std::size_t k = 0; k < closings_.size(); ++k) {
+    if (!closings_[k].is_open(vertex_count)) continue;
+    set_circulation(k, vertex_count, links);
+    take_off_potential(links);
+    for (std::size_t i = 0; i < links.size(); ++i)
+      flows_[hole * links.size() + i] = shares_[i] * std::sqrt(conductance_[i]);
+    ++hole;
+  }
+  orthonormalise(holes, links.size());
+  std::fill(shares_.begin(), shares_.end(), 0.0);
+  for (std::size_t k = 0; k < holes; ++k) {
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const double flow = flows_[k * links.size() + i];
+      shares_[i] += flow * flow;
+    }
+  }
+  return shares_;
+}
+
+/// Conductances, and what couples each vertex to the lower ones when all above it are gone. Nothing
+/// is ever subtracted (Grassmann, Taksar & Heyman, Operations Research 33 (1985)), so the couplings
+/// are accurate however different the conductances are.
+void HarmonicShares::eliminate(std::uint32_t vertex_count, std::span<const Link> links) {
+  double largest = 0.0;
+  for (const Link& link : links) largest = std::max(largest, link.resistance);
+  const std::size_t n = vertex_count;
+  clear(coupling_, n * n);
+  pivot_.assign(n, 0.0);
+  conductance_.clear();
+  for (const Link& link : links) {
+    conductance_.push_back(1.0 / std::max(link.resistance, kLeastResistance * largest));
+    coupling_[link.a * n + link.b] += conductance_.back();
+  }
+  for (std::size_t v = n; v-- > 1;) {
+    const double* row = coupling_.data() + v * n;
+    lower_.clear();
+    for (std::size_t u = 0; u < v; ++u) {
+      if (row[u] == 0.0) continue;
+      lower_.push_back(u);
+      pivot_[v] += row[u];
+    }
+    for (std::size_t i = 1; i < lower_.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k)
+        coupling_[lower_[i] * n + lower_[k]] += row[lower_[i]] * (row[lower_[k]] / pivot_[v]);
+    }
+  }
+}
+
+/// Drops along the links (in shares_) whose sum is 1 round one open ring, and 0 round every other
+/// and round every filled one.
+void HarmonicShares::set_circulation(std::size_t open, std::uint32_t vertex_count,
+                                     std::span<const Link> links) {
+  row_[open] = 1.0;
+  for (std::size_t k = open + 1; k < closings_.size(); ++k) {
+    const Closing& closing = closings_[k];
+    if (closing.filled_at >= vertex_count) continue;
+    const auto entries = std::span(currents_).subspan(closing.first, closing.count);
+    double sum = 0.0;
+    for (const Current& entry : entries.first(entries.size() - 1))
+      sum += entry.current * row_[entry.closing];
+    row_[k] = -sum / entries.back().current;
+  }
+  for (std::size_t i = 0; i < links.size(); ++i)
+    shares_[i] = place_[i] == kNone ? 0.0 : row_[place_[i]];
+  std::fill_n(row_.begin() + static_cast<std::ptrdiff_t>(open), closings_.size() - open, 0.0);
+}
+
+/// Of all drops with these sums the ones without sources: what is left when the gradient of a
+/// potential is taken off.
+void HarmonicShares::take_off_potential(std::span<const Link> links) {
+  const std::size_t n = pivot_.size();
+  source_.assign(n, 0.0);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    source_[links[i].a] += conductance_[i] * shares_[i];
+    source_[links[i].b] -= conductance_[i] * shares_[i];
+  }
+  for (std::size_t v = n; v-- > 1;) {
+    if (pivot_[v] == 0.0 || source_[v] == 0.0) continue;
+    const double* row = coupling_.data() + v * n;
+    for (std::size_t u = 0; u < v; ++u) source_[u] += row[u] * (source_[v] / pivot_[v]);
+  }
+  for (std::size_t v = 0; v < n; ++v) {
+    if (pivot_[v] == 0.0) {
+      source_[v] = 0.0;
+      continue;
+    }
+    const double* row = coupling_.data() + v * n;
+    for (std::size_t u = 0; u < v; ++u) source_[v] += row[u] * source_[u];
+    source_[v] /= pivot_[v];
+  }
+  for (std::size_t i = 0; i < links.size(); ++i)
+    shares_[i] -= source_[links[i].a] - source_[links[i].b];
+}
+
+/// Gram and Schmidt, twice because once leaves the rounding errors of what it took away.
+void HarmonicShares::orthonormalise(std::size_t hole_count, std::size_t link_count) {
+  for (std::size_t i = 0; i < hole_count; ++i) {
+    Row flow = row_of(flows_, i, link_count);
+    for (int pass = 0; pass < 2; ++pass) {
+      for (std::size_t k = 0; k < i; ++k) {
+        const Row before = row_of(flows_, k, link_count);
+        flow -= flow.dot(before) * before;
+      }
+    }
+    flow /= flow.norm();
+  }
+}
+
+}  // namespace plekton::contact

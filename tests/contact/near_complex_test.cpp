@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/near_complex.hpp"
+
+#include "tests/support/contact_rule_reference.hpp"
+#include "tests/support/contact_surfaces.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plekton::test {
+namespace {
+
+int pieces(NearComplex& complex, double level) {
+  const std::uint32_t below = complex.set_level(level);
+  std::vector<std::uint32_t> root(below);
+  std::iota(root.begin(), root.end(), 0U);
+  const auto find = [&](std::uint32_t i) {
+    while (root[i] != i) i = root[i];
+    return i;
+  };
+  int count = static_cast<int>(below);
+  for (const Link& link : complex.links()) {
+    if (link.a >= below || find(link.a) == find(link.b)) continue;
+    root[find(link.a)] = find(link.b);
+    --count;
+  }
+  return count;
+}
+
+Complex surface_of_kind(int kind, Random& random) {
+  switch (kind) {
+    case 0:
+      return roughened(sheet(4), 1.0, 0.3, random);
+    case 1:
+      return sheet_with_fin(0.2, random);
+    case 2:
+      return roughened(net(4), 1.0, 0.2, random);
+    case 3:
+      return plate_with_hole(7, 1.0, 3.0);
+    default:
+      return junction(5, random);
+  }
+}
+
+TEST(NearComplex, HasThePiecesOfTheSurfaceAtEveryLevel) {
+  Random random(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Complex complex = surface_of_kind(trial % 5, random);
+    const Surface surface = complex.surface();
+    const auto cells = all_cells(surface);
+    const auto nodes = cell_nodes(surface);
+    const Vec3 point = complex.x[random.index(complex.x.size())] + random.in_cube(1.0);
+    NearComplex near;
+    near.build(surface, point, 2.0, cells, complex.x);
+    for (int k = 0; k < 20; ++k) {
+      const double level = random.uniform(0.0, 2.0);
+      const auto expected =
+          reference_contact(point, level, nodes, complex.x, [](double overlap) { return overlap; });
+      ASSERT_EQ(pieces(near, level), expected.components);
+    }
+  }
+}
+
+TEST(NearComplex, HasTheHolesThatTheCriticalFeaturesCountAtEveryLevel) {
+  Random random(2);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Complex complex = surface_of_kind(trial % 5, random);
+    const Surface surface = complex.surface();
+    const auto cells = all_cells(surface);
+    const Vec3 point = complex.x[random.index(complex.x.size())] + random.in_cube(1.0);
+    NearComplex near;
+    near.build(surface, point, 2.0, cells, complex.x);
+    CriticalFeatureFinder critical(surface);
+    HarmonicShares holes;
+    holes.build(static_cast<std::uint32_t>(near.vertices().size()), near.links(), near.fillings());
+    for (int k = 0; k < 20; ++k) {
+      const double level = random.uniform(0.0, 2.0);
+      int sum = 0;
+      for (const CriticalFeature& feature : critical.find(point, level, cells, complex.x))
+        sum += feature.coefficient;
+      const int pieces_here = pieces(near, level);
+      const auto below = near.set_level(level);
+      // Open surfaces have no hollows: pieces minus holes.
+      ASSERT_EQ(pieces_here - static_cast<int>(holes.hole_count(below)), sum);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plekton::test
