@@ -147,6 +147,17 @@ Vec3 exact_part_along_normal(const Arrow& w, const Arrow& u, const Arrow& v) noe
                   dot(normal, normal));
 }
 
+Vec3 exact_shares(const Arrow& w, const Arrow& u, const Arrow& v) noexcept {
+  const Triple<Exact> along_u = Difference<Exact>(u).v;
+  const Triple<Exact> along_v = Difference<Exact>(v).v;
+  const Triple<Exact> to_point = Difference<Exact>(w).v;
+  const Triple<Exact> normal = cross(along_u, along_v);
+  const Exact of_u = dot(cross(to_point, along_v), normal);
+  const Exact of_v = dot(cross(along_u, to_point), normal);
+  const Exact square = dot(normal, normal);
+  return quotient({Exact(square - of_u - of_v), of_u, of_v}, square);
+}
+
 double exact_volume(const Arrow& u, const Arrow& v, const Arrow& w) noexcept {
   return CGAL::to_double(volume<Exact>(u, v, w));
 }

@@ -118,6 +118,9 @@ inline int sign_of_volume(const Arrow& u, const Arrow& v, const Arrow& w) noexce
 Vec3 exact_part_across(const Arrow& w, const Arrow& u) noexcept;
 /// The part of w along the common perpendicular of u and v, which are not parallel (m).
 Vec3 exact_part_along_normal(const Arrow& w, const Arrow& u, const Arrow& v) noexcept;
+/// Shares of the start, the end of u and the end of v in the foot of w's end on the plane that u
+/// and v, which are not parallel, span from their common start with w. They add up to 1.
+Vec3 exact_shares(const Arrow& w, const Arrow& u, const Arrow& v) noexcept;
 
 /// det(u, v, w) (m³).
 double exact_volume(const Arrow& u, const Arrow& v, const Arrow& w) noexcept;

@@ -13,7 +13,8 @@ namespace {
 
 /// Distances below this share of the size of what they are computed from come from exact
 /// arithmetic. The double results below are within 1e-15 of the size (foot_point_test.cpp,
-/// side_side()), which is 2.6e-13 of a distance of this share.
+/// side_side()), which is 2.6e-13 of a distance of this share. So do the foot points on faces whose
+/// height is below this share of their size: the error of their normal is that of the height.
 constexpr double kShortest = 0x1p-8;
 
 std::size_t first_of(unsigned corners) {
@@ -65,10 +66,13 @@ Points corner_face(Corners a, Corners b, const Decision& decision) {
   const Vec3& p = a[first_of(corner)];
   const FootPoint foot = foot_on_face(p, {b[0], b[1], b[2]});
   Points points{corner_weights(corner), foot.weights, foot.distance * foot.direction};
-  const double size = std::sqrt(std::max(
-      {(b[1] - b[0]).squaredNorm(), (b[2] - b[1]).squaredNorm(), (b[0] - b[2]).squaredNorm()}));
-  if (is_short(foot.distance, size, decision.relation))
+  const double square = std::max(
+      {(b[1] - b[0]).squaredNorm(), (b[2] - b[1]).squaredNorm(), (b[0] - b[2]).squaredNorm()});
+  const bool is_sliver = (b[1] - b[0]).cross(b[2] - b[0]).norm() < kShortest * square;
+  if (is_short(foot.distance, std::sqrt(square), decision.relation) || is_sliver) {
     points.separation = exact_part_along_normal({p, b[0]}, {b[0], b[1]}, {b[0], b[2]});
+    points.weights_b = exact_shares({b[0], p}, {b[0], b[1]}, {b[0], b[2]});
+  }
   return points;
 }
 

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/geometry_check/check.hpp"
+
+#include "tests/geometry_check/invariant_check.hpp"
+
+#include <atomic>
+#include <thread>
+
+namespace plekton::geometry_check {
+namespace {
+
+/// A seed of its own for every row (SplitMix64, Steele, Lea & Flood, OOPSLA 2014).
+std::uint64_t seed_of(std::uint64_t seed, std::size_t row) {
+  std::uint64_t z = seed + (row + 1) * 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
+std::uint64_t share_of(std::uint64_t queries, std::size_t rows) {
+  return (queries + rows - 1) / rows;
+}
+
+}  // namespace
+
+Report check(const CheckOptions& options, const Kernel& kernel) {
+  Report report{pair_rows(), invariant_rows(), {}};
+  const std::size_t pair_count = report.pairs.size();
+  const std::size_t row_count = pair_count + report.invariants.size();
+  const std::uint64_t for_pairs = options.queries - options.queries / 5;
+  std::vector<std::vector<std::string>> examples(row_count);
+  std::atomic<std::size_t> next = 0, done = 0;
+  const auto work = [&] {
+    for (std::size_t row = next++; row < row_count; row = next++) {
+      const std::uint64_t seed = seed_of(options.seed, row);
+      if (row < pair_count) {
+        check_pairs(report.pairs[row], share_of(for_pairs, pair_count), seed, kernel,
+                    examples[row]);
+      } else {
+        check_invariant(report.invariants[row - pair_count],
+                        share_of(options.queries / 5, report.invariants.size()), seed);
+      }
+      if (options.progress)
+        options.progress(static_cast<double>(++done) / static_cast<double>(row_count));
+    }
+  };
+  std::vector<std::jthread> others;
+  for (int i = 1; i < options.threads; ++i) others.emplace_back(work);
+  work();
+  others.clear();  // joins
+  for (const auto& of_row : examples)
+    report.examples.insert(report.examples.end(), of_row.begin(), of_row.end());
+  return report;
+}
+
+}  // namespace plekton::geometry_check
