@@ -106,11 +106,12 @@ DescendingLink CriticalFeatureFinder::edge_link(EdgeId edge, const Vec3& point, 
 
 bool CriticalFeatureFinder::falls_into(FaceId face, EdgeId edge, const Vec3& point,
                                        Positions x) const {
-  const auto& [a, b] = surface_->nodes_of(edge);
+  const auto& ends = surface_->nodes_of(edge);
   const auto& n = surface_->nodes_of(face);
-  const NodeId opposite =
-      *std::find_if(n.begin(), n.end(), [&](NodeId node) { return node != a && node != b; });
-  return sign_inside_edge(x[index_of(a)], x[index_of(b)], x[index_of(opposite)], point) > 0;
+  const NodeId opposite = *std::find_if(
+      n.begin(), n.end(), [&](NodeId node) { return node != ends[0] && node != ends[1]; });
+  return sign_inside_edge(x[index_of(ends[0])], x[index_of(ends[1])], x[index_of(opposite)],
+                          point) > 0;
 }
 
 std::span<const Feature> CriticalFeatureFinder::branches(Feature feature, const Vec3& point,

@@ -52,7 +52,7 @@ std::vector<std::string> reshape(Mesh& mesh, const RepairOptions& options, MeshR
   if (!options.fill_holes && !options.wrap && options.target_edge == 0.0) return {};
   const Mesh before = mesh;
   const MeshMeasures measures = measure(before, false);
-  report.reshaped.emplace();
+  report.reshaped = MeshReport::Reshaped{};
   report.reshaped->area_before = measures.area;
   report.reshaped->volume_before = measures.volume;
   try {
