@@ -13,9 +13,9 @@ namespace {
 std::string line_of(const BuiltMembrane& m) {
   return fmt::format(
       "membrane {}: {} nodes ({} held), {} beams, {} facets, area {:.4g} m2, mass {:.4g} kg, beams "
-      "of E = {:.4g} Pa; mesh {}\n",
+      "of E = {:.4g} Pa; {}\n",
       m.name, m.nodes, m.held_nodes, m.beams, m.facets, m.area, m.mass, m.young_modulus,
-      geometry::name_of(m.report.verdict));
+      m.report ? fmt::format("mesh {}", geometry::name_of(m.report->verdict)) : "generated");
 }
 
 std::string line_of(const BuiltGrains& g) {

@@ -73,7 +73,7 @@ Frames::Frames(const fs::path& folder, const OutputSettings& settings, const Sim
       contacts_(folder / "contacts.pvd") {
   std::iota(sphere_ids_.begin(), sphere_ids_.end(), 0);
   settings_.grains = settings_.grains && !simulation.elements().spheres.empty();
-  settings_.membranes = settings_.membranes && !simulation.elements().facets.empty();
+  settings_.membranes = settings_.membranes && !simulation.elements().cylinders.empty();
   make_output_folder(folder_ / "frames");
   remove_earlier(folder_);
 }

@@ -1,32 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "apps/scenario/read_sections.hpp"
+#include "apps/scenario/read_membrane_source.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <system_error>
 
 namespace plekton::apps {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr Range kPoisson{-1.0, 0.5, false, true, " above -1 and at most 0.5"};
-
-fs::path read_mesh_path(Section& section, const Known& known) {
-  const std::string name = section.text("mesh");
-  if (name.empty()) return {};
-  fs::path path = known.folder / name;
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) {
-    const std::string_view what = fs::exists(path, ignored) ? "is not a file" : "does not exist";
-    section.complain(
-        "mesh", fmt::format("\"{}\" {}; expected a mesh (.off, .obj, .stl, .ply, .msh, .vtp), its "
-                            "path relative to the scenario",
-                            path.string(), what));
-  }
-  return path;
-}
 
 Placement read_placement(Section& section) {
   Placement placement;
@@ -78,15 +60,33 @@ std::optional<double> read_either(Section& section, std::pair<std::string_view, 
   return std::nullopt;
 }
 
+/// Keys that ask for what a net, a closed shape or a wrapped mesh does not have.
+void require_parts(Section& section, const MembraneSettings& membrane) {
+  if (membrane.shape && is_net(*membrane.shape)) {
+    if (section.has("sheet_stiffness"))
+      section.complain(
+          "sheet_stiffness",
+          "a net is no sheet; give the young_modulus of its bars: of bars at a pitch p "
+          "that together have the stiffness J, E = J p / (pi thickness^2 / 4)");
+    if (membrane.mass_mode == MassMode::area)
+      section.complain("mass_mode",
+                       "a net has no facets to weigh; leave mass_mode out: half the mass of each "
+                       "bar goes to either end");
+  }
+  const bool closed = membrane.shape ? is_closed(*membrane.shape) : membrane.repair.wrap;
+  if (closed && membrane.hold.which == HoldWhich::rim)
+    section.complain("hold", fmt::format("a {} is closed and has no rim; hold the nodes in a box, "
+                                         "hold = {{ min = [...], max = [...] }}",
+                                         membrane.shape ? "sphere or box" : "wrapped mesh"));
+}
+
 }  // namespace
 
 MembraneSettings read_membrane(Section section, const Known& known) {
   constexpr std::array<std::string_view, 2> kMassModes = {"edge", "area"};
   MembraneSettings membrane;
   membrane.name = section.text("name", "membrane");
-  membrane.mesh = read_mesh_path(section, known);
-  membrane.mesh_place = section.place_of("mesh");
-  membrane.weld = section.quantity("weld", {kLength, kNotNegative}, membrane.weld);
+  read_membrane_source(section, known, membrane);
   membrane.placement = read_placement(section);
   membrane.thickness = section.quantity("thickness", {kLength, kPositive});
   membrane.material = read_material_of(section, known).value_or(0);
@@ -99,6 +99,7 @@ MembraneSettings read_membrane(Section section, const Known& known) {
   membrane.density = read_either(section, {"density", {kDensity, kPositive}},
                                  {"areal_mass", {kArealMass, kPositive}}, membrane.areal_mass);
   membrane.hold = read_hold(section);
+  require_parts(section, membrane);
   section.finish();
   return membrane;
 }

@@ -3,7 +3,9 @@
 
 #include "apps/grains/size_curve.hpp"
 #include "apps/scenario/problems.hpp"
+#include "apps/scenario/shape_settings.hpp"
 #include "geometry/box.hpp"
+#include "geometry/mesh/repair.hpp"
 #include "geometry/types.hpp"
 
 #include <cstdint>
@@ -65,9 +67,10 @@ enum class MassMode : std::uint8_t { edge, area };
 
 struct MembraneSettings {
   std::string name;
-  std::filesystem::path mesh;  ///< relative to the current folder
-  Place mesh_place;
-  double weld = 0.0;  ///< m, after scaling
+  std::filesystem::path mesh;          ///< relative to the current folder
+  geometry::RepairOptions repair;      ///< of the mesh, lengths after scaling
+  std::optional<ShapeSettings> shape;  ///< instead of the mesh
+  Place source_place;                  ///< of the mesh or shape
   Placement placement;
   double thickness = 0.0;  ///< m
   std::size_t material = 0;

@@ -159,6 +159,29 @@ std::int64_t Section::integer(std::string_view key, std::int64_t low, std::int64
   return fallback.value_or(0);
 }
 
+std::vector<int> Section::integers(std::string_view key, std::vector<int> least, int most) {
+  const Value* value = require(key);
+  if (value == nullptr) return least;
+  const auto* array = std::get_if<Array>(&value->data);
+  if (array == nullptr || array->size() != least.size()) {
+    complain(key, fmt::format("got {}; expected a list of {} whole numbers", shown(*value),
+                              least.size()));
+    return least;
+  }
+  std::vector<int> numbers = least;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const Value& item = (*array)[i];
+    const auto* number = std::get_if<std::int64_t>(&item.data);
+    if (number && *number >= least[i] && *number <= most)
+      numbers[i] = static_cast<int>(*number);
+    else
+      problems_->add(item.place,
+                     fmt::format("{}[{}]: got {}; expected a whole number from {} to {}",
+                                 path_of(key), i, shown(item), least[i], most));
+  }
+  return numbers;
+}
+
 bool Section::truth(std::string_view key, bool fallback) {
   const Value* value = find(key);
   if (value == nullptr) return fallback;
@@ -176,16 +199,27 @@ std::string Section::text(std::string_view key, const std::optional<std::string>
   return "";
 }
 
+std::optional<std::size_t> Section::position_of(const Value& value, std::string_view key,
+                                                std::span<const std::string_view> words) {
+  const auto* text = std::get_if<std::string>(&value.data);
+  const auto found = text ? std::find(words.begin(), words.end(), *text) : words.end();
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  complain(key, fmt::format("got {}; expected one of {}{}", shown(value), listed(words),
+                            text ? suggestion(*text, words) : ""));
+  return std::nullopt;
+}
+
 std::size_t Section::choice(std::string_view key, std::span<const std::string_view> words,
                             std::optional<std::size_t> fallback) {
   const Value* value = fallback ? find(key) : require(key);
   if (value == nullptr) return fallback.value_or(0);
-  const auto* text = std::get_if<std::string>(&value->data);
-  const auto found = text ? std::find(words.begin(), words.end(), *text) : words.end();
-  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  complain(key, fmt::format("got {}; expected one of {}{}", shown(*value), listed(words),
-                            text ? suggestion(*text, words) : ""));
-  return 0;
+  return position_of(*value, key, words).value_or(0);
+}
+
+std::optional<std::size_t> Section::known_choice(std::string_view key,
+                                                 std::span<const std::string_view> words) {
+  const Value* value = require(key);
+  return value ? position_of(*value, key, words) : std::nullopt;
 }
 
 std::optional<Section> Section::table(std::string_view key) {

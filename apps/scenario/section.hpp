@@ -73,12 +73,18 @@ class Section {
   /// 0 or the fallback after a problem. Limits included.
   std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high,
                        std::optional<std::int64_t> fallback = {});
+  /// A list of whole numbers, each from its least to most. The least ones after a problem.
+  std::vector<int> integers(std::string_view key, std::vector<int> least, int most);
   bool truth(std::string_view key, bool fallback);
   /// Empty after a problem.
   std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
   /// Position among the words; 0 after a problem. Without a fallback the key is required.
   std::size_t choice(std::string_view key, std::span<const std::string_view> words,
                      std::optional<std::size_t> fallback = {});
+
+  /// Position among the words of a key that is required; nothing after a problem.
+  std::optional<std::size_t> known_choice(std::string_view key,
+                                          std::span<const std::string_view> words);
 
   /// A table in this one.
   std::optional<Section> table(std::string_view key);
@@ -97,6 +103,8 @@ class Section {
   const Value* find(std::string_view key);
   const Value* require(std::string_view key);
   double read_quantity(const Value& value, const std::string& path, const Quantity& expected);
+  std::optional<std::size_t> position_of(const Value& value, std::string_view key,
+                                         std::span<const std::string_view> words);
   geometry::Vec3 read_vector(const Value& value, const std::string& path, const Quantity& expected);
 
   const Table* table_;

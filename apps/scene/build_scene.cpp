@@ -27,11 +27,22 @@ void add_materials_and_planes(const Scenario& scenario, dynamics::Scene& scene) 
 }
 
 /// Everything in the scene that has a place, for the grains to keep clear of.
-std::vector<Obstacle> obstacles_of(const dynamics::Scene& scene) {
+std::vector<Obstacle> obstacles_of(const BuiltScene& built) {
+  const dynamics::Scene& scene = built.scene;
   const geometry::Positions x = scene.state.position;
   std::vector<Obstacle> obstacles;
   for (const geometry::Facet& facet : scene.elements.facets)
     obstacles.push_back({geometry::core(facet, x), facet.radius});
+  std::size_t first = 0;
+  for (const BuiltMembrane& membrane : built.membranes) {
+    // Where there are facets the cylinders are their sides.
+    for (std::size_t i = first; membrane.facets == 0 && i < first + membrane.beams; ++i) {
+      const geometry::Cylinder& cylinder = scene.elements.cylinders[i];
+      const auto [x0, x1] = geometry::core(cylinder, x);
+      obstacles.push_back({{x0, x1, x1}, cylinder.radius});
+    }
+    first += membrane.beams;
+  }
   for (const geometry::Sphere& sphere : scene.elements.spheres) {
     const Vec3& centre = x[index_of(sphere.nodes[0])];
     obstacles.push_back({{centre, centre, centre}, sphere.radius});
@@ -39,8 +50,9 @@ std::vector<Obstacle> obstacles_of(const dynamics::Scene& scene) {
   return obstacles;
 }
 
-BuiltGrains add_grains(const GrainSettings& settings, double density, dynamics::Scene& scene) {
-  const std::vector<Obstacle> obstacles = obstacles_of(scene);
+BuiltGrains add_grains(const GrainSettings& settings, double density, BuiltScene& built) {
+  dynamics::Scene& scene = built.scene;
+  const std::vector<Obstacle> obstacles = obstacles_of(built);
   const std::vector<PlacedGrain> grains = generate_grains(settings, {obstacles, scene.planes});
   BuiltGrains result{settings.name, grains.size(), 0.0, grains.front().radius,
                      grains.front().radius};
@@ -74,17 +86,17 @@ BuiltScene build_scene(const Scenario& scenario) {
     try {
       built.membranes.push_back(add_membrane(membrane, built));
     } catch (const geometry::MeshError& error) {
-      problems.add(membrane.mesh_place,
+      problems.add(membrane.source_place,
                    fmt::format("membranes.{}: {}", membrane.name, error.what()));
     } catch (const InputError& error) {
-      problems.add(membrane.mesh_place,
+      problems.add(membrane.source_place,
                    fmt::format("membranes.{}: {}", membrane.name, error.what()));
     }
   }
   for (const GrainSettings& grains : scenario.grains) {
     try {
       built.grains.push_back(
-          add_grains(grains, scenario.materials[grains.material].density.value(), built.scene));
+          add_grains(grains, scenario.materials[grains.material].density.value(), built));
     } catch (const DoesNotFit& error) {
       problems.add(grains.place, fmt::format("grains.{}", error.what()));
     } catch (const InputError& error) {

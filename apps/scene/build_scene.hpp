@@ -6,6 +6,7 @@
 #include "geometry/mesh/report.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,13 @@ namespace plekton::apps {
 /// A membrane in the scene, and what its settings came to.
 struct BuiltMembrane {
   std::string name;
-  geometry::MeshReport report;  ///< of the import
+  std::optional<geometry::MeshReport> report;  ///< of the import; nothing for a shape
   std::size_t first_node = 0;
   std::size_t nodes = 0;
-  std::size_t facets = 0;
-  std::size_t beams = 0;  ///< one for each edge of the mesh, with a cylinder of the same nodes
+  std::size_t facets = 0;  ///< none in a net
+  std::size_t beams = 0;   ///< one for each edge of the mesh, with a cylinder of the same nodes
   std::size_t held_nodes = 0;
-  double area = 0.0;           ///< m²
+  double area = 0.0;           ///< m², of the facets, or of the rectangle around a net
   double mass = 0.0;           ///< kg
   double young_modulus = 0.0;  ///< Pa, of the beams
 };
@@ -43,9 +44,9 @@ struct BuiltScene {
 
 /// Builds the scene of a scenario: membranes, then grains clear of them and of the planes.
 ///
-/// Every edge of a membrane's mesh becomes a beam of full circular section, radius half the
-/// thickness, and a cylinder; every facet a thick facet. The cylinders, like the facets, are
-/// numbered in the order of the membranes, and beam i is along cylinder i.
+/// Every edge of a membrane's mesh, and every bar of a net, becomes a beam of full circular
+/// section, radius half the thickness, and a cylinder; every facet a thick facet. The cylinders,
+/// like the facets, are numbered in the order of the membranes, and beam i is along cylinder i.
 /// @throws InputError listing every problem that only the files and the geometry show: meshes that
 /// cannot be used, nothing to hold,
 ///         grains that do not fit.

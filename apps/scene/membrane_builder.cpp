@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/membrane_builder.hpp"
 
+#include "apps/scene/membrane_body.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
-#include "geometry/mesh/import.hpp"
-#include "geometry/mesh/membrane.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <tuple>
 
@@ -19,14 +17,6 @@ namespace {
 using dynamics::Held;
 using geometry::index_of;
 using geometry::Membrane;
-using geometry::NodeId;
-
-void put_in_place(geometry::Mesh& mesh, const Placement& placement) {
-  const geometry::Mat3 rotation =
-      Eigen::AngleAxisd(placement.angle, placement.axis).toRotationMatrix();
-  for (Vec3& point : mesh.points)
-    point = rotation * (placement.scale * point) + placement.translation;
-}
 
 /// Total length (m) of the edges.
 double edge_length(const dynamics::Scene& scene, const Membrane& membrane) {
@@ -36,46 +26,24 @@ double edge_length(const dynamics::Scene& scene, const Membrane& membrane) {
   return length;
 }
 
-double area_of(const dynamics::Scene& scene, const geometry::Facet& facet) {
-  const auto [x0, x1, x2] = geometry::core(facet, scene.state.position);
-  return 0.5 * (x1 - x0).cross(x2 - x0).norm();
-}
-
-/// Whether each node is on an edge with one facet, by number among the nodes of the membrane.
-std::vector<bool> rim_nodes(const Membrane& membrane, std::size_t first_node) {
-  std::map<std::array<NodeId, 2>, int> uses;
-  for (const geometry::Facet& facet : membrane.facets) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const NodeId a = facet.nodes[k], b = facet.nodes[(k + 1) % 3];
-      ++uses[{std::min(a, b), std::max(a, b)}];
-    }
-  }
-  std::vector<bool> on_rim(membrane.nodes.size(), false);
-  for (const auto& [edge, count] : uses) {
-    if (count != 1) continue;
-    for (const NodeId node : edge) on_rim[index_of(node) - first_node] = true;
-  }
-  return on_rim;
-}
-
-std::vector<bool> held_nodes(const HoldSettings& hold, const Membrane& membrane,
-                             const BuiltScene& built, std::size_t first_node) {
-  if (hold.which == HoldWhich::rim) return rim_nodes(membrane, first_node);
-  std::vector<bool> held(membrane.nodes.size(), hold.which == HoldWhich::all);
+std::vector<bool> held_nodes(const HoldSettings& hold, const MembraneBody& body) {
+  if (hold.which == HoldWhich::rim) return body.on_rim;
+  std::vector<bool> held(body.on_rim.size(), hold.which == HoldWhich::all);
   if (hold.which != HoldWhich::box) return held;
   for (std::size_t i = 0; i < held.size(); ++i) {
-    const Vec3& x = built.scene.state.position[first_node + i];
+    const Vec3& x = body.membrane.nodes[i];
     held[i] =
         (x.array() >= hold.box.lower.array()).all() && (x.array() <= hold.box.upper.array()).all();
   }
   return held;
 }
 
-std::size_t add_nodes(const MembraneSettings& settings, const Membrane& membrane,
+/// @returns How many of them are held.
+std::size_t add_nodes(const MembraneSettings& settings, const MembraneBody& body,
                       BuiltScene& built) {
   const std::size_t first_node = built.scene.state.size();
-  for (const Vec3& position : membrane.nodes) built.scene.add_node(position);
-  const std::vector<bool> held = held_nodes(settings.hold, membrane, built, first_node);
+  for (const Vec3& position : body.membrane.nodes) built.scene.add_node(position);
+  const std::vector<bool> held = held_nodes(settings.hold, body);
   for (std::size_t i = 0; i < held.size(); ++i) {
     if (!held[i]) continue;
     built.scene.properties.held[first_node + i] =
@@ -85,7 +53,8 @@ std::size_t add_nodes(const MembraneSettings& settings, const Membrane& membrane
   const auto count = static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
   if (count == 0 && settings.hold.which == HoldWhich::rim) {
     throw InputError(fmt::format(
-        "\"{}\" has no rim to hold: its mesh is closed; hold the nodes in a box", settings.name));
+        "\"{}\" has no rim to hold: its mesh is closed; hold the nodes in a box{}", settings.name,
+        settings.repair.fill_holes ? ", or fill no hole as long as the rim (longest_hole)" : ""));
   }
   if (count == 0 && settings.hold.which == HoldWhich::box) {
     throw InputError(
@@ -126,7 +95,6 @@ void add_elements(const MembraneSettings& settings, const Membrane& membrane,
   const double radius = 0.5 * settings.thickness;
   const double section_area = std::numbers::pi * radius * radius;
   const double length = edge_length(scene, membrane);
-  for (const geometry::Facet& facet : membrane.facets) result.area += area_of(scene, facet);
   result.young_modulus = settings.young_modulus.value_or(
       beam_modulus(settings.sheet_stiffness, result.area, section_area, length));
   const double areal_mass =
@@ -157,24 +125,21 @@ void add_elements(const MembraneSettings& settings, const Membrane& membrane,
 }  // namespace
 
 BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) {
-  geometry::ImportOptions import;
-  import.repair.weld_distance = settings.weld / settings.placement.scale;
-  geometry::ImportedMesh imported = geometry::import_mesh(settings.mesh, import);
-  put_in_place(imported.mesh, settings.placement);
+  const std::size_t first_node = built.scene.state.size();
+  MembraneBody body = make_membrane_body(settings, first_node);
+  for (const std::string& warning : body.membrane.warnings)
+    built.warnings.push_back(settings.name + ": " + warning);
 
   BuiltMembrane result;
   result.name = settings.name;
-  result.report = std::move(imported.report);
-  result.first_node = built.scene.state.size();
-  const Membrane membrane =
-      geometry::make_membrane(imported.mesh, {settings.thickness, result.first_node});
-  for (const std::string& warning : membrane.warnings)
-    built.warnings.push_back(settings.name + ": " + warning);
-  result.nodes = membrane.nodes.size();
-  result.facets = membrane.facets.size();
-  result.beams = membrane.edges.size();
-  result.held_nodes = add_nodes(settings, membrane, built);
-  add_elements(settings, membrane, built.scene, result);
+  result.report = std::move(body.report);
+  result.first_node = first_node;
+  result.nodes = body.membrane.nodes.size();
+  result.facets = body.membrane.facets.size();
+  result.beams = body.membrane.edges.size();
+  result.area = body.area;
+  result.held_nodes = add_nodes(settings, body, built);
+  add_elements(settings, body.membrane, built.scene, result);
   return result;
 }
 

@@ -5,9 +5,9 @@
 
 namespace plekton::apps {
 
-/// Imports the mesh of a membrane and adds it to a scene.
-/// @throws geometry::MeshError for a mesh that cannot be used, InputError where no node is held
-/// though some should be.
+/// Imports the mesh of a membrane or makes its shape, and adds it to a scene.
+/// @throws geometry::MeshError for a mesh or shape that cannot be used, InputError where no node is
+/// held though some should be.
 BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built);
 
 }  // namespace plekton::apps

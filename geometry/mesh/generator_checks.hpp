@@ -3,6 +3,7 @@
 
 #include "geometry/mesh/mesh.hpp"
 
+#include <sstream>
 #include <string>
 
 /// What every generator asks of its numbers.
@@ -10,9 +11,11 @@ namespace plekton::geometry {
 
 /// @throws MeshError unless a length (m) is positive and below kLargestCoordinate.
 inline void require_length(double length, const char* what) {
-  if (!(length > 0.0) || !(length < kLargestCoordinate))
-    throw MeshError(std::string(what) + " of " + std::to_string(length) +
-                    " m; expected a positive length");
+  if (length > 0.0 && length < kLargestCoordinate) return;
+  std::ostringstream text;
+  text << what << " of " << length << " m; expected a positive length below " << kLargestCoordinate
+       << " m";
+  throw MeshError(text.str());
 }
 
 /// @throws MeshError if a count is below its least.

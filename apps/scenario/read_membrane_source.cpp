@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/read_membrane_source.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path read_mesh_path(Section& section, const Known& known) {
+  const std::string name = section.text("mesh");
+  if (name.empty()) return {};
+  fs::path path = known.folder / name;
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) {
+    const std::string_view what = fs::exists(path, ignored) ? "is not a file" : "does not exist";
+    section.complain(
+        "mesh", fmt::format("\"{}\" {}; expected a mesh (.off, .obj, .stl, .ply, .msh, .vtp), its "
+                            "path relative to the scenario",
+                            path.string(), what));
+  }
+  return path;
+}
+
+/// A step of the repair and the length that says more about it. The length alone asks for the step
+/// too, as an option of `plekton import` does.
+bool read_step(Section& section, std::string_view step, std::string_view length) {
+  const bool has_length = section.has(length);
+  const bool wanted = section.truth(step, has_length);
+  if (has_length && !wanted)
+    section.complain(length, fmt::format("goes with {0}, which is false; leave {1} out, or {0} "
+                                         "(then {1} alone asks for it)",
+                                         step, length));
+  return wanted;
+}
+
+geometry::RepairOptions read_repair(Section& section) {
+  constexpr Quantity kPositiveLength{kLength, kPositive};
+  geometry::RepairOptions repair;
+  repair.weld_distance = section.quantity("weld", {kLength, kNotNegative}, repair.weld_distance);
+  repair.fill_holes = read_step(section, "fill_holes", "longest_hole");
+  repair.longest_hole = section.quantity("longest_hole", kPositiveLength, repair.longest_hole);
+  repair.wrap = read_step(section, "wrap", "wrap_detail");
+  repair.wrap_detail = section.quantity("wrap_detail", kPositiveLength, repair.wrap_detail);
+  repair.target_edge = section.quantity("target_edge", kPositiveLength, repair.target_edge);
+  repair.refuse_intersections = section.truth("refuse_intersections", repair.refuse_intersections);
+  return repair;
+}
+
+void refuse_repair(Section& section) {
+  for (const std::string_view key : {"weld", "fill_holes", "longest_hole", "wrap", "wrap_detail",
+                                     "target_edge", "refuse_intersections"}) {
+    if (section.has(key))
+      section.complain(key, "repairs a mesh, and a shape has nothing to repair; leave it out");
+  }
+}
+
+}  // namespace
+
+void read_membrane_source(Section& section, const Known& known, MembraneSettings& membrane) {
+  const bool has_mesh = section.has("mesh");
+  const bool has_shape = section.has("shape");
+  membrane.source_place = section.place_of(has_shape ? "shape" : "mesh");
+  if (has_mesh == has_shape) {
+    section.complain(has_mesh ? "shape" : "mesh",
+                     fmt::format("got {} of mesh and shape; expected exactly one of them: a mesh "
+                                 "file, or shape = {{ kind = \"sheet\", ... }}",
+                                 has_mesh ? "both" : "none"));
+  }
+  if (has_mesh) membrane.mesh = read_mesh_path(section, known);
+  if (has_shape && !has_mesh)
+    refuse_repair(section);
+  else
+    membrane.repair = read_repair(section);
+  if (const auto shape = section.table("shape")) membrane.shape = read_shape(*shape);
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/read_membrane_source.hpp"
+
+#include <fmt/format.h>
+
+namespace plekton::apps {
+namespace {
+
+constexpr int kMostCells = 100'000;    // along one direction
+constexpr double kMostElements = 2e7;  // of a shape, as for remeshing: more do not fit into memory
+constexpr int kMostSubdivisions = 9;   // 5.2 million facets
+constexpr Quantity kPositiveLength{kLength, kPositive};
+
+/// Complains about numbers of cells whose product asks for more than a computer holds.
+/// @param elements  Facets or bars, about.
+void require_few(Section& section, std::string_view key, double elements) {
+  if (elements > kMostElements)
+    section.complain(key, fmt::format("asks for about {:.2g} facets or bars; expected at most "
+                                      "{:.0g}; use fewer and larger ones",
+                                      elements, kMostElements));
+}
+
+ShapeSettings read_sheet(Section& section) {
+  constexpr std::array<std::string_view, 3> kPatterns = {"diagonal", "alternating", "cross"};
+  geometry::PlaneSheet sheet{};
+  sheet.width = section.quantity("width", kPositiveLength);
+  sheet.length = section.quantity("length", kPositiveLength);
+  const auto cells = section.integers("cells", {1, 1}, kMostCells);
+  sheet.cells_x = cells[0];
+  sheet.cells_y = cells[1];
+  sheet.pattern =
+      static_cast<geometry::SheetPattern>(section.choice("pattern", kPatterns, std::size_t{1}));
+  const double facets_of_cell = sheet.pattern == geometry::SheetPattern::cross ? 4.0 : 2.0;
+  require_few(section, "cells", facets_of_cell * cells[0] * cells[1]);
+  return sheet;
+}
+
+ShapeSettings read_tube(Section& section) {
+  const double radius = section.quantity("radius", kPositiveLength);
+  const double length = section.quantity("length", kPositiveLength);
+  const auto cells = section.integers("cells", {3, 1}, kMostCells);
+  require_few(section, "cells", 2.0 * cells[0] * cells[1]);
+  return geometry::Tube{radius, length, cells[0], cells[1]};
+}
+
+ShapeSettings read_sphere(Section& section) {
+  const double radius = section.quantity("radius", kPositiveLength);
+  return SphereShape{radius,
+                     static_cast<int>(section.integer("subdivisions", 0, kMostSubdivisions))};
+}
+
+ShapeSettings read_box_shell(Section& section) {
+  BoxShape box{section.vector("size", kPositiveLength), {1, 1, 1}};
+  if (section.has("cells")) {
+    const auto cells = section.integers("cells", {1, 1, 1}, kMostCells);
+    box.cells = {cells[0], cells[1], cells[2]};
+  }
+  const Vec3 n(box.cells[0], box.cells[1], box.cells[2]);
+  require_few(section, "cells", 4.0 * (n[0] * n[1] + n[1] * n[2] + n[2] * n[0]));
+  return box;
+}
+
+ShapeSettings read_biaxial(Section& section) {
+  geometry::BiaxialGeogrid grid{};
+  grid.pitch_x = section.quantity("rib_pitch", kPositiveLength);
+  grid.pitch_y = section.quantity("bar_pitch", kPositiveLength);
+  const auto apertures = section.integers("apertures", {1, 1}, kMostCells);
+  grid.apertures_x = apertures[0];
+  grid.apertures_y = apertures[1];
+  grid.rib_divisions =
+      static_cast<int>(section.integer("divisions", 1, kMostCells, grid.rib_divisions));
+  require_few(section, "apertures", 2.0 * apertures[0] * apertures[1] * grid.rib_divisions);
+  return grid;
+}
+
+ShapeSettings read_uniaxial(Section& section) {
+  geometry::UniaxialGeogrid grid{};
+  grid.rib_pitch = section.quantity("rib_pitch", kPositiveLength);
+  grid.bar_pitch = section.quantity("bar_pitch", kPositiveLength);
+  const auto apertures = section.integers("apertures", {1, 1}, kMostCells);
+  grid.apertures_x = apertures[0];
+  grid.apertures_y = apertures[1];
+  grid.rib_divisions =
+      static_cast<int>(section.integer("divisions", 1, kMostCells, grid.rib_divisions));
+  require_few(section, "apertures", (1.0 + grid.rib_divisions) * apertures[0] * apertures[1]);
+  if (grid.bar_pitch <= grid.rib_pitch) {
+    section.complain("bar_pitch",
+                     fmt::format("{} m is not above the rib_pitch of {} m; the long side of an "
+                                 "aperture is along the ribs; exchange them, or use kind = "
+                                 "\"biaxial_geogrid\"",
+                                 grid.bar_pitch, grid.rib_pitch));
+  }
+  return grid;
+}
+
+ShapeSettings read_hexagonal(Section& section) {
+  geometry::HexagonalNet net{};
+  net.mesh_size = section.quantity("mesh_size", kPositiveLength);
+  net.twist_length = section.quantity("twist_length", kPositiveLength);
+  net.wire_height = section.quantity("wire_height", kPositiveLength);
+  const auto meshes = section.integers("meshes", {2, 1}, kMostCells);
+  net.meshes_across = meshes[0];
+  net.rows = meshes[1];
+  require_few(section, "meshes", 3.0 * meshes[0] * meshes[1]);
+  return net;
+}
+
+constexpr std::array<std::string_view, 7> kKinds = {
+    "sheet", "tube", "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid", "hexagonal_net"};
+constexpr std::array<ShapeSettings (*)(Section&), 7> kReaders = {
+    read_sheet,   read_tube,     read_sphere,   read_box_shell,
+    read_biaxial, read_uniaxial, read_hexagonal};
+
+}  // namespace
+
+std::optional<ShapeSettings> read_shape(Section section) {
+  const auto kind = section.known_choice("kind", kKinds);
+  if (!kind) return std::nullopt;
+  ShapeSettings shape = kReaders[*kind](section);
+  section.finish();
+  return shape;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/lattice.hpp"
+
+#include <array>
+#include <variant>
+
+namespace plekton::apps {
+
+/// Sphere for geometry::icosphere.
+struct SphereShape {
+  double radius;  ///< m
+  int subdivisions;
+};
+
+/// Closed box for geometry::box_shell.
+struct BoxShape {
+  geometry::Vec3 size;       ///< m
+  std::array<int, 3> cells;  ///< along each axis
+};
+
+/// What a membrane without a mesh file is made from.
+using ShapeSettings =
+    std::variant<geometry::PlaneSheet, geometry::Tube, SphereShape, BoxShape,
+                 geometry::BiaxialGeogrid, geometry::UniaxialGeogrid, geometry::HexagonalNet>;
+
+/// Whether a shape has bars only and no facets.
+inline bool is_net(const ShapeSettings& shape) noexcept {
+  return std::holds_alternative<geometry::BiaxialGeogrid>(shape) ||
+         std::holds_alternative<geometry::UniaxialGeogrid>(shape) ||
+         std::holds_alternative<geometry::HexagonalNet>(shape);
+}
+
+/// Whether a shape has no rim.
+inline bool is_closed(const ShapeSettings& shape) noexcept {
+  return std::holds_alternative<SphereShape>(shape) || std::holds_alternative<BoxShape>(shape);
+}
+
+}  // namespace plekton::apps

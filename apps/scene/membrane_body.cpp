@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scene/membrane_body.hpp"
+
+#include "geometry/mesh/import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <type_traits>
+
+namespace plekton::apps {
+namespace {
+
+using geometry::index_of;
+using geometry::Lattice;
+using geometry::Membrane;
+using geometry::Mesh;
+using geometry::NodeId;
+
+void put_in_place(std::vector<Vec3>& points, const Placement& placement) {
+  const geometry::Mat3 rotation =
+      Eigen::AngleAxisd(placement.angle, placement.axis).toRotationMatrix();
+  for (Vec3& point : points) point = rotation * (placement.scale * point) + placement.translation;
+}
+
+/// Mesh files are repaired as they are written, where facets without area are exactly that, so the
+/// lengths of the repair follow the file.
+geometry::ImportedMesh import_unscaled(const MembraneSettings& settings) {
+  const double scale = settings.placement.scale;
+  geometry::ImportOptions import{settings.repair};
+  import.repair.weld_distance /= scale;
+  import.repair.longest_hole /= scale;
+  import.repair.wrap_detail /= scale;
+  import.repair.target_edge /= scale;
+  try {
+    return geometry::import_mesh(settings.mesh, import);
+  } catch (const geometry::MeshError& error) {
+    if (scale == 1.0) throw;
+    throw geometry::MeshError(
+        fmt::format("{} (lengths here are before scaling by {})", error.what(), scale));
+  }
+}
+
+/// Whether each node is on an edge with one facet.
+std::vector<bool> rim_of(const Mesh& mesh) {
+  std::map<std::array<NodeId, 2>, int> uses;
+  for (const auto& facet : mesh.facets) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const NodeId a = facet[k], b = facet[(k + 1) % 3];
+      ++uses[{std::min(a, b), std::max(a, b)}];
+    }
+  }
+  std::vector<bool> on_rim(mesh.points.size(), false);
+  for (const auto& [edge, count] : uses) {
+    if (count != 1) continue;
+    for (const NodeId node : edge) on_rim[index_of(node)] = true;
+  }
+  return on_rim;
+}
+
+double area_of(const Mesh& mesh) {
+  double area = 0.0;
+  for (const auto& [a, b, c] : mesh.facets) {
+    const Vec3& x0 = mesh.points[index_of(a)];
+    area += 0.5 * (mesh.points[index_of(b)] - x0).cross(mesh.points[index_of(c)] - x0).norm();
+  }
+  return area;
+}
+
+MembraneBody body_of(Mesh mesh, const MembraneSettings& settings, std::size_t first_node) {
+  put_in_place(mesh.points, settings.placement);
+  return {geometry::make_membrane(mesh, {settings.thickness, first_node}), rim_of(mesh),
+          area_of(mesh), std::nullopt};
+}
+
+/// Bars that are shorter than thick meet others than their neighbours.
+void warn_about_bars(Membrane& net, const Lattice& lattice, double thickness) {
+  std::size_t count = 0;
+  double shortest = thickness;
+  for (const geometry::LatticeEdge& edge : lattice.edges) {
+    const auto [a, b] = edge.nodes;
+    const double length = (lattice.points[index_of(b)] - lattice.points[index_of(a)]).norm();
+    if (length < thickness) ++count;
+    shortest = std::min(shortest, length);
+  }
+  if (count == 0) return;
+  net.warnings.push_back(
+      fmt::format("the thickness of {} m exceeds the length of {} of {} bars (shortest {} m); use "
+                  "longer bars or a thinner net",
+                  thickness, count, lattice.edges.size(), shortest));
+}
+
+MembraneBody body_of(Lattice lattice, const MembraneSettings& settings, std::size_t first_node) {
+  Vec3 lower = lattice.points.front(), upper = lower;
+  for (const Vec3& point : lattice.points) {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  MembraneBody body;
+  // Rows and columns of a lattice share their coordinates to the last bit.
+  for (const Vec3& point : lattice.points)
+    body.on_rim.push_back(point[0] == lower[0] || point[0] == upper[0] || point[1] == lower[1] ||
+                          point[1] == upper[1]);
+  const Vec3 size = settings.placement.scale * (upper - lower);
+  body.area = size[0] * size[1];
+  put_in_place(lattice.points, settings.placement);
+  for (const geometry::Cylinder& bar :
+       geometry::cylinders_of(lattice, 0.5 * settings.thickness, first_node))
+    body.membrane.edges.push_back(bar.nodes);
+  warn_about_bars(body.membrane, lattice, settings.thickness);
+  body.membrane.nodes = std::move(lattice.points);
+  return body;
+}
+
+Mesh make(const geometry::PlaneSheet& sheet) {
+  return geometry::plane_sheet(sheet);
+}
+Mesh make(const geometry::Tube& tube) {
+  return geometry::tube(tube);
+}
+Mesh make(const SphereShape& sphere) {
+  return geometry::icosphere(sphere.radius, sphere.subdivisions);
+}
+Mesh make(const BoxShape& box) {
+  return geometry::box_shell(box.size, box.cells);
+}
+Lattice make(const geometry::BiaxialGeogrid& grid) {
+  return geometry::biaxial_geogrid(grid);
+}
+Lattice make(const geometry::UniaxialGeogrid& grid) {
+  return geometry::uniaxial_geogrid(grid);
+}
+Lattice make(const geometry::HexagonalNet& net) {
+  return geometry::hexagonal_net(net);
+}
+
+}  // namespace
+
+MembraneBody make_membrane_body(const MembraneSettings& settings, std::size_t first_node) {
+  if (settings.shape) {
+    return std::visit([&](const auto& shape) { return body_of(make(shape), settings, first_node); },
+                      *settings.shape);
+  }
+  geometry::ImportedMesh imported = import_unscaled(settings);
+  MembraneBody body = body_of(std::move(imported.mesh), settings, first_node);
+  body.report = std::move(imported.report);
+  return body;
+}
+
+}  // namespace plekton::apps

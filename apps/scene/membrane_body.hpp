@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scenario/scenario.hpp"
+#include "geometry/mesh/membrane.hpp"
+#include "geometry/mesh/report.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace plekton::apps {
+
+/// The geometry of a membrane in its place, before it is in a scene.
+struct MembraneBody {
+  geometry::Membrane membrane;  ///< without facets for a net
+  std::vector<bool> on_rim;     ///< by node: on an edge with one facet, or on a side of the
+                                ///< rectangle around a net
+  double area = 0.0;            ///< m², of the facets, or of the rectangle around a net
+  std::optional<geometry::MeshReport> report;  ///< of the import; nothing for a shape
+};
+
+/// Imports the mesh of a membrane or makes its shape, and puts it in its place.
+/// @param first_node  Number of its first node in the scene.
+/// @throws geometry::MeshError for a mesh or shape that cannot be used.
+MembraneBody make_membrane_body(const MembraneSettings& settings, std::size_t first_node);
+
+}  // namespace plekton::apps
