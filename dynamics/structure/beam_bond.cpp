@@ -20,6 +20,20 @@ Vec3 x_axis(const Quat& q) noexcept {
           2.0 * (q.x() * q.z() - q.w() * q.y())};
 }
 
+/// The shortest rotation from the x axis to a chord; half a turn about z where they are opposite.
+///
+/// For a unit direction (x, y, z) it is (1 + x, 0, -z, y), normalised. Next to x = -1 the sum
+/// cancels, so there it is taken from 1 + x = r² / (1 - x) with r² = y² + z², and all is divided by
+/// r.
+Quat frame_along(const Vec3& chord) {
+  const Vec3 direction = chord.stableNormalized();
+  const double x = direction[0], y = direction[1], z = direction[2];
+  if (x >= 0.0) return Quat(1.0 + x, 0.0, -z, y).normalized();
+  const double r = std::hypot(y, z);
+  if (r == 0.0) return {0.0, 0.0, 0.0, 1.0};
+  return Quat(r / (1.0 - x), 0.0, -z / r, y / r).normalized();
+}
+
 /// One quantity of a bond that has to be finite and above (or at) zero.
 struct Quantity {
   const char* name;
@@ -82,7 +96,7 @@ BeamBond make_beam(NodeId a, NodeId b, const NodeState& at_rest, const BeamSecti
   geometry::throw_if_any(problems);
 
   const Vec3 chord = at_rest.position[index_of(b)] - at_rest.position[index_of(a)];
-  const Quat frame(Quat::FromTwoVectors(Vec3::UnitX(), chord));
+  const Quat frame = frame_along(chord);
   bond.length = chord.norm();
   bond.rest_a = at_rest.orientation[index_of(a)].conjugate() * frame;
   bond.rest_b = at_rest.orientation[index_of(b)].conjugate() * frame;

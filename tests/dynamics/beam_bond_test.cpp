@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace plekton::test {
@@ -315,6 +316,21 @@ TEST(BeamBonds, RefuseABeamWithoutLength) {
 
   EXPECT_THROW(dynamics::make_beam(NodeId{0}, NodeId{1}, scene.state, kSection),
                std::invalid_argument);
+}
+
+TEST(BeamBond, LiesAlongItsChordHoweverNearThatIsToTheOppositeOfX) {
+  for (int exponent = 0; exponent <= 320; ++exponent) {
+    const Vec3 chord(-1.0, 0.6 * std::pow(10.0, -exponent), 0.8 * std::pow(10.0, -exponent));
+    Scene scene;
+    scene.add_node(Vec3::Zero());
+    scene.add_node(chord);
+
+    scene.add_beam(NodeId{0}, NodeId{1}, kSection, 1000.0);
+
+    // The nodes are not turned, so the rest rotation is the frame of the beam.
+    const Vec3 x_axis = scene.bonds[0].rest_a * Vec3::UnitX();
+    EXPECT_LT((x_axis - chord.normalized()).norm(), 8.0 * kEpsilon) << "1e-" << exponent;
+  }
 }
 
 }  // namespace
