@@ -68,10 +68,12 @@ struct HexagonalNet {
 /// single wires, and is twist_length + 2 wire_height long. Rows are offset by half a mesh: the
 /// first and every second row after it has meshes_across meshes, the others one less. No wire ends
 /// free.
-/// Source: shape and mesh size D of EN 10223-3 (nets are named by D and length in cm: 6x8, 8x10,
-/// 10x12; the twist has to be measured or taken from the maker); as a lattice of bars: Thoeni,
-/// Lambert, Giacomini & Sloan, Discrete modelling of hexagonal wire meshes with a stochastically
-/// distorted contact model, Computers and Geotechnics 49 (2013).
+/// Source: the mesh size D is that of makers' data sheets after EN 10223-3:2013, the distance
+/// between the axes of two consecutive twists (+16 %, -4 %); nets are named by D and length in cm
+/// (6x8, 8x10, 10x12); the twist has to be measured or taken from the maker. Nodes at the ends of
+/// the twists, joined by single wires and twists, as in Bertrand et al., Discrete element method
+/// (DEM) numerical modeling of double-twisted hexagonal mesh, Canadian Geotechnical Journal (2008),
+/// and in Thoeni et al. (2013).
 Lattice hexagonal_net(const HexagonalNet& net);
 
 /// The bars of a lattice as cylinders, in the order of its edges.
