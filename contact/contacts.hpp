@@ -45,6 +45,10 @@ class Contacts {
            ContactMaterials<Law> materials, double skin, const std::vector<bool>& meets_planes = {},
            Positions rest = {});
 
+  /// From now on the spheres' lists choose their skin by themselves (geometry/neighbours.hpp).
+  /// @param radius  m, > 0, of a usual sphere
+  void tune_skin(double radius) noexcept { neighbours_.tune_skin(radius); }
+
   /// One step: finds who touches whom, carries histories over, and asks the law. Forces are not yet
   /// added.
   void advance(const Motion& motion, std::span<const Plane> planes, double dt,

@@ -134,6 +134,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
       expected_(scene_.state.size()),
       furthest_(furthest_in_a_step(scene_)),
       pace_radius_(pace_radius(scene_.elements)) {
+  if (options.skin == 0.0 && !scene_.elements.spheres.empty()) contacts_.tune_skin(pace_radius_);
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   bonds_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_);

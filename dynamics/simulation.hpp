@@ -20,8 +20,9 @@ struct SimulationOptions {
   double time_step = 0.0;  ///< s; 0 chooses one: kSafety times the critical step, shortened where
                            ///< that falls, and while something is fast (dynamics/motion_step.hpp)
   MotionOptions motion;
-  double skin = 0.0;  ///< m, how far apart a pair may be when it is listed; 0 chooses a fifth of
-                      ///< the smallest radius
+  double skin =
+      0.0;  ///< m, how far apart a pair may be when it is listed; 0 begins with a fifth of
+  ///< the smallest radius, then follows how fast spheres move
   int threads = 1;
   bool self_contact = true;  ///< whether a structure may touch itself where it folds
 };

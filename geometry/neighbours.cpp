@@ -2,25 +2,58 @@
 #include "geometry/neighbours.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plekton::geometry {
+namespace {
+
+/// Trees follow moving boxes well, and being made anew costs several times as much as following.
+constexpr std::int64_t kListsPerTree = 16;
+
+/// What the lists cost, in steps of a dense packing of spheres, and by what share of a step more it
+/// gets when the skin grows by a radius (measured: tests/benchmarks/README.md).
+constexpr double kCostOfLists = 5.0;
+constexpr double kCostOfSkin = 0.7;
+
+}  // namespace
 
 Neighbours::Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin)
     : spheres_(spheres), surface_(&surface), skin_(skin) {}
 
 bool Neighbours::update(Positions x, ThreadPool& pool) {
+  ++steps_of_list_;
   if (!skin_.needs_rebuild(x, pool)) return false;
+  if (usual_radius_ > 0.0 && rebuild_count_ > 0) choose_skin();
   rebuild(x);
   skin_.mark_built(x);
   ++rebuild_count_;
+  steps_of_list_ = 0;
   return true;
+}
+
+/// A list of skin s lasts s / w steps, where w is twice the way of the fastest in a step. The cost
+/// kCostOfLists w / s + kCostOfSkin s / radius is least at s^2 = kCostOfLists / kCostOfSkin * w *
+/// radius.
+void Neighbours::choose_skin() {
+  const double way = skin() / steps_of_list_;
+  const double best = std::sqrt(kCostOfLists / kCostOfSkin * way * usual_radius_);
+  const double near = std::clamp(best, 0.7 * skin(), 1.4 * skin());
+  skin_.set(std::clamp(near, 0.02 * usual_radius_, 0.8 * usual_radius_));
+}
+
+void Neighbours::fit(BroadPhase& tree) {
+  if (tree.size() == boxes_.size() && rebuild_count_ % kListsPerTree != 0) {
+    tree.refit(boxes_);
+  } else {
+    tree.rebuild(boxes_);
+  }
 }
 
 void Neighbours::rebuild(Positions x) {
   const double margin = skin_.margin();
   boxes_.clear();
   for (const Sphere& sphere : spheres_) boxes_.push_back(box(sphere, x, margin));
-  sphere_tree_.rebuild(boxes_);
+  fit(sphere_tree_);
   sphere_tree_.self_pairs(sphere_pairs_);
   drop_distant_pairs(x);
 
@@ -33,7 +66,7 @@ void Neighbours::rebuild(Positions x) {
     const double radius = surface_->radius(surface_->structure_of(cell));
     boxes_.push_back(bounding_box({corners.data(), count}, radius + margin));
   }
-  cell_tree_.rebuild(boxes_);
+  fit(cell_tree_);
   sphere_tree_.pairs_with(cell_tree_, sphere_cells_);
   group_by_structure();
 }

@@ -26,6 +26,13 @@ class Neighbours {
   /// @param skin  m, >= 0; 0 makes the lists anew whenever anything moved
   Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin);
 
+  /// From now on chooses the skin anew whenever the lists are made, from how many steps the last
+  /// ones lasted: the one for which the lists and the pairs in them, which grow with the skin, cost
+  /// least together. It depends on the motion alone, not on measured times. The pairs that touch
+  /// are listed with any skin.
+  /// @param radius  m, > 0, of a usual sphere
+  void tune_skin(double radius) noexcept { usual_radius_ = radius; }
+
   /// Makes the lists anew if they have to be. @returns whether they were
   bool update(Positions x, ThreadPool& pool);
 
@@ -44,7 +51,9 @@ class Neighbours {
   std::span<const CellId> cells() const noexcept { return cells_; }
 
  private:
+  void choose_skin();
   void rebuild(Positions x);
+  void fit(BroadPhase& tree);
   /// Of the spheres whose boxes overlap, keeps those whose surfaces are at most the skin apart: as
   /// no centre moves by more than half the skin, no others can touch. A third fewer pairs to look
   /// at in every step of a dense bed.
@@ -63,6 +72,8 @@ class Neighbours {
   std::vector<NearCells> near_cells_;
   std::vector<CellId> cells_;
   std::int64_t rebuild_count_ = 0;
+  double usual_radius_ = 0.0;  ///< m; 0: the skin stays as it is
+  int steps_of_list_ = 0;      ///< updates since the lists were made
 };
 
 }  // namespace plekton::geometry

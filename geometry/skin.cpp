@@ -8,7 +8,9 @@
 
 namespace plekton::geometry {
 
-Skin::Skin(double skin) : skin_(skin) {
+namespace {
+
+double checked(double skin) {
   constexpr double kSmallestSkin = 1e-100;
   if (!std::isfinite(skin) || skin < 0.0 || (skin > 0.0 && skin < kSmallestSkin)) {
     std::ostringstream message;
@@ -16,6 +18,16 @@ Skin::Skin(double skin) : skin_(skin) {
             << kSmallestSkin << " m; a tenth of the smallest radius is a good start";
     throw std::invalid_argument(message.str());
   }
+  return skin;
+}
+
+}  // namespace
+
+Skin::Skin(double skin) : skin_(checked(skin)) {}
+
+void Skin::set(double skin) {
+  skin_ = checked(skin);
+  built_ = false;
 }
 
 void Skin::mark_built(Positions x) {

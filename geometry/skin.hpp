@@ -33,6 +33,10 @@ class Skin {
   /// squares would vanish.
   explicit Skin(double skin);
 
+  /// Takes another skin, from the next list on: mark_built() has to follow.
+  /// @throws as the constructor
+  void set(double skin);
+
   /// How far to grow every box on all sides (m): half the skin.
   double margin() const noexcept { return 0.5 * skin_; }
 

@@ -88,11 +88,13 @@ void add_grains(Scene& scene, double radius, int columns, double half_width) {
   }
 }
 
-/// A given step is the one that is chosen at the start.
+/// A given step is the one that is chosen at the start. The skin stays as it is: one that is chosen
+/// grows now and then, and lists that have never been as long with it.
 Simulation simulation_of(Scene scene, int threads, bool chooses_step) {
   dynamics::SimulationOptions options;
   options.motion.gravity = Vec3(0.0, 0.0, -9.81);
   options.threads = threads;
+  options.skin = 0.2 * scene.elements.spheres.front().radius;
   if (!chooses_step) options.time_step = Simulation(scene, options).time_step();
   return Simulation(std::move(scene), options);
 }

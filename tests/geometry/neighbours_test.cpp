@@ -105,6 +105,31 @@ TEST(Neighbours, ListEveryPairThatTouchesWhileAllNodesMove) {
   }
 }
 
+TEST(Neighbours, ListEveryPairThatTouchesWithASkinThatFollowsTheMotion) {
+  Random random(3);
+  Scene scene(random);
+  Neighbours neighbours(scene.spheres, scene.surface, 0.1);
+  neighbours.tune_skin(0.2);
+  ThreadPool pool(2);
+  int touching = 0;
+  const auto move = [&](double step, int steps) {
+    for (int i = 0; i < steps; ++i) {
+      for (Vec3& x : scene.complex.x) x += random.in_cube(step);
+      scene.complex.x[0].x() += step;  // steadily
+      neighbours.update(scene.complex.x, pool);
+      touching += expect_all_touching_listed(scene, neighbours);
+    }
+  };
+
+  move(0.02, 100);
+  const double fast_skin = neighbours.skin();
+  move(1e-3, 400);
+
+  EXPECT_GE(touching, 1000);
+  EXPECT_DOUBLE_EQ(fast_skin, 0.8 * 0.2);
+  EXPECT_LT(neighbours.skin(), 0.6 * fast_skin);
+}
+
 TEST(Neighbours, AreMadeOnceWhileNothingMoves) {
   Random random(2);
   Scene scene(random);
