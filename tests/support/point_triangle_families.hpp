@@ -28,7 +28,7 @@ enum class Family {
   integer_grid,
   degenerate,  ///< collinear or coincident corners
 };
-constexpr std::array kFamilies{Family::generic,
+inline constexpr std::array kFamilies{Family::generic,
                                Family::near_edge_plane,
                                Family::above_a_vertex,
                                Family::coplanar_near_edge,
@@ -40,7 +40,7 @@ constexpr std::array kFamilies{Family::generic,
                                Family::on_an_edge,
                                Family::integer_grid,
                                Family::degenerate};
-constexpr std::array kFamilyNames{
+inline constexpr std::array kFamilyNames{
     "generic",      "near edge plane", "above a vertex", "coplanar near edge", "needle",
     "cap",          "far from origin", "tiny",           "rotated flat grid",  "on an edge",
     "integer grid", "degenerate"};

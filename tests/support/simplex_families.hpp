@@ -34,14 +34,14 @@ enum class PairFamily {
   integer_grid,
   degenerate,  ///< collinear or coincident corners
 };
-constexpr std::array kPairFamilies{PairFamily::generic,       PairFamily::distant,
+inline constexpr std::array kPairFamilies{PairFamily::generic,       PairFamily::distant,
                                    PairFamily::near_parallel, PairFamily::parallel_far_away,
                                    PairFamily::length_ratio,  PairFamily::needles,
                                    PairFamily::caps,          PairFamily::coplanar,
                                    PairFamily::touching,      PairFamily::crossing,
                                    PairFamily::small_gap,     PairFamily::tiny,
                                    PairFamily::integer_grid,  PairFamily::degenerate};
-constexpr std::array kPairFamilyNames{
+inline constexpr std::array kPairFamilyNames{
     "generic",   "distant", "near parallel", "parallel at 1e6", "length ratio",
     "needles",   "caps",    "coplanar",      "touching",        "crossing",
     "small gap", "tiny",    "integer grid",  "degenerate"};
