@@ -75,7 +75,7 @@ MembraneBody body_of(Mesh mesh, const MembraneSettings& settings, std::size_t fi
           area_of(mesh), std::nullopt};
 }
 
-/// Bars that are shorter than thick meet others than their neighbours.
+/// A bar that is shorter than thick overlaps more bars than its neighbours.
 void warn_about_bars(Membrane& net, const Lattice& lattice, double thickness) {
   std::size_t count = 0;
   double shortest = thickness;

@@ -17,8 +17,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A scenario of a membrane from box.off, written in mm; its keys begin in line 14.
-std::string scenario_with(std::string_view keys) {
+/// A scenario of a membrane from box.off, written in mm unless told; its keys begin in line 14.
+std::string scenario_with(std::string_view keys, double scale = 0.001) {
   return fmt::format(R"([simulation]
 duration = "30 ms"
 [materials.stone]
@@ -26,7 +26,7 @@ young_modulus = "20 MPa"
 friction_angle = "35 deg"
 [[membranes]]
 name = "m"
-scale = 0.001
+scale = {}
 mesh = "box.off"
 thickness = "1 mm"
 material = "stone"
@@ -34,7 +34,7 @@ young_modulus = "500 MPa"
 areal_mass = "300 g/m2"
 {}
 )",
-                     keys);
+                     scale, keys);
 }
 
 /// A box of 120 mm x 120 mm x 120 mm, each side in 3 x 3 cells, with two holes: a facet in the
@@ -68,8 +68,8 @@ class MeshKeys : public testing::Test {
     EXPECT_EQ(outcome.exit_code, kFailed) << outcome.out;
     return outcome.err;
   }
-  BuiltMembrane built(std::string_view keys) const {
-    const std::string text = scenario_with(keys);
+  BuiltMembrane built(std::string_view keys, double scale = 0.001) const {
+    const std::string text = scenario_with(keys, scale);
     return build_scene(parse_scenario(text, folder_ / "case.toml")).membranes.at(0);
   }
 
@@ -94,10 +94,10 @@ TEST_F(MeshKeys, FillHolesUpToALengthThatCountsAfterScaling) {
 }
 
 TEST_F(MeshKeys, WrapClosesTheSurfaceWithDetailsThatCountAfterScaling) {
-  const BuiltMembrane coarse = built("wrap = true");
-  const BuiltMembrane fine = built("wrap_detail = \"4 mm\"");
+  const BuiltMembrane coarse = built("wrap = true\nwrap_detail = \"20 mm\"");
+  const BuiltMembrane fine = built("wrap_detail = \"10 mm\"");
 
-  EXPECT_DOUBLE_EQ(fine.report->reshaped->wrap_detail, 4.0);  // mm, as the file
+  EXPECT_DOUBLE_EQ(fine.report->reshaped->wrap_detail, 10.0);  // mm, as the file
   EXPECT_GT(fine.facets, coarse.facets);
   // Closed: every facet has three edges, each shared by two.
   EXPECT_EQ(2 * fine.beams, 3 * fine.facets);
@@ -160,6 +160,25 @@ TEST_F(MeshKeys, RefuseValuesThatAreNoLengths) {
 TEST_F(MeshKeys, SayThatLengthsInTheMessageOfAnImportAreThoseOfTheFile) {
   EXPECT_THAT(error_of("target_edge = \"1 um\""),
               HasSubstr("(lengths here are before scaling by 0.001)"));
+}
+
+TEST_F(MeshKeys, CloseTheBagOfTheExampleAndRemeshIt) {
+  std::filesystem::copy_file(PLEKTON_SOURCE_DIR "/apps/examples/import/bag.off",
+                             folder_ / "box.off",
+                             std::filesystem::copy_options::overwrite_existing);
+
+  const BuiltMembrane open = built("", 1.0);
+  const BuiltMembrane closed = built("weld = \"1 um\"\nfill_holes = true", 1.0);
+  const BuiltMembrane even =
+      built("weld = \"1 um\"\nfill_holes = true\ntarget_edge = \"25 mm\"", 1.0);
+
+  EXPECT_EQ(open.report->changed.flipped_facets, 59U);
+  EXPECT_FALSE(open.report->after.volume);
+  EXPECT_EQ(closed.report->reshaped->holes_filled, 2U);
+  EXPECT_EQ(2 * closed.beams, 3 * closed.facets);
+  EXPECT_GT(closed.report->after.volume.value(), 0.0);
+  EXPECT_GT(even.facets, closed.facets);
+  EXPECT_EQ(2 * even.beams, 3 * even.facets);
 }
 
 }  // namespace

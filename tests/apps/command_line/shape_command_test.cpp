@@ -16,6 +16,7 @@ namespace plekton::apps {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::string_view kSheet =
     R"(kind = "sheet", width = "1 m", length = "2 m", cells = [10, 20])";
@@ -219,6 +220,30 @@ TEST_F(ShapeCommand, ChangesAShapeFromTheCommandLine) {
 
   EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("9 nodes (0 held), 16 beams, 8 facets"));
+}
+
+TEST_F(ShapeCommand, CheckBuildsEveryShapeOfTheExample) {
+  const Outcome outcome =
+      outcome_of({"check", PLEKTON_SOURCE_DIR "/apps/examples/import/generators.toml"});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("membrane hexagonal net: 53 nodes (0 held), 70 beams"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("warning")));
+}
+
+TEST_F(ShapeCommand, RunLeavesANetAtRestWhoseBarsAreShorterThanThick) {
+  // Elements of 2 mm under a thickness of 4 mm: bars overlap that are not neighbours.
+  test::write_bytes(folder_ / "case.toml",
+                    scenario_with(fmt::format("{}, divisions = 20", kBiaxial)));
+
+  const Outcome outcome =
+      outcome_of({"run", (folder_ / "case.toml").string(), "--out", (folder_ / "out").string(),
+                  "--set", "simulation.gravity=[0, 0, 0]", "--set", "simulation.duration=1 ms"});
+
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  const auto report = nlohmann::json::parse(test::bytes_of(folder_ / "out/run.json"));
+  EXPECT_EQ(report["counts"]["contacts"], 0);
+  EXPECT_LT(report["energy"]["kinetic_J"], 1e-15);
 }
 
 TEST_F(ShapeCommand, RunCatchesGrainsOnAGeogridAndLetsSmallerOnesThrough) {

@@ -38,20 +38,22 @@ bool is_read(const std::string& text, const std::filesystem::path& path) {
 }
 
 TEST(ScenarioReader, AnswersAnyTextWithAScenarioOrAnInputError) {
-  const std::filesystem::path path = PLEKTON_SOURCE_DIR "/apps/examples/catch/catch.toml";
-  const std::string original = test::bytes_of(path);
-  ASSERT_TRUE(is_read(original, path));
-  test::Random random(11);
-  int read = 0;
-  for (int i = 0; i < 3000; ++i) {
-    std::string text = mutated(original, random);
-    while (random.coin()) text = mutated(text, random);
-    if (is_read(text, path)) ++read;
-  }
+  for (const char* example : {"catch/catch.toml", "import/generators.toml"}) {
+    const auto path = std::filesystem::path(PLEKTON_SOURCE_DIR "/apps/examples") / example;
+    const std::string original = test::bytes_of(path);
+    ASSERT_TRUE(is_read(original, path));
+    test::Random random(11);
+    int read = 0;
+    for (int i = 0; i < 3000; ++i) {
+      std::string text = mutated(original, random);
+      while (random.coin()) text = mutated(text, random);
+      if (is_read(text, path)) ++read;
+    }
 
-  EXPECT_GT(read,
-            100);  // changes of comments and digits, so that valid scenarios are among the cases
-  EXPECT_LT(read, 2900);
+    // Changes of comments and digits, so that valid scenarios are among the cases.
+    EXPECT_GT(read, 100) << example;
+    EXPECT_LT(read, 2900) << example;
+  }
 }
 
 }  // namespace
