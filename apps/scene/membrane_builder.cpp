@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
@@ -18,12 +19,20 @@ using dynamics::Held;
 using geometry::index_of;
 using geometry::Membrane;
 
-/// Total length (m) of the edges.
-double edge_length(const dynamics::Scene& scene, const Membrane& membrane) {
-  double length = 0.0;
-  for (const auto& [a, b] : membrane.edges)
-    length += (scene.state.position[index_of(b)] - scene.state.position[index_of(a)]).norm();
-  return length;
+struct EdgeLengths {
+  double total = 0.0;                                         ///< m
+  double shortest = std::numeric_limits<double>::infinity();  ///< m
+};
+
+EdgeLengths edge_lengths(const dynamics::Scene& scene, const Membrane& membrane) {
+  EdgeLengths lengths;
+  for (const auto& [a, b] : membrane.edges) {
+    const double length =
+        (scene.state.position[index_of(b)] - scene.state.position[index_of(a)]).norm();
+    lengths.total += length;
+    lengths.shortest = std::min(lengths.shortest, length);
+  }
+  return lengths;
 }
 
 std::vector<bool> held_nodes(const HoldSettings& hold, const MembraneBody& body) {
@@ -77,9 +86,10 @@ double beam_modulus(double sheet_stiffness, double area, double section_area, do
 
 /// Scales, thicknesses and moduli so extreme that nothing can be computed with them.
 /// @throws InputError
-void require_computable(const BuiltMembrane& built) {
+void require_computable(const BuiltMembrane& built, double shortest_edge) {
   for (const auto& [what, value, unit] :
-       {std::tuple{"area", built.area, "m2"}, std::tuple{"mass", built.mass, "kg"},
+       {std::tuple{"length of its shortest beam", shortest_edge, "m"},
+        std::tuple{"area", built.area, "m2"}, std::tuple{"mass", built.mass, "kg"},
         std::tuple{"Young's modulus of its beams", built.young_modulus, "Pa"}}) {
     if (std::isnormal(value) && value > 0.0) continue;
     throw InputError(fmt::format(
@@ -94,7 +104,7 @@ void add_elements(const MembraneSettings& settings, const Membrane& membrane,
                   dynamics::Scene& scene, BuiltMembrane& result) {
   const double radius = 0.5 * settings.thickness;
   const double section_area = std::numbers::pi * radius * radius;
-  const double length = edge_length(scene, membrane);
+  const auto [length, shortest] = edge_lengths(scene, membrane);
   result.young_modulus = settings.young_modulus.value_or(
       beam_modulus(settings.sheet_stiffness, result.area, section_area, length));
   const double areal_mass =
@@ -104,7 +114,7 @@ void add_elements(const MembraneSettings& settings, const Membrane& membrane,
       by_edge ? settings.density.value_or(areal_mass * result.area / (section_area * length)) : 0.0;
   result.mass = by_edge ? beam_density * section_area * length : areal_mass * result.area;
 
-  require_computable(result);
+  require_computable(result, shortest);
 
   const auto material = static_cast<contact::MaterialId>(settings.material);
   const dynamics::BeamSection section =

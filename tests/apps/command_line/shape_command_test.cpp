@@ -165,7 +165,7 @@ TEST_F(ShapeCommand, ReportsEveryWrongSizeWithItsPlace) {
 
 TEST_F(ShapeCommand, RefusesSizesThatGiveNoShape) {
   const std::string_view sheet = R"(kind = "sheet", width = "1 m", length = "1 m", cells = )";
-  const std::array<std::pair<std::string, std::string_view>, 10> cases = {{
+  const std::array<std::pair<std::string, std::string_view>, 11> cases = {{
       {std::string(sheet) + "20", "cells: got 20; expected a list of 2 whole numbers"},
       {std::string(sheet) + "[1, 2, 3]", "expected a list of 2 whole numbers"},
       {std::string(sheet) + "[20000, 20000]", "cells: asks for about 8e+08 facets"},
@@ -181,6 +181,8 @@ TEST_F(ShapeCommand, RefusesSizesThatGiveNoShape) {
        "bar_pitch: 0.1 m is not above the rib_pitch of 0.2 m"},
       {R"(kind = "hexagonal_net", mesh_size = "8 cm", twist_length = "4 cm", wire_height = "3 cm", meshes = [1, 5])",
        "meshes[0]: got 1; expected a whole number from 2"},
+      {R"(kind = "hexagonal_net", mesh_size = "8 cm", twist_length = "1e-30 m", wire_height = "3 cm", meshes = [2, 1])",
+       "case.toml:10:9: membranes.m: \"m\": length of its shortest beam is 0 m"},
       {R"(kind = "biaxial_geogrid", rib_pitch = "4 cm", bar_pitch = "4 cm")",
        "apertures: missing; this key is required"},
   }};
