@@ -47,6 +47,13 @@ class StructureContacts {
   /// Largest overlap of the last step over the smaller radius.
   double largest_overlap_ratio() const noexcept { return largest_overlap_ratio_; }
 
+  /// Pairs of facets and cylinders whose cores met in the last step: overlaps beyond both radii.
+  std::size_t crossings() const noexcept {
+    return static_cast<std::size_t>(
+        std::count_if(terms_.begin(), terms_.end(),
+                      [](const auto& term) { return term.is_of_cells && term.meets; }));
+  }
+
   /// Number of patches in contact.
   std::size_t touching() const noexcept { return patches_.size(); }
 

@@ -218,6 +218,7 @@ void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) 
   work_.external += step.external;
   largest_overlap_ratio_ = std::max(largest_overlap_ratio_, contacts_.largest_overlap_ratio());
   pass_throughs_ += contacts_.with_surfaces().pass_throughs();
+  most_crossings_ = std::max(most_crossings_, contacts_.between_structures().crossings());
 }
 
 template <contact::ContactLaw Law>

@@ -70,6 +70,9 @@ class Simulation {
   /// How often so far a sphere's centre went through a facet or a cylinder: its overlap was deeper
   /// than both radii. From then on it is pushed out on the other side.
   std::int64_t pass_throughs() const noexcept { return pass_throughs_; }
+  /// The most pairs of facets and cylinders whose cores crossed in a step: structures that went
+  /// into each other by more than both radii. They are pushed apart along the shortest way.
+  std::size_t most_crossings() const noexcept { return most_crossings_; }
   /// Critical time step: of the structures and contacts as they are now, or with the contacts that
   /// may come (expected_contacts.hpp), whichever is shorter.
   CriticalStep critical_step() const;
@@ -116,6 +119,7 @@ class Simulation {
   NodalStiffness::Total initial_stiffness_;  ///< with the contacts that may come
   double largest_overlap_ratio_ = 0.0;
   std::int64_t pass_throughs_ = 0;
+  std::size_t most_crossings_ = 0;
 };
 
 template <contact::ContactLaw Law>

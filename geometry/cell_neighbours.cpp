@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/cell_neighbours.hpp"
 
-#include "geometry/nearest_points.hpp"
+#include "geometry/closest/core_pair.hpp"
 
 #include <algorithm>
 #include <array>
@@ -87,18 +87,15 @@ bool CellNeighbours::may_touch(CellId a, CellId b) const {
 /// Cells further apart than both radii and the skin cannot touch before the list is made anew: no
 /// point of theirs moves by more than half the skin.
 bool CellNeighbours::are_distant(CellId a, CellId b, Positions x) const {
-  const auto corners = [&](CellId cell) {
-    std::array<Vec3, 3> found;
-    std::size_t count = 0;
-    for (const NodeId node : surface_->nodes_of(cell)) found[count++] = x[index_of(node)];
-    return std::pair(found, count);
+  const auto core = [&](CellId cell) {
+    Core found;
+    for (const NodeId node : surface_->nodes_of(cell)) found.x[found.count++] = x[index_of(node)];
+    return found;
   };
-  const auto [x_a, count_a] = corners(a);
-  const auto [x_b, count_b] = corners(b);
   const double radii =
       surface_->radius(surface_->structure_of(a)) + surface_->radius(surface_->structure_of(b));
   const double reach = (1.0 + 1e-12) * (radii + 2.0 * skin_.margin());
-  return nearest_points({x_a.data(), count_a}, {x_b.data(), count_b}).distance > reach;
+  return closest_points(core(a), core(b)).distance > reach;
 }
 
 bool CellNeighbours::update(Positions x, ThreadPool& pool) {

@@ -167,6 +167,7 @@ class Run {
     report_.wall_time = std::chrono::duration<double>(Progress::Clock::now() - start_).count();
     report_.largest_overlap_ratio = simulation_.largest_overlap_ratio();
     report_.pass_throughs = simulation_.pass_throughs();
+    report_.most_crossings = simulation_.most_crossings();
     report_.energy = simulation_.energy();
     report_.energy_closure = report_.energy.closure();
     report_.lost_grains = lost_.total();

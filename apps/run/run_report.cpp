@@ -64,6 +64,7 @@ std::string to_json(const RunReport& report) {
   json["timing"] = timing_of(report);
   json["largest_overlap_ratio"] = report.largest_overlap_ratio;
   json["pass_throughs"] = report.pass_throughs;
+  json["most_crossings"] = report.most_crossings;
   json["dt_over_critical"] = report.dt_over_critical;
   json["largest_motion_ratio"] = report.largest_motion_ratio;
   json["energy_closure"] = report.energy_closure;

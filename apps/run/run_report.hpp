@@ -49,6 +49,7 @@ struct RunReport {
 
   double largest_overlap_ratio = 0.0;
   std::int64_t pass_throughs = 0;     ///< of grain centres through facets and cylinders
+  std::size_t most_crossings = 0;     ///< of facets and cylinders through each other, at a time
   double dt_over_critical = 0.0;      ///< the largest at any look
   double largest_motion_ratio = 0.0;  ///< likewise: motion in a step over the smallest radius
   dynamics::Energy energy;            ///< at the end

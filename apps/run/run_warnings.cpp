@@ -27,6 +27,13 @@ std::vector<std::string> warnings_about(const RunReport& report) {
         "slower grains are held",
         report.pass_throughs));
   }
+  if (report.most_crossings > 0) {
+    warnings.push_back(fmt::format(
+        "membranes went into each other by more than both thicknesses: up to {} pairs of facets or "
+        "cylinders crossed at a time; stiffer contacts, thicker membranes or slower motion keep "
+        "them apart",
+        report.most_crossings));
+  }
   if (report.energy_closure > kPoorClosure) {
     warnings.push_back(
         fmt::format("the energy balance is off by {:.2g} % of what went through, above {:.0f} %; "

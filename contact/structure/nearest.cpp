@@ -76,12 +76,12 @@ void find_flat_edge(const Simplex& simplex, unsigned corners, const Simplex& fac
 }
 
 std::optional<PairForces> edge_over_facet(const Simplex& a, const Simplex& b,
-                                          const NearestPoints& nearest,
+                                          const CoreProximity& nearest,
                                           const NormalSpring& spring) {
   std::optional<FlatEdge> flat;
   double least = kLargestTilt;
-  find_flat_edge(a, nearest.corners_a, b, true, least, flat);
-  find_flat_edge(b, nearest.corners_b, a, false, least, flat);
+  find_flat_edge(a, nearest.points.corners_a, b, true, least, flat);
+  find_flat_edge(b, nearest.points.corners_b, a, false, least, flat);
   if (!flat) return {};
   const Simplex& simplex = flat->is_of_a ? a : b;
   const Side side = flat->is_of_a ? Side::a : Side::b;
@@ -118,15 +118,15 @@ PairForces along_edges(const EdgeBesideEdge& edges, const NormalSpring& spring) 
 }
 
 std::optional<PairForces> edge_beside_edge(const Simplex& a, const Simplex& b,
-                                           const NearestPoints& nearest,
+                                           const CoreProximity& nearest,
                                            const NormalSpring& spring) {
   for (std::size_t k = 0; k < edge_count(a); ++k) {
     const EdgeOf of_a = edge_of(a, k);
-    if (!holds(of_a, nearest.corners_a) || !is_bare(a, of_a, nearest.normal)) continue;
+    if (!holds(of_a, nearest.points.corners_a) || !is_bare(a, of_a, nearest.normal)) continue;
     if (slope_of(a, of_a, nearest.normal) > kLargestTilt) continue;
     for (std::size_t m = 0; m < edge_count(b); ++m) {
       const EdgeOf of_b = edge_of(b, m);
-      if (!holds(of_b, nearest.corners_b) || !is_bare(b, of_b, nearest.normal)) continue;
+      if (!holds(of_b, nearest.points.corners_b) || !is_bare(b, of_b, nearest.normal)) continue;
       if (slope_of(b, of_b, nearest.normal) > kLargestTilt) continue;
       const auto edges = beside({corner(a, of_a.first, Side::a), corner(a, of_a.last, Side::a)},
                                 {corner(b, of_b.first, Side::b), corner(b, of_b.last, Side::b)});
@@ -138,18 +138,18 @@ std::optional<PairForces> edge_beside_edge(const Simplex& a, const Simplex& b,
 
 }  // namespace
 
-PairForces at_nearest_points(const NearestPoints& nearest, const NormalSpring& spring) {
+PairForces at_nearest_points(const CoreProximity& nearest, const NormalSpring& spring) {
   PairForces pair;
-  pair.energy = spring.energy(nearest.distance);
-  const Vec3 force = spring.force(nearest.distance) * nearest.normal;
+  pair.energy = spring.energy(nearest.signed_distance);
+  const Vec3 force = spring.force(nearest.signed_distance) * nearest.normal;
   for (std::size_t i = 0; i < 3; ++i) {
-    pair.on_a[i] = -nearest.weights_a[i] * force;
-    pair.on_b[i] = nearest.weights_b[i] * force;
+    pair.on_a[i] = -nearest.points.weights_a[static_cast<int>(i)] * force;
+    pair.on_b[i] = nearest.points.weights_b[static_cast<int>(i)] * force;
   }
   return pair;
 }
 
-PairForces nearest_part(const Simplex& a, const Simplex& b, const NearestPoints& nearest,
+PairForces nearest_part(const Simplex& a, const Simplex& b, const CoreProximity& nearest,
                         const NormalSpring& spring) {
   if (a.count > 1 && b.count > 1) {
     if (a.count == 3 && b.count == 3) {

@@ -3,7 +3,7 @@
 
 #include "contact/structure/normal_spring.hpp"
 #include "contact/structure/simplex.hpp"
-#include "geometry/nearest_points.hpp"
+#include "geometry/closest/core_pair.hpp"
 
 /// What the nearest points of two convex simplices store and how they push: phi(distance), at these
 /// points. Where the simplices are parallel the nearest points are many; each end of their overlap
@@ -19,14 +19,15 @@
 /// parallel sheets are part of the sheets' overlap and keep their nearest points.
 namespace plekton::contact::structure {
 
-using geometry::NearestPoints;
+using geometry::CoreProximity;
 
 /// Of simplices whose cores do not meet.
 /// @param nearest  their nearest points, nearer than the spring's range
-PairForces nearest_part(const Simplex& a, const Simplex& b, const NearestPoints& nearest,
+PairForces nearest_part(const Simplex& a, const Simplex& b, const CoreProximity& nearest,
                         const NormalSpring& spring);
 
-/// Of simplices of any kind: energy and force along the line of the nearest points.
-PairForces at_nearest_points(const NearestPoints& nearest, const NormalSpring& spring);
+/// Of simplices of any kind: energy and force along the line of the nearest points; of cores that
+/// meet along the shortest way out, with its length as overlap too.
+PairForces at_nearest_points(const CoreProximity& nearest, const NormalSpring& spring);
 
 }  // namespace plekton::contact::structure

@@ -21,6 +21,17 @@ std::array<bool, 3> seams_of(const geometry::Surface& surface, const Feature& fe
   return is_seam;
 }
 
+/// A facet, or a cylinder that is no side of one.
+bool is_cell(const geometry::Surface& surface, const Feature& feature) {
+  if (feature.kind == FeatureKind::edge)
+    return surface.faces_of(geometry::EdgeId{feature.id}).empty();
+  return feature.kind == FeatureKind::face;
+}
+
+geometry::Core core_of(const Simplex& simplex) {
+  return {simplex.x, simplex.count};
+}
+
 Simplex simplex_at(const geometry::FeatureNodes& nodes, const std::array<bool, 3>& is_seam,
                    geometry::Positions x) {
   Simplex simplex;
@@ -68,22 +79,24 @@ PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair
   term.is_seam_a = seams_of(surface, pair.a);
   term.is_seam_b = seams_of(surface, pair.b);
   term.weight = pair.weight;
+  term.is_of_cells = is_cell(surface, pair.a) && is_cell(surface, pair.b);
   term.first_holder = pair.first_holder;
   term.holder_count = pair.holder_count;
   return term;
 }
 
 void evaluate(PairTerm& term, const NormalSpring& spring, geometry::Positions x) {
-  term.in_range = false;
+  term.in_range = term.meets = false;
   const Simplex a = simplex_at(term.a, term.is_seam_a, x);
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
   if (is_far(a, b, spring.range())) return;
-  const NearestPoints nearest = geometry::nearest_points(corners_of(a), corners_of(b));
-  if (!(nearest.distance < spring.range())) return;
+  const CoreProximity nearest = geometry::core_proximity(core_of(a), core_of(b));
+  if (!(nearest.signed_distance < spring.range())) return;
   term.in_range = true;
-  term.overlap = spring.range() - nearest.distance;
+  term.meets = nearest.points.relation == geometry::Relation::touching_or_crossing;
+  term.overlap = spring.range() - nearest.signed_distance;
   term.forces = PairForces{};
-  if (nearest.distance < kMeeting * spring.range()) {
+  if (nearest.signed_distance < kMeeting * spring.range()) {
     add(at_nearest_points(nearest, spring), term.weight, term.forces);
     return;
   }

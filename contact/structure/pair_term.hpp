@@ -21,7 +21,9 @@ struct PairTerm {
   std::uint32_t first_holder;
   std::uint32_t holder_count;
   std::uint32_t spring;  ///< of its two structures
+  bool is_of_cells;      ///< of two facets or cylinders, not of their sides
   bool in_range = false;
+  bool meets = false;    ///< the cores touch or cross; exact
   double overlap = 0.0;  ///< m, of the nearest points
   PairForces forces;     ///< weight times those of the nearest points, plus those of the extent
 };

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 
 namespace plekton::contact::structure {
 
@@ -18,10 +17,6 @@ struct Simplex {
   std::array<bool, 3> is_seam{};  ///< side k, from corner k to k + 1: whether facets lie on both
                                   ///< sides of it; of an edge: whether facets lie on it
 };
-
-inline std::span<const Vec3> corners_of(const Simplex& simplex) noexcept {
-  return {simplex.x.data(), simplex.count};
-}
 
 /// Unit, by the order of the corners.
 inline Vec3 normal_of(const Simplex& facet) {

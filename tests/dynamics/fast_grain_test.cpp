@@ -6,7 +6,8 @@
 
 #include <random>
 
-/// A grain thrown at a thin sheet that is held: caught, or reported, at any speed and any step.
+/// A grain or a bar thrown at a thin sheet that is held: caught, or reported, at any speed and any
+/// step.
 namespace plekton::dynamics {
 namespace {
 
@@ -16,7 +17,7 @@ constexpr double kRadius = 0.005;
 constexpr double kThickness = 1e-4;
 constexpr contact::MaterialId kMaterial{0};
 
-Scene grain_above_sheet(double speed, const Vec3& start) {
+Scene held_sheet() {
   Scene scene;
   scene.materials = {{1e8, 0.3, 0.4}};
   std::vector<NodeId> nodes;
@@ -30,8 +31,27 @@ Scene grain_above_sheet(double speed, const Vec3& start) {
     scene.elements.facets.push_back({{nodes[f[0]], nodes[f[1]], nodes[f[2]]}, 0.5 * kThickness});
     scene.facet_materials.push_back(kMaterial);
   }
+  return scene;
+}
+
+Scene grain_above_sheet(double speed, const Vec3& start) {
+  Scene scene = held_sheet();
   scene.add_sphere(start, kRadius, 2500.0, kMaterial);
   scene.state.velocity.back() = Vec3(0.1 * speed, 0.0, -speed);
+  return scene;
+}
+
+/// A bar 20 mm long that points at the sheet.
+Scene bar_above_sheet(double speed, const Vec3& start) {
+  Scene scene = held_sheet();
+  constexpr double kBarRadius = 5e-4;
+  std::vector<NodeId> ends;
+  for (const Vec3& x : {start, Vec3(start + Vec3(0.004, 0.0, 0.0196))}) {
+    ends.push_back(scene.add_node(x));
+    scene.state.velocity.back() = Vec3(0.1 * speed, 0.0, -speed);
+  }
+  scene.add_cylinder(ends[0], ends[1], kBarRadius, kMaterial);
+  scene.add_beam(ends[0], ends[1], circular_section(kBarRadius, 1e9, 0.3), 2500.0);
   return scene;
 }
 
@@ -70,6 +90,39 @@ TEST(FastGrain, IsCaughtOrReportedAtAnySpeedAndAnyStep) {
   }
   EXPECT_GT(caught, 100);
   EXPECT_GT(reported, 20);
+}
+
+/// @param step  s; 0: chosen
+Outcome outcome_of_bar(double speed, double step, const Vec3& start) {
+  Simulation simulation(bar_above_sheet(speed, start),
+                        {.time_step = step, .motion = {.gravity = Vec3::Zero()}});
+  const std::size_t end = simulation.state().size() - 1;
+  try {
+    while (simulation.time() < 0.04 / speed + 1e-3) {
+      simulation.step();
+      if (simulation.most_crossings() > 0) return Outcome::reported;
+    }
+  } catch (const Diverged&) {
+    return Outcome::reported;
+  }
+  const auto& x = simulation.state().position;
+  return x[end].z() > 0.0 && x[end - 1].z() > 0.0 ? Outcome::caught : Outcome::unnoticed;
+}
+
+TEST(FastBar, IsCaughtOrReportedAtAnySpeed) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  int caught = 0, reported = 0;
+  for (int k = 0; k < 60; ++k) {
+    const double speed = std::pow(10.0, -1.0 + 5.0 * u(random));
+    const Vec3 start(0.01 * u(random), 0.01 * u(random), 0.001 + 0.002 * u(random));
+    const Outcome found = outcome_of_bar(speed, 0.0, start);
+    caught += found == Outcome::caught;
+    reported += found == Outcome::reported;
+    EXPECT_NE(found, Outcome::unnoticed) << speed << " m/s";
+  }
+  EXPECT_GT(caught, 5);
+  EXPECT_GT(reported, 5);
 }
 
 TEST(FastGrain, IsCaughtByAChosenStepAsFastAsTheContactCanHold) {

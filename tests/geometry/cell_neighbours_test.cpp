@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/cell_neighbours.hpp"
 
-#include "geometry/nearest_points.hpp"
+#include "geometry/closest/core_pair.hpp"
 
 #include <gtest/gtest.h>
 
@@ -33,12 +33,12 @@ Strip folded_strip(int squares, double length, double gap, double radius) {
 }
 
 double distance(const Surface& surface, const CellPair& pair, Positions x) {
-  const auto corners = [&](CellId cell) {
-    std::vector<Vec3> found;
-    for (const NodeId node : surface.nodes_of(cell)) found.push_back(x[index_of(node)]);
+  const auto core = [&](CellId cell) {
+    Core found;
+    for (const NodeId node : surface.nodes_of(cell)) found.x[found.count++] = x[index_of(node)];
     return found;
   };
-  return nearest_points(corners(pair.a), corners(pair.b)).distance;
+  return closest_points(core(pair.a), core(pair.b)).distance;
 }
 
 TEST(CellNeighbours, ListNoCellsThatHangTogether) {
