@@ -88,9 +88,9 @@ double beam_modulus(double sheet_stiffness, double area, double section_area, do
 /// @throws InputError
 void require_computable(const BuiltMembrane& built, double shortest_edge) {
   for (const auto& [what, value, unit] :
-       {std::tuple{"length of its shortest beam", shortest_edge, "m"},
-        std::tuple{"area", built.area, "m2"}, std::tuple{"mass", built.mass, "kg"},
-        std::tuple{"Young's modulus of its beams", built.young_modulus, "Pa"}}) {
+       {std::tuple{"area", built.area, "m2"}, std::tuple{"mass", built.mass, "kg"},
+        std::tuple{"Young's modulus of its beams", built.young_modulus, "Pa"},
+        std::tuple{"length of its shortest beam", shortest_edge, "m"}}) {
     if (std::isnormal(value) && value > 0.0) continue;
     throw InputError(fmt::format(
         "\"{}\": {} is {} {}; expected a positive number that is not extreme; check scale, "
