@@ -120,13 +120,19 @@ TEST(BallOnARoughMesh, FeelsAForceThatFollowsItsMotionWithoutAJump) {
   }
 }
 
-/// Force on a ball over the edge of two facets bent by an angle (rad): > 0 a valley, < 0 a ridge.
-TotalContact on_hinge(double angle, double range, double height) {
+/// Two facets that meet in an edge along y, bent by an angle (rad): > 0 a valley, < 0 a ridge.
+Complex bent(double angle) {
   Complex hinge;
   hinge.node(Vec3(0, -1, 0));
   hinge.node(Vec3(0, 1, 0));
   hinge.facet(0, 1, hinge.node(Vec3(std::cos(angle), 0, std::sin(angle))));
   hinge.facet(1, 0, hinge.node(Vec3(-std::cos(angle), 0, std::sin(angle))));
+  return hinge;
+}
+
+/// Force on a ball over the edge.
+TotalContact on_hinge(double angle, double range, double height) {
+  const Complex hinge = bent(angle);
   const Surface surface = hinge.surface();
   PatchFinder finder(surface);
   return total_contact(finder, Vec3(0, 0, height), range, all_cells(surface), hinge.x);
@@ -159,6 +165,44 @@ TEST(BallOnAHinge, FeelsAForceThatIsLipschitzInTheAngle) {
       // |d/da 2 (r - h cos a) cos a| <= 2 r |sin a| (2 h / r + 1) <= 6 r.
       ASSERT_LE(std::abs(force - last), 6.0 * range * step);
       last = force;
+    }
+  }
+}
+
+/// Height over a place x at which the nearest point of a hinge is at this distance.
+double height_over_hinge(double angle, double x, double distance) {
+  if (std::abs(x) < -distance * std::sin(angle))  // the edge of a ridge is nearest
+    return std::sqrt(distance * distance - x * x);
+  return std::abs(x) * std::tan(angle) + distance / std::cos(angle);
+}
+
+TEST(BallOnAHinge, FeelsAForceThatFollowsItWhenItSlidesAcrossAtAnyOfAThousandAngles) {
+  const double range = 0.2;
+  for (const double overlap : {0.001, 0.01}) {
+    for (int k = 0; k < 1000; ++k) {
+      const double angle = std::numbers::pi / 3.0 * (2.0 * k / 999.0 - 1.0);
+      const Complex hinge = bent(angle);
+      const Surface surface = hinge.surface();
+      const auto cells = all_cells(surface);
+      PatchFinder finder(surface);
+      // A term pushes with (range - d) n, whose gradient is at most 1 in size; there are three:
+      // both facets and the pass on the edge.
+      for (const int steps : {100, 1000}) {
+        Vec3 last_force = Vec3::Zero();
+        Vec3 last_centre = Vec3::Zero();
+        for (int step = 0; step <= steps; ++step) {
+          const double x = 0.15 * (2.0 * step / steps - 1.0);
+          const Vec3 centre(x, 0.1, height_over_hinge(angle, x, range - overlap));
+          const Vec3 force = total_contact(finder, centre, range, cells, hinge.x).force;
+          if (step > 0) {
+            ASSERT_LE((force - last_force).norm(),
+                      3.0 * (centre - last_centre).norm() + 64 * kEps * range)
+                << "angle " << angle << ", overlap " << overlap << ", x " << x;
+          }
+          last_force = force;
+          last_centre = centre;
+        }
+      }
     }
   }
 }
