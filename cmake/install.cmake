@@ -19,8 +19,16 @@ install(FILES ${PROJECT_BINARY_DIR}/plekton-config.cmake ${PROJECT_BINARY_DIR}/p
   DESTINATION ${package_folder})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+file(RELATIVE_PATH libraries_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+foreach(program IN ITEMS plekton plekton-geometry-check)
+  if(TARGET ${program})
+    set_target_properties(${program} PROPERTIES INSTALL_RPATH $ORIGIN/${libraries_from_program})
+  endif()
+endforeach()
 if(TARGET plekton)
-  file(RELATIVE_PATH libraries_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-  set_target_properties(plekton PROPERTIES INSTALL_RPATH $ORIGIN/${libraries_from_program})
   install(TARGETS plekton)
+endif()
+# Built with the tests; an install of a few targets goes without it.
+if(TARGET plekton-geometry-check)
+  install(TARGETS plekton-geometry-check OPTIONAL)
 endif()

@@ -38,7 +38,8 @@ Report check(const CheckOptions& options, const Kernel& kernel) {
                     examples[row]);
       } else {
         check_invariant(report.invariants[row - pair_count],
-                        share_of(options.queries / 5, report.invariants.size()), seed);
+                        share_of(options.queries / 5, report.invariants.size()), seed,
+                        examples[row]);
       }
       if (options.progress)
         options.progress(static_cast<double>(++done) / static_cast<double>(row_count));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/geometry_check/check.hpp"
 
+#include "tests/geometry_check/any_surface.hpp"
+#include "tests/geometry_check/force_check.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -98,6 +101,36 @@ TEST(GeometryCheck, FindsCrossingsThatAreReportedAsApartAndNumbersThatAreNone) {
 
   EXPECT_GT(violations(&PairTally::wrong_relations, report, "facet-facet"), 100U);
   EXPECT_GT(violations(&PairTally::not_numbers, report, "facet-facet"), 100U);
+}
+
+/// One contact for each minimum of the distance, without the passes between them.
+std::optional<Vec3> force_of_minima(const Touch& touch) {
+  const auto cells = test::cells_near(touch.surface, touch.centre, touch.range, touch.x);
+  geometry::CriticalFeatureFinder finder(touch.surface);
+  Vec3 force = Vec3::Zero();
+  for (const auto& feature : finder.find(touch.centre, touch.range, cells, touch.x)) {
+    if (feature.is_minimum()) force -= (touch.range - feature.distance) * feature.direction;
+  }
+  return force;
+}
+
+TEST(GeometryCheck, FindsForcesThatJumpOverCreases) {
+  test::Random random(8);
+  ForceTally of_minima, of_patches;
+  for (int surface = 0; surface < 400; ++surface) {
+    const test::Complex complex =
+        test::roughened(test::sheet(3), 1.0, random.signed_power(-9.0, -6.0), random);
+    test::Random same = random;
+    const ForceTally minima = check_force(complex, force_of_minima, random, 50);
+    const ForceTally patches = check_force(complex, force_of_patches, same, 50);
+    of_minima.violations += minima.violations;
+    of_patches.violations += patches.violations;
+    of_patches.trials += patches.trials;
+  }
+
+  EXPECT_GT(of_minima.violations, 10);
+  EXPECT_EQ(of_patches.violations, 0);
+  EXPECT_GT(of_patches.trials, 1000);
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 #include "tests/geometry_check/invariant_check.hpp"
 
 #include "geometry/critical_features.hpp"
-#include "tests/support/complexes.hpp"
+#include "tests/geometry_check/any_surface.hpp"
+#include "tests/geometry_check/force_check.hpp"
 #include "tests/support/contact_surfaces.hpp"
 
 #include <algorithm>
@@ -22,28 +23,7 @@ constexpr int kPointsPerSurface = 50;
 constexpr std::string_view kEuler = "sum of coefficients = Euler number";
 constexpr std::string_view kNumbering = "same features in any numbering";
 constexpr std::string_view kLattice = "same features after a lattice motion";
-
-Complex any_complex(Random& random) {
-  const Complex complex = [&]() -> Complex {
-    switch (random.integer(0, 9)) {
-      case 0:
-        return test::cube(random.integer(1, 3));
-      case 1:
-        return test::ball(random.integer(0, 1));
-      case 2:
-        return test::sheet(random.integer(1, 4));
-      case 3:
-        return test::net(random.integer(1, 3));
-      case 4:
-        return test::book({0, 90, 180});
-      case 5:
-        return test::bow_tie();
-      default:
-        return test::random_complex(random, random.coin());
-    }
-  }();
-  return random.coin() ? complex : test::rotated(complex, random.rotation());
-}
+constexpr std::string_view kForce = "force changes no faster than the ball";
 
 bool has_euler_number(const Complex& complex, Random& random, int& trials) {
   const Surface surface = complex.surface();
@@ -157,27 +137,37 @@ bool keeps_features_on_the_lattice(const Complex& complex, Random& random, int& 
 }
 
 bool holds(std::string_view name, Random& random, int& trials) {
-  if (name == kEuler) return has_euler_number(any_complex(random), random, trials);
+  if (name == kEuler) return has_euler_number(any_surface(random), random, trials);
   if (name == kNumbering)
-    return keeps_features_in_any_numbering(any_complex(random), random, trials);
+    return keeps_features_in_any_numbering(any_surface(random), random, trials);
   if (name == kLattice)
     return keeps_features_on_the_lattice(test::random_complex(random, true), random, trials);
+  if (name == kForce) {
+    const ForceTally tally =
+        check_force(any_surface(random), force_of_patches, random, kPointsPerSurface);
+    trials += tally.trials;
+    return tally.violations == 0;
+  }
   throw std::logic_error("an invariant without a check");
 }
 
 }  // namespace
 
 std::vector<InvariantTally> invariant_rows() {
-  return {{kEuler.data()}, {kNumbering.data()}, {kLattice.data()}};
+  return {{kEuler.data()}, {kNumbering.data()}, {kLattice.data()}, {kForce.data()}};
 }
 
-void check_invariant(InvariantTally& row, std::uint64_t trials, std::uint64_t seed) {
-  Random random(seed);
-  while (row.trials < trials) {
+void check_invariant(InvariantTally& row, std::uint64_t trials, std::uint64_t seed,
+                     std::vector<std::string>& examples) {
+  for (; row.trials < trials; ++seed) {
+    Random random(seed);
     int done = 0;
     if (!holds(row.name, random, done)) {
       ++row.violations;
       ++done;
+      if (examples.size() < 3)
+        examples.push_back(std::string(row.name) + ": not on the surface of seed " +
+                           std::to_string(seed));
     }
     row.trials += static_cast<std::uint64_t>(done);
   }

@@ -4,6 +4,7 @@
 #include "tests/geometry_check/tally.hpp"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace plekton::geometry_check {
@@ -12,9 +13,14 @@ namespace plekton::geometry_check {
 ///   - their coefficients add up to the Euler number of the surface, closed, open, non-manifold,
 ///     mixed, on lattices and turned;
 ///   - another numbering of nodes and cells gives the same features;
-///   - so does a motion of everything on an integer lattice.
+///   - so does a motion of everything on an integer lattice;
+///   - the force on a ball changes by no more than its motion allows (force_check.hpp).
 std::vector<InvariantTally> invariant_rows();
 
-void check_invariant(InvariantTally& row, std::uint64_t trials, std::uint64_t seed);
+/// Each surface has a seed of its own, the first one this, the others those after it.
+/// @param examples  gets the seed of the surface for each of the first violations; with that seed
+///                  and one trial it is the first again
+void check_invariant(InvariantTally& row, std::uint64_t trials, std::uint64_t seed,
+                     std::vector<std::string>& examples);
 
 }  // namespace plekton::geometry_check
