@@ -4,7 +4,6 @@
 #include "apps/run/output_folder.hpp"
 #include "dynamics/output/file.hpp"
 #include "geometry/mesh/import.hpp"
-#include "geometry/mesh/membrane.hpp"
 #include "geometry/mesh/mesh_file.hpp"
 
 namespace plekton::apps {
@@ -28,12 +27,12 @@ void write_import(const fs::path& folder, const fs::path& mesh_name,
 void import_mesh_file(const ImportArguments& arguments, std::ostream& out) {
   geometry::ImportOptions options;
   options.repair = arguments.repair;
-  geometry::ImportedMesh imported = geometry::import_mesh(arguments.mesh, options);
-  if (arguments.thickness) {
-    const auto warnings = geometry::make_membrane(imported.mesh, {*arguments.thickness}).warnings;
-    imported.report.reasons.insert(imported.report.reasons.end(), warnings.begin(), warnings.end());
-    if (!warnings.empty()) imported.report.verdict = geometry::MeshVerdict::usable_with_warnings;
-  }
+  const geometry::ImportedMesh imported = [&]() -> geometry::ImportedMesh {
+    if (!arguments.thickness) return geometry::import_mesh(arguments.mesh, options);
+    auto with_thickness =
+        geometry::import_membrane(arguments.mesh, {*arguments.thickness}, options);
+    return {std::move(with_thickness.mesh), std::move(with_thickness.report)};
+  }();
   const fs::path mesh_name = arguments.mesh.stem().string() + "-repaired.off";
   if (arguments.out) write_import(*arguments.out, mesh_name, imported);
 

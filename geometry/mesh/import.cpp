@@ -3,6 +3,8 @@
 
 #include "geometry/mesh/mesh_file.hpp"
 
+#include <utility>
+
 namespace plekton::geometry {
 
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options) {
@@ -16,6 +18,17 @@ ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions&
   if (reasons.size() == 1) throw MeshError(imported.report.source + ": " + reasons.front());
   for (const std::string& reason : reasons) message += "\n  " + reason;
   throw MeshError(message);
+}
+
+ImportedMembrane import_membrane(const std::filesystem::path& path, const MembraneOptions& membrane,
+                                 const ImportOptions& options) {
+  ImportedMesh imported = import_mesh(path, options);
+  ImportedMembrane result{std::move(imported.mesh), {}, std::move(imported.report)};
+  result.membrane = make_membrane(result.mesh, membrane);
+  const auto& warnings = result.membrane.warnings;
+  result.report.reasons.insert(result.report.reasons.end(), warnings.begin(), warnings.end());
+  if (!warnings.empty()) result.report.verdict = MeshVerdict::usable_with_warnings;
+  return result;
 }
 
 }  // namespace plekton::geometry

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/mesh/membrane.hpp"
 #include "geometry/mesh/mesh.hpp"
 #include "geometry/mesh/repair.hpp"
 #include "geometry/mesh/report.hpp"
@@ -22,5 +23,17 @@ struct ImportedMesh {
 /// @throws MeshError if the file cannot be read or holds bad numbers (as read_mesh_file), or if the
 ///         verdict is refused.
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
+
+struct ImportedMembrane {
+  Mesh mesh;
+  Membrane membrane;
+  MeshReport report;  ///< of the mesh, and of what does not go with the thickness
+};
+
+/// From a mesh file to a membrane: import_mesh(), then make_membrane(). Where the thickness, the
+/// edges and the folds do not fit together the verdict is at best usable with warnings.
+/// @throws MeshError as both do.
+ImportedMembrane import_membrane(const std::filesystem::path& path, const MembraneOptions& membrane,
+                                 const ImportOptions& options = {});
 
 }  // namespace plekton::geometry

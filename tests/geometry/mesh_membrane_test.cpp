@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/elements.hpp"
 #include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/import.hpp"
 #include "geometry/mesh/membrane.hpp"
+#include "geometry/mesh/mesh_file.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -65,6 +68,23 @@ TEST(MakeMembrane, WarnsWhenTheSheetIsThickerThanItsFoldsAreWide) {
   EXPECT_THAT(make_membrane(fold, {.thickness = 0.6}).warnings, IsEmpty());
   EXPECT_THAT(make_membrane(fold, {.thickness = 0.7}).warnings,
               ElementsAre(HasSubstr("exceeds the radius of 1 folds")));
+}
+
+TEST(ImportMembrane, GoesFromAFileToAMembraneInOneCall) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "ball.stl";
+  write_mesh_file(file, icosphere(1.0, 2));
+
+  const ImportedMembrane thin = import_membrane(file, {.thickness = 0.05, .first_node = 10});
+  const ImportedMembrane thick = import_membrane(file, {.thickness = 1.0});
+
+  EXPECT_EQ(thin.membrane.facets.size(), 320u);
+  EXPECT_EQ(thin.membrane.nodes, thin.mesh.points);
+  EXPECT_EQ(thin.report.verdict, MeshVerdict::ok);
+  EXPECT_EQ(thick.report.verdict, MeshVerdict::usable_with_warnings);
+  EXPECT_THAT(thick.report.reasons, ElementsAre(HasSubstr("exceeds the length of")));
+  EXPECT_THROW(import_membrane(file, {.thickness = 0.0}), MeshError);
+  EXPECT_THROW(import_membrane(folder.path() / "none.stl", {.thickness = 0.1}), MeshError);
 }
 
 TEST(MakeMembrane, RefusesAThicknessThatIsNoLengthAndAnEmptyMesh) {
