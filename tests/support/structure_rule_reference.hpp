@@ -151,9 +151,12 @@ inline ReferenceMeeting reference_meeting(const Body& a, const Body& b, double r
     pieces -= range - seam.foot.distance;
     --result.components;
   }
+  if (pairs.empty()) return result;
   double euler_number = 0.0;  // m, likewise
-  for (const auto& [simplex_a, weight_a] : weighted_simplices(a)) {
-    for (const auto& [simplex_b, weight_b] : weighted_simplices(b)) {
+  const auto of_a = weighted_simplices(a), of_b = weighted_simplices(b);
+  for (const auto& [simplex_a, weight_a] : of_a) {
+    for (const auto& [simplex_b, weight_b] : of_b) {
+      if (weight_a * weight_b == 0) continue;
       const double distance = reference_separation(simplex_a, a.x, simplex_b, b.x).distance;
       euler_number += weight_a * weight_b * std::max(0.0, range - distance);
     }
