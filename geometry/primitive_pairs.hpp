@@ -48,10 +48,12 @@ struct Probe {
   Core core;      ///< m
   double radius;  ///< m, >= 0
 
-  static Probe point(const Vec3& x) { return {{{x}, 1}, 0.0}; }
-  static Probe ball(const Vec3& centre, double radius) { return {{{centre}, 1}, radius}; }
+  static Probe point(const Vec3& x) { return ball(x, 0.0); }
+  static Probe ball(const Vec3& centre, double radius) {
+    return {{{centre, centre, centre}, 1}, radius};
+  }
   static Probe cylinder(const Vec3& x0, const Vec3& x1, double radius) {
-    return {{{x0, x1}, 2}, radius};
+    return {{{x0, x1, x1}, 2}, radius};
   }
   static Probe facet(const std::array<Vec3, 3>& x, double radius) { return {{x, 3}, radius}; }
 };
