@@ -4,6 +4,13 @@
 #include <numeric>
 
 namespace plekton::contact {
+namespace {
+
+/// Of the level. Shorter intervals are left out: where hundreds of features are equally far, but
+/// for rounding, each would cost as much as all others, and none pushes.
+constexpr double kShortest = 1e-12;
+
+}  // namespace
 
 std::span<const RingWeights::Share> RingWeights::find(const geometry::Surface& surface,
                                                       const Vec3& point, double range,
@@ -28,7 +35,7 @@ std::span<const RingWeights::Share> RingWeights::find(const geometry::Surface& s
 
 void RingWeights::add_interval(double lower, double upper) {
   ring_count_.push_back(-1);
-  if (!(lower < upper)) return;
+  if (!(upper - lower > kShortest * upper)) return;
   const std::uint32_t below = near_.set_level(0.5 * (lower + upper));
   const auto shares = shares_of_holes_.find(below, near_.links());
   ring_count_.back() = static_cast<int>(shares_of_holes_.hole_count(below));

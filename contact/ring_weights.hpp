@@ -50,7 +50,7 @@ class RingWeights {
   NearComplex near_;
   HarmonicShares shares_of_holes_;
   std::vector<double> sums_;     ///< m, by vertex of near_
-  std::vector<int> ring_count_;  ///< by event, in the interval above it; -1 of an empty interval
+  std::vector<int> ring_count_;  ///< by event, in the interval above it; -1 of one left out
   std::vector<int> hollows_;
   std::vector<Share> shares_;
 };
