@@ -34,13 +34,7 @@ std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
   link_passes(centre, range, x);
   join_parts();
   ring_terms_.clear();
-  if (!events_.empty()) {
-    if (has_facets_[index_of(surface_->structure_of(cells.front()))] != 0) {
-      share_rings(centre, range, cells, x);
-    } else {
-      share_rings_of_wires();
-    }
-  }
+  if (!events_.empty()) share_rings(centre, range, cells, x);
   add_terms();
   collect_patches();
   return patches_;
@@ -130,18 +124,12 @@ void PatchFinder::join_parts() {
   }
 }
 
-void PatchFinder::share_rings_of_wires() {
-  const auto weights = spanning_.find(static_cast<std::uint32_t>(vertices_.size()), links_);
-  for (const PassLinks& pass : pass_links_) {
-    weights_[pass.pass] = 1.0;  // the pass itself is no minimum
-    for (std::uint32_t i = 0; i < pass.link_count; ++i)
-      weights_[pass.pass] -= weights[pass.first_link + i];
-  }
-}
-
 void PatchFinder::share_rings(const Vec3& centre, double range,
                               std::span<const geometry::CellId> cells, Positions x) {
-  for (const RingWeights::Share& share : rings_.find(*surface_, centre, range, cells, x, events_)) {
+  const bool is_filled = has_facets_[index_of(surface_->structure_of(cells.front()))] != 0;
+  for (const RingWeights::Share& share :
+       is_filled ? rings_.find(*surface_, centre, range, cells, x, events_)
+                 : rings_.find_of_wires(*surface_, centre, range, cells, x)) {
     const NearComplex::Vertex& foot = *share.foot;
     const std::uint32_t below = vertex_below(foot.core.feature, centre, x);
     if (below == kOutOfRange) continue;
@@ -152,6 +140,7 @@ void PatchFinder::share_rings(const Vec3& centre, double range,
           {root_of(below), {foot.core, foot.normal, foot.distance, share.weight}});
     }
   }
+  if (!is_filled) return;
   for (std::size_t i = 0; i < events_.size(); ++i)
     weights_[events_[i].vertex] -= rings_.hollows()[i];
 }

@@ -27,8 +27,8 @@
 /// and part, because each of these is an event in level alone; shares at one level only, or at the
 /// end of the range, jump by up to half a contact. With a linear law the weights are exact: the sum
 /// of weight * overlap is the integral of the number of pieces over the levels. A structure without
-/// facets has no fillings; its passes get the weights of the last level, which depend on the
-/// position continuously already and cost less.
+/// facets has no fillings; its rings are shared as at the last level, which depends on the position
+/// continuously already and costs less.
 ///
 /// Between two events the shares are taken at the middle. This is no gradient of a potential: the
 /// potential of counted pieces has kinks where two passes of a ring tie, and its force jumps there.
@@ -85,7 +85,6 @@ class PatchFinder {
   }
   std::uint32_t root_of(std::uint32_t vertex) const noexcept;
   void join_parts();
-  void share_rings_of_wires();
   void share_rings(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
                    Positions x);
   void add_term(std::uint32_t root, const PatchTerm& term);
@@ -95,7 +94,6 @@ class PatchFinder {
   const geometry::Surface* surface_;
   geometry::CriticalFeatureFinder critical_;
   std::vector<char> has_facets_;  ///< by structure
-  SpanningWeights spanning_;
   RingWeights rings_;
   std::vector<Patch> patches_;
   std::vector<PatchTerm> terms_;

@@ -33,6 +33,21 @@ std::span<const RingWeights::Share> RingWeights::find(const geometry::Surface& s
   return shares_;
 }
 
+std::span<const RingWeights::Share> RingWeights::find_of_wires(
+    const geometry::Surface& surface, const Vec3& point, double range,
+    std::span<const geometry::CellId> cells, Positions x) {
+  near_.build(surface, point, range, cells, x);
+  const std::uint32_t vertices = near_.set_level(range);
+  const auto weights = spanning_.find(vertices, near_.links());
+  sums_.assign(vertices, 0.0);
+  for (std::size_t i = 0; i < weights.size(); ++i) sums_[near_.links()[i].a] += 1.0 - weights[i];
+  shares_.clear();
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    if (sums_[i] != 0.0) shares_.push_back({&near_.vertices()[i], sums_[i]});
+  }
+  return shares_;
+}
+
 void RingWeights::add_interval(double lower, double upper) {
   ring_count_.push_back(-1);
   if (!(upper - lower > kShortest * upper)) return;

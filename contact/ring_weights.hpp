@@ -39,6 +39,13 @@ class RingWeights {
                               std::span<const geometry::CellId> cells, Positions x,
                               std::span<const RingEvent> events);
 
+  /// The same for a structure without facets, whose rings nothing fills: the shares of the last
+  /// level instead of the integral, which change continuously with the position already and cost
+  /// less.
+  std::span<const Share> find_of_wires(const geometry::Surface& surface, const Vec3& point,
+                                       double range, std::span<const geometry::CellId> cells,
+                                       Positions x);
+
   /// By event of the last call: how many hollows it closes. The top that shuts the last opening of
   /// a closed surface fills no ring, and no piece begins with it.
   std::span<const int> hollows() const noexcept { return hollows_; }
@@ -49,6 +56,7 @@ class RingWeights {
 
   NearComplex near_;
   HarmonicShares shares_of_holes_;
+  SpanningWeights spanning_;
   std::vector<double> sums_;     ///< m, by vertex of near_
   std::vector<int> ring_count_;  ///< by event, in the interval above it; -1 of one left out
   std::vector<int> hollows_;

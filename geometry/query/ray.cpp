@@ -19,11 +19,12 @@ std::optional<RayHit> hit(const Ray& ray, const PlacedSurface& on, CellId cell) 
   constexpr double kUlp = std::numeric_limits<double>::epsilon();
   const double speed = ray.direction.norm();
   if (!(speed > 0.0) || !std::isfinite(speed) || !ray.origin.allFinite()) return std::nullopt;
+  if (!(ray.t_end >= 0.0)) return std::nullopt;
   double t = 0.0;
   for (int step = 0; step < kMostSteps; ++step) {
     const Vec3 point = ray.origin + t * ray.direction;
     const Proximity near = proximity(Probe::point(point), on, cell);
-    const double reached = 4.0 * kUlp * (near.arm_b + t * speed);
+    const double reached = kUlp * (4.0 * near.arm_b + 2.0 * t * speed + ray.origin.norm());
     if (near.gap <= reached) return hit_at(t, point, near, cell);
     const double approach = near.normal.dot(ray.direction);  // how fast the gap closes
     if (!(approach > 0.0)) return std::nullopt;

@@ -11,7 +11,7 @@ namespace plekton::geometry {
 /// The points origin + t direction, 0 <= t <= t_end.
 struct Ray {
   Vec3 origin;     ///< m
-  Vec3 direction;  ///< of any length but 0; t counts in its length
+  Vec3 direction;  ///< of a length from 1e-150 to 1e150; t counts in it
   double t_end = std::numeric_limits<double>::infinity();
 };
 
@@ -27,10 +27,12 @@ struct RayHit {
 /// Where a ray enters a cell: a capsule, or a plate with rounded rims. It is found by Newton's
 /// method on the distance from the core, which is convex along a line, so the steps never pass the
 /// entry and the feature at its end is the exact one. The distance of the point from the core is
-/// within a few ulps of (radius + the way of the ray) of the radius; rays that graze within about
+/// within a few ulps of (radius + the way of the ray + the distance of its origin from that of the
+/// coordinates) of the radius; rays that graze within about
 /// that distance may or may not hit. Of an origin on the core itself the normal is perpendicular to
 /// the feature.
-/// @returns nothing if the ray misses, has no direction, or its numbers are not finite
+/// @returns nothing if the ray misses, ends before it begins, has no direction, or its numbers are
+/// not finite
 std::optional<RayHit> hit(const Ray& ray, const PlacedSurface& on, CellId cell) noexcept;
 
 }  // namespace plekton::geometry

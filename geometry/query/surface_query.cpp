@@ -19,8 +19,12 @@ Box box_of_probe(const Probe& probe, double margin) {
 /// @throws std::invalid_argument for numbers that no distance can be taken of
 void check_probe(const Probe& probe) {
   std::ostringstream problems;
-  if (!(probe.radius >= 0.0) || !std::isfinite(probe.radius))
-    problems << "the probe has radius " << probe.radius << " m; it must be finite and at least 0\n";
+  if (probe.core.count < 1 || probe.core.count > 3) {
+    problems << "the probe has " << probe.core.count << " corners; expected 1, 2 or 3\n";
+    throw_if_any(problems);
+  }
+  if (!(probe.radius >= 0.0 && probe.radius < kLargestCoordinate))
+    problems << "the probe has radius " << probe.radius << " m; expected from 0 to below 1e75\n";
   for (const Vec3& corner : probe.core.corners()) {
     if (!(corner.cwiseAbs().maxCoeff() < kLargestCoordinate && corner.allFinite())) {
       problems << "the probe has a corner at (" << corner.transpose()

@@ -184,6 +184,24 @@ TEST(GrainOnANet, FeelsAForceThatFollowsItsMotionWithoutAJump) {
   }
 }
 
+TEST(GrainOnANet, FeelsNoJumpWhereItCrossesTheRimOfTheNet) {
+  const double range = 1.05;
+  for (const double aperture : {0.5, 0.3, 0.2}) {
+    const int n = static_cast<int>(2.0 / aperture);
+    const Complex complex = centred(net(n), n, aperture);
+    const double rim = aperture * (n - n / 2);
+    for (const double overlap : {0.01, 0.05}) {
+      for (const double x : {0.0, 0.13, 0.5}) {
+        SCOPED_TRACE(::testing::Message()
+                     << "aperture " << aperture << ", overlap " << overlap << ", x " << x);
+        expect_no_jump(complex, range, overlap,
+                       Vec3(x * aperture, rim - 0.3 * aperture, range - overlap),
+                       Vec3(x * aperture, rim + 0.3 * aperture, range - overlap));
+      }
+    }
+  }
+}
+
 TEST(GrainOnAPlateWithAHole, FeelsAForceThatFollowsItsMotionWithoutAJump) {
   const double range = 1.05;
   for (const int corners : {3, 4, 6, 7, 12, 24, 48}) {

@@ -126,5 +126,30 @@ TEST(FirstHit, IsWhereTheRayEntersTheThickSurface) {
   }
 }
 
+TEST(Hit, IsNotMissedFarFromTheOrigin) {
+  const std::vector<Cylinder> wire{{{NodeId{0}, NodeId{1}}, 0.1}};
+  const Surface surface(wire, {}, 2);
+  test::Random random(11);
+  for (const double far : {0.0, 1e3, 1e5, 1e7}) {
+    for (int trial = 0; trial < 5000; ++trial) {
+      const Vec3 middle = far * random.direction();
+      const Vec3 half = random.in_cube(1.0);
+      const std::vector<Vec3> x{middle - half, middle + half};
+      const Vec3 origin = middle + 3.0 * random.direction();
+      const auto found = hit({origin, middle - origin}, {surface, x}, CellId{0});
+      ASSERT_TRUE(found.has_value()) << far << " m, trial " << trial;
+      ASSERT_LE(found->t, 1.0);
+    }
+  }
+}
+
+TEST(Hit, IsNoneOfARayThatEndsBeforeItBegins) {
+  const std::vector<Cylinder> wire{{{NodeId{0}, NodeId{1}}, 0.1}};
+  const Surface surface(wire, {}, 2);
+  const std::vector<Vec3> x{Vec3(-1, 0, 0), Vec3(1, 0, 0)};
+  EXPECT_TRUE(hit({Vec3::Zero(), Vec3::UnitZ(), 0.0}, {surface, x}, CellId{0}).has_value());
+  EXPECT_FALSE(hit({Vec3::Zero(), Vec3::UnitZ(), -1.0}, {surface, x}, CellId{0}).has_value());
+}
+
 }  // namespace
 }  // namespace plekton::geometry

@@ -163,6 +163,9 @@ TEST(SurfaceQuery, RefusesProbesThatItCannotUse) {
 
   EXPECT_THROW((void)query.nearest(Probe::point(Vec3(nan, 0, 0))), std::invalid_argument);
   EXPECT_THROW((void)query.within(Probe::ball(Vec3::Zero(), -1.0), 1.0), std::invalid_argument);
+  Probe empty = Probe::point(Vec3::Zero());
+  empty.core.count = 0;
+  EXPECT_THROW((void)query.nearest(empty), std::invalid_argument);
   EXPECT_THROW((void)query.nearest(Probe::cylinder(Vec3::Zero(), Vec3(0, 1e90, 0), 1.0)),
                std::invalid_argument);
   EXPECT_THROW((void)query.nearest(std::vector{Probe::ball(Vec3::Zero(), nan)}, pool),
