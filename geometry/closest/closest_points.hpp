@@ -29,8 +29,9 @@ namespace plekton::geometry {
 struct ClosestPoints {
   Vec3 weights_a;  ///< of the corners of a: each >= 0, sum 1, 0 for corners that do not exist
   Vec3 weights_b;
-  Vec3 separation;     ///< m, from the point on a to that on b; zero if the cores meet
-  double distance;     ///< m; relative error at most 1e-12; 0 if the cores meet
+  Vec3 separation;  ///< m, from the point on a to that on b, right to 1e-12 of its length; zero if
+                    ///< they meet
+  double distance;  ///< m; relative error at most 1e-12; 0 if the cores meet
   unsigned corners_a;  ///< bit k: corner k spans the lowest feature of a that holds the point
   unsigned corners_b;
   Relation relation;

@@ -85,8 +85,9 @@ Vec3 part_across(const Vec3& w, const Vec3& v, double v_squared) {
 
 /// Of two lines with the common perpendicular inside both sides. Everything is taken across the
 /// longer side v: there the other one is u' and the way between their starts w', the parameter s =
-/// w'.u' / u'.u' is a least-squares fit and w' - s u' its residual. However small the angle, and
-/// however wrong s may be for it, the residual is as accurate as u' and w': a few ulps of the size.
+/// w'.u' / u'.u' is a least-squares fit and w' - s u' its residual. Its length is as accurate as u'
+/// and w', a few ulps of the size, but its direction is only perpendicular to u', so it is off by
+/// the error of u' over the length of u'. Sides whose angle is below kShortest get exact points.
 /// Where s leads past an end of v the points face each other at that end.
 Points side_side(Corners a, Corners b, const Decision& decision) {
   const Carriers& carriers = decision.carriers;
@@ -109,8 +110,14 @@ Points side_side(Corners a, Corners b, const Decision& decision) {
   if (t != free_t) s = std::clamp((t * v + w).dot(u) / uu, 0.0, 1.0);
   Points points{side_weights(carriers.a, s), side_weights(carriers.b, t), residual};
   const double size = std::sqrt(std::max({uu, vv, w.squaredNorm()}));
-  if (is_short(points.separation.norm(), size, decision.relation))
+  const bool is_slight = across < kShortest * kShortest * uu;
+  if (is_short(points.separation.norm(), size, decision.relation) || is_slight)
     points.separation = exact_part_along_normal({a0, b0}, {a0, a1}, {b0, b1});
+  if (is_slight) {
+    const Vec3 shares = exact_shares({a0, b0}, {a0, a1}, {b0, b1});
+    points.weights_a = side_weights(carriers.a, shares[1]);
+    points.weights_b = side_weights(carriers.b, -shares[2]);
+  }
   return points;
 }
 

@@ -32,7 +32,7 @@ TEST(GeometryCheck, FindsNothingWrongWithTheKernel) {
 
   EXPECT_EQ(report.violations(), 0U);
   EXPECT_TRUE(report.examples.empty());
-  EXPECT_EQ(report.pairs.size(), 6U * 14U + 8U);
+  EXPECT_EQ(report.pairs.size(), 6U * 15U + 8U);
 }
 
 TEST(GeometryCheck, SeesTheSameOnAnyNumberOfThreads) {

@@ -31,20 +31,29 @@ enum class PairFamily {
   crossing,           ///< a corner of one behind the face of the other
   small_gap,          ///< a distance of 1e-12 to 1e-4 of the size
   tiny,               ///< size 1e-9
+  slightly_crossed,   ///< sides over each other, at an angle of 1e-9 to 1e-2
   integer_grid,
   degenerate,  ///< collinear or coincident corners
 };
-inline constexpr std::array kPairFamilies{PairFamily::generic,       PairFamily::distant,
-                                   PairFamily::near_parallel, PairFamily::parallel_far_away,
-                                   PairFamily::length_ratio,  PairFamily::needles,
-                                   PairFamily::caps,          PairFamily::coplanar,
-                                   PairFamily::touching,      PairFamily::crossing,
-                                   PairFamily::small_gap,     PairFamily::tiny,
-                                   PairFamily::integer_grid,  PairFamily::degenerate};
+inline constexpr std::array kPairFamilies{PairFamily::generic,
+                                          PairFamily::distant,
+                                          PairFamily::near_parallel,
+                                          PairFamily::parallel_far_away,
+                                          PairFamily::length_ratio,
+                                          PairFamily::needles,
+                                          PairFamily::caps,
+                                          PairFamily::coplanar,
+                                          PairFamily::touching,
+                                          PairFamily::crossing,
+                                          PairFamily::small_gap,
+                                          PairFamily::tiny,
+                                          PairFamily::slightly_crossed,
+                                          PairFamily::integer_grid,
+                                          PairFamily::degenerate};
 inline constexpr std::array kPairFamilyNames{
-    "generic",   "distant", "near parallel", "parallel at 1e6", "length ratio",
-    "needles",   "caps",    "coplanar",      "touching",        "crossing",
-    "small gap", "tiny",    "integer grid",  "degenerate"};
+    "generic",   "distant", "near parallel",    "parallel at 1e6", "length ratio",
+    "needles",   "caps",    "coplanar",         "touching",        "crossing",
+    "small gap", "tiny",    "slightly crossed", "integer grid",    "degenerate"};
 
 template <std::size_t kCountA, std::size_t kCountB>
 class SimplexFamilies {
@@ -78,6 +87,8 @@ class SimplexFamilies {
         return near_touch(std::pow(10.0, random_.uniform(-12.0, -4.0)));
       case PairFamily::tiny:
         return scaled(draw(kPairFamilies[random_.index(8)]), 1e-9);
+      case PairFamily::slightly_crossed:
+        return slightly_crossed();
       case PairFamily::integer_grid:
         return on_grid(random_.integer(1, 4));
       case PairFamily::degenerate:
@@ -180,6 +191,29 @@ class SimplexFamilies {
     Vec3 across = random_.direction();
     if constexpr (kCountA > 1) across = across.cross(pair.a[1] - pair.a[0]).normalized();
     return moved(pair, point_of(pair.a) - point_of(pair.b) + gap * across);
+  }
+
+  /// First side along a direction through a point, the rest behind it.
+  template <std::size_t kCount>
+  void lay(std::array<Vec3, kCount>& x, const Vec3& at, const Vec3& along, const Vec3& behind) {
+    x[0] = at;
+    if constexpr (kCount > 1) {
+      x[0] = at - random_.uniform(0.1, 1.0) * along;
+      x[1] = at + random_.uniform(0.1, 1.0) * along;
+    }
+    if constexpr (kCount > 2)
+      x[2] = at + random_.uniform(-1.0, 1.0) * along + random_.uniform(0.1, 1.0) * behind;
+  }
+  Pair slightly_crossed() {
+    const Mat3 frame = random_.rotation();
+    const double angle = std::pow(10.0, random_.uniform(-9.0, -2.0));
+    const Vec3 along_b = std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1);
+    const Vec3 at = random_.in_cube(1.0);
+    const Vec3 up = frame.col(2);
+    Pair pair;
+    lay(pair.a, at, frame.col(0), -up);
+    lay(pair.b, at + std::pow(10.0, random_.uniform(-3.0, 0.0)) * up, along_b, up);
+    return pair;
   }
 
   Pair on_grid(int half) {
