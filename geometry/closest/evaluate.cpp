@@ -18,7 +18,7 @@ namespace {
 constexpr double kShortest = 0x1p-8;
 
 std::size_t first_of(unsigned corners) {
-  return static_cast<std::size_t>(std::countr_zero(corners));
+  return static_cast<std::size_t>(std::countr_zero(corners)) & 3U;  // never 32: there is a corner
 }
 std::size_t last_of(unsigned corners) {
   return static_cast<std::size_t>(std::bit_width(corners)) - 1;
