@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the small valid files that the fuzzers start from: DIR/<format>/*, one folder for each fuzzer.
+"""Writes the small valid files that the fuzzers start from, DIR/<fuzzer>/*, and the words of each format, DIR/<fuzzer>.dict.
 
 Usage: python3 make_corpus.py DIR
 """
@@ -67,60 +67,102 @@ def gmsh():
     return {"2.2.msh": old, "4.1.msh": new}
 
 
+VTP_ARRAYS = {"points": ("Float32", 3, [x for p in POINTS for x in p]),
+              "connectivity": ("Int64", 1, [i for p in POLYGONS for i in p]),
+              "offsets": ("Int64", 1, [sum(map(len, POLYGONS[:k + 1])) for k in range(len(POLYGONS))])}
+
+
+def vtp_file(array, attributes="", appended=b"", cells="Polys"):
+    """A file of one piece; array(name) is the tag of an array."""
+    counts = "".join(f' NumberOf{kind}="{5 if kind == cells else 0}"' for kind in ("Verts", "Lines", "Strips", "Polys"))
+    return (f'<?xml version="1.0"?>\n<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian"{attributes}>\n'
+            f'<PolyData><Piece NumberOfPoints="5"{counts}>\n<Points>{array("points")}</Points>\n'
+            f'<{cells}>{array("connectivity")}{array("offsets")}</{cells}>\n</Piece></PolyData>').encode() + appended + b"</VTKFile>\n"
+
+
+def vtp_array(name, form, inside="", extra=""):
+    kind, components, _ = VTP_ARRAYS[name]
+    return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="{form}"{extra}>{inside}</DataArray>'
+
+
+def vtp_stored(name, packed):
+    """The parts in which an array is stored; base64 encodes each on its own."""
+    kind, _, numbers = VTP_ARRAYS[name]
+    data = struct.pack(f"<{len(numbers)}{'f' if kind == 'Float32' else 'q'}", *numbers)
+    if not packed:
+        return [struct.pack("<I", len(data)) + data]
+    block = zlib.compress(data)
+    return [struct.pack("<4I", 1, len(data), 0, len(block)), block]
+
+
+def base64_of(parts):
+    return b"".join(base64.b64encode(part) for part in parts)
+
+
 def vtp():
-    flat = [x for p in POINTS for x in p]
-    corners = [i for p in POLYGONS for i in p]
-    ends, end = [], 0
-    for p in POLYGONS:
-        end += len(p)
-        ends.append(end)
-    arrays = {"points": struct.pack("<15f", *flat), "connectivity": struct.pack(f"<{len(corners)}q", *corners),
-              "offsets": struct.pack(f"<{len(ends)}q", *ends)}
-
-    def text(array_of, attributes="", tail=""):
-        return (f'<?xml version="1.0"?>\n<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt32"{attributes}>\n'
-                f'<PolyData><Piece NumberOfPoints="5" NumberOfPolys="5" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0">\n'
-                f'<Points>{array_of("points", "Float32", 3)}</Points>\n<Polys>{array_of("connectivity", "Int64", 1)}'
-                f'{array_of("offsets", "Int64", 1)}</Polys>\n</Piece></PolyData>{tail}\n</VTKFile>\n').encode()
-
-    def array(name, kind, components, form, inside, extra=""):
-        return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="{form}"{extra}>{inside}</DataArray>'
-
-    numbers = {"points": flat, "connectivity": corners, "offsets": ends}
-    with_length = {name: struct.pack("<I", len(data)) + data for name, data in arrays.items()}
-
-    def packed(data):
-        block = zlib.compress(data)
-        return base64.b64encode(struct.pack("<4I", 1, len(data), 0, len(block))) + base64.b64encode(block)
-
-    offsets, appended = {}, b""
-    for name, data in with_length.items():
-        offsets[name] = len(appended)
-        appended += data
-    raw = text(lambda n, k, c: array(n, k, c, "appended", "", f' offset="{offsets[n]}"'), "", "@")
-    return {
-        "text.vtp": text(lambda n, k, c: array(n, k, c, "ascii", " ".join(str(x) for x in numbers[n]))),
-        "base64.vtp": text(lambda n, k, c: array(n, k, c, "binary", base64.b64encode(with_length[n]).decode())),
-        "zlib.vtp": text(lambda n, k, c: array(n, k, c, "binary", packed(arrays[n]).decode()),
-                         ' compressor="vtkZLibDataCompressor"'),
-        "raw.vtp": raw.replace(b"@", b'<AppendedData encoding="raw">_' + appended + b"</AppendedData>"),
-    }
+    files = {}
+    for cells in ("Polys", "Strips"):
+        files[f"text_{cells}.vtp"] = vtp_file(
+            lambda name: vtp_array(name, "ascii", " ".join(str(x) for x in VTP_ARRAYS[name][2])), cells=cells)
+    for packed in (False, True):
+        attributes = ' header_type="UInt32"' + (' compressor="vtkZLibDataCompressor"' if packed else "")
+        kind = "zlib" if packed else "plain"
+        files[f"{kind}_inline.vtp"] = vtp_file(
+            lambda name: vtp_array(name, "binary", base64_of(vtp_stored(name, packed)).decode()), attributes)
+        for encoding, encoded in (("raw", b"".join), ("base64", base64_of)):
+            offsets, appended = {}, b""
+            for name in VTP_ARRAYS:
+                offsets[name] = len(appended)
+                appended += encoded(vtp_stored(name, packed))
+            files[f"{kind}_appended_{encoding}.vtp"] = vtp_file(
+                lambda name: vtp_array(name, "appended", extra=f' offset="{offsets[name]}"'), attributes,
+                f'<AppendedData encoding="{encoding}">_'.encode() + appended + b"</AppendedData>")
+    return files
 
 
 def imports():
-    """The first byte chooses the repairs."""
+    """Two bytes before the file: the reader and the repairs, as import.cpp takes them."""
     broken = lines(("OFF",), (6, 6, 0), *POINTS, (0, 0, 0), *[(3, *f) for f in FACETS], (3, 5, 1, 4), (3, 0, 0, 1))
-    return {f"{choice}.bin": bytes([choice]) + data for choice in (0, 1, 3, 7, 9, 15) for data in (off()["pyramid.off"], broken)}
+    files = {f"broken_{repairs}.bin": bytes([0, repairs]) + broken for repairs in (0, 1, 3, 7, 9, 15, 17, 31)}
+    for reader, maker in enumerate((off, obj, stl, ply, gmsh, vtp)):
+        for name, content in maker().items():
+            files[f"{name}.bin"] = bytes([reader, 31]) + content
+            files[f"detected_{name}.bin"] = bytes([6, 1]) + content
+    return {name: content for name, content in files.items() if len(content) <= 2048}
+
+
+WORDS = {
+    "off": "OFF COFF NOFF CNOFF STOFF # nan inf 1e999 1e-999 -1 1e75",
+    "obj": "v vt vn f fo l # \\ / // -1 nan 1e999",
+    "stl": "solid facet normal outer loop vertex endloop endfacet endsolid nan 1e999",
+    "ply": "ply format ascii binary_little_endian binary_big_endian 1.0 element vertex face tristrips property list char uchar "
+           "short ushort int uint float double x y z vertex_indices vertex_index comment obj_info end_header",
+    "gmsh": "$MeshFormat $EndMeshFormat $Nodes $EndNodes $Elements $EndElements $PhysicalNames $EndPhysicalNames 2.2 4.1 "
+            "9223372036854775807 -9223372036854775808",
+    "vtp": "<VTKFile <PolyData> <Piece <Points> <Polys> <Strips> <DataArray <AppendedData </VTKFile> </PolyData> </Piece> </Points> "
+           "</Polys> </Strips> </DataArray> </AppendedData> <!-- --> <?xml ?> /> type= PolyData byte_order= LittleEndian BigEndian "
+           "header_type= UInt32 UInt64 compressor= vtkZLibDataCompressor NumberOfPoints= NumberOfVerts= NumberOfLines= "
+           "NumberOfStrips= NumberOfPolys= Name= offsets connectivity NumberOfComponents= format= ascii binary appended offset= "
+           "encoding= raw base64 Int8 UInt8 Int16 UInt16 Int32 Int64 Float32 Float64",
+}
+
+
+def dictionary(words):
+    escaped = (word.replace("\\", "\\\\") for word in words.split())
+    return "".join(f'"{word}"\n' for word in escaped)
 
 
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
+    root = pathlib.Path(sys.argv[1])
     for maker in (off, obj, stl, ply, gmsh, vtp, imports):
-        folder = pathlib.Path(sys.argv[1]) / ("import" if maker is imports else maker.__name__)
+        folder = root / ("import" if maker is imports else maker.__name__)
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in maker().items():
             (folder / name).write_bytes(content)
+    for name, words in (WORDS | {"import": " ".join(WORDS.values())}).items():
+        (root / f"{name}.dict").write_text(dictionary(words))
 
 
 if __name__ == "__main__":

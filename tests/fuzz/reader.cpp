@@ -2,21 +2,15 @@
 // libFuzzer target of one mesh format, PLEKTON_FUZZ_FORMAT: any bytes are either a soup of polygons
 // with finite points and corners that exist, or refused with a MeshError.
 #include "geometry/mesh/mesh_file.hpp"
+#include "tests/fuzz/require.hpp"
 
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string_view>
 
 namespace {
 
 using namespace plekton::geometry;
-
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "the reader gave %s\n", what);
-  std::abort();
-}
+using plekton::fuzz::require;
 
 void require_sound(const PolygonSoup& soup) {
   for (const Vec3& point : soup.points) require(point.allFinite(), "a point that is not finite");
