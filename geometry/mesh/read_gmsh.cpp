@@ -3,8 +3,8 @@
 #include "geometry/mesh/soup_builder.hpp"
 #include "geometry/mesh/text_scanner.hpp"
 
+#include <algorithm>
 #include <cstdint>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -52,6 +52,12 @@ class GmshReader {
 
  private:
   enum class Version { unknown, v2_2, v4_1 };
+
+  struct Node {
+    std::int64_t number;   ///< in the file
+    std::size_t position;  ///< among the points
+    std::size_t line;
+  };
 
   void require(bool met, const char* section) {
     if (!met)
@@ -112,6 +118,7 @@ class GmshReader {
       for (std::size_t block = 0; block < blocks; ++block) read_node_block();
     }
     soup_.expect_points(soup_.point_count());
+    order_nodes();
     end_section("$EndNodes");
   }
 
@@ -132,9 +139,25 @@ class GmshReader {
     for (double& coordinate : point) coordinate = text_.number("a coordinate of a node");
     const std::size_t line = text_.line();
     text_.rest_of_line();  // Parametric coordinates.
-    const bool is_new = positions_.try_emplace(number, soup_.point_count()).second;
-    if (!is_new) soup_.add_problem("node " + std::to_string(number) + " is there twice", line);
+    nodes_.push_back({number, soup_.point_count(), line});
     soup_.add_point(point, line);
+  }
+
+  /// Sorts the nodes for node_numbered().
+  void order_nodes() {
+    // Of nodes with one number the first in the file comes first, and is the one that elements get.
+    const auto key = [](const Node& node) { return std::pair(node.number, node.position); };
+    std::ranges::sort(nodes_, {}, key);
+    for (std::size_t k = 1; k < nodes_.size(); ++k)
+      if (nodes_[k].number == nodes_[k - 1].number)
+        soup_.add_problem("node " + std::to_string(nodes_[k].number) + " is there twice",
+                          nodes_[k].line);
+  }
+
+  /// The node of a number; nullptr if the file has none.
+  const Node* node_numbered(std::int64_t number) const {
+    const auto found = std::ranges::lower_bound(nodes_, number, {}, &Node::number);
+    return found != nodes_.end() && found->number == number ? &*found : nullptr;
   }
 
   void read_elements() {
@@ -188,15 +211,15 @@ class GmshReader {
   void read_corners(std::int64_t number, std::size_t corner_count) {
     corners_.clear();
     for (std::size_t k = 0; k < corner_count; ++k) {
-      const std::int64_t node = text_.integer("a node of an element");
-      const auto position = positions_.find(node);
-      if (position == positions_.end()) {
+      const std::int64_t corner = text_.integer("a node of an element");
+      const Node* node = node_numbered(corner);
+      if (node == nullptr) {
         soup_.add_problem("element " + std::to_string(number) + " names node " +
-                              std::to_string(node) + ", which the file does not have",
+                              std::to_string(corner) + ", which the file does not have",
                           text_.line());
         continue;
       }
-      corners_.push_back(static_cast<std::int64_t>(position->second));
+      corners_.push_back(static_cast<std::int64_t>(node->position));
     }
     soup_.add_polygon(corners_, text_.line());
   }
@@ -206,7 +229,9 @@ class GmshReader {
   std::string name_;
   Version version_ = Version::unknown;
   bool has_nodes_ = false;
-  std::unordered_map<std::int64_t, std::size_t> positions_;  ///< of the points, by node number
+  /// By number once all are there. A hash table would take quadratic time for numbers chosen so
+  /// that they share a bucket.
+  std::vector<Node> nodes_;
   std::vector<std::int64_t> corners_;
 };
 

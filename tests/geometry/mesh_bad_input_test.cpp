@@ -7,7 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -330,6 +332,26 @@ TEST(BadMeshInput, NeverCrashesOnACutOffFile) {
   }
 
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+}
+
+/// Seconds that a gmsh file of 84,000 nodes takes whose numbers are the multiples of a step.
+double seconds_to_read_nodes(std::int64_t step) {
+  constexpr std::int64_t kNodes = 84000;
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n84000\n";
+  for (std::int64_t i = 1; i <= kNodes; ++i) text += std::to_string(i * step) + " 0 0 0\n";
+  text += "$EndNodes\n";
+  const auto start = std::chrono::steady_clock::now();
+  parse_mesh(text, MeshFormat::gmsh, "mesh");
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// A table hashed by the number of the node took 100 times as long for them: 85,229 is the number of
+// buckets of libstdc++ for so many entries. Half as long a text again is read in half as long
+// again.
+TEST(BadMeshInput, TakesNoLongerForNodeNumbersThatWouldShareABucket) {
+  const double usual = std::min(seconds_to_read_nodes(3), seconds_to_read_nodes(3));
+
+  EXPECT_LT(seconds_to_read_nodes(85229), 15.0 * usual);
 }
 
 // A byte changed anywhere: read or refused, and what is read can be repaired or is refused with a
