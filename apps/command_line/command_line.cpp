@@ -42,12 +42,12 @@ struct CommandLine {
   fs::path mesh;
   std::string weld = "0 m";
   bool fill_holes = false;
-  std::string longest_hole;
+  std::optional<std::string> longest_hole;
   bool wrap = false;
-  std::string wrap_detail;
-  std::string target_edge;
+  std::optional<std::string> wrap_detail;
+  std::optional<std::string> target_edge;
   bool refuse_intersections = false;
-  std::string thickness;
+  std::optional<std::string> thickness;
   bool json = false;
 };
 
@@ -103,26 +103,30 @@ int check_command(const CommandLine& line) {
   return kDone;
 }
 
-/// A length of the command line.
-double length_option(const std::string& name, const std::string& text) {
+/// A length of the command line. @throws InputError for anything else or out of range
+double length_option(const std::string& name, const std::string& text, const Range& range) {
+  double length = 0.0;
   try {
-    return parse_quantity(text, kLength);
+    length = parse_quantity(text, kLength);
   } catch (const UnitError& error) {
     throw InputError(fmt::format("{}: {}", name, error.what()));
   }
+  if (!range.holds(length))
+    throw InputError(fmt::format("{}: got \"{}\"; expected a length{}", name, text, range.text));
+  return length;
 }
 
 geometry::RepairOptions repair_options(const CommandLine& line) {
   geometry::RepairOptions options;
-  options.weld_distance = length_option("--weld", line.weld);
-  options.fill_holes = line.fill_holes || !line.longest_hole.empty();
-  if (!line.longest_hole.empty())
-    options.longest_hole = length_option("--longest-hole", line.longest_hole);
-  options.wrap = line.wrap || !line.wrap_detail.empty();
-  if (!line.wrap_detail.empty())
-    options.wrap_detail = length_option("--wrap-detail", line.wrap_detail);
-  if (!line.target_edge.empty())
-    options.target_edge = length_option("--target-edge", line.target_edge);
+  options.weld_distance = length_option("--weld", line.weld, kNotNegative);
+  options.fill_holes = line.fill_holes || line.longest_hole;
+  if (line.longest_hole)
+    options.longest_hole = length_option("--longest-hole", *line.longest_hole, kPositive);
+  options.wrap = line.wrap || line.wrap_detail;
+  if (line.wrap_detail)
+    options.wrap_detail = length_option("--wrap-detail", *line.wrap_detail, kPositive);
+  if (line.target_edge)
+    options.target_edge = length_option("--target-edge", *line.target_edge, kPositive);
   options.refuse_intersections = line.refuse_intersections;
   return options;
 }
@@ -131,7 +135,8 @@ int import_command(const CommandLine& line) {
   ImportArguments arguments;
   arguments.mesh = line.mesh;
   arguments.repair = repair_options(line);
-  if (!line.thickness.empty()) arguments.thickness = length_option("--thickness", line.thickness);
+  if (line.thickness)
+    arguments.thickness = length_option("--thickness", *line.thickness, kPositive);
   if (!line.out.empty()) arguments.out = line.out;
   arguments.json = line.json;
   import_mesh_file(arguments, std::cout);

@@ -4,6 +4,7 @@
 #include "geometry/mesh/mesh_file.hpp"
 #include "tests/apps/command_line/program_fixture.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -84,6 +85,27 @@ TEST(ImportCommand, RefusesAMissingMeshAndABadLength) {
   const Outcome outcome = outcome_of({"import", kHammock, "--weld", "1 kg"});
   EXPECT_EQ(outcome.exit_code, kFailed);
   EXPECT_THAT(outcome.err, HasSubstr("--weld: got \"1 kg\", a mass; expected a length"));
+}
+
+TEST(ImportCommand, RefusesLengthsThatAskForNothing) {
+  for (const std::string option :
+       {"--target-edge", "--wrap-detail", "--longest-hole", "--thickness"}) {
+    for (const std::string length : {"0", "0 mm", "-1 mm", "-1e-300"}) {
+      const Outcome outcome = outcome_of({"import", kHammock, option + "=" + length});
+
+      EXPECT_EQ(outcome.exit_code, kFailed) << option << ' ' << length;
+      EXPECT_EQ(outcome.err, fmt::format("plekton: {}: got \"{}\"; expected a length above 0\n",
+                                         option, length));
+    }
+    for (const std::string text : {"", "nan", "inf", "1e999 m"}) {
+      const Outcome outcome = outcome_of({"import", kHammock, option, text});
+
+      EXPECT_NE(outcome.exit_code, kDone) << option << ' ' << text;
+      EXPECT_THAT(outcome.err, HasSubstr(option)) << text;
+    }
+  }
+  EXPECT_THAT(outcome_of({"import", kHammock, "--weld=-1 um"}).err,
+              HasSubstr("--weld: got \"-1 um\"; expected a length of at least 0"));
 }
 
 TEST(ImportCommand, LeavesNoHalfOfItsFilesWhenTheFolderCannotBeWritten) {
