@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <system_error>
+#include <utility>
 
 namespace plekton::apps {
 namespace {
@@ -50,6 +52,21 @@ geometry::RepairOptions read_repair(Section& section) {
   return repair;
 }
 
+/// Where messages about a step point to: the length that was given, else the key of the step.
+std::map<geometry::RepairStep, RepairKey> repair_keys(Section& section) {
+  using geometry::RepairStep;
+  constexpr std::array<std::pair<RepairStep, std::string_view>, 5> kKeys = {
+      {{RepairStep::fill_holes, "longest_hole"},
+       {RepairStep::fill_holes, "fill_holes"},
+       {RepairStep::wrap, "wrap_detail"},
+       {RepairStep::wrap, "wrap"},
+       {RepairStep::remesh, "target_edge"}}};
+  std::map<RepairStep, RepairKey> keys;
+  for (const auto& [step, key] : kKeys)
+    if (section.has(key)) keys.try_emplace(step, std::string(key), section.place_of(key));
+  return keys;
+}
+
 void refuse_repair(Section& section) {
   for (const std::string_view key : {"weld", "fill_holes", "longest_hole", "wrap", "wrap_detail",
                                      "target_edge", "refuse_intersections"}) {
@@ -71,10 +88,12 @@ void read_membrane_source(Section& section, const Known& known, MembraneSettings
                                  has_mesh ? "both" : "none"));
   }
   if (has_mesh) membrane.mesh = read_mesh_path(section, known);
-  if (has_shape && !has_mesh)
+  if (has_shape && !has_mesh) {
     refuse_repair(section);
-  else
+  } else {
     membrane.repair = read_repair(section);
+    membrane.repair_keys = repair_keys(section);
+  }
   if (const auto shape = section.table("shape")) membrane.shape = read_shape(*shape);
 }
 

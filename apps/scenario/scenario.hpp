@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -65,12 +66,19 @@ struct HoldSettings {
 /// facet to its corners.
 enum class MassMode : std::uint8_t { edge, area };
 
+/// Where a scenario asks for steps of a repair.
+struct RepairKey {
+  std::string name;  ///< of the key, as in "target_edge"
+  Place place;
+};
+
 struct MembraneSettings {
   std::string name;
-  std::filesystem::path mesh;          ///< relative to the current folder
-  geometry::RepairOptions repair;      ///< of the mesh, lengths after scaling
-  std::optional<ShapeSettings> shape;  ///< instead of the mesh
-  Place source_place;                  ///< of the mesh or shape
+  std::filesystem::path mesh;                             ///< relative to the current folder
+  geometry::RepairOptions repair;                         ///< of the mesh, lengths after scaling
+  std::optional<ShapeSettings> shape;                     ///< instead of the mesh
+  Place source_place;                                     ///< of the mesh or shape
+  std::map<geometry::RepairStep, RepairKey> repair_keys;  ///< of the steps that are asked for
   Placement placement;
   double thickness = 0.0;  ///< m
   std::size_t material = 0;

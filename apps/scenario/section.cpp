@@ -218,8 +218,11 @@ std::size_t Section::choice(std::string_view key, std::span<const std::string_vi
 
 std::optional<std::size_t> Section::known_choice(std::string_view key,
                                                  std::span<const std::string_view> words) {
-  const Value* value = require(key);
-  return value ? position_of(*value, key, words) : std::nullopt;
+  const Value* value = find(key);
+  if (value) return position_of(*value, key, words);
+  problems_->add(place_,
+                 fmt::format("{}: missing; expected one of {}", path_of(key), listed(words)));
+  return std::nullopt;
 }
 
 std::optional<Section> Section::table(std::string_view key) {

@@ -3,12 +3,13 @@
 
 #include "apps/scene/grain_generator.hpp"
 #include "apps/scene/membrane_builder.hpp"
-#include "geometry/mesh/mesh.hpp"
+#include "geometry/mesh/import.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace plekton::apps {
 namespace {
@@ -50,6 +51,18 @@ std::vector<Obstacle> obstacles_of(const BuiltScene& built) {
   return obstacles;
 }
 
+/// Points to the step of the repair that failed, or else to the mesh or shape.
+void complain(const MembraneSettings& membrane, std::optional<geometry::RepairStep> failed_step,
+              const char* what, Problems& problems) {
+  const auto key =
+      failed_step ? membrane.repair_keys.find(*failed_step) : membrane.repair_keys.end();
+  if (key == membrane.repair_keys.end())
+    problems.add(membrane.source_place, fmt::format("membranes.{}: {}", membrane.name, what));
+  else
+    problems.add(key->second.place,
+                 fmt::format("membranes.{}.{}: {}", membrane.name, key->second.name, what));
+}
+
 BuiltGrains add_grains(const GrainSettings& settings, double density, BuiltScene& built) {
   dynamics::Scene& scene = built.scene;
   const std::vector<Obstacle> obstacles = obstacles_of(built);
@@ -85,12 +98,12 @@ BuiltScene build_scene(const Scenario& scenario) {
   for (const MembraneSettings& membrane : scenario.membranes) {
     try {
       built.membranes.push_back(add_membrane(membrane, built));
+    } catch (const geometry::RefusedMesh& error) {
+      complain(membrane, error.failed_step, error.what(), problems);
     } catch (const geometry::MeshError& error) {
-      problems.add(membrane.source_place,
-                   fmt::format("membranes.{}: {}", membrane.name, error.what()));
+      complain(membrane, {}, error.what(), problems);
     } catch (const InputError& error) {
-      problems.add(membrane.source_place,
-                   fmt::format("membranes.{}: {}", membrane.name, error.what()));
+      complain(membrane, {}, error.what(), problems);
     }
   }
   for (const GrainSettings& grains : scenario.grains) {

@@ -34,12 +34,17 @@ geometry::ImportedMesh import_unscaled(const MembraneSettings& settings) {
   import.repair.longest_hole /= scale;
   import.repair.wrap_detail /= scale;
   import.repair.target_edge /= scale;
+  const auto scaled = [&](const char* message) {
+    return fmt::format("{} (lengths here are before scaling by {})", message, scale);
+  };
   try {
     return geometry::import_mesh(settings.mesh, import);
+  } catch (const geometry::RefusedMesh& error) {
+    if (scale == 1.0) throw;
+    throw geometry::RefusedMesh(scaled(error.what()), error.failed_step);
   } catch (const geometry::MeshError& error) {
     if (scale == 1.0) throw;
-    throw geometry::MeshError(
-        fmt::format("{} (lengths here are before scaling by {})", error.what(), scale));
+    throw geometry::MeshError(scaled(error.what()));
   }
 }
 

@@ -11,13 +11,14 @@ ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions&
   ImportedMesh imported;
   imported.report.source = path.filename().string();
   imported.mesh = repair(read_mesh_file(path), options.repair, imported.report);
-  if (imported.report.verdict != MeshVerdict::refused) return imported;
+  const MeshReport& report = imported.report;
+  if (report.verdict != MeshVerdict::refused) return imported;
 
-  std::string message = imported.report.source + ": refused";
-  const auto& reasons = imported.report.reasons;
-  if (reasons.size() == 1) throw MeshError(imported.report.source + ": " + reasons.front());
-  for (const std::string& reason : reasons) message += "\n  " + reason;
-  throw MeshError(message);
+  if (report.reasons.size() == 1)
+    throw RefusedMesh(report.source + ": " + report.reasons.front(), report.failed_step);
+  std::string message = report.source + ": refused";
+  for (const std::string& reason : report.reasons) message += "\n  " + reason;
+  throw RefusedMesh(message, report.failed_step);
 }
 
 ImportedMembrane import_membrane(const std::filesystem::path& path, const MembraneOptions& membrane,

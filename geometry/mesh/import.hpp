@@ -7,6 +7,8 @@
 #include "geometry/mesh/report.hpp"
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace plekton::geometry {
 
@@ -19,9 +21,16 @@ struct ImportedMesh {
   MeshReport report;
 };
 
+/// A mesh whose verdict is refused.
+struct RefusedMesh : MeshError {
+  RefusedMesh(const std::string& text, std::optional<RepairStep> step)
+      : MeshError(text), failed_step(step) {}
+  std::optional<RepairStep> failed_step;  ///< as in its report
+};
+
 /// Reads a mesh file, repairs it and reports on it.
-/// @throws MeshError if the file cannot be read or holds bad numbers (as read_mesh_file), or if the
-///         verdict is refused.
+/// @throws MeshError if the file cannot be read or holds bad numbers (as read_mesh_file).
+/// @throws RefusedMesh if the verdict is refused.
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
 struct ImportedMembrane {

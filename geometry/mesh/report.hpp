@@ -20,6 +20,9 @@ enum class MeshVerdict : std::uint8_t {
 };
 std::string_view name_of(MeshVerdict verdict) noexcept;
 
+/// Steps of a repair that change the shape, and only if asked for.
+enum class RepairStep : std::uint8_t { fill_holes, wrap, remesh };
+
 /// What an import found, what it changed, and what remains.
 struct MeshReport {
   std::string source;  ///< what messages call the mesh
@@ -69,7 +72,8 @@ struct MeshReport {
 
   MeshMeasures after;
   MeshVerdict verdict = MeshVerdict::ok;
-  std::vector<std::string> reasons;  ///< a sentence for every warning or refusal
+  std::vector<std::string> reasons;       ///< a sentence for every warning or refusal
+  std::optional<RepairStep> failed_step;  ///< could not be done; the mesh is refused for it
 };
 
 /// A table to read.

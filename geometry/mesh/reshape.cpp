@@ -30,10 +30,15 @@ void fill(Mesh& mesh, const RepairOptions& options, MeshReport& report) {
   if (holes.filled > 0 && options.orient) turn_outward(mesh, report);
 }
 
+/// What fails leaves report.failed_step behind.
 void run_steps(Mesh& mesh, const RepairOptions& options, MeshReport& report) {
   MeshReport::Reshaped& done = *report.reshaped;
-  if (options.fill_holes) fill(mesh, options, report);
+  if (options.fill_holes) {
+    report.failed_step = RepairStep::fill_holes;
+    fill(mesh, options, report);
+  }
   if (options.wrap) {
+    report.failed_step = RepairStep::wrap;
     const MeshMeasures now = measure(mesh, false);
     constexpr double kUsualDetail = 1.0 / 30.0;  // of the diagonal of the bounds
     const double diagonal = (now.bounds.upper - now.bounds.lower).norm();
@@ -41,9 +46,11 @@ void run_steps(Mesh& mesh, const RepairOptions& options, MeshReport& report) {
     mesh = wrap(mesh, done.wrap_detail);
   }
   if (options.target_edge != 0.0) {
+    report.failed_step = RepairStep::remesh;
     mesh = remesh(mesh, options.target_edge);
     done.target_edge = options.target_edge;
   }
+  if (!mesh.facets.empty()) report.failed_step.reset();
 }
 
 }  // namespace

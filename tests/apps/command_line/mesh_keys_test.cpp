@@ -162,6 +162,13 @@ TEST_F(MeshKeys, SayThatLengthsInTheMessageOfAnImportAreThoseOfTheFile) {
               HasSubstr("(lengths here are before scaling by 0.001)"));
 }
 
+TEST_F(MeshKeys, NameTheKeyOfTheStepThatCannotBeDone) {
+  EXPECT_THAT(error_of("target_edge = \"1 um\""),
+              HasSubstr("case.toml:14:15: membranes.m.target_edge: box.off: a target edge of"));
+  EXPECT_THAT(error_of("wrap = true\nwrap_detail = \"1 um\""),
+              HasSubstr("case.toml:15:15: membranes.m.wrap_detail: box.off: a wrap of"));
+}
+
 TEST_F(MeshKeys, CloseTheBagOfTheExampleAndRemeshIt) {
   std::filesystem::copy_file(PLEKTON_SOURCE_DIR "/apps/examples/import/bag.off",
                              folder_ / "box.off",

@@ -147,6 +147,10 @@ TEST_F(ShapeCommand, NamesAKindThatDoesNotExistWithASuggestion) {
   EXPECT_THAT(error_of("kind = \"biaxial_geogrd\""),
               HasSubstr("did you mean \"biaxial_geogrid\"?"));
   EXPECT_THAT(error_of("width = 1"), HasSubstr("membranes.m.shape.kind: missing"));
+  EXPECT_THAT(error_of(""),
+              HasSubstr("case.toml:10:9: membranes.m.shape.kind: missing; expected one of "
+                        "\"sheet\", \"tube\", \"sphere\", \"box\", \"biaxial_geogrid\", "
+                        "\"uniaxial_geogrid\", \"hexagonal_net\"\n"));
 }
 
 TEST_F(ShapeCommand, ReportsEveryWrongSizeWithItsPlace) {
