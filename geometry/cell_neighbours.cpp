@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <sstream>
+#include <stdexcept>
 
 namespace plekton::geometry {
 namespace {
@@ -13,6 +15,21 @@ namespace {
 /// In radii. Half a turn takes pi of them; what is nearer than a diameter across a flat sheet is at
 /// most 2 sqrt(2) away along the edges of a square grid.
 constexpr double kSharpestFold = 4.0;
+
+/// Lists with as many near nodes take 0.4 GB, and the pairs of cells that go with them ten times
+/// that. Edges as long as thick make about 20 for each node.
+constexpr double kMostNearNodes = 1e8;
+
+/// @throws std::length_error for more near nodes than memory should be spent on
+void require_few_near_nodes(double count, double longest_reach) {
+  if (count <= kMostNearNodes) return;
+  std::ostringstream text;
+  text << "self-contact: about " << count << " pairs of nodes are within two thicknesses ("
+       << longest_reach << " m) of each other along edges; expected at most " << kMostNearNodes
+       << "; edges are far shorter than thick: use longer edges, a thinner membrane, or no "
+          "self-contact";
+  throw std::length_error(text.str());
+}
 
 /// Nodes at most a length away along edges (Dijkstra), the start among them; sorted.
 std::vector<NodeId> within_reach(const Surface& surface, NodeId start, double reach, Positions x) {
@@ -60,15 +77,29 @@ void CellNeighbours::gather_own_nodes(Positions x) {
   for (const NodeId node : own_nodes_) own_x_.push_back(x[index_of(node)]);
 }
 
-void CellNeighbours::collect_near_nodes(Positions rest) {
-  near_nodes_.resize(surface_->node_count());
-  for (std::size_t n = 0; n < near_nodes_.size(); ++n) {
-    const NodeId node = id_at<NodeId>(n);
-    const StructureId structure = surface_->structure_of(node);
-    if (structure == StructureId{-1}) continue;
-    near_nodes_[n] =
-        within_reach(*surface_, node, kSharpestFold * surface_->radius(structure), rest);
+std::vector<NodeId> CellNeighbours::nodes_near(NodeId node, Positions rest) const {
+  const double reach = kSharpestFold * surface_->radius(surface_->structure_of(node));
+  return within_reach(*surface_, node, reach, rest);
+}
+
+/// A hundred nodes tell at once what all of them will take.
+void CellNeighbours::require_room(Positions rest) const {
+  const std::size_t stride = std::max<std::size_t>(1, own_nodes_.size() / 100);
+  double sampled = 0.0, near = 0.0, longest_reach = 0.0;
+  for (std::size_t i = 0; i < own_nodes_.size(); i += stride) {
+    const double radius = surface_->radius(surface_->structure_of(own_nodes_[i]));
+    near += static_cast<double>(nodes_near(own_nodes_[i], rest).size());
+    longest_reach = std::max(longest_reach, kSharpestFold * radius);
+    sampled += 1.0;
   }
+  if (sampled > 0.0)
+    require_few_near_nodes(near / sampled * static_cast<double>(own_nodes_.size()), longest_reach);
+}
+
+void CellNeighbours::collect_near_nodes(Positions rest) {
+  require_room(rest);
+  near_nodes_.resize(surface_->node_count());
+  for (const NodeId node : own_nodes_) near_nodes_[index_of(node)] = nodes_near(node, rest);
 }
 
 bool CellNeighbours::may_touch(CellId a, CellId b) const {

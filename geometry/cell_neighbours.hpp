@@ -25,6 +25,8 @@ class CellNeighbours {
   /// @param rest          m, where the nodes are when the structures are at rest
   /// @param skin          m, >= 0; 0 makes the list anew whenever anything moved
   /// @param self_contact  whether cells of one structure are listed
+  /// @throws std::length_error if, by a sample, more than 1e8 pairs of nodes are so near along
+  ///         edges: of cells far shorter than thick the lists would take many GB
   CellNeighbours(const Surface& surface, Positions rest, double skin, bool self_contact);
 
   /// Makes the list anew if it has to be. @returns whether it has changed
@@ -37,6 +39,8 @@ class CellNeighbours {
   bool may_touch(CellId a, CellId b) const;
   bool are_distant(CellId a, CellId b, Positions x) const;
   void gather_own_nodes(Positions x);
+  std::vector<NodeId> nodes_near(NodeId node, Positions rest) const;
+  void require_room(Positions rest) const;
   void collect_near_nodes(Positions rest);
 
   const Surface* surface_;

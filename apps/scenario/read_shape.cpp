@@ -6,9 +6,10 @@
 namespace plekton::apps {
 namespace {
 
-constexpr int kMostCells = 100'000;    // along one direction
-constexpr double kMostElements = 2e7;  // of a shape, as for remeshing: more do not fit into memory
-constexpr int kMostSubdivisions = 9;   // 5.2 million facets
+constexpr int kMostCells = 100'000;  // along one direction
+/// Of a shape. A facet with its share of nodes and beams takes 1.7 kB in a run, so this is 10 GB.
+constexpr double kMostElements = 6e6;
+constexpr int kMostSubdivisions = 9;  // 5.2 million facets
 constexpr Quantity kPositiveLength{kLength, kPositive};
 
 /// Complains about numbers of cells whose product asks for more than a computer holds.
@@ -16,7 +17,7 @@ constexpr Quantity kPositiveLength{kLength, kPositive};
 void require_few(Section& section, std::string_view key, double elements) {
   if (elements > kMostElements)
     section.complain(key, fmt::format("asks for about {:.2g} facets or bars; expected at most "
-                                      "{:.0g}; use fewer and larger ones",
+                                      "{:.0e}, which take about 10 GB; use fewer and larger ones",
                                       elements, kMostElements));
 }
 

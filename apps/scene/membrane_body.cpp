@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/membrane_body.hpp"
 
+#include "geometry/mesh/edge_table.hpp"
 #include "geometry/mesh/import.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <type_traits>
 
 namespace plekton::apps {
@@ -50,17 +50,11 @@ geometry::ImportedMesh import_unscaled(const MembraneSettings& settings) {
 
 /// Whether each node is on an edge with one facet.
 std::vector<bool> rim_of(const Mesh& mesh) {
-  std::map<std::array<NodeId, 2>, int> uses;
-  for (const auto& facet : mesh.facets) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const NodeId a = facet[k], b = facet[(k + 1) % 3];
-      ++uses[{std::min(a, b), std::max(a, b)}];
-    }
-  }
+  const geometry::EdgeTable edges(mesh);
   std::vector<bool> on_rim(mesh.points.size(), false);
-  for (const auto& [edge, count] : uses) {
-    if (count != 1) continue;
-    for (const NodeId node : edge) on_rim[index_of(node)] = true;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.uses(e).size() != 1) continue;
+    for (const NodeId node : edges.edges()[e]) on_rim[index_of(node)] = true;
   }
   return on_rim;
 }

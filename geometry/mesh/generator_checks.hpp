@@ -3,6 +3,8 @@
 
 #include "geometry/mesh/mesh.hpp"
 
+#include <cstdint>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -23,6 +25,18 @@ inline void require_at_least(int least, int count, const char* what) {
   if (count < least)
     throw MeshError(std::string(what) + ": " + std::to_string(count) + "; expected at least " +
                     std::to_string(least));
+}
+
+/// Asked before anything is made.
+/// @param nodes  About how many there will be, from numbers that would overflow an int.
+/// @throws MeshError if they are more than NodeId counts.
+inline void require_numbers_for(double nodes, const char* what) {
+  constexpr auto kMostNodes = std::numeric_limits<std::int32_t>::max();
+  if (nodes < static_cast<double>(kMostNodes)) return;
+  std::ostringstream text;
+  text << what << " of about " << nodes << " nodes; their numbers end at " << kMostNodes
+       << "; use fewer and larger cells";
+  throw MeshError(text.str());
 }
 
 }  // namespace plekton::geometry

@@ -115,6 +115,8 @@ Mesh plane_sheet(const PlaneSheet& sheet) {
   require_length(sheet.length, "a sheet length");
   require_at_least(1, sheet.cells_x, "cells along the width of a sheet");
   require_at_least(1, sheet.cells_y, "cells along the length of a sheet");
+  const double nodes_of_cell = sheet.pattern == SheetPattern::cross ? 2.0 : 1.0;
+  require_numbers_for(nodes_of_cell * (sheet.cells_x + 1.0) * (sheet.cells_y + 1.0), "a sheet");
 
   Mesh mesh;
   const int columns = sheet.cells_x + 1;
@@ -140,6 +142,7 @@ Mesh tube(const Tube& tube) {
   require_length(tube.length, "a tube length");
   require_at_least(3, tube.around, "cells around a tube");
   require_at_least(1, tube.along, "cells along a tube");
+  require_numbers_for(tube.around * (tube.along + 1.0), "a tube");
 
   Mesh mesh;
   for (int j = 0; j <= tube.along; ++j) {
@@ -184,6 +187,8 @@ Mesh box_shell(const Vec3& size, const std::array<int, 3>& divisions) {
     require_length(size[static_cast<Eigen::Index>(k)], "a box side");
     require_at_least(1, divisions[k], "cells along a box side");
   }
+  const Vec3 n(divisions[0], divisions[1], divisions[2]);
+  require_numbers_for(2.0 * (n[0] * n[1] + n[1] * n[2] + n[2] * n[0] + 1.0), "a box");
   Mesh mesh;
   std::map<std::array<int, 3>, NodeId> nodes;
   const auto node = [&](const std::array<int, 3>& ijk) {

@@ -6,7 +6,8 @@
 #include <cstdint>
 
 /// Meshes from a few numbers. All share their nodes; lengths in m. Each throws MeshError for a
-/// length that is not positive and finite and for a number of divisions below its least.
+/// length that is not positive and finite, for a number of divisions below its least, and before
+/// anything is made for more nodes than their numbers count.
 namespace plekton::geometry {
 
 /// How the cells of a sheet are cut.

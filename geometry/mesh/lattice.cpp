@@ -57,6 +57,9 @@ Lattice rectangular(const Grid& grid) {
   require_at_least(1, grid.apertures_x, "apertures of a geogrid along x");
   require_at_least(1, grid.apertures_y, "apertures of a geogrid along y");
   require_at_least(1, grid.rib_divisions, "elements of a rib");
+  require_numbers_for((grid.apertures_x + 1.0) * (grid.apertures_y + 1.0) *
+                          (grid.rib_divisions + static_cast<double>(grid.bar_divisions)),
+                      "a geogrid");
   Lattice lattice;
   const auto junction = [&](int i, int j) {
     return id_at<NodeId>(static_cast<std::size_t>(j) *
@@ -92,14 +95,16 @@ NetRow add_net_row(Lattice& lattice, const HexagonalNet& net, int first, int cou
   return row;
 }
 
-/// Single wires between nodes of two rows that are half a mesh apart.
+/// Single wires between nodes of two rows, each to those half a mesh to its left and right. The
+/// rows are half a mesh apart themselves, so the halves of D between their firsts are odd.
 void add_wires(Lattice& lattice, const NetRow& lower, const NetRow& upper) {
+  const auto count = static_cast<std::ptrdiff_t>(upper.nodes.size());
   for (std::size_t i = 0; i < lower.nodes.size(); ++i) {
-    for (std::size_t k = 0; k < upper.nodes.size(); ++k) {
-      const int offset =
-          lower.first + 2 * static_cast<int>(i) - upper.first - 2 * static_cast<int>(k);
-      if (offset == 1 || offset == -1)
-        add_edge(lattice, lower.nodes[i], upper.nodes[k], LatticePart::wire);
+    const std::ptrdiff_t halves = lower.first - upper.first + 2 * static_cast<std::ptrdiff_t>(i);
+    for (const std::ptrdiff_t k : {(halves - 1) / 2, (halves + 1) / 2}) {
+      if (k < 0 || k >= count) continue;
+      add_edge(lattice, lower.nodes[i], upper.nodes[static_cast<std::size_t>(k)],
+               LatticePart::wire);
     }
   }
 }
@@ -127,6 +132,7 @@ Lattice hexagonal_net(const HexagonalNet& net) {
   require_length(net.wire_height, "a height of a single wire");
   require_at_least(2, net.meshes_across, "meshes across a net");
   require_at_least(1, net.rows, "rows of a net");
+  require_numbers_for((net.meshes_across + 1.0) * (2.0 * net.rows + 2.0), "a net");
 
   // Rows of twists are n + 1 and n long by turns; the border rows are nodes where two wires meet.
   Lattice lattice;

@@ -97,5 +97,18 @@ TEST(Generators, RefuseLengthsAndDivisionsThatMakeNoMesh) {
   EXPECT_THROW(box_shell({1.0, 1.0, 0.0}), MeshError);
 }
 
+TEST(Generators, RefuseMoreNodesThanNumbersBeforeTheyMakeAny) {
+  constexpr int kMost = std::numeric_limits<int>::max();
+  const PlaneSheet sheet{.width = 1.0, .length = 1.0, .cells_x = 40'000, .cells_y = 40'000};
+  PlaneSheet crossed = sheet;
+  crossed.pattern = SheetPattern::cross;
+
+  EXPECT_THROW(plane_sheet(crossed), MeshError);  // 3.2e9; without a node in each cell 1.6e9
+  EXPECT_THROW(plane_sheet({.width = 1.0, .length = 1.0, .cells_x = kMost, .cells_y = 1}),
+               MeshError);
+  EXPECT_THROW(tube({.radius = 1.0, .length = 1.0, .around = kMost, .along = kMost}), MeshError);
+  EXPECT_THROW(box_shell({1.0, 1.0, 1.0}, {kMost, 1, 1}), MeshError);
+}
+
 }  // namespace
 }  // namespace plekton::geometry

@@ -165,5 +165,28 @@ TEST(Lattice, RefusesLengthsAndCountsThatMakeNone) {
               HasSubstr("end at 2147483647"));
 }
 
+TEST(Lattice, RefusesMoreNodesThanNumbersBeforeItMakesAny) {
+  constexpr int kMost = std::numeric_limits<int>::max();
+  HexagonalNet net = kNet;
+  net.meshes_across = kMost;
+  const std::string grid = message_of([] { biaxial_geogrid({0.1, 0.1, 50'000, 50'000, 1}); });
+  EXPECT_THAT(grid, HasSubstr("a geogrid of about 5.0002e+09 nodes"));
+  EXPECT_THAT(message_of([] { biaxial_geogrid({0.1, 0.1, 1, 1, kMost}); }), HasSubstr("nodes"));
+  EXPECT_THAT(message_of([&] { hexagonal_net(net); }), HasSubstr("nodes"));
+}
+
+/// Each row takes time in proportion to its length: 4e10 steps would not end otherwise.
+TEST(Lattice, MakesNetsThatAreFarWiderThanHigh) {
+  HexagonalNet net = kNet;
+  net.meshes_across = 100'000;
+  net.rows = 2;
+  const Lattice lattice = hexagonal_net(net);
+
+  // n + 1 and n twists, and 2 n wires in each of the three rows of wires but for the ends of the
+  // last, which has n - 1 nodes between n twists.
+  const std::size_t n = 100'000;
+  EXPECT_EQ(lattice.edges.size(), (2 * n + 1) + 2 * n + 2 * n + 2 * (n - 1));
+}
+
 }  // namespace
 }  // namespace plekton::geometry
