@@ -2,6 +2,7 @@
 #include "tests/benchmarks/bed.hpp"
 
 #include <fstream>
+#include <iomanip>
 #include <stdexcept>
 
 namespace plekton::benchmarks {
@@ -24,6 +25,17 @@ Bed read_bed(const std::filesystem::path& file) {
     }
   }
   return bed;
+}
+
+void write_bed(const Bed& bed, const std::filesystem::path& file) {
+  std::ofstream out(file);
+  out << std::setprecision(12) << bed.grains.size() << ' ' << bed.side << ' ' << bed.extent << '\n';
+  for (const auto& [x, r, v, w] : bed.grains) {
+    out << x[0] << ' ' << x[1] << ' ' << x[2] << ' ' << r << ' ' << v[0] << ' ' << v[1] << ' '
+        << v[2] << ' ' << w[0] << ' ' << w[1] << ' ' << w[2] << '\n';
+  }
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
 }  // namespace plekton::benchmarks

@@ -25,4 +25,7 @@ struct Bed {
 /// @throws std::runtime_error naming file and line
 Bed read_bed(const std::filesystem::path& file);
 
+/// With 12 digits. @throws std::runtime_error naming the file if it cannot be written
+void write_bed(const Bed& bed, const std::filesystem::path& file);
+
 }  // namespace plekton::benchmarks

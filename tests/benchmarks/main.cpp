@@ -1,33 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plekton-bench: runs a scene of given size and prints one JSON line about its cost.
-#include "tests/benchmarks/scenes.hpp"
+// plekton-bench: runs a scene and prints one JSON line about its cost, or makes a bed.
+#include "tests/benchmarks/measurement.hpp"
+#include "tests/benchmarks/scenes/scene_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
-#include <chrono>
-#include <ctime>
 #include <iostream>
+#include <optional>
 
 namespace {
 
-struct Options {
-  std::string scene = "s1";
+namespace bench = plekton::benchmarks;
+
+struct RunOptions {
+  bool lists = false;
+  std::string scene;
   std::string bed;
+  std::optional<std::size_t> spheres;
   int cells = 32;
   int threads = 1;
-  int warm_up = 200;
-  int steps = 2000;
+  std::optional<int> warm_up;
+  std::optional<int> steps;
+  double skin = 0.0;
 };
 
-double wall_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double cpu_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+struct BedOptions {
+  bench::BedOrder order;
+  bool is_flow = false;
+  bool is_slab = false;
+  int copies = 1;
+  std::string out;
+};
 
 double peak_memory_mib() {
   rusage usage{};
@@ -35,52 +40,117 @@ double peak_memory_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-nlohmann::ordered_json run(const Options& options) {
-  namespace bench = plekton::benchmarks;
-  const bench::Bed bed = bench::read_bed(options.bed);
-  bench::BenchmarkScene made = options.scene == "s1"
-                                   ? bench::sphere_bed(bed)
-                                   : bench::spheres_on_membrane(bed, options.cells);
-  made.options.threads = options.threads;
-  plekton::dynamics::Simulation<plekton::contact::LinearFrictional> simulation(
-      std::move(made.scene), made.options);
+bench::SceneInput input_of(const bench::SceneEntry& entry, const RunOptions& options) {
+  bench::SceneInput input{{}, options.cells};
+  if (!entry.bed) return input;
+  if (!options.bed.empty()) {
+    input.bed = bench::read_bed(options.bed);
+  } else {
+    const std::size_t spheres = options.spheres.value_or(entry.spheres);
+    std::cerr << "plekton-bench: no bed given; making one of " << spheres << " spheres\n";
+    input.bed = bench::make_bed({*entry.bed, spheres, 1, options.threads}, std::cerr);
+  }
+  return input;
+}
 
-  for (int i = 0; i < options.warm_up; ++i) simulation.step();
-  const double wall = wall_seconds();
-  const double cpu = cpu_seconds();
-  for (int i = 0; i < options.steps; ++i) simulation.step();
-  const double per_step = 1e3 / options.steps;
-  const auto counts = simulation.contacts().counts();
-  return {{"scene", options.scene},
-          {"N", made.element_count},
+nlohmann::ordered_json to_json(const bench::StateFigures& state) {
+  return {{"kinetic_energy_J", state.kinetic_energy},
+          {"mean_height_m", state.mean_height},
+          {"lowest_node_m", state.lowest_node},
+          {"highest_node_m", state.highest_node},
+          {"held_force_N", {state.held_force.x(), state.held_force.y(), state.held_force.z()}}};
+}
+
+nlohmann::ordered_json to_json(const plekton::contact::ContactCounts& counts) {
+  return {{"sphere_sphere", counts.sphere_sphere},
+          {"sphere_surface", counts.sphere_surface},
+          {"between_structures", counts.between_structures},
+          {"with_planes", counts.with_planes}};
+}
+
+nlohmann::ordered_json run(const RunOptions& options) {
+  const bench::SceneEntry& entry = bench::find_scene(options.scene);
+  bench::BenchmarkScene scene = entry.make(input_of(entry, options));
+  scene.options.threads = options.threads;
+  scene.options.skin = options.skin;
+  const bench::Window window{options.warm_up.value_or(entry.warm_up),
+                             options.steps.value_or(entry.steps)};
+  const bench::Measurement result = bench::measure(std::move(scene), window);
+
+  const double steps_per_second = window.steps / result.wall;
+  const std::size_t contacts = bench::total(result.contacts);
+  return {{"scene", entry.name},
+          {"N", result.elements},
           {"threads", options.threads},
-          {"steps", options.steps},
-          {"ms_per_step", per_step * (wall_seconds() - wall)},
-          {"cpu_ms_per_step", per_step * (cpu_seconds() - cpu)},
-          {"contacts", counts.sphere_sphere + counts.sphere_surface + counts.with_planes},
-          {"list_rebuilds", simulation.contacts().neighbours().rebuild_count()},
-          {"rss_MiB", peak_memory_mib()}};
+          {"warm_up", window.warm_up},
+          {"steps", window.steps},
+          {"ms_per_step", 1e3 * result.wall / window.steps},
+          {"cpu_ms_per_step", 1e3 * result.processor_time / window.steps},
+          {"element_steps_per_s", static_cast<double>(result.elements) * steps_per_second},
+          {"contacts", contacts},
+          {"contacts_by_kind", to_json(result.contacts)},
+          {"contact_evaluations_per_s", static_cast<double>(contacts) * steps_per_second},
+          {"list_rebuilds", result.list_rebuilds},
+          {"skin_m", result.skin},
+          {"rss_MiB", peak_memory_mib()},
+          {"state", to_json(result.state)}};
+}
+
+void make_bed(const BedOptions& options) {
+  bench::BedOrder order = options.order;
+  if (options.is_flow) order.kind = bench::BedKind::flow;
+  if (options.is_slab) order.kind = bench::BedKind::slab;
+  const bench::Bed bed = bench::make_bed(order, std::cerr);
+  write_bed(options.copies > 1 ? side_by_side(bed, options.copies) : bed, options.out);
+}
+
+void add_run_options(CLI::App& app, RunOptions& options) {
+  app.add_option("scene", options.scene, "see --list");
+  app.add_option("--bed", options.bed, "packing of spheres; without it one is made")
+      ->check(CLI::ExistingFile);
+  app.add_option("--spheres", options.spheres, "of the bed that is made")
+      ->check(CLI::PositiveNumber)
+      ->excludes("--bed");
+  app.add_option("--cells", options.cells, "s2: squares along a side")->check(CLI::Range(2, 10000));
+  app.add_option("--threads", options.threads)->check(CLI::PositiveNumber);
+  app.add_option("--warm-up", options.warm_up, "steps before the clock starts")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--steps", options.steps, "steps that are timed")->check(CLI::PositiveNumber);
+  app.add_option("--skin", options.skin, "m, of the lists of pairs; 0: the program chooses")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--list", options.lists, "prints the scenes");
+}
+
+void add_bed_options(CLI::App& app, BedOptions& options) {
+  app.add_option("--spheres", options.order.spheres)->required()->check(CLI::PositiveNumber);
+  auto* flow = app.add_flag("--flow", options.is_flow, "for s1flow: caught while it collapses");
+  app.add_flag("--slab", options.is_slab, "for s2: some 5 spheres deep")->excludes(flow);
+  app.add_option("--seed", options.order.seed);
+  app.add_option("--threads", options.order.threads)->check(CLI::PositiveNumber);
+  app.add_option("--copies", options.copies, "this many beds side by side, along x and y each")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--out", options.out, "file to write")->required();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
-  CLI::App app{"Times the step of a benchmark scene; prints one JSON line."};
-  app.add_option("scene", options.scene, "s1: sphere bed; s2: spheres on a membrane")
-      ->required()
-      ->check(CLI::IsMember({"s1", "s2"}));
-  app.add_option("--bed", options.bed, "packing of spheres (see tests/benchmarks/README.md)")
-      ->required()
-      ->check(CLI::ExistingFile);
-  app.add_option("--cells", options.cells, "s2: squares along a side")->check(CLI::PositiveNumber);
-  app.add_option("--threads", options.threads)->check(CLI::PositiveNumber);
-  app.add_option("--warm-up", options.warm_up, "steps before the clock starts")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--steps", options.steps, "steps that are timed")->check(CLI::PositiveNumber);
+  CLI::App app{"Times the step of a benchmark scene and prints one JSON line."};
+  RunOptions run_options;
+  add_run_options(app, run_options);
+  BedOptions bed_options;
+  CLI::App* bed_command =
+      app.add_subcommand("make-bed", "Lets spheres settle and writes them to a file.");
+  add_bed_options(*bed_command, bed_options);
   CLI11_PARSE(app, argc, argv);
   try {
-    std::cout << run(options).dump() << '\n';
+    if (bed_command->parsed()) {
+      make_bed(bed_options);
+    } else if (run_options.lists) {
+      std::cout << bench::list_of_scenes();
+    } else {
+      std::cout << run(run_options).dump() << '\n';
+    }
   } catch (const std::exception& error) {
     std::cerr << "plekton-bench: " << error.what() << '\n';
     return 1;

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/simulation.hpp"
+
+#include <cstddef>
+
+namespace plekton::benchmarks {
+
+using BenchmarkSimulation = dynamics::Simulation<contact::LinearFrictional>;
+
+/// A scene on which codes are compared, with everything that decides its cost.
+struct BenchmarkScene {
+  dynamics::Scene scene;
+  dynamics::SimulationOptions options;
+  std::size_t element_count;  ///< spheres, facets and free cylinders
+};
+
+}  // namespace plekton::benchmarks
