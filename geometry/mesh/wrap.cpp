@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/wrap.hpp"
 
+#include "geometry/mesh/measures.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
 #include <CGAL/Surface_mesh.h>
@@ -8,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <vector>
 
@@ -21,14 +24,20 @@ using Triangle = std::array<std::size_t, 3>;
 constexpr double kOffsetRatio =
     30.0;  // Recommended by CGAL's manual for meshes: alpha over offset.
 constexpr double kFinestRatio = 2000.0;
+constexpr double kCoarseRatio = 30.0;  // A wrap of this part of the size takes about a second.
+constexpr double kMostFacets = 1e6;
 
-void require_wrappable(const Mesh& mesh, double finest) {
+double size_of(const Mesh& mesh) {
   Vec3 lower = mesh.points.front(), upper = lower;
   for (const Vec3& p : mesh.points) {
     lower = lower.cwiseMin(p);
     upper = upper.cwiseMax(p);
   }
-  const double least = (upper - lower).norm() / kFinestRatio;
+  return (upper - lower).norm();
+}
+
+void require_wrappable(double size, double finest) {
+  const double least = size / kFinestRatio;
   if (finest >= least && finest > 0.0 && std::isfinite(finest)) return;
   std::ostringstream text;
   text << "a wrap of " << finest << " m; expected a length of at least " << least
@@ -36,10 +45,18 @@ void require_wrappable(const Mesh& mesh, double finest) {
   throw MeshError(text.str());
 }
 
-}  // namespace
+Mesh from_cgal(const SurfaceMesh& surface) {
+  std::vector<Kernel::Point_3> points;
+  std::vector<Triangle> triangles;
+  CGAL::Polygon_mesh_processing::polygon_mesh_to_polygon_soup(surface, points, triangles);
+  Mesh mesh;
+  for (const auto& p : points) mesh.points.emplace_back(p.x(), p.y(), p.z());
+  for (const auto& [a, b, c] : triangles)
+    mesh.facets.push_back({id_at<NodeId>(a), id_at<NodeId>(b), id_at<NodeId>(c)});
+  return mesh;
+}
 
-Mesh wrap(const Mesh& mesh, double finest) {
-  require_wrappable(mesh, finest);
+SurfaceMesh wrapped(const Mesh& mesh, double finest) {
   std::vector<Kernel::Point_3> points;
   for (const Vec3& p : mesh.points) points.emplace_back(p[0], p[1], p[2]);
   std::vector<Triangle> triangles;
@@ -47,15 +64,34 @@ Mesh wrap(const Mesh& mesh, double finest) {
     triangles.push_back({index_of(a), index_of(b), index_of(c)});
   SurfaceMesh surface;
   CGAL::alpha_wrap_3(points, triangles, finest, finest / kOffsetRatio, surface);
+  return surface;
+}
 
-  points.clear();
-  triangles.clear();
-  CGAL::Polygon_mesh_processing::polygon_mesh_to_polygon_soup(surface, points, triangles);
-  Mesh wrapped;
-  for (const auto& p : points) wrapped.points.emplace_back(p.x(), p.y(), p.z());
-  for (const auto& [a, b, c] : triangles)
-    wrapped.facets.push_back({id_at<NodeId>(a), id_at<NodeId>(b), id_at<NodeId>(c)});
-  return wrapped;
+/// The facets of a wrap are 2 to 8 to the square of its detail, as the body is thick or thin, on
+/// that part of the area which is outside. So a coarse wrap tells how many a fine one will have.
+void require_few_facets(const Mesh& mesh, double size, double finest) {
+  constexpr double kMostOfSquare = 16.0;  // on both sides of a sheet
+  const double coarse = size / kCoarseRatio;
+  if (finest >= coarse ||
+      kMostOfSquare * measure(mesh, false).area <= kMostFacets * finest * finest)
+    return;
+  const auto coarse_facets = static_cast<double>(wrapped(mesh, coarse).number_of_faces());
+  const double facets = coarse_facets * (coarse / finest) * (coarse / finest);
+  if (facets <= kMostFacets) return;
+  std::ostringstream text;
+  text << "a wrap of " << finest << " m would make about " << facets << " facets; expected at most "
+       << kMostFacets << "; use a length of at least " << std::setprecision(3)
+       << 1.005 * coarse * std::sqrt(coarse_facets / kMostFacets) << " m";  // rounded up
+  throw MeshError(text.str());
+}
+
+}  // namespace
+
+Mesh wrap(const Mesh& mesh, double finest) {
+  const double size = size_of(mesh);
+  require_wrappable(size, finest);
+  require_few_facets(mesh, size, finest);
+  return from_cgal(wrapped(mesh, finest));
 }
 
 }  // namespace plekton::geometry

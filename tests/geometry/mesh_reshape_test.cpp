@@ -197,6 +197,27 @@ TEST(Repair, TurnsAPartOutwardThatIsClosedByFilling) {
   EXPECT_EQ(report.after.bounds_volume, true);
 }
 
+/// The promise that the refusal of fine wraps relies on, on a thick body and on a sheet.
+TEST(Wrap, HasFacetsInProportionToTheSquareOfItsDetail) {
+  const Mesh sheet = plane_sheet({.width = 1.0, .length = 1.0, .cells_x = 2, .cells_y = 2});
+  for (const Mesh& mesh : {icosphere(1.0, 3), sheet}) {
+    const auto coarse = static_cast<double>(wrap(mesh, 0.1).facets.size());
+    const auto fine = static_cast<double>(wrap(mesh, 0.05).facets.size());
+
+    EXPECT_NEAR(fine / coarse, 4.0, 1.0);
+  }
+}
+
+TEST(Wrap, RefusesDetailsThatTakeTooManyFacetsAndSaysWhichDoNot) {
+  const std::string message = message_of([] { wrap(icosphere(1.0, 3), 0.003); });
+
+  // About 2 facets to the square of the detail on 4 pi m².
+  EXPECT_THAT(message, HasSubstr("a wrap of 0.003 m would make about "));
+  EXPECT_THAT(message, HasSubstr(" facets; expected at most 1e+06; use a length of at least "));
+  const double least = std::stod(message.substr(message.find("at least ") + 9));
+  EXPECT_NEAR(least, std::sqrt(2.0 * 4.0 * std::numbers::pi / 1e6), 0.001);
+}
+
 TEST(Repair, WrapsWithAWarning) {
   const Mesh crossing = together({box_shell({1.0, 1.0, 1.0}), icosphere(0.7, 2)});
 
