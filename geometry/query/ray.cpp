@@ -15,17 +15,27 @@ RayHit hit_at(double t, const Vec3& point, const Proximity& proximity, CellId ce
 
 }  // namespace
 
+bool can_hit(const Ray& ray) noexcept {
+  constexpr double kLargestCoordinate = 1e75, kShortest = 1e-150, kLongest = 1e150;
+  const double speed = ray.direction.norm();
+  return speed >= kShortest && speed <= kLongest && ray.origin.allFinite() &&
+         ray.origin.cwiseAbs().maxCoeff() < kLargestCoordinate && ray.t_end >= 0.0;
+}
+
+double resolution(const Ray& ray, double t) noexcept {
+  constexpr double kUlp = std::numeric_limits<double>::epsilon();
+  return kUlp * (2.0 * t * ray.direction.norm() + ray.origin.norm());
+}
+
 std::optional<RayHit> hit(const Ray& ray, const PlacedSurface& on, CellId cell) noexcept {
   constexpr double kUlp = std::numeric_limits<double>::epsilon();
-  const double speed = ray.direction.norm();
-  if (!(speed > 0.0) || !std::isfinite(speed) || !ray.origin.allFinite()) return std::nullopt;
-  if (!(ray.t_end >= 0.0)) return std::nullopt;
+  if (!can_hit(ray)) return std::nullopt;
   double t = 0.0;
   for (int step = 0; step < kMostSteps; ++step) {
     const Vec3 point = ray.origin + t * ray.direction;
     const Proximity near = proximity(Probe::point(point), on, cell);
-    const double reached = kUlp * (4.0 * near.arm_b + 2.0 * t * speed + ray.origin.norm());
-    if (near.gap <= reached) return hit_at(t, point, near, cell);
+    if (near.gap <= 4.0 * kUlp * near.arm_b + resolution(ray, t))
+      return hit_at(t, point, near, cell);
     const double approach = near.normal.dot(ray.direction);  // how fast the gap closes
     if (!(approach > 0.0)) return std::nullopt;
     const double next = t + near.gap / approach;

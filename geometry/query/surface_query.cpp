@@ -190,12 +190,18 @@ std::optional<NearestCells> SurfaceQuery::nearest(const SurfaceQuery& other) con
   return best;
 }
 
+/// m. Whatever hit() calls a hit at t or before is as near to the point at t or before, also in its
+/// rounded box.
+double SurfaceQuery::slack(const Ray& ray, double t) const {
+  const double size = bounds_.lower.norm() + bounds_.upper.norm();
+  return 4.0 * resolution(ray, t) + 1e-12 * size;
+}
+
 /// The first hit among the cells near a part of a ray.
 std::optional<RayHit> SurfaceQuery::first_hit_near(const Ray& ray, double from, double to,
                                                    Work& work) const {
   const std::array<Vec3, 2> way{ray.origin + from * ray.direction, ray.origin + to * ray.direction};
-  const double rounding = 1e-12 * (way[0].norm() + way[1].norm() + cell_size_);
-  tree_.query(bounding_box(way, rounding), work.cells);
+  tree_.query(bounding_box(way, slack(ray, to)), work.cells);
   std::optional<RayHit> first;
   for (const std::int32_t c : work.cells) {
     const auto found = hit(ray, {*surface_, x_}, CellId{c});
@@ -206,16 +212,17 @@ std::optional<RayHit> SurfaceQuery::first_hit_near(const Ray& ray, double from, 
 
 /// The part of the ray inside the ball around the surface is followed in pieces of a few cells.
 std::optional<RayHit> SurfaceQuery::first_hit(const Ray& ray, Work& work) const {
+  if (boxes_.empty() || !can_hit(ray)) return std::nullopt;
   const double speed = ray.direction.norm();
-  if (boxes_.empty() || !(speed > 0.0) || !std::isfinite(speed) || !ray.origin.allFinite())
-    return std::nullopt;
   const Vec3 centre = 0.5 * (bounds_.lower + bounds_.upper);
-  const double radius = 0.5 * (bounds_.upper - bounds_.lower).norm() * (1.0 + 1e-9);
-  const double nearest_t = (centre - ray.origin).dot(ray.direction) / (speed * speed);
+  const double nearest_t = (centre - ray.origin).dot(ray.direction / speed) / speed;
+  const double margin = slack(ray, std::max(nearest_t, 0.0));
+  const double radius = 0.5 * (bounds_.upper - bounds_.lower).norm() * (1.0 + 1e-9) + margin;
   const double begin = std::max(0.0, nearest_t - radius / speed);
   const double end = std::min(ray.t_end, nearest_t + radius / speed);
   if (!(begin <= end)) return std::nullopt;
-  const double pieces = std::clamp(std::ceil((end - begin) * speed / (4.0 * cell_size_)), 1.0, 1e4);
+  const double piece_length = 4.0 * (cell_size_ + margin);
+  const double pieces = std::clamp(std::ceil((end - begin) * speed / piece_length), 1.0, 1e4);
   const auto t_at = [&](double piece) { return begin + (end - begin) * (piece / pieces); };
   for (double piece = 0.0; piece < pieces; ++piece) {
     const auto first = first_hit_near(ray, t_at(piece), t_at(piece + 1.0), work);

@@ -56,7 +56,8 @@ class SurfaceQuery {
   /// The smallest gap between two surfaces. @returns nothing if one of them has no cells
   std::optional<NearestCells> nearest(const SurfaceQuery& other) const;
 
-  /// Where a ray first enters the thick surface; of equal t the lowest cell.
+  /// Where a ray first enters the thick surface: of the hits of all cells (ray.hpp) the one with
+  /// the smallest t, of equal t that of the lowest cell.
   std::optional<RayHit> first_hit(const Ray& ray) const;
 
   /// Many questions, shared by threads; the answers in the order of the questions.
@@ -78,6 +79,7 @@ class SurfaceQuery {
   void improve(const Probe& probe, double reach, std::optional<NearestCell>& best,
                Work& work) const;
   void improve(const SurfaceQuery& other, NearestCells& best, Work& work) const;
+  double slack(const Ray& ray, double t) const;
   std::optional<RayHit> first_hit(const Ray& ray, Work& work) const;
   std::optional<RayHit> first_hit_near(const Ray& ray, double from, double to, Work& work) const;
 

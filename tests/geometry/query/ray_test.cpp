@@ -91,6 +91,16 @@ TEST_F(RayOnAPlateAndABar, FindsGrazingRaysOnTheRightSide) {
   EXPECT_FALSE(hit_bar(Vec3(1, -3, 9.1 + 1e-9), Vec3(0, 1, 0)).has_value());
 }
 
+/// Of all cells, one by one.
+std::optional<RayHit> first_of_all(const Ray& ray, const PlacedSurface& on) {
+  std::optional<RayHit> first;
+  for (std::size_t c = 0; c < on.surface.cell_count(); ++c) {
+    const auto found = hit(ray, on, id_at<CellId>(c));
+    if (found && (!first || found->t < first->t)) first = found;
+  }
+  return first;
+}
+
 // Every hit is at the radius from the core, nothing before it is inside, and none is missed.
 TEST(FirstHit, IsWhereTheRayEntersTheThickSurface) {
   test::Random random(1);
@@ -102,11 +112,7 @@ TEST(FirstHit, IsWhereTheRayEntersTheThickSurface) {
       const Vec3 origin = random.in_cube(trial % 2 == 0 ? 8.0 : 80.0);
       const Vec3 target = complex.x[random.index(complex.x.size())] + random.in_cube(1.0);
       const Ray ray{origin, target - origin};
-      std::optional<RayHit> expected;
-      for (std::size_t c = 0; c < surface.cell_count(); ++c) {
-        const auto found = hit(ray, {surface, complex.x}, id_at<CellId>(c));
-        if (found && (!expected || found->t < expected->t)) expected = found;
-      }
+      const auto expected = first_of_all(ray, {surface, complex.x});
 
       const auto found = query.first_hit(ray);
 
@@ -124,6 +130,51 @@ TEST(FirstHit, IsWhereTheRayEntersTheThickSurface) {
     }
     EXPECT_GT(hits, 50);
   }
+}
+
+TEST(FirstHit, AgreesWithTheHitsOfTheCellsFromAnyDistance) {
+  test::Random random(7);
+  for (const Complex& complex : {test::sheet(6), test::net(5), test::ball(3)}) {
+    const Surface surface = complex.surface();
+    const SurfaceQuery query(surface, complex.x);
+    for (const double far : {1e3, 1e8, 1e15, 1e16, 1e17, 1e20, 1e40, 1e74}) {
+      int hits = 0;
+      for (int trial = 0; trial < 100; ++trial) {
+        const Vec3 target = complex.x[random.index(complex.x.size())] + random.in_cube(1.0);
+        const Vec3 origin = target + far * random.direction();
+        const Ray to_it{origin, (target - origin) * (trial % 2 == 0 ? 1.0 : 1e-3)};
+        const Ray beside_it{origin, target + far * random.direction() - origin};
+        for (const Ray& ray : {to_it, beside_it, Ray{origin, to_it.direction, 0.5}}) {
+          const auto expected = first_of_all(ray, {surface, complex.x});
+
+          const auto found = query.first_hit(ray);
+
+          ASSERT_EQ(found.has_value(), expected.has_value()) << far << " m, trial " << trial;
+          if (!found) continue;
+          ++hits;
+          ASSERT_EQ(found->t, expected->t) << far << " m, trial " << trial;
+          ASSERT_EQ(found->cell, expected->cell) << far << " m, trial " << trial;
+        }
+      }
+      EXPECT_GT(hits, 10) << far;
+    }
+  }
+}
+
+TEST(FirstHit, AgreesWithTheHitsOfTheCellsAboutRaysThatCannotHit) {
+  const Complex complex = test::sheet(2);
+  const Surface surface = complex.surface();
+  const SurfaceQuery query(surface, complex.x);
+  const Vec3 above = complex.x[0] + 3.0 * Vec3::UnitZ(), down = -Vec3::UnitZ();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Ray& ray :
+       {Ray{above, Vec3::Zero()}, Ray{above, 1e-160 * down}, Ray{above, 1e160 * down},
+        Ray{above, down, nan}, Ray{above, down, -1.0}, Ray{above + 1e80 * Vec3::UnitZ(), down},
+        Ray{above, nan * down}, Ray{nan * above, down}}) {
+    EXPECT_FALSE(query.first_hit(ray).has_value());
+    EXPECT_FALSE(first_of_all(ray, {surface, complex.x}).has_value());
+  }
+  EXPECT_TRUE(query.first_hit({above, down}).has_value());
 }
 
 TEST(Hit, IsNotMissedFarFromTheOrigin) {
