@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/ball_contacts.hpp"
+#include "contact/balls/ball_contacts.hpp"
 #include "contact/plane_contacts.hpp"
 #include "contact/plane_neighbours.hpp"
 #include "contact/structure_contacts.hpp"
@@ -145,7 +145,8 @@ template <ContactLaw Law>
 void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes, double dt,
                             geometry::ThreadPool& pool) {
   if (neighbours_.update(motion.position, pool)) {
-    dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs);
+    dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs,
+                                         motion.position);
     dissipated_ += with_surfaces_.rebuild(neighbours_.sphere_structures(), neighbours_.near_cells(),
                                           neighbours_.cells(), balls_, materials_.of_structures,
                                           materials_.pairs);

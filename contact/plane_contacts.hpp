@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/ball_block.hpp"
+#include "contact/balls/ball_block.hpp"
 #include "contact/bodies.hpp"
 #include "contact/contact_memory.hpp"
 #include "contact/contact_row.hpp"

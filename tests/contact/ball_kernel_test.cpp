@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/ball_block.hpp"
-#include "contact/ball_contacts.hpp"
+#include "contact/balls/ball_block.hpp"
+#include "contact/balls/ball_contacts.hpp"
 #include "contact/laws/linear_frictional.hpp"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace plekton::test {
@@ -13,7 +14,7 @@ bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 }
 
 TEST(Contacts, GiveTheSameBitsForAnyNumberOfThreads) {
-  constexpr int kSpheres = 800;  // several chunks of contacts for each thread
+  constexpr int kSpheres = 1600;  // several blocks of contacts for each thread
   MovingScene one(kSpheres, 0.05, 1, 1);
   MovingScene two(kSpheres, 0.05, 1, 2);
   MovingScene four(kSpheres, 0.05, 1, 4);
@@ -32,6 +33,14 @@ TEST(Contacts, GiveTheSameBitsForAnyNumberOfThreads) {
   EXPECT_GE(counts.with_planes, 200u);
 }
 
+/// But for the order in which up to some twenty contacts of a node are added.
+void expect_same_sums(const std::vector<Vec3>& sums, const std::vector<Vec3>& expected) {
+  double largest = 0.0;
+  for (const Vec3& sum : expected) largest = std::max(largest, sum.cwiseAbs().maxCoeff());
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    ASSERT_LE((sums[i] - expected[i]).cwiseAbs().maxCoeff(), 1e-14 * largest) << "node " << i;
+}
+
 TEST(Contacts, KeepTheirHistoriesWhenTheListsAreMadeAnew) {
   // The wider skin lists other pairs, in other places of the lists; what touches does not depend on
   // it.
@@ -41,13 +50,13 @@ TEST(Contacts, KeepTheirHistoriesWhenTheListsAreMadeAnew) {
   for (int step = 0; step < 200; ++step) {
     for (MovingScene* scene : {&wide, &narrow, &none}) scene->step(2e-3);
     for (const MovingScene* scene : {&narrow, &none}) {
-      ASSERT_TRUE(same_bits(scene->forces().force, wide.forces().force)) << "step " << step;
-      ASSERT_TRUE(same_bits(scene->forces().torque, wide.forces().torque)) << "step " << step;
+      expect_same_sums(scene->forces().force, wide.forces().force);
+      expect_same_sums(scene->forces().torque, wide.forces().torque);
     }
   }
   EXPECT_EQ(wide.contacts().neighbours().rebuild_count(), 1);
   EXPECT_GE(narrow.contacts().neighbours().rebuild_count(), 50);
-  // The sum over the chunks is in another order.
+  // The sum over the contacts is in another order.
   EXPECT_NEAR(narrow.contacts().dissipated(), wide.contacts().dissipated(),
               1e-12 * wide.contacts().dissipated());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/ball_contacts.hpp"
+#include "contact/balls/ball_contacts.hpp"
 #include "contact/plane_contacts.hpp"
 #include "tests/support/ball_on_surface.hpp"
 

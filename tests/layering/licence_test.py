@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from check import sources
-from rules import CGAL_HOME
+from rules import CGAL_HOMES
 
 
 def core_files_with_cgal(root):
@@ -36,14 +36,15 @@ def licence_of(header):
 def main():
     root, *compiler = sys.argv[1:]
     files = list(core_files_with_cgal(root))
-    if files != [CGAL_HOME]:
-        print(f"expected CGAL in {CGAL_HOME} alone, found it in {files}")
+    if sorted(files) != sorted(CGAL_HOMES):
+        print(f"expected CGAL in {CGAL_HOMES} alone, found it in {files}")
         return 1
-    headers = [header for header in headers_of(Path(root) / CGAL_HOME, compiler) if "/CGAL/" in header]
+    read = {header for home in CGAL_HOMES for header in headers_of(Path(root) / home, compiler)}
+    headers = sorted(header for header in read if "/CGAL/" in header)
     wrong = [header for header in headers if not licence_of(header).startswith(("LGPL-", "BSL-1.0"))]
     for header in wrong:
         print(f"{header}: {licence_of(header)}")
-    print(f"{len(headers)} headers of CGAL read for {CGAL_HOME}, {len(wrong)} not under the LGPL")
+    print(f"{len(headers)} headers of CGAL read for {' and '.join(CGAL_HOMES)}, {len(wrong)} not under the LGPL")
     return 1 if wrong or not headers else 0
 
 

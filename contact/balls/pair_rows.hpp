@@ -26,6 +26,7 @@ struct alignas(64) PairRows {
   RowsOf<History> history;
   RowsOf<Vec3> normal;  ///< unit, of the last step; zero if the pair did not touch
   RowsOf<double> gap;   ///< m, of the last step; any number if the pair did not touch
+  RowsOf<Vec3> force;   ///< N, on b, of the last step; any numbers if the pair did not touch
 
   ContactMemory<Law> memory(std::size_t lane) const noexcept {
     return {history.template at<History>(lane), normal.template at<Vec3>(lane)};
@@ -34,17 +35,14 @@ struct alignas(64) PairRows {
     history.set(lane, memory.history);
     normal.set(lane, memory.normal);
   }
-  /// A pair that did not touch in the last step.
-  void set_new(std::size_t lane, const Parameters& of_pair) noexcept {
-    parameters.set(lane, of_pair);
-    set_memory(lane, {});
-    gap.set(lane, 0.0);
+  bool touched(std::size_t lane) const noexcept {
+    return !normal.template at<Vec3>(lane).isZero(0.0);
   }
-  void set_from(const PairRows& other, std::size_t other_lane, std::size_t lane) noexcept {
-    parameters.set_from(other.parameters, other_lane, lane);
-    history.set_from(other.history, other_lane, lane);
-    normal.set_from(other.normal, other_lane, lane);
-    gap.set_from(other.gap, other_lane, lane);
+  void set(std::size_t lane, const Parameters& of_pair, const ContactMemory<Law>& memory) noexcept {
+    parameters.set(lane, of_pair);
+    set_memory(lane, memory);
+    gap.set(lane, 0.0);
+    force.set(lane, Vec3(Vec3::Zero()));
   }
 };
 

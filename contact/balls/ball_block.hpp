@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/ball_kernel.hpp"
+#include "contact/balls/ball_kernel.hpp"
 #include "geometry/rows.hpp"
 #include "geometry/vector_width.hpp"
 
@@ -39,7 +39,7 @@ struct LaneStepOf {
   BallStepOf<Real> step;
   typename Law::template HistoryOf<Real> history;
   Vec3Of<Real> normal;
-  Real overlap_ratio;  ///< overlap over the radius of the smaller ball
+  Real smaller_radius;  ///< m
   /// Positive where the answer is right: the centres do not coincide, the normal has not turned by
   /// more than 90 degrees, nor the pair twisted further than the series of
   /// geometry::cosine_and_sinc goes.
@@ -67,7 +67,7 @@ PLEKTON_INLINE LaneStepOf<Law, Real> advance_lanes(
   const Real smaller = geometry::smaller_of(pair.radius_a, pair.radius_b);
   const Real untwisted = Real(geometry::kSmallAngleSquared) - rotation.twist * rotation.twist;
   const Real unturned = select(Real(0.0) > rotation.from.dot(rotation.to), Real(-1.0), Real(1.0));
-  return {step, history, pair.normal, -step.gap / smaller,
+  return {step, history, pair.normal, smaller,
           geometry::smaller_of(distance, geometry::smaller_of(untwisted, unturned))};
 }
 
@@ -134,7 +134,7 @@ PLEKTON_INLINE void BallBlock<Law>::advance_lanes(std::size_t lane, double dt) n
   force.store(lane, answer.step.force);
   torque_a.store(lane, answer.step.arm_a * answer.step.force_cross_normal);
   dissipated.store(lane, answer.step.dissipated);
-  overlap_ratio.store(lane, answer.overlap_ratio);
+  overlap_ratio.store(lane, -answer.step.gap / answer.smaller_radius);
   is_right.store(lane, answer.is_right);
 }
 

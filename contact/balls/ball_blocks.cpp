@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/balls/ball_blocks.hpp"
+
+#include "contact/rekey.hpp"
+#include "geometry/space_order.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace plekton::contact {
+namespace {
+
+/// Motions and sums of the members of a usual block, a third more than the balls that it owns, fill
+/// a part of a cache of the second level (512 KiB and more), and half of its pairs stay within it.
+constexpr std::size_t kUsualBalls = 640;
+/// So that few threads get equal numbers of blocks.
+constexpr std::size_t kBlocksAtOnce = 8;
+/// Neighbours stay near each other in the order while many lists are made.
+constexpr int kListsPerOrder = 16;
+
+std::size_t block_count(std::size_t balls) {
+  if (balls < 2 * kUsualBalls) return 1;
+  const std::size_t groups =
+      (balls + kUsualBalls * kBlocksAtOnce - 1) / (kUsualBalls * kBlocksAtOnce);
+  return groups * kBlocksAtOnce;
+}
+
+template <class Number>
+void set_all(std::vector<Number>& list, std::size_t count, Number value) {
+  make_room(list, count);
+  list.assign(count, value);
+}
+
+}  // namespace
+
+void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+                        Positions x) {
+  std::int32_t last = -1;
+  for (const geometry::IndexPair& pair : pairs) last = std::max(last, pair.b);
+  order_balls(balls.first(static_cast<std::size_t>(last + 1)), x);
+  sort_pairs(pairs);
+
+  const std::size_t count = block_count(order_.size());
+  first_places_.clear();
+  for (std::size_t k = 0; k <= count; ++k)
+    first_places_.push_back(static_cast<std::uint32_t>(k * order_.size() / count));
+  set_all(member_of_, order_.size(), 0U);
+  set_all(slots_, pairs.size(), 0U);
+  make_room(pairs_, pairs.size() + kLanes * count);
+  blocks_.clear();
+  members_.clear();
+  balls_.clear();
+  pairs_.clear();
+  largest_member_count_ = 0;
+  for (std::size_t k = 0; k < count; ++k) fill_block(k, pairs, balls);
+  find_loans();
+}
+
+/// Whoever takes part in no pair of a new list may be in it and did in an older one: only a change
+/// of their number, or age, asks for a new order.
+void BallBlocks::order_balls(std::span<const Ball> balls, Positions x) {
+  nodes_.clear();
+  for (const Ball& ball : balls) nodes_.push_back(ball.node);
+  if (order_.size() == balls.size() && ++lists_in_order_ < kListsPerOrder) return;
+  lists_in_order_ = 0;
+  set_all(order_, balls.size(), 0);
+  std::iota(order_.begin(), order_.end(), 0);
+  if (!x.empty()) geometry::order_along_curve(x, nodes_, order_);
+  set_all(places_, balls.size(), 0U);
+  for (std::size_t place = 0; place < order_.size(); ++place)
+    places_[static_cast<std::size_t>(order_[place])] = static_cast<std::uint32_t>(place);
+}
+
+/// By counting, then within the few pairs of each ball.
+void BallBlocks::sort_pairs(std::span<const geometry::IndexPair> pairs) {
+  const auto places = [&](std::uint32_t i) {
+    return std::minmax(places_[static_cast<std::size_t>(pairs[i].a)],
+                       places_[static_cast<std::size_t>(pairs[i].b)]);
+  };
+  set_all(first_of_place_, order_.size() + 1, 0U);
+  set_all(sorted_, pairs.size(), 0U);
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) ++first_of_place_[places(i).first];
+  std::exclusive_scan(first_of_place_.begin(), first_of_place_.end(), first_of_place_.begin(), 0U);
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) sorted_[first_of_place_[places(i).first]++] = i;
+  // Now each entry is where the next one's pairs begin.
+  std::uint32_t begin = 0;
+  for (std::size_t place = 0; place < order_.size(); ++place) {
+    const std::uint32_t end = std::exchange(first_of_place_[place], begin);
+    std::sort(
+        sorted_.begin() + begin, sorted_.begin() + end,
+        [&](std::uint32_t i, std::uint32_t j) { return places(i).second < places(j).second; });
+    begin = end;
+  }
+}
+
+void BallBlocks::fill_block(std::size_t k, std::span<const geometry::IndexPair> pairs,
+                            std::span<const Ball> balls) {
+  const std::size_t begin = first_of_place_[first_places_[k]];
+  const std::size_t count = first_of_place_[first_places_[k + 1]] - begin;
+  const std::size_t rows = (count + kLanes - 1) / kLanes;
+  Block block{static_cast<std::uint32_t>(members_.size()),
+              first_places_[k + 1] - first_places_[k],
+              0,
+              static_cast<std::uint32_t>(pairs_.size() / kLanes),
+              static_cast<std::uint32_t>(rows),
+              static_cast<std::uint32_t>(count)};
+  for (std::size_t place = first_places_[k]; place < first_places_[k + 1]; ++place)
+    add_member(order_[place], balls);
+  pairs_.resize(pairs_.size() + block.slot_count(), {0, 0});
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::uint32_t i = sorted_[begin + n];
+    slots_[i] = static_cast<std::uint32_t>(block.slot(n));
+    pairs_[slots_[i]] = {member(block, pairs[i].a, balls), member(block, pairs[i].b, balls)};
+  }
+  const auto none = static_cast<std::uint32_t>(members_.size() - block.first_member);
+  members_.push_back({NodeId{-1}, 0.0});
+  balls_.push_back(-1);
+  for (std::size_t n = count; n < block.slot_count(); ++n) pairs_[block.slot(n)] = {none, none};
+  block.member_count = none + 1;
+  largest_member_count_ = std::max<std::size_t>(largest_member_count_, block.member_count);
+  blocks_.push_back(block);
+}
+
+void BallBlocks::add_member(std::int32_t ball, std::span<const Ball> balls) {
+  const auto b = static_cast<std::size_t>(ball);
+  member_of_[b] = static_cast<std::uint32_t>(members_.size());
+  members_.push_back({balls[b].node, balls[b].radius});
+  balls_.push_back(ball);
+}
+
+std::uint32_t BallBlocks::member(const Block& block, std::int32_t ball,
+                                 std::span<const Ball> balls) {
+  const std::uint32_t& member = member_of_[static_cast<std::size_t>(ball)];
+  const bool is_known =
+      member >= block.first_member && member < balls_.size() && balls_[member] == ball;
+  if (!is_known) add_member(ball, balls);
+  return member - block.first_member;
+}
+
+std::size_t BallBlocks::block_of(std::int32_t ball) const noexcept {
+  const std::uint32_t place = places_[static_cast<std::size_t>(ball)];
+  const auto after = std::upper_bound(first_places_.begin(), first_places_.end(), place);
+  return static_cast<std::size_t>(after - first_places_.begin()) - 1;
+}
+
+/// By counting; borrowers in the order of the blocks.
+void BallBlocks::find_loans() {
+  const auto for_each_borrowed = [&](const auto& visit) {
+    for (const Block& block : blocks_) {
+      for (std::uint32_t m = block.owned; m + 1 < block.member_count; ++m)
+        visit(block.first_member + m, block_of(balls_[block.first_member + m]));
+    }
+  };
+  set_all(first_loans_, blocks_.size() + 1, 0U);
+  std::uint32_t loans = 0;
+  for_each_borrowed([&](std::uint32_t, std::size_t owner) {
+    ++first_loans_[owner];
+    ++loans;
+  });
+  std::exclusive_scan(first_loans_.begin(), first_loans_.end(), first_loans_.begin(), 0U);
+  make_room(loans_, loans);
+  loans_.resize(loans);
+  for_each_borrowed([&](std::uint32_t member, std::size_t owner) {
+    const std::uint32_t place = places_[static_cast<std::size_t>(balls_[member])];
+    loans_[first_loans_[owner]++] = {blocks_[owner].first_member + place - first_places_[owner],
+                                     member};
+  });
+  std::rotate(first_loans_.begin(), first_loans_.end() - 1, first_loans_.end());
+  first_loans_[0] = 0;
+}
+
+}  // namespace plekton::contact

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/bodies.hpp"
+#include "geometry/broad_phase.hpp"
+#include "geometry/thread_pool.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plekton::contact {
+
+/// Shares balls and the pairs that they form out into blocks, so that a block is worked on by one
+/// thread, in the cache nearest to it.
+///
+/// Balls are put in order along a space-filling curve, and the order is cut into blocks of equal
+/// numbers, each a clump in space. A ball is owned by one block. A pair belongs to the block of
+/// whichever of its balls comes first in the order; the block borrows the other one if it does not
+/// own it, and what the pair adds to a borrowed ball is handed to its owner afterwards. The blocks
+/// depend on the list and on the positions from which it was made, not on the number of threads,
+/// and sums are taken in an order that follows from the blocks alone.
+class BallBlocks {
+ public:
+  /// Pairs side by side in a row; a block has whole rows.
+  static constexpr std::size_t kLanes = 8;
+
+  struct Block {
+    std::uint32_t first_member;  ///< its balls: those it owns, those it borrows, and none()
+    std::uint32_t owned;         ///< how many it owns
+    std::uint32_t member_count;
+    std::uint32_t first_row;
+    std::uint32_t row_count;
+    std::uint32_t pair_count;
+
+    /// Row and lane of its pair n: each lane of the rows runs through a stretch of the pairs, so
+    /// that neighbouring lanes add to different balls, and none has to wait for the sum of the one
+    /// before.
+    std::size_t slot(std::size_t n) const noexcept {
+      return (first_row + n % row_count) * kLanes + n / row_count;
+    }
+    std::size_t slot_count() const noexcept { return row_count * kLanes; }
+  };
+
+  /// A ball as a member of a block.
+  struct Member {
+    NodeId node;
+    double radius;  ///< m
+  };
+
+  /// Which members of its block a pair joins; a is the ball with the lower index in the list.
+  struct Pair {
+    std::uint32_t a, b;
+  };
+
+  /// Takes a new list. Allocates only for a longer one than ever before.
+  /// @param pairs  of balls, a < b, sorted; balls after the last of them are left out
+  /// @param x      m, of nodes; empty: the balls are in order already
+  void assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls, Positions x);
+
+  std::span<const Block> blocks() const noexcept { return blocks_; }
+  /// How many balls there are in blocks.
+  std::size_t ball_count() const noexcept { return order_.size(); }
+  NodeId node(std::int32_t ball) const noexcept { return nodes_[static_cast<std::size_t>(ball)]; }
+  /// Over all blocks.
+  std::size_t member_count() const noexcept { return members_.size(); }
+  std::size_t row_count() const noexcept { return pairs_.size() / kLanes; }
+  std::size_t largest_member_count() const noexcept { return largest_member_count_; }
+
+  std::span<const Member> members(const Block& block) const noexcept {
+    return {&members_[block.first_member], block.member_count};
+  }
+  /// The pairs of a row; lanes without a pair join the ball of no size to itself.
+  const Pair* row(std::size_t row) const noexcept { return &pairs_[row * kLanes]; }
+  /// Row and lane of pair i of the list: slot / kLanes and slot % kLanes.
+  std::uint32_t slot(std::size_t i) const noexcept { return slots_[i]; }
+
+  /// Calls add(member of the owner, member of the borrower) for every ball that a block owns and
+  /// another one borrows, in a fixed order.
+  template <class Add>
+  void for_each_loan(std::size_t block, Add&& add) const {
+    for (std::uint32_t i = first_loans_[block]; i < first_loans_[block + 1]; ++i)
+      add(loans_[i].owner, loans_[i].borrower);
+  }
+
+ private:
+  struct Loan {
+    std::uint32_t owner, borrower;  ///< members
+  };
+
+  void order_balls(std::span<const Ball> balls, Positions x);
+  void sort_pairs(std::span<const geometry::IndexPair> pairs);
+  void fill_block(std::size_t block, std::span<const geometry::IndexPair> pairs,
+                  std::span<const Ball> balls);
+  /// The member, within its block, that a ball is; borrows it if need be.
+  std::uint32_t member(const Block& block, std::int32_t ball, std::span<const Ball> balls);
+  void add_member(std::int32_t ball, std::span<const Ball> balls);
+  void find_loans();
+  std::size_t block_of(std::int32_t ball) const noexcept;
+
+  std::vector<std::int32_t> order_;            ///< balls along the curve
+  std::vector<std::uint32_t> places_;          ///< by ball: where it is in order_
+  std::vector<std::uint32_t> first_of_place_;  ///< by place: its first pair in sorted_
+  std::vector<std::uint32_t> sorted_;          ///< pairs by place of their first and other ball
+  std::vector<std::uint32_t> first_places_;    ///< by block
+  std::vector<std::uint32_t> member_of_;  ///< by ball: which member of the last block it was in
+  std::vector<Block> blocks_;
+  std::vector<Member> members_;
+  std::vector<std::int32_t> balls_;  ///< by member
+  std::vector<Pair> pairs_;          ///< by slot
+  std::vector<std::uint32_t> slots_;
+  std::vector<Loan> loans_;  ///< by block of the owner
+  std::vector<std::uint32_t> first_loans_;
+  std::vector<NodeId> nodes_;  ///< by ball
+  std::size_t largest_member_count_ = 0;
+  int lists_in_order_ = 0;  ///< how many lists were made with this order
+};
+
+}  // namespace plekton::contact

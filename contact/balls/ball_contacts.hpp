@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/balls/ball_block.hpp"
+#include "contact/balls/ball_blocks.hpp"
+#include "contact/balls/ball_rows.hpp"
+#include "contact/balls/ball_sums.hpp"
+#include "contact/balls/pair_rows.hpp"
+#include "contact/contact_row.hpp"
+#include "contact/material_pairs.hpp"
+#include "contact/rekey.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace plekton::contact {
+
+/// Contacts between balls: one lane for each pair that may touch, in the blocks of ball_blocks.hpp.
+template <ContactLaw Law>
+class BallContacts {
+ public:
+  /// Takes a new list of pairs of balls (a < b, sorted); pairs in both lists keep their memory.
+  /// @param x  m, of nodes, to put what is near together; empty: the balls are in order already
+  /// @returns the energy (J) lost with contacts that left the list
+  double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+                 const MaterialPairs<Law>& materials, Positions x = {});
+
+  /// One step of all contacts: forces are summed ball by ball, not yet added.
+  /// @returns the energy (J) dissipated
+  double advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
+
+  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const;
+
+  std::size_t touching() const noexcept;
+  /// Largest overlap of the last step over the radius of the smaller ball.
+  double largest_overlap_ratio() const noexcept;
+
+  /// Energy (J) stored in all contacts, at the positions of the last step.
+  double elastic_energy() const;
+
+  /// Calls visit(a, b, parameters, gap) for every touching pair, in the order of the list.
+  template <class Visit>
+  void for_each_touching(Visit&& visit) const {
+    for_each_lane([&](const geometry::IndexPair& pair, const Rows& rows, std::size_t lane) {
+      visit(blocks_.node(pair.a), blocks_.node(pair.b),
+            rows.parameters.template at<typename Law::Parameters>(lane), rows.gap.number(lane));
+    });
+  }
+
+  template <class Visit>
+  void for_each_row(Positions x, Visit&& visit) const;
+
+ private:
+  using Rows = PairRows<Law>;
+  using Pair = BallBlocks::Pair;
+  static constexpr std::size_t kLanes = BallBlocks::kLanes;
+  static_assert(Rows::kLanes == kLanes);
+
+  /// A contact while the list is made anew.
+  struct Kept {
+    geometry::IndexPair pair;
+    ContactMemory<Law> memory;
+  };
+
+  /// What a step of a block came to; lane by lane, so that it does not depend on how many pairs are
+  /// computed at once.
+  struct Outcome {
+    std::array<double, kLanes> dissipated;  ///< J
+    std::array<double, kLanes> overlap;     ///< m, of the pair with the largest ratio of
+    std::array<double, kLanes> radius;      ///< m, of its smaller ball
+    std::size_t touching = 0;
+
+    Outcome() {
+      dissipated.fill(0.0);
+      overlap.fill(0.0);
+      radius.fill(1.0);
+    }
+    double total_dissipated() const noexcept;
+    double largest_ratio() const noexcept;
+  };
+
+  /// What one thread works with.
+  struct Work {
+    BallRows balls;
+    BallSum* sums;  ///< of the block's members
+    double dt;
+    Outcome outcome;
+  };
+
+  void keep_memories();
+  /// Adds to the sums of all balls what other blocks have of them.
+  void return_loans(geometry::ThreadPool& pool);
+  void advance_block(const BallBlocks::Block& block, const Motion& motion, Work& work);
+  template <int W>
+  PLEKTON_INLINE void advance_rows(const BallBlocks::Block& block, Work& work);
+  /// One step of W pairs from a lane on. @returns whether all of them could be computed side by
+  /// side; otherwise nothing has been done
+  template <int W>
+  PLEKTON_INLINE bool advance_side_by_side(Rows& rows, const Pair* pairs, std::size_t lane,
+                                           Work& work);
+  /// One step of a pair, whatever happened to it.
+  void advance_one(Rows& rows, const Pair* pairs, std::size_t lane, Work& work);
+
+  /// Calls visit(pair, rows, lane) for every touching pair, in the order of the list.
+  template <class Visit>
+  void for_each_lane(Visit&& visit) const {
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      const Rows& rows = rows_[blocks_.slot(i) / kLanes];
+      const std::size_t lane = blocks_.slot(i) % kLanes;
+      if (rows.touched(lane)) visit(keys_[i], rows, lane);
+    }
+  }
+
+  std::vector<geometry::IndexPair> keys_;  ///< of balls
+  BallBlocks blocks_;
+  std::vector<Rows> rows_;
+  std::vector<BallSum> sums_;      ///< by member
+  std::vector<Outcome> outcomes_;  ///< by block
+  std::vector<Work> work_;         ///< by thread
+  std::vector<Kept> kept_;
+};
+
+template <ContactLaw Law>
+double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
+                                  std::span<const Ball> balls, const MaterialPairs<Law>& materials,
+                                  Positions x) {
+  keep_memories();
+  make_room(keys_, keys.size());
+  keys_.assign(keys.begin(), keys.end());
+  blocks_.assign(keys, balls, x);
+  make_room(rows_, blocks_.row_count());
+  rows_.resize(blocks_.row_count());
+  for (const BallBlocks::Block& block : blocks_.blocks()) {
+    for (std::size_t n = block.pair_count; n < block.slot_count(); ++n)
+      rows_[block.slot(n) / kLanes].set(block.slot(n) % kLanes, {}, {});
+  }
+
+  const auto parameters = [&](const geometry::IndexPair& pair) {
+    const Ball& a = balls[static_cast<std::size_t>(pair.a)];
+    const Ball& b = balls[static_cast<std::size_t>(pair.b)];
+    return materials.combine(a.material, a.radius, b.material, b.radius);
+  };
+  double lost = 0.0;
+  const auto drop = [&](Kept& kept) { lost += forget<Law>(parameters(kept.pair), kept.memory); };
+  auto kept = kept_.begin();
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    for (; kept != kept_.end() && kept->pair < keys[i]; ++kept) drop(*kept);
+    const bool is_known = kept != kept_.end() && kept->pair == keys[i];
+    rows_[blocks_.slot(i) / kLanes].set(blocks_.slot(i) % kLanes, parameters(keys[i]),
+                                        is_known ? kept->memory : ContactMemory<Law>{});
+    if (is_known) ++kept;
+  }
+  for (; kept != kept_.end(); ++kept) drop(*kept);
+  return lost;
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::keep_memories() {
+  kept_.clear();
+  make_room(kept_, touching());
+  for_each_lane([&](const geometry::IndexPair& pair, const Rows& rows, std::size_t lane) {
+    kept_.push_back({pair, rows.memory(lane)});
+  });
+}
+
+template <ContactLaw Law>
+double BallContacts<Law>::advance(const Motion& motion, double dt, geometry::ThreadPool& pool) {
+  const std::span<const BallBlocks::Block> blocks = blocks_.blocks();
+  make_room(sums_, blocks_.member_count());
+  sums_.resize(blocks_.member_count());
+  outcomes_.resize(blocks.size());
+  work_.resize(static_cast<std::size_t>(pool.thread_count()));
+  pool.for_each_range(blocks.size(), [&](std::size_t begin, std::size_t end, int worker) {
+    Work& work = work_[static_cast<std::size_t>(worker)];
+    work.balls.reserve(blocks_.largest_member_count());
+    work.dt = dt;
+    for (std::size_t k = begin; k < end; ++k) {
+      work.outcome = {};
+      advance_block(blocks[k], motion, work);
+      outcomes_[k] = work.outcome;
+    }
+  });
+  return_loans(pool);
+  double dissipated = 0.0;
+  for (const Outcome& outcome : outcomes_) dissipated += outcome.total_dissipated();
+  return dissipated;
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::advance_block(const BallBlocks::Block& block, const Motion& motion,
+                                      Work& work) {
+  work.balls.load(blocks_.members(block), motion);
+  work.sums = &sums_[block.first_member];
+  std::fill_n(work.sums, block.member_count, BallSum{Vec3::Zero(), Vec3::Zero(), {}});
+  geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
+    advance_rows<width>(block, work);
+  });
+}
+
+template <ContactLaw Law>
+template <int W>
+PLEKTON_INLINE void BallContacts<Law>::advance_rows(const BallBlocks::Block& block, Work& work) {
+  for (std::size_t row = block.first_row; row < block.first_row + block.row_count; ++row) {
+    Rows& rows = rows_[row];
+    const Pair* const pairs = blocks_.row(row);
+    for (std::size_t lane = 0; lane < kLanes; lane += std::size_t{W}) {
+      if constexpr (LaneLaw<Law>) {
+        if (advance_side_by_side<W>(rows, pairs, lane, work)) continue;
+      }
+      for (std::size_t k = lane; k < lane + std::size_t{W}; ++k) advance_one(rows, pairs, k, work);
+    }
+  }
+}
+
+template <ContactLaw Law>
+template <int W>
+PLEKTON_INLINE bool BallContacts<Law>::advance_side_by_side(Rows& rows, const Pair* pairs,
+                                                            std::size_t lane, Work& work) {
+  using Real = Pack<W>;
+  using Vector = Vec3Of<Real>;
+  using History = typename Law::template HistoryOf<Real>;
+  const BallMotionOf<Real> balls = work.balls.template pairs<W>(pairs + lane);
+  const Real touch = balls.touch();
+  const auto last_normal = rows.normal.template load<Vector>(lane);
+  const unsigned touching = bits_of(touch);
+  const unsigned touched = bits_of(geometry::flag(last_normal.squaredNorm() > 0.0));
+  if ((touching | touched) == 0) return true;
+
+  const auto answer = advance_lanes<Law, Real>(
+      balls, rows.parameters.template load<typename Law::template ParametersOf<Real>>(lane),
+      rows.history.template load<History>(lane), last_normal, work.dt);
+  const unsigned right = bits_of(geometry::flag(answer.is_right > 0.0));
+  if ((touching & right) != (touching | touched)) return false;
+
+  rows.history.store(lane, answer.history, touch);
+  rows.normal.store(lane, answer.normal, touch);
+  rows.gap.store(lane, answer.step.gap);
+  rows.force.store(lane, answer.step.force);
+  Outcome& outcome = work.outcome;
+  outcome.touching += static_cast<std::size_t>(std::popcount(touching));
+  double* const dissipated = &outcome.dissipated[lane];
+  (Real::load(dissipated) + select(touch > 0.0, answer.step.dissipated, 0.0)).store(dissipated);
+  // Ratios are compared without division; of pairs that do not touch they are not positive.
+  const Real overlap = -answer.step.gap;
+  const Real deepest = Real::load(&outcome.overlap[lane]);
+  const Real its_radius = Real::load(&outcome.radius[lane]);
+  const auto is_deeper = overlap * its_radius > deepest * answer.smaller_radius;
+  select(is_deeper, overlap, deepest).store(&outcome.overlap[lane]);
+  select(is_deeper, answer.smaller_radius, its_radius).store(&outcome.radius[lane]);
+
+  // Pairs that do not touch add zeros: cheaper than asking each.
+  const auto if_touching = [&](const Real& x) { return select(touch > 0.0, x, 0.0); };
+  const Vector& force = answer.step.force;
+  const Vector& cross = answer.step.force_cross_normal;
+  std::array<BallForce, std::size_t{W}> of_lanes;
+  geometry::scatter_things<W, 8>(
+      {if_touching(force.x), if_touching(force.y), if_touching(force.z), if_touching(cross.x),
+       if_touching(cross.y), if_touching(cross.z), answer.step.arm_a, answer.step.arm_b},
+      [&](std::size_t k) __attribute__((always_inline)) { return of_lanes[k].force.data(); });
+  for (std::size_t k = 0; k < std::size_t{W}; ++k) {
+    add_to_a(work.sums[pairs[lane + k].a], of_lanes[k]);
+    add_to_b(work.sums[pairs[lane + k].b], of_lanes[k]);
+  }
+  return true;
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::advance_one(Rows& rows, const Pair* pairs, std::size_t lane, Work& work) {
+  const BallMotionOf<double> balls = work.balls.pair(pairs[lane]);
+  const auto parameters = rows.parameters.template at<typename Law::Parameters>(lane);
+  ContactMemory<Law> memory = rows.memory(lane);
+  Outcome& outcome = work.outcome;
+  if (balls.touch() == 0.0) {
+    outcome.dissipated[lane] += forget<Law>(parameters, memory);
+    rows.set_memory(lane, memory);
+    return;
+  }
+  const double distance = balls.separation.norm();
+  // Coincident centres have no direction: the last normal goes on, or else any.
+  const Vec3 normal = distance > 0.0    ? Vec3((1.0 / distance) * balls.separation)
+                      : memory.is_new() ? Vec3(Vec3::UnitZ())
+                                        : memory.normal;
+  const BallPairOf<double> pair{normal,       distance,       balls.velocity, balls.spin_a,
+                                balls.spin_b, balls.radius_a, balls.radius_b};
+  memory = {carried_history<Law>(memory, normal, work.dt * pair.twist_rate()), normal};
+  const BallStepOf<double> step = ball_step<Law>(pair, parameters, memory.history, work.dt);
+  rows.set_memory(lane, memory);
+  rows.gap.set(lane, step.gap);
+  rows.force.set(lane, step.force);
+  ++outcome.touching;
+  outcome.dissipated[lane] += step.dissipated;
+  const double smaller = std::min(pair.radius_a, pair.radius_b);
+  if (-step.gap * outcome.radius[lane] > outcome.overlap[lane] * smaller) {
+    outcome.overlap[lane] = -step.gap;
+    outcome.radius[lane] = smaller;
+  }
+  const BallForce force{step.force, step.force_cross_normal, step.arm_a, step.arm_b};
+  add_to_a(work.sums[pairs[lane].a], force);
+  add_to_b(work.sums[pairs[lane].b], force);
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::return_loans(geometry::ThreadPool& pool) {
+  pool.for_each_range(blocks_.blocks().size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t k = begin; k < end; ++k) {
+      blocks_.for_each_loan(k, [&](std::size_t owner, std::size_t borrower) {
+        sums_[owner].force += sums_[borrower].force;
+        sums_[owner].torque += sums_[borrower].torque;
+      });
+    }
+  });
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
+  const std::span<const BallBlocks::Block> blocks = blocks_.blocks();
+  pool.for_each_range(blocks.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const BallSum* sum = &sums_[blocks[k].first_member];
+      for (const BallBlocks::Member& ball : blocks_.members(blocks[k]).first(blocks[k].owned)) {
+        forces.force[index_of(ball.node)] += sum->force;
+        forces.torque[index_of(ball.node)] += sum->torque;
+        ++sum;
+      }
+    }
+  });
+}
+
+template <ContactLaw Law>
+double BallContacts<Law>::Outcome::total_dissipated() const noexcept {
+  double total = 0.0;
+  for (const double of_lane : dissipated) total += of_lane;
+  return total;
+}
+
+template <ContactLaw Law>
+double BallContacts<Law>::Outcome::largest_ratio() const noexcept {
+  double largest = 0.0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    largest = std::max(largest, overlap[lane] / radius[lane]);
+  return largest;
+}
+
+template <ContactLaw Law>
+std::size_t BallContacts<Law>::touching() const noexcept {
+  std::size_t count = 0;
+  for (const Outcome& outcome : outcomes_) count += outcome.touching;
+  return count;
+}
+
+template <ContactLaw Law>
+double BallContacts<Law>::largest_overlap_ratio() const noexcept {
+  double deepest = 0.0;
+  for (const Outcome& outcome : outcomes_) deepest = std::max(deepest, outcome.largest_ratio());
+  return deepest;
+}
+
+template <ContactLaw Law>
+double BallContacts<Law>::elastic_energy() const {
+  double energy = 0.0;
+  for_each_lane([&](const geometry::IndexPair&, const Rows& rows, std::size_t lane) {
+    const auto parameters = rows.parameters.template at<typename Law::Parameters>(lane);
+    energy += Law::elastic_normal_energy(parameters, rows.gap.number(lane)) +
+              Law::history_energy(parameters, rows.memory(lane).history);
+  });
+  return energy;
+}
+
+template <ContactLaw Law>
+template <class Visit>
+void BallContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
+  for_each_lane([&](const geometry::IndexPair& pair, const Rows& rows, std::size_t lane) {
+    const Vec3& xa = x[index_of(blocks_.node(pair.a))];
+    const Vec3& xb = x[index_of(blocks_.node(pair.b))];
+    visit(contact_row(xa, xb, rows.normal.template at<Vec3>(lane), rows.gap.number(lane),
+                      rows.force.template at<Vec3>(lane)));
+  });
+}
+
+}  // namespace plekton::contact

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/balls/ball_blocks.hpp"
+
+#include "tests/support/seeded_random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace plekton::contact {
+namespace {
+
+using geometry::IndexPair;
+
+/// Balls at random places, each paired with all that are near. Their nodes are counted backwards.
+struct Crowd {
+  explicit Crowd(std::int32_t count) {
+    test::Random random(5);
+    for (std::int32_t i = 0; i < count; ++i) x.push_back(random.in_cube(1.0));
+    for (std::int32_t i = 0; i < count; ++i)
+      balls.push_back({NodeId{count - 1 - i}, random.uniform(0.1, 0.2), MaterialId{0}});
+    const double near = 2.0 * std::cbrt(1.5 / count);
+    for (std::int32_t a = 0; a < count; ++a) {
+      for (std::int32_t b = a + 1; b < count; ++b)
+        if ((at(a) - at(b)).norm() < near) pairs.push_back({a, b});
+    }
+  }
+  const Vec3& at(std::int32_t ball) const {
+    return x[index_of(balls[static_cast<std::size_t>(ball)].node)];
+  }
+
+  std::vector<Vec3> x;
+  std::vector<Ball> balls;
+  std::vector<IndexPair> pairs;
+};
+
+class BallBlocksOf : public testing::TestWithParam<std::int32_t> {
+ protected:
+  BallBlocksOf() : crowd_(GetParam()) { blocks_.assign(crowd_.pairs, crowd_.balls, crowd_.x); }
+
+  Crowd crowd_;
+  BallBlocks blocks_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Crowds, BallBlocksOf, testing::Values(3, 100, 1279, 1280, 6000),
+                         testing::PrintToStringParamName());
+
+TEST_P(BallBlocksOf, HoldEveryPairOnce) {
+  std::set<std::uint32_t> slots;
+  for (const BallBlocks::Block& block : blocks_.blocks()) {
+    const auto members = blocks_.members(block);
+    for (std::size_t i = 0; i < crowd_.pairs.size(); ++i) {
+      const std::uint32_t slot = blocks_.slot(i);
+      const std::size_t row = slot / BallBlocks::kLanes;
+      if (row < block.first_row || row >= block.first_row + block.row_count) continue;
+      EXPECT_TRUE(slots.insert(slot).second);
+      const BallBlocks::Pair& pair = blocks_.row(row)[slot % BallBlocks::kLanes];
+      const auto& a = crowd_.balls[static_cast<std::size_t>(crowd_.pairs[i].a)];
+      const auto& b = crowd_.balls[static_cast<std::size_t>(crowd_.pairs[i].b)];
+      EXPECT_EQ(members[pair.a].node, a.node);
+      EXPECT_EQ(members[pair.b].node, b.node);
+      EXPECT_EQ(members[pair.a].radius, a.radius);
+    }
+  }
+  EXPECT_EQ(slots.size(), crowd_.pairs.size());
+}
+
+TEST_P(BallBlocksOf, FillLanesWithoutAPairWithTheBallOfNoSize) {
+  for (const BallBlocks::Block& block : blocks_.blocks()) {
+    std::size_t real = 0;
+    for (std::size_t row = block.first_row; row < block.first_row + block.row_count; ++row) {
+      for (std::size_t lane = 0; lane < BallBlocks::kLanes; ++lane) {
+        const BallBlocks::Pair& pair = blocks_.row(row)[lane];
+        if (pair.a == block.member_count - 1) {
+          EXPECT_EQ(pair.b, pair.a);
+          EXPECT_EQ(blocks_.members(block)[pair.a].radius, 0.0);
+        } else {
+          ++real;
+        }
+      }
+    }
+    EXPECT_GT(real + BallBlocks::kLanes, block.row_count * BallBlocks::kLanes);
+  }
+}
+
+TEST_P(BallBlocksOf, OwnEveryBallOnceAndLendItToWhoBorrowsIt) {
+  std::vector<int> times(blocks_.member_count(), 0);
+  std::set<NodeId> owned;
+  for (const BallBlocks::Block& block : blocks_.blocks()) {
+    for (std::uint32_t m = 0; m < block.owned; ++m) {
+      EXPECT_TRUE(owned.insert(blocks_.members(block)[m].node).second);
+      ++times[block.first_member + m];
+    }
+    ++times[block.first_member + block.member_count - 1];  // the one of no size
+  }
+  EXPECT_EQ(owned.size(), blocks_.ball_count());
+  const auto node_of = [&](std::size_t member) {
+    for (const BallBlocks::Block& block : blocks_.blocks())
+      if (member < block.first_member + block.member_count)
+        return blocks_.members(block)[member - block.first_member].node;
+    return NodeId{-1};
+  };
+  for (std::size_t k = 0; k < blocks_.blocks().size(); ++k) {
+    blocks_.for_each_loan(k, [&](std::size_t owner, std::size_t borrower) {
+      EXPECT_EQ(node_of(owner), node_of(borrower));
+      EXPECT_GE(owner, blocks_.blocks()[k].first_member);
+      EXPECT_LT(owner, blocks_.blocks()[k].first_member + blocks_.blocks()[k].owned);
+      ++times[borrower];
+    });
+  }
+  EXPECT_EQ(std::ranges::count(times, 1), static_cast<std::ptrdiff_t>(times.size()));
+}
+
+TEST(BallBlocks, BorrowFewBallsWhereNeighboursAreNearInSpace) {
+  const Crowd crowd(6000);
+  BallBlocks blocks;
+
+  blocks.assign(crowd.pairs, crowd.balls, crowd.x);
+
+  ASSERT_EQ(blocks.blocks().size(), 16u);
+  // A cube of n balls has 6 n^(2/3) at its faces; half of what is beyond them is borrowed, and the
+  // layer is as thick as 1.4 distances of balls. Balls in no order would be borrowed 4 times each.
+  EXPECT_LT(blocks.member_count(), 6000 * 2);
+}
+
+TEST(BallBlocks, TakeANewListInTheirOldOrder) {
+  const Crowd crowd(3000);
+  BallBlocks blocks;
+  blocks.assign(crowd.pairs, crowd.balls, crowd.x);
+  std::vector<IndexPair> fewer;
+  for (std::size_t i = 0; i < crowd.pairs.size(); i += 2) fewer.push_back(crowd.pairs[i]);
+
+  for (int list = 0; list < 20; ++list) {
+    blocks.assign(list % 2 == 0 ? fewer : crowd.pairs, crowd.balls, crowd.x);
+    const auto& pairs = list % 2 == 0 ? fewer : crowd.pairs;
+    std::set<std::uint32_t> slots;
+    for (std::size_t i = 0; i < pairs.size(); ++i) slots.insert(blocks.slot(i));
+    EXPECT_EQ(slots.size(), pairs.size());
+  }
+}
+
+TEST(BallBlocks, OfNoPairsHaveNoRows) {
+  const Crowd crowd(10);
+  BallBlocks blocks;
+
+  blocks.assign({}, crowd.balls, crowd.x);
+
+  EXPECT_EQ(blocks.row_count(), 0u);
+  EXPECT_EQ(blocks.ball_count(), 0u);
+}
+
+}  // namespace
+}  // namespace plekton::contact
