@@ -25,9 +25,13 @@ struct NearestCells {
   Proximity proximity;
 };
 
-/// Questions to a surface at one moment: what is nearest, what does a ray hit. Answers are exact in
-/// what they name (primitive_pairs.hpp); of several equally near cells the lowest one, whatever the
-/// number of threads. Const functions may run at the same time.
+/// Questions to a surface at one moment: what is nearest, what does a ray hit. Const functions may
+/// run at the same time, and answers are the same for any number of threads.
+///
+/// The features that an answer names are exactly those at which its cell is nearest
+/// (primitive_pairs.hpp). Which cell it is, the computed gaps decide, of equal ones the lowest
+/// cell. They have rounding errors: of cells that are equally near, as those around a nearest edge
+/// or node, it may be any.
 ///
 /// A question takes O(log cells) for cells of similar size that do not crowd around the answer.
 class SurfaceQuery {
@@ -53,7 +57,10 @@ class SurfaceQuery {
   /// Every cell whose gap to a probe is less than a length (m), ascending.
   std::vector<NearestCell> within(const Probe& probe, double gap) const;
 
-  /// The smallest gap between two surfaces. @returns nothing if one of them has no cells
+  /// The smallest gap between two surfaces, of equal ones the lowest cells, of this one first.
+  /// Takes O(n log m) for n cells here and m there, and the time of one pair more for every two
+  /// whose boxes are no further apart than the answer, or overlap: n m if all lie on one another.
+  /// @returns nothing if one of them has no cells
   std::optional<NearestCells> nearest(const SurfaceQuery& other) const;
 
   /// Where a ray first enters the thick surface: of the hits of all cells (ray.hpp) the one with

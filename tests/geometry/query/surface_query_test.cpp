@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -51,6 +52,29 @@ TEST(SurfaceQuery, FindsWhatBruteForceFindsNearAndFar) {
     for (int trial = 0; trial < 300 && !::testing::Test::HasFailure(); ++trial) {
       const Probe probe = random_probe(random, trial < 200 ? 6.0 : 600.0);
       expect_same(*query.nearest(probe), brute_force(probe, surface, complex.x));
+    }
+  }
+}
+
+/// The cells around a nearest node are equally near but for rounding.
+TEST(SurfaceQuery, NamesTheLowestOfTheCellsAroundANodeWhoseGapsAreEqualToTheLastBit) {
+  test::Random random(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Complex turned = test::rotated(test::ball(1), random.rotation());
+    const Surface surface = turned.surface();
+    const std::size_t node = random.index(turned.x.size());
+    const Probe probe = Probe::point(3.0 * turned.x[node]);
+
+    const NearestCell found = *SurfaceQuery(surface, turned.x).nearest(probe);
+
+    expect_same(found, brute_force(probe, surface, turned.x));
+    EXPECT_EQ(found.proximity.b.feature, Feature(id_at<NodeId>(node)));
+    const double rounding = 2.0 * 1e-12 * 2.0;  // m, of both distances of 2 m (primitive_pairs.hpp)
+    for (std::size_t c = 0; c < surface.cell_count(); ++c) {
+      const auto nodes = surface.nodes_of(id_at<CellId>(c));
+      if (std::find(nodes.begin(), nodes.end(), id_at<NodeId>(node)) == nodes.end()) continue;
+      const Proximity around = proximity(probe, {surface, turned.x}, id_at<CellId>(c));
+      EXPECT_NEAR(around.gap, found.proximity.gap, rounding);
     }
   }
 }
