@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plekton-bench-geometry: what the geometry kernel costs, as JSON lines: nearest points of each
-// pair certified and in plain double, the broad phase's share of a step, the import of a large
-// mesh.
+// plekton-bench-geometry: what the geometry kernel costs, as JSON lines: nearest points of a point
+// and a triangle certified over those in plain double, the broad phase's share of a step, the
+// import of a large mesh.
 #include "tests/benchmarks/geometry/broad_phase_share.hpp"
+#include "tests/benchmarks/geometry/certified_ratio.hpp"
 #include "tests/benchmarks/geometry/import_time.hpp"
-#include "tests/benchmarks/geometry/kernel_times.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(100, 10000000));
   CLI11_PARSE(app, argc, argv);
   try {
-    for (const auto& line : plekton::benchmarks::kernel_times()) std::cout << line.dump() << '\n';
+    for (const auto& line : plekton::benchmarks::certified_ratios())
+      std::cout << line.dump() << '\n';
     std::cout << plekton::benchmarks::import_time(facets).dump() << '\n';
     for (const double speed : {0.03, 0.1, 0.3})
       std::cout << plekton::benchmarks::broad_phase_share(spheres, speed).dump() << '\n';

@@ -29,10 +29,18 @@ constexpr std::array kFamilies{
     NamedFamily{"crossing", PairFamily::crossing},
 };
 
+/// Points are not parallel to anything, and two of them have nothing to cross.
+bool applies(PairFamily family, std::size_t count_a, std::size_t count_b) {
+  if (family == PairFamily::near_parallel) return count_a > 1;
+  if (family == PairFamily::crossing) return count_b > 1;
+  return true;
+}
+
 template <std::size_t kCountA, std::size_t kCountB, class Kernel>
 void add_cores(const std::string& cores, Kernel kernel) {
   const auto ask = [kernel](const auto& pair) { return kernel(pair.a, pair.b); };
   for (const NamedFamily& named : kFamilies) {
+    if (!applies(named.family, kCountA, kCountB)) continue;
     add_benchmark("closest/" + cores + "/" + named.name, [=](benchmark::State& state) {
       run_over(state, core_pairs<kCountA, kCountB>(named.family), ask);
     });

@@ -15,7 +15,6 @@ namespace plekton::benchmarks {
 namespace {
 
 using contact::MaterialId;
-using geometry::Mat3;
 using geometry::NodeId;
 using geometry::Vec3;
 using Law = contact::LinearFrictional;
@@ -23,19 +22,20 @@ using Law = contact::LinearFrictional;
 constexpr std::size_t kBalls = 4096;
 constexpr int kCells = 64;              // of a surface along either side, each 1 m
 constexpr double kSurfaceRadius = 0.1;  // m, of all complexes
-constexpr double kDepth = 0.03;  // part of a ball's radius that it sinks into the flat surface
 constexpr int kStepsOneWay = 50;
 constexpr double kWay = 0.005;  // part of a ball's radius that it moves in a step
 
 /// What the balls slide on, and where.
 struct Ground {
   test::Complex surface;  ///< about z = 0
+  double depth;           ///< part of a ball's radius that it sinks below z = 0
   bool along_edges;       ///< the centres stay exactly above lines of the lattice
 };
 
+/// Nodes up to a fifth of their spacing off their places, along each axis.
 test::Complex rough_sheet() {
   test::Random random(1);
-  return test::roughened(test::sheet(kCells), 1.0, 0.05, random);
+  return test::roughened(test::sheet(kCells), 1.0, 0.2, random);
 }
 
 /// Balls that do not feel each other, each going to and fro over the surface from a place of its
@@ -70,6 +70,11 @@ class SlidingBalls {
   double patches_per_ball() const {
     return static_cast<double>(contacts_.touching()) / static_cast<double>(kBalls);
   }
+  double terms_per_ball() const {
+    std::size_t terms = 0;
+    contacts_.for_each_touching([&](const auto&...) { ++terms; });
+    return static_cast<double>(terms) / static_cast<double>(kBalls);
+  }
 
  private:
   void place(const Ground& ground, double radius) {
@@ -77,7 +82,7 @@ class SlidingBalls {
     const double margin = radius + kSurfaceRadius;  // no ball reaches the rim
     const auto anywhere = [&] { return random.uniform(margin, kCells - margin); };
     for (std::size_t i = 0; i < kBalls; ++i) {
-      const double height = (1.0 - kDepth) * radius + kSurfaceRadius;
+      const double height = (1.0 - ground.depth) * radius + kSurfaceRadius;
       const double x = anywhere();
       const double y = ground.along_edges ? std::round(anywhere()) : anywhere();
       const Vec3 way = ground.along_edges ? Vec3::UnitX().eval() : in_plane(random);
@@ -117,13 +122,14 @@ class SlidingBalls {
 };
 
 template <class Make>
-void add_ground(const std::string& name, bool along_edges, Make make) {
+void add_ground(const std::string& name, Make make) {
   for (const double radius : {0.5, 2.0}) {
     const std::string cells = radius < 1.0 ? "/ball_of_half_a_cell" : "/ball_of_two_cells";
     add_benchmark("patch/" + name + cells, [=](benchmark::State& state) {
-      SlidingBalls balls({make(), along_edges}, radius);
+      SlidingBalls balls(make(), radius);
       run_steps(state, kBalls, [&] { balls.step(); });
-      state.counters["patches_per_ball"] = balls.patches_per_ball();
+      state.counters["patches"] = balls.patches_per_ball();
+      state.counters["terms"] = balls.terms_per_ball();
     });
   }
 }
@@ -131,10 +137,10 @@ void add_ground(const std::string& name, bool along_edges, Make make) {
 }  // namespace
 
 void add_patches() {
-  add_ground("flat_mesh", false, [] { return test::sheet(kCells); });
-  add_ground("flat_mesh_along_edges", true, [] { return test::sheet(kCells); });
-  add_ground("rough_mesh", false, rough_sheet);
-  add_ground("net", false, [] { return test::net(kCells); });
+  add_ground("flat_mesh", [] { return Ground{test::sheet(kCells), 0.03, false}; });
+  add_ground("flat_mesh_along_edges", [] { return Ground{test::sheet(kCells), 0.03, true}; });
+  add_ground("rough_mesh", [] { return Ground{rough_sheet(), 0.1, false}; });
+  add_ground("net", [] { return Ground{test::net(kCells), 0.03, false}; });
 }
 
 }  // namespace plekton::benchmarks

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/benchmarks/geometry/kernel_times.hpp"
+#include "tests/benchmarks/geometry/certified_ratio.hpp"
 
 #include "geometry/closest/point_triangle.hpp"
-#include "geometry/closest/segment_segment.hpp"
-#include "geometry/closest/segment_triangle.hpp"
-#include "geometry/closest/triangle_triangle.hpp"
 #include "tests/support/point_triangle_families.hpp"
-#include "tests/support/simplex_families.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -72,17 +68,15 @@ double time_of(const Queries& queries, Kernel kernel, double& sum) {
   return time.count() / static_cast<double>(queries.size());
 }
 
-std::vector<test::PointTriangle> point_triangles(std::initializer_list<test::Family> families) {
-  test::PointTriangleFamilies draw(1);
+std::vector<test::PointTriangle> point_triangles(test::Family family) {
+  test::PointTriangleFamilies families(1);
   std::vector<test::PointTriangle> queries;
-  while (queries.size() < kQueries) {
-    for (const test::Family family : families) queries.push_back(draw.draw(family));
-  }
+  while (queries.size() < kQueries) queries.push_back(families.draw(family));
   return queries;
 }
 
-Json point_triangle_times(const char* data, std::initializer_list<test::Family> families) {
-  const auto queries = point_triangles(families);
+Json ratio_on(const char* data, test::Family family) {
+  const auto queries = point_triangles(family);
   double certified = 1e300, plain = 1e300, sum = 0.0;
   for (int run = 0; run < kRuns; ++run) {
     certified = std::min(
@@ -96,53 +90,17 @@ Json point_triangle_times(const char* data, std::initializer_list<test::Family> 
             queries, [](const test::PointTriangle& q) { return plain_point_triangle(q.p, q.x); },
             sum));
   }
-  return {{"kernel", "point-triangle"},
-          {"data", data},
-          {"ns", certified},
-          {"plain_ns", plain},
-          {"ratio", certified / plain},
-          {"million_per_s", 1e3 / certified},
-          {"check", sum}};
-}
-
-template <std::size_t kCountA, std::size_t kCountB, class Kernel>
-Json pair_times(const char* name, test::PairFamily family, const char* data, Kernel kernel) {
-  test::SimplexFamilies<kCountA, kCountB> families(1);
-  std::vector<test::SimplexPair<kCountA, kCountB>> queries;
-  while (queries.size() < kQueries) queries.push_back(families.draw(family));
-  double best = 1e300, sum = 0.0;
-  for (int run = 0; run < kRuns; ++run) {
-    best = std::min(best, time_of(
-                              queries, [&](const auto& q) { return kernel(q.a, q.b); }, sum));
-  }
-  return {{"kernel", name},
-          {"data", data},
-          {"ns", best},
-          {"million_per_s", 1e3 / best},
-          {"check", sum}};
+  return {{"kernel", "point-triangle"}, {"data", data}, {"ns", certified}, {"plain_ns", plain},
+          {"ratio", certified / plain}, {"check", sum}};
 }
 
 }  // namespace
 
-std::vector<Json> kernel_times() {
+std::vector<Json> certified_ratios() {
   using test::Family;
-  using test::PairFamily;
-  const auto segments = [](const auto& a, const auto& b) {
-    return geometry::segment_segment(a, b);
-  };
-  const auto mixed = [](const auto& a, const auto& b) { return geometry::segment_triangle(a, b); };
-  const auto triangles = [](const auto& a, const auto& b) {
-    return geometry::triangle_triangle(a, b);
-  };
-  return {point_triangle_times("generic", {Family::generic}),
-          point_triangle_times("over edges of flat grids", {Family::rotated_flat_grid}),
-          point_triangle_times("integer grid", {Family::integer_grid}),
-          point_triangle_times("on edges", {Family::on_an_edge}),
-          pair_times<2, 2>("segment-segment", PairFamily::generic, "generic", segments),
-          pair_times<2, 2>("segment-segment", PairFamily::near_parallel, "near parallel", segments),
-          pair_times<2, 3>("segment-triangle", PairFamily::distant, "distant", mixed),
-          pair_times<3, 3>("triangle-triangle", PairFamily::distant, "distant", triangles),
-          pair_times<3, 3>("triangle-triangle", PairFamily::generic, "generic", triangles)};
+  return {ratio_on("generic", Family::generic),
+          ratio_on("over edges of flat grids", Family::rotated_flat_grid),
+          ratio_on("integer grid", Family::integer_grid), ratio_on("on edges", Family::on_an_edge)};
 }
 
 }  // namespace plekton::benchmarks
