@@ -99,12 +99,15 @@ std::span<const double> HarmonicShares::find(std::uint32_t vertex_count,
   const std::size_t holes = hole_count(vertex_count);
   if (holes == 0) return shares_;
 
+  forest_.grow(vertex_count, links);
+  forest_.hang(links);
   eliminate(vertex_count, links);
   clear(flows_, holes * links.size());
   std::size_t hole = 0;
   for (std::size_t k = 0; k < closings_.size(); ++k) {
     if (!closings_[k].is_open(vertex_count)) continue;
     set_circulation(k, vertex_count, links);
+    set_on_no_tree(links);
     take_off_potential(links);
     for (std::size_t i = 0; i < links.size(); ++i)
       flows_[hole * links.size() + i] = shares_[i] * std::sqrt(conductance_[i]);
@@ -167,6 +170,23 @@ void HarmonicShares::set_circulation(std::size_t open, std::uint32_t vertex_coun
   for (std::size_t i = 0; i < links.size(); ++i)
     shares_[i] = place_[i] == kNone ? 0.0 : row_[place_[i]];
   std::fill_n(row_.begin() + static_cast<std::ptrdiff_t>(open), closings_.size() - open, 0.0);
+}
+
+/// Takes off the gradient of a potential, so that the drops are 0 along the links of the forest of
+/// least resistance. The drops are small whole numbers, so this is exact. What is left is on links
+/// that resist at least as much as the way round them: a drop of 1 along a link of hardly any
+/// resistance, in a ring of others, would be a source so strong that all else drowned in its
+/// rounding errors.
+void HarmonicShares::set_on_no_tree(std::span<const Link> links) {
+  potential_.assign(pivot_.size(), 0.0);
+  for (const std::uint32_t vertex : forest_.downwards()) {
+    const SpanningForest::Parent& up = forest_.parent(vertex);
+    if (up.link == SpanningForest::kNone) continue;
+    const double drop = shares_[up.link];
+    potential_[vertex] = potential_[up.vertex] + (links[up.link].a == vertex ? drop : -drop);
+  }
+  for (std::size_t i = 0; i < links.size(); ++i)
+    shares_[i] -= potential_[links[i].a] - potential_[links[i].b];
 }
 
 /// Of all drops with these sums the ones without sources: what is left when the gradient of a

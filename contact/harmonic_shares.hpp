@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/spanning_weights.hpp"
+#include "contact/spanning_forest.hpp"
 
 #include <array>
 #include <cstddef>
@@ -71,6 +71,7 @@ class HarmonicShares {
   void find_closings(std::uint32_t vertex_count, std::span<const Link> links);
   void reduce(const Filling& filling);
   void set_circulation(std::size_t open, std::uint32_t vertex_count, std::span<const Link> links);
+  void set_on_no_tree(std::span<const Link> links);
   void eliminate(std::uint32_t vertex_count, std::span<const Link> links);
   void take_off_potential(std::span<const Link> links);
   void orthonormalise(std::size_t hole_count, std::size_t link_count);
@@ -81,6 +82,8 @@ class HarmonicShares {
   std::vector<Current> currents_;
   std::vector<double> row_;  ///< by closing
   // Working space of find().
+  SpanningForest forest_;            ///< of least resistance
+  std::vector<double> potential_;    ///< by vertex
   std::vector<double> conductance_;  ///< by link
   std::vector<double> coupling_;    ///< vertex x lower vertex, what is left when all above are gone
   std::vector<std::size_t> lower_;  ///< vertices that one is coupled to

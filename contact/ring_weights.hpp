@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/near_complex.hpp"
+#include "contact/spanning_weights.hpp"
 
 #include <span>
 #include <vector>

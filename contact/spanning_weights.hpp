@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/spanning_forest.hpp"
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,22 +37,6 @@
 /// Peres, Probability on Trees and Networks (2016), chapter 4.
 namespace plekton::contact {
 
-/// A link between two vertices of the graph.
-struct Link {
-  std::uint32_t a;
-  std::uint32_t b;
-  double resistance;  ///< >= 0, in any unit
-};
-
-/// Resistance (1/m^2) of the way down from a pass to a feature: upper overlap^-2 - lower
-/// overlap^-2.
-/// @param upper  m, > 0, overlap of the pass
-/// @param drop   m, >= 0, by how much the lower end is nearer
-inline double link_resistance(double upper, double drop) noexcept {
-  const double lower = upper + drop;
-  return drop * (upper + lower) / (upper * upper * lower * lower);
-}
-
 /// Keeps its working space, so that a warm call does not allocate.
 class SpanningWeights {
  public:
@@ -65,28 +51,16 @@ class SpanningWeights {
   std::span<const double> find(std::uint32_t vertex_count, std::span<const Link> links);
 
   /// Vertices that hang together have the same root, the lowest of them. Of the last call.
-  std::uint32_t root_of(std::uint32_t vertex) const noexcept;
+  std::uint32_t root_of(std::uint32_t vertex) const noexcept { return forest_.root_of(vertex); }
 
  private:
-  struct Parent {
-    std::uint32_t vertex;
-    std::uint32_t link;
-    std::uint32_t depth;
-  };
-
-  void grow_forest(std::uint32_t vertex_count, std::span<const Link> links);
-  void hang_trees(std::uint32_t vertex_count, std::span<const Link> links);
   void fill_cycles(std::span<const Link> links);
   void share_rings(std::span<const Link> links);
 
-  std::vector<std::uint32_t> order_;  ///< links by rising resistance
-  std::vector<std::uint32_t> root_;
-  std::vector<std::uint32_t> tree_links_;
-  std::vector<std::uint32_t> closing_links_;
-  std::vector<Parent> parent_;
+  SpanningForest forest_;
   std::vector<double> weights_;
   // Working space of share_rings.
-  std::vector<std::uint32_t> tree_place_;  ///< by link: its place in tree_links_
+  std::vector<std::uint32_t> tree_place_;  ///< by link: its place among the tree links
   std::vector<double> cycles_;  ///< closing link x tree link: signed root of the tree link's share
                                 ///< of the closing one's resistance
   std::vector<double> gram_;  ///< closing link x closing link: 1 + C C^T, then its Cholesky factor

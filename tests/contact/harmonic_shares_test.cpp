@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/harmonic_shares.hpp"
 
+#include "contact/spanning_weights.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <Eigen/Dense>
@@ -148,6 +149,29 @@ TEST(HarmonicShares, OfTwoLinksWithoutResistanceAreEvenInARingOfThem) {
   EXPECT_DOUBLE_EQ(shares[0], 0.5);
   EXPECT_DOUBLE_EQ(shares[1], 0.5);
   EXPECT_DOUBLE_EQ(shares[2], 0.0);
+}
+
+TEST(HarmonicShares, AreThoseOfParallelWaysHoweverLittleALinkBetweenThemResists) {
+  // A ring over 0, 1 and 2; a triangle that is filled is a second way from 2 to 1, over 3.
+  const std::vector<Filling> fillings{{3, {2, 3, 4, 0}, {1, -1, 1, 0}, 3}};
+  HarmonicShares harmonic;
+  for (const double little : {0.0, 1e-300, 1e-20, 1e-18, 1e-16, 1e-12, 1e-8, 1e-4, 1.0}) {
+    const std::vector<Link> links{
+        {1, 0, 1.0}, {2, 0, 2.0}, {2, 1, 3.0}, {3, 1, 3.0}, {3, 2, little}};
+    harmonic.build(4, links, fillings);
+
+    const auto shares = harmonic.find(4, links);
+
+    const double current = (3.0 + little) / (6.0 + little);  // in link 2; the rest goes over 3
+    const double over_3 = 1.0 - current;
+    const double resistance = 1.0 + 2.0 + 3.0 * current;
+    const double tolerance = 1e-14;
+    EXPECT_NEAR(shares[0], 1.0 / resistance, tolerance) << little;
+    EXPECT_NEAR(shares[1], 2.0 / resistance, tolerance) << little;
+    EXPECT_NEAR(shares[2], 3.0 * current * current / resistance, tolerance) << little;
+    EXPECT_NEAR(shares[3], 3.0 * over_3 * over_3 / resistance, tolerance) << little;
+    EXPECT_NEAR(shares[4], little * over_3 * over_3 / resistance, tolerance) << little;
+  }
 }
 
 TEST(HarmonicShares, AreNoneWhereTheOnlyRingIsFilled) {

@@ -258,5 +258,37 @@ TEST(GrainOnANet, FeelsTheSameWhateverTheOrderInWhichTheNetWasCreated) {
   }
 }
 
+/// Grains that are symmetric to a few facets: features of different cells are equally far, or
+/// differ by less than the distances round to.
+TEST(GrainOnThreeSidesOfACube, FeelsNoJumpWhereDistancesTieButForRounding) {
+  Complex three_sides;
+  for (const Vec3& x :
+       {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(0, 1, 1), Vec3(1, 1, 1)}) {
+    three_sides.node(x);
+  }
+  three_sides.facet(1, 3, 5);
+  three_sides.facet(2, 4, 5);
+  three_sides.facet(0, 3, 2);
+  const Surface surface = three_sides.surface();
+  PatchFinder finder(surface);
+  const double range = 3.7164;
+  const auto cells = all_cells(surface);
+  const auto force_at = [&](const Vec3& centre) {
+    return total_contact(finder, centre, range, cells, three_sides.x).force;
+  };
+  const Vec3 tied(2, 3.5, 0);
+  const Vec3 force = force_at(tied);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (double step = 1e-14; step < 1e-3; step *= 3.0) {
+      for (const double side : {-step, step}) {
+        // The force follows the position: a contact turns by 1 / distance, and shares change over
+        // distances of the size of the cube.
+        EXPECT_LT((force_at(tied + side * Vec3::Unit(axis)) - force).norm(), 5.0 * step + 1e-12)
+            << "axis " << axis << ", step " << side;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plekton::test
