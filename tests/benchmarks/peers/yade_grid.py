@@ -4,8 +4,8 @@
 import math
 
 import yade_timing as timing
-from minieigen import Vector3
 from yade import *  # noqa: F403  the functors are made when YADE starts
+from yade import Vector3
 from yade.gridpfacet import gridConnection, gridNode, pfacet
 
 BEAM_YOUNG_MODULUS = 5e7

@@ -11,9 +11,9 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import yade_grid as grid
 import yade_timing as timing
-from minieigen import Vector3
 from to_lammps_data import read_bed
 from yade import *  # noqa: F403  the functors are made when YADE starts
+from yade import Vector3
 
 MEMBRANE_RADIUS = 3e-4
 """m, half of the thickness."""
