@@ -33,8 +33,8 @@ def last_lines(text, count=5):
 
 
 def environment(threads):
-    """That of this process with one binding for all codes: threads are nobody's, the system may move them."""
-    return {**os.environ, "OMP_NUM_THREADS": str(threads), "OMP_PROC_BIND": "false"}
+    """That of this process with one binding for all codes: the system may move threads from processor to processor."""
+    return {**os.environ, "OMP_NUM_THREADS": str(threads), "OMP_PROC_BIND": "false", "PYTHONDONTWRITEBYTECODE": "1"}
 
 
 AS_A_GRANDCHILD = ["sh", "-c", '"$@"; exit $?', "sh"]
