@@ -96,6 +96,7 @@ class Contacts {
   const StructureContacts<Law>& between_structures() const noexcept { return between_structures_; }
   const PlaneContacts<Law>& with_planes() const noexcept { return with_planes_; }
   const geometry::Neighbours& neighbours() const noexcept { return neighbours_; }
+  const geometry::CellNeighbours& cell_neighbours() const noexcept { return cell_neighbours_; }
 
  private:
   ContactMaterials<Law> materials_;

@@ -134,6 +134,7 @@ bool CellNeighbours::update(Positions x, ThreadPool& pool) {
   if (!self_contact_ && surface_->structure_count() < 2) return false;
   gather_own_nodes(x);
   if (!skin_.needs_rebuild(own_x_, pool)) return false;
+  ++rebuild_count_;
   boxes_.clear();
   for (std::size_t c = 0; c < surface_->cell_count(); ++c) {
     boxes_.push_back(box(*surface_, id_at<CellId>(c), x, skin_.margin()));

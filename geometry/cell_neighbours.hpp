@@ -7,6 +7,7 @@
 #include "geometry/skin.hpp"
 #include "geometry/thread_pool.hpp"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,8 @@ class CellNeighbours {
 
   /// Sorted; a on the lower structure, or on the same and lower itself.
   std::span<const CellPair> pairs() const noexcept { return pairs_; }
+  /// How often the list was made.
+  std::int64_t rebuild_count() const noexcept { return rebuild_count_; }
 
  private:
   bool may_touch(CellId a, CellId b) const;
@@ -46,6 +49,7 @@ class CellNeighbours {
   const Surface* surface_;
   Skin skin_;
   bool self_contact_;
+  std::int64_t rebuild_count_ = 0;
   std::vector<NodeId> own_nodes_;  ///< those of cells
   std::vector<Vec3> own_x_;
   BroadPhase tree_;
