@@ -22,7 +22,7 @@ struct BedOrder {
 };
 
 /// A bed rests when the mean kinetic energy of its spheres is below this part of m g r.
-constexpr double kRest = 1e-4;
+constexpr double kRest = 2e-4;
 
 /// Lets spheres fall from a loose grid with random places, radii and velocities, by the program's
 /// own dynamics, until they rest (kRest). Friction is 0.1 meanwhile, for a dense bed.

@@ -42,7 +42,9 @@ StateFigures state_figures(const BenchmarkSimulation& simulation) {
 Measurement measure(BenchmarkScene scene, const Window& window) {
   BenchmarkSimulation simulation(std::move(scene.scene), scene.options);
   const auto& contacts = simulation.contacts();
-  const auto rebuilds = [&] { return contacts.neighbours().rebuild_count(); };
+  const auto rebuilds = [&] {
+    return contacts.neighbours().rebuild_count() + contacts.cell_neighbours().rebuild_count();
+  };
 
   for (int i = 0; i < window.warm_up; ++i) simulation.step();
   const std::int64_t rebuilds_before = rebuilds();

@@ -28,7 +28,7 @@ struct Measurement {
   double wall;                      ///< s, of the timed steps
   double processor_time;            ///< s, of all threads together
   contact::ContactCounts contacts;  ///< after the last step
-  std::int64_t list_rebuilds;       ///< of the spheres, in the timed steps
+  std::int64_t list_rebuilds;       ///< of spheres and of structures, in the timed steps
   double skin;                      ///< m, of the spheres' lists after the last step
   StateFigures state;               ///< after the last step
 };

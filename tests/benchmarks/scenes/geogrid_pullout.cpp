@@ -57,7 +57,7 @@ std::size_t add_grid(const geometry::Lattice& grid, dynamics::Scene& scene) {
   for (const Vec3& point : grid.points) scene.add_node(point);
   const auto section = beam_section(kBarRadius);
   for (const auto& bar : geometry::cylinders_of(grid, kBarRadius, first_node)) {
-    scene.add_cylinder(bar.nodes[0], bar.nodes[1], bar.radius, MaterialId{0});
+    scene.add_cylinder(bar.nodes[0], bar.nodes[1], bar.radius, kCommonMaterial);
     scene.add_beam(bar.nodes[0], bar.nodes[1], section, kBeamDensity);
   }
   return first_node;
@@ -81,8 +81,8 @@ BenchmarkScene geogrid_pullout(const Bed& bed) {
   const double height = open_slot(opened);
   BenchmarkScene result = empty_scene(0.3);
   add_spheres(opened, result.scene);
-  add_walls(bed.side, bed.side, result.scene);
-  add_floor(result.scene);
+  add_walls({bed.side, bed.side}, result.scene);
+  add_floor(kCommonMaterial, result.scene);
   const auto grid = grid_in_box(bed.side, height);
   pull(grid, add_grid(grid, result.scene), result.scene);
   result.element_count = bed.grains.size() + grid.edges.size();

@@ -30,7 +30,7 @@ BenchmarkScene hollow_sphere_on_floor() {
   BenchmarkScene result = empty_scene(0.3);
   add_hollow_sphere(geometry::icosphere(kRadius, 3),
                     {{0.0, 0.0, kRadius + kMembraneRadius + kGap}, {0.0, 0.0, -0.5}}, result);
-  add_floor(result.scene);
+  add_floor(kStiffWallMaterial, result.scene);
   return result;
 }
 
@@ -50,8 +50,8 @@ BenchmarkScene colliding_hollow_spheres() {
       }
     }
   }
-  add_walls(2.0 * kSpacing, 2.0 * kSpacing, result.scene);
-  add_floor(result.scene);
+  add_walls({2.0 * kSpacing, 2.0 * kSpacing, kStiffWallMaterial}, result.scene);
+  add_floor(kStiffWallMaterial, result.scene);
   return result;
 }
 

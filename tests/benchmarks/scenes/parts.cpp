@@ -7,7 +7,8 @@ namespace plekton::benchmarks {
 
 BenchmarkScene empty_scene(double damping) {
   BenchmarkScene result{};
-  result.scene.materials = {{kYoungModulus, kStiffnessRatio, kFriction}};
+  result.scene.materials = {{kYoungModulus, kStiffnessRatio, kFriction},
+                            {kBeamYoungModulus, kBeamPoissonRatio, kFriction}};
   result.options.time_step = kTimeStep;
   result.options.motion = {kGravity, damping, true};
   return result;
@@ -16,24 +17,25 @@ BenchmarkScene empty_scene(double damping) {
 void add_spheres(const Bed& bed, dynamics::Scene& scene) {
   for (const Bed::Grain& grain : bed.grains) {
     const auto sphere =
-        scene.add_sphere(grain.position, grain.radius, kSphereDensity, MaterialId{0});
+        scene.add_sphere(grain.position, grain.radius, kSphereDensity, kCommonMaterial);
     const std::size_t node = index_of(scene.elements.spheres[index_of(sphere)].nodes[0]);
     scene.state.velocity[node] = grain.velocity;
     scene.state.angular_velocity[node] = grain.angular_velocity;
   }
 }
 
-void add_walls(double length, double width, dynamics::Scene& scene) {
-  const Vec3 far(length, width, 0.0);
-  const Vec3 none = Vec3::Zero();
-  scene.planes.push_back({none, Vec3::UnitX(), none, MaterialId{0}});
-  scene.planes.push_back({far, -Vec3::UnitX(), none, MaterialId{0}});
-  scene.planes.push_back({none, Vec3::UnitY(), none, MaterialId{0}});
-  scene.planes.push_back({far, -Vec3::UnitY(), none, MaterialId{0}});
+void add_walls(const Walls& walls, dynamics::Scene& scene) {
+  const Vec3 near = Vec3::Zero();
+  const Vec3 far(walls.length, walls.width, 0.0);
+  const Vec3 still = Vec3::Zero();
+  scene.planes.push_back({near, Vec3::UnitX(), still, walls.material});
+  scene.planes.push_back({far, -Vec3::UnitX(), still, walls.material});
+  scene.planes.push_back({near, Vec3::UnitY(), still, walls.material});
+  scene.planes.push_back({far, -Vec3::UnitY(), still, walls.material});
 }
 
-void add_floor(dynamics::Scene& scene) {
-  scene.planes.push_back({Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}});
+void add_floor(MaterialId material, dynamics::Scene& scene) {
+  scene.planes.push_back({Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), material});
 }
 
 dynamics::BeamSection beam_section(double radius) {
@@ -45,7 +47,7 @@ std::size_t add_membrane(const geometry::Mesh& mesh, dynamics::Scene& scene) {
   const auto membrane = geometry::make_membrane(mesh, {2.0 * kMembraneRadius, first_node});
   for (const Vec3& node : membrane.nodes) scene.add_node(node);
   for (const auto& [nodes, radius] : membrane.facets) {
-    scene.add_facet(nodes[0], nodes[1], nodes[2], radius, MaterialId{0});
+    scene.add_facet(nodes[0], nodes[1], nodes[2], radius, kCommonMaterial);
   }
   const auto section = beam_section(kMembraneRadius);
   for (const auto& [a, b] : membrane.edges) scene.add_beam(a, b, section, kBeamDensity);

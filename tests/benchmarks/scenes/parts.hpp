@@ -24,18 +24,29 @@ constexpr double kBeamPoissonRatio = 0.3;
 constexpr double kBeamDensity = 3000.0;  ///< kg/m³
 const Vec3 kGravity(0.0, 0.0, -9.81);    ///< m/s²
 
-/// No bodies yet: the one contact material, gravity, the step, the skin as the program chooses it.
+/// Of spheres, membranes, grids, and of walls that spheres touch.
+constexpr MaterialId kCommonMaterial{0};
+/// Of walls that nodes of membranes touch: with the common material 3.846 MPa, the stiffness and
+/// slip that such nodes have where they bring the material of the beams to the wall.
+constexpr MaterialId kStiffWallMaterial{1};
+
+/// No bodies yet: the contact materials, gravity, the step, the skin as the program chooses it.
 /// @param damping  numerical damping
 BenchmarkScene empty_scene(double damping);
 
 /// The spheres of a bed with their velocities.
 void add_spheres(const Bed& bed, dynamics::Scene& scene);
 
-/// Four walls at x = 0, x = length, y = 0, y = width (m).
-void add_walls(double length, double width, dynamics::Scene& scene);
+/// Four walls at x = 0, x = length, y = 0, y = width.
+struct Walls {
+  double length;  ///< m
+  double width;   ///< m
+  MaterialId material = kCommonMaterial;
+};
+void add_walls(const Walls& walls, dynamics::Scene& scene);
 
 /// A floor at z = 0.
-void add_floor(dynamics::Scene& scene);
+void add_floor(MaterialId material, dynamics::Scene& scene);
 
 /// The section of a bar of a membrane or a grid.
 /// @param radius  m

@@ -46,7 +46,7 @@ void hold_rim(std::size_t first_node, int cells, dynamics::Scene& scene) {
 BenchmarkScene spheres_on_membrane(const Bed& bed, int cells) {
   BenchmarkScene result = empty_scene(0.3);
   add_spheres(bed, result.scene);
-  add_walls(bed.side, bed.side, result.scene);
+  add_walls({bed.side, bed.side}, result.scene);
   const geometry::Mesh mesh = sheet(bed.side, cells);
   hold_rim(add_membrane(mesh, result.scene), cells, result.scene);
   result.element_count = bed.grains.size() + mesh.facets.size();
