@@ -7,8 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include <fstream>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace {
 
@@ -97,6 +101,9 @@ nlohmann::ordered_json run(const RunOptions& options) {
 }
 
 void make_bed(const BedOptions& options) {
+  // Settling may take minutes: see first whether its result can be kept.
+  if (!std::ofstream(options.out, std::ios::app))
+    throw std::runtime_error(options.out + ": cannot be written");
   bench::BedOrder order = options.order;
   if (options.is_flow) order.kind = bench::BedKind::flow;
   if (options.is_slab) order.kind = bench::BedKind::slab;
@@ -148,6 +155,8 @@ int main(int argc, char** argv) {
       make_bed(bed_options);
     } else if (run_options.lists) {
       std::cout << bench::list_of_scenes();
+    } else if (run_options.scene.empty()) {
+      throw std::invalid_argument("name a scene, or make-bed:\n" + bench::list_of_scenes());
     } else {
       std::cout << run(run_options).dump() << '\n';
     }
