@@ -3,6 +3,7 @@
 
 #include "contact/harmonic_shares.hpp"
 #include "contact/motion.hpp"
+#include "contact/shells.hpp"
 #include "geometry/critical_features.hpp"
 
 #include <cstdint>
@@ -46,6 +47,9 @@ class NearComplex {
   /// By upper vertex.
   std::span<const Filling> fillings() const noexcept { return fillings_; }
 
+  /// The facets in range with all their corners. By upper vertex.
+  std::span<const WholeFacet> whole_facets() const noexcept { return whole_facets_; }
+
   /// Sets the resistances of the links below a level (m, at most the range; link_resistance).
   /// @returns  the number of vertices below it
   std::uint32_t set_level(double level);
@@ -63,6 +67,7 @@ class NearComplex {
   void number_vertices();
   void list_links(const geometry::Surface& surface);
   void list_fillings(const geometry::Surface& surface);
+  void list_whole_facets(const geometry::Surface& surface);
   const Cell* cell_of(Feature feature) const noexcept;
   void add_link(const Cell* side, const Cell& cell);
   void add_to(Filling& filling, const Cell& side, const Cell& cell, int sign) const;
@@ -84,6 +89,7 @@ class NearComplex {
   std::vector<Link> links_;    ///< by upper vertex
   std::vector<LinkKey> keys_;  ///< by cells
   std::vector<Filling> fillings_;
+  std::vector<WholeFacet> whole_facets_;
   std::vector<std::uint32_t> order_, place_;  // of the sorting
   std::vector<Vertex> sorted_;
 };

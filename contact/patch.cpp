@@ -99,7 +99,8 @@ std::uint32_t PatchFinder::root_of(std::uint32_t vertex) const noexcept {
   return vertex;
 }
 
-/// Level by level: which parts hang together, and at which levels rings are born and filled.
+/// Level by level: which parts hang together, and at which levels rings are born or filled, or
+/// hollows shut.
 void PatchFinder::join_parts() {
   root_.resize(vertices_.size());
   std::iota(root_.begin(), root_.end(), 0U);
@@ -109,18 +110,15 @@ void PatchFinder::join_parts() {
   for (const PassLinks& pass : pass_links_) {
     const Critical& feature = critical_of(pass.pass);
     weights_[pass.pass] = feature.coefficient;
-    int rings = 1 - feature.branches - feature.coefficient;  // minus the number that it fills
-    bool is_event = rings != 0;
+    // Loops of the descending link: rings that the feature fills, or hollows that it shuts.
+    bool is_event = feature.branches + feature.coefficient != 1;
     for (std::uint32_t i = 0; i < pass.link_count; ++i) {
       const Link& link = links_[pass.first_link + i];
       const auto [low, high] = std::minmax({root_of(link.a), root_of(link.b)});
-      if (low == high) {
-        ++rings;
-        is_event = true;
-      }
+      is_event = is_event || low == high;
       root_[high] = low;
     }
-    if (is_event) events_.push_back({feature.distance, pass.pass, rings});
+    if (is_event) events_.push_back(feature.distance);
   }
 }
 
@@ -140,9 +138,6 @@ void PatchFinder::share_rings(const Vec3& centre, double range,
           {root_of(below), {foot.core, foot.normal, foot.distance, share.weight}});
     }
   }
-  if (!is_filled) return;
-  for (std::size_t i = 0; i < events_.size(); ++i)
-    weights_[events_[i].vertex] -= rings_.hollows()[i];
 }
 
 void PatchFinder::add_terms() {

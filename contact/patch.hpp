@@ -18,11 +18,12 @@
 /// surface pushes exactly once, a sharp corner from both sides, and the force is continuous in
 /// between, with no tolerance: the natural scale is the overlap itself.
 ///
-/// Coefficients count pieces minus holes of the part of the surface nearer than s, for every level
-/// s; what shall count is the pieces. So each hole gets its one back, at the levels where it is
-/// open, shared over the ring around it (near_complex.hpp, spanning_weights.hpp): at every level
-/// the shares of the links of all rings add up to the number of holes, and a link pushes as its
-/// upper vertex does. Taken over all levels from the first ring to the range this is continuous
+/// Coefficients count pieces minus holes plus hollows of the part of the surface nearer than s, for
+/// every level s; what shall count is the pieces. So each hollow has its one taken back, at the
+/// levels where it is shut (ring_weights.hpp), and each hole gets its one back, at the levels where
+/// it is open, shared over the ring around it (near_complex.hpp, spanning_weights.hpp): at every
+/// level the shares of the links of all rings add up to the number of holes, and a link pushes as
+/// its upper vertex does. Taken over all levels from the first ring to the range this is continuous
 /// where rings are born (the new pass begins with the whole share, as it must), are filled, join
 /// and part, because each of these is an event in level alone; shares at one level only, or at the
 /// end of the range, jump by up to half a contact. With a linear law the weights are exact: the sum
@@ -118,7 +119,7 @@ class PatchFinder {
   std::vector<std::uint32_t> root_;  ///< by vertex: the lowest of those that hang together, or one
                                      ///< on the way to it
   std::vector<double> weights_;      ///< by vertex
-  std::vector<RingEvent> events_;
+  std::vector<double> events_;       ///< m, levels at which rings or hollows begin or end
   /// What lies on a ring and is no critical feature.
   struct RingTerm {
     std::uint32_t root;

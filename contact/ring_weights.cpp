@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/ring_weights.hpp"
 
-#include <numeric>
-
 namespace plekton::contact {
 namespace {
 
@@ -15,16 +13,14 @@ constexpr double kShortest = 1e-12;
 std::span<const RingWeights::Share> RingWeights::find(const geometry::Surface& surface,
                                                       const Vec3& point, double range,
                                                       std::span<const geometry::CellId> cells,
-                                                      Positions x,
-                                                      std::span<const RingEvent> events) {
+                                                      Positions x, std::span<const double> events) {
   near_.build(surface, point, range, cells, x);
   const auto feet = near_.vertices();
   shares_of_holes_.build(static_cast<std::uint32_t>(feet.size()), near_.links(), near_.fillings());
+  hollows_.build(near_.whole_facets());
   sums_.assign(feet.size(), 0.0);
-  ring_count_.clear();
   for (std::size_t i = 0; i < events.size(); ++i)
-    add_interval(events[i].level, i + 1 < events.size() ? events[i + 1].level : range);
-  find_hollows(events);
+    add_interval(events[i], i + 1 < events.size() ? events[i + 1] : range);
 
   shares_.clear();
   for (std::size_t i = 0; i < feet.size(); ++i) {
@@ -49,28 +45,23 @@ std::span<const RingWeights::Share> RingWeights::find_of_wires(
 }
 
 void RingWeights::add_interval(double lower, double upper) {
-  ring_count_.push_back(-1);
   if (!(upper - lower > kShortest * upper)) return;
-  const std::uint32_t below = near_.set_level(0.5 * (lower + upper));
+  const double level = 0.5 * (lower + upper);
+  const std::uint32_t below = near_.set_level(level);
   const auto shares = shares_of_holes_.find(below, near_.links());
-  ring_count_.back() = static_cast<int>(shares_of_holes_.hole_count(below));
   for (std::size_t i = 0; i < shares.size(); ++i)
     sums_[near_.links()[i].a] += (upper - lower) * shares[i];
+  if (hollows_.hollow_count(below) > 0) take_hollows(below, level, upper - lower);
 }
 
-/// Where there are more rings than the events say, a top has filled none. Only looked for if that
-/// is so at the last level: in between, events an ulp apart may change places.
-void RingWeights::find_hollows(std::span<const RingEvent> events) {
-  hollows_.assign(events.size(), 0);
-  const auto add = [](int sum, const RingEvent& event) { return sum + event.rings; };
-  if (ring_count_.back() <= std::accumulate(events.begin(), events.end(), 0, add)) return;
-  int expected = 0;
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    expected += events[i].rings;
-    if (ring_count_[i] < 0) continue;
-    hollows_[i] = ring_count_[i] - expected;
-    expected = ring_count_[i];
+void RingWeights::take_hollows(std::uint32_t below, double level, double length) {
+  corner_weights_.clear();
+  for (std::uint32_t i = 0; i < below; ++i) {
+    const double overlap = level - near_.vertices()[i].distance;
+    corner_weights_.push_back(1.0 / (overlap * overlap));
   }
+  const auto shares = hollows_.find(below, corner_weights_);
+  for (std::size_t i = 0; i < shares.size(); ++i) sums_[i] -= length * shares[i];
 }
 
 }  // namespace plekton::contact

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/contact_surfaces.hpp"
+#include "tests/support/force_jumps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -144,31 +145,6 @@ TEST(GrainOnANet, IsCarriedStraightUpOverTheMiddleOfAnAperture) {
 
     EXPECT_LT(press.most_sideways(), 1e-9) << "aperture " << aperture;
   }
-}
-
-/// Largest change of the force from step to step along a straight way, in contacts of an overlap.
-double largest_jump(const Complex& complex, double range, double overlap, const Vec3& from,
-                    const Vec3& to, int steps) {
-  const Surface surface = complex.surface();
-  PatchFinder finder(surface);
-  double jump = 0.0;
-  Vec3 last = Vec3::Zero();
-  for (int step = 0; step <= steps; ++step) {
-    const Vec3 centre = from + static_cast<double>(step) / steps * (to - from);
-    const auto cells = cells_near(surface, centre, range, complex.x);
-    const Vec3 force = total_contact(finder, centre, range, cells, complex.x).force;
-    if (step > 0) jump = std::max(jump, (force - last).norm() / overlap);
-    last = force;
-  }
-  return jump;
-}
-
-/// Per step the force changes by a share of the contact that falls with the step.
-void expect_no_jump(const Complex& complex, double range, double overlap, const Vec3& from,
-                    const Vec3& to) {
-  const double coarse = largest_jump(complex, range, overlap, from, to, 200);
-  const double fine = largest_jump(complex, range, overlap, from, to, 2000);
-  EXPECT_LE(fine, 0.2 * coarse) << coarse << " -> " << fine;
 }
 
 TEST(GrainOnANet, FeelsAForceThatFollowsItsMotionWithoutAJump) {

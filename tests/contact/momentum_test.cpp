@@ -134,7 +134,8 @@ TEST(ElasticForce, IsTheGradientOfTheEnergyWhereNoRingCloses) {
     ball.put(place);
     CriticalFeatureFinder critical(ball.surface());
     const int patches = static_cast<int>(ball.contacts().touching());
-    if (patches == 0 || closes_a_ring(critical, place, ball.range(), cells, ball.x(), patches))
+    if (patches == 0 ||
+        has_rings_or_hollows(critical, place, ball.range(), cells, ball.x(), patches))
       continue;
     several_terms += critical.find(place, ball.range(), cells, ball.x()).size() > 2;
     const auto forces = ball.forces().force;

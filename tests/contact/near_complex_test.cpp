@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/near_complex.hpp"
 
+#include "contact/hollow_shares.hpp"
 #include "tests/support/contact_rule_reference.hpp"
 #include "tests/support/contact_surfaces.hpp"
 
@@ -36,15 +37,20 @@ Complex surface_of_kind(int kind, Random& random) {
       return roughened(net(4), 1.0, 0.2, random);
     case 3:
       return plate_with_hole(7, 1.0, 3.0);
-    default:
+    case 4:
       return junction(5, random);
+    case 5:
+      return mapped(roughened(ball(1), 0.5, 0.2, random),
+                    [](const Vec3& x) { return Vec3(0.5 * x); });
+    default:
+      return random_complex(random, false);
   }
 }
 
 TEST(NearComplex, HasThePiecesOfTheSurfaceAtEveryLevel) {
   Random random(1);
-  for (int trial = 0; trial < 200; ++trial) {
-    const Complex complex = surface_of_kind(trial % 5, random);
+  for (int trial = 0; trial < 280; ++trial) {
+    const Complex complex = surface_of_kind(trial % 7, random);
     const Surface surface = complex.surface();
     const auto cells = all_cells(surface);
     const auto nodes = cell_nodes(surface);
@@ -60,10 +66,11 @@ TEST(NearComplex, HasThePiecesOfTheSurfaceAtEveryLevel) {
   }
 }
 
-TEST(NearComplex, HasTheHolesThatTheCriticalFeaturesCountAtEveryLevel) {
+TEST(NearComplex, HasTheHolesAndHollowsThatTheCriticalFeaturesCountAtEveryLevel) {
   Random random(2);
-  for (int trial = 0; trial < 200; ++trial) {
-    const Complex complex = surface_of_kind(trial % 5, random);
+  std::size_t hollows_seen = 0;
+  for (int trial = 0; trial < 280; ++trial) {
+    const Complex complex = surface_of_kind(trial % 7, random);
     const Surface surface = complex.surface();
     const auto cells = all_cells(surface);
     const Vec3 point = complex.x[random.index(complex.x.size())] + random.in_cube(1.0);
@@ -72,6 +79,8 @@ TEST(NearComplex, HasTheHolesThatTheCriticalFeaturesCountAtEveryLevel) {
     CriticalFeatureFinder critical(surface);
     HarmonicShares holes;
     holes.build(static_cast<std::uint32_t>(near.vertices().size()), near.links(), near.fillings());
+    HollowShares hollows;
+    hollows.build(near.whole_facets());
     for (int k = 0; k < 20; ++k) {
       const double level = random.uniform(0.0, 2.0);
       int sum = 0;
@@ -79,10 +88,13 @@ TEST(NearComplex, HasTheHolesThatTheCriticalFeaturesCountAtEveryLevel) {
         sum += feature.coefficient;
       const int pieces_here = pieces(near, level);
       const auto below = near.set_level(level);
-      // Open surfaces have no hollows: pieces minus holes.
-      ASSERT_EQ(pieces_here - static_cast<int>(holes.hole_count(below)), sum);
+      ASSERT_EQ(pieces_here - static_cast<int>(holes.hole_count(below)) +
+                    static_cast<int>(hollows.hollow_count(below)),
+                sum);
+      hollows_seen += hollows.hollow_count(below);
     }
   }
+  EXPECT_GT(hollows_seen, 100U);
 }
 
 }  // namespace

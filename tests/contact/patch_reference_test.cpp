@@ -91,12 +91,13 @@ struct Comparison {
     ASSERT_EQ(total.patches, expected.components);
     // Each term of the reference carries a few roundings of the range, and the terms are a few
     // hundred.
-    const bool has_ring = closes_a_ring(critical, centre, range, cells, complex.x, total.patches);
+    const bool is_shared =
+        has_rings_or_hollows(critical, centre, range, cells, complex.x, total.patches);
     // Rings of wires alone are shared at the last level, not over all of them.
-    if (!has_ring || complex.cylinders.empty()) {
+    if (!is_shared || complex.cylinders.empty()) {
       ASSERT_NEAR(total.overlaps, expected.overlaps, 1e-12 * range);
     }
-    if (has_ring) {
+    if (is_shared) {
       ++rings;
       return;
     }

@@ -64,7 +64,8 @@ std::optional<Vec3> force_of_patches(const Touch& touch) {
   contact::PatchFinder patches(touch.surface);
   CriticalFeatureFinder critical(touch.surface);
   const auto total = test::total_contact(patches, touch.centre, touch.range, cells, touch.x);
-  if (test::closes_a_ring(critical, touch.centre, touch.range, cells, touch.x, total.patches))
+  if (test::has_rings_or_hollows(critical, touch.centre, touch.range, cells, touch.x,
+                                 total.patches))
     return std::nullopt;
   return total.force;
 }

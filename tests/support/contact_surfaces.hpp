@@ -160,17 +160,19 @@ inline TotalContact total_contact(PatchFinder& finder, const Vec3& centre, doubl
   return total;
 }
 
-/// Whether some passes in range close a ring: more of them than it takes to join the minima to the
-/// patches.
-inline bool closes_a_ring(CriticalFeatureFinder& finder, const Vec3& centre, double range,
-                          std::span<const CellId> cells, Positions x, int patches) {
+/// Whether what is in range has rings, filled or not, or hollows: more passes than it takes to join
+/// the minima to the patches, or coefficients that count more than patches.
+inline bool has_rings_or_hollows(CriticalFeatureFinder& finder, const Vec3& centre, double range,
+                                 std::span<const CellId> cells, Positions x, int patches) {
   int joins = 0;
   int minima = 0;
+  int sum = 0;
   for (const CriticalFeature& feature : finder.find(centre, range, cells, x)) {
     if (feature.is_minimum()) ++minima;
     if (feature.is_pass()) joins += feature.branches - 1;
+    sum += feature.coefficient;
   }
-  return joins != minima - patches;
+  return joins != minima - patches || sum != patches;
 }
 
 }  // namespace plekton::test
