@@ -4,6 +4,7 @@
 Usage: python3 comparison_test.py
 """
 
+import os
 import sys
 import tempfile
 import unittest
@@ -45,11 +46,12 @@ class Outputs(unittest.TestCase):
         self.assertEqual((figures["N"], figures["contacts"]), (5000, 12351))
         self.assertEqual(figures["state"], {"kinetic_energy_J": 4.758322681e-08, "mean_height_m": 0.01681437152})
 
-    def test_liggghts_is_read_like_lammps_but_tells_no_processor_time(self):
+    def test_liggghts_is_read_like_lammps_with_the_processor_time_of_the_system(self):
         figures = outputs.read_lammps(recorded("liggghts.txt"), 50)
 
-        self.assertAlmostEqual(figures["ms_per_step"], 0.0604566 / 50 * 1e3)
-        self.assertIsNone(figures["cpu_ms_per_step"])
+        self.assertAlmostEqual(figures["ms_per_step"], 0.033747 / 50 * 1e3)
+        # From 4 + 1 to 8 + 1 ticks.
+        self.assertAlmostEqual(figures["cpu_ms_per_step"], 4 / os.sysconf("SC_CLK_TCK") / 50 * 1e3)
         self.assertEqual((figures["N"], figures["contacts"]), (5000, 12344))
 
     def test_yade_is_read_from_its_line_among_others(self):
@@ -108,8 +110,16 @@ class Statistics(unittest.TestCase):
         self.assertEqual(Results([disturbed, clean]).times("plekton", "s1", 5000), {1: 1.0})
         self.assertEqual(Results([disturbed]).times("plekton", "s1", 5000), {0: 2.0})
 
+    def test_processor_time_takes_disturbed_runs_but_not_those_of_several_threads(self):
+        records = [run("yade", "s1", 5000, 4.0, threads=threads, cpu_ms_per_step=3.0) for threads in (1, 2)]
+        records.append(run("yade", "s1", 5000, 3.1, repetition=1))
+        results = Results(records, "cpu")
+
+        self.assertEqual(results.times("yade", "s1", 5000), {0: 3.0, 1: 3.1})
+        self.assertEqual(results.times("yade", "s1", 5000, 2), {0: 4.0})
+
     def test_processor_time_is_taken_if_asked_for(self):
-        # LIGGGHTS, the last, says none: half of a processor over its life counts.
+        # The last does not say: half of a processor over its life counts.
         records = [
             run("lammps", "s1", 5000, 2.0, cpu_ms_per_step=1.5),
             run("liggghts", "s1", 5000, 2.0, cpu_ms_per_step=None, share=0.5),

@@ -93,7 +93,8 @@ def lammps_command(script, program, job):
         "steps": job.case.steps,
         "skin": repr(job.case.skin),
     }
-    command = [*mpi_ranks(job.threads), program, "-in", str(PEERS / script), "-log", "none"]
+    # Whole lines: the clocks in the output of LIGGGHTS are printed by another program.
+    command = [*mpi_ranks(job.threads), "stdbuf", "-oL", program, "-in", str(PEERS / script), "-log", "none"]
     for name, value in variables.items():
         command += ["-var", name, str(value)]
     return command

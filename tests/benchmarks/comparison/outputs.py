@@ -6,6 +6,7 @@ ms_per_step, cpu_ms_per_step (or none), contacts, N, steps, state, and what else
 
 import json
 import math
+import os
 import re
 
 
@@ -40,11 +41,13 @@ def read_json(text, steps, prefix=""):
 
 LOOP = re.compile(r"Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms")
 SHARE = re.compile(r"([\d.]+)% CPU use")
+CLOCK = re.compile(r"\(\S+\) [A-Z](?: -?\d+){10} (\d+) (\d+) ")
+"""A line of /proc/PID/stat; its 14th and 15th words are processor time of the program and of the system for it."""
 BUILDS = re.compile(r"Neighbor list builds = (\d+)")
 
 
 def read_lammps(text, steps):
-    """The last run of LAMMPS or LIGGGHTS; the latter does not say what share of the processor it had."""
+    """The last run of LAMMPS or LIGGGHTS."""
     loops = LOOP.findall(text)
     if len(loops) < 2:
         raise Unreadable(f"{len(loops)} of the two runs, warm-up and timed, have ended")
@@ -53,18 +56,30 @@ def read_lammps(text, steps):
         duration = 1e3 * float(seconds) / int(timed)
     except (ValueError, ZeroDivisionError) as error:
         raise Unreadable(f"a loop of {seconds} s and {timed} steps") from error
-    shares, builds = SHARE.findall(text), BUILDS.findall(text)
+    builds = BUILDS.findall(text)
     energy, height, contacts = last_row(text)
     figures = {
         "N": int(atoms),
         "steps": int(timed),
         "ms_per_step": duration,
-        "cpu_ms_per_step": duration * int(ranks) * float(shares[-1]) / 100 if shares else None,
+        "cpu_ms_per_step": processor_time(text, duration, int(timed), int(ranks)),
         "contacts": round(contacts / 2) if math.isfinite(contacts) else None,
         "list_rebuilds": int(builds[-1]) if builds else None,
         "state": {"kinetic_energy_J": energy, "mean_height_m": height},
     }
     return checked(figures, steps)
+
+
+def processor_time(text, duration, steps, ranks):
+    """ms a step of all ranks: of the share that LAMMPS prints, or of the clocks of the first rank before and after the steps
+    that the script for LIGGGHTS prints (to a hundredth of a second); none without either."""
+    shares, clocks = SHARE.findall(text), CLOCK.findall(text)
+    if shares:
+        return duration * ranks * float(shares[-1]) / 100
+    if len(clocks) < 2:
+        return None
+    before, after = (sum(int(ticks) for ticks in clock) for clock in clocks[-2:])
+    return 1e3 * ranks * (after - before) / os.sysconf("SC_CLK_TCK") / steps
 
 
 def last_row(text):

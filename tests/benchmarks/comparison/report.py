@@ -126,5 +126,5 @@ def whole(results, installed):
     if " *" in parts[0]:
         parts.insert(1, "* other work ran beside it: it had less than 90 % of its processors. Take --clock cpu, or a quiet machine.")
     if results.clock == "cpu":
-        parts.insert(0, "Ratios are of processor time, those of threads of wall time.")
+        parts.insert(0, "Ratios are of processor time, those of several threads of wall time.")
     return "\n\n".join(part for part in parts if part)

@@ -34,7 +34,7 @@ def is_clean(record):
 
 
 def clock_of(record, clock):
-    """ms per step: "wall", or "cpu" with the processor time, which for LIGGGHTS is the share of its process of the wall time."""
+    """ms per step: "wall", or "cpu", which is the share of its whole process where a code does not tell its processor time."""
     if clock == "wall":
         return record["ms_per_step"]
     processor = record.get("cpu_ms_per_step")
@@ -48,11 +48,18 @@ class Results:
         self.records = records
         self.clock = clock
 
+    def clock_for(self, threads):
+        """What several threads bring shows in wall time only."""
+        return self.clock if threads == 1 else "wall"
+
     def runs(self, code, scene, size, threads=1):
-        """The runs that ended well, by repetition; without the disturbed ones where a clean one is left."""
+        """The runs that ended well, by repetition.
+
+        By wall time without the disturbed ones where a clean one is left; processor time suffers less from others.
+        """
         wanted = {"code": code, "scene": scene, "size": size, "threads": threads}
         runs = [run for run in self.records if "failed" not in run and all(run[key] == value for key, value in wanted.items())]
-        clean = [run for run in runs if is_clean(run)]
+        clean = [run for run in runs if is_clean(run)] if self.clock_for(threads) == "wall" else []
         return {run["repetition"]: run for run in clean or runs}
 
     def sizes(self, scene, code="plekton"):
@@ -62,7 +69,7 @@ class Results:
     def times(self, code, scene, size, threads=1):
         """ms per step by repetition."""
         runs = self.runs(code, scene, size, threads)
-        return {repetition: clock_of(run, self.clock) for repetition, run in runs.items()}
+        return {repetition: clock_of(run, self.clock_for(threads)) for repetition, run in runs.items()}
 
     def failure(self, code, scene, size):
         """Why the last run that failed did, or none."""
