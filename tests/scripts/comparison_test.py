@@ -290,7 +290,7 @@ class Report(unittest.TestCase):
 
         text = report.whole(Results(records), {"plekton", "yade", "lammps"})
 
-        for words in ("yade *", "10.0", "10 (spheres: 9)", "lammps, s1 5000, 1 threads, repetition 0: exit code 1", "* other work"):
+        for words in ("yade *", "10.0", "10 (spheres: 9)", "lammps, s1 5000, 1 threads, repetition 0: exit code 1", report.DISTURBED):
             self.assertIn(words, text)
 
     def test_a_table_of_nothing_is_no_crash(self):

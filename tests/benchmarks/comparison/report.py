@@ -6,6 +6,11 @@ from comparison.cases import LONE
 from comparison.results import combine, is_clean, spread
 
 
+DISTURBED = (
+    "* took less than 90 % of its processors: other work ran beside it (take --clock cpu, or a quiet machine), or its threads waited."
+)
+
+
 def table(header, rows):
     """A table whose columns are as wide as their widest word."""
     rows = [header, *rows]
@@ -124,7 +129,7 @@ def whole(results, installed):
     """All tables, with what has to be known to read them."""
     parts = [runs_table(results), states_table(results), promises_table(results, installed), failures(results)]
     if " *" in parts[0]:
-        parts.insert(1, "* other work ran beside it: it had less than 90 % of its processors. Take --clock cpu, or a quiet machine.")
+        parts.insert(1, DISTURBED)
     if results.clock == "cpu":
         parts.insert(0, "Ratios are of processor time, those of several threads of wall time.")
     return "\n\n".join(part for part in parts if part)
