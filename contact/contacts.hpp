@@ -145,7 +145,7 @@ Contacts<Law>::Contacts(std::span<const geometry::Sphere> spheres, const geometr
 template <ContactLaw Law>
 void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes, double dt,
                             geometry::ThreadPool& pool) {
-  if (neighbours_.update(motion.position, pool)) {
+  if (neighbours_.update(motion.position, pool, motion.way)) {
     dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs,
                                          motion.position);
     dissipated_ += with_surfaces_.rebuild(neighbours_.sphere_structures(), neighbours_.near_cells(),
@@ -153,7 +153,7 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
                                           materials_.pairs);
     plane_neighbours_.expire();
   }
-  if (cell_neighbours_.update(motion.position, pool)) {
+  if (cell_neighbours_.update(motion.position, pool, motion.way)) {
     dissipated_ += between_structures_.rebuild(cell_neighbours_.pairs(), materials_.of_structures,
                                                materials_.pairs);
   }

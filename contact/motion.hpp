@@ -4,6 +4,7 @@
 #include "geometry/types.hpp"
 
 #include <cassert>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Motion {
   Positions position;                      ///< m
   std::span<const Vec3> velocity;          ///< m/s
   std::span<const Vec3> angular_velocity;  ///< rad/s
+  /// m, how far any node has moved at most since the last step, if that is known.
+  double way = std::numeric_limits<double>::infinity();
 };
 
 /// Forces (N) and torques (N m) that act on the nodes.

@@ -29,7 +29,7 @@ void check_finite(const NodeState& state, std::span<const double> furthest, doub
   for (std::size_t i = 0; i < state.size(); ++i) {
     // Comparisons with NaN are false.
     if (state.velocity[i].squaredNorm() * (dt * dt) <= furthest[i] * furthest[i] &&
-        state.angular_velocity[i].squaredNorm() < 1e300)
+        state.angular_velocity[i].squaredNorm() < kLargestSquare)
       continue;
     throw Diverged(step, time, geometry::id_at<NodeId>(i), state.position[i], state.velocity[i]);
   }

@@ -27,6 +27,9 @@ struct NodeState {
   contact::Motion motion() const noexcept { return {position, velocity, angular_velocity}; }
 };
 
+/// Squares of speeds (m²/s²) and spins (rad²/s²) beyond this are no motion that could be computed.
+constexpr double kLargestSquare = 1e300;
+
 /// Which motions of a node are prescribed: then its velocity is what the loads say, and forces do
 /// not change it.
 enum class Held : std::uint8_t { nothing = 0, translation = 1, rotation = 2, everything = 3 };

@@ -5,6 +5,7 @@
 #include "geometry/problems.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -134,6 +135,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
       expected_(scene_.state.size()),
       furthest_(furthest_in_a_step(scene_)),
       pace_radius_(pace_radius(scene_.elements)) {
+  least_furthest_ = furthest_.empty() ? 0.0 : *std::min_element(furthest_.begin(), furthest_.end());
   if (options.skin == 0.0 && !scene_.elements.spheres.empty()) contacts_.tune_skin(pace_radius_);
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   bonds_.advance(scene_.state, pool_);
@@ -201,6 +203,21 @@ double Simulation<Law>::motion_step() const noexcept {
   return longest_step(largest_speed(scene_.state), motion_.gravity.norm(), pace_radius_);
 }
 
+/// Nodes have drifted with the velocities after the last kick.
+template <contact::ContactLaw Law>
+contact::Motion Simulation<Law>::motion() const noexcept {
+  contact::Motion motion = scene_.state.motion();
+  motion.way = fastest_ * last_drift_;
+  return motion;
+}
+
+/// Looks at single nodes only if the fastest is fast enough for one of them.
+template <contact::ContactLaw Law>
+void Simulation<Law>::check_motion() const {
+  if (fastest_ * dt_ <= least_furthest_) return;
+  check_finite(scene_.state, furthest_, dt_, steps_, time_);
+}
+
 template <contact::ContactLaw Law>
 void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) {
   StepWork step = work;
@@ -216,6 +233,7 @@ void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) 
   if (last_drift_ > 0.0) work_.kinetic = step.kinetic;
   work_.damped += step.damped;
   work_.external += step.external;
+  fastest_ = std::sqrt(work.fastest_squared);
   largest_overlap_ratio_ = std::max(largest_overlap_ratio_, contacts_.largest_overlap_ratio());
   pass_throughs_ += contacts_.with_surfaces().pass_throughs();
   most_crossings_ = std::max(most_crossings_, contacts_.between_structures().crossings());

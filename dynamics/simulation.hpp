@@ -12,6 +12,7 @@
 #include "dynamics/time_step.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace plekton::dynamics {
@@ -82,7 +83,9 @@ class Simulation {
   double motion_ratio() const noexcept;
 
  private:
+  contact::Motion motion() const noexcept;
   void account(const StepWork& work, const StepLengths& lengths);
+  void check_motion() const;
   void require_time_step() const;
   void choose_time_step();
   double motion_step() const noexcept;
@@ -110,7 +113,9 @@ class Simulation {
   bool chooses_time_step_ = false;
   double time_ = 0.0;
   std::int64_t steps_ = 0;
+  double fastest_ = std::numeric_limits<double>::infinity();  ///< m/s, after the last step
   std::vector<double> furthest_;  ///< m, by node, what it may move in a step
+  double least_furthest_ = 0.0;   ///< m, of all nodes
   double pace_radius_ = 0.0;      ///< m, against which the motion in a chosen step is measured
   StepWork work_;                 ///< kinetic: of the last step; the rest: of all steps
   StepWork pending_;  ///< what of damped and external comes after the moment of the last forces
@@ -128,13 +133,13 @@ void Simulation<Law>::step() {
   forces_.set_zero();
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
-  contacts_.advance(scene_.state.motion(), scene_.planes, last_drift_, pool_);
+  contacts_.advance(motion(), scene_.planes, last_drift_, pool_);
   contacts_.add_forces(forces_, pool_);
   const StepLengths lengths{0.5 * (last_drift_ + dt_), dt_};
   account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_),
           lengths);
   move_planes();
-  check_finite(scene_.state, furthest_, dt_, steps_, time_);
+  check_motion();
   time_ += dt_;
   last_drift_ = dt_;
   if (++steps_ % kStepsBetweenLooks == 0 && chooses_time_step_) choose_time_step();

@@ -129,9 +129,10 @@ bool CellNeighbours::are_distant(CellId a, CellId b, Positions x) const {
   return closest_points(core(a), core(b)).distance > reach;
 }
 
-bool CellNeighbours::update(Positions x, ThreadPool& pool) {
+bool CellNeighbours::update(Positions x, ThreadPool& pool, double way) {
   if (surface_->cell_count() < 2) return false;
   if (!self_contact_ && surface_->structure_count() < 2) return false;
+  if (!skin_.may_need_rebuild(way)) return false;
   gather_own_nodes(x);
   if (!skin_.needs_rebuild(own_x_, pool)) return false;
   ++rebuild_count_;

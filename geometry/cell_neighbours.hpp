@@ -8,6 +8,7 @@
 #include "geometry/thread_pool.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,8 @@ class CellNeighbours {
   CellNeighbours(const Surface& surface, Positions rest, double skin, bool self_contact);
 
   /// Makes the list anew if it has to be. @returns whether it has changed
-  bool update(Positions x, ThreadPool& pool);
+  /// @param way  m, see Skin::may_need_rebuild
+  bool update(Positions x, ThreadPool& pool, double way = std::numeric_limits<double>::infinity());
 
   /// Sorted; a on the lower structure, or on the same and lower itself.
   std::span<const CellPair> pairs() const noexcept { return pairs_; }

@@ -79,23 +79,30 @@ PLEKTON_INLINE Pack<8> side_by_side(const Pack<4>& p, const Pack<4>& q,
 
 }  // namespace detail
 
+/// Numbers [first, first + W) of a thing, to be loaded as one pack.
+template <int W, int kFirst>
+struct PartOfThing {
+  using Pack = geometry::Pack<W>;
+  static constexpr int first = kFirst;
+};
+
 /// Gathers W things of N numbers each, which lie anywhere; N is 4 or 8.
-/// @param at  (lane) -> where the thing's numbers start
-template <int W, int N, class At>
-PLEKTON_INLINE Packs<W, N> gather_things(const At& at) noexcept {
+/// @param load  (lane, PartOfThing<V, first>) -> Pack<V> of that part of that thing, V <= W
+template <int W, int N, class Load>
+PLEKTON_INLINE Packs<W, N> gather_things(const Load& load) noexcept {
   using namespace detail;
   if constexpr (W <= N) {
     const auto parts = each<N / W>([&](auto part) __attribute__((always_inline)) {
       return transpose<W>(each<W>([&](auto lane) __attribute__((always_inline)) {
-        return Pack<W>::load(at(std::size_t{lane}) + part * W);
+        return load(std::size_t{lane}, PartOfThing<W, part * W>{});
       }));
     });
     return each<N>([&](auto n) __attribute__((always_inline)) { return parts[n / W][n % W]; });
   } else {
     static_assert(W == 8 && N == 4);
     return transpose<N>(each<N>([&](auto lane) __attribute__((always_inline)) {
-      return side_by_side(Pack<4>::load(at(std::size_t{lane})),
-                          Pack<4>::load(at(std::size_t{lane + 4})),
+      return side_by_side(load(std::size_t{lane}, PartOfThing<4, 0>{}),
+                          load(std::size_t{lane + 4}, PartOfThing<4, 0>{}),
                           std::make_integer_sequence<int, 8>());
     }));
   }

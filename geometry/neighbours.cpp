@@ -20,9 +20,10 @@ constexpr double kCostOfSkin = 0.7;
 Neighbours::Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin)
     : spheres_(spheres), surface_(&surface), skin_(skin) {}
 
-bool Neighbours::update(Positions x, ThreadPool& pool) {
+bool Neighbours::update(Positions x, ThreadPool& pool, double way) {
   ++steps_of_list_;
-  if (!skin_.needs_rebuild(x, pool)) return false;
+  if (spheres_.empty() || !skin_.may_need_rebuild(way) || !skin_.needs_rebuild(x, pool))
+    return false;
   if (usual_radius_ > 0.0 && rebuild_count_ > 0) choose_skin();
   rebuild(x);
   skin_.mark_built(x);

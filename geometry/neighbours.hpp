@@ -6,6 +6,7 @@
 #include "geometry/skin.hpp"
 #include "geometry/thread_pool.hpp"
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -34,7 +35,8 @@ class Neighbours {
   void tune_skin(double radius) noexcept { usual_radius_ = radius; }
 
   /// Makes the lists anew if they have to be. @returns whether they were
-  bool update(Positions x, ThreadPool& pool);
+  /// @param way  m, see Skin::may_need_rebuild
+  bool update(Positions x, ThreadPool& pool, double way = std::numeric_limits<double>::infinity());
 
   double skin() const noexcept { return 2.0 * skin_.margin(); }
   /// How often the lists were made.

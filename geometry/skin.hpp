@@ -46,12 +46,22 @@ class Skin {
 
   /// Whether the list may miss a pair: some node has moved by more than half the skin (or is NaN),
   /// the number of nodes has changed, or nothing has been built yet. O(number of nodes).
-  bool needs_rebuild(Positions x, ThreadPool& pool) const;
+  bool needs_rebuild(Positions x, ThreadPool& pool);
+
+  /// Asks less often: adds up how far nodes may have moved, and is false as long as the sum is
+  /// below half the skin, so that needs_rebuild would be false too. A sum that is above it begins
+  /// anew from what needs_rebuild sees. O(1).
+  /// @param way  m, how far any node has moved at most since the last call, but for the rounding of
+  ///             x += v dt; infinite if that is not known
+  bool may_need_rebuild(double way) noexcept;
 
  private:
   double skin_;
   bool built_ = false;
   std::vector<Vec3> built_positions_;
+  double way_ = 0.0;             ///< m, no node has moved further since the list was built
+  double furthest_ = 0.0;        ///< m, largest coordinate when it was built
+  std::vector<double> largest_;  ///< m², by thread
 };
 
 }  // namespace plekton::geometry

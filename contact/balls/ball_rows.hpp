@@ -6,6 +6,7 @@
 #include "contact/rekey.hpp"
 #include "geometry/lanes.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -33,34 +34,39 @@ class BallRows {
       __builtin_prefetch(&motion.velocity[ahead]);
       __builtin_prefetch(&motion.angular_velocity[ahead]);
       const std::size_t node = index_of(members[m].node);
-      moves_[m] = {motion.position[node], members[m].radius, motion.velocity[node], 0.0};
-      spins_[m] = {motion.angular_velocity[node], 0.0};
+      moves_[m] = {motion.position[node], motion.velocity[node], {}};
+      spins_[m] = {motion.angular_velocity[node], members[m].radius};
     }
-    moves_[balls] = {Vec3::Zero(), 0.0, Vec3::Zero(), 0.0};
+    moves_[balls] = {Vec3::Zero(), Vec3::Zero(), {}};
     spins_[balls] = {Vec3::Zero(), 0.0};
   }
 
   BallMotionOf<double> pair(const BallBlocks::Pair& pair) const noexcept {
-    const Move& a = moves_[pair.a];
-    const Move& b = moves_[pair.b];
-    return {b.position - a.position,
-            b.velocity - a.velocity,
-            spins_[pair.a].spin,
-            spins_[pair.b].spin,
-            a.radius,
-            b.radius};
+    const Move& move_a = moves_[pair.a];
+    const Move& move_b = moves_[pair.b];
+    const Spin& spin_a = spins_[pair.a];
+    const Spin& spin_b = spins_[pair.b];
+    return {move_b.position - move_a.position,
+            move_b.velocity - move_a.velocity,
+            spin_a.spin,
+            spin_b.spin,
+            spin_a.radius,
+            spin_b.radius};
   }
 
-  /// W pairs side by side.
+  /// W pairs side by side. Differences are taken before the numbers change places.
   template <int W>
   PLEKTON_INLINE BallMotionOf<geometry::Pack<W>> pairs(
       const BallBlocks::Pair* pairs) const noexcept {
-    const auto a = [&](std::size_t lane) { return std::size_t{pairs[lane].a}; };
-    const auto b = [&](std::size_t lane) { return std::size_t{pairs[lane].b}; };
-    const auto [ax, ay, az, ra, au, av, aw, a_unused] = moves<W>(a);
-    const auto [bx, by, bz, rb, bu, bv, bw, b_unused] = moves<W>(b);
-    return {
-        {bx - ax, by - ay, bz - az}, {bu - au, bv - av, bw - aw}, spins<W>(a), spins<W>(b), ra, rb};
+    const auto [x, y, z, u, v, w, unused, unused_too] = geometry::gather_things<W, 8>([&](
+        std::size_t lane, auto part) __attribute__((always_inline)) {
+      using Part = typename decltype(part)::Pack;
+      return Part::load(moves_[pairs[lane].b].position.data() + part.first) -
+             Part::load(moves_[pairs[lane].a].position.data() + part.first);
+    });
+    const auto [ax, ay, az, ra] = spins<W>([&](std::size_t lane) { return pairs[lane].a; });
+    const auto [bx, by, bz, rb] = spins<W>([&](std::size_t lane) { return pairs[lane].b; });
+    return {{x, y, z}, {u, v, w}, {ax, ay, az}, {bx, by, bz}, ra, rb};
   }
 
  private:
@@ -68,29 +74,22 @@ class BallRows {
 
   struct alignas(64) Move {
     Vec3 position;  ///< m
-    double radius;  ///< m
     Vec3 velocity;  ///< m/s
-    double unused;
+    std::array<double, 2> unused;
   };
   struct alignas(32) Spin {
-    Vec3 spin;  ///< rad/s
-    double unused;
+    Vec3 spin;      ///< rad/s
+    double radius;  ///< m
   };
   static_assert(sizeof(Move) == 64 && sizeof(Spin) == 32);
 
-  template <int W, class Ball>
-  PLEKTON_INLINE auto moves(const Ball& ball) const noexcept {
-    return geometry::gather_things<W, 8>([&](std::size_t lane) __attribute__((always_inline)) {
-      return moves_[ball(lane)].position.data();
+  template <int W, class Member>
+  PLEKTON_INLINE auto spins(const Member& member) const noexcept {
+    return geometry::gather_things<W, 4>([&](std::size_t lane,
+                                             auto part) __attribute__((always_inline)) {
+      using Part = typename decltype(part)::Pack;
+      return Part::load(spins_[member(lane)].spin.data() + part.first);
     });
-  }
-  template <int W, class Ball>
-  PLEKTON_INLINE geometry::PackVec3<geometry::Pack<W>> spins(const Ball& ball) const noexcept {
-    const auto [x, y, z, unused] =
-        geometry::gather_things<W, 4>([&](std::size_t lane) __attribute__((always_inline)) {
-          return spins_[ball(lane)].spin.data();
-        });
-    return {x, y, z};
   }
 
   std::vector<Move> moves_;

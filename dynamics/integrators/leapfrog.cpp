@@ -14,13 +14,27 @@ NodeArrays arrays(NodeState& state, const NodeForces& forces, const NodeProperti
           properties.mass.data(),   properties.inertia.data(), properties.held.data()};
 }
 
-template <class Rows>
-StepWork total(const Rows& work, std::size_t count) noexcept {
+/// Lanes that sums are taken in: as many as the widest vectors have, so that the sums do not depend
+/// on which vectors there are.
+constexpr std::size_t kLanes = 8;
+using LaneSums = geometry::RowsOf<StepWorkOf<double>, kLanes>;
+
+/// Adds what W nodes did to the sums of lanes.
+template <int W>
+PLEKTON_INLINE void add(const StepWorkOf<Pack<W>>& work, std::size_t lane,
+                        LaneSums& sums) noexcept {
+  auto sum = sums.load<StepWorkOf<Pack<W>>>(lane);
+  sum = {sum.kinetic + work.kinetic, sum.damped + work.damped, sum.external + work.external,
+         select(work.fastest_squared > sum.fastest_squared, work.fastest_squared,
+                sum.fastest_squared)};
+  sums.store(lane, sum);
+}
+
+StepWork total(const LaneSums& sums) noexcept {
   StepWork total;
-  for (std::size_t i = 0; i < count; ++i) {
-    StepWorkOf<double> of_node;
-    work.get(i, of_node);
-    total += {of_node.kinetic, of_node.damped, of_node.external};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const auto of_lane = sums.at<StepWorkOf<double>>(lane);
+    total += {of_lane.kinetic, of_lane.damped, of_lane.external, of_lane.fastest_squared};
   }
   return total;
 }
@@ -32,15 +46,16 @@ StepWork Leapfrog::step(NodeState& state, const NodeForces& forces,
                         const StepLengths& lengths, geometry::ThreadPool& pool) {
   const NodeArrays nodes = arrays(state, forces, properties);
   return sum_(state.size(), pool, [&](std::size_t begin, std::size_t end, int) {
-    geometry::RowsOf<StepWorkOf<double>, geometry::ParallelSum<StepWork>::kChunk> work;
+    LaneSums sums;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) sums.set(lane, StepWorkOf<double>{});
     geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
       const std::size_t last = end - (end - begin) % std::size_t{width};
       for (std::size_t i = begin; i < last; i += std::size_t{width})
-        work.store(i - begin, step_lanes<width>(nodes.from(i), options, lengths));
+        add<width>(step_lanes<width>(nodes.from(i), options, lengths), (i - begin) % kLanes, sums);
       for (std::size_t i = last; i < end; ++i)
-        work.store(i - begin, step_lanes<1>(nodes.from(i), options, lengths));
+        add<1>(step_lanes<1>(nodes.from(i), options, lengths), (i - begin) % kLanes, sums);
     });
-    return total(work, end - begin);
+    return total(sums);
   });
 }
 

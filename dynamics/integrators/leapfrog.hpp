@@ -4,6 +4,8 @@
 #include "dynamics/node_state.hpp"
 #include "geometry/parallel_sum.hpp"
 
+#include <algorithm>
+
 namespace plekton::dynamics {
 
 /// What moves the nodes besides the forces on them.
@@ -24,11 +26,15 @@ struct StepWork {
   double kinetic = 0.0;   ///< J, at the moment of the forces
   double damped = 0.0;    ///< J, taken by numerical damping
   double external = 0.0;  ///< J, done on the rest by nodes whose motion is prescribed
+  /// m²/s², squared speed of the fastest node after the step; infinite if some motion is not finite
+  /// or a spin is beyond 1e150 rad/s.
+  double fastest_squared = 0.0;
 
   StepWork& operator+=(const StepWork& other) noexcept {
     kinetic += other.kinetic;
     damped += other.damped;
     external += other.external;
+    fastest_squared = std::max(fastest_squared, other.fastest_squared);
     return *this;
   }
 };

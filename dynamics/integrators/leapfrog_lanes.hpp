@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 /// The arithmetic of the leapfrog for some nodes side by side.
 namespace plekton::dynamics {
@@ -25,7 +26,17 @@ PLEKTON_INLINE Vector<Real> in_all_lanes(const Vec3& v) noexcept {
 template <class Real>
 struct StepWorkOf {
   Real kinetic, damped, external;  ///< J, as in StepWork
+  Real fastest_squared;            ///< m²/s², as in StepWork
 };
+
+/// Squared speed, infinite if a motion is not finite. Comparisons with NaN are false.
+template <class Real>
+PLEKTON_INLINE Real squared_speed(const Vector<Real>& velocity, const Vector<Real>& spin) noexcept {
+  const Real infinite = std::numeric_limits<double>::infinity();
+  const Real speed = velocity.squaredNorm();
+  return select(Real(kLargestSquare) > spin.squaredNorm(),
+                select(Real(kLargestSquare) > speed, speed, infinite), infinite);
+}
 
 /// One motion of nodes, translation or rotation.
 template <class Real>
@@ -71,7 +82,7 @@ PLEKTON_INLINE StepWorkOf<Real> NodeMotion<Real>::kick(const Vector<Real>& dampe
               select(is_held > zero, before.z, after.z)};
   return {select(is_held > zero, zero, half * inertia * before.dot(after)),
           select(is_held > zero, zero, half * dt * inertia * removed.dot(before + after)),
-          select(is_held > zero, -dt * force.dot(before), zero)};
+          select(is_held > zero, -dt * force.dot(before), zero), zero};
 }
 
 /// Nodes one after the other in memory.
@@ -183,7 +194,8 @@ PLEKTON_INLINE StepWorkOf<Pack<W>> step_lanes(const NodeArrays& nodes, const Mot
     turn_one_by_one(W, nodes.angular_velocity, lengths.drift, nodes.orientation);
   drift<W>(nodes.velocity, lengths.drift, nodes.position);
   return {of_translation.kinetic + of_rotation.kinetic, of_translation.damped + of_rotation.damped,
-          of_translation.external + of_rotation.external};
+          of_translation.external + of_rotation.external,
+          squared_speed(moves.velocity, spins.velocity)};
 }
 
 }  // namespace plekton::dynamics

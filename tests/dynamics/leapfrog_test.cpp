@@ -274,5 +274,28 @@ TYPED_TEST(LeapfrogLanes, HaveTheBitsOfOneNodeAfterTheOther) {
   }
 }
 
+TEST(Leapfrog, NamesTheSpeedOfTheFastestNode) {
+  for (const std::size_t fastest : {0u, 7u, 8u, 300u, 530u}) {
+    Nodes nodes(531);
+    for (std::size_t i = 0; i < 531; ++i) nodes.state.velocity[i] = Vec3(1, -2, 0.001 * double(i));
+    nodes.state.velocity[fastest] = Vec3(3, -4, 12);
+    EXPECT_EQ(nodes.step(1.0, 1.0).fastest_squared, 169.0);
+  }
+}
+
+TEST(Leapfrog, TakesMotionThatIsNoNumberForInfinitelyFast) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinite, 1e200}) {
+    for (const std::size_t node : {0u, 5u, 8u, 17u}) {
+      Nodes spins(18);
+      spins.state.angular_velocity[node].y() = bad;
+      EXPECT_EQ(spins.step(1.0, 1.0).fastest_squared, infinite);
+      Nodes forces(18);
+      forces.forces.force[node].x() = bad;
+      EXPECT_EQ(forces.step(1.0, 1.0).fastest_squared, infinite);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plekton::dynamics

@@ -47,12 +47,20 @@ TYPED_TEST(Lanes, HoldThingsThatLieOneAfterTheOther) {
   expect_things_in_a_row_are_loaded_and_stored<TypeParam::value, 4>();
 }
 
+/// Loads parts of the things whose numbers start at at(lane).
+template <class At>
+auto part_at(const At& at) {
+  return [&at](std::size_t lane, auto part) {
+    return decltype(part)::Pack::load(at(lane) + part.first);
+  };
+}
+
 template <int W, int N>
 void expect_things_anywhere_are_gathered() {
   const std::vector<double> numbers = counted(100);
   const auto at = [&](std::size_t l) { return numbers.data() + 3 + (7 * l) % 31; };
 
-  const auto packs = gather_things<W, N>(at);
+  const auto packs = gather_things<W, N>(part_at(at));
 
   for (int n = 0; n < N; ++n) {
     for (int l = 0; l < W; ++l)
@@ -72,8 +80,9 @@ TYPED_TEST(Lanes, ScatterThingsInTheOrderOfTheLanes) {
 
   // One place is used by two lanes in turn: the last one stays.
   const auto place = [](std::size_t l) { return l == 1 ? 0 : 9 * l; };
-  scatter_things<W, 8>(gather_things<W, 8>([&](std::size_t l) { return numbers.data() + 8 * l; }),
-                       [&](std::size_t l) { return scattered.data() + place(l); });
+  scatter_things<W, 8>(
+      gather_things<W, 8>(part_at([&](std::size_t l) { return numbers.data() + 8 * l; })),
+      [&](std::size_t l) { return scattered.data() + place(l); });
 
   for (std::size_t l = W > 1 ? 1 : 0; l < std::size_t{W}; ++l) {
     for (std::size_t n = 0; n < 8; ++n) EXPECT_EQ(scattered[place(l) + n], numbers[8 * l + n]);

@@ -4,6 +4,7 @@
 #include "geometry/broad_phase.hpp"
 #include "geometry/facet.hpp"
 #include "geometry/sphere.hpp"
+#include "tests/support/seeded_random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -200,6 +201,53 @@ TEST(Skin, MeasuresFromTheLastListAndNotTheWayBetween) {
   EXPECT_TRUE(skin.needs_rebuild(x, pool));
   skin.mark_built(x);
   EXPECT_FALSE(skin.needs_rebuild(x, pool));
+}
+
+/// Nodes far from the origin that wander, each step rounded as in a simulation.
+TEST(Skin, MayNeedARebuildWheneverItDoesAndSeldomElse) {
+  ThreadPool pool;
+  test::Random random(3);
+  for (const double away : {0.0, 1e3, 1e9}) {
+    std::vector<Vec3> x(20, Vec3::Constant(away));
+    Skin asked(kSkin);
+    Skin always_looks(kSkin);
+    asked.mark_built(x);
+    always_looks.mark_built(x);
+    int looks = 0;
+    int rebuilds = 0;
+    for (int step = 0; step < 20000; ++step) {
+      double way = 0.0;
+      for (Vec3& position : x) {
+        const Vec3 v = 0.01 * kSkin * random.in_cube(1.0);
+        position += v;
+        way = std::max(way, v.norm());
+      }
+      const bool needed = always_looks.needs_rebuild(x, pool);
+      const bool may = asked.may_need_rebuild(way);
+      looks += may;
+      ASSERT_TRUE(may || !needed);
+      ASSERT_EQ(may && asked.needs_rebuild(x, pool), needed);
+      if (!needed) continue;
+      ++rebuilds;
+      asked.mark_built(x);
+      always_looks.mark_built(x);
+    }
+    EXPECT_GE(rebuilds, 3);
+    EXPECT_LT(looks, 20000 / 3);
+  }
+}
+
+TEST(Skin, MayNeedARebuildAfterAWayThatIsNotKnown) {
+  ThreadPool pool;
+  const std::vector<Vec3> x(3, Vec3::Zero());
+  Skin skin(kSkin);
+  EXPECT_TRUE(skin.may_need_rebuild(0.0));
+  skin.mark_built(x);
+  EXPECT_FALSE(skin.may_need_rebuild(0.4 * kSkin));
+  EXPECT_TRUE(skin.may_need_rebuild(std::numeric_limits<double>::infinity()));
+  EXPECT_FALSE(skin.needs_rebuild(x, pool));
+  EXPECT_FALSE(skin.may_need_rebuild(0.4 * kSkin));
+  EXPECT_TRUE(skin.may_need_rebuild(std::numeric_limits<double>::quiet_NaN()));
 }
 
 TEST(Skin, AsksForARebuildWhenNothingWasBuiltOrNodesCameOrWentOrAPositionIsNotANumber) {
