@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/broad_phase.hpp"
 
+#include "geometry/bunch_pairs.hpp"
+#include "geometry/vector_width.hpp"
+
 #include <fcl/broadphase/detail/hierarchy_tree_array.h>
 #include <fcl/math/bv/AABB.h>
 #include <fcl/narrowphase/collision_object.h>
@@ -26,7 +29,7 @@ namespace {
 
 /// FCL ranks boxes by squared diagonals, which must not overflow.
 constexpr double kLargestCoordinate = 1e150;
-/// Nodes on the longest way down, root and leaf included. A fresh tree of 2^31 boxes has 32.
+/// Nodes on the longest way down, root and leaf included. A tree of 2^31 boxes has 32.
 constexpr std::size_t kMaxHeight = 64;
 
 fcl::AABBd to_fcl(const Box& box) {
@@ -53,11 +56,12 @@ bool overlap(const fcl::AABBd& p, const fcl::AABBd& q) {
 
 /// FCL's tree in one array: leaves in places [0, n), inner nodes in [n, 2 n - 1). A leaf keeps its
 /// box's index where an inner node keeps its first child; FCL knows a leaf by its second child
-/// alone. FCL refits and rearranges the tree; the fresh tree is made here, because
+/// alone. FCL refits the tree; the fresh tree is made here, because
 /// HierarchyTree::init and balanceTopdown never give their memory back (FCL 0.7.0).
 class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd> {
  public:
   using Place = std::uint32_t;
+  static constexpr std::size_t kMaxHeight = geometry::kMaxHeight;
 
   Tree() = default;
   Tree(const Tree&) = delete;
@@ -75,10 +79,24 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
   std::size_t leaf_end() const { return n_leaves; }
   std::size_t inner_end() const { return n_leaves == 0 ? 0 : 2 * n_leaves - 1; }
 
+  bool overlap(Place x, Place y) const { return geometry::overlap(box(x), box(y)); }
+
+  /// The tree down to bunches of leaves: the nodes above them, and bunches.
+  std::span<const Place> nodes_above_bunches() const { return above_bunches_; }
+  std::span<const BoxLanes> bunches() const { return bunches_; }
+  /// The bunch that a node is the top of, or nullptr.
+  const BoxLanes* bunch(Place place) const {
+    const std::int32_t b = bunch_of_[place];
+    return b < 0 ? nullptr : &bunches_[static_cast<std::size_t>(b)];
+  }
+
   void rebuild(std::span<const Box> boxes) {
     make_room(boxes.size());
     items_.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) items_[i] = {to_fcl(boxes[i]).center(), i};
+    above_bunches_.clear();
+    first_leaves_.clear();
+    bunch_of_.assign(2 * boxes.size(), -1);
     next_inner_ = n_leaves;
     root_node = n_leaves == 0 ? NULL_NODE : split(0, n_leaves);
     if (n_leaves > 0) nodes[root_node].parent = NULL_NODE;
@@ -87,14 +105,9 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
     refit();
   }
 
-  /// Taking one leaf in 16 out and putting it back where it now fits best keeps the tree good while
-  /// the boxes wander.
-  void refit_and_improve(std::span<const Box> boxes) {
+  void follow(std::span<const Box> boxes) {
     set_boxes(boxes);
     refit();
-    if (n_leaves < 2) return;
-    balanceIncremental(static_cast<int>((n_leaves + 15) / 16));
-    if (getMaxHeight() >= kMaxHeight) rebuild(boxes);
   }
 
  private:
@@ -119,7 +132,19 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
 
   /// A tree over the items [begin, end), halved at the median centre along the widest axis; returns
   /// its top.
-  std::size_t split(std::size_t begin, std::size_t end) {
+  std::size_t split(std::size_t begin, std::size_t end, bool in_bunch = false) {
+    const bool is_bunch = !in_bunch && end - begin <= BoxLanes::kLanes;
+    const std::size_t top = split_below(begin, end, in_bunch || is_bunch);
+    if (is_bunch) {
+      bunch_of_[top] = static_cast<std::int32_t>(first_leaves_.size());
+      first_leaves_.push_back(begin);
+    } else if (!in_bunch) {
+      above_bunches_.push_back(static_cast<Place>(top));
+    }
+    return top;
+  }
+
+  std::size_t split_below(std::size_t begin, std::size_t end, bool in_bunch) {
     if (end - begin == 1) {
       nodes[begin].children[0] = items_[begin].index;
       nodes[begin].children[1] = NULL_NODE;
@@ -134,7 +159,8 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
       return p.centre[axis] < q.centre[axis];
     });
     const std::size_t top = next_inner_++;
-    const std::array<std::size_t, 2> halves{split(begin, middle), split(middle, end)};
+    const std::array<std::size_t, 2> halves{split(begin, middle, in_bunch),
+                                            split(middle, end, in_bunch)};
     for (std::size_t k = 0; k < 2; ++k) {
       nodes[top].children[k] = halves[k];
       nodes[halves[k]].parent = top;
@@ -158,9 +184,21 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
     for (std::size_t leaf = 0; leaf < n_leaves; ++leaf) {
       nodes[leaf].bv = to_fcl(boxes[static_cast<std::size_t>(index(leaf))]);
     }
+    bunches_.resize(first_leaves_.size());
+    for (std::size_t b = 0; b < bunches_.size(); ++b) {
+      bunches_[b].clear();
+      const std::size_t first = first_leaves_[b];
+      const std::size_t end = b + 1 < bunches_.size() ? first_leaves_[b + 1] : n_leaves;
+      for (std::size_t leaf = first; leaf < end; ++leaf)
+        bunches_[b].set(leaf - first, box(leaf).min_, box(leaf).max_, index(leaf));
+    }
   }
 
   std::vector<Item> items_;
+  std::vector<Place> above_bunches_;
+  std::vector<std::size_t> first_leaves_;  ///< by bunch
+  std::vector<std::int32_t> bunch_of_;     ///< by node; -1 of others than tops of bunches
+  std::vector<BoxLanes> bunches_;
   std::size_t next_inner_ = 0;
 };
 
@@ -199,15 +237,34 @@ void descend(const Tree& p, Tree::Place x, const Tree& q, Tree::Place y, const E
   }
 }
 
+/// Part [begin, end) of the nodes above bunches and then the bunches: two leaves part at exactly
+/// one of them.
+void find_pairs(const Tree& tree, std::size_t begin, std::size_t end,
+                std::vector<IndexPair>& pairs) {
+  pairs.clear();
+  const auto nodes = tree.nodes_above_bunches();
+  with_widest_vectors([&](auto width) __attribute__((always_inline)) {
+    BunchPairs<width, Tree> bunch_pairs(tree, pairs);
+    for (std::size_t k = begin; k < end; ++k) {
+      if (k < nodes.size()) {
+        bunch_pairs.across(nodes[k]);
+      } else {
+        bunch_pairs.within(tree.bunches()[k - nodes.size()]);
+      }
+    }
+  });
+}
+
 /// Counting sort by a, then each row by b. row_ends is scratch.
-void sort_pairs(std::span<const IndexPair> unsorted, std::size_t row_count,
+void sort_pairs(std::span<const std::vector<IndexPair>> parts, std::size_t row_count,
                 std::vector<std::size_t>& row_ends, std::vector<IndexPair>& sorted) {
   row_ends.assign(row_count + 1, 0);
-  for (const IndexPair& pair : unsorted) ++row_ends[static_cast<std::size_t>(pair.a) + 1];
+  for (const std::vector<IndexPair>& part : parts)
+    for (const IndexPair& pair : part) ++row_ends[static_cast<std::size_t>(pair.a) + 1];
   for (std::size_t row = 1; row <= row_count; ++row) row_ends[row] += row_ends[row - 1];
-  sorted.resize(unsorted.size());
-  for (const IndexPair& pair : unsorted)
-    sorted[row_ends[static_cast<std::size_t>(pair.a)]++] = pair;
+  sorted.resize(row_ends[row_count]);
+  for (const std::vector<IndexPair>& part : parts)
+    for (const IndexPair& pair : part) sorted[row_ends[static_cast<std::size_t>(pair.a)]++] = pair;
   // The start of each row has moved to its end.
   auto begin = sorted.begin();
   for (std::size_t row = 0; row < row_count; ++row) {
@@ -221,7 +278,7 @@ void sort_pairs(std::span<const IndexPair> unsorted, std::size_t row_count,
 
 struct BroadPhase::Implementation {
   Tree tree;
-  std::vector<IndexPair> unsorted;
+  std::vector<std::vector<IndexPair>> found;  ///< by thread
   std::vector<std::size_t> row_ends;
 };
 
@@ -266,7 +323,7 @@ void BroadPhase::refit(std::span<const Box> boxes) {
                                 " boxes, expected " + std::to_string(size()) +
                                 " as in the last rebuild; call rebuild when boxes come or go");
   }
-  implementation_->tree.refit_and_improve(boxes);
+  implementation_->tree.follow(boxes);
 }
 
 std::size_t BroadPhase::size() const noexcept {
@@ -275,29 +332,35 @@ std::size_t BroadPhase::size() const noexcept {
 
 void BroadPhase::self_pairs(std::vector<IndexPair>& pairs) const {
   const Tree& tree = implementation_->tree;
-  std::vector<IndexPair>& unsorted = implementation_->unsorted;
-  unsorted.clear();
-  // Two leaves part at exactly one inner node.
-  for (std::size_t place = tree.leaf_end(); place < tree.inner_end(); ++place) {
-    descend(tree, tree.child(place, 0), tree, tree.child(place, 1),
-            [&](std::int32_t i, std::int32_t j) {
-              unsorted.push_back({std::min(i, j), std::max(i, j)});
-            });
-  }
-  sort_pairs(unsorted, size(), implementation_->row_ends, pairs);
+  auto& found = implementation_->found;
+  found.resize(1);
+  find_pairs(tree, 0, tree.nodes_above_bunches().size() + tree.bunches().size(), found[0]);
+  sort_pairs(found, size(), implementation_->row_ends, pairs);
+}
+
+void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) const {
+  const Tree& tree = implementation_->tree;
+  auto& found = implementation_->found;
+  found.resize(static_cast<std::size_t>(pool.thread_count()));
+  const std::size_t count = tree.nodes_above_bunches().size() + tree.bunches().size();
+  pool.for_each_range(count, [&](std::size_t begin, std::size_t end, int worker) {
+    find_pairs(tree, begin, end, found[static_cast<std::size_t>(worker)]);
+  });
+  sort_pairs(found, size(), implementation_->row_ends, pairs);
 }
 
 void BroadPhase::pairs_with(const BroadPhase& other, std::vector<IndexPair>& pairs) const {
   const Tree& tree = implementation_->tree;
-  std::vector<IndexPair>& unsorted = implementation_->unsorted;
   const Tree& other_tree = other.implementation_->tree;
-  unsorted.clear();
+  auto& found = implementation_->found;
+  found.resize(1);
+  found[0].clear();
   if (size() > 0 && other.size() > 0) {
     descend(tree, tree.root(), other_tree, other_tree.root(), [&](std::int32_t i, std::int32_t j) {
-      unsorted.push_back({i, j});
+      found[0].push_back({i, j});
     });
   }
-  sort_pairs(unsorted, size(), implementation_->row_ends, pairs);
+  sort_pairs(found, size(), implementation_->row_ends, pairs);
 }
 
 void BroadPhase::query(const Box& box, std::vector<std::int32_t>& indices) const {

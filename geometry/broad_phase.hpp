@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/box.hpp"
+#include "geometry/thread_pool.hpp"
 
 #include <compare>
 #include <cstddef>
@@ -46,9 +47,8 @@ class BroadPhase {
   /// Takes any number of boxes, also none. A box's place in the span is its index from now on.
   void rebuild(std::span<const Box> boxes);
 
-  /// Moves the boxes, any way and any distance. Two to three times cheaper than rebuild, but when
-  /// boxes have wandered far among each other, finding their pairs takes 1.3 to 1.6 times as long;
-  /// no longer, because the tree is improved a little at every call.
+  /// Moves the boxes, any way and any distance. Several times cheaper than rebuild, but the further
+  /// boxes have wandered among each other since then, the longer finding their pairs takes.
   /// @throws std::invalid_argument if the number of boxes is not the one of the last rebuild.
   void refit(std::span<const Box> boxes);
 
@@ -57,6 +57,8 @@ class BroadPhase {
 
   /// All pairs a < b of overlapping boxes, each once, in order. Replaces what pairs held.
   void self_pairs(std::vector<IndexPair>& pairs) const;
+  /// The same on several threads.
+  void self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) const;
 
   /// All pairs of a box of this (a) and an overlapping box of the other (b), each once, in order.
   /// Replaces what pairs held.

@@ -12,6 +12,8 @@
 namespace plekton::geometry {
 namespace {
 
+constexpr std::int64_t kListsPerTree = 64;
+
 /// In radii. Half a turn takes pi of them; what is nearer than a diameter across a flat sheet is at
 /// most 2 sqrt(2) away along the edges of a square grid.
 constexpr double kSharpestFold = 4.0;
@@ -140,8 +142,13 @@ bool CellNeighbours::update(Positions x, ThreadPool& pool, double way) {
   for (std::size_t c = 0; c < surface_->cell_count(); ++c) {
     boxes_.push_back(box(*surface_, id_at<CellId>(c), x, skin_.margin()));
   }
-  tree_.rebuild(boxes_);
-  tree_.self_pairs(overlaps_);
+  // Cells keep their neighbours in the structure: the tree stays a good one for long.
+  if (tree_.size() == boxes_.size() && rebuild_count_ % kListsPerTree != 0) {
+    tree_.refit(boxes_);
+  } else {
+    tree_.rebuild(boxes_);
+  }
+  tree_.self_pairs(overlaps_, pool);
   previous_.swap(pairs_);
   pairs_.clear();
   for (const IndexPair& pair : overlaps_) {

@@ -25,7 +25,7 @@ bool Neighbours::update(Positions x, ThreadPool& pool, double way) {
   if (spheres_.empty() || !skin_.may_need_rebuild(way) || !skin_.needs_rebuild(x, pool))
     return false;
   if (usual_radius_ > 0.0 && rebuild_count_ > 0) choose_skin();
-  rebuild(x);
+  rebuild(x, pool);
   skin_.mark_built(x);
   ++rebuild_count_;
   steps_of_list_ = 0;
@@ -50,12 +50,12 @@ void Neighbours::fit(BroadPhase& tree) {
   }
 }
 
-void Neighbours::rebuild(Positions x) {
+void Neighbours::rebuild(Positions x, ThreadPool& pool) {
   const double margin = skin_.margin();
   boxes_.clear();
   for (const Sphere& sphere : spheres_) boxes_.push_back(box(sphere, x, margin));
   fit(sphere_tree_);
-  sphere_tree_.self_pairs(sphere_pairs_);
+  sphere_tree_.self_pairs(sphere_pairs_, pool);
   drop_distant_pairs(x);
 
   boxes_.clear();

@@ -54,7 +54,7 @@ class Neighbours {
 
  private:
   void choose_skin();
-  void rebuild(Positions x);
+  void rebuild(Positions x, ThreadPool& pool);
   void fit(BroadPhase& tree);
   /// Of the spheres whose boxes overlap, keeps those whose surfaces are at most the skin apart: as
   /// no centre moves by more than half the skin, no others can touch. A third fewer pairs to look

@@ -66,6 +66,9 @@ struct Pack {
   PLEKTON_INLINE friend PackMask<W> operator>(const Pack& x, const Pack& y) noexcept {
     return PackMask<W>{x.lanes > y.lanes};
   }
+  PLEKTON_INLINE friend PackMask<W> operator>=(const Pack& x, const Pack& y) noexcept {
+    return PackMask<W>{x.lanes >= y.lanes};
+  }
   PLEKTON_INLINE friend PackMask<W> operator==(const Pack& x, const Pack& y) noexcept {
     return PackMask<W>{x.lanes == y.lanes};
   }
@@ -123,6 +126,12 @@ constexpr unsigned kAllBits = (1U << W) - 1U;
 template <class Real>
 PLEKTON_INLINE Real smaller_of(const Real& x, const Real& y) noexcept {
   return select(y > x, x, y);
+}
+
+/// The larger of two numbers; y if they cannot be compared.
+template <class Real>
+PLEKTON_INLINE Real larger_of(const Real& x, const Real& y) noexcept {
+  return select(x > y, x, y);
 }
 
 /// x if it is positive, otherwise (also for NaN) 0.

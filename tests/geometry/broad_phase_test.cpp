@@ -221,6 +221,19 @@ TEST(BroadPhase, KeepsItsPairsRightWhileManyBoxesWanderFarWithoutARebuild) {
   }
 }
 
+TEST(BroadPhase, FindsTheSamePairsOnAnyNumberOfThreads) {
+  Random random(7);
+  for (const std::size_t count : {0u, 1u, 2u, 5u, 1000u}) {
+    const BroadPhase broad_phase = broad_phase_of(packing(random, count));
+    for (const int threads : {1, 2, 3, 8}) {
+      ThreadPool pool(threads);
+      Pairs pairs;
+      broad_phase.self_pairs(pairs, pool);
+      EXPECT_EQ(pairs, self_pairs(broad_phase));
+    }
+  }
+}
+
 TEST(BroadPhase, CanBeRebuiltWithAnotherNumberOfBoxes) {
   Random random(6);
   BroadPhase broad_phase;
