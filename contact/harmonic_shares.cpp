@@ -31,6 +31,8 @@ constexpr double kLeastResistance = 1e-20;
 
 void HarmonicShares::build(std::uint32_t vertex_count, std::span<const Link> links,
                            std::span<const Filling> fillings) {
+  vertex_count_ = vertex_count;
+  is_planned_ = false;
   find_closings(vertex_count, links);
   currents_.clear();
   clear(row_, closings_.size());
@@ -101,7 +103,10 @@ std::span<const double> HarmonicShares::find(std::uint32_t vertex_count,
 
   forest_.grow(vertex_count, links);
   forest_.hang(links);
-  eliminate(vertex_count, links);
+  if (!is_planned_) elimination_.plan(vertex_count_, all_links);
+  is_planned_ = true;
+  set_conductances(links);
+  elimination_.eliminate(vertex_count, conductance_);
   clear(flows_, holes * links.size());
   std::size_t hole = 0;
   for (std::size_t k = 0; k < closings_.size(); ++k) {
@@ -110,7 +115,7 @@ std::span<const double> HarmonicShares::find(std::uint32_t vertex_count,
     set_on_no_tree(links);
     take_off_potential(links);
     for (std::size_t i = 0; i < links.size(); ++i)
-      flows_[hole * links.size() + i] = shares_[i] * std::sqrt(conductance_[i]);
+      flows_[hole * links.size() + i] = shares_[i] * root_conductance_[i];
     ++hole;
   }
   orthonormalise(holes, links.size());
@@ -124,32 +129,14 @@ std::span<const double> HarmonicShares::find(std::uint32_t vertex_count,
   return shares_;
 }
 
-/// Conductances, and what couples each vertex to the lower ones when all above it are gone. Nothing
-/// is ever subtracted (Grassmann, Taksar & Heyman, Operations Research 33 (1985)), so the couplings
-/// are accurate however different the conductances are.
-void HarmonicShares::eliminate(std::uint32_t vertex_count, std::span<const Link> links) {
+void HarmonicShares::set_conductances(std::span<const Link> links) {
   double largest = 0.0;
   for (const Link& link : links) largest = std::max(largest, link.resistance);
-  const std::size_t n = vertex_count;
-  clear(coupling_, n * n);
-  pivot_.assign(n, 0.0);
   conductance_.clear();
+  root_conductance_.clear();
   for (const Link& link : links) {
     conductance_.push_back(1.0 / std::max(link.resistance, kLeastResistance * largest));
-    coupling_[link.a * n + link.b] += conductance_.back();
-  }
-  for (std::size_t v = n; v-- > 1;) {
-    const double* row = coupling_.data() + v * n;
-    lower_.clear();
-    for (std::size_t u = 0; u < v; ++u) {
-      if (row[u] == 0.0) continue;
-      lower_.push_back(u);
-      pivot_[v] += row[u];
-    }
-    for (std::size_t i = 1; i < lower_.size(); ++i) {
-      for (std::size_t k = 0; k < i; ++k)
-        coupling_[lower_[i] * n + lower_[k]] += row[lower_[i]] * (row[lower_[k]] / pivot_[v]);
-    }
+    root_conductance_.push_back(std::sqrt(conductance_.back()));
   }
 }
 
@@ -172,13 +159,13 @@ void HarmonicShares::set_circulation(std::size_t open, std::uint32_t vertex_coun
   std::fill_n(row_.begin() + static_cast<std::ptrdiff_t>(open), closings_.size() - open, 0.0);
 }
 
-/// Takes off the gradient of a potential, so that the drops are 0 along the links of the forest of
-/// least resistance. The drops are small whole numbers, so this is exact. What is left is on links
-/// that resist at least as much as the way round them: a drop of 1 along a link of hardly any
-/// resistance, in a ring of others, would be a source so strong that all else drowned in its
-/// rounding errors.
+/// Takes off the gradient of a potential, so that the drops are 0 along the links of a forest of
+/// little resistance. The drops are small whole numbers, so this is exact. What is left is on links
+/// that resist at least half as much as any on the way round them: a drop of 1 along a link of
+/// hardly any resistance, in a ring of others, would be a source so strong that all else drowned in
+/// its rounding errors.
 void HarmonicShares::set_on_no_tree(std::span<const Link> links) {
-  potential_.assign(pivot_.size(), 0.0);
+  potential_.assign(forest_.downwards().size(), 0.0);
   for (const std::uint32_t vertex : forest_.downwards()) {
     const SpanningForest::Parent& up = forest_.parent(vertex);
     if (up.link == SpanningForest::kNone) continue;
@@ -192,41 +179,32 @@ void HarmonicShares::set_on_no_tree(std::span<const Link> links) {
 /// Of all drops with these sums the ones without sources: what is left when the gradient of a
 /// potential is taken off.
 void HarmonicShares::take_off_potential(std::span<const Link> links) {
-  const std::size_t n = pivot_.size();
-  source_.assign(n, 0.0);
+  source_.assign(potential_.size(), 0.0);
   for (std::size_t i = 0; i < links.size(); ++i) {
     source_[links[i].a] += conductance_[i] * shares_[i];
     source_[links[i].b] -= conductance_[i] * shares_[i];
   }
-  for (std::size_t v = n; v-- > 1;) {
-    if (pivot_[v] == 0.0 || source_[v] == 0.0) continue;
-    const double* row = coupling_.data() + v * n;
-    for (std::size_t u = 0; u < v; ++u) source_[u] += row[u] * (source_[v] / pivot_[v]);
-  }
-  for (std::size_t v = 0; v < n; ++v) {
-    if (pivot_[v] == 0.0) {
-      source_[v] = 0.0;
-      continue;
-    }
-    const double* row = coupling_.data() + v * n;
-    for (std::size_t u = 0; u < v; ++u) source_[v] += row[u] * source_[u];
-    source_[v] /= pivot_[v];
-  }
+  elimination_.solve(source_);
   for (std::size_t i = 0; i < links.size(); ++i)
     shares_[i] -= source_[links[i].a] - source_[links[i].b];
 }
 
-/// Gram and Schmidt, twice because once leaves the rounding errors of what it took away.
+/// Gram and Schmidt; again where little is left, because once leaves the rounding errors of what it
+/// took away.
 void HarmonicShares::orthonormalise(std::size_t hole_count, std::size_t link_count) {
   for (std::size_t i = 0; i < hole_count; ++i) {
     Row flow = row_of(flows_, i, link_count);
-    for (int pass = 0; pass < 2; ++pass) {
+    double norm = flow.norm();
+    double norm_before = 3.0 * norm;
+    for (int pass = 0; pass < 2 && norm < 0.5 * norm_before; ++pass) {
+      norm_before = norm;
       for (std::size_t k = 0; k < i; ++k) {
         const Row before = row_of(flows_, k, link_count);
         flow -= flow.dot(before) * before;
       }
+      norm = flow.norm();
     }
-    flow /= flow.norm();
+    flow /= norm;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/elimination.hpp"
 #include "contact/spanning_forest.hpp"
 
 #include <array>
@@ -72,24 +73,24 @@ class HarmonicShares {
   void reduce(const Filling& filling);
   void set_circulation(std::size_t open, std::uint32_t vertex_count, std::span<const Link> links);
   void set_on_no_tree(std::span<const Link> links);
-  void eliminate(std::uint32_t vertex_count, std::span<const Link> links);
+  void set_conductances(std::span<const Link> links);
   void take_off_potential(std::span<const Link> links);
   void orthonormalise(std::size_t hole_count, std::size_t link_count);
 
+  std::uint32_t vertex_count_ = 0;
   std::vector<Closing> closings_;     ///< by link, oldest first
   std::vector<std::uint32_t> place_;  ///< by link: its place among the closings, or kNone
   std::vector<std::uint32_t> root_;
   std::vector<Current> currents_;
   std::vector<double> row_;  ///< by closing
   // Working space of find().
-  SpanningForest forest_;            ///< of least resistance
-  std::vector<double> potential_;    ///< by vertex
-  std::vector<double> conductance_;  ///< by link
-  std::vector<double> coupling_;    ///< vertex x lower vertex, what is left when all above are gone
-  std::vector<std::size_t> lower_;  ///< vertices that one is coupled to
-  std::vector<double> pivot_;       ///< by vertex; 0 of the lowest of a part
-  std::vector<double> source_;      ///< by vertex, then the potential
-  std::vector<double> flows_;       ///< open ring x link
+  SpanningForest forest_;                               ///< of little resistance
+  std::vector<double> potential_;                       ///< by vertex
+  std::vector<double> conductance_, root_conductance_;  ///< by link
+  Elimination elimination_;
+  bool is_planned_ = false;     ///< elimination_, for the links of the last build()
+  std::vector<double> source_;  ///< by vertex, then the potential
+  std::vector<double> flows_;   ///< open ring x link
   std::vector<double> shares_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/ring_weights.hpp"
 
+#include <algorithm>
+
 namespace plekton::contact {
 namespace {
 
@@ -19,8 +21,9 @@ std::span<const RingWeights::Share> RingWeights::find(const geometry::Surface& s
   shares_of_holes_.build(static_cast<std::uint32_t>(feet.size()), near_.links(), near_.fillings());
   hollows_.build(near_.whole_facets());
   sums_.assign(feet.size(), 0.0);
-  for (std::size_t i = 0; i < events.size(); ++i)
-    add_interval(events[i], i + 1 < events.size() ? events[i + 1] : range);
+  list_levels(events);
+  for (std::size_t i = 0; i < levels_.size(); ++i)
+    add_interval(levels_[i], i + 1 < levels_.size() ? levels_[i + 1] : range);
 
   shares_.clear();
   for (std::size_t i = 0; i < feet.size(); ++i) {
@@ -42,6 +45,15 @@ std::span<const RingWeights::Share> RingWeights::find_of_wires(
     if (sums_[i] != 0.0) shares_.push_back({&near_.vertices()[i], sums_[i]});
   }
   return shares_;
+}
+
+void RingWeights::list_levels(std::span<const double> events) {
+  levels_.assign(events.begin(), events.end());
+  for (const NearComplex::Vertex& foot : near_.vertices()) {
+    if (foot.core.feature.kind == geometry::FeatureKind::node && foot.distance > events.front())
+      levels_.push_back(foot.distance);
+  }
+  std::sort(levels_.begin(), levels_.end());
 }
 
 void RingWeights::add_interval(double lower, double upper) {

@@ -16,7 +16,9 @@ namespace plekton::contact {
 /// At every level each hole is one, shared over the links of the rings around it; a link stands for
 /// its upper vertex. The shares are integrated over the levels from the first event to the range.
 /// They are smooth between events, so one interval takes those of its middle: an interval vanishes
-/// where two events meet, so this is continuous, and exact to the second order in its length.
+/// where two events meet, so this is continuous, and exact to the second order in its length. A
+/// pass and the top that fills its ring may also be born together, in the middle of an interval;
+/// tops are nodes, so intervals end at every node as well, whether it is an event or not.
 ///
 /// A top that shuts the last opening of a closed surface fills no ring, and no piece begins with
 /// it: it shuts a hollow, and coefficients count pieces minus holes plus hollows. So at every level
@@ -51,6 +53,7 @@ class RingWeights {
                                        Positions x);
 
  private:
+  void list_levels(std::span<const double> events);
   void add_interval(double lower, double upper);
   void take_hollows(std::uint32_t below, double level, double length);
 
@@ -59,6 +62,7 @@ class RingWeights {
   HollowShares hollows_;
   SpanningWeights spanning_;
   std::vector<double> corner_weights_;  ///< 1/m^2, by vertex of near_
+  std::vector<double> levels_;          ///< m
   std::vector<double> sums_;            ///< m, by vertex of near_
   std::vector<Share> shares_;
 };

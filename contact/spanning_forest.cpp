@@ -2,21 +2,37 @@
 #include "contact/spanning_forest.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
 namespace plekton::contact {
+
+/// Rough order by the binary exponent, in linear time; 0 comes first.
+void SpanningForest::sort_by_resistance(std::span<const Link> links) {
+  const auto key_of = [](const Link& link) {
+    const auto bits = std::bit_cast<std::uint64_t>(link.resistance);
+    return link.resistance > 0.0 ? 1 + static_cast<std::uint32_t>(bits >> 52U) : 0U;
+  };
+  std::uint32_t least = kNone;
+  std::uint32_t largest = 0;
+  for (const Link& link : links) {
+    least = std::min(least, key_of(link));
+    largest = std::max(largest, key_of(link));
+  }
+  order_.resize(links.size());
+  if (links.empty()) return;
+  first_.assign(largest - least + 2, 0);
+  for (const Link& link : links) ++first_[key_of(link) - least + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  for (std::uint32_t i = 0; i < links.size(); ++i) order_[first_[key_of(links[i]) - least]++] = i;
+}
 
 void SpanningForest::grow(std::uint32_t vertex_count, std::span<const Link> links) {
   root_.resize(vertex_count);
   std::iota(root_.begin(), root_.end(), 0U);
   tree_links_.clear();
   closing_links_.clear();
-  order_.resize(links.size());
-  std::iota(order_.begin(), order_.end(), 0U);
-  std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t k) {
-    return links[i].resistance != links[k].resistance ? links[i].resistance < links[k].resistance
-                                                      : i < k;
-  });
+  sort_by_resistance(links);
   const auto halved_root_of = [this](std::uint32_t vertex) {
     while (root_[vertex] != vertex) vertex = root_[vertex] = root_[root_[vertex]];
     return vertex;

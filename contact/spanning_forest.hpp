@@ -11,8 +11,9 @@
 
 namespace plekton::contact {
 
-/// The spanning forest of least resistance: no link of it resists more than one left out that
-/// closes a ring with it. Keeps its working space, so that a warm call does not allocate.
+/// A spanning forest of little resistance: no link of it resists more than twice what one does that
+/// is left out and closes a ring with it, nor at all if that one does not. Keeps its working space,
+/// so that a warm call does not allocate.
 class SpanningForest {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -24,8 +25,8 @@ class SpanningForest {
     std::uint32_t depth;
   };
 
-  /// Of links of equal resistance the first ones are taken.
-  /// @param links  loops (a == b) are in neither list
+  /// Almost linear in the links.
+  /// @param links  resistances >= 0; loops (a == b) are in neither list
   void grow(std::uint32_t vertex_count, std::span<const Link> links);
   /// Finds the parents; of the last grow(), with the same links.
   void hang(std::span<const Link> links);
@@ -41,13 +42,15 @@ class SpanningForest {
   std::span<const std::uint32_t> downwards() const noexcept { return downwards_; }
 
  private:
-  std::vector<std::uint32_t> order_;  ///< links by rising resistance
+  void sort_by_resistance(std::span<const Link> links);
+
+  std::vector<std::uint32_t> order_;  ///< links by rising resistance, but for a factor of 2
   std::vector<std::uint32_t> root_;
   std::vector<std::uint32_t> tree_links_;
   std::vector<std::uint32_t> closing_links_;
   std::vector<Parent> parent_;
   std::vector<std::uint32_t> downwards_;
-  std::vector<std::uint32_t> first_;  ///< by vertex: where its links begin in at_
+  std::vector<std::uint32_t> first_;  ///< by exponent, then by vertex: where its links begin
   std::vector<std::uint32_t> at_;     ///< tree links by vertex
 };
 

@@ -27,7 +27,7 @@ Matrix matrix_in(std::vector<double>& room, std::size_t rows, std::size_t column
 }
 
 /// Root of the resistance of a tree link over that of a link that closes a ring with it, which is
-/// at least as large. A ring without any resistance shares evenly.
+/// at least half as large. A ring without any resistance shares evenly.
 double ratio_of(const Link& tree, const Link& closing) noexcept {
   return closing.resistance > 0.0 ? std::sqrt(tree.resistance / closing.resistance) : 1.0;
 }

@@ -42,7 +42,7 @@ class SpanningWeights {
  public:
   /// Weights of the links, each in [0, 1].
   ///
-  /// Computed on the cycle space: with the fundamental cycles C of the spanning forest of least
+  /// Computed on the cycle space: with the fundamental cycles C of a spanning forest of little
   /// resistance R, a link is left out with probability R_e (C^T (C R C^T)^-1 C)_ee. Scaled by the
   /// closing links the matrix is the identity plus a positive semidefinite one with entries of at
   /// most the length of a path, so it is well conditioned however different the resistances are.

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 /// A grain of radius 1 pressed on nets and on plates with a hole: it is never pulled in, and what
 /// carries it grows with depth.
 namespace plekton::test {
@@ -230,6 +232,36 @@ TEST(GrainOnANet, FeelsTheSameWhateverTheOrderInWhichTheNetWasCreated) {
       ASSERT_NEAR(
           (total_contact(second_finder, centre, range, cells, second.x).force - force).norm(), 0.0,
           1e-9 * force.norm());
+    }
+  }
+}
+
+/// At such places a pass and the top that fills its ring are born together, in the middle of the
+/// levels: integrals over levels that know only of these events see one more of them on one side.
+TEST(GrainBesideAnOpenCube, FeelsNoJumpWhereARingIsBornAndFilledAtOnce) {
+  for (const auto& [missing, centre, range] :
+       {std::tuple(5, Vec3(0, 0.5, -3), 4.16208813), std::tuple(3, Vec3(-1.5, 1, 4), 4.79067805),
+        std::tuple(2, Vec3(1, 4, -3), 5.87990288)}) {
+    for (int first = 0; first < 12; ++first) {
+      Complex open = cube(1);
+      open.facets.erase(open.facets.begin() + first);
+      if (missing != first) open.facets.erase(open.facets.begin() + (missing - (first < missing)));
+      const Surface surface = open.surface();
+      PatchFinder finder(surface);
+      const auto cells = all_cells(surface);
+      const auto force_at = [&](const Vec3& at) {
+        return total_contact(finder, at, range, cells, open.x).force;
+      };
+      const Vec3 force = force_at(centre);
+      for (const double step : {1e-9, 1e-7, 1e-5}) {
+        for (int axis = 0; axis < 3; ++axis) {
+          for (const double side : {-step, step}) {
+            EXPECT_LT((force_at(centre + side * Vec3::Unit(axis)) - force).norm(),
+                      20.0 * step + 1e-11)
+                << "without " << missing << " and " << first << ", axis " << axis << ", " << side;
+          }
+        }
+      }
     }
   }
 }
