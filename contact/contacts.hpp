@@ -49,6 +49,10 @@ class Contacts {
   /// @param radius  m, > 0, of a usual sphere
   void tune_skin(double radius) noexcept { neighbours_.tune_skin(radius); }
 
+  /// From now on the lists of structures choose their skin by themselves
+  /// (geometry/cell_neighbours.hpp).
+  void choose_skin_of_structures() { cell_neighbours_.choose_skin(); }
+
   /// One step: finds who touches whom, carries histories over, and asks the law. Forces are not yet
   /// added.
   void advance(const Motion& motion, std::span<const Plane> planes, double dt,

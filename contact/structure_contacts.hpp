@@ -4,6 +4,7 @@
 #include "contact/bodies.hpp"
 #include "contact/contact_row.hpp"
 #include "contact/material_pairs.hpp"
+#include "contact/structure/clearances.hpp"
 #include "contact/structure/pair_term.hpp"
 #include "contact/structure/structure_patch.hpp"
 #include "contact/structure/touching_patches.hpp"
@@ -49,9 +50,9 @@ class StructureContacts {
 
   /// Pairs of facets and cylinders whose cores met in the last step: overlaps beyond both radii.
   std::size_t crossings() const noexcept {
-    return static_cast<std::size_t>(
-        std::count_if(terms_.begin(), terms_.end(),
-                      [](const auto& term) { return term.is_of_cells && term.meets; }));
+    return static_cast<std::size_t>(std::count_if(
+        acting_.begin(), acting_.end(),
+        [this](std::uint32_t i) { return terms_[i].is_of_cells && terms_[i].meets; }));
   }
 
   /// Number of patches in contact.
@@ -94,7 +95,7 @@ class StructureContacts {
 
   void make_terms(std::span<const MaterialId> materials_of_structures,
                   const MaterialPairs<Law>& materials);
-  void evaluate_terms(Positions x, geometry::ThreadPool& pool);
+  void evaluate_terms(const Motion& motion, geometry::ThreadPool& pool);
   void find_patches();
   void add_up_patches(Positions x);
   double inherit(const Motion& motion, double dt);
@@ -115,11 +116,17 @@ class StructureContacts {
   std::vector<PairOfCells> pairs_;
   std::vector<Meeting> meetings_;
   std::vector<PairTerm> terms_;
+  bool terms_are_new_ = false;
+  structure::Clearances clearances_;    ///< of the terms
+  std::vector<std::uint32_t> due_;      ///< terms that may be in range, ascending
+  std::vector<double> due_clearances_;  ///< m, of these
+  std::vector<std::uint32_t> acting_;   ///< terms in range, ascending
   std::vector<Holder> holders_;
   structure::TouchingPatches connected_;
   std::vector<Patch> patches_;
   std::vector<Patch> previous_;
   std::vector<Heir> heirs_;
+  std::vector<std::uint32_t> places_;  ///< by NodeId, see PatchSide::finish
   double largest_overlap_ratio_ = 0.0;
 };
 
@@ -164,6 +171,8 @@ void StructureContacts<Law>::make_terms(std::span<const MaterialId> materials_of
     }
   }
   terms_.clear();
+  terms_are_new_ = true;
+  acting_.clear();
   holders_.clear();
   for (const std::uint32_t pair : features.holders) holders_.push_back({pair, false});
   for (const geometry::FeaturePair& pair : features.pairs) {
@@ -186,7 +195,7 @@ template <ContactLaw Law>
 double StructureContacts<Law>::advance(const Motion& motion, double dt,
                                        geometry::ThreadPool& pool) {
   if (terms_.empty() && patches_.empty()) return 0.0;
-  evaluate_terms(motion.position, pool);
+  evaluate_terms(motion, pool);
   find_patches();
   add_up_patches(motion.position);
   double dissipated = inherit(motion, dt);
@@ -194,16 +203,33 @@ double StructureContacts<Law>::advance(const Motion& motion, double dt,
   return dissipated;
 }
 
+/// Terms cost very different times, and the costly ones come first: threads take turns.
 template <ContactLaw Law>
-void StructureContacts<Law>::evaluate_terms(Positions x, geometry::ThreadPool& pool) {
-  pool.for_each_range(terms_.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Meeting& meeting = meetings_[terms_[i].spring];
+void StructureContacts<Law>::evaluate_terms(const Motion& motion, geometry::ThreadPool& pool) {
+  if (terms_are_new_) {
+    clearances_.reset(terms_.size(), motion.position);
+  } else {
+    clearances_.move(motion.way, motion.position);
+  }
+  terms_are_new_ = false;
+  due_.clear();
+  clearances_.for_each_due([&](std::size_t i) { due_.push_back(static_cast<std::uint32_t>(i)); });
+  due_clearances_.resize(due_.size());
+  const auto stride = static_cast<std::size_t>(pool.thread_count());
+  pool.for_each_range(stride, [&](std::size_t begin, std::size_t, int) {
+    for (std::size_t i = begin; i < due_.size(); i += stride) {
+      PairTerm& term = terms_[due_[i]];
+      const Meeting& meeting = meetings_[term.spring];
       const auto spring = structure::NormalSpring::of<Law>(
           meeting.parameters, meeting.radius_first + meeting.radius_second);
-      structure::evaluate(terms_[i], spring, x);
+      due_clearances_[i] = structure::evaluate(term, spring, motion.position);
     }
   });
+  acting_.clear();
+  for (std::size_t i = 0; i < due_.size(); ++i) {
+    clearances_.set(due_[i], due_clearances_[i]);
+    if (terms_[due_[i]].in_range) acting_.push_back(due_[i]);
+  }
 }
 
 template <ContactLaw Law>
@@ -215,8 +241,8 @@ void StructureContacts<Law>::find_patches() {
   }
   connected_.reset(pairs_.size());
   constexpr std::int32_t kTouches = 0;
-  for (const PairTerm& term : terms_) {
-    if (!term.in_range) continue;
+  for (const std::uint32_t acting : acting_) {
+    const PairTerm& term = terms_[acting];
     const Holder& first = holders_[term.first_holder];
     for (std::uint32_t h = 0; h < term.holder_count; ++h) {
       const Holder& holder = holders_[term.first_holder + h];
@@ -241,8 +267,8 @@ void StructureContacts<Law>::find_patches() {
 template <ContactLaw Law>
 void StructureContacts<Law>::add_up_patches(Positions x) {
   largest_overlap_ratio_ = 0.0;
-  for (const PairTerm& term : terms_) {
-    if (!term.in_range) continue;
+  for (const std::uint32_t acting : acting_) {
+    const PairTerm& term = terms_[acting];
     const Meeting& meeting = meetings_[term.spring];
     const double radius = std::min(meeting.radius_first, meeting.radius_second);
     largest_overlap_ratio_ = std::max(largest_overlap_ratio_, term.overlap / radius);
@@ -253,8 +279,8 @@ void StructureContacts<Law>::add_up_patches(Positions x) {
     for (const Vec3& force : on_second) patch.elastic_force += force;
   }
   for (Patch& patch : patches_) patch.find_mean(meeting_of(patch));
-  for (const PairTerm& term : terms_) {
-    if (!term.in_range) continue;
+  for (const std::uint32_t acting : acting_) {
+    const PairTerm& term = terms_[acting];
     Patch& patch = patch_of(term);
     if (!(patch.normal_force > 0.0)) continue;
     const Vec3 per_force = patch.elastic_force / (patch.normal_force * patch.normal_force);
@@ -268,10 +294,11 @@ void StructureContacts<Law>::add_up_patches(Positions x) {
       side_b.add(term.b.ids[i], sign * per_force.dot(term.forces.on_b[i]));
     }
   }
+  places_.resize(x.size(), structure::PatchSide::kNowhere);
   for (Patch& patch : patches_) {
     if (!(patch.normal_force > 0.0)) continue;
-    patch.first.finish(x);
-    patch.second.finish(x);
+    patch.first.finish(x, places_);
+    patch.second.finish(x, places_);
   }
 }
 
@@ -323,8 +350,8 @@ double StructureContacts<Law>::inherit(const Motion& motion, double dt) {
 
 template <ContactLaw Law>
 void StructureContacts<Law>::add_forces(NodeForces& forces) const {
-  for (const PairTerm& term : terms_) {
-    if (!term.in_range) continue;
+  for (const std::uint32_t acting : acting_) {
+    const PairTerm& term = terms_[acting];
     for (std::size_t i = 0; i < term.a.count; ++i) {
       forces.force[index_of(term.a.ids[i])] += term.forces.on_a[i];
     }

@@ -137,6 +137,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
       pace_radius_(pace_radius(scene_.elements)) {
   least_furthest_ = furthest_.empty() ? 0.0 : *std::min_element(furthest_.begin(), furthest_.end());
   if (options.skin == 0.0 && !scene_.elements.spheres.empty()) contacts_.tune_skin(pace_radius_);
+  if (options.skin == 0.0) contacts_.choose_skin_of_structures();
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   bonds_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_);

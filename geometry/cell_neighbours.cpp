@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -71,6 +72,14 @@ CellNeighbours::CellNeighbours(const Surface& surface, Positions rest, double sk
     if (surface.structure_of(node) != StructureId{-1}) own_nodes_.push_back(node);
   }
   if (self_contact) collect_near_nodes(rest);
+}
+
+void CellNeighbours::choose_skin() {
+  constexpr double kInRadii = 0.5;
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < surface_->structure_count(); ++i)
+    thinnest = std::min(thinnest, surface_->radius(id_at<StructureId>(i)));
+  if (std::isfinite(thinnest)) skin_.set(kInRadii * thinnest);
 }
 
 /// Grains that fly past do not make a list of cells old.

@@ -31,6 +31,11 @@ class CellNeighbours {
   ///         edges: of cells far shorter than thick the lists would take many GB
   CellNeighbours(const Surface& surface, Positions rest, double skin, bool self_contact);
 
+  /// From the next list on, a skin of half the radius of the thinnest structure: a longer list
+  /// costs little, because contacts leave pairs alone that are far from touching
+  /// (contact/structure/clearances.hpp), and making it costs much.
+  void choose_skin();
+
   /// Makes the list anew if it has to be. @returns whether it has changed
   /// @param way  m, see Skin::may_need_rebuild
   bool update(Positions x, ThreadPool& pool, double way = std::numeric_limits<double>::infinity());

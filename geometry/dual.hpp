@@ -40,6 +40,8 @@ struct Dual {
   friend Dual operator*(const Dual& x, const Dual& y) {
     return {x.value * y.value, x.slopes * y.value + y.slopes * x.value};
   }
+  friend Dual operator*(double x, const Dual& y) { return {x * y.value, x * y.slopes}; }
+  friend Dual operator*(const Dual& x, double y) { return y * x; }
   friend Dual operator/(const Dual& x, const Dual& y) {
     const double quotient = x.value / y.value;
     return {quotient, (x.slopes - quotient * y.slopes) / y.value};
@@ -47,6 +49,11 @@ struct Dual {
   friend bool operator<(const Dual& x, const Dual& y) { return x.value < y.value; }
   friend bool operator>(const Dual& x, const Dual& y) { return x.value > y.value; }
 };
+
+template <int N>
+PackVec3<Dual<N>> operator*(double x, const PackVec3<Dual<N>>& v) {
+  return {x * v.x, x * v.y, x * v.z};
+}
 
 /// f(x), given f's value and derivative at x.
 template <int N>

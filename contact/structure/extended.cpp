@@ -17,7 +17,7 @@ bool is_cylinder(const Simplex& s) {
 /// 1 for parallel bodies, 0 and flat where they count as crossing.
 Real parallel_factor(const Real& cosine) {
   if (cosine.value <= kCosineOfCrossing) return {0.0};
-  const Real share = Real(1.0 / (1.0 - kCosineOfCrossing)) * (cosine - Real(kCosineOfCrossing));
+  const Real share = (1.0 / (1.0 - kCosineOfCrossing)) * (cosine - Real(kCosineOfCrossing));
   return share * share;
 }
 
@@ -27,9 +27,9 @@ Real twice_integral(const FacetOverlap& facets, const Vector& a, const Vector& b
                     const NormalSpring& spring) {
   const Real double_area = facets.axis.dot((b - a).cross(c - a));
   const auto middle = [&](const Vector& p, const Vector& q) {
-    return spring.energy(facets.distance(Real(0.5) * (p + q)));
+    return spring.energy(facets.distance(0.5 * (p + q)));
   };
-  return Real(1.0 / 3.0) * double_area * (middle(a, b) + middle(b, c) + middle(c, a));
+  return (1.0 / 3.0) * double_area * (middle(a, b) + middle(b, c) + middle(c, a));
 }
 
 /// The part of the overlap that is in range.
@@ -47,17 +47,26 @@ Polygon in_range(const FacetOverlap& facets, double range) {
   return kept;
 }
 
+/// Whether the energy of two facets is not 0. Most pairs of nearby facets stop here.
+bool face_in_range(const FacetOverlapOf<double>& facets, double range) {
+  if (facets.cosine <= kCosineOfCrossing) return false;
+  for (std::size_t i = 0; i < facets.region.size(); ++i) {
+    if (range - facets.distance(facets.region[i]) > 0.0) return true;
+  }
+  return false;
+}
+
 Real of_facets(const Simplex& a, const Simplex& b, const NormalSpring& spring) {
   if (std::abs(normal_of(a).dot(normal_of(b))) <= kCosineOfCrossing) return {0.0};
+  if (!face_in_range(face_to_face_now(a, b), spring.range())) return {0.0};
   const FacetOverlap facets = face_to_face(corners(a, Side::a), corners(b, Side::b));
   const Real factor = parallel_factor(facets.cosine);
-  if (factor.value == 0.0 || facets.region.size() == 0) return {0.0};
   const Polygon region = in_range(facets, spring.range());
   Real twice(0.0);
   for (std::size_t i = 1; i + 1 < region.size(); ++i) {
     twice = twice + twice_integral(facets, region[0], region[i], region[i + 1], spring);
   }
-  return Real(0.5 / (spring.range() * spring.range())) * factor * twice;
+  return (0.5 / (spring.range() * spring.range())) * factor * twice;
 }
 
 /// Above the interior of the facet.
@@ -68,15 +77,15 @@ Real of_edge_above_facet(const Vector& first, const Vector& last,
   const Real range(spring.range());
   if (!cut(over->part, range - over->first, range - over->last)) return {0.0};
   const Interval& part = over->part;
-  const Real middle = Real(0.5) * (part.from + part.to);
+  const Real middle = 0.5 * (part.from + part.to);
   // Simpson's rule: exact for a linear spring.
   const Real sum = spring.energy(over->distance(part.from)) +
-                   Real(4.0) * spring.energy(over->distance(middle)) +
+                   4.0 * spring.energy(over->distance(middle)) +
                    spring.energy(over->distance(part.to));
   // Cosine to second order of the slope, so that a level cylinder has a derivative.
-  const Real cosine = Real(1.0) - Real(0.5) * over->slope * over->slope;
+  const Real cosine = Real(1.0) - 0.5 * over->slope * over->slope;
   return parallel_factor(cosine) * over->length * (part.to - part.from) *
-         Real(1.0 / (6.0 * spring.range())) * sum;
+         (1.0 / (6.0 * spring.range())) * sum;
 }
 
 /// A stretch on which two straight lines have a separation start + place * drift.
@@ -113,12 +122,12 @@ Real integral(Stretch stretch, const NormalSpring& spring) {
   constexpr std::array<double, 5> kWeights{0.2369268850561891, 0.4786286704993665,
                                            0.5688888888888889, 0.4786286704993665,
                                            0.2369268850561891};
-  const Real half = Real(0.5) * (stretch.to - stretch.from);
-  const Real middle = Real(0.5) * (stretch.to + stretch.from);
+  const Real half = 0.5 * (stretch.to - stretch.from);
+  const Real middle = 0.5 * (stretch.to + stretch.from);
   Real sum(0.0);
   for (std::size_t i = 0; i < kPlaces.size(); ++i) {
-    const Real place = middle + Real(kPlaces[i]) * half;
-    sum = sum + Real(kWeights[i]) * spring.energy((stretch.start + place * stretch.drift).norm());
+    const Real place = middle + kPlaces[i] * half;
+    sum = sum + kWeights[i] * spring.energy((stretch.start + place * stretch.drift).norm());
   }
   return half * sum;
 }

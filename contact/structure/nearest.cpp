@@ -37,9 +37,9 @@ bool holds(const EdgeOf& edge, unsigned corners) {
 std::optional<PairForces> parallel_facets(const Simplex& a, const Simplex& b,
                                           const NormalSpring& spring) {
   if (normal_of(a).cross(normal_of(b)).norm() > kParallelPlanes) return {};
+  if (face_to_face_now(a, b).region.size() == 0) return {};
   const FacetOverlap facets = face_to_face(corners(a, Side::a), corners(b, Side::b));
   const Polygon& region = facets.region;
-  if (region.size() == 0) return {};
   const TiltedSlopes slopes(facets.slope, facets.axis);
   const auto inward_normal = [&](std::size_t i) {
     return unit(facets.axis.cross(region.next(i) - region[i]));

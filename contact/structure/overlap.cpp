@@ -4,7 +4,11 @@
 namespace plekton::contact::structure {
 namespace {
 
-Vector normal_of(const std::array<Vector, 3>& facet) {
+template <class Number>
+using Point = geometry::PackVec3<Number>;
+
+template <class Number>
+Point<Number> normal_of(const std::array<Point<Number>, 3>& facet) {
   return unit((facet[1] - facet[0]).cross(facet[2] - facet[0]));
 }
 
@@ -13,7 +17,9 @@ Vector normal_of(const std::array<Vector, 3>& facet) {
 constexpr double kRoundoff = 1e-12;
 
 /// Height of a point over a plane, in units of the length of its normal; 0 up to round-off.
-double height_now(const Vector& point, const Vector& origin, const Vector& normal) {
+template <class Number>
+double height_now(const Point<Number>& point, const Point<Number>& origin,
+                  const Point<Number>& normal) {
   const Vec3 up = still(point) - still(origin);
   const Vec3 n = still(normal);
   const double height = up.dot(n);
@@ -22,7 +28,8 @@ double height_now(const Vector& point, const Vector& origin, const Vector& norma
 }
 
 /// Keeps the part of a polygon on the inner side of a plane.
-void clip(Polygon& polygon, const Vector& origin, const Vector& inward) {
+template <class Number>
+void clip(PolygonOf<Number>& polygon, const Point<Number>& origin, const Point<Number>& inward) {
   std::array<bool, Polygon::kMostCorners> inside{};
   std::size_t count = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -30,21 +37,22 @@ void clip(Polygon& polygon, const Vector& origin, const Vector& inward) {
     count += inside[i];
   }
   if (count == polygon.size()) return;
-  Polygon kept;
+  PolygonOf<Number> kept;
   for (std::size_t i = 0; i < polygon.size() && count > 0; ++i) {
-    const Vector& here = polygon[i];
-    const Vector& there = polygon.next(i);
+    const Point<Number>& here = polygon[i];
+    const Point<Number>& there = polygon.next(i);
     if (inside[i]) kept.add(here);
     if (inside[i] == inside[i + 1 == polygon.size() ? 0 : i + 1]) continue;
-    const Real height = (here - origin).dot(inward);
-    const Real drop = height - (there - origin).dot(inward);
+    const Number height = (here - origin).dot(inward);
+    const Number drop = height - (there - origin).dot(inward);
     kept.add(here + (height / drop) * (there - here));
   }
   polygon = kept;
 }
 
 /// Takes out corners that repeat the one before: they have no direction to the next one.
-void drop_repeats(Polygon& polygon) {
+template <class Number>
+void drop_repeats(PolygonOf<Number>& polygon) {
   const auto step = [&](std::size_t i) {
     return (still(polygon.next(i)) - still(polygon[i])).squaredNorm();
   };
@@ -53,11 +61,47 @@ void drop_repeats(Polygon& polygon) {
     size = std::max(size, (still(polygon[i]) - still(polygon[0])).squaredNorm());
   }
   const double least = kRoundoff * kRoundoff * size;
-  Polygon kept;
+  PolygonOf<Number> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     if (step(i) > least) kept.add(polygon[i]);
   }
   if (kept.size() < polygon.size()) polygon = kept;
+}
+
+template <class Number>
+FacetOverlapOf<Number> overlap_of(const std::array<Point<Number>, 3>& a,
+                                  const std::array<Point<Number>, 3>& b) {
+  const Point<Number> normal_a = normal_of(a);
+  const Point<Number> facing_b = normal_of(b);
+  const double sign = still(normal_a.dot(facing_b)) >= 0.0 ? 1.0 : -1.0;
+  FacetOverlapOf<Number> found;
+  found.normal_b = sign * facing_b;
+  found.origin_b = b[0];
+  found.axis = unit(normal_a + found.normal_b);
+  found.cosine = normal_a.dot(found.normal_b);
+  found.half_cosine = found.axis.dot(normal_a);
+  PolygonOf<Number>& region = found.region;
+  for (const Point<Number>& x : a) region.add(x);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point<Number> side = b[(i + 1) % 3] - b[i];
+    clip(region, b[i], sign * found.axis.cross(side));
+    if (region.size() < 3) break;
+  }
+  drop_repeats(region);
+  if (region.size() < 3) {
+    region.clear();
+    return found;
+  }
+  double height = 0.0;
+  for (std::size_t i = 0; i < region.size(); ++i) {
+    height += (still(found.origin_b) - still(region[i])).dot(still(found.normal_b));
+  }
+  found.side = height >= 0.0 ? 1.0 : -1.0;
+  // Planes z = -(n - axis (n.axis)).y / (n.axis) over the plane perpendicular to the axis.
+  const Point<Number> across_a = normal_a - found.half_cosine * found.axis;
+  const Point<Number> across_b = found.normal_b - found.axis.dot(found.normal_b) * found.axis;
+  found.slope = Number(found.side) / found.half_cosine * (across_a - across_b);
+  return found;
 }
 
 }  // namespace
@@ -83,48 +127,22 @@ bool cut(Interval& interval, const Real& height_at_0, const Real& height_at_1) {
   return interval.from < interval.to;
 }
 
-Real FacetOverlap::distance(const Vector& point) const {
-  const Real height = (origin_b - point).dot(normal_b) / axis.dot(normal_b);
-  return Real(side) * height * half_cosine;
+FacetOverlap face_to_face(const std::array<Vector, 3>& a, const std::array<Vector, 3>& b) {
+  return overlap_of<Real>(a, b);
 }
 
-FacetOverlap face_to_face(const std::array<Vector, 3>& a, const std::array<Vector, 3>& b) {
-  const Vector normal_a = normal_of(a);
-  const Vector facing_b = normal_of(b);
-  const double sign = normal_a.dot(facing_b).value >= 0.0 ? 1.0 : -1.0;
-  FacetOverlap found;
-  found.normal_b = Real(sign) * facing_b;
-  found.origin_b = b[0];
-  found.axis = unit(normal_a + found.normal_b);
-  found.cosine = normal_a.dot(found.normal_b);
-  found.half_cosine = found.axis.dot(normal_a);
-  Polygon& region = found.region;
-  for (const Vector& x : a) region.add(x);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector side = b[(i + 1) % 3] - b[i];
-    clip(region, b[i], Real(sign) * found.axis.cross(side));
-    if (region.size() < 3) break;
-  }
-  drop_repeats(region);
-  if (region.size() < 3) {
-    region.clear();
-    return found;
-  }
-  double height = 0.0;
-  for (std::size_t i = 0; i < region.size(); ++i) {
-    height += (still(found.origin_b) - still(region[i])).dot(still(found.normal_b));
-  }
-  found.side = height >= 0.0 ? 1.0 : -1.0;
-  // Planes z = -(n - axis (n.axis)).y / (n.axis) over the plane perpendicular to the axis.
-  const Vector across_a = normal_a - found.half_cosine * found.axis;
-  const Vector across_b = found.normal_b - found.axis.dot(found.normal_b) * found.axis;
-  found.slope = Real(found.side) / found.half_cosine * (across_a - across_b);
-  return found;
+FacetOverlapOf<double> face_to_face_now(const Simplex& a, const Simplex& b) {
+  const auto now = [](const Simplex& facet) {
+    std::array<Point<double>, 3> x;
+    for (std::size_t i = 0; i < 3; ++i) x[i] = {facet.x[i][0], facet.x[i][1], facet.x[i][2]};
+    return x;
+  };
+  return overlap_of<double>(now(a), now(b));
 }
 
 std::optional<EdgeOverFacet> above(const Vector& first, const Vector& last,
                                    const std::array<Vector, 3>& facet) {
-  const Vector normal = normal_of(facet);
+  const Vector normal = normal_of<Real>(facet);
   EdgeOverFacet found{{0.0, 1.0}, (last - first).norm(), 0.0, 0.0, 0.0};
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector inward = normal.cross(facet[(i + 1) % 3] - facet[i]);
@@ -146,7 +164,7 @@ std::optional<EdgeBesideEdge> beside(const std::array<Vector, 2>& edge,
   const Real first = to_first.dot(along);
   EdgeBesideEdge found{{0.0, 1.0}, (edge[1] - edge[0]).norm(), {}, {}};
   if (!cut(found.part, edge[0], edge[1], other[0], along)) return {};
-  if (!cut(found.part, edge[0], edge[1], other[1], Real(-1.0) * along)) return {};
+  if (!cut(found.part, edge[0], edge[1], other[1], -1.0 * along)) return {};
   const Vector direction = unit(edge[1] - edge[0]);
   found.start = to_first - first * along;
   found.drift = direction - direction.dot(along) * along;

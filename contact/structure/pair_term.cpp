@@ -4,6 +4,9 @@
 #include "contact/structure/extended.hpp"
 #include "contact/structure/nearest.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace plekton::contact::structure {
 namespace {
 
@@ -45,8 +48,10 @@ Simplex simplex_at(const geometry::FeatureNodes& nodes, const std::array<bool, 3
 /// the direction is that of the nearest points.
 constexpr double kMeeting = 1e-6;
 
-/// Whether the boxes of two cores are further apart than range.
-bool is_far(const Simplex& a, const Simplex& b, double range) {
+/// How far the boxes of two simplices are apart along the axis along which they are furthest apart;
+/// negative if they overlap. No points of theirs are nearer.
+double gap_of_boxes(const Simplex& a, const Simplex& b) {
+  double widest = -std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
     double low_a = a.x[0][k], high_a = low_a, low_b = b.x[0][k], high_b = low_b;
     for (std::size_t i = 1; i < a.count; ++i) {
@@ -57,9 +62,9 @@ bool is_far(const Simplex& a, const Simplex& b, double range) {
       low_b = std::min(low_b, b.x[i][k]);
       high_b = std::max(high_b, b.x[i][k]);
     }
-    if (low_a - high_b > range || low_b - high_a > range) return true;
+    widest = std::max(widest, std::max(low_a - high_b, low_b - high_a));
   }
-  return false;
+  return widest;
 }
 
 void add(const PairForces& from, double weight, PairForces& to) {
@@ -85,23 +90,26 @@ PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair
   return term;
 }
 
-void evaluate(PairTerm& term, const NormalSpring& spring, geometry::Positions x) {
+double evaluate(PairTerm& term, const NormalSpring& spring, geometry::Positions x) {
   term.in_range = term.meets = false;
   const Simplex a = simplex_at(term.a, term.is_seam_a, x);
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
-  if (is_far(a, b, spring.range())) return;
+  const double gap = gap_of_boxes(a, b) - spring.range();
+  if (gap > 0.0) return gap;
   const CoreProximity nearest = geometry::core_proximity(core_of(a), core_of(b));
-  if (!(nearest.signed_distance < spring.range())) return;
+  const double clearance = nearest.signed_distance - spring.range();
+  if (!(nearest.signed_distance < spring.range())) return clearance;
   term.in_range = true;
   term.meets = nearest.points.relation == geometry::Relation::touching_or_crossing;
   term.overlap = spring.range() - nearest.signed_distance;
   term.forces = PairForces{};
   if (nearest.signed_distance < kMeeting * spring.range()) {
     add(at_nearest_points(nearest, spring), term.weight, term.forces);
-    return;
+    return clearance;
   }
   add(nearest_part(a, b, nearest, spring), term.weight, term.forces);
   if (can_extend(a, b)) add(extended_part(a, b, spring), term.weight, term.forces);
+  return clearance;
 }
 
 }  // namespace plekton::contact::structure

@@ -31,6 +31,7 @@ struct PairTerm {
 PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair& pair);
 
 /// Finds the forces of a term at the present positions.
-void evaluate(PairTerm& term, const NormalSpring& spring, geometry::Positions x);
+/// @returns m, by how much its cores are at least further apart than the range; negative in range
+double evaluate(PairTerm& term, const NormalSpring& spring, geometry::Positions x);
 
 }  // namespace plekton::contact::structure

@@ -4,6 +4,9 @@
 #include "contact/motion.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,22 +16,28 @@ namespace plekton::contact::structure {
 /// negative; the shares add up to 1.
 class PatchSide {
  public:
+  static constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
+
   void clear() noexcept { shares_.clear(); }
   void add(NodeId node, double share) { shares_.emplace_back(node, share); }
 
   /// Adds up what each node was given; finds the point on which the force acts.
-  void finish(Positions x) {
-    std::stable_sort(shares_.begin(), shares_.end(),
-                     [](const auto& p, const auto& q) { return p.first < q.first; });
-    std::size_t kept = 0;
+  /// @param places  by NodeId, all kNowhere; so they are again afterwards
+  void finish(Positions x, std::span<std::uint32_t> places) {
+    std::uint32_t kept = 0;
     for (std::size_t i = 0; i < shares_.size(); ++i) {
-      if (kept > 0 && shares_[kept - 1].first == shares_[i].first) {
-        shares_[kept - 1].second += shares_[i].second;
-      } else {
+      std::uint32_t& place = places[index_of(shares_[i].first)];
+      if (place == kNowhere) {
+        place = kept;
         shares_[kept++] = shares_[i];
+      } else {
+        shares_[place].second += shares_[i].second;
       }
     }
     shares_.resize(kept);
+    for (const auto& entry : shares_) places[index_of(entry.first)] = kNowhere;
+    std::sort(shares_.begin(), shares_.end(),
+              [](const auto& p, const auto& q) { return p.first < q.first; });
     point_ = Vec3::Zero();
     const Vec3 origin = shares_.empty() ? Vec3(Vec3::Zero()) : x[index_of(shares_[0].first)];
     double sum = 0.0;

@@ -17,7 +17,7 @@ double turn(const Vector& from, const Vector& to, const Vector& axis) {
 }  // namespace
 
 TiltedSlopes::TiltedSlopes(const Vector& slope, const Vector& axis)
-    : centre_(Real(1.0 / kLargestTilt) * slope), axis_(axis) {
+    : centre_((1.0 / kLargestTilt) * slope), axis_(axis) {
   const Vector n = frozen(axis);
   const Vector aside = std::abs(n.x.value) < 0.6 ? Vector{1.0, 0.0, 0.0} : Vector{0.0, 1.0, 0.0};
   zero_angle_ = frozen(unit(n.cross(aside)));
@@ -44,20 +44,20 @@ Real TiltedSlopes::swept_to(const Vector& direction) const {
   const Real turned = still.dot(zero_angle_) * direction.dot(quarter_turn_) -
                       still.dot(quarter_turn_) * direction.dot(zero_angle_);
   const Real angle = geometry::chain(turned, angle_of(direction), 1.0);
-  return Real(0.5) * (angle + along * across + strip_area(across));
+  return 0.5 * (angle + along * across + strip_area(across));
 }
 
 /// Where the count of swept_to jumps back by the whole area.
 bool TiltedSlopes::passes_the_cut(const Vector& from, const Vector& to) const {
   if (holds_origin_) return angle_of(to) < angle_of(from);
-  const Vector away = Real(-1.0) * centre_;
+  const Vector away = -1.0 * centre_;
   return turn(from, away, axis_) >= 0.0 && turn(away, to, axis_) > 0.0;
 }
 
 Real TiltedSlopes::share_between(const Vector& from, const Vector& to) const {
   const Real swept = swept_to(to) - swept_to(from);
   const double whole = passes_the_cut(from, to) ? std::numbers::pi : 0.0;
-  return Real(1.0 / std::numbers::pi) * (swept + Real(whole));
+  return (1.0 / std::numbers::pi) * (swept + Real(whole));
 }
 
 }  // namespace plekton::contact::structure

@@ -29,15 +29,25 @@ using Vector = geometry::PackVec3<Real>;
 /// mesh of any real body means.
 inline constexpr double kLargestTilt = 3e-4;
 
+/// What a number is now.
+inline double still(const Real& x) {
+  return x.value;
+}
+inline double still(double x) {
+  return x;
+}
+
 /// Where a vector is now.
-inline geometry::Vec3 still(const Vector& v) {
-  return {v.x.value, v.y.value, v.z.value};
+template <class Number>
+geometry::Vec3 still(const geometry::PackVec3<Number>& v) {
+  return {still(v.x), still(v.y), still(v.z)};
 }
 
 /// Of a vector without length: itself.
-inline Vector unit(const Vector& v) {
-  const Real length = v.norm();
-  return length.value > 0.0 ? (Real(1.0) / length) * v : v;
+template <class Number>
+geometry::PackVec3<Number> unit(const geometry::PackVec3<Number>& v) {
+  const Number length = v.norm();
+  return still(length) > 0.0 ? (Number(1.0) / length) * v : v;
 }
 
 /// Integral of 2 sqrt(1 - x^2) from 0: half the area of the unit disc between the lines at -x and
@@ -50,7 +60,7 @@ inline Real strip_area(const Real& x) {
 
 /// Share of the tilts under which a line of this slope rises.
 inline Real share_rising(const Real& slope) {
-  return Real(0.5) + Real(1.0 / std::numbers::pi) * strip_area(Real(1.0 / kLargestTilt) * slope);
+  return Real(0.5) + (1.0 / std::numbers::pi) * strip_area((1.0 / kLargestTilt) * slope);
 }
 
 /// The slopes of a plane under all tilts: a disc around its own slope. In units of kLargestTilt.
