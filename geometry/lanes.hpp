@@ -71,13 +71,19 @@ PLEKTON_INLINE Packs<W, M> transpose(const Packs<W, M>& rows) noexcept {
     return rows;
 }
 
-template <int... kLane>
-PLEKTON_INLINE Pack<8> side_by_side(const Pack<4>& p, const Pack<4>& q,
-                                    std::integer_sequence<int, kLane...>) noexcept {
-  return Pack<8>(__builtin_shufflevector(p.lanes, q.lanes, kLane...));
+template <int W, int... kLane>
+PLEKTON_INLINE Pack<2 * W> side_by_side(const Pack<W>& p, const Pack<W>& q,
+                                        std::integer_sequence<int, kLane...>) noexcept {
+  return Pack<2 * W>(__builtin_shufflevector(p.lanes, q.lanes, kLane...));
 }
 
 }  // namespace detail
+
+/// The lanes of p, then those of q.
+template <int W>
+PLEKTON_INLINE Pack<2 * W> side_by_side(const Pack<W>& p, const Pack<W>& q) noexcept {
+  return detail::side_by_side(p, q, std::make_integer_sequence<int, 2 * W>());
+}
 
 /// Numbers [first, first + W) of a thing, to be loaded as one pack.
 template <int W, int kFirst>
@@ -101,9 +107,8 @@ PLEKTON_INLINE Packs<W, N> gather_things(const Load& load) noexcept {
   } else {
     static_assert(W == 8 && N == 4);
     return transpose<N>(each<N>([&](auto lane) __attribute__((always_inline)) {
-      return side_by_side(load(std::size_t{lane}, PartOfThing<4, 0>{}),
-                          load(std::size_t{lane + 4}, PartOfThing<4, 0>{}),
-                          std::make_integer_sequence<int, 8>());
+      return geometry::side_by_side(load(std::size_t{lane}, PartOfThing<4, 0>{}),
+                                    load(std::size_t{lane + 4}, PartOfThing<4, 0>{}));
     }));
   }
 }
@@ -119,6 +124,31 @@ PLEKTON_INLINE void scatter_things(const Packs<W, N>& numbers, const At& at) noe
         each<W>([&](auto n) __attribute__((always_inline)) { return numbers[part * W + n]; }));
     return each<W>([&](auto lane) __attribute__((always_inline)) {
       things[lane].store(at(std::size_t{lane}) + part * W);
+      return 0;
+    });
+  });
+}
+
+/// Adds pairs of things, p and q, of N >= W numbers each to sums: lane by lane, of each first p and
+/// then q, so that several may go to the same sum; N is 4 or 8.
+/// @param sum  (0 for p or 1 for q, lane) -> where the sum's numbers start
+template <int W, int N, class Sum>
+PLEKTON_INLINE void add_things(const Packs<W, N>& p, const Packs<W, N>& q,
+                               const Sum& sum) noexcept {
+  using namespace detail;
+  static_assert(W <= N && N % W == 0);
+  const auto add = [](const Pack<W>& numbers, double* to) __attribute__((always_inline)) {
+    (Pack<W>::load(to) + numbers).store(to);
+  };
+  each<N / W>([&](auto part) __attribute__((always_inline)) {
+    constexpr std::size_t kFirst = part * W;
+    const auto p_things =
+        transpose<W>(each<W>([&](auto n) __attribute__((always_inline)) { return p[kFirst + n]; }));
+    const auto q_things =
+        transpose<W>(each<W>([&](auto n) __attribute__((always_inline)) { return q[kFirst + n]; }));
+    return each<W>([&](auto lane) __attribute__((always_inline)) {
+      add(p_things[lane], sum(std::size_t{0}, std::size_t{lane}) + kFirst);
+      add(q_things[lane], sum(std::size_t{1}, std::size_t{lane}) + kFirst);
       return 0;
     });
   });

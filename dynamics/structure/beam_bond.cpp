@@ -2,23 +2,17 @@
 #include "dynamics/structure/beam_bond.hpp"
 
 #include "geometry/problems.hpp"
+#include "geometry/vector_width.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <ostream>
 #include <sstream>
 #include <string>
 
 namespace plekton::dynamics {
 namespace {
-
-/// First column of the rotation matrix of a unit quaternion.
-Vec3 x_axis(const Quat& q) noexcept {
-  return {1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()), 2.0 * (q.x() * q.y() + q.w() * q.z()),
-          2.0 * (q.x() * q.z() - q.w() * q.y())};
-}
 
 /// The shortest rotation from the x axis to a chord; half a turn about z where they are opposite.
 ///
@@ -105,6 +99,16 @@ BeamBond make_beam(NodeId a, NodeId b, const NodeState& at_rest, const BeamSecti
   return bond;
 }
 
+BeamSpringOf<double> spring_of(const BeamBond& bond) noexcept {
+  const BeamSection& s = bond.section;
+  return {bond.length,
+          s.young_modulus * s.area / bond.length,
+          s.young_modulus * s.second_moment / bond.length,
+          s.shear_modulus * s.torsion_constant / bond.length,
+          detail::numbers_of(bond.rest_a),
+          detail::numbers_of(bond.rest_b)};
+}
+
 BeamBonds::BeamBonds(std::span<const BeamBond> bonds, std::size_t node_count) {
   std::ostringstream problems;
   for (std::size_t i = 0; i < bonds.size(); ++i) {
@@ -112,82 +116,61 @@ BeamBonds::BeamBonds(std::span<const BeamBond> bonds, std::size_t node_count) {
   }
   geometry::throw_if_any(problems);
 
-  springs_.reserve(bonds.size());
-  for (const BeamBond& bond : bonds) {
-    const BeamSection& s = bond.section;
-    springs_.push_back({bond.nodes, bond.length, s.young_modulus * s.area / bond.length,
-                        s.young_modulus * s.second_moment / bond.length,
-                        s.shear_modulus * s.torsion_constant / bond.length, bond.rest_a,
-                        bond.rest_b});
-  }
-  reactions_.resize(springs_.size());
-  build_ends(node_count);
+  std::vector<NodeId> ends;
+  ends.reserve(2 * bonds.size());
+  for (const BeamBond& bond : bonds) ends.insert(ends.end(), bond.nodes.begin(), bond.nodes.end());
+  blocks_ = BeamBlocks(ends, node_count);
+  rows_.resize(blocks_.row_count());
+  slots_.resize(bonds.size());
+  for (const BeamBlocks::Block& block : blocks_.blocks()) fill_block(block, bonds);
+  gather_nodes(node_count);
 }
 
-void BeamBonds::build_ends(std::size_t node_count) {
-  std::vector<std::uint32_t> next(node_count + 1, 0);
-  for (const Spring& spring : springs_) {
-    for (const NodeId node : spring.nodes) ++next[index_of(node) + 1];
+/// Lanes that are left over have a copy of the block's first bond without stiffness.
+void BeamBonds::fill_block(const BeamBlocks::Block& block, std::span<const BeamBond> bonds) {
+  for (std::size_t n = 0; n < block.row_count * BeamRow::kLanes; ++n) {
+    const bool is_left_over = n >= block.bond_count;
+    const BeamBlocks::Bond& place = blocks_.bonds(block)[is_left_over ? 0 : n];
+    const BeamBond& bond = bonds[place.index];
+    BeamSpringOf<double> spring = spring_of(bond);
+    if (is_left_over) spring.axial = spring.bending = spring.twist = 0.0;
+    const std::size_t slot = block.slot(n);
+    if (!is_left_over) slots_[place.index] = static_cast<std::uint32_t>(slot);
+    BeamRow& row = rows_[slot / BeamRow::kLanes];
+    const std::size_t lane = slot % BeamRow::kLanes;
+    row.spring.set(lane, spring);
+    for (std::size_t side = 0; side < 2; ++side) {
+      row.nodes[side][lane] = bond.nodes[side];
+      row.members[side][lane] = place.members[side];
+    }
+    row.tension.set(lane, 0.0);
+    row.energy.set(lane, 0.0);
   }
+}
+
+void BeamBonds::gather_nodes(std::size_t node_count) {
+  const ByNode sorted = by_node(blocks_.members(), node_count);
+  sums_.resize(blocks_.members().size());
+  members_ = sorted.numbers;
   start_.push_back(0);
   for (std::size_t n = 0; n < node_count; ++n) {
-    if (next[n + 1] == 0) continue;
+    if (sorted.start[n + 1] == sorted.start[n]) continue;
     nodes_.push_back(geometry::id_at<NodeId>(n));
-    start_.push_back(start_.back() + next[n + 1]);
+    start_.push_back(sorted.start[n + 1]);
   }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  ends_.resize(2 * springs_.size());
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      ends_[next[index_of(springs_[i].nodes[side])]++] = static_cast<std::uint32_t>(2 * i + side);
-    }
-  }
-}
-
-BeamBonds::Reaction BeamBonds::reaction_of(const Spring& spring, const NodeState& state) noexcept {
-  const std::size_t node_a = index_of(spring.nodes[0]);
-  const std::size_t node_b = index_of(spring.nodes[1]);
-  const Quat frame_a = state.orientation[node_a] * spring.rest_a;
-  const Quat frame_b = state.orientation[node_b] * spring.rest_b;
-  const Vec3 a = x_axis(frame_a);
-  const Vec3 b = x_axis(frame_b);
-  const Vec3 chord = state.position[node_b] - state.position[node_a];
-  const double length = chord.norm();
-  const Vec3 n = length > 0.0 ? Vec3((1.0 / length) * chord) : (a + b).normalized();
-
-  // Differences first: small rotations then lose no digits to cancellation.
-  const Vec3 bend_a = a - n;
-  const Vec3 bend_b = b - n;
-  const Vec3 bend = bend_a + bend_b;
-  const double opening = 0.5 * (a - b).squaredNorm();
-  const double elongation = length - spring.length;
-  const double moment = 6.0 * spring.bending;
-  const double shear = length > 0.0 ? moment / length : 0.0;
-
-  // The quaternion from frame a to frame b is (w, x, y, z) in frame a. Turning b by g (in frame a)
-  // changes x by 1/2 g.(w, z, -y), so the torque of U_t(x) on b is -1/2 U_t' (w, z, -y).
-  const Quat between = frame_a.conjugate() * frame_b;
-  const double x = between.x();
-  const Vec3 gradient = frame_a * Vec3(between.w(), between.z(), -between.y());
-  const Vec3 twist = (spring.twist * (2.0 + 4.0 / 3.0 * x * x) * x) * gradient;
-  const Vec3 relative = (spring.bending * (2.0 + 5.0 / 12.0 * opening)) * a.cross(b) - twist;
-
-  Reaction reaction;
-  reaction.tension = spring.axial * elongation;
-  reaction.force = shear * (bend - bend.dot(n) * n) - reaction.tension * n;
-  reaction.torque_a = moment * bend_a.cross(n) - relative;
-  reaction.torque_b = moment * bend_b.cross(n) + relative;
-  const double bend_energy =
-      2.0 * (bend_a.squaredNorm() + bend_a.dot(bend_b) + bend_b.squaredNorm()) -
-      5.0 / 24.0 * opening * opening;
-  reaction.energy = 0.5 * reaction.tension * elongation + spring.bending * bend_energy +
-                    spring.twist * (2.0 + 2.0 / 3.0 * x * x) * x * x;
-  return reaction;
 }
 
 void BeamBonds::advance(const NodeState& state, geometry::ThreadPool& pool) {
-  pool.for_each_range(springs_.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i) reactions_[i] = reaction_of(springs_[i], state);
+  const std::span<const BeamBlocks::Block> blocks = blocks_.blocks();
+  pool.for_each_range(blocks.size(), [&](std::size_t begin, std::size_t end, int) {
+    geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
+      for (const BeamBlocks::Block& block : blocks.subspan(begin, end - begin)) {
+        BeamSum* const sums = sums_.data() + block.first_member;
+        std::fill_n(sums, block.member_count, BeamSum{});
+        for (std::size_t row = 0; row < block.row_count; ++row)
+          advance_row<width>(rows_[block.first_row + row], state, sums);
+      }
+    });
   });
 }
 
@@ -197,10 +180,8 @@ void BeamBonds::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const
       Vec3& force = forces.force[index_of(nodes_[i])];
       Vec3& torque = forces.torque[index_of(nodes_[i])];
       for (std::uint32_t k = start_[i]; k < start_[i + 1]; ++k) {
-        const Reaction& reaction = reactions_[ends_[k] / 2];
-        const bool at_b = ends_[k] % 2 == 1;
-        force += (at_b ? 1.0 : -1.0) * reaction.force;
-        torque += at_b ? reaction.torque_b : reaction.torque_a;
+        force += sums_[members_[k]].force;
+        torque += sums_[members_[k]].torque;
       }
     }
   });
@@ -208,7 +189,9 @@ void BeamBonds::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const
 
 double BeamBonds::elastic_energy() const noexcept {
   double energy = 0.0;
-  for (const Reaction& reaction : reactions_) energy += reaction.energy;
+  for (const BeamRow& row : rows_) {
+    for (std::size_t lane = 0; lane < BeamRow::kLanes; ++lane) energy += row.energy.number(lane);
+  }
   return energy;
 }
 

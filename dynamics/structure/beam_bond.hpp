@@ -2,6 +2,8 @@
 #pragma once
 
 #include "dynamics/node_state.hpp"
+#include "dynamics/structure/beam_blocks.hpp"
+#include "dynamics/structure/beam_rows.hpp"
 #include "geometry/thread_pool.hpp"
 
 #include <array>
@@ -39,6 +41,9 @@ struct BeamBond {
 /// The beam between two nodes that is at rest where and as they are now.
 /// @throws std::invalid_argument listing every problem (see list_problems)
 BeamBond make_beam(NodeId a, NodeId b, const NodeState& at_rest, const BeamSection& section);
+
+/// What the force needs to know of a bond.
+BeamSpringOf<double> spring_of(const BeamBond& bond) noexcept;
 
 /// Writes a line for everything that is wrong with a bond: a node that does not exist, the same
 /// node at both ends, a length at rest that is not positive and finite, a section out of range, a
@@ -78,54 +83,37 @@ class BeamBonds {
   /// @throws std::invalid_argument listing every problem of every bond
   BeamBonds(std::span<const BeamBond> bonds, std::size_t node_count);
 
-  std::size_t size() const noexcept { return springs_.size(); }
+  std::size_t size() const noexcept { return slots_.size(); }
 
-  /// Computes the forces of all bonds; they are not yet added. Linear in the number of bonds; no
-  /// allocation. Coincident nodes: no shear force, and the chord has the mean direction of the
-  /// axes.
+  /// Computes the forces of all bonds, summed block by block but not yet added. Linear in the
+  /// number of bonds; no allocation. Coincident nodes: no shear force, and the chord has the mean
+  /// direction of the axes.
   void advance(const NodeState& state, geometry::ThreadPool& pool);
 
-  /// Adds the forces of the last advance to the nodes, to each node in the order of the bonds: the
-  /// same bits for any number of threads.
+  /// Adds the forces of the last advance to the nodes, in an order that follows from the bonds
+  /// alone: the same bits for any number of threads.
   void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const;
 
   /// Energy (J) stored in all bonds at the last advance.
   double elastic_energy() const noexcept;
 
   /// Axial force (N) of a bond at the last advance, tension positive.
-  double axial_force(std::size_t bond) const noexcept { return reactions_[bond].tension; }
+  double axial_force(std::size_t bond) const noexcept {
+    return rows_[slots_[bond] / BeamRow::kLanes].tension.number(slots_[bond] % BeamRow::kLanes);
+  }
 
  private:
-  /// What the force needs to know of a bond.
-  struct Spring {
-    std::array<NodeId, 2> nodes;
-    double length;   // m, at rest
-    double axial;    // N/m, EA / L0
-    double bending;  // N m, EI / L0
-    double twist;    // N m, GJ / L0
-    Quat rest_a;
-    Quat rest_b;
-  };
-  /// What a bond does to its nodes.
-  struct Reaction {
-    Vec3 force = Vec3::Zero();     // N, on b; the opposite acts on a
-    Vec3 torque_a = Vec3::Zero();  // N m
-    Vec3 torque_b = Vec3::Zero();  // N m
-    double tension = 0.0;          // N
-    double energy = 0.0;           // J
-  };
-  static_assert(sizeof(Spring) == 104 && sizeof(Reaction) == 88);
+  void fill_block(const BeamBlocks::Block& block, std::span<const BeamBond> bonds);
+  void gather_nodes(std::size_t node_count);
 
-  static Reaction reaction_of(const Spring& spring, const NodeState& state) noexcept;
-  void build_ends(std::size_t node_count);
-
-  std::vector<Spring> springs_;
-  std::vector<Reaction> reactions_;
-  // Ends of bonds by node, in the order of the bonds: of nodes_[i], ends_[start_[i]] up to
-  // start_[i + 1]. An end is twice the bond, plus 1 at node b.
+  BeamBlocks blocks_;
+  std::vector<BeamRow> rows_;
+  std::vector<BeamSum> sums_;         // by member of the blocks
+  std::vector<std::uint32_t> slots_;  // by bond: row and lane, slot / kLanes and slot % kLanes
+  // Members by node: of nodes_[i], members_[start_[i]] up to start_[i + 1].
   std::vector<NodeId> nodes_;
   std::vector<std::uint32_t> start_;
-  std::vector<std::uint32_t> ends_;
+  std::vector<std::uint32_t> members_;
 };
 
 }  // namespace plekton::dynamics

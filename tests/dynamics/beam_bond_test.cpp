@@ -254,6 +254,34 @@ TEST(BeamBond, WithoutBendingStiffnessIsABar) {
   EXPECT_GT(f.head<3>().norm(), 0.0);
 }
 
+TEST(BeamBonds, DoWhatEachBondDoesAlone) {
+  Random random(7);
+  Scene scene = random_frame(100, random);
+  for (Vec3& position : scene.state.position) position += random.in_cube(0.1);
+  for (Quat& orientation : scene.state.orientation) orientation = Quat(random.rotation());
+  BeamBonds bonds(scene.bonds, scene.state.size());
+
+  const Eigen::VectorXd together = bond_forces(bonds, scene.state);
+
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(together.size());
+  Eigen::VectorXd size = sum;
+  double energy = 0.0;
+  for (std::size_t i = 0; i < scene.bonds.size(); ++i) {
+    BeamBonds alone({&scene.bonds[i], 1}, scene.state.size());
+    const Eigen::VectorXd forces = bond_forces(alone, scene.state);
+    sum += forces;
+    size += forces.cwiseAbs();
+    energy += alone.elastic_energy();
+    EXPECT_EQ(bonds.axial_force(i), alone.axial_force(0));
+  }
+  // Both sums are rounded once for each of the few bonds of a node, in their own order.
+  constexpr double kMostBondsOfANode = 32.0;
+  for (Eigen::Index k = 0; k < sum.size(); ++k)
+    EXPECT_NEAR(together[k], sum[k], 2.0 * kMostBondsOfANode * kEpsilon * size[k]);
+  const auto count = static_cast<double>(scene.bonds.size());
+  EXPECT_NEAR(bonds.elastic_energy(), energy, 2.0 * count * kEpsilon * energy);
+}
+
 TEST(BeamBonds, AddTheSameBitsForAnyNumberOfThreads) {
   Random random(6);
   Scene scene = random_frame(300, random);

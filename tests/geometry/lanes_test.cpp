@@ -89,6 +89,38 @@ TYPED_TEST(Lanes, ScatterThingsInTheOrderOfTheLanes) {
   }
 }
 
+template <int W, int N>
+void expect_things_are_added_lane_by_lane() {
+  const std::vector<double> numbers = counted(std::size_t{2 * W * N});
+  const auto things = [&](std::size_t side) {
+    return gather_things<W, N>(
+        part_at([&, side](std::size_t l) { return numbers.data() + N * (2 * l + side); }));
+  };
+  // Rounded away unless what is added first is: the sums tell the order. All but one thing of every
+  // third lane go to the same sum.
+  const auto place = [](std::size_t side, std::size_t l) {
+    return std::size_t{N} * (side == 1 && l % 3 == 1 ? l : 0);
+  };
+  std::vector<double> sums(std::size_t{W * N}, 1e16);
+  std::vector<double> expected = sums;
+
+  add_things<W, N>(things(0), things(1),
+                   [&](std::size_t side, std::size_t l) { return sums.data() + place(side, l); });
+
+  for (std::size_t l = 0; l < std::size_t{W}; ++l) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t n = 0; n < std::size_t{N}; ++n)
+        expected[place(side, l) + n] += numbers[N * (2 * l + side) + n];
+    }
+  }
+  EXPECT_EQ(sums, expected);
+}
+
+TYPED_TEST(Lanes, AddThingsToSumsInTheOrderOfTheLanes) {
+  if constexpr (TypeParam::value <= 4) expect_things_are_added_lane_by_lane<TypeParam::value, 4>();
+  expect_things_are_added_lane_by_lane<TypeParam::value, 8>();
+}
+
 TYPED_TEST(Lanes, GiveTheirFlagsAsBits) {
   constexpr int W = TypeParam::value;
   for (unsigned bits = 0; bits <= kAllBits<W>; ++bits) {
