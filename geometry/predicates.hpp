@@ -9,16 +9,18 @@
 /// Exact signs: every decision of the contact rule and of the nearest points of two primitives
 /// rests on these, and on nothing else.
 ///
-/// Each is decided in three stages: a double with a proven error bound, then interval arithmetic,
-/// then exact multi-precision arithmetic. The sign is that of the real number defined by the stored
+/// Each is decided in stages: a double with a proven error bound, a pair of doubles with one,
+/// interval arithmetic (which tells zeros of small whole numbers), and exact multi-precision
+/// arithmetic. The sign is that of the real number defined by the stored
 /// doubles, so it is the same for any compiler, machine and thread, and in any rounding mode, which
 /// is left as it was. Coordinates must be finite and below 1e75 in magnitude.
 namespace plekton::geometry {
 
 /// How often each stage decided a sign, since the start of the thread. For reports and tests.
 struct SignCounters {
-  std::uint64_t interval = 0;  ///< the double filter could not tell
-  std::uint64_t exact = 0;     ///< nor could the interval
+  std::uint64_t double_double = 0;  ///< the double filter could not tell
+  std::uint64_t interval = 0;       ///< nor could twice the precision
+  std::uint64_t exact = 0;          ///< nor could an interval
 };
 SignCounters& sign_counters() noexcept;
 
@@ -32,9 +34,10 @@ struct Arrow {
 
 namespace detail {
 
-int past_vertex_exact(const Vec3& a, const Vec3& b, const Vec3& p) noexcept;
-int crosses_exact(const Arrow& u, const Arrow& v, const Arrow& w) noexcept;
-int volume_exact(const Arrow& u, const Arrow& v, const Arrow& w) noexcept;
+/// @param magnitude  the sum of the magnitudes of all terms, rounded
+int past_vertex_exact(const Vec3& a, const Vec3& b, const Vec3& p, double magnitude) noexcept;
+int crosses_exact(const Arrow& u, const Arrow& v, const Arrow& w, double magnitude) noexcept;
+int volume_exact(const Arrow& u, const Arrow& v, const Arrow& w, double magnitude) noexcept;
 
 /// Half an ulp of 1.
 constexpr double kRoundoff = 0x1p-53;
@@ -57,7 +60,7 @@ inline int sign_past_vertex(const Vec3& a, const Vec3& b, const Vec3& p) noexcep
   if (std::abs(sum) > 8.0 * detail::kRoundoff * magnitude && magnitude > detail::kUnderflow) {
     return sum > 0.0 ? 1 : -1;
   }
-  return detail::past_vertex_exact(a, b, p);
+  return detail::past_vertex_exact(a, b, p, magnitude);
 }
 
 /// Sign of (u x v).(u x w): +1 if, seen along u, the directions v and w are less than 90 degrees
@@ -84,7 +87,7 @@ inline int sign_of_crosses(const Arrow& u, const Arrow& v, const Arrow& w) noexc
   if (std::abs(sum) > 24.0 * detail::kRoundoff * magnitude && magnitude > detail::kUnderflow) {
     return sum > 0.0 ? 1 : -1;
   }
-  return detail::crosses_exact(u, v, w);
+  return detail::crosses_exact(u, v, w, magnitude);
 }
 
 /// Sign of det(u, v, w) = (u x v).w: on which side of the plane of u and v the direction w leads.
@@ -108,11 +111,12 @@ inline int sign_of_volume(const Arrow& u, const Arrow& v, const Arrow& w) noexce
   if (std::abs(sum) > 18.0 * detail::kRoundoff * magnitude && magnitude > detail::kUnderflow) {
     return sum > 0.0 ? 1 : -1;
   }
-  return detail::volume_exact(u, v, w);
+  return detail::volume_exact(u, v, w, magnitude);
 }
 
-/// Lengths that no cancellation spoils, from exact arithmetic: slow (a microsecond or two), for
-/// where the double result is not good enough. Each component is rounded once or twice.
+/// Lengths that no cancellation spoils, for where the double result is not good enough: slow (a
+/// microsecond or two) where it takes exact arithmetic. Each component is rounded once or twice, or
+/// within 2^-42 of the length.
 ///
 /// The part of w perpendicular to u, which has a length (m).
 Vec3 exact_part_across(const Arrow& w, const Arrow& u) noexcept;

@@ -74,6 +74,31 @@ bool has_rivals(Corners x, unsigned feature) {
   return false;
 }
 
+/// Where a point's foot lies if it is not inside the guessed feature: rounding moves a foot from a
+/// side to a face or to a corner, and back.
+std::span<const unsigned> beside(unsigned feature, std::size_t corners) {
+  static constexpr std::array<std::array<unsigned, 3>, 8> kBeside{{{},
+                                                                   {3U, 5U, 7U},
+                                                                   {3U, 6U, 7U},
+                                                                   {7U, 1U, 2U},
+                                                                   {5U, 6U, 7U},
+                                                                   {7U, 1U, 4U},
+                                                                   {7U, 2U, 4U},
+                                                                   {3U, 5U, 6U}}};
+  if (corners == 3) return kBeside[feature];
+  static constexpr std::array kSegment{1U, 2U, 3U};
+  return kSegment;
+}
+
+/// The feature that carries a point's foot and nothing else does, if one beside the guess is it.
+std::optional<Decision> search_beside(Corners a, Corners b, unsigned guess) {
+  for (const unsigned feature : beside(guess, b.size())) {
+    if (certify(a, b, {1U, feature}) == Verdict::unique)
+      return Decision{{1U, feature}, Relation::apart};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Decision enumerate(Corners a, Corners b) noexcept {
@@ -94,6 +119,9 @@ Decision enumerate(Corners a, Corners b) noexcept {
 Decision decide_for_point(Corners a, Corners b, unsigned guess) noexcept {
   const Verdict verdict = certify(a, b, {1U, guess});
   if (verdict == Verdict::unique) return {{1U, guess}, Relation::apart};
+  if (verdict == Verdict::refuted) {
+    if (const auto found = search_beside(a, b, guess)) return *found;
+  }
   if (verdict == Verdict::refuted || has_rivals(b, guess)) return enumerate(a, b);
   const bool is_meeting = verdict == Verdict::meeting;
   return {{1U, guess}, is_meeting ? Relation::touching_or_crossing : Relation::apart};

@@ -17,8 +17,8 @@ using geometry::sign_counters;
 using test::Family;
 using test::PointTriangle;
 
-/// Which of its three stages decides a sign.
-enum class Stage : std::uint8_t { filter, interval, exact };
+/// Which of its stages decides a sign.
+enum class Stage : std::uint8_t { filter, double_double, interval, exact };
 
 /// Asks once. @returns the stage that decided
 template <class Sign>
@@ -26,7 +26,9 @@ Stage stage_of(const PointTriangle& query, Sign sign) {
   const auto before = sign_counters();
   benchmark::DoNotOptimize(sign(query));
   if (sign_counters().exact != before.exact) return Stage::exact;
-  return sign_counters().interval != before.interval ? Stage::interval : Stage::filter;
+  if (sign_counters().interval != before.interval) return Stage::interval;
+  return sign_counters().double_double != before.double_double ? Stage::double_double
+                                                               : Stage::filter;
 }
 
 /// For the filter points anywhere; for the others points 1e-17 to 1e-8 off the zero set of some
@@ -54,8 +56,7 @@ void add_sign(const std::string& name, Sign sign) {
     Stage stage;
   };
   for (const NamedStage& named :
-       {NamedStage{"filter", Stage::filter}, NamedStage{"interval", Stage::interval},
-        NamedStage{"exact", Stage::exact}}) {
+       {NamedStage{"filter", Stage::filter}, NamedStage{"double_double", Stage::double_double}}) {
     add_benchmark("sign/" + name + "/" + named.name, [=](benchmark::State& state) {
       run_over(state, queries_for(named.stage, sign), sign);
     });
