@@ -30,7 +30,12 @@ PatchFinder::PatchFinder(const geometry::Surface& surface)
 
 std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
                                          std::span<const geometry::CellId> cells, Positions x) {
-  sort_out(critical_.find(centre, range, cells, x));
+  const std::span<const Critical> critical = critical_.find(centre, range, cells, x);
+  if (critical.size() <= 1) {
+    keep_alone(critical);
+    return patches_;
+  }
+  sort_out(critical);
   link_passes(centre, range, x);
   join_parts();
   ring_terms_.clear();
@@ -38,6 +43,18 @@ std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
   add_terms();
   collect_patches();
   return patches_;
+}
+
+/// Most often there is nothing else in range: what the steps below make of that. A pass alone, as
+/// rounding of the distances may leave it, belongs to no patch.
+void PatchFinder::keep_alone(std::span<const Critical> critical) {
+  patches_.clear();
+  terms_.clear();
+  for (const Critical& feature : critical) {
+    if (!feature.is_minimum()) continue;
+    patches_.push_back({feature.core.feature, 0, 1});
+    terms_.push_back({feature.core, feature.direction, feature.distance, 1.0});
+  }
 }
 
 void PatchFinder::sort_out(std::span<const Critical> critical) {

@@ -76,6 +76,7 @@ class PatchFinder {
  private:
   using Critical = geometry::CriticalFeature;
 
+  void keep_alone(std::span<const Critical> critical);
   void sort_out(std::span<const Critical> critical);
   void link_passes(const Vec3& centre, double range, Positions x);
   void add_links(std::uint32_t pass, const Vec3& centre, double range, Positions x);

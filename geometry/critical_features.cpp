@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/critical_features.hpp"
 
+#include "geometry/cell_clearance.hpp"
 #include "geometry/descent.hpp"
 #include "geometry/foot_point.hpp"
 #include "geometry/predicates.hpp"
@@ -38,18 +39,6 @@ bool line_is_beyond(const Vec3& point, const std::array<Vec3, 2>& x, double rang
          along * along + 1e-12 * w_squared * u.squaredNorm();
 }
 
-/// Whether the plane through a triangle is surely farther than range from a point.
-bool plane_is_beyond(const Vec3& point, const std::array<Vec3, 3>& x, double range) noexcept {
-  const Vec3 u = x[1] - x[0];
-  const Vec3 v = x[2] - x[0];
-  const Vec3 w = point - x[0];
-  const Vec3 normal = u.cross(v);
-  const double height = normal.dot(w);
-  // The cross product and the height have errors up to 1e-14 |u||v| and 1e-14 |u||v||w|.
-  const double area_error = 1e-14 * u.norm() * v.norm();
-  return std::abs(height) - area_error * w.norm() > range * (normal.norm() + area_error);
-}
-
 }  // namespace
 
 std::span<const CriticalFeature> CriticalFeatureFinder::find(const Vec3& point, double range,
@@ -60,8 +49,13 @@ std::span<const CriticalFeature> CriticalFeatureFinder::find(const Vec3& point, 
     const Feature feature = surface_->feature_of(cell);
     if (feature.kind == FeatureKind::face) {
       const FaceId face{feature.id};
-      if (plane_is_beyond(point, corners(*surface_, face, x), range)) continue;
-      find_on_face(face, point, range, x);
+      const FaceView view(point, corners(*surface_, face, x));
+      if (view.is_beyond(range)) continue;
+      const FootPlace place = view.place();
+      if (place == FootPlace::inside ||
+          (place == FootPlace::uncertain && face_link(face, point, x).coefficient != 0)) {
+        find_on_face(face, point, range, x);
+      }
       for (const EdgeId edge : surface_->edges_of(face)) {
         if (surface_->owner_of(edge) == cell) find_on_edge(edge, point, range, x);
       }
@@ -180,10 +174,9 @@ DescendingLink CriticalFeatureFinder::node_link(NodeId node, const Vec3& point, 
   return {1 - edge_count + joining_facets, branches};
 }
 
+/// For a face that holds the foot.
 void CriticalFeatureFinder::find_on_face(FaceId face, const Vec3& point, double range,
                                          Positions x) {
-  const DescendingLink link = face_link(face, point, x);
-  if (link.coefficient == 0) return;
   const FootPoint foot = foot_on_face(point, corners(*surface_, face, x));
   if (!(foot.distance < range)) return;
   keep({{surface_->nodes_of(face), foot.weights, Feature(face)},
@@ -191,7 +184,7 @@ void CriticalFeatureFinder::find_on_face(FaceId face, const Vec3& point, double 
         foot.distance,
         0,
         0},
-       link);
+       {1, 0});
 }
 
 void CriticalFeatureFinder::find_on_edge(EdgeId edge, const Vec3& point, double range,
