@@ -48,6 +48,7 @@ class SlidingBalls {
         spin_(x_.size() + kBalls, Vec3::Zero()),
         surface_(ground.surface.cylinders, ground.surface.facets, x_.size() + kBalls),
         contacts_(surface_),
+        way_(kWay * radius),
         forces_(x_.size() + kBalls) {
     place(ground, radius);
     list_neighbours(radius);
@@ -63,7 +64,7 @@ class SlidingBalls {
       if (turns) velocity_[i] = -velocity_[i];
       x_[i] += velocity_[i];
     }
-    contacts_.advance({x_, velocity_, spin_}, 1.0, pool_);
+    contacts_.advance({x_, velocity_, spin_, way_}, 1.0, pool_);
     contacts_.add_forces(forces_, pool_);
   }
 
@@ -116,6 +117,7 @@ class SlidingBalls {
   std::vector<geometry::Sphere> spheres_;
   geometry::Surface surface_;
   contact::SurfaceContacts<Law> contacts_;
+  double way_;  ///< m, of every ball in a step
   contact::NodeForces forces_;
   geometry::ThreadPool pool_;
   std::int64_t steps_ = 0;

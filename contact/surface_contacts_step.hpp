@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/surface_contacts.hpp"
+
+/// One step of the contacts of one ball with one surface.
+namespace plekton::contact {
+
+template <ContactLaw Law>
+double SurfaceContacts<Law>::advance_pair(Pair& pair, const Motion& motion, double dt,
+                                          int worker_index) {
+  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
+  Lists& lists = current_[static_cast<std::size_t>(worker_index)];
+  const Vec3& centre = motion.position[index_of(pair.node)];
+  watch_.find(pair.near, centre, pair.reach, motion.position, pair.awake, worker.cells);
+  const auto patches = worker.patches.find(centre, pair.reach, worker.cells, motion.position);
+
+  const Range range{worker_index, static_cast<std::uint32_t>(lists.contacts.size()),
+                    static_cast<std::uint32_t>(patches.size())};
+  double dissipated = 0.0;
+  if (patches.size() == 1 && pair.range.count <= 1 &&
+      is_lone(worker.patches.terms(patches.front()))) {
+    dissipated = advance_alone(pair, patches[0], motion, dt, worker_index);
+  } else {
+    keep_sides(pair, patches, motion.position, worker);
+    find_states(pair, patches, motion, worker);
+    dissipated = inherit(pair, patches, motion, dt, worker);
+    for (std::size_t j = 0; j < patches.size(); ++j) {
+      const auto terms = worker.patches.terms(patches[j]);
+      dissipated += add_contact(pair, terms, worker.states[j],
+                                {worker.term_forces.data() + patches[j].first_term, terms.size()},
+                                worker.histories[j], dt, worker_index);
+    }
+  }
+  pair.range = patches.empty() ? Range{} : range;
+  return dissipated;
+}
+
+/// Asks the law, and keeps the contact and its forces. @returns the energy (J) dissipated
+template <ContactLaw Law>
+double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const PatchTerm> terms,
+                                         const PatchState& state,
+                                         std::span<const PatchTermForce> term_forces,
+                                         const typename Law::History& history, double dt,
+                                         int worker_index) {
+  Lists& lists = current_[static_cast<std::size_t>(worker_index)];
+  const RelativeMotion relative =
+      relative_motion(state.normal, state.gap, state.elastic_force, state.relative_velocity);
+  const auto first_minimum = static_cast<std::uint32_t>(lists.minima.size());
+  for (const PatchTerm& term : terms) {
+    if (term.weight > 0.0) lists.minima.push_back(term.core.feature);
+  }
+  lists.contacts.push_back({state,
+                            {history, state.normal},
+                            first_minimum,
+                            static_cast<std::uint32_t>(lists.minima.size()) - first_minimum});
+  Contact& contact = lists.contacts.back();
+  const ContactForce result = Law::force(pair.parameters, relative, contact.memory.history, dt);
+  contact.state.force = result.force;
+  write_forces(pair, terms, contact.state, term_forces, records_.of_worker(worker_index));
+  return result.dissipated;
+}
+
+/// One patch of one term that follows at most one contact: the same as the general way.
+template <ContactLaw Law>
+double SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& patch,
+                                           const Motion& motion, double dt, int worker_index) {
+  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
+  const PatchTerm& term = worker.patches.terms(patch)[0];
+  const PatchState state =
+      lone_state<Law>(term, pair.parameters, pair.node, pair.radius, pair.reach, motion);
+  typename Law::History history{};
+  double lost = 0.0;
+  for (const Contact& old : contacts_of(pair, previous_)) {
+    lost = Law::history_energy(pair.parameters, old.memory.history);
+    const Feature* minima =
+        previous_[static_cast<std::size_t>(pair.range.worker)].minima.data() + old.first_minimum;
+    const bool stays = old.minimum_count == 1 && *minima == term.core.feature;
+    if (!stays && worker.heirs
+                      .find({minima, old.minimum_count}, motion.position[index_of(pair.node)],
+                            motion.position, {&patch, 1}, worker.patches)
+                      .empty()) {
+      continue;
+    }
+    worker.pass_throughs += is_turned_over(old.memory.normal, state.normal);
+    Law::add_share(history, carried_history<Law>(old.memory, state.normal, dt * state.twist_rate),
+                   1.0);
+  }
+  lost -= Law::history_energy(pair.parameters, history);
+  const PatchTermForce term_force{state.elastic_force, 1.0};
+  return lost + add_contact(pair, {&term, 1}, state, {&term_force, 1}, history, dt, worker_index);
+}
+
+/// Where a ball's centre lies on the surface itself, the contact of the last step says on which
+/// side it is.
+template <ContactLaw Law>
+void SurfaceContacts<Law>::keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x,
+                                      Worker& worker) {
+  for (std::size_t j = 0; j < patches.size(); ++j) {
+    const std::span<PatchTerm> terms = worker.patches.terms(patches[j]);
+    if (terms[0].distance > 0.0 || pair.range.count == 0) continue;  // the first is the nearest
+    const auto& minima = previous_[static_cast<std::size_t>(pair.range.worker)].minima;
+    for (const Contact& old : contacts_of(pair, previous_)) {
+      const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
+                                           x[index_of(pair.node)], x, patches, worker.patches);
+      if (std::find(heirs.begin(), heirs.end(), j) == heirs.end()) continue;
+      for (PatchTerm& term : terms) {
+        if (term.distance == 0.0) term.normal = normal_on_last_side(term, old.memory.normal, x);
+      }
+      break;
+    }
+  }
+}
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> patches,
+                                       const Motion& motion, Worker& worker) {
+  worker.states.clear();
+  worker.term_forces.clear();
+  for (const Patch& patch : patches) {
+    const auto terms = worker.patches.terms(patch);
+    worker.term_forces.resize(patch.first_term + terms.size());
+    const std::span<PatchTermForce> term_forces{worker.term_forces.data() + patch.first_term,
+                                                terms.size()};
+    worker.states.push_back(patch_state(
+        patch, terms, pair.reach,
+        [&](double gap) { return Law::elastic_normal_force(pair.parameters, gap); },
+        [&](double gap) { return Law::elastic_normal_energy(pair.parameters, gap); }, term_forces));
+    set_kinematics(worker.states.back(), pair.node, pair.radius, pair.reach, terms, term_forces,
+                   motion);
+  }
+}
+
+/// Hands the histories of the last step's contacts to this step's patches. A contact that splits
+/// shares its history in proportion to the elastic forces. @returns the energy (J) that is lost on
+/// the way
+template <ContactLaw Law>
+double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> patches,
+                                     const Motion& motion, double dt, Worker& worker) {
+  worker.histories.assign(patches.size(), typename Law::History{});
+  if (pair.range.count == 0) return 0.0;
+  double lost = 0.0;
+  const auto& minima = previous_[static_cast<std::size_t>(pair.range.worker)].minima;
+  for (const Contact& old : contacts_of(pair, previous_)) {
+    lost += Law::history_energy(pair.parameters, old.memory.history);
+    const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
+                                         motion.position[index_of(pair.node)], motion.position,
+                                         patches, worker.patches);
+    double total = 0.0;
+    for (const std::uint32_t heir : heirs) total += worker.states[heir].elastic_force;
+    // A ball rolls around an edge little by little: a normal that turns over in one step has gone
+    // through the surface.
+    worker.pass_throughs +=
+        !heirs.empty() && std::all_of(heirs.begin(), heirs.end(), [&](std::uint32_t heir) {
+          return is_turned_over(old.memory.normal, worker.states[heir].normal);
+        });
+    for (const std::uint32_t heir : heirs) {
+      const PatchState& state = worker.states[heir];
+      const double share =
+          total > 0.0 ? state.elastic_force / total : 1.0 / static_cast<double>(heirs.size());
+      Law::add_share(worker.histories[heir],
+                     carried_history<Law>(old.memory, state.normal, dt * state.twist_rate), share);
+    }
+  }
+  for (const auto& history : worker.histories)
+    lost -= Law::history_energy(pair.parameters, history);
+  return lost;
+}
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchTerm> terms,
+                                        const PatchState& state,
+                                        std::span<const PatchTermForce> term_forces,
+                                        typename ForceRecords<SurfaceForce>::List& records) const {
+  const Vec3 other_force = state.force - state.elastic_force * state.normal;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const Vec3 other = term_forces[i].share * other_force;
+    const Vec3 lever_b = state.lever_a - terms[i].distance * terms[i].normal;
+    records.add({pair.node, terms[i].core, term_forces[i].elastic * terms[i].normal + other,
+                 -state.lever_a.cross(other), lever_b.cross(other),
+                 static_cast<std::size_t>(&pair - pairs_.data())},
+                -state.gap / pair.radius);
+  }
+}
+
+}  // namespace plekton::contact
