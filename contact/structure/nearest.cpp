@@ -25,6 +25,15 @@ std::size_t edge_count(const Simplex& simplex) {
   return simplex.count == 3 ? 3 : simplex.count - 1;
 }
 
+/// Whether the slope of an edge over a plane is certainly beyond kLargestTilt; cheap. The products
+/// are within a few eps of their values.
+bool is_steep(const Simplex& simplex, const EdgeOf& edge, const Vec3& long_normal) {
+  constexpr double kLimit = 1.000001 * kLargestTilt * kLargestTilt;
+  const Vec3 along = simplex.x[edge.last] - simplex.x[edge.first];
+  const double rise = along.dot(long_normal);
+  return rise * rise > kLimit * along.squaredNorm() * long_normal.squaredNorm();
+}
+
 double slope_of(const Simplex& simplex, const EdgeOf& edge, const Vec3& normal) {
   const Vec3 along = simplex.x[edge.last] - simplex.x[edge.first];
   return std::abs(along.dot(normal)) / along.norm();
@@ -64,11 +73,11 @@ struct FlatEdge {
 void find_flat_edge(const Simplex& simplex, unsigned corners, const Simplex& facet, bool is_of_a,
                     double& least, std::optional<FlatEdge>& found) {
   if (facet.count != 3) return;
-  const Vec3 normal = normal_of(facet);
+  const Vec3 long_normal = (facet.x[1] - facet.x[0]).cross(facet.x[2] - facet.x[0]);
   for (std::size_t k = 0; k < edge_count(simplex); ++k) {
     const EdgeOf edge = edge_of(simplex, k);
-    if (!holds(edge, corners)) continue;
-    const double slope = slope_of(simplex, edge, normal);
+    if (!holds(edge, corners) || is_steep(simplex, edge, long_normal)) continue;
+    const double slope = slope_of(simplex, edge, normal_of(facet));
     if (slope >= least) continue;
     least = slope;
     found = FlatEdge{edge, is_of_a};

@@ -104,27 +104,70 @@ FacetOverlapOf<Number> overlap_of(const std::array<Point<Number>, 3>& a,
   return found;
 }
 
+template <class Number>
+bool lies_in(const Point<Number>& first, const Point<Number>& last, const Point<Number>& origin,
+             const Point<Number>& normal) {
+  return height_now(first, origin, normal) == 0.0 && height_now(last, origin, normal) == 0.0;
+}
+
+template <class Number>
+bool keep_above(IntervalOf<Number>& interval, const Number& height_at_0,
+                const Number& height_at_1) {
+  const double now_at_0 = still(height_at_0), now_at_1 = still(height_at_1);
+  if (now_at_0 < 0.0 && now_at_1 < 0.0) return false;
+  if (now_at_0 < 0.0 || now_at_1 < 0.0) {
+    const Number zero = height_at_0 / (height_at_0 - height_at_1);
+    if (now_at_0 < 0.0 && zero > interval.from) interval.from = zero;
+    if (now_at_1 < 0.0 && zero < interval.to) interval.to = zero;
+  }
+  return interval.from < interval.to;
+}
+
+template <class Number>
+bool keep_inside(IntervalOf<Number>& interval, const Point<Number>& first,
+                 const Point<Number>& last, const Point<Number>& origin,
+                 const Point<Number>& inward) {
+  if (lies_in(first, last, origin, inward)) return true;
+  return keep_above<Number>(interval, (first - origin).dot(inward), (last - origin).dot(inward));
+}
+
+/// Keeps the part of an edge above the interior of a facet. @returns whether there is one
+template <class Number>
+bool keep_over(IntervalOf<Number>& part, const Point<Number>& first, const Point<Number>& last,
+               const std::array<Point<Number>, 3>& facet, const Point<Number>& normal) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point<Number> inward = normal.cross(facet[(i + 1) % 3] - facet[i]);
+    if (!keep_inside(part, first, last, facet[i], inward)) return false;
+  }
+  return true;
+}
+
+/// A point without derivatives.
+Point<double> now(const Vector& x) {
+  return {x.x.value, x.y.value, x.z.value};
+}
+
+/// Whether an edge has a part above a facet: by the same numbers, without derivatives.
+bool is_over_now(const Vector& first, const Vector& last, const std::array<Vector, 3>& facet) {
+  const std::array<Point<double>, 3> corners{now(facet[0]), now(facet[1]), now(facet[2])};
+  IntervalOf<double> part{0.0, 1.0};
+  return keep_over(part, now(first), now(last), corners, normal_of(corners));
+}
+
 }  // namespace
 
 bool lies_in_plane(const Vector& first, const Vector& last, const Vector& origin,
                    const Vector& normal) {
-  return height_now(first, origin, normal) == 0.0 && height_now(last, origin, normal) == 0.0;
+  return lies_in<Real>(first, last, origin, normal);
 }
 
 bool cut(Interval& interval, const Vector& first, const Vector& last, const Vector& origin,
          const Vector& inward) {
-  if (lies_in_plane(first, last, origin, inward)) return true;
-  return cut(interval, (first - origin).dot(inward), (last - origin).dot(inward));
+  return keep_inside<Real>(interval, first, last, origin, inward);
 }
 
 bool cut(Interval& interval, const Real& height_at_0, const Real& height_at_1) {
-  if (height_at_0.value < 0.0 && height_at_1.value < 0.0) return false;
-  if (height_at_0.value < 0.0 || height_at_1.value < 0.0) {
-    const Real zero = height_at_0 / (height_at_0 - height_at_1);
-    if (height_at_0.value < 0.0 && zero > interval.from) interval.from = zero;
-    if (height_at_1.value < 0.0 && zero < interval.to) interval.to = zero;
-  }
-  return interval.from < interval.to;
+  return keep_above<Real>(interval, height_at_0, height_at_1);
 }
 
 FacetOverlap face_to_face(const std::array<Vector, 3>& a, const std::array<Vector, 3>& b) {
@@ -142,12 +185,10 @@ FacetOverlapOf<double> face_to_face_now(const Simplex& a, const Simplex& b) {
 
 std::optional<EdgeOverFacet> above(const Vector& first, const Vector& last,
                                    const std::array<Vector, 3>& facet) {
+  if (!is_over_now(first, last, facet)) return {};
   const Vector normal = normal_of<Real>(facet);
   EdgeOverFacet found{{0.0, 1.0}, (last - first).norm(), 0.0, 0.0, 0.0};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector inward = normal.cross(facet[(i + 1) % 3] - facet[i]);
-    if (!cut(found.part, first, last, facet[i], inward)) return {};
-  }
+  keep_over(found.part, first, last, facet, normal);
   const Real height_first = (first - facet[0]).dot(normal);
   const Real height_last = (last - facet[0]).dot(normal);
   const Real side(height_first.value + height_last.value >= 0.0 ? 1.0 : -1.0);

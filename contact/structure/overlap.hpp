@@ -11,10 +11,12 @@
 namespace plekton::contact::structure {
 
 /// Part of an edge: from its first end times 1 - from, to its last.
-struct Interval {
-  Real from;
-  Real to;
+template <class Number>
+struct IntervalOf {
+  Number from;
+  Number to;
 };
+using Interval = IntervalOf<Real>;
 
 /// A convex polygon with room for what two triangles and a cut leave.
 template <class Number>

@@ -75,6 +75,14 @@ void add(const PairForces& from, double weight, PairForces& to) {
   }
 }
 
+void assign(const PairForces& from, double weight, PairForces& to) {
+  to.energy = weight * from.energy;
+  for (std::size_t i = 0; i < 3; ++i) {
+    to.on_a[i] = weight * from.on_a[i];
+    to.on_b[i] = weight * from.on_b[i];
+  }
+}
+
 }  // namespace
 
 PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair& pair) {
@@ -91,23 +99,25 @@ PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair
 }
 
 double evaluate(PairTerm& term, const NormalSpring& spring, geometry::Positions x) {
+  const bool was_in_range = term.in_range;
   term.in_range = term.meets = false;
   const Simplex a = simplex_at(term.a, term.is_seam_a, x);
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
-  const double gap = gap_of_boxes(a, b) - spring.range();
-  if (gap > 0.0) return gap;
+  if (!was_in_range) {  // what was in range mostly still is
+    const double gap = gap_of_boxes(a, b) - spring.range();
+    if (gap > 0.0) return gap;
+  }
   const CoreProximity nearest = geometry::core_proximity(core_of(a), core_of(b));
   const double clearance = nearest.signed_distance - spring.range();
   if (!(nearest.signed_distance < spring.range())) return clearance;
   term.in_range = true;
   term.meets = nearest.points.relation == geometry::Relation::touching_or_crossing;
   term.overlap = spring.range() - nearest.signed_distance;
-  term.forces = PairForces{};
   if (nearest.signed_distance < kMeeting * spring.range()) {
-    add(at_nearest_points(nearest, spring), term.weight, term.forces);
+    assign(at_nearest_points(nearest, spring), term.weight, term.forces);
     return clearance;
   }
-  add(nearest_part(a, b, nearest, spring), term.weight, term.forces);
+  assign(nearest_part(a, b, nearest, spring), term.weight, term.forces);
   if (can_extend(a, b)) add(extended_part(a, b, spring), term.weight, term.forces);
   return clearance;
 }
