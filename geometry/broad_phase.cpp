@@ -253,6 +253,9 @@ void find_pairs(const Tree& tree, std::size_t begin, std::size_t end,
       }
     }
   });
+  // A list that varies a little soon has the room it needs.
+  if (pairs.capacity() < pairs.size() + pairs.size() / 4)
+    pairs.reserve(pairs.size() + pairs.size() / 2);
 }
 
 /// Counting sort by a, then each row by b. row_ends is scratch.
@@ -278,6 +281,12 @@ void sort_pairs(std::span<const std::vector<IndexPair>> parts, std::size_t row_c
 
 struct BroadPhase::Implementation {
   Tree tree;
+  /// One for each thread; they keep their room.
+  std::span<std::vector<IndexPair>> lists(std::size_t count) {
+    if (found.size() < count) found.resize(count);
+    return std::span(found).first(count);
+  }
+
   std::vector<std::vector<IndexPair>> found;  ///< by thread
   std::vector<std::size_t> row_ends;
 };
@@ -332,16 +341,14 @@ std::size_t BroadPhase::size() const noexcept {
 
 void BroadPhase::self_pairs(std::vector<IndexPair>& pairs) const {
   const Tree& tree = implementation_->tree;
-  auto& found = implementation_->found;
-  found.resize(1);
+  const std::span found = implementation_->lists(1);
   find_pairs(tree, 0, tree.nodes_above_bunches().size() + tree.bunches().size(), found[0]);
   sort_pairs(found, size(), implementation_->row_ends, pairs);
 }
 
 void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) const {
   const Tree& tree = implementation_->tree;
-  auto& found = implementation_->found;
-  found.resize(static_cast<std::size_t>(pool.thread_count()));
+  const std::span found = implementation_->lists(static_cast<std::size_t>(pool.thread_count()));
   const std::size_t count = tree.nodes_above_bunches().size() + tree.bunches().size();
   pool.for_each_range(count, [&](std::size_t begin, std::size_t end, int worker) {
     find_pairs(tree, begin, end, found[static_cast<std::size_t>(worker)]);
@@ -352,8 +359,7 @@ void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) con
 void BroadPhase::pairs_with(const BroadPhase& other, std::vector<IndexPair>& pairs) const {
   const Tree& tree = implementation_->tree;
   const Tree& other_tree = other.implementation_->tree;
-  auto& found = implementation_->found;
-  found.resize(1);
+  const std::span found = implementation_->lists(1);
   found[0].clear();
   if (size() > 0 && other.size() > 0) {
     descend(tree, tree.root(), other_tree, other_tree.root(), [&](std::int32_t i, std::int32_t j) {
