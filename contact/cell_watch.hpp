@@ -15,10 +15,10 @@ namespace plekton::contact {
 ///
 /// When a cell is looked at and is out of range by a clearance c (geometry/cell_clearance.hpp), it
 /// can come into range only after the ball and the cell have together moved by c: no point of a
-/// cell moves further than the one of its nodes that moves most. With moved() the sum over the
-/// steps of twice the furthest way of any node, the cell sleeps until moved() has grown by c. So in
-/// most steps a pair costs one comparison and a look at the few cells that are awake: O(pairs +
-/// cells in range), while the list, which is made for many steps, holds several times as many.
+/// cell moves further than the one of its nodes that moves most. Let moved be the sum over the
+/// steps of twice the furthest way of any node: the cell sleeps until it has grown by c. So in most
+/// steps a pair costs one comparison and a look at the few cells that are awake: O(pairs + cells in
+/// range), while the list, which is made for many steps, holds several times as many.
 ///
 /// Rounding: as in geometry/skin.hpp, a step x += v dt is rounded by at most 4 eps of the way and
 /// of the coordinate; the sums are rounded up.
@@ -35,12 +35,9 @@ class CellWatch {
   /// not known: O(number of nodes) then, else O(1).
   void begin_step(const Motion& motion) noexcept;
 
-  /// m, twice the way of any node at most since all were awake.
-  double moved() const noexcept { return moved_; }
-
   /// What is known of the cells of a pair; at first nothing.
   struct Awake {
-    double wake = 0.0;        ///< m, what moved() has to be before another one may be in range
+    double wake = 0.0;        ///< m, what moved has to be before another one may be in range
     std::uint32_t count = 0;  ///< may be in range now: the first ones of its part of the list
   };
 
