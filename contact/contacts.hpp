@@ -155,7 +155,7 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
     dissipated_ += with_surfaces_.rebuild(neighbours_.sphere_structures(), neighbours_.near_cells(),
                                           neighbours_.cells(), balls_, materials_.of_structures,
                                           materials_.pairs);
-    plane_neighbours_.expire();
+    plane_neighbours_.expire(neighbours_.skin());
   }
   if (cell_neighbours_.update(motion.position, pool, motion.way)) {
     dissipated_ += between_structures_.rebuild(cell_neighbours_.pairs(), materials_.of_structures,

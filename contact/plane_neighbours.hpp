@@ -21,7 +21,11 @@ class PlaneNeighbours {
   explicit PlaneNeighbours(double skin) : skin_(skin) {}
 
   /// Has the list made anew at the next update.
-  void expire() noexcept { expired_ = true; }
+  /// @param skin  m, of which balls move by no more than half before the next expiry
+  void expire(double skin) noexcept {
+    skin_ = skin;
+    expired_ = true;
+  }
 
   /// Makes the list anew if it has expired or a plane has moved by more than half the skin.
   /// @returns whether it did

@@ -22,10 +22,10 @@ Neighbours::Neighbours(std::span<const Sphere> spheres, const Surface& surface, 
 
 bool Neighbours::update(Positions x, ThreadPool& pool, double way) {
   ++steps_of_list_;
-  if (spheres_.empty() || !skin_.may_need_rebuild(way) || !skin_.needs_rebuild(x, pool))
-    return false;
+  if (!skin_.may_need_rebuild(way) || !skin_.needs_rebuild(x, pool)) return false;
   if (usual_radius_ > 0.0 && rebuild_count_ > 0) choose_skin();
-  rebuild(x, pool);
+  // Without spheres the lists stay empty; that they are due is news for lists of other bodies.
+  if (!spheres_.empty()) rebuild(x, pool);
   skin_.mark_built(x);
   ++rebuild_count_;
   steps_of_list_ = 0;

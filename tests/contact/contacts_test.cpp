@@ -85,5 +85,45 @@ TEST(Contacts, LoadOneSpringWhileASphereSlidesOnAPlane) {
   EXPECT_GE(contacts.neighbours().rebuild_count(), 30);
 }
 
+/// A body sinks towards a floor at z = 0 in small steps of which the length is known.
+template <class Bodies>
+void expect_the_floor_is_touched_at_once(Contacts<LinearFrictional>& contacts, Bodies& x,
+                                         double radius, double step) {
+  const std::vector<Plane> planes{{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}}};
+  const std::vector<Vec3> zero(x.size(), Vec3::Zero());
+  geometry::ThreadPool pool;
+  while (x[0].z() > 0.9 * radius) {
+    for (Vec3& position : x) position.z() -= step;
+    contacts.advance({x, zero, zero, step}, planes, 1e-3, pool);
+    ASSERT_EQ(contacts.counts().with_planes > 0, x[0].z() < radius) << "at " << x[0].z();
+  }
+}
+
+TEST(Contacts, SeeWhereAStructureMeetsAPlaneThoughThereAreNoSpheres) {
+  std::vector<Vec3> x{Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(0, 1, 1)};
+  const std::vector<geometry::Facet> facets{{{NodeId{0}, NodeId{1}, NodeId{2}}, 0.1}};
+  const Surface surface({}, facets, 3);
+  const std::vector<Sphere> no_spheres;
+  Contacts<LinearFrictional> contacts(
+      no_spheres, surface,
+      {MaterialPairs<LinearFrictional>({Material{1e6, 0.5, 0.4}}), {}, {MaterialId{0}}}, 0.02);
+
+  expect_the_floor_is_touched_at_once(contacts, x, 0.1, 1e-3);
+}
+
+TEST(Contacts, SeeWhereABallMeetsAPlaneThoughTheSkinHasGrown) {
+  std::vector<Vec3> x{Vec3(0, 0, 40)};
+  const std::vector<Sphere> spheres{{{NodeId{0}}, 1.0}};
+  const Surface surface({}, {}, 1);
+  Contacts<LinearFrictional> contacts(
+      spheres, surface,
+      {MaterialPairs<LinearFrictional>({Material{1e6, 0.5, 0.4}}), {MaterialId{0}}, {}}, 0.02);
+  contacts.tune_skin(1.0);
+
+  expect_the_floor_is_touched_at_once(contacts, x, 1.0, 0.04);
+
+  EXPECT_GT(contacts.neighbours().skin(), 0.3);
+}
+
 }  // namespace
 }  // namespace plekton::test

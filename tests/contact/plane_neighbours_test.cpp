@@ -48,7 +48,7 @@ TEST(PlaneNeighbours, ListEveryPairThatTouchesWhileBallsAndPlanesMove) {
     double farthest = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i)
       farthest = std::max(farthest, (x[i] - built_at[i]).norm());
-    if (farthest > 0.5 * skin) neighbours.expire();
+    if (farthest > 0.5 * skin) neighbours.expire(skin);
 
     if (neighbours.update(balls, planes, x)) {
       built_at = x;
