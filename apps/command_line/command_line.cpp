@@ -80,6 +80,7 @@ void flush_output() {
 }
 
 int run_command(const CommandLine& line) {
+  const auto began = Progress::Clock::now();
   const Scenario scenario = scenario_of(line);
   PreparedRun prepared = prepare_run(scenario);
   const fs::path out = line.out.empty() ? fs::path("out") / line.scenario.stem() : line.out;
@@ -87,9 +88,12 @@ int run_command(const CommandLine& line) {
 
   const InterruptGuard guard;
   const bool terminal = ::isatty(STDOUT_FILENO) != 0;
-  const RunSettings settings{out, line.overrides, std::cout,
+  const RunSettings settings{out,
+                             line.overrides,
+                             std::cout,
                              terminal ? ProgressStyle::one_line : ProgressStyle::lines,
-                             [&] { return guard.interrupted(); }};
+                             [&] { return guard.interrupted(); },
+                             began};
   const RunReport report = run(scenario, prepared, settings);
   std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n';
   return report.status == RunStatus::interrupted ? kInterrupted : kDone;

@@ -24,6 +24,23 @@ constexpr std::int64_t kStepsBetweenCriticalSteps =
     512;                             // the critical step costs about as much as a few steps
 constexpr double kMostSteps = 1e12;  // years, and time still advances by full steps
 
+double seconds_since(Progress::Clock::time_point start) {
+  return std::chrono::duration<double>(Progress::Clock::now() - start).count();
+}
+
+/// Adds the time (s) from its making to its end to a sum.
+class TimeInto {
+ public:
+  explicit TimeInto(double& sum) : sum_(sum) {}
+  TimeInto(const TimeInto&) = delete;
+  TimeInto& operator=(const TimeInto&) = delete;
+  ~TimeInto() { sum_ += seconds_since(start_); }
+
+ private:
+  double& sum_;
+  Progress::Clock::time_point start_ = Progress::Clock::now();
+};
+
 /// One run: what is written, and what is watched.
 class Run {
  public:
@@ -63,6 +80,7 @@ class Run {
     watch_time_step();
     watch_motion();
     write_due(0.0);
+    report_.start_up_time = seconds_since(settings_.began);
     while (simulation_.time() < scenario_.simulation.duration - 0.5 * simulation_.time_step()) {
       simulation_.step();
       const bool looks = simulation_.steps() % kStepsBetweenLooks == 0;
@@ -88,6 +106,8 @@ class Run {
   /// Frames and rows whose time has come.
   void write_due(double time) {
     const double soon = 0.5 * simulation_.time_step();
+    if (time < std::min(next_row_, next_frame_) - soon) return;
+    const TimeInto output(report_.output_time);
     if (time >= next_row_ - soon) {
       history_.add(simulation_, lost_);
       next_row_ = std::max(next_row_ + scenario_.output.history_interval, time);
@@ -107,6 +127,7 @@ class Run {
   /// The state at the end, however it came about.
   void write_last() {
     look_at_grains();
+    const TimeInto output(report_.output_time);
     if (last_frame_step_ != simulation_.steps()) {
       history_.add(simulation_, lost_);
       write_frame();
@@ -164,7 +185,7 @@ class Run {
     report_.simulated_time = simulation_.time();
     report_.steps = simulation_.steps();
     report_.time_step = simulation_.time_step();
-    report_.wall_time = std::chrono::duration<double>(Progress::Clock::now() - start_).count();
+    report_.wall_time = seconds_since(start_);
     report_.largest_overlap_ratio = simulation_.largest_overlap_ratio();
     report_.pass_throughs = simulation_.pass_throughs();
     report_.most_crossings = simulation_.most_crossings();

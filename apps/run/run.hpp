@@ -35,6 +35,8 @@ struct RunSettings {
   std::ostream& progress;
   ProgressStyle style;
   std::function<bool()> is_interrupted;  ///< asked after every step
+  /// When the work on the scenario began, for the start-up time of the report.
+  Progress::Clock::time_point began = Progress::Clock::now();
 };
 
 /// Runs a prepared simulation to its end, or until it is at rest or interrupted, and writes frames,

@@ -44,8 +44,10 @@ struct RunReport {
 
   double simulated_time = 0.0;  ///< s
   std::int64_t steps = 0;
-  double time_step = 0.0;  ///< s, at the end
-  double wall_time = 0.0;  ///< s
+  double time_step = 0.0;      ///< s, at the end
+  double start_up_time = 0.0;  ///< s, from reading the scenario to the first step
+  double wall_time = 0.0;      ///< s, without reading the scenario and building its scene
+  double output_time = 0.0;    ///< s, of the wall time: frames and rows of energy.csv
 
   double largest_overlap_ratio = 0.0;
   std::int64_t pass_throughs = 0;     ///< of grain centres through facets and cylinders

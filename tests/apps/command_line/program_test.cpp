@@ -32,6 +32,15 @@ TEST_F(Command, RunWritesSeriesHistoryAndReport) {
   EXPECT_EQ(grains.count("NumberOfPoints"), 20U);
 }
 
+TEST_F(Command, RunTellsHowLongItTookToStartAndToWrite) {
+  outcome_of({"run", scenario(), "--out", out()});
+
+  const auto timing = report()["timing"];
+  EXPECT_GT(timing["start_up_s"], 0.0);
+  EXPECT_GT(timing["output_s"], 0.0);
+  EXPECT_LT(timing["output_s"], timing["wall_time_s"]);
+}
+
 TEST_F(Command, RunMeetsTheMembrane) {
   outcome_of({"run", scenario(), "--out", out()});
 

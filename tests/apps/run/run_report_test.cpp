@@ -18,6 +18,8 @@ RunReport example() {
   report.grains = 1000;
   report.steps = 200;
   report.wall_time = 0.1;
+  report.start_up_time = 0.02;
+  report.output_time = 0.003;
   report.largest_overlap_ratio = 0.012;
   report.dt_over_critical = 0.5;
   report.energy.kinetic = 3.0;
@@ -37,6 +39,8 @@ TEST(RunReport, SaysInJsonWhatTheRunWas) {
   EXPECT_EQ(json["options"]["set"][0], "simulation.duration=1 s");
   EXPECT_EQ(json["counts"]["grains"], 1000);
   EXPECT_DOUBLE_EQ(json["timing"]["ms_per_step"], 0.5);
+  EXPECT_EQ(json["timing"]["start_up_s"], 0.02);
+  EXPECT_EQ(json["timing"]["output_s"], 0.003);
   EXPECT_EQ(json["largest_overlap_ratio"], 0.012);
   EXPECT_EQ(json["dt_over_critical"], 0.5);
   EXPECT_EQ(json["energy_closure"], 0.025);
