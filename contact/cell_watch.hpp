@@ -46,6 +46,12 @@ class CellWatch {
     return awake.count == 0 && !all_awake_ && moved_ < awake.wake;
   }
 
+  /// The only cell of a pair that may be in range, if there is one and no other may be now.
+  const geometry::CellId* only_cell(const NearCells& near, const Awake& awake) const noexcept {
+    const bool is_known = awake.count == 1 && !all_awake_ && moved_ < awake.wake;
+    return is_known ? &cells_[near.first] : nullptr;
+  }
+
   /// The cells of a pair that may be nearer than range (m) to its ball, ascending.
   /// @param near   a part of the list; one thread at a time for each
   /// @param awake  of this pair, from its last step

@@ -20,8 +20,7 @@ struct PatchState {
                                 ///< force-weighted mean of the feet
   Vec3 lever_a = Vec3::Zero();  ///< m, from the ball's centre to the contact point
   Vec3 relative_velocity = Vec3::Zero();  ///< m/s, of b relative to a at the contact point
-  double twist_rate = 0.0;    ///< rad/s, mean angular velocity of both bodies about the normal
-  Vec3 force = Vec3::Zero();  ///< N, on b, once the law has spoken
+  double twist_rate = 0.0;  ///< rad/s, mean angular velocity of both bodies about the normal
 };
 
 /// What a term carries of its patch.

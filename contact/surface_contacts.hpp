@@ -7,6 +7,7 @@
 #include "contact/contact_row.hpp"
 #include "contact/force_records.hpp"
 #include "contact/last_side.hpp"
+#include "contact/lone_block.hpp"
 #include "contact/lone_contact.hpp"
 #include "contact/material_pairs.hpp"
 #include "contact/patch.hpp"
@@ -77,8 +78,11 @@ class SurfaceContacts {
  private:
   /// A contact as it is kept for the next step.
   struct Contact {
-    PatchState state;
     ContactMemory<Law> memory;
+    Vec3 force;                   ///< N, on b
+    Vec3 foot;                    ///< m, from the ball's centre to the representative point
+    double gap;                   ///< m, of the deepest minimum
+    double elastic_energy;        ///< J, of the normal forces
     std::uint32_t first_minimum;  ///< features of its minima, in Lists::minima
     std::uint32_t minimum_count;
   };
@@ -110,8 +114,16 @@ class SurfaceContacts {
     std::vector<PatchTermForce> term_forces;  ///< in the order of the patches and their terms
     std::vector<typename Law::History> histories;
     std::int64_t pass_throughs = 0;  ///< in this step
+    LonePairs<Law> lone;
   };
 
+  double advance_pairs(std::size_t begin, std::size_t end, const Motion& motion, double dt,
+                       int worker);
+  std::size_t gather_lone(std::size_t begin, std::size_t end, const Motion& motion,
+                          LonePairs<Law>& lone) const;
+  void gather(const Pair& pair, geometry::FaceId face, const Motion& motion,
+              LonePairs<Law>& lone) const;
+  double keep_lone(Pair& pair, std::size_t lane, int worker);
   double advance_pair(Pair& pair, const Motion& motion, double dt, int worker);
   double advance_alone(const Pair& pair, const Patch& patch, const Motion& motion, double dt,
                        int worker);
@@ -124,13 +136,15 @@ class SurfaceContacts {
   double inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion, double dt,
                  Worker& worker);
   void write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
-                    std::span<const PatchTermForce> term_forces,
+                    const Vec3& force, std::span<const PatchTermForce> term_forces,
                     typename ForceRecords<SurfaceForce>::List& records) const;
   double drop(const Pair& pair) const;
   std::span<const Contact> contacts_of(const Pair& pair, const std::vector<Lists>& lists) const {
     return {lists[static_cast<std::size_t>(pair.range.worker)].contacts.data() + pair.range.first,
             pair.range.count};
   }
+
+  bool is_in_contact(const Pair& pair, Feature minimum) const noexcept;
 
   const geometry::Surface* surface_;
   std::vector<Pair> pairs_;
@@ -194,12 +208,7 @@ double SurfaceContacts<Law>::advance(const Motion& motion, double dt, geometry::
   records_.reset(pool.thread_count());
   watch_.begin_step(motion);
   return sum_(pairs_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {
-    double dissipated = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!watch_.is_asleep(pairs_[i].awake))
-        dissipated += advance_pair(pairs_[i], motion, dt, worker);
-    }
-    return dissipated;
+    return advance_pairs(begin, end, motion, dt, worker);
   });
 }
 
@@ -223,8 +232,8 @@ double SurfaceContacts<Law>::elastic_energy() const {
   for (const Pair& pair : pairs_) {
     if (pair.range.count == 0) continue;
     for (const Contact& contact : contacts_of(pair, current_)) {
-      energy += contact.state.elastic_energy +
-                Law::history_energy(pair.parameters, contact.memory.history);
+      energy +=
+          contact.elastic_energy + Law::history_energy(pair.parameters, contact.memory.history);
     }
   }
   return energy;
@@ -237,12 +246,13 @@ void SurfaceContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
     if (pair.range.count == 0) continue;
     const Vec3& centre = x[index_of(pair.node)];
     for (const Contact& contact : contacts_of(pair, current_)) {
-      const PatchState& state = contact.state;
-      visit(contact_row(centre, centre + state.foot, state.normal, state.gap, state.force));
+      visit(contact_row(centre, centre + contact.foot, contact.memory.normal, contact.gap,
+                        contact.force));
     }
   }
 }
 
 }  // namespace plekton::contact
 
+#include "contact/surface_contacts_lone.hpp"
 #include "contact/surface_contacts_step.hpp"

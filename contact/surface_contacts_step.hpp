@@ -50,14 +50,16 @@ double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const Patch
   for (const PatchTerm& term : terms) {
     if (term.weight > 0.0) lists.minima.push_back(term.core.feature);
   }
-  lists.contacts.push_back({state,
-                            {history, state.normal},
+  typename Law::History next = history;
+  const ContactForce result = Law::force(pair.parameters, relative, next, dt);
+  lists.contacts.push_back({{next, state.normal},
+                            result.force,
+                            state.foot,
+                            state.gap,
+                            state.elastic_energy,
                             first_minimum,
                             static_cast<std::uint32_t>(lists.minima.size()) - first_minimum});
-  Contact& contact = lists.contacts.back();
-  const ContactForce result = Law::force(pair.parameters, relative, contact.memory.history, dt);
-  contact.state.force = result.force;
-  write_forces(pair, terms, contact.state, term_forces, records_.of_worker(worker_index));
+  write_forces(pair, terms, state, result.force, term_forces, records_.of_worker(worker_index));
   return result.dissipated;
 }
 
@@ -169,10 +171,10 @@ double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> pa
 
 template <ContactLaw Law>
 void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchTerm> terms,
-                                        const PatchState& state,
+                                        const PatchState& state, const Vec3& force,
                                         std::span<const PatchTermForce> term_forces,
                                         typename ForceRecords<SurfaceForce>::List& records) const {
-  const Vec3 other_force = state.force - state.elastic_force * state.normal;
+  const Vec3 other_force = force - state.elastic_force * state.normal;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Vec3 other = term_forces[i].share * other_force;
     const Vec3 lever_b = state.lever_a - terms[i].distance * terms[i].normal;

@@ -2,36 +2,14 @@
 #pragma once
 
 #include "contact/balls/ball_kernel.hpp"
+#include "contact/lane_law.hpp"
 #include "geometry/rows.hpp"
 #include "geometry/vector_width.hpp"
-
-#include <concepts>
 
 /// Touching pairs of balls in blocks, so that a processor computes as many contacts at once as its
 /// vectors have lanes: pairs are gathered into rows of numbers, the kernel runs along the rows, and
 /// the results are taken out again.
 namespace plekton::contact {
-
-using geometry::Pack;
-
-/// A law written for any Real: it may be asked about contacts side by side. Its ParametersOf and
-/// HistoryOf consist of Reals and Vec3Of<Real> only, and nothing in them branches.
-///
-/// A new history turned from the normal 0 stays new: rotate() is linear in what it turns.
-template <class Law>
-concept LaneLaw = ContactLaw<Law> &&
-    requires(const typename Law::template ParametersOf<Pack<2>>& parameters,
-             const RelativeMotionOf<Pack<2>>& motion,
-             typename Law::template HistoryOf<Pack<2>>& history,
-             const FrameRotationOf<Pack<2>>& rotation, const Pack<2>& gap) {
-  requires std::same_as < typename Law::template ParametersOf<double>,
-  typename Law::Parameters > ;
-  requires std::same_as < typename Law::template HistoryOf<double>,
-  typename Law::History > ;
-  { Law::elastic_normal_force(parameters, gap) } -> std::same_as<Pack<2>>;
-  { Law::force(parameters, motion, history, 1.0) } -> std::same_as<ContactForceOf<Pack<2>>>;
-  Law::rotate(history, rotation);
-};
 
 /// What a step of pairs side by side came to.
 template <LaneLaw Law, class Real>

@@ -53,7 +53,9 @@ struct Crowd {
 
 std::vector<Complex> grounds() {
   Random random(5);
-  return {sheet(4), roughened(sheet(4), 1.0, 0.3, random), net(4), sheet_with_fin(0.2, random)};
+  const auto wide = [](const Vec3& x) { return Vec3(4.0 * x); };
+  return {sheet(4), roughened(sheet(4), 1.0, 0.3, random), net(4), sheet_with_fin(0.2, random),
+          mapped(sheet(1), wide)};
 }
 
 double distance_to(const Surface& surface, CellId cell, const Vec3& point, Positions x) {
