@@ -4,15 +4,15 @@
 #include "contact/bodies.hpp"
 #include "contact/contact_row.hpp"
 #include "contact/material_pairs.hpp"
-#include "contact/structure/clearances.hpp"
-#include "contact/structure/pair_term.hpp"
+#include "contact/structure/pair_terms.hpp"
 #include "contact/structure/structure_patch.hpp"
 #include "contact/structure/touching_patches.hpp"
 #include "geometry/cell_neighbours.hpp"
 #include "geometry/parallel_sum.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,7 +30,9 @@ namespace plekton::contact {
 template <ContactLaw Law>
 class StructureContacts {
  public:
-  explicit StructureContacts(const geometry::Surface& surface) : surface_(&surface) {}
+  explicit StructureContacts(const geometry::Surface& surface)
+      : surface_(&surface), terms_(surface) {}
+  StructureContacts(StructureContacts&&) = default;  // a copy's springs would be those of another
 
   /// Takes a new list of cells that may touch, sorted; pairs in both lists keep their patches.
   /// @param materials_of_structures  by StructureId
@@ -50,8 +52,9 @@ class StructureContacts {
 
   /// Pairs of facets and cylinders whose cores met in the last step: overlaps beyond both radii.
   std::size_t crossings() const noexcept {
+    const auto acting = terms_.acting();
     return static_cast<std::size_t>(std::count_if(
-        acting_.begin(), acting_.end(),
+        acting.begin(), acting.end(),
         [this](std::uint32_t i) { return terms_[i].is_of_cells && terms_[i].meets; }));
   }
 
@@ -81,9 +84,19 @@ class StructureContacts {
     std::int32_t old_patch = -1;
     bool was_turned = false;
   };
-  struct Holder {
-    std::uint32_t pair;
-    bool is_turned;  ///< feature a belongs to its second cell
+  /// Where the forces of an acting term go.
+  struct Places {
+    std::uint32_t patch;
+    bool is_turned;  ///< feature a is on the second side
+    std::array<std::uint32_t, 3> a;
+    std::array<std::uint32_t, 3> b;
+  };
+  /// What a patch of the last step leaves to those of this one.
+  struct Legacy {
+    ContactMemory<Law> memory;
+    std::uint32_t meeting;
+    double count;
+    double energy;  ///< J, of the history
   };
   /// A patch of the last step that lives on in one of this.
   struct Heir {
@@ -93,40 +106,28 @@ class StructureContacts {
     friend constexpr auto operator<=>(const Heir&, const Heir&) = default;
   };
 
-  void make_terms(std::span<const MaterialId> materials_of_structures,
-                  const MaterialPairs<Law>& materials);
-  void evaluate_terms(const Motion& motion, geometry::ThreadPool& pool);
+  void make_meetings(std::span<const MaterialId> materials_of_structures,
+                     const MaterialPairs<Law>& materials);
   void find_patches();
+  void number_patches();
+  void find_places();
+  void find_heirs();
   void add_up_patches(Positions x);
   double inherit(const Motion& motion, double dt);
   const Meeting& meeting_of(const Patch& patch) const { return meetings_[patch.meeting]; }
   double history_energy(const Patch& patch) const {
     return patch.history_energy(meeting_of(patch));
   }
-  /// Whether feature a of a term is on the second side of its patch.
-  bool is_turned(const PairTerm& term) const {
-    const Holder& holder = holders_[term.first_holder];
-    return holder.is_turned != pairs_[holder.pair].is_turned;
-  }
-  Patch& patch_of(const PairTerm& term) {
-    return patches_[static_cast<std::size_t>(pairs_[holders_[term.first_holder].pair].patch)];
-  }
-
   const geometry::Surface* surface_;
   std::vector<PairOfCells> pairs_;
-  std::vector<Meeting> meetings_;
-  std::vector<PairTerm> terms_;
-  bool terms_are_new_ = false;
-  structure::Clearances clearances_;    ///< of the terms
-  std::vector<std::uint32_t> due_;      ///< terms that may be in range, ascending
-  std::vector<double> due_clearances_;  ///< m, of these
-  std::vector<std::uint32_t> acting_;   ///< terms in range, ascending
-  std::vector<Holder> holders_;
+  std::vector<Meeting> meetings_;                 ///< of all structures that may ever meet
+  std::vector<structure::NormalSpring> springs_;  ///< of the meetings
+  structure::PairTerms terms_;
+  std::vector<Places> places_;  ///< of the acting terms
   structure::TouchingPatches connected_;
   std::vector<Patch> patches_;
-  std::vector<Patch> previous_;
+  std::vector<Legacy> previous_;
   std::vector<Heir> heirs_;
-  std::vector<std::uint32_t> places_;  ///< by NodeId, see PatchSide::finish
   double largest_overlap_ratio_ = 0.0;
 };
 
@@ -144,7 +145,8 @@ double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs
     if (known && old->patch >= 0) lives[static_cast<std::size_t>(old->patch)] = 1;
   }
   pairs_.swap(listed);
-  make_terms(materials_of_structures, materials);
+  if (meetings_.empty()) make_meetings(materials_of_structures, materials);
+  terms_.rebuild(pairs);
   double lost = 0.0;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     if (!lives[i]) lost += history_energy(patches_[i]);
@@ -153,41 +155,20 @@ double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs
 }
 
 template <ContactLaw Law>
-void StructureContacts<Law>::make_terms(std::span<const MaterialId> materials_of_structures,
-                                        const MaterialPairs<Law>& materials) {
-  std::vector<geometry::CellPair> cells;
-  for (const PairOfCells& pair : pairs_) cells.push_back(pair.cells);
-  const geometry::ProductFeatures features = geometry::product_features(*surface_, cells);
-  if (meetings_.empty()) {
-    // Every pair of structures that may ever meet, so that patches keep their meeting.
-    for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
-      for (std::size_t k = i; k < surface_->structure_count(); ++k) {
-        const double radius_i = surface_->radius(geometry::id_at<geometry::StructureId>(i));
-        const double radius_k = surface_->radius(geometry::id_at<geometry::StructureId>(k));
-        meetings_.push_back({materials.combine(materials_of_structures[i], radius_i,
-                                               materials_of_structures[k], radius_k),
-                             radius_i, radius_k});
-      }
+void StructureContacts<Law>::make_meetings(std::span<const MaterialId> materials_of_structures,
+                                           const MaterialPairs<Law>& materials) {
+  for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
+    for (std::size_t k = i; k < surface_->structure_count(); ++k) {
+      const double radius_i = surface_->radius(geometry::id_at<geometry::StructureId>(i));
+      const double radius_k = surface_->radius(geometry::id_at<geometry::StructureId>(k));
+      meetings_.push_back({materials.combine(materials_of_structures[i], radius_i,
+                                             materials_of_structures[k], radius_k),
+                           radius_i, radius_k});
     }
   }
-  terms_.clear();
-  terms_are_new_ = true;
-  acting_.clear();
-  holders_.clear();
-  for (const std::uint32_t pair : features.holders) holders_.push_back({pair, false});
-  for (const geometry::FeaturePair& pair : features.pairs) {
-    PairTerm term = structure::pair_term(*surface_, pair);
-    const auto first = index_of(surface_->structure_of(term.a.ids[0]));
-    const auto second = index_of(surface_->structure_of(term.b.ids[0]));
-    const std::size_t count = surface_->structure_count();
-    // Row first of the upper triangle of pairs of structures.
-    term.spring = static_cast<std::uint32_t>(first * count - first * (first + 1) / 2 + second);
-    terms_.push_back(term);
-    for (std::uint32_t h = 0; h < term.holder_count; ++h) {
-      Holder& holder = holders_[term.first_holder + h];
-      const auto nodes = surface_->nodes_of(pairs_[holder.pair].cells.a);
-      holder.is_turned = std::find(nodes.begin(), nodes.end(), term.a.ids[0]) == nodes.end();
-    }
+  for (const Meeting& meeting : meetings_) {
+    springs_.push_back(structure::NormalSpring::of<Law>(
+        meeting.parameters, meeting.radius_first + meeting.radius_second));
   }
 }
 
@@ -195,43 +176,23 @@ template <ContactLaw Law>
 double StructureContacts<Law>::advance(const Motion& motion, double dt,
                                        geometry::ThreadPool& pool) {
   if (terms_.empty() && patches_.empty()) return 0.0;
-  evaluate_terms(motion, pool);
-  find_patches();
+  terms_.evaluate(springs_, motion, pool);
+  previous_.clear();
+  for (const Patch& patch : patches_) {
+    previous_.push_back({patch.memory, patch.meeting, patch.count, history_energy(patch)});
+  }
+  if (terms_.acting_changed()) {
+    find_patches();
+    find_places();
+  }
+  find_heirs();
   add_up_patches(motion.position);
   double dissipated = inherit(motion, dt);
   for (Patch& patch : patches_) dissipated += patch.apply_law(meeting_of(patch), motion, dt);
   return dissipated;
 }
 
-/// Terms cost very different times, and the costly ones come first: threads take turns.
-template <ContactLaw Law>
-void StructureContacts<Law>::evaluate_terms(const Motion& motion, geometry::ThreadPool& pool) {
-  if (terms_are_new_) {
-    clearances_.reset(terms_.size(), motion.position);
-  } else {
-    clearances_.move(motion.way, motion.position);
-  }
-  terms_are_new_ = false;
-  due_.clear();
-  clearances_.for_each_due([&](std::size_t i) { due_.push_back(static_cast<std::uint32_t>(i)); });
-  due_clearances_.resize(due_.size());
-  const auto stride = static_cast<std::size_t>(pool.thread_count());
-  pool.for_each_range(stride, [&](std::size_t begin, std::size_t, int) {
-    for (std::size_t i = begin; i < due_.size(); i += stride) {
-      PairTerm& term = terms_[due_[i]];
-      const Meeting& meeting = meetings_[term.spring];
-      const auto spring = structure::NormalSpring::of<Law>(
-          meeting.parameters, meeting.radius_first + meeting.radius_second);
-      due_clearances_[i] = structure::evaluate(term, spring, motion.position);
-    }
-  });
-  acting_.clear();
-  for (std::size_t i = 0; i < due_.size(); ++i) {
-    clearances_.set(due_[i], due_clearances_[i]);
-    if (terms_[due_[i]].in_range) acting_.push_back(due_[i]);
-  }
-}
-
+/// Pairs of cells hang together where they share a feature that acts.
 template <ContactLaw Law>
 void StructureContacts<Law>::find_patches() {
   for (PairOfCells& pair : pairs_) {
@@ -241,16 +202,19 @@ void StructureContacts<Law>::find_patches() {
   }
   connected_.reset(pairs_.size());
   constexpr std::int32_t kTouches = 0;
-  for (const std::uint32_t acting : acting_) {
-    const PairTerm& term = terms_[acting];
-    const Holder& first = holders_[term.first_holder];
-    for (std::uint32_t h = 0; h < term.holder_count; ++h) {
-      const Holder& holder = holders_[term.first_holder + h];
+  for (const std::uint32_t acting : terms_.acting()) {
+    const auto holders = terms_.holders(terms_[acting]);
+    const structure::Holder& first = holders.front();
+    for (const structure::Holder& holder : holders) {
       connected_.unite(first.pair, holder.pair, first.is_turned != holder.is_turned);
       pairs_[holder.pair].patch = kTouches;
     }
   }
-  patches_.swap(previous_);
+  number_patches();
+}
+
+template <ContactLaw Law>
+void StructureContacts<Law>::number_patches() {
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     if (pairs_[i].patch < 0) continue;
@@ -261,53 +225,48 @@ void StructureContacts<Law>::find_patches() {
     pairs_[i].is_turned = place.is_turned;
   }
   patches_.resize(count);
-  for (Patch& patch : patches_) patch.clear();
 }
 
 template <ContactLaw Law>
-void StructureContacts<Law>::add_up_patches(Positions x) {
-  largest_overlap_ratio_ = 0.0;
-  for (const std::uint32_t acting : acting_) {
-    const PairTerm& term = terms_[acting];
-    const Meeting& meeting = meetings_[term.spring];
-    const double radius = std::min(meeting.radius_first, meeting.radius_second);
-    largest_overlap_ratio_ = std::max(largest_overlap_ratio_, term.overlap / radius);
-    Patch& patch = patch_of(term);
-    patch.meeting = term.spring;
-    patch.energy += term.forces.energy;
-    const auto& on_second = is_turned(term) ? term.forces.on_a : term.forces.on_b;
-    for (const Vec3& force : on_second) patch.elastic_force += force;
-  }
-  for (Patch& patch : patches_) patch.find_mean(meeting_of(patch));
-  for (const std::uint32_t acting : acting_) {
-    const PairTerm& term = terms_[acting];
-    Patch& patch = patch_of(term);
-    if (!(patch.normal_force > 0.0)) continue;
-    const Vec3 per_force = patch.elastic_force / (patch.normal_force * patch.normal_force);
-    auto& side_a = is_turned(term) ? patch.second : patch.first;
-    auto& side_b = is_turned(term) ? patch.first : patch.second;
-    const double sign = is_turned(term) ? -1.0 : 1.0;
-    for (std::size_t i = 0; i < term.a.count; ++i) {
-      side_a.add(term.a.ids[i], -sign * per_force.dot(term.forces.on_a[i]));
-    }
-    for (std::size_t i = 0; i < term.b.count; ++i) {
-      side_b.add(term.b.ids[i], sign * per_force.dot(term.forces.on_b[i]));
-    }
-  }
-  places_.resize(x.size(), structure::PatchSide::kNowhere);
+void StructureContacts<Law>::find_places() {
   for (Patch& patch : patches_) {
-    if (!(patch.normal_force > 0.0)) continue;
-    patch.first.finish(x, places_);
-    patch.second.finish(x, places_);
+    patch.first.clear();
+    patch.second.clear();
+  }
+  places_.clear();
+  for (const std::uint32_t acting : terms_.acting()) {
+    const PairTerm& term = terms_[acting];
+    const structure::Holder& holder = terms_.holders(term).front();
+    const PairOfCells& pair = pairs_[holder.pair];
+    const bool is_turned = holder.is_turned != pair.is_turned;
+    places_.push_back({static_cast<std::uint32_t>(pair.patch), is_turned, {}, {}});
+    Patch& patch = patches_[places_.back().patch];
+    patch.meeting = term.spring;
+    for (const NodeId node : term.a) (is_turned ? patch.second : patch.first).add(node);
+    for (const NodeId node : term.b) (is_turned ? patch.first : patch.second).add(node);
+  }
+  for (Patch& patch : patches_) {
+    patch.first.sort();
+    patch.second.sort();
+  }
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const PairTerm& term = terms_[terms_.acting()[i]];
+    Places& places = places_[i];
+    const Patch& patch = patches_[places.patch];
+    const auto& side_a = places.is_turned ? patch.second : patch.first;
+    const auto& side_b = places.is_turned ? patch.first : patch.second;
+    for (std::size_t k = 0; k < term.a.count; ++k) places.a[k] = side_a.place_of(term.a.ids[k]);
+    for (std::size_t k = 0; k < term.b.count; ++k) places.b[k] = side_b.place_of(term.b.ids[k]);
   }
 }
 
-/// Hands the histories of the last step's patches to this step's. A spring that comes to count for
-/// more contacts keeps its force, one that counts for less keeps its stretch: neither gains energy.
-/// @returns the energy (J) that is lost on the way
 template <ContactLaw Law>
-double StructureContacts<Law>::inherit(const Motion& motion, double dt) {
+void StructureContacts<Law>::find_heirs() {
   heirs_.clear();
+  if (!terms_.acting_changed()) {
+    for (std::uint32_t i = 0; i < patches_.size(); ++i) heirs_.push_back({i, i, false});
+    return;
+  }
   for (const PairOfCells& pair : pairs_) {
     if (pair.old_patch < 0 || pair.patch < 0) continue;
     heirs_.push_back({static_cast<std::uint32_t>(pair.old_patch),
@@ -319,16 +278,45 @@ double StructureContacts<Law>::inherit(const Motion& motion, double dt) {
                              return p.old_patch == q.old_patch && p.patch == q.patch;
                            }),
                heirs_.end());
+}
+
+template <ContactLaw Law>
+void StructureContacts<Law>::add_up_patches(Positions x) {
+  largest_overlap_ratio_ = 0.0;
+  for (Patch& patch : patches_) patch.reset();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const PairTerm& term = terms_[terms_.acting()[i]];
+    const Places& places = places_[i];
+    const Meeting& meeting = meetings_[term.spring];
+    const double radius = std::min(meeting.radius_first, meeting.radius_second);
+    largest_overlap_ratio_ = std::max(largest_overlap_ratio_, term.overlap / radius);
+    Patch& patch = patches_[places.patch];
+    patch.energy += term.forces.energy;
+    auto& side_a = places.is_turned ? patch.second : patch.first;
+    auto& side_b = places.is_turned ? patch.first : patch.second;
+    for (std::size_t k = 0; k < term.a.count; ++k)
+      side_a.add_force(places.a[k], term.forces.on_a[k]);
+    for (std::size_t k = 0; k < term.b.count; ++k)
+      side_b.add_force(places.b[k], term.forces.on_b[k]);
+  }
+  for (Patch& patch : patches_) patch.find_totals(meeting_of(patch), x);
+}
+
+/// Hands the histories of the last step's patches to this step's. A spring that comes to count for
+/// more contacts keeps its force, one that counts for less keeps its stretch: neither gains energy.
+/// @returns the energy (J) that is lost on the way
+template <ContactLaw Law>
+double StructureContacts<Law>::inherit(const Motion& motion, double dt) {
   double lost = 0.0;
   for (const Heir& heir : heirs_) {
     if (&heir == heirs_.data() || (&heir - 1)->old_patch != heir.old_patch) {
-      lost += history_energy(previous_[heir.old_patch]);
+      lost += previous_[heir.old_patch].energy;
     }
   }
   for (auto begin = heirs_.begin(); begin != heirs_.end();) {
     const auto end = std::find_if(
         begin, heirs_.end(), [&](const Heir& heir) { return heir.old_patch != begin->old_patch; });
-    const Patch& old = previous_[begin->old_patch];
+    const Legacy& old = previous_[begin->old_patch];
     double total = 0.0;
     for (auto heir = begin; heir != end; ++heir) total += patches_[heir->patch].normal_force;
     for (auto heir = begin; heir != end && total > 0.0; ++heir) {
@@ -350,16 +338,7 @@ double StructureContacts<Law>::inherit(const Motion& motion, double dt) {
 
 template <ContactLaw Law>
 void StructureContacts<Law>::add_forces(NodeForces& forces) const {
-  for (const std::uint32_t acting : acting_) {
-    const PairTerm& term = terms_[acting];
-    for (std::size_t i = 0; i < term.a.count; ++i) {
-      forces.force[index_of(term.a.ids[i])] += term.forces.on_a[i];
-    }
-    for (std::size_t i = 0; i < term.b.count; ++i) {
-      forces.force[index_of(term.b.ids[i])] += term.forces.on_b[i];
-    }
-  }
-  for (const Patch& patch : patches_) patch.add_other_force(meeting_of(patch), forces);
+  for (const Patch& patch : patches_) patch.add_forces(meeting_of(patch), forces);
 }
 
 template <ContactLaw Law>

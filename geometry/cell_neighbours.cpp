@@ -75,7 +75,7 @@ CellNeighbours::CellNeighbours(const Surface& surface, Positions rest, double sk
 }
 
 void CellNeighbours::choose_skin() {
-  constexpr double kInRadii = 0.5;
+  constexpr double kInRadii = 1.0;
   double thinnest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < surface_->structure_count(); ++i)
     thinnest = std::min(thinnest, surface_->radius(id_at<StructureId>(i)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/structure/extended.hpp"
 
+#include "contact/structure/facing_facets.hpp"
 #include "contact/structure/overlap.hpp"
 
 #include <utility>
@@ -8,65 +9,8 @@
 namespace plekton::contact::structure {
 namespace {
 
-constexpr double kCosineOfCrossing = 0.9;
-
 bool is_cylinder(const Simplex& s) {
   return s.count == 2 && !s.is_seam[0];
-}
-
-/// 1 for parallel bodies, 0 and flat where they count as crossing.
-Real parallel_factor(const Real& cosine) {
-  if (cosine.value <= kCosineOfCrossing) return {0.0};
-  const Real share = (1.0 / (1.0 - kCosineOfCrossing)) * (cosine - Real(kCosineOfCrossing));
-  return share * share;
-}
-
-/// Twice the area of a triangle, seen along the axis, times the mean of the energy: exact for a
-/// linear spring.
-Real twice_integral(const FacetOverlap& facets, const Vector& a, const Vector& b, const Vector& c,
-                    const NormalSpring& spring) {
-  const Real double_area = facets.axis.dot((b - a).cross(c - a));
-  const auto middle = [&](const Vector& p, const Vector& q) {
-    return spring.energy(facets.distance(0.5 * (p + q)));
-  };
-  return (1.0 / 3.0) * double_area * (middle(a, b) + middle(b, c) + middle(c, a));
-}
-
-/// The part of the overlap that is in range.
-Polygon in_range(const FacetOverlap& facets, double range) {
-  Polygon kept;
-  const Polygon& region = facets.region;
-  for (std::size_t i = 0; i < region.size(); ++i) {
-    const Real here = Real(range) - facets.distance(region[i]);
-    const Real there = Real(range) - facets.distance(region.next(i));
-    if (here.value > 0.0) kept.add(region[i]);
-    if ((here.value > 0.0) != (there.value > 0.0)) {
-      kept.add(region[i] + (here / (here - there)) * (region.next(i) - region[i]));
-    }
-  }
-  return kept;
-}
-
-/// Whether the energy of two facets is not 0. Most pairs of nearby facets stop here.
-bool face_in_range(const FacetOverlapOf<double>& facets, double range) {
-  if (facets.cosine <= kCosineOfCrossing) return false;
-  for (std::size_t i = 0; i < facets.region.size(); ++i) {
-    if (range - facets.distance(facets.region[i]) > 0.0) return true;
-  }
-  return false;
-}
-
-Real of_facets(const Simplex& a, const Simplex& b, const NormalSpring& spring) {
-  if (std::abs(normal_of(a).dot(normal_of(b))) <= kCosineOfCrossing) return {0.0};
-  if (!face_in_range(face_to_face_now(a, b), spring.range())) return {0.0};
-  const FacetOverlap facets = face_to_face(corners(a, Side::a), corners(b, Side::b));
-  const Real factor = parallel_factor(facets.cosine);
-  const Polygon region = in_range(facets, spring.range());
-  Real twice(0.0);
-  for (std::size_t i = 1; i + 1 < region.size(); ++i) {
-    twice = twice + twice_integral(facets, region[0], region[i], region[i + 1], spring);
-  }
-  return (0.5 / (spring.range() * spring.range())) * factor * twice;
 }
 
 /// Above the interior of the facet.
@@ -84,7 +28,7 @@ Real of_edge_above_facet(const Vector& first, const Vector& last,
                    spring.energy(over->distance(part.to));
   // Cosine to second order of the slope, so that a level cylinder has a derivative.
   const Real cosine = Real(1.0) - 0.5 * over->slope * over->slope;
-  return parallel_factor(cosine) * over->length * (part.to - part.from) *
+  return parallel_share(cosine) * over->length * (part.to - part.from) *
          (1.0 / (6.0 * spring.range())) * sum;
 }
 
@@ -147,7 +91,7 @@ struct Outside {
 Real of_cylinder_beside_side(const std::array<Vector, 2>& cylinder,
                              const std::array<Vector, 2>& side, const NormalSpring& spring,
                              const Outside* outside) {
-  const Real factor = parallel_factor(cosine_between(cylinder, side));
+  const Real factor = parallel_share(cosine_between(cylinder, side));
   if (factor.value == 0.0) return {0.0};
   auto edges = beside(cylinder, side);
   if (!edges) return {0.0};
@@ -177,7 +121,7 @@ Real of_cylinder_and_facet(const std::array<Vector, 2>& cylinder,
 /// Two cylinders, integrated along the mean of their directions.
 Real of_cylinders(const std::array<Vector, 2>& a, std::array<Vector, 2> b,
                   const NormalSpring& spring) {
-  const Real factor = parallel_factor(cosine_between(a, b));
+  const Real factor = parallel_share(cosine_between(a, b));
   if (factor.value == 0.0) return {0.0};
   if ((a[1] - a[0]).dot(b[1] - b[0]).value < 0.0) std::swap(b[0], b[1]);
   const Vector along_a = unit(a[1] - a[0]);
@@ -209,7 +153,7 @@ bool can_extend(const Simplex& a, const Simplex& b) {
 }
 
 PairForces extended_part(const Simplex& a, const Simplex& b, const NormalSpring& spring) {
-  if (a.count == 3 && b.count == 3) return forces_of(of_facets(a, b, spring));
+  if (a.count == 3 && b.count == 3) return facing_facets(a, b, spring);
   if (a.count == 3) {
     return forces_of(of_cylinder_and_facet(ends(b, Side::b), corners(a, Side::a), spring));
   }

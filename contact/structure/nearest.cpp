@@ -43,6 +43,13 @@ bool holds(const EdgeOf& edge, unsigned corners) {
   return (corners & ~(1u << edge.first | 1u << edge.last)) == 0;
 }
 
+/// Whether the angle of two planes is certainly beyond kParallelPlanes; cheap.
+bool are_crossing(const Vec3& normal_a, const Vec3& normal_b) {
+  constexpr double kLimit = 1.000001 * kParallelPlanes * kParallelPlanes;
+  return normal_a.cross(normal_b).squaredNorm() >
+         kLimit * normal_a.squaredNorm() * normal_b.squaredNorm();
+}
+
 std::optional<PairForces> parallel_facets(const Simplex& a, const Simplex& b,
                                           const NormalSpring& spring) {
   if (normal_of(a).cross(normal_of(b)).norm() > kParallelPlanes) return {};
@@ -73,7 +80,7 @@ struct FlatEdge {
 void find_flat_edge(const Simplex& simplex, unsigned corners, const Simplex& facet, bool is_of_a,
                     double& least, std::optional<FlatEdge>& found) {
   if (facet.count != 3) return;
-  const Vec3 long_normal = (facet.x[1] - facet.x[0]).cross(facet.x[2] - facet.x[0]);
+  const Vec3 long_normal = area_normal_of(facet);
   for (std::size_t k = 0; k < edge_count(simplex); ++k) {
     const EdgeOf edge = edge_of(simplex, k);
     if (!holds(edge, corners) || is_steep(simplex, edge, long_normal)) continue;
@@ -158,13 +165,36 @@ PairForces at_nearest_points(const CoreProximity& nearest, const NormalSpring& s
   return pair;
 }
 
+namespace {
+
+bool may_lie_flat(const Simplex& simplex, unsigned corners, const Simplex& facet) {
+  if (facet.count != 3) return false;
+  const Vec3 long_normal = area_normal_of(facet);
+  for (std::size_t k = 0; k < edge_count(simplex); ++k) {
+    const EdgeOf edge = edge_of(simplex, k);
+    if (holds(edge, corners) && !is_steep(simplex, edge, long_normal)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool may_be_flat(const Simplex& a, const Simplex& b, const CoreProximity& nearest) {
+  if (a.count == 3 && b.count == 3 && !are_crossing(area_normal_of(a), area_normal_of(b)))
+    return true;
+  return may_lie_flat(a, nearest.points.corners_a, b) ||
+         may_lie_flat(b, nearest.points.corners_b, a);
+}
+
 PairForces nearest_part(const Simplex& a, const Simplex& b, const CoreProximity& nearest,
-                        const NormalSpring& spring) {
+                        bool may_be_flat, const NormalSpring& spring) {
   if (a.count > 1 && b.count > 1) {
-    if (a.count == 3 && b.count == 3) {
-      if (const auto pair = parallel_facets(a, b, spring)) return *pair;
+    if (may_be_flat) {
+      if (a.count == 3 && b.count == 3) {
+        if (const auto pair = parallel_facets(a, b, spring)) return *pair;
+      }
+      if (const auto pair = edge_over_facet(a, b, nearest, spring)) return *pair;
     }
-    if (const auto pair = edge_over_facet(a, b, nearest, spring)) return *pair;
     if (const auto pair = edge_beside_edge(a, b, nearest, spring)) return *pair;
   }
   return at_nearest_points(nearest, spring);

@@ -18,12 +18,13 @@ struct IntervalOf {
 };
 using Interval = IntervalOf<Real>;
 
-/// A convex polygon with room for what two triangles and a cut leave.
+/// A convex polygon with room for what three cuts leave of a triangle, also where rounding takes
+/// corners for dents: 4, 6, 9 corners.
 template <class Number>
 class PolygonOf {
  public:
   using Corner = geometry::PackVec3<Number>;
-  static constexpr std::size_t kMostCorners = 8;
+  static constexpr std::size_t kMostCorners = 9;
 
   PolygonOf() = default;
   PolygonOf(const PolygonOf& other) { *this = other; }

@@ -5,6 +5,7 @@
 #include "contact/structure/nearest.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace plekton::contact::structure {
@@ -67,20 +68,42 @@ double gap_of_boxes(const Simplex& a, const Simplex& b) {
   return widest;
 }
 
-void add(const PairForces& from, double weight, PairForces& to) {
-  to.energy += weight * from.energy;
-  for (std::size_t i = 0; i < 3; ++i) {
-    to.on_a[i] += weight * from.on_a[i];
-    to.on_b[i] += weight * from.on_b[i];
+/// A point of a core.
+struct PointOnCore {
+  unsigned corners;  ///< that span it
+  const Vec3& weights;
+};
+
+/// Finds the same point on a feature of the core; all results are written one by one, as they are
+/// read again. @returns whether it lies there
+bool find_on(const geometry::FeatureNodes& feature, const geometry::FeatureNodes& core,
+             const PointOnCore& point, unsigned& corners, Vec3& weights) {
+  corners = 0;
+  weights[0] = weights[1] = weights[2] = 0.0;
+  for (unsigned rest = point.corners; rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+    std::size_t place = 0;
+    while (place < feature.count && feature.ids[place] != core.ids[k]) ++place;
+    if (place == feature.count) return false;
+    corners |= 1U << place;
+    weights[static_cast<int>(place)] = point.weights[static_cast<int>(k)];
   }
+  return true;
 }
 
-void assign(const PairForces& from, double weight, PairForces& to) {
-  to.energy = weight * from.energy;
-  for (std::size_t i = 0; i < 3; ++i) {
-    to.on_a[i] = weight * from.on_a[i];
-    to.on_b[i] = weight * from.on_b[i];
-  }
+/// Adds forces, as often as the term counts.
+void add(const PairForces& from, PairTerm& term) {
+  PairForces& to = term.forces;
+  to.energy += term.weight * from.energy;
+  for (std::size_t i = 0; i < term.a.count; ++i) to.on_a[i] += term.weight * from.on_a[i];
+  for (std::size_t i = 0; i < term.b.count; ++i) to.on_b[i] += term.weight * from.on_b[i];
+}
+
+void assign(const PairForces& from, PairTerm& term) {
+  PairForces& to = term.forces;
+  to.energy = term.weight * from.energy;
+  for (std::size_t i = 0; i < term.a.count; ++i) to.on_a[i] = term.weight * from.on_a[i];
+  for (std::size_t i = 0; i < term.b.count; ++i) to.on_b[i] = term.weight * from.on_b[i];
 }
 
 }  // namespace
@@ -98,28 +121,59 @@ PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair
   return term;
 }
 
-double evaluate(PairTerm& term, const NormalSpring& spring, geometry::Positions x) {
-  const bool was_in_range = term.in_range;
-  term.in_range = term.meets = false;
+TermProximity proximity(const PairTerm& term, double range, geometry::Positions x, bool was_near,
+                        const geometry::closest::Carriers& last) {
   const Simplex a = simplex_at(term.a, term.is_seam_a, x);
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
-  if (!was_in_range) {  // what was in range mostly still is
-    const double gap = gap_of_boxes(a, b) - spring.range();
-    if (gap > 0.0) return gap;
+  TermProximity found{};
+  if (was_near) {  // what was near mostly still is, at the same features
+    found.cores = geometry::core_proximity(core_of(a), core_of(b), last);
+  } else {
+    found.clearance = gap_of_boxes(a, b) - range;
+    if (found.clearance > 0.0) return found;
+    found.cores = geometry::core_proximity(core_of(a), core_of(b));
   }
-  const CoreProximity nearest = geometry::core_proximity(core_of(a), core_of(b));
-  const double clearance = nearest.signed_distance - spring.range();
-  if (!(nearest.signed_distance < spring.range())) return clearance;
-  term.in_range = true;
+  found.clearance = found.cores.signed_distance - range;
+  if (found.clearance < 0.0) found.may_be_flat = may_be_flat(a, b, found.cores);
+  return found;
+}
+
+bool takes_over(const PairTerm& term, const PairTerm& other, bool is_turned,
+                const TermProximity& of_other, TermProximity& found) {
+  const geometry::ClosestPoints& points = of_other.cores.points;
+  if (points.relation != geometry::Relation::apart) return false;
+  const PointOnCore on_a{points.corners_a, points.weights_a};
+  const PointOnCore on_b{points.corners_b, points.weights_b};
+  geometry::ClosestPoints& own = found.cores.points;
+  if (!find_on(term.a, is_turned ? other.b : other.a, is_turned ? on_b : on_a, own.corners_a,
+               own.weights_a) ||
+      !find_on(term.b, is_turned ? other.a : other.b, is_turned ? on_a : on_b, own.corners_b,
+               own.weights_b)) {
+    return false;
+  }
+  const double sign = is_turned ? -1.0 : 1.0;
+  own.separation = sign * points.separation;
+  own.distance = points.distance;
+  own.relation = points.relation;
+  found.cores.normal = sign * of_other.cores.normal;
+  found.cores.signed_distance = of_other.cores.signed_distance;
+  found.may_be_flat = of_other.may_be_flat;
+  return true;
+}
+
+void evaluate(PairTerm& term, const TermProximity& found, const NormalSpring& spring,
+              geometry::Positions x) {
+  const CoreProximity& nearest = found.cores;
   term.meets = nearest.points.relation == geometry::Relation::touching_or_crossing;
   term.overlap = spring.range() - nearest.signed_distance;
   if (nearest.signed_distance < kMeeting * spring.range()) {
-    assign(at_nearest_points(nearest, spring), term.weight, term.forces);
-    return clearance;
+    assign(at_nearest_points(nearest, spring), term);
+    return;
   }
-  assign(nearest_part(a, b, nearest, spring), term.weight, term.forces);
-  if (can_extend(a, b)) add(extended_part(a, b, spring), term.weight, term.forces);
-  return clearance;
+  const Simplex a = simplex_at(term.a, term.is_seam_a, x);
+  const Simplex b = simplex_at(term.b, term.is_seam_b, x);
+  assign(nearest_part(a, b, nearest, found.may_be_flat, spring), term);
+  if (can_extend(a, b)) add(extended_part(a, b, spring), term);
 }
 
 }  // namespace plekton::contact::structure

@@ -4,6 +4,7 @@
 #include "contact/motion.hpp"
 #include "contact/structure/normal_spring.hpp"
 #include "contact/structure/simplex.hpp"
+#include "geometry/closest/core_pair.hpp"
 #include "geometry/product_features.hpp"
 
 #include <array>
@@ -22,7 +23,6 @@ struct PairTerm {
   std::uint32_t holder_count;
   std::uint32_t spring;  ///< of its two structures
   bool is_of_cells;      ///< of two facets or cylinders, not of their sides
-  bool in_range = false;
   bool meets = false;    ///< the cores touch or cross; exact
   double overlap = 0.0;  ///< m, of the nearest points
   PairForces forces;     ///< weight times those of the nearest points, plus those of the extent
@@ -30,8 +30,27 @@ struct PairTerm {
 
 PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair& pair);
 
-/// Finds the forces of a term at the present positions.
-/// @returns m, by how much its cores are at least further apart than the range; negative in range
-double evaluate(PairTerm& term, const NormalSpring& spring, geometry::Positions x);
+/// Where the cores of a term are nearest.
+struct TermProximity {
+  geometry::CoreProximity cores;  ///< meaningful in range only, as the next
+  bool may_be_flat;               ///< see nearest.hpp
+  double clearance;  ///< m, by how much the cores are at least further apart than the range;
+                     ///< negative in range
+};
+
+/// @param was_near  whether the term was in range a moment ago, and last says where
+TermProximity proximity(const PairTerm& term, double range, geometry::Positions x, bool was_near,
+                        const geometry::closest::Carriers& last);
+
+/// Nearest points of a term whose features are faces of those of another, where these points lie in
+/// the smaller features: they are the same.
+/// @param is_turned  feature a of the term belongs to b of the other
+/// @returns whether they do; if so, found is set
+bool takes_over(const PairTerm& term, const PairTerm& other, bool is_turned,
+                const TermProximity& of_other, TermProximity& found);
+
+/// Finds the forces of a term in range.
+void evaluate(PairTerm& term, const TermProximity& found, const NormalSpring& spring,
+              geometry::Positions x);
 
 }  // namespace plekton::contact::structure

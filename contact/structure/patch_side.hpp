@@ -4,49 +4,56 @@
 #include "contact/motion.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <span>
-#include <utility>
 #include <vector>
 
 namespace plekton::contact::structure {
 
-/// The nodes of one side of a patch, each with its share of the patch's force. A share may be
-/// negative; the shares add up to 1.
+/// The nodes of one side of a patch, each with the elastic force on it and with its share of the
+/// patch's force. A share may be negative; the shares add up to 1.
 class PatchSide {
  public:
-  static constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
+  void clear() noexcept { nodes_.clear(); }
+  /// Any number of times each, before sort().
+  void add(NodeId node) { nodes_.push_back(node); }
+  void sort() {
+    std::sort(nodes_.begin(), nodes_.end());
+    nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+    shares_.assign(nodes_.size(), 0.0);
+  }
+  /// Of a node that was added.
+  std::uint32_t place_of(NodeId node) const {
+    const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), node);
+    return static_cast<std::uint32_t>(found - nodes_.begin());
+  }
 
-  void clear() noexcept { shares_.clear(); }
-  void add(NodeId node, double share) { shares_.emplace_back(node, share); }
+  void reset_forces() { forces_.assign(nodes_.size(), Vec3::Zero()); }
+  void add_force(std::uint32_t place, const Vec3& force) noexcept { forces_[place] += force; }
+  Vec3 total_force() const {
+    Vec3 total = Vec3::Zero();
+    for (const Vec3& force : forces_) total += force;
+    return total;
+  }
 
-  /// Adds up what each node was given; finds the point on which the force acts.
-  /// @param places  by NodeId, all kNowhere; so they are again afterwards
-  void finish(Positions x, std::span<std::uint32_t> places) {
-    std::uint32_t kept = 0;
-    for (std::size_t i = 0; i < shares_.size(); ++i) {
-      std::uint32_t& place = places[index_of(shares_[i].first)];
-      if (place == kNowhere) {
-        place = kept;
-        shares_[kept++] = shares_[i];
-      } else {
-        shares_[place].second += shares_[i].second;
-      }
-    }
-    shares_.resize(kept);
-    for (const auto& entry : shares_) places[index_of(entry.first)] = kNowhere;
-    std::sort(shares_.begin(), shares_.end(),
-              [](const auto& p, const auto& q) { return p.first < q.first; });
+  /// Finds the shares, and the point on which the force acts.
+  /// @param per_force  1/N, the total force over its square: a share is that of the force along it
+  void find_shares(Positions x, const Vec3& per_force) {
     point_ = Vec3::Zero();
-    const Vec3 origin = shares_.empty() ? Vec3(Vec3::Zero()) : x[index_of(shares_[0].first)];
+    const Vec3 origin = nodes_.empty() ? Vec3(Vec3::Zero()) : x[index_of(nodes_[0])];
     double sum = 0.0;
-    for (const auto& [node, share] : shares_) {
-      point_ += share * (x[index_of(node)] - origin);
-      sum += share;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      shares_[i] = per_force.dot(forces_[i]);
+      point_ += shares_[i] * (x[index_of(nodes_[i])] - origin);
+      sum += shares_[i];
     }
-    for (auto& entry : shares_) entry.second /= sum;
+    for (double& share : shares_) share /= sum;
     point_ = origin + point_ / sum;
+  }
+
+  /// What add_force() has added up, on the nodes.
+  void add_elastic_forces(NodeForces& forces) const {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) forces.force[index_of(nodes_[i])] += forces_[i];
   }
 
   /// m, weighted mean of the nodes.
@@ -55,35 +62,38 @@ class PatchSide {
   /// Velocity (m/s) of the material point at a lever (m) from point().
   Vec3 velocity_at(const Vec3& lever, const Motion& motion) const {
     Vec3 velocity = Vec3::Zero();
-    for (const auto& [node, share] : shares_) {
+    for_each_share([&](NodeId node, double share) {
       const std::size_t i = index_of(node);
       velocity += share * (motion.velocity[i] + motion.angular_velocity[i].cross(lever));
-    }
+    });
     return velocity;
   }
   Vec3 angular_velocity(const Motion& motion) const {
     Vec3 spin = Vec3::Zero();
-    for (const auto& [node, share] : shares_)
+    for_each_share([&](NodeId node, double share) {
       spin += share * motion.angular_velocity[index_of(node)];
+    });
     return spin;
   }
 
   /// Transpose of velocity_at.
   void add_force_at(const Vec3& lever, const Vec3& force, NodeForces& forces) const {
     const Vec3 torque = lever.cross(force);
-    for (const auto& [node, share] : shares_) {
+    for_each_share([&](NodeId node, double share) {
       forces.force[index_of(node)] += share * force;
       forces.torque[index_of(node)] += share * torque;
-    }
+    });
   }
 
   template <class Visit>
   void for_each_share(Visit&& visit) const {
-    for (const auto& [node, share] : shares_) visit(node, share);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) visit(nodes_[i], shares_[i]);
   }
 
  private:
-  std::vector<std::pair<NodeId, double>> shares_;
+  std::vector<NodeId> nodes_;  ///< ascending
+  std::vector<Vec3> forces_;   ///< N
+  std::vector<double> shares_;
   Vec3 point_ = Vec3::Zero();
 };
 

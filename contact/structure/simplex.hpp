@@ -18,9 +18,13 @@ struct Simplex {
                                   ///< sides of it; of an edge: whether facets lie on it
 };
 
-/// Unit, by the order of the corners.
+/// By the order of the corners; as long as twice the area.
+inline Vec3 area_normal_of(const Simplex& facet) {
+  return (facet.x[1] - facet.x[0]).cross(facet.x[2] - facet.x[0]);
+}
+/// Unit.
 inline Vec3 normal_of(const Simplex& facet) {
-  return (facet.x[1] - facet.x[0]).cross(facet.x[2] - facet.x[0]).normalized();
+  return area_normal_of(facet).normalized();
 }
 
 /// What a pair of simplices adds to the energy, and what pushes their nodes.

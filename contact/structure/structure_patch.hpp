@@ -32,17 +32,26 @@ struct StructurePatch {
   ContactMemory<Law> memory;
   Vec3 other_force = Vec3::Zero();  ///< N, on the second side: all that is not elastic
 
-  /// Empty; keeps its room.
-  void clear() {
-    first.clear();
-    second.clear();
+  /// No forces yet; the nodes stay.
+  void reset() {
+    first.reset_forces();
+    second.reset_forces();
     energy = 0.0;
-    elastic_force = Vec3::Zero();
     memory = {};
     other_force = Vec3::Zero();
   }
 
   bool pushes() const noexcept { return normal_force > 0.0; }
+
+  /// What the forces on the nodes come to.
+  void find_totals(const Meeting<Law>& bodies, Positions x) {
+    elastic_force = second.total_force();
+    find_mean(bodies);
+    if (!pushes()) return;
+    const Vec3 per_force = elastic_force / (normal_force * normal_force);
+    first.find_shares(x, -per_force);
+    second.find_shares(x, per_force);
+  }
 
   /// Mean overlap, that of a linear spring with this force and energy; how many springs that are.
   void find_mean(const Meeting<Law>& bodies) {
@@ -72,7 +81,9 @@ struct StructurePatch {
     return result.dissipated;
   }
 
-  void add_other_force(const Meeting<Law>& bodies, NodeForces& forces) const {
+  void add_forces(const Meeting<Law>& bodies, NodeForces& forces) const {
+    first.add_elastic_forces(forces);
+    second.add_elastic_forces(forces);
     if (!pushes()) return;
     first.add_force_at(lever_of_first(bodies), -other_force, forces);
     second.add_force_at(lever_of_second(bodies), other_force, forces);

@@ -60,14 +60,31 @@ ClosestPoints closest_points(const Core& a, const Core& b) noexcept {
   return a.count == 2 ? segment_triangle(segment(a), b.x) : triangle_triangle(a.x, b.x);
 }
 
-CoreProximity core_proximity(const Core& a, const Core& b, const Vec3& side) noexcept {
-  const ClosestPoints points = closest_points(a, b);
+namespace {
+
+CoreProximity with_direction(const Core& a, const Core& b, const ClosestPoints& points,
+                             const Vec3& side) {
   // A separation whose square vanishes has no direction in double.
   if (points.relation == Relation::apart && points.distance > 0.0) {
     return {points, (points.separation / points.distance).normalized(), points.distance};
   }
   const DeepSeparation way = way_out(a, b, points, side);
   return {points, way.direction, points.relation == Relation::apart ? 0.0 : -way.depth};
+}
+
+}  // namespace
+
+CoreProximity core_proximity(const Core& a, const Core& b, const Vec3& side) noexcept {
+  return with_direction(a, b, closest_points(a, b), side);
+}
+
+CoreProximity core_proximity(const Core& a, const Core& b,
+                             const closest::Carriers& guess) noexcept {
+  const bool holds = closest::certify(a.corners(), b.corners(), guess) == closest::Verdict::unique;
+  const ClosestPoints points =
+      holds ? closest::evaluate(a.corners(), b.corners(), {guess, Relation::apart})
+            : closest_points(a, b);
+  return with_direction(a, b, points, Vec3::Zero());
 }
 
 }  // namespace plekton::geometry

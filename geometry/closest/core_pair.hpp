@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/closest/certificate.hpp"
 #include "geometry/closest/closest_points.hpp"
 
 #include <array>
@@ -32,5 +33,9 @@ struct CoreProximity {
 /// @param side  see deep_separation(); which way out of cores that meet
 CoreProximity core_proximity(const Core& a, const Core& b,
                              const Vec3& side = Vec3::Zero()) noexcept;
+
+/// The same, bit for bit, and sooner if a guess is right.
+/// @param guess  features that may carry the nearest points, such as those of a moment ago
+CoreProximity core_proximity(const Core& a, const Core& b, const closest::Carriers& guess) noexcept;
 
 }  // namespace plekton::geometry

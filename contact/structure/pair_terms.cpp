@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/structure/pair_terms.hpp"
+
+#include <algorithm>
+
+namespace plekton::contact::structure {
+namespace {
+
+/// Calls visit(i) for i below a count. Terms cost very different times, and the costly ones come
+/// first: threads take turns.
+template <class Visit>
+void in_turns(std::size_t count, geometry::ThreadPool& pool, Visit visit) {
+  const auto stride = static_cast<std::size_t>(pool.thread_count());
+  pool.for_each_range(stride, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t first = begin; first < end; ++first) {
+      for (std::size_t i = first; i < count; i += stride) visit(i);
+    }
+  });
+}
+
+}  // namespace
+
+void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
+  const geometry::ProductFeatures features = geometry::product_features(*surface_, pairs);
+  terms_.clear();
+  holders_.clear();
+  first_holders_.clear();
+  acting_.clear();
+  terms_are_new_ = true;
+  term_of_pair_.resize(pairs.size());
+  proximity_.resize(pairs.size());
+  is_near_.assign(pairs.size(), 0);
+  for (const std::uint32_t pair : features.holders) holders_.push_back({pair, false});
+  const std::size_t count = surface_->structure_count();
+  for (const geometry::FeaturePair& pair : features.pairs) {
+    PairTerm term = pair_term(*surface_, pair);
+    const auto first = index_of(surface_->structure_of(term.a.ids[0]));
+    const auto second = index_of(surface_->structure_of(term.b.ids[0]));
+    term.spring = static_cast<std::uint32_t>(first * count - first * (first + 1) / 2 + second);
+    for (std::uint32_t h = 0; h < term.holder_count; ++h) {
+      Holder& holder = holders_[term.first_holder + h];
+      const auto nodes = surface_->nodes_of(pairs[holder.pair].a);
+      holder.is_turned = std::find(nodes.begin(), nodes.end(), term.a.ids[0]) == nodes.end();
+      if (term.is_of_cells) term_of_pair_[holder.pair] = static_cast<std::uint32_t>(terms_.size());
+    }
+    first_holders_.push_back(term.first_holder);
+    terms_.push_back(term);
+  }
+  first_holders_.push_back(static_cast<std::uint32_t>(holders_.size()));
+}
+
+void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& motion,
+                         geometry::ThreadPool& pool) {
+  find_near_pairs(springs, motion, pool);
+  list_candidates();
+  is_acting_.resize(candidates_.size());
+  in_turns(candidates_.size(), pool, [&](std::size_t i) {
+    is_acting_[i] = evaluate_candidate(terms_[candidates_[i]], springs, motion.position);
+  });
+  acted_.swap(acting_);
+  acting_.clear();
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (is_acting_[i] != 0) acting_.push_back(candidates_[i]);
+  }
+  acting_changed_ = terms_are_new_ || acting_ != acted_;
+  terms_are_new_ = false;
+}
+
+void PairTerms::find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
+                                geometry::ThreadPool& pool) {
+  if (terms_are_new_) {
+    clearances_.reset(term_of_pair_.size(), motion.position);
+  } else {
+    clearances_.move(motion.way, motion.position);
+  }
+  due_.clear();
+  clearances_.for_each_due([&](std::size_t i) { due_.push_back(static_cast<std::uint32_t>(i)); });
+  in_turns(due_.size(), pool, [&](std::size_t i) {
+    const std::uint32_t pair = due_[i];
+    const PairTerm& term = terms_[term_of_pair_[pair]];
+    TermProximity& found = proximity_[pair];
+    const geometry::closest::Carriers last{found.cores.points.corners_a,
+                                           found.cores.points.corners_b};
+    found =
+        proximity(term, springs[term.spring].range(), motion.position, is_near_[pair] != 0, last);
+  });
+  for (const std::uint32_t pair : due_) {
+    clearances_.set(pair, proximity_[pair].clearance);
+    is_near_[pair] = proximity_[pair].clearance < 0.0;
+  }
+}
+
+/// Terms that may be in range: all pairs of cells that have them are.
+void PairTerms::list_candidates() {
+  candidates_.clear();
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    // A term's holders lie behind those of the one before.
+    const Holder* const first = holders_.data() + first_holders_[i];
+    const Holder* const last = holders_.data() + first_holders_[i + 1];
+    if (std::all_of(first, last, [&](const Holder& of) { return is_near_[of.pair] != 0; }))
+      candidates_.push_back(static_cast<std::uint32_t>(i));
+  }
+}
+
+/// @returns whether it is in range
+bool PairTerms::evaluate_candidate(PairTerm& term, std::span<const NormalSpring> springs,
+                                   Positions x) {
+  const NormalSpring& spring = springs[term.spring];
+  if (term.is_of_cells) {
+    structure::evaluate(term, proximity_[holders(term).front().pair], spring, x);
+    return true;
+  }
+  TermProximity own;
+  for (const Holder& holder : holders(term)) {
+    const PairTerm& cells = terms_[term_of_pair_[holder.pair]];
+    if (!takes_over(term, cells, holder.is_turned, proximity_[holder.pair], own)) continue;
+    structure::evaluate(term, own, spring, x);
+    return true;
+  }
+  own = proximity(term, spring.range(), x, false, {});
+  if (own.clearance < 0.0) structure::evaluate(term, own, spring, x);
+  return own.clearance < 0.0;
+}
+
+}  // namespace plekton::contact::structure

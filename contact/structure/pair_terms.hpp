@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/structure/clearances.hpp"
+#include "contact/structure/pair_term.hpp"
+#include "geometry/thread_pool.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plekton::contact::structure {
+
+/// A pair of cells that has the features of a term.
+struct Holder {
+  std::uint32_t pair;
+  bool is_turned;  ///< feature a belongs to its second cell
+};
+
+/// All pairs of features of the listed pairs of cells, and what they do in the present step.
+///
+/// A feature is a part of its cell: it is in range only if all pairs of cells that have it are, and
+/// where their nearest points lie in it, these are its own. So pairs of cells are looked at first,
+/// as far as they may be in range (clearances.hpp), and for most of their features nothing more has
+/// to be found.
+class PairTerms {
+ public:
+  explicit PairTerms(const geometry::Surface& surface) : surface_(&surface) {}
+
+  /// @param pairs  sorted, each once
+  void rebuild(std::span<const geometry::CellPair> pairs);
+
+  /// Finds which terms are in range, and their forces.
+  /// @param springs  by the rows of the upper triangle of pairs of structures
+  void evaluate(std::span<const NormalSpring> springs, const Motion& motion,
+                geometry::ThreadPool& pool);
+
+  bool empty() const noexcept { return terms_.empty(); }
+  const PairTerm& operator[](std::size_t term) const noexcept { return terms_[term]; }
+  std::span<const Holder> holders(const PairTerm& term) const noexcept {
+    return {holders_.data() + term.first_holder, term.holder_count};
+  }
+
+  /// Terms in range, ascending.
+  std::span<const std::uint32_t> acting() const noexcept { return acting_; }
+  /// Whether these are others than in the step before, or the terms are new.
+  bool acting_changed() const noexcept { return acting_changed_; }
+
+ private:
+  void find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
+                       geometry::ThreadPool& pool);
+  void list_candidates();
+  bool evaluate_candidate(PairTerm& term, std::span<const NormalSpring> springs, Positions x);
+
+  const geometry::Surface* surface_;
+  std::vector<PairTerm> terms_;
+  std::vector<Holder> holders_;
+  std::vector<std::uint32_t> first_holders_;  ///< by term, and the number of all
+  std::vector<std::uint32_t> term_of_pair_;   ///< of both cells
+  bool terms_are_new_ = false;
+  Clearances clearances_;                 ///< of the pairs of cells
+  std::vector<std::uint32_t> due_;        ///< pairs of cells that may be in range, ascending
+  std::vector<TermProximity> proximity_;  ///< by pair; of those in range, as it is now
+  std::vector<char> is_near_;             ///< by pair: in range
+  std::vector<std::uint32_t> candidates_;
+  std::vector<char> is_acting_;  ///< by candidate
+  std::vector<std::uint32_t> acting_;
+  std::vector<std::uint32_t> acted_;  ///< in the step before
+  bool acting_changed_ = false;
+};
+
+}  // namespace plekton::contact::structure
