@@ -72,6 +72,7 @@ class PlaneContacts {
     std::array<std::size_t, kBlockLanes> slot;
     std::array<double, kBlockLanes> height;
     std::size_t count = 0;
+    bool all_have_images = true;  ///< none is so deep that it is beyond its mirror image
   };
 
   /// One step of slots that touch, side by side if the law allows. @returns the energy (J)
@@ -83,8 +84,8 @@ class PlaneContacts {
               Block& block) const;
   template <class Block>
   double scatter(const Touching& touching, const Block& block, Records& records);
-  double advance_one(std::size_t i, double gap, const Motion& motion, std::span<const Plane> planes,
-                     double dt, Records& records);
+  double advance_one(std::size_t i, double height, const Motion& motion,
+                     std::span<const Plane> planes, double dt, Records& records);
 
   std::vector<Slot> slots_;
   ForceRecords<PlaneForce> records_;
@@ -124,12 +125,14 @@ double PlaneContacts<Law>::advance(const Motion& motion, std::span<const Plane> 
       if (height < slot.radius) {
         touching.slot[touching.count] = i;
         touching.height[touching.count++] = height;
+        touching.all_have_images &= height + slot.radius > 0.0;
       } else {
         dissipated += forget<Law>(slot.parameters, slot.memory);
       }
       if (touching.count < kBlockLanes && i + 1 < end) continue;
       dissipated += advance_touching(touching, motion, planes, dt, records);
       touching.count = 0;
+      touching.all_have_images = true;
     }
     return dissipated;
   });
@@ -142,13 +145,13 @@ double PlaneContacts<Law>::advance_touching(const Touching& touching, const Moti
   if constexpr (LaneLaw<Law>) {
     BallBlock<Law> block;
     gather(touching, motion, planes, block);
-    if (advance_side_by_side(block, touching.count, dt)) return scatter(touching, block, records);
+    if (touching.all_have_images && advance_side_by_side(block, touching.count, dt))
+      return scatter(touching, block, records);
   }
   double dissipated = 0.0;
   for (std::size_t k = 0; k < touching.count; ++k) {
     const std::size_t i = touching.slot[k];
-    dissipated +=
-        advance_one(i, touching.height[k] - slots_[i].radius, motion, planes, dt, records);
+    dissipated += advance_one(i, touching.height[k], motion, planes, dt, records);
   }
   return dissipated;
 }
@@ -195,25 +198,32 @@ double PlaneContacts<Law>::scatter(const Touching& touching, const Block& block,
   return dissipated;
 }
 
+/// The arithmetic of gather() and its kernel; beyond the mirror, where that has no image, the plane
+/// goes on pushing.
 template <ContactLaw Law>
-double PlaneContacts<Law>::advance_one(std::size_t i, double gap, const Motion& motion,
+double PlaneContacts<Law>::advance_one(std::size_t i, double height, const Motion& motion,
                                        std::span<const Plane> planes, double dt, Records& records) {
   Slot& slot = slots_[i];
   const Plane& plane = planes[slot.plane];
   const std::size_t node = index_of(slot.node);
-  const Vec3 normal = -plane.normal;
-  const Vec3 lever = (slot.radius + 0.5 * gap) * normal;
-  const Vec3& spin = motion.angular_velocity[node];
-  const Vec3 relative_velocity = plane.velocity - motion.velocity[node] - spin.cross(lever);
-  const RelativeMotion relative = relative_motion(
-      normal, gap, Law::elastic_normal_force(slot.parameters, gap), relative_velocity);
-
-  slot.gap = gap;
-  slot.memory = {carried_history<Law>(slot.memory, normal, dt * 0.5 * spin.dot(normal)), normal};
-  const ContactForce result = Law::force(slot.parameters, relative, slot.memory.history, dt);
-  records.add({slot.node, slot.plane, result.force, -lever.cross(result.force), i},
-              -gap / slot.radius);
-  return result.dissipated;
+  const Vec3 separation = -(height + slot.radius) * plane.normal;
+  const bool is_before = height + slot.radius > 0.0;
+  const double distance = is_before ? separation.norm() : height + slot.radius;
+  const BallPairOf<double> pair{
+      is_before ? Vec3((1.0 / distance) * separation) : Vec3(-plane.normal),
+      distance,
+      plane.velocity - motion.velocity[node],
+      motion.angular_velocity[node],
+      Vec3::Zero(),
+      slot.radius,
+      slot.radius};
+  slot.memory = {carried_history<Law>(slot.memory, pair.normal, dt * pair.twist_rate()),
+                 pair.normal};
+  const BallStepOf<double> step = ball_step<Law>(pair, slot.parameters, slot.memory.history, dt);
+  slot.gap = step.gap;
+  records.add({slot.node, slot.plane, step.force, step.arm_a * step.force_cross_normal, i},
+              -step.gap / slot.radius);
+  return step.dissipated;
 }
 
 template <ContactLaw Law>

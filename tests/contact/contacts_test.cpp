@@ -125,5 +125,26 @@ TEST(Contacts, SeeWhereABallMeetsAPlaneThoughTheSkinHasGrown) {
   EXPECT_GT(contacts.neighbours().skin(), 0.3);
 }
 
+TEST(Contacts, PushABallOutHoweverDeepItStartsBehindAPlane) {
+  std::vector<Vec3> x{Vec3(0, 0, 0)};
+  const std::vector<Sphere> spheres{{{NodeId{0}}, 1.0}};
+  const Surface surface({}, {}, 1);
+  const std::vector<Plane> floor{{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}}};
+  const std::vector<Vec3> still(1, Vec3::Zero());
+  geometry::ThreadPool pool(1);
+  for (const double height : {0.5, -0.5, -1.0, -1.5, -4.0}) {
+    Contacts<LinearFrictional> contacts(
+        spheres, surface,
+        {MaterialPairs<LinearFrictional>({Material{1e6, 0.5, 0.4}}), {MaterialId{0}}, {}}, 0.02);
+    x[0].z() = height;
+    contacts.advance({x, still, still}, floor, 1e-3, pool);
+    NodeForces forces(1);
+    contacts.add_forces(forces, pool);
+
+    // A few roundings of the stiffness 1e6 N/m times the overlap.
+    EXPECT_NEAR(forces.force[0].z(), 1e6 * (1.0 - height), 1e-14 * 1e6 * 5.0) << height;
+  }
+}
+
 }  // namespace
 }  // namespace plekton::test
