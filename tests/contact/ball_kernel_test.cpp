@@ -2,6 +2,7 @@
 #include "contact/balls/ball_block.hpp"
 #include "contact/balls/ball_contacts.hpp"
 #include "contact/laws/linear_frictional.hpp"
+#include "tests/support/one_at_a_time.hpp"
 
 #include <gtest/gtest.h>
 
@@ -143,43 +144,7 @@ TEST(BallKernel, RunsWithTheWidestVectorsOfThisMachine) {
   for (std::size_t lane = 0; lane < cases.size(); ++lane) expect_step_of(cases[lane], block, lane);
 }
 
-/// The same law, written for one contact at a time.
-struct PlainLaw {
-  static constexpr std::string_view name = "plain";
-  using Parameters = Law::Parameters;
-  using History = Law::History;
-  static Parameters multiplied(const Parameters& p, double count) {
-    return LinearFrictional::multiplied(p, count);
-  }
-  static Parameters combine(const Material& a, double ra, const Material& b, double rb) {
-    return Law::combine(a, ra, b, rb);
-  }
-  static double elastic_normal_force(const Parameters& p, double gap) {
-    return Law::elastic_normal_force(p, gap);
-  }
-  static double elastic_normal_energy(const Parameters& p, double gap) {
-    return Law::elastic_normal_energy(p, gap);
-  }
-  static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
-                            double dt) {
-    return Law::force(p, motion, history, dt);
-  }
-  static double history_energy(const Parameters& p, const History& h) {
-    return Law::history_energy(p, h);
-  }
-  static double normal_stiffness(const Parameters& p, double gap) {
-    return Law::normal_stiffness(p, gap);
-  }
-  static double tangential_stiffness(const Parameters& p, double gap) {
-    return Law::tangential_stiffness(p, gap);
-  }
-  static void rotate(History& history, const FrameRotation& rotation) {
-    Law::rotate(history, rotation);
-  }
-  static void add_share(History& h, const History& other, double share) {
-    Law::add_share(h, other, share);
-  }
-};
+using PlainLaw = test::OneAtATime<Law>;
 static_assert(ContactLaw<PlainLaw> && !LaneLaw<PlainLaw> && LaneLaw<Law>);
 
 /// A crowd of balls and all their pairs, thrown about anew before every step.

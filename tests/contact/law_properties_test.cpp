@@ -2,6 +2,7 @@
 #include "contact/contact_memory.hpp"
 #include "contact/laws/linear_frictional.hpp"
 #include "tests/support/seeded_random.hpp"
+#include "tests/support/weakening_slider.hpp"
 
 #include <gtest/gtest.h>
 
@@ -59,7 +60,7 @@ class LawProperties : public ::testing::Test {
   double friction_ = 0.0;
 };
 
-using Laws = ::testing::Types<LinearFrictional>;
+using Laws = ::testing::Types<LinearFrictional, test::WeakeningSlider>;
 TYPED_TEST_SUITE(LawProperties, Laws);
 
 TYPED_TEST(LawProperties, TheOrderOfTheBodiesDoesNotMatter) {
