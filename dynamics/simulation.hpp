@@ -32,6 +32,7 @@ struct SimulationOptions {
 constexpr double kSafety = 0.5;
 /// A given time step must not be above this part of the critical one.
 constexpr double kLargestStep = 0.8;
+
 /// A scene in motion. The state belongs to the simulation; what is given out are views of it.
 template <contact::ContactLaw Law>
 class Simulation {
@@ -145,6 +146,7 @@ void Simulation<Law>::step() {
   if (++steps_ % kStepsBetweenLooks == 0 && chooses_time_step_) choose_time_step();
 }
 
+/// Of another law: simulation_definitions.hpp.
 extern template class Simulation<contact::LinearFrictional>;
 
 }  // namespace plekton::dynamics

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/expected_contacts.hpp"
+#include "dynamics/scene_figures.hpp"
+#include "dynamics/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+/// What the members of Simulation do. For a law that the library does not know: include this in one
+/// source file and write there `template class plekton::dynamics::Simulation<Law>;`.
+namespace plekton::dynamics {
+
+/// What the structures and spheres of a scene are made of.
+template <contact::ContactLaw Law>
+contact::ContactMaterials<Law> contact_materials(const Scene& scene,
+                                                 const geometry::Surface& surface) {
+  std::vector<contact::MaterialId> of_structures(surface.structure_count());
+  for (std::size_t i = 0; i < scene.elements.facets.size(); ++i) {
+    of_structures[index_of(surface.structure_of(scene.elements.facets[i].nodes[0]))] =
+        scene.facet_materials[i];
+  }
+  for (std::size_t i = 0; i < scene.elements.cylinders.size(); ++i) {
+    of_structures[index_of(surface.structure_of(scene.elements.cylinders[i].nodes[0]))] =
+        scene.cylinder_materials[i];
+  }
+  return {contact::MaterialPairs<Law>(scene.materials), scene.sphere_materials,
+          std::move(of_structures)};
+}
+
+template <contact::ContactLaw Law>
+Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
+    : scene_((checked(scene, options), std::move(scene))),
+      motion_(options.motion),
+      pool_(options.threads),
+      surface_(scene_.elements.cylinders, scene_.elements.facets, scene_.state.size()),
+      contacts_(scene_.elements.spheres, surface_, contact_materials<Law>(scene_, surface_),
+                chosen_skin(scene_, options.skin), free_nodes(scene_.properties),
+                options.self_contact ? geometry::Positions(scene_.state.position)
+                                     : geometry::Positions()),
+      bonds_(scene_.bonds, scene_.state.size()),
+      forces_(scene_.state.size()),
+      radii_(node_radii(scene_, surface_)),
+      expected_(scene_.state.size()),
+      furthest_(furthest_in_a_step(scene_)),
+      pace_radius_(pace_radius(scene_.elements)) {
+  least_furthest_ = furthest_.empty() ? 0.0 : *std::min_element(furthest_.begin(), furthest_.end());
+  if (options.skin == 0.0 && !scene_.elements.spheres.empty()) contacts_.tune_skin(pace_radius_);
+  if (options.skin == 0.0) contacts_.choose_skin_of_structures();
+  // The first look at the contacts: histories are empty, so nothing is changed by it.
+  bonds_.advance(scene_.state, pool_);
+  contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_);
+  add_expected_contacts<Law>(scene_, surface_, expected_);
+  NodalStiffness stiffness = expected_;
+  add_bonds_to(stiffness);
+  initial_stiffness_ = stiffness.total();
+  const double critical = critical_step(stiffness).dt;
+  if (options.time_step > kLargestStep * critical) {
+    std::ostringstream text;
+    text << "time step " << options.time_step << " s: the critical time step of this scene is "
+         << critical << " s; choose at most " << kLargestStep << " of it ("
+         << kLargestStep * critical << " s), or 0 to have " << kSafety << " of it chosen";
+    throw std::invalid_argument(text.str());
+  }
+  chooses_time_step_ = options.time_step == 0.0;
+  dt_ = options.time_step;
+  if (chooses_time_step_) {
+    space_ = std::move(stiffness);
+    stable_step_ = kSafety * critical;
+    // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
+    dt_ = std::isfinite(critical) ? std::min(stable_step_, motion_step()) : stable_step_;
+  }
+  initial_gravity_energy_ = gravity_energy(0.0);
+  work_.kinetic = kinetic_energy(scene_.state, scene_.properties);
+  initial_energy_ = work_.kinetic + contacts_.elastic_energy() + bonds_.elastic_energy();
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::set_time_step(double dt) {
+  if (!(dt > 0.0) || !std::isfinite(dt)) {
+    throw std::invalid_argument("time step " + std::to_string(dt) +
+                                " s: must be positive and finite");
+  }
+  dt_ = dt;
+  chooses_time_step_ = false;
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::require_time_step() const {
+  if (std::isfinite(dt_)) return;
+  throw std::logic_error(
+      "no time step: nothing in this scene is both free and stiff, so that none could be chosen; "
+      "give one");
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::set_velocity(NodeId node, const Vec3& velocity,
+                                   const Vec3& angular_velocity) {
+  scene_.state.velocity[index_of(node)] = velocity;
+  scene_.state.angular_velocity[index_of(node)] = angular_velocity;
+  if (!chooses_time_step_ || !std::isfinite(dt_)) return;
+  dt_ = std::min(dt_, longest_step(velocity.norm(), motion_.gravity.norm(), pace_radius_));
+}
+
+template <contact::ContactLaw Law>
+double Simulation<Law>::motion_ratio() const noexcept {
+  return largest_speed(scene_.state) * dt_ / pace_radius_;
+}
+
+/// Longest step that contacts can follow at the speeds of now (s).
+template <contact::ContactLaw Law>
+double Simulation<Law>::motion_step() const noexcept {
+  return longest_step(largest_speed(scene_.state), motion_.gravity.norm(), pace_radius_);
+}
+
+/// Nodes have drifted with the velocities after the last kick.
+template <contact::ContactLaw Law>
+contact::Motion Simulation<Law>::motion() const noexcept {
+  contact::Motion motion = scene_.state.motion();
+  motion.way = fastest_ * last_drift_;
+  return motion;
+}
+
+/// Looks at single nodes only if the fastest is fast enough for one of them.
+template <contact::ContactLaw Law>
+void Simulation<Law>::check_motion() const {
+  if (fastest_ * dt_ <= least_furthest_) return;
+  check_finite(scene_.state, furthest_, dt_, steps_, time_);
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) {
+  StepWork step = work;
+  for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
+    const Vec3& velocity = scene_.planes[i].velocity;
+    if (!velocity.isZero(0.0))
+      step.external -= lengths.kick * contacts_.with_planes().force_on(i).dot(velocity);
+  }
+  // The part of the kick that comes after the moment of the forces: all of the first one, half of
+  // one between drifts of equal lengths.
+  const double later = 0.5 * lengths.drift / lengths.kick;
+  pending_ = {0.0, later * step.damped, later * step.external};
+  if (last_drift_ > 0.0) work_.kinetic = step.kinetic;
+  work_.damped += step.damped;
+  work_.external += step.external;
+  fastest_ = std::sqrt(work.fastest_squared);
+  largest_overlap_ratio_ = std::max(largest_overlap_ratio_, contacts_.largest_overlap_ratio());
+  pass_throughs_ += contacts_.with_surfaces().pass_throughs();
+  most_crossings_ = std::max(most_crossings_, contacts_.between_structures().crossings());
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::choose_time_step() {
+  stable_step_ = std::min(stable_step_, kSafety * critical_step(space_).dt);
+  dt_ = std::min(stable_step_, motion_step());
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::move_planes() {
+  for (contact::Plane& plane : scene_.planes) plane.point += dt_ * plane.velocity;
+}
+
+/// Of the free nodes, at a time before now (s).
+template <contact::ContactLaw Law>
+double Simulation<Law>::gravity_energy(double before) const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < scene_.state.size(); ++i) {
+    if (holds_translation(scene_.properties.held[i])) continue;
+    const Vec3 position = scene_.state.position[i] - before * scene_.state.velocity[i];
+    energy -= scene_.properties.mass[i] * motion_.gravity.dot(position);
+  }
+  return energy;
+}
+
+template <contact::ContactLaw Law>
+Energy Simulation<Law>::energy() const {
+  Energy energy;
+  energy.kinetic = work_.kinetic;
+  energy.contact_elastic = contacts_.elastic_energy();
+  energy.bond_elastic = bonds_.elastic_energy();
+  // Kinetic and elastic energy are those at the moment of the last forces, one step before the
+  // positions.
+  energy.gravity = gravity_energy(last_drift_) - initial_gravity_energy_;
+  energy.friction = contacts_.dissipated();
+  energy.damping = work_.damped - pending_.damped;
+  energy.external_work = work_.external - pending_.external;
+  energy.initial = initial_energy_;
+  energy.rounding = rounding_energy();
+  return energy;
+}
+
+/// What rounding may add up to in the ledger. A place is rounded by eps |x| and a turn by eps in
+/// each step, which is worth 1/2 k (eps |x|)² in a spring; these add up like the variances of a
+/// random walk. The sum over nodes that gives the energy of gravity is rounded by n eps of its
+/// absolute terms, and their change in each step by eps.
+template <contact::ContactLaw Law>
+double Simulation<Law>::rounding_energy() const {
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  double furthest = 0.0;  // m, from the origin
+  double weight = 0.0;    // J, sum of m |g.x|
+  for (std::size_t i = 0; i < scene_.state.size(); ++i) {
+    const Vec3& x = scene_.state.position[i];
+    furthest = std::max(furthest, x.cwiseAbs().maxCoeff());
+    if (holds_translation(scene_.properties.held[i])) continue;
+    weight += scene_.properties.mass[i] * motion_.gravity.cwiseAbs().dot(x.cwiseAbs());
+  }
+  const auto steps = static_cast<double>(steps_);
+  const double springs =
+      initial_stiffness_.translation * furthest * furthest + initial_stiffness_.rotation;
+  return 0.5 * kEps * kEps * springs * (1.0 + steps) +
+         kEps * weight * (static_cast<double>(scene_.state.size()) + steps);
+}
+
+/// Every touching pair, as it is now.
+template <contact::ContactLaw Law>
+void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
+  const auto& x = scene_.state.position;
+  const auto contact = [&](const Vec3& normal, const typename Law::Parameters& parameters, NodeId a,
+                           NodeId b) {
+    return ContactStiffness{normal, Law::normal_stiffness(parameters, 0.0),
+                            Law::tangential_stiffness(parameters, 0.0), radii_[index_of(a)],
+                            radii_[index_of(b)]};
+  };
+  contacts_.with_spheres().for_each_touching(
+      [&](NodeId a, NodeId b, const auto& parameters, double) {
+        const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
+        stiffness.add_pair(a, b, contact(normal, parameters, a, b));
+      });
+  contacts_.with_surfaces().for_each_touching(
+      [&](NodeId ball, const auto& core, const auto& parameters) {
+        const Vec3 normal = (geometry::position(core, x) - x[index_of(ball)]).normalized();
+        stiffness.add_on_surface(ball, core, contact(normal, parameters, ball, core.nodes[0]));
+      });
+  contacts_.between_structures().for_each_stiffness(
+      [&](NodeId node, double normal, double tangential, double radius) {
+        stiffness.add_from_all_sides(node, 2.0 * normal, 2.0 * tangential, radius);
+      });
+  contacts_.with_planes().for_each_touching(
+      [&](NodeId ball, std::size_t plane, const auto& parameters) {
+        stiffness.add_to_wall(ball, contact(scene_.planes[plane].normal, parameters, ball, ball));
+      });
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::add_bonds_to(NodalStiffness& stiffness) const {
+  for (const BeamBond& bond : scene_.bonds) stiffness.add_beam(bond, scene_.state);
+}
+
+template <contact::ContactLaw Law>
+CriticalStep Simulation<Law>::critical_step() const {
+  NodalStiffness space(scene_.state.size());
+  return critical_step(space);
+}
+
+/// @param space  for as many nodes as there are; its contents are overwritten
+template <contact::ContactLaw Law>
+CriticalStep Simulation<Law>::critical_step(NodalStiffness& space) const {
+  space = expected_;
+  add_bonds_to(space);
+  const CriticalStep step_expected = space.critical_step(scene_.properties);
+  space.set_zero();
+  add_bonds_to(space);
+  add_contacts_to(space);
+  const CriticalStep step_now = space.critical_step(scene_.properties);
+  return step_now.dt < step_expected.dt ? step_now : step_expected;
+}
+
+}  // namespace plekton::dynamics
