@@ -43,8 +43,22 @@ TEST(GeometryCheck, SeesTheSameOnAnyNumberOfThreads) {
   for (std::size_t i = 0; i < one.pairs.size(); ++i) {
     EXPECT_EQ(one.pairs[i].queries, three.pairs[i].queries);
     EXPECT_EQ(one.pairs[i].largest_error, three.pairs[i].largest_error);
+    EXPECT_EQ(one.pairs[i].double_doubles, three.pairs[i].double_doubles);
     EXPECT_EQ(one.pairs[i].exact, three.pairs[i].exact);
   }
+}
+
+TEST(GeometryCheck, CountsTheSignsOfEachStage) {
+  PairTally sum{"", ""};
+  for (const PairTally& row : check({20000, 3, 1, {}}, certified).pairs) {
+    sum.double_doubles += row.double_doubles;
+    sum.intervals += row.intervals;
+    sum.exact += row.exact;
+  }
+
+  EXPECT_GT(sum.double_doubles, 0U);
+  EXPECT_GT(sum.intervals, 0U);
+  EXPECT_GE(sum.intervals, sum.exact);
 }
 
 /// The region of a point and a triangle by the signs of barycentric coordinates in double, as it is

@@ -18,18 +18,20 @@ using namespace plekton::geometry_check;
 using Count = unsigned long long;  // what printf knows
 
 void print_pairs(const Report& report) {
-  std::printf("%-18s %-19s %10s %8s %9s %5s %9s %9s %6s %9s %11s %10s %10s\n", "pair", "family",
-              "queries", "wrong", "wrong", "NaN", "wrong", "one-", "jumps", "largest", "enumerated",
-              "interval", "exact");
-  std::printf("%-18s %-19s %10s %8s %9s %5s %9s %9s %6s %9s %11s %10s %10s\n", "", "", "", "region",
-              "relation", "", "distance", "sided", "", "error", "", "signs", "signs");
+  std::printf("%-18s %-19s %10s %8s %9s %5s %9s %9s %6s %9s %11s %10s %10s %10s\n", "pair",
+              "family", "queries", "wrong", "wrong", "NaN", "wrong", "one-", "jumps", "largest",
+              "enumerated", "two-double", "interval", "exact");
+  std::printf("%-18s %-19s %10s %8s %9s %5s %9s %9s %6s %9s %11s %10s %10s %10s\n", "", "", "",
+              "region", "relation", "", "distance", "sided", "", "error", "", "signs", "signs",
+              "signs");
   for (const PairTally& row : report.pairs) {
     std::printf(
-        "%-18s %-19s %10llu %8llu %9llu %5llu %9llu %9llu %6llu %9.1e %11llu %10llu %10llu\n",
+        "%-18s %-19s %10llu %8llu %9llu %5llu %9llu %9llu %6llu %9.1e %11llu %10llu %10llu "
+        "%10llu\n",
         row.pair, row.family, Count{row.queries}, Count{row.wrong_regions},
         Count{row.wrong_relations}, Count{row.not_numbers}, Count{row.wrong_distances},
         Count{row.one_sided}, Count{row.jumps}, row.largest_error, Count{row.enumerated},
-        Count{row.intervals}, Count{row.exact});
+        Count{row.double_doubles}, Count{row.intervals}, Count{row.exact});
   }
 }
 

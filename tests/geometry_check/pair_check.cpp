@@ -197,6 +197,7 @@ void check_pairs(PairTally& row, std::uint64_t queries, std::uint64_t seed, cons
     }
   }
   row.enumerated = geometry::closest_counters().enumerated - closest.enumerated;
+  row.double_doubles = geometry::sign_counters().double_double - signs.double_double;
   row.intervals = geometry::sign_counters().interval - signs.interval;
   row.exact = geometry::sign_counters().exact - signs.exact;
 }

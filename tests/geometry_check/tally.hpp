@@ -18,12 +18,13 @@ struct PairTally {
   std::uint64_t not_numbers = 0;
   std::uint64_t wrong_distances = 0;  ///< relative error above kLargestError, or weights that do
                                       ///< not give the points
-  std::uint64_t one_sided = 0;   ///< (b, a) is not (a, b) with the sides exchanged, bit for bit
-  std::uint64_t jumps = 0;       ///< the distance changed by more than the corners moved
-  double largest_error = 0.0;    ///< relative, of distance and separation
-  std::uint64_t enumerated = 0;  ///< guesses that were not certain and unique
-  std::uint64_t intervals = 0;   ///< signs that the double filter could not tell
-  std::uint64_t exact = 0;       ///< signs that intervals could not tell
+  std::uint64_t one_sided = 0;       ///< (b, a) is not (a, b) with the sides exchanged, bit for bit
+  std::uint64_t jumps = 0;           ///< the distance changed by more than the corners moved
+  double largest_error = 0.0;        ///< relative, of distance and separation
+  std::uint64_t enumerated = 0;      ///< guesses that were not certain and unique
+  std::uint64_t double_doubles = 0;  ///< signs that the double filter could not tell
+  std::uint64_t intervals = 0;       ///< signs that pairs of doubles could not tell either
+  std::uint64_t exact = 0;           ///< signs that intervals could not tell either
 
   std::uint64_t violations() const {
     return wrong_regions + wrong_relations + not_numbers + wrong_distances + one_sided + jumps;
