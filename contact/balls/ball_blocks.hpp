@@ -26,7 +26,7 @@ class BallBlocks {
   static constexpr std::size_t kLanes = 8;
 
   struct Block {
-    std::uint32_t first_member;  ///< its balls: those it owns, those it borrows, and none()
+    std::uint32_t first_member;  ///< its balls: those it owns, those it borrows, that of no size
     std::uint32_t owned;         ///< how many it owns
     std::uint32_t member_count;
     std::uint32_t first_row;

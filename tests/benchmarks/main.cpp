@@ -23,6 +23,7 @@ struct RunOptions {
   std::string scene;
   std::string bed;
   std::optional<std::size_t> spheres;
+  int copies = 1;
   int cells = 32;
   int threads = 1;
   std::optional<int> warm_up;
@@ -54,6 +55,7 @@ bench::SceneInput input_of(const bench::SceneEntry& entry, const RunOptions& opt
     std::cerr << "plekton-bench: no bed given; making one of " << spheres << " spheres\n";
     input.bed = bench::make_bed({*entry.bed, spheres, 1, options.threads}, std::cerr);
   }
+  if (options.copies > 1) input.bed = side_by_side(input.bed, options.copies);
   return input;
 }
 
@@ -118,6 +120,8 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   app.add_option("--spheres", options.spheres, "of the bed that is made")
       ->check(CLI::PositiveNumber)
       ->excludes("--bed");
+  app.add_option("--copies", options.copies, "this many beds side by side, along x and y each")
+      ->check(CLI::PositiveNumber);
   app.add_option("--cells", options.cells, "s2: squares along a side")->check(CLI::Range(2, 10000));
   app.add_option("--threads", options.threads)->check(CLI::PositiveNumber);
   app.add_option("--warm-up", options.warm_up, "steps before the clock starts")
