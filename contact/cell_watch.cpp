@@ -42,9 +42,13 @@ void CellWatch::begin_step(const Motion& motion) noexcept {
 
 void CellWatch::find(const NearCells& near, const Vec3& centre, double range, Positions x,
                      Awake& awake, std::vector<geometry::CellId>& found) {
-  found.clear();
-  make_room(found, near.count);
+  const std::size_t before = found.size();
   const bool is_due = all_awake_ || !(moved_ < awake.wake);
+  if (!is_due && awake.count == 1 && wake_[near.first] < 0.0) {  // most often
+    wake_[near.first] += 1.0;
+    found.push_back(cells_[near.first]);
+    return;
+  }
   const std::uint32_t end = near.first + (is_due ? near.count : awake.count);
   double wake = is_due ? std::numeric_limits<double>::infinity() : awake.wake;
   std::uint32_t next = near.first;
@@ -66,7 +70,7 @@ void CellWatch::find(const NearCells& near, const Vec3& centre, double range, Po
     ++next;
   }
   awake = {wake, next - near.first};
-  std::sort(found.begin(), found.end());
+  std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());
 }
 
 }  // namespace plekton::contact

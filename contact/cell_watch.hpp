@@ -35,6 +35,9 @@ class CellWatch {
   /// not known: O(number of nodes) then, else O(1).
   void begin_step(const Motion& motion) noexcept;
 
+  /// Of all pairs together.
+  std::size_t cell_count() const noexcept { return cells_.size(); }
+
   /// What is known of the cells of a pair; at first nothing.
   struct Awake {
     double wake = 0.0;        ///< m, what moved has to be before another one may be in range
@@ -46,16 +49,10 @@ class CellWatch {
     return awake.count == 0 && !all_awake_ && moved_ < awake.wake;
   }
 
-  /// The only cell of a pair that may be in range, if there is one and no other may be now.
-  const geometry::CellId* only_cell(const NearCells& near, const Awake& awake) const noexcept {
-    const bool is_known = awake.count == 1 && !all_awake_ && moved_ < awake.wake;
-    return is_known ? &cells_[near.first] : nullptr;
-  }
-
   /// The cells of a pair that may be nearer than range (m) to its ball, ascending.
   /// @param near   a part of the list; one thread at a time for each
   /// @param awake  of this pair, from its last step
-  /// @param found  what was in it is lost
+  /// @param found  to which they are added
   void find(const NearCells& near, const Vec3& centre, double range, Positions x, Awake& awake,
             std::vector<geometry::CellId>& found);
 

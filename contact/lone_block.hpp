@@ -167,7 +167,6 @@ template <ContactLaw Law>
 struct LonePairs {};
 template <LaneLaw Law>
 struct LonePairs<Law> {
-  std::array<std::size_t, kLoneLanes> pair;  ///< ascending
   std::array<geometry::FaceId, kLoneLanes> face;
   std::size_t count = 0;
   LoneBlock<Law> block;

@@ -18,6 +18,7 @@
 #include "geometry/parallel_sum.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -105,11 +106,20 @@ class SurfaceContacts {
     Range range;
     CellWatch::Awake awake;
   };
+  /// A pair that is awake, with the cells that may be in range.
+  struct Job {
+    std::size_t pair;
+    std::size_t first_cell;  ///< in Worker::cells
+    std::size_t cell_count;
+    std::size_t lane;  ///< in Worker::lone; kNoLane: to be computed by itself
+  };
+  static constexpr std::size_t kNoLane = std::numeric_limits<std::size_t>::max();
   struct Worker {
     explicit Worker(const geometry::Surface& surface) : patches(surface), heirs(surface) {}
     PatchFinder patches;
     PatchHeirs heirs;
-    std::vector<geometry::CellId> cells;  ///< of a pair, that may be in range
+    std::vector<Job> jobs;
+    std::vector<geometry::CellId> cells;  ///< of the jobs
     std::vector<PatchState> states;
     std::vector<PatchTermForce> term_forces;  ///< in the order of the patches and their terms
     std::vector<typename Law::History> histories;
@@ -119,12 +129,13 @@ class SurfaceContacts {
 
   double advance_pairs(std::size_t begin, std::size_t end, const Motion& motion, double dt,
                        int worker);
-  std::size_t gather_lone(std::size_t begin, std::size_t end, const Motion& motion,
-                          LonePairs<Law>& lone) const;
+  std::size_t find_jobs(std::size_t begin, std::size_t end, const Motion& motion, Worker& worker);
+  bool may_be_alone(const Pair& pair, std::span<const geometry::CellId> cells) const noexcept;
   void gather(const Pair& pair, geometry::FaceId face, const Motion& motion,
               LonePairs<Law>& lone) const;
   double keep_lone(Pair& pair, std::size_t lane, int worker);
-  double advance_pair(Pair& pair, const Motion& motion, double dt, int worker);
+  double advance_pair(Pair& pair, std::span<const geometry::CellId> cells, const Motion& motion,
+                      double dt, int worker);
   double advance_alone(const Pair& pair, const Patch& patch, const Motion& motion, double dt,
                        int worker);
   double add_contact(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
@@ -143,8 +154,6 @@ class SurfaceContacts {
     return {lists[static_cast<std::size_t>(pair.range.worker)].contacts.data() + pair.range.first,
             pair.range.count};
   }
-
-  bool is_in_contact(const Pair& pair, Feature minimum) const noexcept;
 
   const geometry::Surface* surface_;
   std::vector<Pair> pairs_;
@@ -204,7 +213,10 @@ double SurfaceContacts<Law>::advance(const Motion& motion, double dt, geometry::
     lists.contacts.clear();
     lists.minima.clear();
   }
-  for (Worker& worker : workers_) worker.pass_throughs = 0;
+  for (Worker& worker : workers_) {
+    worker.pass_throughs = 0;
+    make_room(worker.cells, watch_.cell_count());
+  }
   records_.reset(pool.thread_count());
   watch_.begin_step(motion);
   return sum_(pairs_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {

@@ -11,67 +11,76 @@ namespace plekton::contact {
 template <ContactLaw Law>
 double SurfaceContacts<Law>::advance_pairs(std::size_t begin, std::size_t end, const Motion& motion,
                                            double dt, int worker_index) {
-  [[maybe_unused]] LonePairs<Law>& lone = workers_[static_cast<std::size_t>(worker_index)].lone;
+  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   double dissipated = 0.0;
   while (begin < end) {
-    std::size_t next = end;
-    if constexpr (LaneLaw<Law>) {
-      next = gather_lone(begin, end, motion, lone);
-      advance_side_by_side(lone.block, lone.count, dt);
-    }
-    std::size_t lane = 0;
-    for (std::size_t i = begin; i < next; ++i) {
-      if (watch_.is_asleep(pairs_[i].awake)) continue;
+    begin = find_jobs(begin, end, motion, worker);
+    if constexpr (LaneLaw<Law>) advance_side_by_side(worker.lone.block, worker.lone.count, dt);
+    for (const Job& job : worker.jobs) {
+      Pair& pair = pairs_[job.pair];
       if constexpr (LaneLaw<Law>) {
-        if (lane < lone.count && lone.pair[lane] == i) {
-          const std::size_t its_lane = lane++;
-          if (lone.block.is_right.number(its_lane) > 0.0) {
-            dissipated += keep_lone(pairs_[i], its_lane, worker_index);
-            continue;
-          }
+        if (job.lane != kNoLane && worker.lone.block.is_right.number(job.lane) > 0.0) {
+          dissipated += keep_lone(pair, job.lane, worker_index);
+          continue;
         }
       }
-      dissipated += advance_pair(pairs_[i], motion, dt, worker_index);
+      dissipated += advance_pair(pair, {worker.cells.data() + job.first_cell, job.cell_count},
+                                 motion, dt, worker_index);
     }
-    begin = next;
   }
   return dissipated;
 }
 
-/// Whether a minimum alone was the only contact of a pair in the last step.
+/// Finds the pairs that are awake, as long as there are lanes for those that may go side by side.
+/// @returns the first pair that was not looked at
 template <ContactLaw Law>
-bool SurfaceContacts<Law>::is_in_contact(const Pair& pair, Feature minimum) const noexcept {
-  if (pair.range.count != 1) return false;
-  const Contact& contact = contacts_of(pair, previous_)[0];
-  const auto& minima = previous_[static_cast<std::size_t>(pair.range.worker)].minima;
-  return contact.minimum_count == 1 && minima[contact.first_minimum] == minimum;
-}
-
-/// Gathers pairs as long as there are lanes. @returns the first pair that was not looked at
-template <ContactLaw Law>
-std::size_t SurfaceContacts<Law>::gather_lone(std::size_t begin, std::size_t end,
-                                              const Motion& motion, LonePairs<Law>& lone) const {
-  lone.count = 0;
+std::size_t SurfaceContacts<Law>::find_jobs(std::size_t begin, std::size_t end,
+                                            const Motion& motion, Worker& worker) {
+  worker.jobs.clear();
+  worker.cells.clear();
+  make_room(worker.jobs, end - begin);
+  if constexpr (LaneLaw<Law>) worker.lone.count = 0;
   std::size_t i = begin;
-  for (; i < end && lone.count < kLoneLanes; ++i) {
-    const Pair& pair = pairs_[i];
-    const geometry::CellId* const cell = watch_.only_cell(pair.near, pair.awake);
-    if (cell == nullptr || index_of(*cell) >= surface_->face_count()) continue;
-    const auto face = geometry::id_at<geometry::FaceId>(index_of(*cell));
-    if (!is_in_contact(pair, Feature(face))) continue;
-    lone.pair[lone.count] = i;
-    lone.face[lone.count] = face;
-    gather(pair, face, motion, lone);
-    ++lone.count;
+  for (; i < end; ++i) {
+    Pair& pair = pairs_[i];
+    if (watch_.is_asleep(pair.awake)) continue;
+    Job job{i, worker.cells.size(), 0, kNoLane};
+    watch_.find(pair.near, motion.position[index_of(pair.node)], pair.reach, motion.position,
+                pair.awake, worker.cells);
+    job.cell_count = worker.cells.size() - job.first_cell;
+    if constexpr (LaneLaw<Law>) {
+      if (may_be_alone(pair, {worker.cells.data() + job.first_cell, job.cell_count})) {
+        job.lane = worker.lone.count;
+        const std::size_t face = index_of(worker.cells[job.first_cell]);
+        gather(pair, geometry::id_at<geometry::FaceId>(face), motion, worker.lone);
+      }
+    }
+    if (job.cell_count > 0 || pair.range.count > 0) worker.jobs.push_back(job);
+    if constexpr (LaneLaw<Law>) {
+      if (worker.lone.count == kLoneLanes) return i + 1;
+    }
   }
   return i;
+}
+
+/// Whether one facet alone may be in range, and its inside was the only contact of the pair in the
+/// last step.
+template <ContactLaw Law>
+bool SurfaceContacts<Law>::may_be_alone(const Pair& pair,
+                                        std::span<const geometry::CellId> cells) const noexcept {
+  if (cells.size() != 1 || pair.range.count != 1) return false;
+  const Contact& contact = contacts_of(pair, previous_)[0];
+  const auto& minima = previous_[static_cast<std::size_t>(pair.range.worker)].minima;
+  return contact.minimum_count == 1 && index_of(cells[0]) < surface_->face_count() &&
+         minima[contact.first_minimum] == surface_->feature_of(cells[0]);
 }
 
 template <ContactLaw Law>
 void SurfaceContacts<Law>::gather(const Pair& pair, geometry::FaceId face, const Motion& motion,
                                   LonePairs<Law>& lone) const {
   auto& block = lone.block;
-  const std::size_t lane = lone.count;
+  const std::size_t lane = lone.count++;
+  lone.face[lane] = face;
   const auto& corners = surface_->nodes_of(face);
   const std::array<NodeId, 4> nodes{pair.node, corners[0], corners[1], corners[2]};
   for (std::size_t k = 0; k < 4; ++k) {

@@ -7,13 +7,12 @@
 namespace plekton::contact {
 
 template <ContactLaw Law>
-double SurfaceContacts<Law>::advance_pair(Pair& pair, const Motion& motion, double dt,
-                                          int worker_index) {
+double SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geometry::CellId> cells,
+                                          const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const Vec3& centre = motion.position[index_of(pair.node)];
-  watch_.find(pair.near, centre, pair.reach, motion.position, pair.awake, worker.cells);
-  const auto patches = worker.patches.find(centre, pair.reach, worker.cells, motion.position);
+  const auto patches = worker.patches.find(centre, pair.reach, cells, motion.position);
 
   const Range range{worker_index, static_cast<std::uint32_t>(lists.contacts.size()),
                     static_cast<std::uint32_t>(patches.size())};
