@@ -133,4 +133,11 @@ Proximity proximity(const Probe& a, const PlacedSurface& on_b, CellId b) noexcep
                  side_b.radius, cores);
 }
 
+Proximity proximity(const Probe& a, const Probe& b) noexcept {
+  const CoreProximity cores = core_proximity(a.core, b.core);
+  const ClosestPoints& points = cores.points;
+  return between(core_point_of(a.core, points.corners_a, points.weights_a), a.radius,
+                 core_point_of(b.core, points.corners_b, points.weights_b), b.radius, cores);
+}
+
 }  // namespace plekton::geometry

@@ -5,6 +5,9 @@
 #include "geometry/elements.hpp"
 #include "geometry/proximity.hpp"
 
+#include <concepts>
+#include <tuple>
+
 /// The pairs of primitives that can touch, and where they are nearest to each other.
 ///
 ///               sphere          cylinder          facet
@@ -43,7 +46,7 @@ struct PlacedSurface {
 Proximity proximity(const PlacedSurface& on_a, CellId a, const PlacedSurface& on_b,
                     CellId b) noexcept;
 
-/// A primitive that belongs to no scene: a point, ball, cylinder or facet to ask a surface with.
+/// A primitive that belongs to no surface: a point, ball, cylinder or facet to ask others with.
 struct Probe {
   Core core;      ///< m
   double radius;  ///< m, >= 0
@@ -61,5 +64,27 @@ struct Probe {
 /// A probe (a) and a cell (b). The core point of the probe names its corners as nodes 0, 1, 2; its
 /// sides are edges 0, 1, 2 between corners 0 1, 1 2 and 2 0; its face is 0.
 Proximity proximity(const Probe& a, const PlacedSurface& on_b, CellId b) noexcept;
+
+/// Two probes; the core points name their corners, sides and face as above. Of coincident points
+/// the normal is the z axis.
+Proximity proximity(const Probe& a, const Probe& b) noexcept;
+
+/// A swept simplex: an array of one to three corners that core() makes of it and of the positions
+/// of nodes (m), and a radius (m). A new one needs no more than these, and box() for the broad
+/// phase.
+template <class Type>
+concept Primitive = requires(const Type& primitive, Positions x) {
+  { primitive.radius } -> std::convertible_to<double>;
+  requires std::tuple_size_v<decltype(core(primitive, x))>
+  <= 3;
+};
+
+/// A primitive as it stands now. Takes it through every pair of the table.
+template <Primitive Type>
+Probe probe_of(const Type& primitive, Positions x) {
+  Probe probe{{}, primitive.radius};
+  for (const Vec3& corner : core(primitive, x)) probe.core.x[probe.core.count++] = corner;
+  return probe;
+}
 
 }  // namespace plekton::geometry
