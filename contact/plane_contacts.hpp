@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/balls/ball_block.hpp"
+#include "contact/balls/ball_batch.hpp"
 #include "contact/bodies.hpp"
 #include "contact/contact_memory.hpp"
 #include "contact/contact_row.hpp"
@@ -69,8 +69,8 @@ class PlaneContacts {
 
   /// Slots that touch, in the order of the list, and how high (m) their centres are.
   struct Touching {
-    std::array<std::size_t, kBlockLanes> slot;
-    std::array<double, kBlockLanes> height;
+    std::array<std::size_t, kBatchLanes> slot;
+    std::array<double, kBatchLanes> height;
     std::size_t count = 0;
     bool all_have_images = true;  ///< none is so deep that it is beyond its mirror image
   };
@@ -129,7 +129,7 @@ double PlaneContacts<Law>::advance(const Motion& motion, std::span<const Plane> 
       } else {
         dissipated += forget<Law>(slot.parameters, slot.memory);
       }
-      if (touching.count < kBlockLanes && i + 1 < end) continue;
+      if (touching.count < kBatchLanes && i + 1 < end) continue;
       dissipated += advance_touching(touching, motion, planes, dt, records);
       touching.count = 0;
       touching.all_have_images = true;
@@ -143,7 +143,7 @@ double PlaneContacts<Law>::advance_touching(const Touching& touching, const Moti
                                             std::span<const Plane> planes, double dt,
                                             Records& records) {
   if constexpr (LaneLaw<Law>) {
-    BallBlock<Law> block;
+    BallBatch<Law> block;
     gather(touching, motion, planes, block);
     if (touching.all_have_images && advance_side_by_side(block, touching.count, dt))
       return scatter(touching, block, records);

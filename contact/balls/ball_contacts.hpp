@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/balls/ball_block.hpp"
+#include "contact/balls/ball_batch.hpp"
 #include "contact/balls/ball_blocks.hpp"
 #include "contact/balls/ball_rows.hpp"
 #include "contact/balls/ball_sums.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/balls/ball_block.hpp"
+#include "contact/balls/ball_batch.hpp"
 #include "contact/balls/ball_contacts.hpp"
 #include "contact/laws/linear_frictional.hpp"
 #include "tests/support/one_at_a_time.hpp"
@@ -17,7 +17,7 @@ namespace plekton::contact {
 namespace {
 
 using Law = LinearFrictional;
-using Block = BallBlock<Law>;
+using Block = BallBatch<Law>;
 
 constexpr double kStep = 1e-5;  // s
 

@@ -6,7 +6,7 @@
 #include "geometry/rows.hpp"
 #include "geometry/vector_width.hpp"
 
-/// Touching pairs of balls in blocks, so that a processor computes as many contacts at once as its
+/// Touching pairs of balls in batches, so that a processor computes as many contacts at once as its
 /// vectors have lanes: pairs are gathered into rows of numbers, the kernel runs along the rows, and
 /// the results are taken out again.
 namespace plekton::contact {
@@ -49,14 +49,14 @@ PLEKTON_INLINE LaneStepOf<Law, Real> advance_lanes(
           geometry::smaller_of(distance, geometry::smaller_of(untwisted, unturned))};
 }
 
-/// Pairs in a block: all rows together fit into the first level of a cache.
-constexpr std::size_t kBlockLanes = 64;
+/// Pairs in a batch: all rows together fit into the first level of a cache.
+constexpr std::size_t kBatchLanes = 64;
 
-/// Up to kBlockLanes touching pairs.
+/// Up to kBatchLanes touching pairs.
 template <LaneLaw Law>
-struct BallBlock {
+struct BallBatch {
   template <class Thing>
-  using RowsOf = geometry::RowsOf<Thing, kBlockLanes>;
+  using RowsOf = geometry::RowsOf<Thing, kBatchLanes>;
 
   // Filled in for each pair:
   RowsOf<Vec3> separation;  ///< m, from centre a to centre b, not zero
@@ -96,7 +96,7 @@ struct BallBlock {
 
 template <LaneLaw Law>
 template <class Real>
-PLEKTON_INLINE void BallBlock<Law>::advance_lanes(std::size_t lane, double dt) noexcept {
+PLEKTON_INLINE void BallBatch<Law>::advance_lanes(std::size_t lane, double dt) noexcept {
   using Vector = Vec3Of<Real>;
   const BallMotionOf<Real> balls{
       separation.template load<Vector>(lane), velocity.template load<Vector>(lane),
@@ -116,12 +116,12 @@ PLEKTON_INLINE void BallBlock<Law>::advance_lanes(std::size_t lane, double dt) n
   is_right.store(lane, answer.is_right);
 }
 
-/// BallBlock::advance with the widest vectors there are.
+/// BallBatch::advance with the widest vectors there are.
 template <LaneLaw Law>
-bool advance_side_by_side(BallBlock<Law>& block, std::size_t count, double dt) noexcept {
+bool advance_side_by_side(BallBatch<Law>& batch, std::size_t count, double dt) noexcept {
   bool all_right = false;
   geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
-    all_right = block.template advance<width>(count, dt);
+    all_right = batch.template advance<width>(count, dt);
   });
   return all_right;
 }
