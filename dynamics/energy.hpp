@@ -11,6 +11,7 @@ struct Energy {
   double kinetic = 0.0;  ///< of all motions that are free
   double contact_elastic = 0.0;
   double bond_elastic = 0.0;
+  double sheet_elastic = 0.0;
   double gravity = 0.0;        ///< of the nodes that are free, from their places at the start
   double friction = 0.0;       ///< dissipated in contacts
   double damping = 0.0;        ///< taken by numerical damping
@@ -20,12 +21,12 @@ struct Energy {
 
   /// What is not accounted for: 0 but for the error of the time integration.
   double closure_error() const noexcept {
-    return kinetic + contact_elastic + bond_elastic + gravity + friction + damping - external_work -
-           initial;
+    return kinetic + contact_elastic + bond_elastic + sheet_elastic + gravity + friction + damping -
+           external_work - initial;
   }
   /// What went through: all that is or was something else than energy of position.
   double turnover() const noexcept {
-    return kinetic + contact_elastic + bond_elastic + friction + damping;
+    return kinetic + contact_elastic + bond_elastic + sheet_elastic + friction + damping;
   }
   /// Closure error over turnover; 0 where the error is no more than rounding, as when nothing has
   /// happened.

@@ -44,4 +44,11 @@ std::size_t Scene::add_beam(NodeId a, NodeId b, const BeamSection& section, doub
   return bonds.size() - 1;
 }
 
+std::size_t Scene::add_sheet_facet(const std::array<NodeId, 3>& nodes, const SheetSection& section,
+                                   double density) {
+  sheet_facets.push_back(make_sheet_facet(nodes, state, section));
+  add_facet_mass(properties, {nodes, 0.5 * section.thickness}, state.position, density);
+  return sheet_facets.size() - 1;
+}
+
 }  // namespace plekton::dynamics

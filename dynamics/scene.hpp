@@ -4,6 +4,7 @@
 #include "contact/bodies.hpp"
 #include "dynamics/node_state.hpp"
 #include "dynamics/structure/beam_bond.hpp"
+#include "dynamics/structure/sheet_facet.hpp"
 #include "geometry/elements.hpp"
 
 #include <span>
@@ -18,6 +19,7 @@ struct Scene {
   NodeProperties properties;
   geometry::Elements elements;
   std::vector<BeamBond> bonds;
+  std::vector<SheetFacet> sheet_facets;
   std::vector<contact::Plane> planes;
   std::vector<contact::Material> materials;           ///< by MaterialId
   std::vector<contact::MaterialId> sphere_materials;  ///< by SphereId
@@ -42,6 +44,14 @@ struct Scene {
   /// rho A L, and inertia += 2/5 of that times r² (edge mode, as in Effeindzourou et al. 2016).
   /// @returns  its place in bonds
   std::size_t add_beam(NodeId a, NodeId b, const BeamSection& section, double density);
+
+  /// Adds a facet of a thin sheet between nodes, at rest as they are now, with a third of its mass
+  /// to each: m += 1/3 rho t A, and inertia += 2/5 of that times (t / 2)² (area mode). It only
+  /// resists: what touches it needs a facet of geometry on the same nodes.
+  /// @param density  kg/m³, >= 0; 0 where the mass is given in another way, as by add_edge_mass
+  /// @returns  its place in sheet_facets
+  std::size_t add_sheet_facet(const std::array<NodeId, 3>& nodes, const SheetSection& section,
+                              double density);
 
   /// @throws std::invalid_argument listing every problem: arrays of different lengths, ids out of
   /// range, a node

@@ -27,6 +27,10 @@ class SceneProblems {
     for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
       list_problems(scene_.bonds[i], scene_.state.size(), "bond " + std::to_string(i), text_);
     }
+    for (std::size_t i = 0; i < scene_.sheet_facets.size(); ++i) {
+      list_problems(scene_.sheet_facets[i], scene_.state.size(), "sheet facet " + std::to_string(i),
+                    text_);
+    }
     list_materials();
     list_planes();
     list_structures();

@@ -9,6 +9,7 @@
 #include "dynamics/motion_step.hpp"
 #include "dynamics/scene.hpp"
 #include "dynamics/structure/beam_bond.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/time_step.hpp"
 
 #include <cstdint>
@@ -62,8 +63,9 @@ class Simulation {
   const geometry::Surface& surface() const noexcept { return surface_; }
   const std::vector<contact::Plane>& planes() const noexcept { return scene_.planes; }
   const BeamBonds& bonds() const noexcept { return bonds_; }
+  const SheetFacets& sheet_facets() const noexcept { return sheet_facets_; }
   const contact::Contacts<Law>& contacts() const noexcept { return contacts_; }
-  /// Forces of contacts and bonds in the last step, gravity not included.
+  /// Forces of contacts, bonds and sheets in the last step, gravity not included.
   const NodeForces& forces() const noexcept { return forces_; }
 
   Energy energy() const;
@@ -93,7 +95,7 @@ class Simulation {
   void move_planes();
   double gravity_energy(double before) const;
   double rounding_energy() const;
-  void add_bonds_to(NodalStiffness& stiffness) const;
+  void add_structures_to(NodalStiffness& stiffness) const;
   void add_contacts_to(NodalStiffness& stiffness) const;
   CriticalStep critical_step(NodalStiffness& space) const;
 
@@ -103,10 +105,11 @@ class Simulation {
   geometry::Surface surface_;
   contact::Contacts<Law> contacts_;
   BeamBonds bonds_;
+  SheetFacets sheet_facets_;
   NodeForces forces_;
   Leapfrog leapfrog_;
   std::vector<double> radii_;  ///< m, of the ball around each node; 0 where there is none
-  NodalStiffness expected_;    ///< of the contacts that may come, without bonds
+  NodalStiffness expected_;    ///< of the contacts that may come, without structures
   NodalStiffness space_{0};    ///< to choose a time step without allocation; empty if one was given
   double dt_ = 0.0;
   double stable_step_ = 0.0;  ///< s, kSafety times the smallest critical step so far
@@ -134,6 +137,8 @@ void Simulation<Law>::step() {
   forces_.set_zero();
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
+  sheet_facets_.advance(scene_.state, pool_);
+  sheet_facets_.add_forces(forces_, pool_);
   contacts_.advance(motion(), scene_.planes, last_drift_, pool_);
   contacts_.add_forces(forces_, pool_);
   const StepLengths lengths{0.5 * (last_drift_ + dt_), dt_};

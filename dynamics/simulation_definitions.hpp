@@ -44,6 +44,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
                 options.self_contact ? geometry::Positions(scene_.state.position)
                                      : geometry::Positions()),
       bonds_(scene_.bonds, scene_.state.size()),
+      sheet_facets_(scene_.sheet_facets, scene_.state.size()),
       forces_(scene_.state.size()),
       radii_(node_radii(scene_, surface_)),
       expected_(scene_.state.size()),
@@ -54,10 +55,11 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
   if (options.skin == 0.0) contacts_.choose_skin_of_structures();
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   bonds_.advance(scene_.state, pool_);
+  sheet_facets_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_);
   add_expected_contacts<Law>(scene_, surface_, expected_);
   NodalStiffness stiffness = expected_;
-  add_bonds_to(stiffness);
+  add_structures_to(stiffness);
   initial_stiffness_ = stiffness.total();
   const double critical = critical_step(stiffness).dt;
   if (options.time_step > kLargestStep * critical) {
@@ -77,7 +79,8 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
   }
   initial_gravity_energy_ = gravity_energy(0.0);
   work_.kinetic = kinetic_energy(scene_.state, scene_.properties);
-  initial_energy_ = work_.kinetic + contacts_.elastic_energy() + bonds_.elastic_energy();
+  initial_energy_ = work_.kinetic + contacts_.elastic_energy() + bonds_.elastic_energy() +
+                    sheet_facets_.elastic_energy();
 }
 
 template <contact::ContactLaw Law>
@@ -183,6 +186,7 @@ Energy Simulation<Law>::energy() const {
   energy.kinetic = work_.kinetic;
   energy.contact_elastic = contacts_.elastic_energy();
   energy.bond_elastic = bonds_.elastic_energy();
+  energy.sheet_elastic = sheet_facets_.elastic_energy();
   // Kinetic and elastic energy are those at the moment of the last forces, one step before the
   // positions.
   energy.gravity = gravity_energy(last_drift_) - initial_gravity_energy_;
@@ -247,8 +251,9 @@ void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
 }
 
 template <contact::ContactLaw Law>
-void Simulation<Law>::add_bonds_to(NodalStiffness& stiffness) const {
+void Simulation<Law>::add_structures_to(NodalStiffness& stiffness) const {
   for (const BeamBond& bond : scene_.bonds) stiffness.add_beam(bond, scene_.state);
+  sheet_facets_.add_to(stiffness, scene_.state);
 }
 
 template <contact::ContactLaw Law>
@@ -261,10 +266,10 @@ CriticalStep Simulation<Law>::critical_step() const {
 template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::critical_step(NodalStiffness& space) const {
   space = expected_;
-  add_bonds_to(space);
+  add_structures_to(space);
   const CriticalStep step_expected = space.critical_step(scene_.properties);
   space.set_zero();
-  add_bonds_to(space);
+  add_structures_to(space);
   add_contacts_to(space);
   const CriticalStep step_now = space.critical_step(scene_.properties);
   return step_now.dt < step_expected.dt ? step_now : step_expected;

@@ -85,6 +85,15 @@ class NodalStiffness {
   /// @param radius              m, of the surface
   void add_from_all_sides(NodeId node, double normal, double tangential, double radius);
 
+  /// Adds stiffness that is already that of springs which each hold a single node: matrices such
+  /// that the energy of a structure is at most 1/2 sum (v . T v + r . R r) over its nodes.
+  /// @param translation  N/m, symmetric, T
+  /// @param rotation     N m, symmetric, R
+  void add_to_node(NodeId node, const Mat3& translation, const Mat3& rotation) {
+    blocks_[index_of(node)].translation += translation;
+    blocks_[index_of(node)].rotation += rotation;
+  }
+
   /// Sums of the stiffness around all nodes.
   struct Total {
     double translation = 0.0;  ///< N/m, traces added up

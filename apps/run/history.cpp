@@ -6,10 +6,11 @@
 namespace plekton::apps {
 namespace {
 
-const std::array<dynamics::CsvColumn, 16> kColumns = {{{"time", "s"},
+const std::array<dynamics::CsvColumn, 17> kColumns = {{{"time", "s"},
                                                        {"kinetic", "J"},
                                                        {"contact_elastic", "J"},
                                                        {"bond_elastic", "J"},
+                                                       {"sheet_elastic", "J"},
                                                        {"gravity", "J"},
                                                        {"friction", "J"},
                                                        {"damping", "J"},
@@ -33,7 +34,7 @@ void History::add(const Simulation& simulation, const LostGrains& lost) {
   const contact::ContactCounts counts = simulation.contacts().counts();
   writer_.add(
       {simulation.time(), energy.kinetic, energy.contact_elastic, energy.bond_elastic,
-       energy.gravity, energy.friction, energy.damping, energy.external_work,
+       energy.sheet_elastic, energy.gravity, energy.friction, energy.damping, energy.external_work,
        energy.closure_error(), static_cast<double>(counts.sphere_sphere),
        static_cast<double>(counts.sphere_surface), static_cast<double>(counts.between_structures),
        static_cast<double>(counts.with_planes), simulation.contacts().largest_overlap_ratio(),

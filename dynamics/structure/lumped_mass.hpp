@@ -14,6 +14,13 @@ namespace plekton::dynamics {
 /// @param density  kg/m³
 void add_beam_mass(NodeProperties& properties, const BeamBond& beam, double density) noexcept;
 
+/// Edge mode for an edge that no beam lies along, as in a sheet: the same as for a beam of full
+/// circular section.
+/// @param radius   m
+/// @param density  kg/m³
+void add_edge_mass(NodeProperties& properties, const std::array<NodeId, 2>& nodes,
+                   geometry::Positions positions, double radius, double density) noexcept;
+
 /// Area mode: each node of a facet gets m = rho 2 r A / 3, and the inertia 2/5 m r² of a ball. A
 /// facet without area adds nothing.
 /// @param density  kg/m³

@@ -33,6 +33,28 @@ TEST(Allocation, IsNoneInTheForcesOfBeams) {
   }
 }
 
+TEST(Allocation, IsNoneInTheForcesOfSheets) {
+  Scene scene;
+  const Complex grid = sheet(5);
+  for (const Vec3& x : grid.x) scene.add_node(x);
+  for (const auto& facet : grid.facets)
+    scene.add_sheet_facet(facet.nodes, dynamics::solid_sheet(0.1, 1e6, 0.3), 1000.0);
+  dynamics::SheetFacets sheets(scene.sheet_facets, scene.state.size());
+  dynamics::NodalStiffness stiffness(scene.state.size());
+  contact::NodeForces forces(scene.state.size());
+  for (const int threads : {1, 2}) {
+    geometry::ThreadPool pool(threads);
+
+    const std::size_t count = allocations_of([&] {
+      sheets.advance(scene.state, pool);
+      sheets.add_forces(forces, pool);
+      sheets.add_to(stiffness, scene.state);
+    });
+
+    EXPECT_EQ(count, 0U);
+  }
+}
+
 /// A square grid of n cells a side, of this spacing (m), around the origin in z = 0.
 void add_grid(Scene& scene, const Complex& grid, int n, double spacing, Held inside) {
   for (const Vec3& x : grid.x) {

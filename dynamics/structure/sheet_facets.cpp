@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/structure/sheet_facets.hpp"
+
+#include "dynamics/structure/sheet_bending.hpp"
+#include "geometry/problems.hpp"
+
+#include <Eigen/LU>
+
+#include <sstream>
+#include <string>
+
+namespace plekton::dynamics {
+
+SheetSpring spring_of(const SheetFacet& facet) noexcept {
+  const SheetSection& section = facet.section;
+  const double nu = section.poisson_ratio;
+  return {facet.corners,
+          shape_gradients(facet.corners),
+          section.tensile_stiffness / (1.0 - nu * nu),
+          nu,
+          (1.0 - nu) * section.bending_stiffness,
+          plate_bending(facet.corners, section),
+          facet.rest};
+}
+
+SheetFacets::SheetFacets(std::span<const SheetFacet> facets, std::size_t node_count)
+    : reactions_(facets.size()) {
+  std::ostringstream problems;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    list_problems(facets[i], node_count, "sheet facet " + std::to_string(i), problems);
+  geometry::throw_if_any(problems);
+
+  std::vector<NodeId> corners;
+  corners.reserve(3 * facets.size());
+  nodes_.reserve(facets.size());
+  springs_.reserve(facets.size());
+  bounds_.reserve(facets.size());
+  for (const SheetFacet& facet : facets) {
+    nodes_.push_back(facet.nodes);
+    springs_.push_back(spring_of(facet));
+    bounds_.push_back(bounds_of(facet, springs_.back()));
+    corners.insert(corners.end(), facet.nodes.begin(), facet.nodes.end());
+  }
+  if (!facets.empty()) corners_ = by_node(corners, node_count);
+}
+
+void SheetFacets::advance(const NodeState& state, geometry::ThreadPool& pool) {
+  pool.for_each_range(springs_.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i)
+      reactions_[i] = sheet_reaction(springs_[i], pose_of(springs_[i], nodes_[i], state));
+  });
+}
+
+void SheetFacets::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
+  if (springs_.empty()) return;
+  pool.for_each_range(corners_.start.size() - 1, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t node = begin; node < end; ++node) {
+      for (std::uint32_t k = corners_.start[node]; k < corners_.start[node + 1]; ++k) {
+        const std::uint32_t corner = corners_.numbers[k];
+        forces.force[node] += reactions_[corner / 3].force[corner % 3];
+        forces.torque[node] += reactions_[corner / 3].torque[corner % 3];
+      }
+    }
+  });
+}
+
+double SheetFacets::elastic_energy() const noexcept {
+  double energy = 0.0;
+  for (const SheetReaction& reaction : reactions_) energy += reaction.energy;
+  return energy;
+}
+
+Mat3 SheetFacets::membrane_force(std::size_t facet, geometry::Positions positions) const noexcept {
+  std::array<Vec3, 3> x;
+  for (std::size_t i = 0; i < 3; ++i) x[i] = positions[index_of(nodes_[facet][i])];
+  const auto f = deformation_gradient(springs_[facet].shape, x);
+  const double area_ratio = f.col(0).cross(f.col(1)).norm();
+  if (!(area_ratio > 0.0)) return Mat3::Zero();
+  const Vec3& s = reactions_[facet].stress;
+  Eigen::Matrix2d stress;
+  stress << s[0], s[2], s[2], s[1];
+  return f * (stress / area_ratio) * f.transpose();
+}
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/structure/beam_blocks.hpp"
+#include "dynamics/structure/sheet_kernel.hpp"
+#include "dynamics/time_step.hpp"
+#include "geometry/thread_pool.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plekton::dynamics {
+
+/// All facets of thin elastic sheets of a scene: their forces and energy.
+///
+/// Let F be the gradient of the deformation of a facet (3 x 2), A its area at rest, and n_i the
+/// facet's normal as node i carries it. The stored energy is
+///
+///     U = A/2 N : E,  E = 1/2 (F^T F - I)                                stretching
+///       + 1/2 q . K q,  q_ij = n_i . (x_j - x_i)                         bending
+///       + 1/2 c sum w_i²,  c = (1 - nu) D                                turning in the plane
+///
+/// with N = E t / (1 - nu²) ((1 - nu) E + nu tr E I), plane stress (St. Venant-Kirchhoff): the
+/// constant-strain triangle. q_ij is the distance at which the tangent plane of node i passes node
+/// j, and K the discrete Kirchhoff triangle (sheet_bending.hpp), so for small deflections this is
+/// Kirchhoff's plate. w_i is the angle between node i and the mean rotation of the facet about
+/// the normal; its energy is there only because nodes have rotations about the normal, of which a
+/// sheet knows nothing, and is of the order (t / size)² of the rest.
+///
+/// Force and torque are the exact derivatives of U, polynomials of positions and normals: they are
+/// defined wherever the nodes are, also in a facet without area. U does not change with any rigid
+/// motion: both momenta balance in any configuration, and turning makes no energy. There is no
+/// history, and a curved sheet is at rest as it was given.
+///
+/// A rim is clamped where its nodes' rotations are held, hinged where only their positions are,
+/// free where nothing is. Beams on the same nodes are joined rigidly, as are sheets that meet in a
+/// fold; any number of facets may meet at an edge.
+///
+/// What it can: large displacements and rotations, small strain. It converges to membrane and plate
+/// theory as facets get smaller (tests/validation: second order for deflections). What it cannot:
+/// shear across the thickness (thick plates), wrinkles smaller than a facet, strains beyond about
+/// 10 percent (this elastic law gets too soft under compression and lets a facet turn inside out
+/// below 0.58 of its length). A normal that is turned by much against its facet (more than 45
+/// degrees) resists less and less: use facets small against the radius of curvature.
+class SheetFacets {
+ public:
+  /// Linear in the number of facets and nodes.
+  /// @throws std::invalid_argument listing every problem of every facet
+  SheetFacets(std::span<const SheetFacet> facets, std::size_t node_count);
+
+  std::size_t size() const noexcept { return springs_.size(); }
+
+  /// Computes what all facets do to their nodes, facet by facet. No allocation.
+  void advance(const NodeState& state, geometry::ThreadPool& pool);
+
+  /// Adds the forces of the last advance to the nodes, at each in the order of the facets: the same
+  /// bits for any number of threads.
+  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const;
+
+  /// Energy (J) stored in all facets at the last advance.
+  double elastic_energy() const noexcept;
+
+  /// Membrane forces (N/m) of a facet at the last advance, per length as it is now (Cauchy), in
+  /// world axes: the force on a cut across the unit vector m is this matrix times m. Tension
+  /// positive; zero where the facet has no area any more.
+  Mat3 membrane_force(std::size_t facet, geometry::Positions positions) const noexcept;
+
+  /// Adds the stiffness of all facets as they are now; see NodalStiffness. Bending counts as if the
+  /// nodes were turned little against the facets.
+  void add_to(NodalStiffness& stiffness, const NodeState& state) const;
+
+ private:
+  /// Largest eigenvalues at rest of the parts of a facet's stiffness matrix.
+  struct Bounds {
+    double in_plane;  ///< N/m
+    double across;    ///< N/m, of normal motion, and of rotations times their radius
+    double turning;   ///< N m, about the normal
+    double gyration;  ///< m², squared radius by which rotations are counted
+    double tension;   ///< -, times the membrane force: of the tension
+  };
+  static Bounds bounds_of(const SheetFacet& facet, const SheetSpring& spring);
+
+  std::vector<std::array<NodeId, 3>> nodes_;
+  std::vector<SheetSpring> springs_;
+  std::vector<Bounds> bounds_;
+  std::vector<SheetReaction> reactions_;
+  ByNode corners_;  ///< 3 facet + corner
+};
+
+}  // namespace plekton::dynamics
