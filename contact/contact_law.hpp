@@ -43,4 +43,12 @@ concept ContactLaw = requires(const typename Law::Parameters& parameters,
   { Law::add_share(history, other, number) } -> std::same_as<void>;
 };
 
+/// A law whose force after a step follows from the gap (m), the normal and the history then: it
+/// does not have to be kept. To the bit what force() has answered.
+template <class Law>
+concept TellsForce = requires(const typename Law::Parameters& parameters, double gap,
+                              const Vec3& normal, const typename Law::History& history) {
+  { Law::force_of_state(parameters, gap, normal, history) } -> std::same_as<Vec3>;
+};
+
 }  // namespace plekton::contact

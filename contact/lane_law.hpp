@@ -29,4 +29,14 @@ concept LaneLaw = ContactLaw<Law> &&
   Law::rotate(history, rotation);
 };
 
+/// A law whose parameters follow from materials and radii (m) alone, for many contacts side by side
+/// as well.
+template <class Law>
+concept CombinesRadii = LaneLaw<Law> && requires(const Material& material, const Pack<2>& radius) {
+  {
+    Law::combine(material, radius, material, radius)
+    } -> std::same_as<typename Law::template ParametersOf<Pack<2>>>;
+  { Law::combine(material, 1.0, material, 1.0) } -> std::same_as<typename Law::Parameters>;
+};
+
 }  // namespace plekton::contact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/bodies.hpp"
 #include "contact/contact_law.hpp"
 
 #include <utility>
@@ -19,6 +20,9 @@ class MaterialPairs {
   /// Parameters of a pair of bodies of these materials and radii (m).
   Parameters combine(MaterialId a, double radius_a, MaterialId b, double radius_b) const {
     return Law::combine(at(a), radius_a, at(b), radius_b);
+  }
+  Parameters combine(const Ball& a, const Ball& b) const {
+    return combine(a.material, a.radius, b.material, b.radius);
   }
 
   const Material& at(MaterialId id) const { return materials_[static_cast<std::size_t>(id)]; }

@@ -61,7 +61,6 @@ class BallBlocks {
   std::span<const Block> blocks() const noexcept { return blocks_; }
   /// How many balls there are in blocks.
   std::size_t ball_count() const noexcept { return order_.size(); }
-  NodeId node(std::int32_t ball) const noexcept { return nodes_[static_cast<std::size_t>(ball)]; }
   /// Over all blocks.
   std::size_t member_count() const noexcept { return members_.size(); }
   std::size_t row_count() const noexcept { return pairs_.size() / kLanes; }

@@ -5,6 +5,7 @@
 #include "contact/balls/ball_blocks.hpp"
 #include "contact/balls/ball_rows.hpp"
 #include "contact/balls/ball_sums.hpp"
+#include "contact/balls/pair_parameters.hpp"
 #include "contact/balls/pair_rows.hpp"
 #include "contact/contact_row.hpp"
 #include "contact/material_pairs.hpp"
@@ -24,6 +25,7 @@ template <ContactLaw Law>
 class BallContacts {
  public:
   /// Takes a new list of pairs of balls (a < b, sorted); pairs in both lists keep their memory.
+  /// @param balls  must not change until the next list
   /// @param x  m, of nodes, to put what is near together; empty: the balls are in order already
   /// @returns the energy (J) lost with contacts that left the list
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
@@ -45,9 +47,9 @@ class BallContacts {
   /// Calls visit(a, b, parameters, gap) for every touching pair, in the order of the list.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
-    for_each_lane([&](const geometry::IndexPair& pair, const Rows& rows, std::size_t lane) {
-      visit(blocks_.node(pair.a), blocks_.node(pair.b),
-            rows.parameters.template at<typename Law::Parameters>(lane), rows.gap.number(lane));
+    for_each_lane([&](const geometry::IndexPair& pair, const Parameters& parameters,
+                      const Rows& rows, std::size_t lane) {
+      visit(ball(pair.a).node, ball(pair.b).node, parameters, rows.gap.number(lane));
     });
   }
 
@@ -56,6 +58,7 @@ class BallContacts {
 
  private:
   using Rows = PairRows<Law>;
+  using Parameters = typename Law::Parameters;
   using Pair = BallBlocks::Pair;
   static constexpr std::size_t kLanes = BallBlocks::kLanes;
   static_assert(Rows::kLanes == kLanes);
@@ -91,6 +94,13 @@ class BallContacts {
     Outcome outcome;
   };
 
+  const Ball& ball(std::int32_t index) const noexcept {
+    return balls_[static_cast<std::size_t>(index)];
+  }
+  /// Of pair i of the list.
+  Parameters parameters(std::size_t i) const noexcept {
+    return parameters_.of_pair(ball(keys_[i].a), ball(keys_[i].b), blocks_.slot(i));
+  }
   void keep_memories();
   /// Adds to the sums of all balls what other blocks have of them.
   void return_loans(geometry::ThreadPool& pool);
@@ -100,23 +110,24 @@ class BallContacts {
   /// One step of W pairs from a lane on. @returns whether all of them could be computed side by
   /// side; otherwise nothing has been done
   template <int W>
-  PLEKTON_INLINE bool advance_side_by_side(Rows& rows, const Pair* pairs, std::size_t lane,
-                                           Work& work);
+  PLEKTON_INLINE bool advance_side_by_side(std::size_t row, std::size_t lane, Work& work);
   /// One step of a pair, whatever happened to it.
-  void advance_one(Rows& rows, const Pair* pairs, std::size_t lane, Work& work);
+  void advance_one(std::size_t row, std::size_t lane, Work& work);
 
-  /// Calls visit(pair, rows, lane) for every touching pair, in the order of the list.
+  /// Calls visit(pair, parameters, rows, lane) for every touching pair, in the order of the list.
   template <class Visit>
   void for_each_lane(Visit&& visit) const {
     for (std::size_t i = 0; i < keys_.size(); ++i) {
       const Rows& rows = rows_[blocks_.slot(i) / kLanes];
       const std::size_t lane = blocks_.slot(i) % kLanes;
-      if (rows.touched(lane)) visit(keys_[i], rows, lane);
+      if (rows.touched(lane)) visit(keys_[i], parameters(i), rows, lane);
     }
   }
 
   std::vector<geometry::IndexPair> keys_;  ///< of balls
+  std::span<const Ball> balls_;
   BallBlocks blocks_;
+  PairParameters<Law> parameters_;
   std::vector<Rows> rows_;
   std::vector<BallSum> sums_;      ///< by member
   std::vector<Outcome> outcomes_;  ///< by block
@@ -132,25 +143,24 @@ double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
   make_room(keys_, keys.size());
   keys_.assign(keys.begin(), keys.end());
   blocks_.assign(keys, balls, x);
+  balls_ = balls;
+  parameters_.assign(keys_, balls_, blocks_, materials);
   make_room(rows_, blocks_.row_count());
   rows_.resize(blocks_.row_count());
   for (const BallBlocks::Block& block : blocks_.blocks()) {
     for (std::size_t n = block.pair_count; n < block.slot_count(); ++n)
-      rows_[block.slot(n) / kLanes].set(block.slot(n) % kLanes, {}, {});
+      rows_[block.slot(n) / kLanes].set(block.slot(n) % kLanes, {});
   }
 
-  const auto parameters = [&](const geometry::IndexPair& pair) {
-    const Ball& a = balls[static_cast<std::size_t>(pair.a)];
-    const Ball& b = balls[static_cast<std::size_t>(pair.b)];
-    return materials.combine(a.material, a.radius, b.material, b.radius);
-  };
   double lost = 0.0;
-  const auto drop = [&](Kept& kept) { lost += forget<Law>(parameters(kept.pair), kept.memory); };
+  const auto drop = [&](Kept& kept) {
+    lost += forget<Law>(materials.combine(ball(kept.pair.a), ball(kept.pair.b)), kept.memory);
+  };
   auto kept = kept_.begin();
   for (std::size_t i = 0; i < keys.size(); ++i) {
     for (; kept != kept_.end() && kept->pair < keys[i]; ++kept) drop(*kept);
     const bool is_known = kept != kept_.end() && kept->pair == keys[i];
-    rows_[blocks_.slot(i) / kLanes].set(blocks_.slot(i) % kLanes, parameters(keys[i]),
+    rows_[blocks_.slot(i) / kLanes].set(blocks_.slot(i) % kLanes,
                                         is_known ? kept->memory : ContactMemory<Law>{});
     if (is_known) ++kept;
   }
@@ -162,9 +172,11 @@ template <ContactLaw Law>
 void BallContacts<Law>::keep_memories() {
   kept_.clear();
   make_room(kept_, touching());
-  for_each_lane([&](const geometry::IndexPair& pair, const Rows& rows, std::size_t lane) {
-    kept_.push_back({pair, rows.memory(lane)});
-  });
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    const Rows& rows = rows_[blocks_.slot(i) / kLanes];
+    const std::size_t lane = blocks_.slot(i) % kLanes;
+    if (rows.touched(lane)) kept_.push_back({keys_[i], rows.memory(lane)});
+  }
 }
 
 template <ContactLaw Law>
@@ -205,24 +217,24 @@ template <ContactLaw Law>
 template <int W>
 PLEKTON_INLINE void BallContacts<Law>::advance_rows(const BallBlocks::Block& block, Work& work) {
   for (std::size_t row = block.first_row; row < block.first_row + block.row_count; ++row) {
-    Rows& rows = rows_[row];
-    const Pair* const pairs = blocks_.row(row);
     for (std::size_t lane = 0; lane < kLanes; lane += std::size_t{W}) {
       if constexpr (LaneLaw<Law>) {
-        if (advance_side_by_side<W>(rows, pairs, lane, work)) continue;
+        if (advance_side_by_side<W>(row, lane, work)) continue;
       }
-      for (std::size_t k = lane; k < lane + std::size_t{W}; ++k) advance_one(rows, pairs, k, work);
+      for (std::size_t k = lane; k < lane + std::size_t{W}; ++k) advance_one(row, k, work);
     }
   }
 }
 
 template <ContactLaw Law>
 template <int W>
-PLEKTON_INLINE bool BallContacts<Law>::advance_side_by_side(Rows& rows, const Pair* pairs,
-                                                            std::size_t lane, Work& work) {
+PLEKTON_INLINE bool BallContacts<Law>::advance_side_by_side(std::size_t row, std::size_t lane,
+                                                            Work& work) {
   using Real = Pack<W>;
   using Vector = Vec3Of<Real>;
   using History = typename Law::template HistoryOf<Real>;
+  Rows& rows = rows_[row];
+  const Pair* const pairs = blocks_.row(row);
   const BallMotionOf<Real> balls = work.balls.template pairs<W>(pairs + lane);
   const Real touch = balls.touch();
   const auto last_normal = rows.normal.template load<Vector>(lane);
@@ -230,16 +242,16 @@ PLEKTON_INLINE bool BallContacts<Law>::advance_side_by_side(Rows& rows, const Pa
   const unsigned touched = bits_of(geometry::flag(last_normal.squaredNorm() > 0.0));
   if ((touching | touched) == 0) return true;
 
-  const auto answer = advance_lanes<Law, Real>(
-      balls, rows.parameters.template load<typename Law::template ParametersOf<Real>>(lane),
-      rows.history.template load<History>(lane), last_normal, work.dt);
+  const auto answer =
+      advance_lanes<Law, Real>(balls, parameters_.template of_lanes<W>(row, lane, balls),
+                               rows.history.template load<History>(lane), last_normal, work.dt);
   const unsigned right = bits_of(geometry::flag(answer.is_right > 0.0));
   if ((touching & right) != (touching | touched)) return false;
 
   rows.history.store(lane, answer.history, touch);
   rows.normal.store(lane, answer.normal, touch);
   rows.gap.store(lane, answer.step.gap);
-  rows.force.store(lane, answer.step.force);
+  if constexpr (!TellsForce<Law>) rows.force.store(lane, answer.step.force);
   Outcome& outcome = work.outcome;
   outcome.touching += static_cast<std::size_t>(std::popcount(touching));
   double* const dissipated = &outcome.dissipated[lane];
@@ -269,9 +281,11 @@ PLEKTON_INLINE bool BallContacts<Law>::advance_side_by_side(Rows& rows, const Pa
 }
 
 template <ContactLaw Law>
-void BallContacts<Law>::advance_one(Rows& rows, const Pair* pairs, std::size_t lane, Work& work) {
-  const BallMotionOf<double> balls = work.balls.pair(pairs[lane]);
-  const auto parameters = rows.parameters.template at<typename Law::Parameters>(lane);
+void BallContacts<Law>::advance_one(std::size_t row, std::size_t lane, Work& work) {
+  Rows& rows = rows_[row];
+  const Pair& members = blocks_.row(row)[lane];
+  const BallMotionOf<double> balls = work.balls.pair(members);
+  const Parameters parameters = parameters_.of_lane(row, lane, balls);
   ContactMemory<Law> memory = rows.memory(lane);
   Outcome& outcome = work.outcome;
   if (balls.touch() == 0.0) {
@@ -290,7 +304,7 @@ void BallContacts<Law>::advance_one(Rows& rows, const Pair* pairs, std::size_t l
   const BallStepOf<double> step = ball_step<Law>(pair, parameters, memory.history, work.dt);
   rows.set_memory(lane, memory);
   rows.gap.set(lane, step.gap);
-  rows.force.set(lane, step.force);
+  if constexpr (!TellsForce<Law>) rows.force.set(lane, step.force);
   ++outcome.touching;
   outcome.dissipated[lane] += step.dissipated;
   const double smaller = std::min(pair.radius_a, pair.radius_b);
@@ -299,8 +313,8 @@ void BallContacts<Law>::advance_one(Rows& rows, const Pair* pairs, std::size_t l
     outcome.radius[lane] = smaller;
   }
   const BallForce force{step.force, step.force_cross_normal, step.arm_a, step.arm_b};
-  add_to_a(work.sums[pairs[lane].a], force);
-  add_to_b(work.sums[pairs[lane].b], force);
+  add_to_a(work.sums[members.a], force);
+  add_to_b(work.sums[members.b], force);
 }
 
 template <ContactLaw Law>
@@ -362,8 +376,8 @@ double BallContacts<Law>::largest_overlap_ratio() const noexcept {
 template <ContactLaw Law>
 double BallContacts<Law>::elastic_energy() const {
   double energy = 0.0;
-  for_each_lane([&](const geometry::IndexPair&, const Rows& rows, std::size_t lane) {
-    const auto parameters = rows.parameters.template at<typename Law::Parameters>(lane);
+  for_each_lane([&](const geometry::IndexPair&, const Parameters& parameters, const Rows& rows,
+                    std::size_t lane) {
     energy += Law::elastic_normal_energy(parameters, rows.gap.number(lane)) +
               Law::history_energy(parameters, rows.memory(lane).history);
   });
@@ -373,11 +387,12 @@ double BallContacts<Law>::elastic_energy() const {
 template <ContactLaw Law>
 template <class Visit>
 void BallContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
-  for_each_lane([&](const geometry::IndexPair& pair, const Rows& rows, std::size_t lane) {
-    const Vec3& xa = x[index_of(blocks_.node(pair.a))];
-    const Vec3& xb = x[index_of(blocks_.node(pair.b))];
+  for_each_lane([&](const geometry::IndexPair& pair, const Parameters& parameters, const Rows& rows,
+                    std::size_t lane) {
+    const Vec3& xa = x[index_of(ball(pair.a).node)];
+    const Vec3& xb = x[index_of(ball(pair.b).node)];
     visit(contact_row(xa, xb, rows.normal.template at<Vec3>(lane), rows.gap.number(lane),
-                      rows.force.template at<Vec3>(lane)));
+                      rows.force_on_b(lane, parameters)));
   });
 }
 

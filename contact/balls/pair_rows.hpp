@@ -5,6 +5,7 @@
 #include "geometry/rows.hpp"
 
 #include <type_traits>
+#include <variant>
 
 namespace plekton::contact {
 
@@ -16,17 +17,14 @@ struct alignas(64) PairRows {
   static constexpr std::size_t kLanes = 8;
   template <class Thing>
   using RowsOf = geometry::RowsOf<Thing, kLanes>;
-  using Parameters = typename Law::Parameters;
   using History = typename Law::History;
-  static_assert(std::is_trivially_copyable_v<Parameters> &&
-                sizeof(Parameters) % sizeof(double) == 0);
   static_assert(sizeof(History) % sizeof(double) == 0, "a history is kept as doubles");
 
-  RowsOf<Parameters> parameters;
   RowsOf<History> history;
   RowsOf<Vec3> normal;  ///< unit, of the last step; zero if the pair did not touch
   RowsOf<double> gap;   ///< m, of the last step; any number if the pair did not touch
-  RowsOf<Vec3> force;   ///< N, on b, of the last step; any numbers if the pair did not touch
+  /// N, on b, of the last step, if nothing else tells it; any numbers if the pair did not touch.
+  [[no_unique_address]] std::conditional_t<TellsForce<Law>, std::monostate, RowsOf<Vec3>> force;
 
   ContactMemory<Law> memory(std::size_t lane) const noexcept {
     return {history.template at<History>(lane), normal.template at<Vec3>(lane)};
@@ -38,11 +36,19 @@ struct alignas(64) PairRows {
   bool touched(std::size_t lane) const noexcept {
     return !normal.template at<Vec3>(lane).isZero(0.0);
   }
-  void set(std::size_t lane, const Parameters& of_pair, const ContactMemory<Law>& memory) noexcept {
-    parameters.set(lane, of_pair);
+  void set(std::size_t lane, const ContactMemory<Law>& memory) noexcept {
     set_memory(lane, memory);
     gap.set(lane, 0.0);
-    force.set(lane, Vec3(Vec3::Zero()));
+    if constexpr (!TellsForce<Law>) force.set(lane, Vec3(Vec3::Zero()));
+  }
+  /// N, on b, of the last step, of a pair that touched.
+  Vec3 force_on_b(std::size_t lane, const typename Law::Parameters& parameters) const noexcept {
+    if constexpr (TellsForce<Law>) {
+      return Law::force_of_state(parameters, gap.number(lane), normal.template at<Vec3>(lane),
+                                 history.template at<History>(lane));
+    } else {
+      return force.template at<Vec3>(lane);
+    }
   }
 };
 

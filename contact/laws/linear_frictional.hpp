@@ -32,12 +32,14 @@ struct LinearFrictional {
   };
   using History = HistoryOf<double>;
 
-  static Parameters combine(const Material& a, double radius_a, const Material& b,
-                            double radius_b) noexcept {
-    const double normal_a = a.young_modulus * radius_a;
-    const double normal_b = b.young_modulus * radius_b;
-    return {in_series(normal_a, normal_b),
-            in_series(normal_a * a.stiffness_ratio, normal_b * b.stiffness_ratio),
+  template <class Real>
+  PLEKTON_INLINE static ParametersOf<Real> combine(
+      const Material& a, const Real& radius_a, const Material& b,
+      const std::type_identity_t<Real>& radius_b) noexcept {
+    const Real normal_a = a.young_modulus * radius_a;
+    const Real normal_b = b.young_modulus * radius_b;
+    return {in_series<Real>(normal_a, normal_b),
+            in_series<Real>(normal_a * a.stiffness_ratio, normal_b * b.stiffness_ratio),
             std::min(a.friction, b.friction)};
   }
 
@@ -72,9 +74,14 @@ struct LinearFrictional {
     history.elastic_slip = elastic_part * trial;
     const Vec3Of<Real> plastic_slip = trial - history.elastic_slip;
     const Vec3Of<Real> twice_mean_slip = before + history.elastic_slip;
-    return {
-        motion.elastic_normal_force * motion.normal - p.tangential_stiffness * history.elastic_slip,
-        Real(0.5) * p.tangential_stiffness * twice_mean_slip.dot(plastic_slip)};
+    return {elastic_force(p, motion.elastic_normal_force, motion.normal, history),
+            Real(0.5) * p.tangential_stiffness * twice_mean_slip.dot(plastic_slip)};
+  }
+
+  /// See TellsForce.
+  static Vec3 force_of_state(const Parameters& p, double gap, const Vec3& normal,
+                             const History& history) noexcept {
+    return elastic_force(p, elastic_normal_force(p, gap), normal, history);
   }
 
   static double history_energy(const Parameters& p, const History& history) noexcept {
@@ -101,8 +108,18 @@ struct LinearFrictional {
  private:
   /// Twice the series stiffness, so that equal bodies give their own stiffness; 0 if one of them is
   /// 0.
-  static double in_series(double a, double b) noexcept {
-    return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0;
+  template <class Real>
+  PLEKTON_INLINE static Real in_series(const Real& a, const Real& b) noexcept {
+    const Real sum = a + b;
+    return geometry::select(sum > Real(0.0), Real(Real(2.0) * a * b / sum), Real(0.0));
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static Vec3Of<Real> elastic_force(const ParametersOf<Real>& p,
+                                                   const Real& normal_force,
+                                                   const Vec3Of<Real>& normal,
+                                                   const HistoryOf<Real>& history) noexcept {
+    return normal_force * normal - p.tangential_stiffness * history.elastic_slip;
   }
 };
 

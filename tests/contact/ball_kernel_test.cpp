@@ -146,6 +146,7 @@ TEST(BallKernel, RunsWithTheWidestVectorsOfThisMachine) {
 
 using PlainLaw = test::OneAtATime<Law>;
 static_assert(ContactLaw<PlainLaw> && !LaneLaw<PlainLaw> && LaneLaw<Law>);
+static_assert(CombinesRadii<Law> && !CombinesRadii<PlainLaw>);
 
 /// A crowd of balls and all their pairs, thrown about anew before every step.
 template <class AnyLaw>
