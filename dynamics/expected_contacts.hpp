@@ -34,18 +34,21 @@ class ExpectedContacts {
     if (structures_.size() > 1) collect_extents();
   }
 
-  /// Spheres as if packed densely among the hardest they can meet, nodes of surfaces as if touched
-  /// by the hardest.
-  void add_to(NodalStiffness& stiffness) const {
+  /// By NodeId. Spheres as if packed densely among the hardest they can meet, nodes of surfaces as
+  /// if touched by the hardest.
+  std::vector<IsotropicStiffness> of_nodes() const {
+    std::vector<IsotropicStiffness> stiffness(surface_.node_count());
     for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
       const geometry::Sphere& sphere = scene_.elements.spheres[i];
       const ExpectedStiffness k = hardest_partner({scene_.sphere_materials[i], sphere.radius});
-      stiffness.add_dense_packing(sphere.nodes[0], k.normal, k.tangential, sphere.radius);
+      stiffness[index_of(sphere.nodes[0])] =
+          in_dense_packing(k.normal, k.tangential, sphere.radius);
     }
     for (std::size_t n = 0; n < surface_.node_count(); ++n) {
       const auto node = geometry::id_at<NodeId>(n);
-      if (surface_.structure_of(node) != geometry::StructureId{-1}) add_touch(node, stiffness);
+      if (surface_.structure_of(node) != geometry::StructureId{-1}) stiffness[n] = of_touch(node);
     }
+    return stiffness;
   }
 
  private:
@@ -130,7 +133,7 @@ class ExpectedContacts {
 
   ExpectedStiffness hardest_partner(const Kind& sphere) const {
     ExpectedStiffness hardest;
-    // Of spheres, one as large as itself: add_dense_packing says why this covers other sizes.
+    // Of spheres, one as large as itself: in_dense_packing says why this covers other sizes.
     for (const Kind& other : kinds_) take(sphere, {other.material, sphere.radius}, hardest);
     for (const Kind& structure : structures_) take(sphere, structure, hardest);
     for (const contact::Plane& plane : scene_.planes)
@@ -141,7 +144,7 @@ class ExpectedContacts {
   /// The hardest grain, with its full weight, from one side, another structure, and a plane from
   /// the other. More grains on the same node come one after the other: the step is looked at again
   /// before they have arrived.
-  void add_touch(NodeId node, NodalStiffness& stiffness) const {
+  IsotropicStiffness of_touch(NodeId node) const {
     const Kind& structure = structures_[index_of(surface_.structure_of(node))];
     ExpectedStiffness grain;
     for (const Kind& kind : kinds_) take(kind, structure, grain);
@@ -149,9 +152,9 @@ class ExpectedContacts {
     for (const contact::Plane& other : scene_.planes)
       take(structure, {other.material, structure.radius}, plane);
     const ExpectedStiffness other = hardest_structure(node);
-    stiffness.add_from_all_sides(node, 2.0 * (grain.normal + other.normal) + plane.normal,
-                                 2.0 * (grain.tangential + other.tangential) + plane.tangential,
-                                 structure.radius);
+    return from_all_sides(2.0 * (grain.normal + other.normal) + plane.normal,
+                          2.0 * (grain.tangential + other.tangential) + plane.tangential,
+                          structure.radius);
   }
 
   const Scene& scene_;
@@ -163,11 +166,11 @@ class ExpectedContacts {
   std::vector<double> area_;    ///< m², of facets, by node
 };
 
-/// Adds the contacts that may come to the stiffness around the nodes.
+/// Stiffness of the contacts that may come, by NodeId.
 template <contact::ContactLaw Law>
-void add_expected_contacts(const Scene& scene, const geometry::Surface& surface,
-                           NodalStiffness& stiffness) {
-  ExpectedContacts<Law>(scene, surface).add_to(stiffness);
+std::vector<IsotropicStiffness> expected_contacts(const Scene& scene,
+                                                  const geometry::Surface& surface) {
+  return ExpectedContacts<Law>(scene, surface).of_nodes();
 }
 
 }  // namespace plekton::dynamics

@@ -95,6 +95,7 @@ class Simulation {
   void move_planes();
   double gravity_energy(double before) const;
   double rounding_energy() const;
+  void add_expected_to(NodalStiffness& stiffness) const;
   void add_structures_to(NodalStiffness& stiffness) const;
   void add_contacts_to(NodalStiffness& stiffness) const;
   CriticalStep critical_step(NodalStiffness& space) const;
@@ -109,8 +110,8 @@ class Simulation {
   NodeForces forces_;
   Leapfrog leapfrog_;
   std::vector<double> radii_;  ///< m, of the ball around each node; 0 where there is none
-  NodalStiffness expected_;    ///< of the contacts that may come, without structures
-  NodalStiffness space_{0};    ///< to choose a time step without allocation; empty if one was given
+  std::vector<IsotropicStiffness> expected_;  ///< of the contacts that may come, by node
+  NodalStiffness space_{0};  ///< to choose a time step without allocation; empty if one was given
   double dt_ = 0.0;
   double stable_step_ = 0.0;  ///< s, kSafety times the smallest critical step so far
   double last_drift_ = 0.0;   ///< s, length of the last step; 0 before the first

@@ -47,7 +47,6 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
       sheet_facets_(scene_.sheet_facets, scene_.state.size()),
       forces_(scene_.state.size()),
       radii_(node_radii(scene_, surface_)),
-      expected_(scene_.state.size()),
       furthest_(furthest_in_a_step(scene_)),
       pace_radius_(pace_radius(scene_.elements)) {
   least_furthest_ = furthest_.empty() ? 0.0 : *std::min_element(furthest_.begin(), furthest_.end());
@@ -57,8 +56,9 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
   bonds_.advance(scene_.state, pool_);
   sheet_facets_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_);
-  add_expected_contacts<Law>(scene_, surface_, expected_);
-  NodalStiffness stiffness = expected_;
+  expected_ = expected_contacts<Law>(scene_, surface_);
+  NodalStiffness stiffness(scene_.state.size());
+  add_expected_to(stiffness);
   add_structures_to(stiffness);
   initial_stiffness_ = stiffness.total();
   const double critical = critical_step(stiffness).dt;
@@ -242,12 +242,18 @@ void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
       });
   contacts_.between_structures().for_each_stiffness(
       [&](NodeId node, double normal, double tangential, double radius) {
-        stiffness.add_from_all_sides(node, 2.0 * normal, 2.0 * tangential, radius);
+        stiffness.add(node, from_all_sides(2.0 * normal, 2.0 * tangential, radius));
       });
   contacts_.with_planes().for_each_touching(
       [&](NodeId ball, std::size_t plane, const auto& parameters) {
         stiffness.add_to_wall(ball, contact(scene_.planes[plane].normal, parameters, ball, ball));
       });
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::add_expected_to(NodalStiffness& stiffness) const {
+  for (std::size_t i = 0; i < expected_.size(); ++i)
+    stiffness.add(geometry::id_at<NodeId>(i), expected_[i]);
 }
 
 template <contact::ContactLaw Law>
@@ -265,7 +271,8 @@ CriticalStep Simulation<Law>::critical_step() const {
 /// @param space  for as many nodes as there are; its contents are overwritten
 template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::critical_step(NodalStiffness& space) const {
-  space = expected_;
+  space.set_zero();
+  add_expected_to(space);
   add_structures_to(space);
   const CriticalStep step_expected = space.critical_step(scene_.properties);
   space.set_zero();

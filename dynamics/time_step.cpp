@@ -26,6 +26,20 @@ Mat3 cross_matrix(const Vec3& c) noexcept {
 
 NodalStiffness::NodalStiffness(std::size_t node_count) : blocks_(node_count) {}
 
+NodalStiffness::SymmetricMat3& NodalStiffness::SymmetricMat3::operator+=(
+    const Mat3& matrix) noexcept {
+  diagonal += matrix.diagonal();
+  others += Vec3(matrix(2, 1), matrix(2, 0), matrix(1, 0));
+  return *this;
+}
+
+Mat3 NodalStiffness::SymmetricMat3::full() const noexcept {
+  Mat3 matrix;
+  matrix << diagonal.x(), others.z(), others.y(), others.z(), diagonal.y(), others.x(), others.y(),
+      others.x(), diagonal.z();
+  return matrix;
+}
+
 void NodalStiffness::set_zero() noexcept {
   std::fill(blocks_.begin(), blocks_.end(), Block{});
 }
@@ -93,31 +107,29 @@ void NodalStiffness::add_to_wall(NodeId ball, const ContactStiffness& contact) {
   add_contact_end(ball, contact, contact.arm_a, 1.0);
 }
 
-void NodalStiffness::add_dense_packing(NodeId sphere, double normal, double tangential,
-                                       double radius) {
-  constexpr double kContactsAlongAnAxis = 12.0 / 3.0;
-  for (const Vec3& direction : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
-    const ContactStiffness contact{direction, normal, tangential, radius, radius};
-    for (const double side : {-radius, radius}) {  // so that their couplings cancel
-      add_contact_end(sphere, contact, side, kContactsAlongAnAxis);
-    }
-  }
+void NodalStiffness::add(NodeId node, const IsotropicStiffness& springs) noexcept {
+  Block& block = blocks_[index_of(node)];
+  block.translation.diagonal.array() += springs.translation;
+  block.rotation.diagonal.array() += springs.rotation;
 }
 
-void NodalStiffness::add_from_all_sides(NodeId node, double normal, double tangential,
-                                        double radius) {
-  // Along any direction a contact has at most the larger of its stiffnesses, and about any axis the
-  // tangential one at the arm. The coupling of translation and rotation at most doubles either.
-  Block& block = blocks_[index_of(node)];
-  block.translation += std::max(normal, 2.0 * tangential) * Mat3::Identity();
-  block.rotation += 2.0 * radius * radius * tangential * Mat3::Identity();
+// 12 contacts, of which a third acts along each axis, with the factor 2 of a pair; across it their
+// tangential springs. The couplings of opposite contacts cancel.
+IsotropicStiffness in_dense_packing(double normal, double tangential, double radius) noexcept {
+  return {8.0 * normal + 16.0 * tangential, 16.0 * (radius * radius * tangential)};
+}
+
+// Along any direction a contact has at most the larger of its stiffnesses, and about any axis the
+// tangential one at the arm. The coupling of translation and rotation at most doubles either.
+IsotropicStiffness from_all_sides(double normal, double tangential, double radius) noexcept {
+  return {std::max(normal, 2.0 * tangential), 2.0 * radius * radius * tangential};
 }
 
 NodalStiffness::Total NodalStiffness::total() const noexcept {
   Total total;
   for (const Block& block : blocks_) {
-    total.translation += block.translation.trace();
-    total.rotation += block.rotation.trace();
+    total.translation += block.translation.diagonal.sum();
+    total.rotation += block.rotation.diagonal.sum();
   }
   return total;
 }
@@ -131,8 +143,8 @@ NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t node,
   const double turn = holds_rotation(held) ? 0.0 : 1.0 / std::sqrt(properties.inertia[node]);
   const Mat3 coupling = (shift * turn) * cross_matrix(block.coupling);
   Mat6 matrix;
-  matrix << (shift * shift) * block.translation, coupling, coupling.transpose(),
-      (turn * turn) * block.rotation;
+  matrix << (shift * shift) * block.translation.full(), coupling, coupling.transpose(),
+      (turn * turn) * block.rotation.full();
   return matrix;
 }
 

@@ -27,6 +27,27 @@ struct ContactStiffness {
   double arm_b;                 ///< m, likewise of b
 };
 
+/// Springs around a node that are the same along and about every axis.
+struct IsotropicStiffness {
+  double translation = 0.0;  ///< N/m
+  double rotation = 0.0;     ///< N m
+};
+
+/// Contacts of a sphere as if it lay among others of its size in the densest packing: 12 contacts,
+/// evenly distributed, so that a third of each acts in any direction. In a mixture it is the
+/// smallest grains that limit the step. A ball among n larger ones has the stiffness n 2 / (1 +
+/// size ratio) k, with n at most 12, 9, 6 and 4 for ratios down to 0.90, 0.73, 0.41 and 0.22
+/// (Tammes' problem): never more than 5 % above 12 k. For a ball that is softer than its
+/// neighbours, give the stiffness of its contact with the hardest.
+/// @param normal, tangential  N/m, of a contact between two such spheres
+/// @param radius              m, of the sphere
+IsotropicStiffness in_dense_packing(double normal, double tangential, double radius) noexcept;
+
+/// A contact of a node of a surface that may come from any side.
+/// @param normal, tangential  N/m, with the factor 2 of a partner that moves already in them
+/// @param radius              m, of the surface
+IsotropicStiffness from_all_sides(double normal, double tangential, double radius) noexcept;
+
 /// Sums of the stiffness around each node, for a time step that is safe.
 ///
 /// The leapfrog is stable for dt < 2 / omega, omega² the largest eigenvalue of K x = omega² M x.
@@ -49,6 +70,8 @@ class NodalStiffness {
   /// Forgets what was added; keeps its space, so that nothing is allocated.
   void set_zero() noexcept;
 
+  void add(NodeId node, const IsotropicStiffness& springs) noexcept;
+
   /// Adds a bond as long as it is now, its nodes turned little from the chord (less than 45
   /// degrees). Tension is included: it resists turning of the chord. So a bond may shorten its step
   /// as it stretches. A bond of length 0 counts as long as at rest.
@@ -70,21 +93,6 @@ class NodalStiffness {
   /// Adds a contact between a ball and a wall, which does not yield. arm_b has no meaning here.
   void add_to_wall(NodeId ball, const ContactStiffness& contact);
 
-  /// Adds contacts to a sphere as if it lay among others of its size in the densest packing: 12
-  /// contacts, evenly distributed, so that a third of each acts in any direction. In a mixture it
-  /// is the smallest grains that limit the step. A ball among n larger ones has the stiffness n 2 /
-  /// (1 + size ratio) k, with n at most 12, 9, 6 and 4 for ratios down to 0.90, 0.73, 0.41 and 0.22
-  /// (Tammes' problem): never more than 5 % above 12 k. For a ball that is softer than its
-  /// neighbours, give the stiffness of its contact with the hardest.
-  /// @param radius      m, of the sphere
-  /// @param normal, tangential  N/m, of a contact between two such spheres
-  void add_dense_packing(NodeId sphere, double normal, double tangential, double radius);
-
-  /// Adds a contact to a node of a surface that may come from any side.
-  /// @param normal, tangential  N/m, with the factor 2 of a partner that moves already in them
-  /// @param radius              m, of the surface
-  void add_from_all_sides(NodeId node, double normal, double tangential, double radius);
-
   /// Adds stiffness that is already that of springs which each hold a single node: matrices such
   /// that the energy of a structure is at most 1/2 sum (v . T v + r . R r) over its nodes.
   /// @param translation  N/m, symmetric, T
@@ -105,12 +113,21 @@ class NodalStiffness {
   CriticalStep critical_step(const NodeProperties& properties) const;
 
  private:
+  /// The numbers of a symmetric matrix.
+  struct SymmetricMat3 {
+    Vec3 diagonal = Vec3::Zero();
+    Vec3 others = Vec3::Zero();  ///< yz, xz, xy
+
+    SymmetricMat3& operator+=(const Mat3& matrix) noexcept;
+    Mat3 full() const noexcept;
+  };
+
   /// Twice the stiffness around a node: [translation, coupling; coupling^T, rotation] with the
   /// coupling v -> c x v, since all contacts turn a node across their normal.
   struct Block {
-    Mat3 translation = Mat3::Zero();  // N/m
-    Mat3 rotation = Mat3::Zero();     // N m
-    Vec3 coupling = Vec3::Zero();     // N
+    SymmetricMat3 translation;     // N/m
+    SymmetricMat3 rotation;        // N m
+    Vec3 coupling = Vec3::Zero();  // N
   };
 
   void add_contact_end(NodeId node, const ContactStiffness& contact, double signed_arm,

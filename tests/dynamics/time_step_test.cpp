@@ -318,7 +318,7 @@ TEST(TimeStep, OfAnExpectedDensePackingHoldsForTheDensestOne) {
     ContactMatrix exact(centres.size());
     NodalStiffness expected(centres.size());
     for (std::size_t a = 0; a < centres.size(); ++a) {
-      expected.add_dense_packing(geometry::id_at<NodeId>(a), 1.0, ratio, radius);
+      expected.add(geometry::id_at<NodeId>(a), dynamics::in_dense_packing(1.0, ratio, radius));
       for (std::size_t b = a + 1; b < centres.size(); ++b) {
         const Vec3 d = centres[b] - centres[a];
         if (d.squaredNorm() > 2.1) continue;
