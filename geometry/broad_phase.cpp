@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <stdexcept>
 #include <string>
@@ -29,7 +30,7 @@ namespace {
 
 /// FCL ranks boxes by squared diagonals, which must not overflow.
 constexpr double kLargestCoordinate = 1e150;
-/// Nodes on the longest way down, root and leaf included. A tree of 2^31 boxes has 32.
+/// Nodes on the longest way down, root and leaf included. A tree of 2^31 boxes has 29.
 constexpr std::size_t kMaxHeight = 64;
 
 fcl::AABBd to_fcl(const Box& box) {
@@ -54,10 +55,10 @@ bool overlap(const fcl::AABBd& p, const fcl::AABBd& q) {
   return result;
 }
 
-/// FCL's tree in one array: leaves in places [0, n), inner nodes in [n, 2 n - 1). A leaf keeps its
-/// box's index where an inner node keeps its first child; FCL knows a leaf by its second child
-/// alone. FCL refits the tree; the fresh tree is made here, because
-/// HierarchyTree::init and balanceTopdown never give their memory back (FCL 0.7.0).
+/// FCL's tree over bunches of 8 boxes (the last one may hold fewer), in one array: leaves, which
+/// are the bunches, in places [0, n), inner nodes in [n, 2 n - 1). FCL refits the tree; the fresh
+/// tree is made here, because HierarchyTree::init and balanceTopdown never give their memory back
+/// (FCL 0.7.0).
 class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd> {
  public:
   using Place = std::uint32_t;
@@ -68,49 +69,37 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
   Tree& operator=(const Tree&) = delete;
 
   const fcl::AABBd& box(std::size_t place) const { return nodes[place].bv; }
-  bool is_leaf(std::size_t place) const { return place < n_leaves; }
-  std::int32_t index(std::size_t leaf) const {
-    return static_cast<std::int32_t>(nodes[leaf].children[0]);
-  }
   Place child(std::size_t place, std::size_t k) const {
     return static_cast<Place>(nodes[place].children[k]);
   }
   Place root() const { return static_cast<Place>(root_node); }
-  std::size_t leaf_end() const { return n_leaves; }
-  std::size_t inner_end() const { return n_leaves == 0 ? 0 : 2 * n_leaves - 1; }
+  std::size_t box_count() const { return box_count_; }
+  std::size_t bunch_count() const { return n_leaves; }
+  /// The bunch that a leaf is; nullptr of an inner node.
+  const BoxLanes* bunch(Place place) const { return place < n_leaves ? &bunches_[place] : nullptr; }
 
-  bool overlap(Place x, Place y) const { return geometry::overlap(box(x), box(y)); }
-
-  /// The tree down to bunches of leaves: the nodes above them, and bunches.
-  std::span<const Place> nodes_above_bunches() const { return above_bunches_; }
-  std::span<const BoxLanes> bunches() const { return bunches_; }
-  /// The bunch that a node is the top of, or nullptr.
-  const BoxLanes* bunch(Place place) const {
-    const std::int32_t b = bunch_of_[place];
-    return b < 0 ? nullptr : &bunches_[static_cast<std::size_t>(b)];
-  }
+  static bool overlap(const fcl::AABBd& p, const fcl::AABBd& q) { return geometry::overlap(p, q); }
 
   void rebuild(std::span<const Box> boxes) {
-    make_room(boxes.size());
+    box_count_ = boxes.size();
     items_.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) items_[i] = {to_fcl(boxes[i]).center(), i};
-    above_bunches_.clear();
-    first_leaves_.clear();
-    bunch_of_.assign(2 * boxes.size(), -1);
+    make_room((boxes.size() + kInBunch - 1) / kInBunch);
     next_inner_ = n_leaves;
-    root_node = n_leaves == 0 ? NULL_NODE : split(0, n_leaves);
+    root_node = n_leaves == 0 ? NULL_NODE : split(0, boxes.size());
     if (n_leaves > 0) nodes[root_node].parent = NULL_NODE;
     opath = 0;
-    set_boxes(boxes);
-    refit();
+    follow(boxes);
   }
 
   void follow(std::span<const Box> boxes) {
-    set_boxes(boxes);
+    for (std::size_t leaf = 0; leaf < n_leaves; ++leaf) set_boxes(leaf, boxes);
     refit();
   }
 
  private:
+  static constexpr std::size_t kInBunch = BoxLanes::kLanes;
+
   struct Item {
     Vec3 centre;
     std::size_t index;
@@ -124,33 +113,19 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
       nodes = room;
       n_nodes_alloc = needed;
     }
+    bunches_.resize(count);
     n_leaves = count;
-    n_nodes = inner_end();
-    freelist = inner_end();
+    n_nodes = count == 0 ? 0 : 2 * count - 1;
+    freelist = n_nodes;
     nodes[freelist].next = NULL_NODE;
   }
 
-  /// A tree over the items [begin, end), halved at the median centre along the widest axis; returns
-  /// its top.
-  std::size_t split(std::size_t begin, std::size_t end, bool in_bunch = false) {
-    const bool is_bunch = !in_bunch && end - begin <= BoxLanes::kLanes;
-    const std::size_t top = split_below(begin, end, in_bunch || is_bunch);
-    if (is_bunch) {
-      bunch_of_[top] = static_cast<std::int32_t>(first_leaves_.size());
-      first_leaves_.push_back(begin);
-    } else if (!in_bunch) {
-      above_bunches_.push_back(static_cast<Place>(top));
-    }
-    return top;
-  }
-
-  std::size_t split_below(std::size_t begin, std::size_t end, bool in_bunch) {
-    if (end - begin == 1) {
-      nodes[begin].children[0] = items_[begin].index;
-      nodes[begin].children[1] = NULL_NODE;
-      return begin;
-    }
-    const std::size_t middle = begin + (end - begin) / 2;
+  /// A tree over the items [begin, end), halved near the median centre along the widest axis, so
+  /// that whole bunches remain; returns its top.
+  std::size_t split(std::size_t begin, std::size_t end) {
+    if (end - begin <= kInBunch) return make_bunch(begin, end);
+    const std::size_t bunches = (end - begin + kInBunch - 1) / kInBunch;
+    const std::size_t middle = begin + bunches / 2 * kInBunch;
     const int axis = widest_axis(begin, end);
     const auto item = [this](std::size_t k) {
       return items_.begin() + static_cast<std::ptrdiff_t>(k);
@@ -159,13 +134,22 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
       return p.centre[axis] < q.centre[axis];
     });
     const std::size_t top = next_inner_++;
-    const std::array<std::size_t, 2> halves{split(begin, middle, in_bunch),
-                                            split(middle, end, in_bunch)};
+    const std::array<std::size_t, 2> halves{split(begin, middle), split(middle, end)};
     for (std::size_t k = 0; k < 2; ++k) {
       nodes[top].children[k] = halves[k];
       nodes[halves[k]].parent = top;
     }
     return top;
+  }
+
+  std::size_t make_bunch(std::size_t begin, std::size_t end) {
+    const std::size_t leaf = begin / kInBunch;
+    bunches_[leaf].clear();
+    for (std::size_t k = begin; k < end; ++k)
+      bunches_[leaf].index[k - begin] = static_cast<std::int32_t>(items_[k].index);
+    nodes[leaf].children[0] = leaf;
+    nodes[leaf].children[1] = NULL_NODE;
+    return leaf;
   }
 
   int widest_axis(std::size_t begin, std::size_t end) const {
@@ -180,77 +164,34 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
     return axis;
   }
 
-  void set_boxes(std::span<const Box> boxes) {
-    for (std::size_t leaf = 0; leaf < n_leaves; ++leaf) {
-      nodes[leaf].bv = to_fcl(boxes[static_cast<std::size_t>(index(leaf))]);
-    }
-    bunches_.resize(first_leaves_.size());
-    for (std::size_t b = 0; b < bunches_.size(); ++b) {
-      bunches_[b].clear();
-      const std::size_t first = first_leaves_[b];
-      const std::size_t end = b + 1 < bunches_.size() ? first_leaves_[b + 1] : n_leaves;
-      for (std::size_t leaf = first; leaf < end; ++leaf)
-        bunches_[b].set(leaf - first, box(leaf).min_, box(leaf).max_, index(leaf));
+  void set_boxes(std::size_t leaf, std::span<const Box> boxes) {
+    BoxLanes& bunch = bunches_[leaf];
+    nodes[leaf].bv = fcl::AABBd();
+    for (std::size_t lane = 0; lane < kInBunch && bunch.index[lane] >= 0; ++lane) {
+      const std::int32_t index = bunch.index[lane];
+      const fcl::AABBd box = to_fcl(boxes[static_cast<std::size_t>(index)]);
+      bunch.set(lane, box.min_, box.max_, index);
+      nodes[leaf].bv += box;
     }
   }
 
+  std::size_t box_count_ = 0;
   std::vector<Item> items_;
-  std::vector<Place> above_bunches_;
-  std::vector<std::size_t> first_leaves_;  ///< by bunch
-  std::vector<std::int32_t> bunch_of_;     ///< by node; -1 of others than tops of bunches
-  std::vector<BoxLanes> bunches_;
+  std::vector<BoxLanes> bunches_;  ///< by leaf
   std::size_t next_inner_ = 0;
 };
 
-/// Calls emit(index in p, index in q) for every overlapping pair of a leaf below place x of p and
-/// one below y of q.
-template <class Emit>
-void descend(const Tree& p, Tree::Place x, const Tree& q, Tree::Place y, const Emit& emit) {
-  struct Places {
-    Tree::Place x, y;
-  };
-  // Pairs of nodes that overlap and wait. Each one taken brings at most 3 more than it was, and is
-  // one level deeper.
-  std::array<Places, 3 * kMaxHeight + 4> waiting;
-  std::size_t count = 0;
-  const auto add = [&](Tree::Place below_x, Tree::Place below_y) {
-    waiting[count] = {below_x, below_y};
-    count += overlap(p.box(below_x), q.box(below_y));
-  };
-  add(x, y);
-  while (count > 0) {
-    const auto [s, t] = waiting[--count];
-    if (p.is_leaf(s) && q.is_leaf(t)) {
-      emit(p.index(s), q.index(t));
-    } else if (p.is_leaf(s)) {
-      add(s, q.child(t, 0));
-      add(s, q.child(t, 1));
-    } else if (q.is_leaf(t)) {
-      add(p.child(s, 0), t);
-      add(p.child(s, 1), t);
-    } else {
-      add(p.child(s, 0), q.child(t, 0));
-      add(p.child(s, 0), q.child(t, 1));
-      add(p.child(s, 1), q.child(t, 0));
-      add(p.child(s, 1), q.child(t, 1));
-    }
-  }
-}
-
-/// Part [begin, end) of the nodes above bunches and then the bunches: two leaves part at exactly
-/// one of them.
+/// What bunches [begin, end) hold, and what meets across the inner nodes [begin, end): two boxes
+/// part at exactly one node.
 void find_pairs(const Tree& tree, std::size_t begin, std::size_t end,
                 std::vector<IndexPair>& pairs) {
   pairs.clear();
-  const auto nodes = tree.nodes_above_bunches();
   with_widest_vectors([&](auto width) __attribute__((always_inline)) {
-    BunchPairs<width, Tree> bunch_pairs(tree, pairs);
+    BunchPairs<width, Tree, true> bunch_pairs(tree, tree, pairs);
     for (std::size_t k = begin; k < end; ++k) {
-      if (k < nodes.size()) {
-        bunch_pairs.across(nodes[k]);
-      } else {
-        bunch_pairs.within(tree.bunches()[k - nodes.size()]);
-      }
+      bunch_pairs.within(*tree.bunch(static_cast<Tree::Place>(k)));
+      const auto node = static_cast<Tree::Place>(tree.bunch_count() + k);
+      if (k + 1 < tree.bunch_count()) bunch_pairs.across(tree.child(node, 0), tree.child(node, 1));
     }
   });
   // A list that varies a little soon has the room it needs.
@@ -322,7 +263,7 @@ BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 BroadPhase::~BroadPhase() = default;
 
 void BroadPhase::rebuild(std::span<const Box> boxes) {
-  assert(boxes.size() <= std::size_t{1} << 30);  // Places of the tree are 32-bit.
+  assert(boxes.size() <= std::size_t{1} << 30);  // Indices of pairs are 32-bit.
   implementation_->tree.rebuild(boxes);
 }
 
@@ -336,21 +277,20 @@ void BroadPhase::refit(std::span<const Box> boxes) {
 }
 
 std::size_t BroadPhase::size() const noexcept {
-  return implementation_->tree.leaf_end();
+  return implementation_->tree.box_count();
 }
 
 void BroadPhase::self_pairs(std::vector<IndexPair>& pairs) const {
   const Tree& tree = implementation_->tree;
   const std::span found = implementation_->lists(1);
-  find_pairs(tree, 0, tree.nodes_above_bunches().size() + tree.bunches().size(), found[0]);
+  find_pairs(tree, 0, tree.bunch_count(), found[0]);
   sort_pairs(found, size(), implementation_->row_ends, pairs);
 }
 
 void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) const {
   const Tree& tree = implementation_->tree;
   const std::span found = implementation_->lists(static_cast<std::size_t>(pool.thread_count()));
-  const std::size_t count = tree.nodes_above_bunches().size() + tree.bunches().size();
-  pool.for_each_range(count, [&](std::size_t begin, std::size_t end, int worker) {
+  pool.for_each_range(tree.bunch_count(), [&](std::size_t begin, std::size_t end, int worker) {
     find_pairs(tree, begin, end, found[static_cast<std::size_t>(worker)]);
   });
   sort_pairs(found, size(), implementation_->row_ends, pairs);
@@ -362,8 +302,9 @@ void BroadPhase::pairs_with(const BroadPhase& other, std::vector<IndexPair>& pai
   const std::span found = implementation_->lists(1);
   found[0].clear();
   if (size() > 0 && other.size() > 0) {
-    descend(tree, tree.root(), other_tree, other_tree.root(), [&](std::int32_t i, std::int32_t j) {
-      found[0].push_back({i, j});
+    with_widest_vectors([&](auto width) __attribute__((always_inline)) {
+      BunchPairs<width, Tree, false>(tree, other_tree, found[0])
+          .across(tree.root(), other_tree.root());
     });
   }
   sort_pairs(found, size(), implementation_->row_ends, pairs);
@@ -381,15 +322,19 @@ void BroadPhase::query(const Box& box, std::vector<std::int32_t>& indices) const
     count += overlap(tree.box(place), wanted);
   };
   add(tree.root());
-  while (count > 0) {
-    const Tree::Place place = waiting[--count];
-    if (tree.is_leaf(place)) {
-      indices.push_back(tree.index(place));
-    } else {
-      add(tree.child(place, 0));
-      add(tree.child(place, 1));
+  with_widest_vectors([&](auto width) __attribute__((always_inline)) {
+    while (count > 0) {
+      const Tree::Place place = waiting[--count];
+      if (const BoxLanes* const bunch = tree.bunch(place)) {
+        for (unsigned bits = bunch->overlaps<width>(wanted.min_, wanted.max_); bits != 0;
+             bits &= bits - 1)
+          indices.push_back(bunch->index[static_cast<std::size_t>(std::countr_zero(bits))]);
+      } else {
+        add(tree.child(place, 0));
+        add(tree.child(place, 1));
+      }
     }
-  }
+  });
   std::sort(indices.begin(), indices.end());
 }
 

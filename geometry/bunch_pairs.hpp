@@ -11,39 +11,40 @@
 
 namespace plekton::geometry {
 
-/// Lists the pairs within a tree bunch by bunch.
+/// Lists the pairs within a tree, or between two of them, bunch by bunch.
 ///
 /// @tparam Tree  has Place, kMaxHeight, child(place, 0 or 1), box(place) with min_ and max_,
-///               overlap(place, place), and bunch(place): the bunch that a node is the top of, or
-///               nullptr
-template <int W, class Tree>
+///               overlap(box, box), and bunch(place): the bunch that a leaf is, or nullptr
+/// @tparam kOneTree  whether both trees are the same: pairs have the lower index first
+template <int W, class Tree, bool kOneTree>
 class BunchPairs {
  public:
   using Place = typename Tree::Place;
 
-  BunchPairs(const Tree& tree, std::vector<IndexPair>& pairs) : tree_(tree), pairs_(pairs) {}
+  BunchPairs(const Tree& p, const Tree& q, std::vector<IndexPair>& pairs)
+      : p_(p), q_(q), pairs_(pairs) {}
 
-  /// Of leaves below the one child of a node with leaves below the other.
-  PLEKTON_INLINE void across(Place node) {
+  /// Of boxes below a node of the one tree with boxes below a node of the other.
+  PLEKTON_INLINE void across(Place below_p, Place below_q) {
     std::array<std::array<Place, 2>, 3 * Tree::kMaxHeight + 4> waiting;
     std::size_t count = 0;
     const auto add = [&](Place x, Place y) __attribute__((always_inline)) {
       waiting[count] = {x, y};
-      count += tree_.overlap(x, y);
+      count += Tree::overlap(p_.box(x), q_.box(y));
     };
-    add(tree_.child(node, 0), tree_.child(node, 1));
+    add(below_p, below_q);
     while (count > 0) {
       const auto [x, y] = waiting[--count];
-      const BoxLanes* const p = tree_.bunch(x);
-      const BoxLanes* const q = tree_.bunch(y);
+      const BoxLanes* const p = p_.bunch(x);
+      const BoxLanes* const q = q_.bunch(y);
       if (p && q) {
-        between(*p, tree_.box(x), *q, tree_.box(y));
+        between(*p, p_.box(x), *q, q_.box(y));
       } else if (p) {
-        for (std::size_t k = 0; k < 2; ++k) add(x, tree_.child(y, k));
+        for (std::size_t k = 0; k < 2; ++k) add(x, q_.child(y, k));
       } else if (q) {
-        for (std::size_t k = 0; k < 2; ++k) add(tree_.child(x, k), y);
+        for (std::size_t k = 0; k < 2; ++k) add(p_.child(x, k), y);
       } else {
-        for (std::size_t k = 0; k < 4; ++k) add(tree_.child(x, k / 2), tree_.child(y, k % 2));
+        for (std::size_t k = 0; k < 4; ++k) add(p_.child(x, k / 2), q_.child(y, k % 2));
       }
     }
   }
@@ -74,11 +75,12 @@ class BunchPairs {
     const std::int32_t i = p.index[lane];
     for (; bits != 0; bits &= bits - 1) {
       const std::int32_t j = q.index[static_cast<std::size_t>(std::countr_zero(bits))];
-      pairs_.push_back({std::min(i, j), std::max(i, j)});
+      pairs_.push_back(kOneTree ? IndexPair{std::min(i, j), std::max(i, j)} : IndexPair{i, j});
     }
   }
 
-  const Tree& tree_;
+  const Tree& p_;
+  const Tree& q_;
   std::vector<IndexPair>& pairs_;
 };
 

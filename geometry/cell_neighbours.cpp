@@ -109,6 +109,7 @@ void CellNeighbours::require_room(Positions rest) const {
 
 void CellNeighbours::collect_near_nodes(Positions rest) {
   require_room(rest);
+  if (own_nodes_.empty()) return;
   near_nodes_.resize(surface_->node_count());
   for (const NodeId node : own_nodes_) near_nodes_[index_of(node)] = nodes_near(node, rest);
 }
