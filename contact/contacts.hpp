@@ -53,18 +53,10 @@ class Contacts {
   /// (geometry/cell_neighbours.hpp).
   void choose_skin_of_structures() { cell_neighbours_.choose_skin(); }
 
-  /// One step: finds who touches whom, carries histories over, and asks the law. Forces are not yet
-  /// added.
+  /// One step: finds who touches whom, carries histories over, asks the law, and adds forces to the
+  /// nodes.
   void advance(const Motion& motion, std::span<const Plane> planes, double dt,
-               geometry::ThreadPool& pool);
-
-  /// Adds the forces of the last step to the nodes.
-  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
-    with_spheres_.add_forces(forces, pool);
-    with_surfaces_.add_forces(forces, pool);
-    between_structures_.add_forces(forces);
-    with_planes_.add_forces(forces, pool);
-  }
+               geometry::ThreadPool& pool, NodeForces& forces);
 
   ContactCounts counts() const noexcept {
     return {with_spheres_.touching(), with_surfaces_.touching(), between_structures_.touching(),
@@ -148,7 +140,7 @@ Contacts<Law>::Contacts(std::span<const geometry::Sphere> spheres, const geometr
 
 template <ContactLaw Law>
 void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes, double dt,
-                            geometry::ThreadPool& pool) {
+                            geometry::ThreadPool& pool, NodeForces& forces) {
   if (neighbours_.update(motion.position, pool, motion.way)) {
     dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs,
                                          motion.position);
@@ -165,10 +157,13 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
     dissipated_ +=
         with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
   }
-  dissipated_ += with_spheres_.advance(motion, dt, pool);
+  dissipated_ += with_spheres_.advance(motion, dt, pool, forces);
   dissipated_ += with_surfaces_.advance(motion, dt, pool);
   dissipated_ += between_structures_.advance(motion, dt, pool);
   dissipated_ += with_planes_.advance(motion, planes, dt, pool);
+  with_surfaces_.add_forces(forces, pool);
+  between_structures_.add_forces(forces);
+  with_planes_.add_forces(forces, pool);
 }
 
 }  // namespace plekton::contact

@@ -140,8 +140,7 @@ void Simulation<Law>::step() {
   bonds_.add_forces(forces_, pool_);
   sheet_facets_.advance(scene_.state, pool_);
   sheet_facets_.add_forces(forces_, pool_);
-  contacts_.advance(motion(), scene_.planes, last_drift_, pool_);
-  contacts_.add_forces(forces_, pool_);
+  contacts_.advance(motion(), scene_.planes, last_drift_, pool_, forces_);
   const StepLengths lengths{0.5 * (last_drift_ + dt_), dt_};
   account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_),
           lengths);

@@ -55,7 +55,8 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   bonds_.advance(scene_.state, pool_);
   sheet_facets_.advance(scene_.state, pool_);
-  contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_);
+  contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
+  forces_.set_zero();
   expected_ = expected_contacts<Law>(scene_, surface_);
   NodalStiffness stiffness(scene_.state.size());
   add_expected_to(stiffness);

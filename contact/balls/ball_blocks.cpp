@@ -98,9 +98,14 @@ void BallBlocks::fill_block(std::size_t k, std::span<const geometry::IndexPair> 
   const std::size_t begin = first_of_place_[first_places_[k]];
   const std::size_t count = first_of_place_[first_places_[k + 1]] - begin;
   const std::size_t rows = (count + kLanes - 1) / kLanes;
+  const std::uint32_t borrowed =
+      blocks_.empty()
+          ? 0
+          : blocks_.back().first_borrowed + blocks_.back().member_count - 1 - blocks_.back().owned;
   Block block{static_cast<std::uint32_t>(members_.size()),
               first_places_[k + 1] - first_places_[k],
               0,
+              borrowed,
               static_cast<std::uint32_t>(pairs_.size() / kLanes),
               static_cast<std::uint32_t>(rows),
               static_cast<std::uint32_t>(count)};
@@ -148,22 +153,20 @@ void BallBlocks::find_loans() {
   const auto for_each_borrowed = [&](const auto& visit) {
     for (const Block& block : blocks_) {
       for (std::uint32_t m = block.owned; m + 1 < block.member_count; ++m)
-        visit(block.first_member + m, block_of(balls_[block.first_member + m]));
+        visit(block.first_borrowed + m - block.owned, balls_[block.first_member + m]);
     }
   };
   set_all(first_loans_, blocks_.size() + 1, 0U);
   std::uint32_t loans = 0;
-  for_each_borrowed([&](std::uint32_t, std::size_t owner) {
-    ++first_loans_[owner];
+  for_each_borrowed([&](std::uint32_t, std::int32_t ball) {
+    ++first_loans_[block_of(ball)];
     ++loans;
   });
   std::exclusive_scan(first_loans_.begin(), first_loans_.end(), first_loans_.begin(), 0U);
   make_room(loans_, loans);
   loans_.resize(loans);
-  for_each_borrowed([&](std::uint32_t member, std::size_t owner) {
-    const std::uint32_t place = places_[static_cast<std::size_t>(balls_[member])];
-    loans_[first_loans_[owner]++] = {blocks_[owner].first_member + place - first_places_[owner],
-                                     member};
+  for_each_borrowed([&](std::uint32_t borrowed, std::int32_t ball) {
+    loans_[first_loans_[block_of(ball)]++] = {nodes_[static_cast<std::size_t>(ball)], borrowed};
   });
   std::rotate(first_loans_.begin(), first_loans_.end() - 1, first_loans_.end());
   first_loans_[0] = 0;

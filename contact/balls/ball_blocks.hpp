@@ -29,6 +29,7 @@ class BallBlocks {
     std::uint32_t first_member;  ///< its balls: those it owns, those it borrows, that of no size
     std::uint32_t owned;         ///< how many it owns
     std::uint32_t member_count;
+    std::uint32_t first_borrowed;  ///< those that it borrows, counted over all blocks
     std::uint32_t first_row;
     std::uint32_t row_count;
     std::uint32_t pair_count;
@@ -63,28 +64,34 @@ class BallBlocks {
   std::size_t ball_count() const noexcept { return order_.size(); }
   /// Over all blocks.
   std::size_t member_count() const noexcept { return members_.size(); }
+  /// Borrowed ones, over all blocks.
+  std::size_t borrowed_count() const noexcept { return loans_.size(); }
   std::size_t row_count() const noexcept { return pairs_.size() / kLanes; }
   std::size_t largest_member_count() const noexcept { return largest_member_count_; }
 
   std::span<const Member> members(const Block& block) const noexcept {
     return {&members_[block.first_member], block.member_count};
   }
+  std::span<const Member> owned(const Block& block) const noexcept {
+    return members(block).first(block.owned);
+  }
   /// The pairs of a row; lanes without a pair join the ball of no size to itself.
   const Pair* row(std::size_t row) const noexcept { return &pairs_[row * kLanes]; }
   /// Row and lane of pair i of the list: slot / kLanes and slot % kLanes.
   std::uint32_t slot(std::size_t i) const noexcept { return slots_[i]; }
 
-  /// Calls add(member of the owner, member of the borrower) for every ball that a block owns and
-  /// another one borrows, in a fixed order.
+  /// Calls add(node, which one of those borrowed) for every ball that a block owns and another one
+  /// borrows, in a fixed order.
   template <class Add>
   void for_each_loan(std::size_t block, Add&& add) const {
     for (std::uint32_t i = first_loans_[block]; i < first_loans_[block + 1]; ++i)
-      add(loans_[i].owner, loans_[i].borrower);
+      add(loans_[i].node, loans_[i].borrowed);
   }
 
  private:
   struct Loan {
-    std::uint32_t owner, borrower;  ///< members
+    NodeId node;
+    std::uint32_t borrowed;
   };
 
   void order_balls(std::span<const Ball> balls, Positions x);

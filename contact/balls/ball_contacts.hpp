@@ -5,6 +5,7 @@
 #include "contact/balls/ball_blocks.hpp"
 #include "contact/balls/ball_rows.hpp"
 #include "contact/balls/ball_sums.hpp"
+#include "contact/balls/block_outcome.hpp"
 #include "contact/balls/pair_parameters.hpp"
 #include "contact/balls/pair_rows.hpp"
 #include "contact/contact_row.hpp"
@@ -31,11 +32,9 @@ class BallContacts {
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
                  const MaterialPairs<Law>& materials, Positions x = {});
 
-  /// One step of all contacts: forces are summed ball by ball, not yet added.
+  /// One step of all contacts; adds their forces to the nodes.
   /// @returns the energy (J) dissipated
-  double advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
-
-  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const;
+  double advance(const Motion& motion, double dt, geometry::ThreadPool& pool, NodeForces& forces);
 
   std::size_t touching() const noexcept;
   /// Largest overlap of the last step over the radius of the smaller ball.
@@ -61,6 +60,7 @@ class BallContacts {
   using Parameters = typename Law::Parameters;
   using Pair = BallBlocks::Pair;
   static constexpr std::size_t kLanes = BallBlocks::kLanes;
+  using Outcome = BlockOutcome<kLanes>;
   static_assert(Rows::kLanes == kLanes);
 
   /// A contact while the list is made anew.
@@ -69,27 +69,10 @@ class BallContacts {
     ContactMemory<Law> memory;
   };
 
-  /// What a step of a block came to; lane by lane, so that it does not depend on how many pairs are
-  /// computed at once.
-  struct Outcome {
-    std::array<double, kLanes> dissipated;  ///< J
-    std::array<double, kLanes> overlap;     ///< m, of the pair with the largest ratio of
-    std::array<double, kLanes> radius;      ///< m, of its smaller ball
-    std::size_t touching = 0;
-
-    Outcome() {
-      dissipated.fill(0.0);
-      overlap.fill(0.0);
-      radius.fill(1.0);
-    }
-    double total_dissipated() const noexcept;
-    double largest_ratio() const noexcept;
-  };
-
   /// What one thread works with.
   struct Work {
     BallRows balls;
-    BallSum* sums;  ///< of the block's members
+    std::vector<BallSum> sums;  ///< of the block's members
     double dt;
     Outcome outcome;
   };
@@ -102,8 +85,10 @@ class BallContacts {
     return parameters_.of_pair(ball(keys_[i].a), ball(keys_[i].b), blocks_.slot(i));
   }
   void keep_memories();
-  /// Adds to the sums of all balls what other blocks have of them.
-  void return_loans(geometry::ThreadPool& pool);
+  /// Adds the sums of a block's own balls to their nodes, and keeps those of borrowed ones.
+  void add_sums(const BallBlocks::Block& block, const Work& work, NodeForces& forces);
+  /// Adds to all nodes what other blocks than their own have of them.
+  void return_loans(NodeForces& forces, geometry::ThreadPool& pool) const;
   void advance_block(const BallBlocks::Block& block, const Motion& motion, Work& work);
   template <int W>
   PLEKTON_INLINE void advance_rows(const BallBlocks::Block& block, Work& work);
@@ -129,7 +114,7 @@ class BallContacts {
   BallBlocks blocks_;
   PairParameters<Law> parameters_;
   std::vector<Rows> rows_;
-  std::vector<BallSum> sums_;      ///< by member
+  std::vector<BallSum> lent_;      ///< of balls that blocks borrow
   std::vector<Outcome> outcomes_;  ///< by block
   std::vector<Work> work_;         ///< by thread
   std::vector<Kept> kept_;
@@ -180,23 +165,27 @@ void BallContacts<Law>::keep_memories() {
 }
 
 template <ContactLaw Law>
-double BallContacts<Law>::advance(const Motion& motion, double dt, geometry::ThreadPool& pool) {
+double BallContacts<Law>::advance(const Motion& motion, double dt, geometry::ThreadPool& pool,
+                                  NodeForces& forces) {
   const std::span<const BallBlocks::Block> blocks = blocks_.blocks();
-  make_room(sums_, blocks_.member_count());
-  sums_.resize(blocks_.member_count());
+  make_room(lent_, blocks_.borrowed_count());
+  lent_.resize(blocks_.borrowed_count());
   outcomes_.resize(blocks.size());
   work_.resize(static_cast<std::size_t>(pool.thread_count()));
   pool.for_each_range(blocks.size(), [&](std::size_t begin, std::size_t end, int worker) {
     Work& work = work_[static_cast<std::size_t>(worker)];
     work.balls.reserve(blocks_.largest_member_count());
+    make_room(work.sums, blocks_.largest_member_count());
+    work.sums.resize(blocks_.largest_member_count());
     work.dt = dt;
     for (std::size_t k = begin; k < end; ++k) {
       work.outcome = {};
       advance_block(blocks[k], motion, work);
       outcomes_[k] = work.outcome;
+      add_sums(blocks[k], work, forces);
     }
   });
-  return_loans(pool);
+  return_loans(forces, pool);
   double dissipated = 0.0;
   for (const Outcome& outcome : outcomes_) dissipated += outcome.total_dissipated();
   return dissipated;
@@ -206,8 +195,7 @@ template <ContactLaw Law>
 void BallContacts<Law>::advance_block(const BallBlocks::Block& block, const Motion& motion,
                                       Work& work) {
   work.balls.load(blocks_.members(block), motion);
-  work.sums = &sums_[block.first_member];
-  std::fill_n(work.sums, block.member_count, BallSum{Vec3::Zero(), Vec3::Zero(), {}});
+  std::fill_n(work.sums.data(), block.member_count, BallSum{Vec3::Zero(), Vec3::Zero(), {}});
   geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
     advance_rows<width>(block, work);
   });
@@ -318,45 +306,28 @@ void BallContacts<Law>::advance_one(std::size_t row, std::size_t lane, Work& wor
 }
 
 template <ContactLaw Law>
-void BallContacts<Law>::return_loans(geometry::ThreadPool& pool) {
+void BallContacts<Law>::add_sums(const BallBlocks::Block& block, const Work& work,
+                                 NodeForces& forces) {
+  const BallSum* sum = work.sums.data();
+  for (const BallBlocks::Member& ball : blocks_.owned(block)) {
+    forces.force[index_of(ball.node)] += sum->force;
+    forces.torque[index_of(ball.node)] += sum->torque;
+    ++sum;
+  }
+  const std::uint32_t borrowed = block.member_count - 1 - block.owned;
+  std::copy_n(sum, borrowed, &lent_[block.first_borrowed]);
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::return_loans(NodeForces& forces, geometry::ThreadPool& pool) const {
   pool.for_each_range(blocks_.blocks().size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t k = begin; k < end; ++k) {
-      blocks_.for_each_loan(k, [&](std::size_t owner, std::size_t borrower) {
-        sums_[owner].force += sums_[borrower].force;
-        sums_[owner].torque += sums_[borrower].torque;
+      blocks_.for_each_loan(k, [&](NodeId node, std::size_t borrowed) {
+        forces.force[index_of(node)] += lent_[borrowed].force;
+        forces.torque[index_of(node)] += lent_[borrowed].torque;
       });
     }
   });
-}
-
-template <ContactLaw Law>
-void BallContacts<Law>::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
-  const std::span<const BallBlocks::Block> blocks = blocks_.blocks();
-  pool.for_each_range(blocks.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const BallSum* sum = &sums_[blocks[k].first_member];
-      for (const BallBlocks::Member& ball : blocks_.members(blocks[k]).first(blocks[k].owned)) {
-        forces.force[index_of(ball.node)] += sum->force;
-        forces.torque[index_of(ball.node)] += sum->torque;
-        ++sum;
-      }
-    }
-  });
-}
-
-template <ContactLaw Law>
-double BallContacts<Law>::Outcome::total_dissipated() const noexcept {
-  double total = 0.0;
-  for (const double of_lane : dissipated) total += of_lane;
-  return total;
-}
-
-template <ContactLaw Law>
-double BallContacts<Law>::Outcome::largest_ratio() const noexcept {
-  double largest = 0.0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    largest = std::max(largest, overlap[lane] / radius[lane]);
-  return largest;
 }
 
 template <ContactLaw Law>

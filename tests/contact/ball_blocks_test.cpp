@@ -87,31 +87,29 @@ TEST_P(BallBlocksOf, FillLanesWithoutAPairWithTheBallOfNoSize) {
 }
 
 TEST_P(BallBlocksOf, OwnEveryBallOnceAndLendItToWhoBorrowsIt) {
-  std::vector<int> times(blocks_.member_count(), 0);
   std::set<NodeId> owned;
   for (const BallBlocks::Block& block : blocks_.blocks()) {
-    for (std::uint32_t m = 0; m < block.owned; ++m) {
-      EXPECT_TRUE(owned.insert(blocks_.members(block)[m].node).second);
-      ++times[block.first_member + m];
-    }
-    ++times[block.first_member + block.member_count - 1];  // the one of no size
+    for (const BallBlocks::Member& ball : blocks_.owned(block))
+      EXPECT_TRUE(owned.insert(ball.node).second);
   }
   EXPECT_EQ(owned.size(), blocks_.ball_count());
-  const auto node_of = [&](std::size_t member) {
-    for (const BallBlocks::Block& block : blocks_.blocks())
-      if (member < block.first_member + block.member_count)
-        return blocks_.members(block)[member - block.first_member].node;
-    return NodeId{-1};
-  };
+  std::vector<NodeId> borrowed;
+  for (const BallBlocks::Block& block : blocks_.blocks()) {
+    EXPECT_EQ(borrowed.size(), block.first_borrowed);
+    for (std::uint32_t m = block.owned; m + 1 < block.member_count; ++m)
+      borrowed.push_back(blocks_.members(block)[m].node);
+  }
+  EXPECT_EQ(borrowed.size(), blocks_.borrowed_count());
+  std::vector<int> returned(borrowed.size(), 0);
   for (std::size_t k = 0; k < blocks_.blocks().size(); ++k) {
-    blocks_.for_each_loan(k, [&](std::size_t owner, std::size_t borrower) {
-      EXPECT_EQ(node_of(owner), node_of(borrower));
-      EXPECT_GE(owner, blocks_.blocks()[k].first_member);
-      EXPECT_LT(owner, blocks_.blocks()[k].first_member + blocks_.blocks()[k].owned);
-      ++times[borrower];
+    const auto own = blocks_.owned(blocks_.blocks()[k]);
+    blocks_.for_each_loan(k, [&](NodeId node, std::size_t which) {
+      EXPECT_EQ(node, borrowed[which]);
+      EXPECT_TRUE(std::ranges::any_of(own, [&](const auto& ball) { return ball.node == node; }));
+      ++returned[which];
     });
   }
-  EXPECT_EQ(std::ranges::count(times, 1), static_cast<std::ptrdiff_t>(times.size()));
+  EXPECT_EQ(std::ranges::count(returned, 1), static_cast<std::ptrdiff_t>(returned.size()));
 }
 
 TEST(BallBlocks, BorrowFewBallsWhereNeighboursAreNearInSpace) {

@@ -175,8 +175,7 @@ std::vector<Vec3> forces_of_a_crowd(int threads) {
     if (step % 5 == 1) x[7] = x[3];                          // no direction
     if (step % 5 == 2) std::swap(x[11], x[40]);              // flips where they touch
     if (step % 5 == 3) w[20] = Vec3::Constant(1.0 / kStep);  // a twist beyond any series
-    contacts.advance({x, v, w}, kStep, pool);
-    contacts.add_forces(forces, pool);
+    contacts.advance({x, v, w}, kStep, pool, forces);
   }
   std::vector<Vec3> all = forces.force;
   all.insert(all.end(), forces.torque.begin(), forces.torque.end());

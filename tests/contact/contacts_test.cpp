@@ -75,9 +75,8 @@ TEST(Contacts, LoadOneSpringWhileASphereSlidesOnAPlane) {
   geometry::ThreadPool pool;
   for (int step = 1; step <= 100; ++step) {
     x[0] += v[0];
-    contacts.advance({x, v, w}, planes, 1.0, pool);
     NodeForces forces(1);
-    contacts.add_forces(forces, pool);
+    contacts.advance({x, v, w}, planes, 1.0, pool, forces);
     const Vec3 expected = -0.5e6 * 0.5 * step * v[0];
     ASSERT_NEAR((forces.force[0] - forces.force[0][2] * Vec3::UnitZ() - expected).norm(), 0.0,
                 1e-9 * expected.norm());
@@ -92,9 +91,10 @@ void expect_the_floor_is_touched_at_once(Contacts<LinearFrictional>& contacts, B
   const std::vector<Plane> planes{{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}}};
   const std::vector<Vec3> zero(x.size(), Vec3::Zero());
   geometry::ThreadPool pool;
+  NodeForces forces(x.size());
   while (x[0].z() > 0.9 * radius) {
     for (Vec3& position : x) position.z() -= step;
-    contacts.advance({x, zero, zero, step}, planes, 1e-3, pool);
+    contacts.advance({x, zero, zero, step}, planes, 1e-3, pool, forces);
     ASSERT_EQ(contacts.counts().with_planes > 0, x[0].z() < radius) << "at " << x[0].z();
   }
 }
@@ -137,9 +137,8 @@ TEST(Contacts, PushABallOutHoweverDeepItStartsBehindAPlane) {
         spheres, surface,
         {MaterialPairs<LinearFrictional>({Material{1e6, 0.5, 0.4}}), {MaterialId{0}}, {}}, 0.02);
     x[0].z() = height;
-    contacts.advance({x, still, still}, floor, 1e-3, pool);
     NodeForces forces(1);
-    contacts.add_forces(forces, pool);
+    contacts.advance({x, still, still}, floor, 1e-3, pool, forces);
 
     // A few roundings of the stiffness 1e6 N/m times the overlap.
     EXPECT_NEAR(forces.force[0].z(), 1e6 * (1.0 - height), 1e-14 * 1e6 * 5.0) << height;

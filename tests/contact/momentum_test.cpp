@@ -49,9 +49,8 @@ TEST(Momentum, BalancesBetweenBalls) {
     for (int step = 0; step < 5; ++step) {
       const std::vector<Vec3> v{random.in_cube(1.0), random.in_cube(1.0)};
       const std::vector<Vec3> w{random.in_cube(5.0), random.in_cube(5.0)};
-      contacts.advance({x, v, w}, 1e-3, pool);
       NodeForces forces(2);
-      contacts.add_forces(forces, pool);
+      contacts.advance({x, v, w}, 1e-3, pool, forces);
 
       const Balance balance = balance_of(forces, x);
       ASSERT_GT(balance.largest, 0.0);

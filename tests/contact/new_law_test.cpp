@@ -78,8 +78,7 @@ Outcome outcome_of(int threads) {
   for (int step = 0; step < 30; ++step) {
     const double to_and_fro = step % 10 < 5 ? kStep : -kStep;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += to_and_fro * place.velocity[i];
-    contacts.advance({x, place.velocity, place.spin}, place.planes, kStep, pool);
-    contacts.add_forces(outcome.forces, pool);
+    contacts.advance({x, place.velocity, place.spin}, place.planes, kStep, pool, outcome.forces);
   }
   outcome.energy = contacts.elastic_energy();
   outcome.dissipated = contacts.dissipated();

@@ -89,9 +89,8 @@ class ContactProbe {
 
   /// One step with the positions and velocities as they are.
   Felt feel() {
-    contacts_.advance({position_, velocity_, spin_}, {}, 1.0, pool_);
     forces_.set_zero();
-    contacts_.add_forces(forces_, pool_);
+    contacts_.advance({position_, velocity_, spin_}, {}, 1.0, pool_, forces_);
     Vec3 force = Vec3::Zero();
     Vec3 moment = Vec3::Zero();
     for (std::size_t i = 0; i < position_.size(); ++i) {

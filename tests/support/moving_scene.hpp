@@ -47,8 +47,7 @@ class MovingScene {
   void step(double dt) {
     for (std::size_t i = 0; i < complex_.x.size(); ++i) complex_.x[i] += dt * velocity_[i];
     forces_.set_zero();
-    contacts_->advance({complex_.x, velocity_, spin_}, planes_, dt, pool_);
-    contacts_->add_forces(forces_, pool_);
+    contacts_->advance({complex_.x, velocity_, spin_}, planes_, dt, pool_, forces_);
   }
 
   const Contacts<Law>& contacts() const { return *contacts_; }
