@@ -39,6 +39,7 @@ void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<co
   for (const geometry::IndexPair& pair : pairs) last = std::max(last, pair.b);
   order_balls(balls.first(static_cast<std::size_t>(last + 1)), x);
   sort_pairs(pairs);
+  find_touching(pairs, balls, x);
 
   const std::size_t count = block_count(order_.size());
   first_places_.clear();
@@ -46,7 +47,7 @@ void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<co
     first_places_.push_back(static_cast<std::uint32_t>(k * order_.size() / count));
   set_all(member_of_, order_.size(), 0U);
   set_all(slots_, pairs.size(), 0U);
-  make_room(pairs_, pairs.size() + kLanes * count);
+  make_room(pairs_, pairs.size() + 2 * kLanes * count);
   blocks_.clear();
   members_.clear();
   balls_.clear();
@@ -93,34 +94,56 @@ void BallBlocks::sort_pairs(std::span<const geometry::IndexPair> pairs) {
   }
 }
 
+void BallBlocks::find_touching(std::span<const geometry::IndexPair> pairs,
+                               std::span<const Ball> balls, Positions x) {
+  make_room(touches_, pairs.size());
+  touches_.assign(pairs.size(), false);
+  if (x.empty()) return;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Ball& a = balls[static_cast<std::size_t>(pairs[i].a)];
+    const Ball& b = balls[static_cast<std::size_t>(pairs[i].b)];
+    const double range = a.radius + b.radius;
+    touches_[i] = (x[index_of(b.node)] - x[index_of(a.node)]).squaredNorm() < range * range;
+  }
+}
+
+BallBlocks::Stretch BallBlocks::add_stretch(std::size_t pair_count) {
+  const std::size_t rows = (pair_count + kLanes - 1) / kLanes;
+  const Stretch stretch{static_cast<std::uint32_t>(pairs_.size() / kLanes),
+                        static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(pair_count)};
+  pairs_.resize(pairs_.size() + stretch.slot_count());
+  return stretch;
+}
+
 void BallBlocks::fill_block(std::size_t k, std::span<const geometry::IndexPair> pairs,
                             std::span<const Ball> balls) {
-  const std::size_t begin = first_of_place_[first_places_[k]];
-  const std::size_t count = first_of_place_[first_places_[k + 1]] - begin;
-  const std::size_t rows = (count + kLanes - 1) / kLanes;
-  const std::uint32_t borrowed =
-      blocks_.empty()
-          ? 0
-          : blocks_.back().first_borrowed + blocks_.back().member_count - 1 - blocks_.back().owned;
-  Block block{static_cast<std::uint32_t>(members_.size()),
-              first_places_[k + 1] - first_places_[k],
-              0,
-              borrowed,
-              static_cast<std::uint32_t>(pairs_.size() / kLanes),
-              static_cast<std::uint32_t>(rows),
-              static_cast<std::uint32_t>(count)};
+  const std::span<const std::uint32_t> own(sorted_.begin() + first_of_place_[first_places_[k]],
+                                           sorted_.begin() + first_of_place_[first_places_[k + 1]]);
+  const auto touching =
+      static_cast<std::size_t>(std::ranges::count_if(own, [&](auto i) { return touches_[i]; }));
+  Block block{};
+  block.first_member = static_cast<std::uint32_t>(members_.size());
+  block.owned = first_places_[k + 1] - first_places_[k];
+  if (!blocks_.empty())
+    block.first_borrowed = blocks_.back().first_borrowed + blocks_.back().borrowed();
+  block.first_row = static_cast<std::uint32_t>(row_count());
+  block.stretches = {add_stretch(touching), add_stretch(own.size() - touching)};
+  block.row_count = static_cast<std::uint32_t>(row_count()) - block.first_row;
   for (std::size_t place = first_places_[k]; place < first_places_[k + 1]; ++place)
     add_member(order_[place], balls);
-  pairs_.resize(pairs_.size() + block.slot_count(), {0, 0});
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::uint32_t i = sorted_[begin + n];
-    slots_[i] = static_cast<std::uint32_t>(block.slot(n));
+  std::array<std::size_t, 2> filled{};
+  for (const std::uint32_t i : own) {
+    const std::size_t which = touches_[i] ? 0 : 1;
+    slots_[i] = static_cast<std::uint32_t>(block.stretches[which].slot(filled[which]++));
     pairs_[slots_[i]] = {member(block, pairs[i].a, balls), member(block, pairs[i].b, balls)};
   }
   const auto none = static_cast<std::uint32_t>(members_.size() - block.first_member);
   members_.push_back({NodeId{-1}, 0.0});
   balls_.push_back(-1);
-  for (std::size_t n = count; n < block.slot_count(); ++n) pairs_[block.slot(n)] = {none, none};
+  for (const Stretch& stretch : block.stretches) {
+    for (std::size_t n = stretch.pair_count; n < stretch.slot_count(); ++n)
+      pairs_[stretch.slot(n)] = {none, none};
+  }
   block.member_count = none + 1;
   largest_member_count_ = std::max<std::size_t>(largest_member_count_, block.member_count);
   blocks_.push_back(block);

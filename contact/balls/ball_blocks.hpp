@@ -5,6 +5,7 @@
 #include "geometry/broad_phase.hpp"
 #include "geometry/thread_pool.hpp"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +26,21 @@ class BallBlocks {
   /// Pairs side by side in a row; a block has whole rows.
   static constexpr std::size_t kLanes = 8;
 
+  /// Rows of a block that are filled lane by lane: each lane of the rows runs through a stretch of
+  /// the pairs, so that neighbouring lanes add to different balls, and none has to wait for the sum
+  /// of the one before.
+  struct Stretch {
+    std::uint32_t first_row;
+    std::uint32_t row_count;
+    std::uint32_t pair_count;
+
+    /// Row and lane of its pair n.
+    std::size_t slot(std::size_t n) const noexcept {
+      return (first_row + n % row_count) * kLanes + n / row_count;
+    }
+    std::size_t slot_count() const noexcept { return row_count * kLanes; }
+  };
+
   struct Block {
     std::uint32_t first_member;  ///< its balls: those it owns, those it borrows, that of no size
     std::uint32_t owned;         ///< how many it owns
@@ -32,15 +48,10 @@ class BallBlocks {
     std::uint32_t first_borrowed;  ///< those that it borrows, counted over all blocks
     std::uint32_t first_row;
     std::uint32_t row_count;
-    std::uint32_t pair_count;
+    /// Of pairs that touched when the list was made, and of the others: rows follow each other.
+    std::array<Stretch, 2> stretches;
 
-    /// Row and lane of its pair n: each lane of the rows runs through a stretch of the pairs, so
-    /// that neighbouring lanes add to different balls, and none has to wait for the sum of the one
-    /// before.
-    std::size_t slot(std::size_t n) const noexcept {
-      return (first_row + n % row_count) * kLanes + n / row_count;
-    }
-    std::size_t slot_count() const noexcept { return row_count * kLanes; }
+    std::uint32_t borrowed() const noexcept { return member_count - 1 - owned; }
   };
 
   /// A ball as a member of a block.
@@ -96,6 +107,9 @@ class BallBlocks {
 
   void order_balls(std::span<const Ball> balls, Positions x);
   void sort_pairs(std::span<const geometry::IndexPair> pairs);
+  void find_touching(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+                     Positions x);
+  Stretch add_stretch(std::size_t pair_count);
   void fill_block(std::size_t block, std::span<const geometry::IndexPair> pairs,
                   std::span<const Ball> balls);
   /// The member, within its block, that a ball is; borrows it if need be.
@@ -109,6 +123,7 @@ class BallBlocks {
   std::vector<std::uint32_t> first_of_place_;  ///< by place: its first pair in sorted_
   std::vector<std::uint32_t> sorted_;          ///< pairs by place of their first and other ball
   std::vector<std::uint32_t> first_places_;    ///< by block
+  std::vector<bool> touches_;                  ///< by pair, when the list was made
   std::vector<std::uint32_t> member_of_;  ///< by ball: which member of the last block it was in
   std::vector<Block> blocks_;
   std::vector<Member> members_;

@@ -6,6 +6,7 @@
 #include "contact/balls/ball_rows.hpp"
 #include "contact/balls/ball_sums.hpp"
 #include "contact/balls/block_outcome.hpp"
+#include "contact/balls/move_slots.hpp"
 #include "contact/balls/pair_parameters.hpp"
 #include "contact/balls/pair_rows.hpp"
 #include "contact/contact_row.hpp"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -63,12 +65,6 @@ class BallContacts {
   using Outcome = BlockOutcome<kLanes>;
   static_assert(Rows::kLanes == kLanes);
 
-  /// A contact while the list is made anew.
-  struct Kept {
-    geometry::IndexPair pair;
-    ContactMemory<Law> memory;
-  };
-
   /// What one thread works with.
   struct Work {
     BallRows balls;
@@ -84,7 +80,18 @@ class BallContacts {
   Parameters parameters(std::size_t i) const noexcept {
     return parameters_.of_pair(ball(keys_[i].a), ball(keys_[i].b), blocks_.slot(i));
   }
-  void keep_memories();
+  bool touched(std::size_t slot) const noexcept {
+    return (touched_[slot / kLanes] >> (slot % kLanes) & 1) != 0;
+  }
+  void set_touched(std::size_t row, std::size_t lane, unsigned lanes, unsigned touching) noexcept {
+    touched_[row] =
+        static_cast<std::uint8_t>((touched_[row] & ~(lanes << lane)) | touching << lane);
+  }
+  ContactMemory<Law> memory_of(std::size_t slot) const noexcept {
+    return rows_[slot / kLanes].memory(slot % kLanes);
+  }
+  /// From the slots that pairs had in the list before, to those that they have now.
+  void move_memories();
   /// Adds the sums of a block's own balls to their nodes, and keeps those of borrowed ones.
   void add_sums(const BallBlocks::Block& block, const Work& work, NodeForces& forces);
   /// Adds to all nodes what other blocks than their own have of them.
@@ -103,9 +110,8 @@ class BallContacts {
   template <class Visit>
   void for_each_lane(Visit&& visit) const {
     for (std::size_t i = 0; i < keys_.size(); ++i) {
-      const Rows& rows = rows_[blocks_.slot(i) / kLanes];
-      const std::size_t lane = blocks_.slot(i) % kLanes;
-      if (rows.touched(lane)) visit(keys_[i], parameters(i), rows, lane);
+      const std::uint32_t slot = blocks_.slot(i);
+      if (touched(slot)) visit(keys_[i], parameters(i), rows_[slot / kLanes], slot % kLanes);
     }
   }
 
@@ -114,54 +120,61 @@ class BallContacts {
   BallBlocks blocks_;
   PairParameters<Law> parameters_;
   std::vector<Rows> rows_;
-  std::vector<BallSum> lent_;      ///< of balls that blocks borrow
-  std::vector<Outcome> outcomes_;  ///< by block
-  std::vector<Work> work_;         ///< by thread
-  std::vector<Kept> kept_;
+  std::vector<std::uint8_t> touched_;     ///< by row: bit l tells whether lane l touched last time
+  std::vector<BallSum> lent_;             ///< of balls that blocks borrow
+  std::vector<Outcome> outcomes_;         ///< by block
+  std::vector<Work> work_;                ///< by thread
+  std::vector<std::uint32_t> old_slots_;  ///< by pair of a new list
+  std::vector<std::uint32_t> sources_;    ///< by slot of a new list
+  std::vector<bool> is_source_;
 };
 
 template <ContactLaw Law>
 double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
                                   std::span<const Ball> balls, const MaterialPairs<Law>& materials,
                                   Positions x) {
-  keep_memories();
+  balls_ = balls;
+  make_room(old_slots_, keys.size());
+  old_slots_.assign(keys.size(), kNoSlot);
+  double lost = 0.0;
+  match_keys(
+      keys_, keys,
+      [&](std::size_t i, bool is_known, std::size_t old) {
+        if (is_known && touched(blocks_.slot(old))) old_slots_[i] = blocks_.slot(old);
+      },
+      [&](std::size_t old) {
+        if (!touched(blocks_.slot(old))) return;
+        ContactMemory<Law> memory = memory_of(blocks_.slot(old));
+        lost += forget<Law>(materials.combine(ball(keys_[old].a), ball(keys_[old].b)), memory);
+      });
   make_room(keys_, keys.size());
   keys_.assign(keys.begin(), keys.end());
   blocks_.assign(keys, balls, x);
-  balls_ = balls;
   parameters_.assign(keys_, balls_, blocks_, materials);
-  make_room(rows_, blocks_.row_count());
-  rows_.resize(blocks_.row_count());
-  for (const BallBlocks::Block& block : blocks_.blocks()) {
-    for (std::size_t n = block.pair_count; n < block.slot_count(); ++n)
-      rows_[block.slot(n) / kLanes].set(block.slot(n) % kLanes, {});
-  }
-
-  double lost = 0.0;
-  const auto drop = [&](Kept& kept) {
-    lost += forget<Law>(materials.combine(ball(kept.pair.a), ball(kept.pair.b)), kept.memory);
-  };
-  auto kept = kept_.begin();
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    for (; kept != kept_.end() && kept->pair < keys[i]; ++kept) drop(*kept);
-    const bool is_known = kept != kept_.end() && kept->pair == keys[i];
-    rows_[blocks_.slot(i) / kLanes].set(blocks_.slot(i) % kLanes,
-                                        is_known ? kept->memory : ContactMemory<Law>{});
-    if (is_known) ++kept;
-  }
-  for (; kept != kept_.end(); ++kept) drop(*kept);
+  move_memories();
   return lost;
 }
 
 template <ContactLaw Law>
-void BallContacts<Law>::keep_memories() {
-  kept_.clear();
-  make_room(kept_, touching());
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    const Rows& rows = rows_[blocks_.slot(i) / kLanes];
-    const std::size_t lane = blocks_.slot(i) % kLanes;
-    if (rows.touched(lane)) kept_.push_back({keys_[i], rows.memory(lane)});
-  }
+void BallContacts<Law>::move_memories() {
+  const auto resize = [this](std::size_t rows) {
+    make_room(rows_, rows);
+    make_room(touched_, rows);
+    rows_.resize(rows);
+    touched_.resize(rows, 0);
+  };
+  resize(std::max(rows_.size(), blocks_.row_count()));
+  make_room(sources_, rows_.size() * kLanes);
+  make_room(is_source_, rows_.size() * kLanes);
+  sources_.assign(rows_.size() * kLanes, kNoSlot);
+  for (std::size_t i = 0; i < keys_.size(); ++i) sources_[blocks_.slot(i)] = old_slots_[i];
+  move_slots(
+      sources_, is_source_, [this](std::uint32_t slot) { return memory_of(slot); },
+      [this](std::uint32_t slot, const ContactMemory<Law>& memory) {
+        rows_[slot / kLanes].set(slot % kLanes, memory);
+        set_touched(slot / kLanes, slot % kLanes, 1, !memory.is_new());
+      });
+  resize(blocks_.row_count());
 }
 
 template <ContactLaw Law>
@@ -205,6 +218,10 @@ template <ContactLaw Law>
 template <int W>
 PLEKTON_INLINE void BallContacts<Law>::advance_rows(const BallBlocks::Block& block, Work& work) {
   for (std::size_t row = block.first_row; row < block.first_row + block.row_count; ++row) {
+    // Pairs of the second stretch were apart when the list was made: most rows of theirs still are.
+    if (row >= block.stretches[1].first_row && touched_[row] == 0 &&
+        !work.balls.template any_touch<W>(blocks_.row(row)))
+      continue;
     for (std::size_t lane = 0; lane < kLanes; lane += std::size_t{W}) {
       if constexpr (LaneLaw<Law>) {
         if (advance_side_by_side<W>(row, lane, work)) continue;
@@ -225,17 +242,18 @@ PLEKTON_INLINE bool BallContacts<Law>::advance_side_by_side(std::size_t row, std
   const Pair* const pairs = blocks_.row(row);
   const BallMotionOf<Real> balls = work.balls.template pairs<W>(pairs + lane);
   const Real touch = balls.touch();
-  const auto last_normal = rows.normal.template load<Vector>(lane);
   const unsigned touching = bits_of(touch);
-  const unsigned touched = bits_of(geometry::flag(last_normal.squaredNorm() > 0.0));
+  const unsigned touched = touched_[row] >> lane & geometry::kAllBits<W>;
   if ((touching | touched) == 0) return true;
 
+  const auto last_normal = rows.normal.template load<Vector>(lane);
   const auto answer =
       advance_lanes<Law, Real>(balls, parameters_.template of_lanes<W>(row, lane, balls),
                                rows.history.template load<History>(lane), last_normal, work.dt);
   const unsigned right = bits_of(geometry::flag(answer.is_right > 0.0));
   if ((touching & right) != (touching | touched)) return false;
 
+  set_touched(row, lane, geometry::kAllBits<W>, touching);
   rows.history.store(lane, answer.history, touch);
   rows.normal.store(lane, answer.normal, touch);
   rows.gap.store(lane, answer.step.gap);
@@ -279,6 +297,7 @@ void BallContacts<Law>::advance_one(std::size_t row, std::size_t lane, Work& wor
   if (balls.touch() == 0.0) {
     outcome.dissipated[lane] += forget<Law>(parameters, memory);
     rows.set_memory(lane, memory);
+    set_touched(row, lane, 1, 0);
     return;
   }
   const double distance = balls.separation.norm();
@@ -291,6 +310,7 @@ void BallContacts<Law>::advance_one(std::size_t row, std::size_t lane, Work& wor
   memory = {carried_history<Law>(memory, normal, work.dt * pair.twist_rate()), normal};
   const BallStepOf<double> step = ball_step<Law>(pair, parameters, memory.history, work.dt);
   rows.set_memory(lane, memory);
+  set_touched(row, lane, 1, 1);
   rows.gap.set(lane, step.gap);
   if constexpr (!TellsForce<Law>) rows.force.set(lane, step.force);
   ++outcome.touching;
@@ -314,8 +334,7 @@ void BallContacts<Law>::add_sums(const BallBlocks::Block& block, const Work& wor
     forces.torque[index_of(ball.node)] += sum->torque;
     ++sum;
   }
-  const std::uint32_t borrowed = block.member_count - 1 - block.owned;
-  std::copy_n(sum, borrowed, &lent_[block.first_borrowed]);
+  std::copy_n(sum, block.borrowed(), lent_.begin() + block.first_borrowed);
 }
 
 template <ContactLaw Law>

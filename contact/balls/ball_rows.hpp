@@ -54,6 +54,28 @@ class BallRows {
             spin_b.radius};
   }
 
+  /// Whether any pair of a row touches: as BallMotionOf::touch() tells it.
+  template <int W>
+  PLEKTON_INLINE bool any_touch(const BallBlocks::Pair* row) const noexcept {
+    using Real = geometry::Pack<W>;
+    for (std::size_t first = 0; first < BallBlocks::kLanes; first += std::size_t{W}) {
+      const BallBlocks::Pair* const pairs = row + first;
+      std::array<double, std::size_t{W}> ranges;
+      for (std::size_t lane = 0; lane < std::size_t{W}; ++lane)
+        ranges[lane] = spins_[pairs[lane].a].radius + spins_[pairs[lane].b].radius;
+      const auto [x, y, z, unused] = geometry::gather_things<W, 4>([&](
+          std::size_t lane, auto part) __attribute__((always_inline)) {
+        using Part = typename decltype(part)::Pack;
+        return Part::load(moves_[pairs[lane].b].position.data() + part.first) -
+               Part::load(moves_[pairs[lane].a].position.data() + part.first);
+      });
+      const Real range = Real::load(ranges.data());
+      const Vec3Of<Real> separation{x, y, z};
+      if (bits_of(geometry::flag(range * range > separation.squaredNorm())) != 0) return true;
+    }
+    return false;
+  }
+
   /// W pairs side by side. Differences are taken before the numbers change places.
   template <int W>
   PLEKTON_INLINE BallMotionOf<geometry::Pack<W>> pairs(

@@ -33,9 +33,6 @@ struct alignas(64) PairRows {
     history.set(lane, memory.history);
     normal.set(lane, memory.normal);
   }
-  bool touched(std::size_t lane) const noexcept {
-    return !normal.template at<Vec3>(lane).isZero(0.0);
-  }
   void set(std::size_t lane, const ContactMemory<Law>& memory) noexcept {
     set_memory(lane, memory);
     gap.set(lane, 0.0);
