@@ -12,6 +12,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -181,17 +182,23 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
   std::size_t next_inner_ = 0;
 };
 
+constexpr auto kKeepAll = [](const std::vector<IndexPair>&, std::size_t) {};
+
 /// What bunches [begin, end) hold, and what meets across the inner nodes [begin, end): two boxes
 /// part at exactly one node.
-void find_pairs(const Tree& tree, std::size_t begin, std::size_t end,
+/// @param keep  (pairs, how many of them are old): leaves out what is not wanted of the new ones
+template <class Keep>
+void find_pairs(const Tree& tree, std::size_t begin, std::size_t end, const Keep& keep,
                 std::vector<IndexPair>& pairs) {
   pairs.clear();
   with_widest_vectors([&](auto width) __attribute__((always_inline)) {
     BunchPairs<width, Tree, true> bunch_pairs(tree, tree, pairs);
     for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t old = pairs.size();
       bunch_pairs.within(*tree.bunch(static_cast<Tree::Place>(k)));
       const auto node = static_cast<Tree::Place>(tree.bunch_count() + k);
       if (k + 1 < tree.bunch_count()) bunch_pairs.across(tree.child(node, 0), tree.child(node, 1));
+      keep(pairs, old);
     }
   });
   // A list that varies a little soon has the room it needs.
@@ -283,7 +290,7 @@ std::size_t BroadPhase::size() const noexcept {
 void BroadPhase::self_pairs(std::vector<IndexPair>& pairs) const {
   const Tree& tree = implementation_->tree;
   const std::span found = implementation_->lists(1);
-  find_pairs(tree, 0, tree.bunch_count(), found[0]);
+  find_pairs(tree, 0, tree.bunch_count(), kKeepAll, found[0]);
   sort_pairs(found, size(), implementation_->row_ends, pairs);
 }
 
@@ -291,7 +298,21 @@ void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) con
   const Tree& tree = implementation_->tree;
   const std::span found = implementation_->lists(static_cast<std::size_t>(pool.thread_count()));
   pool.for_each_range(tree.bunch_count(), [&](std::size_t begin, std::size_t end, int worker) {
-    find_pairs(tree, begin, end, found[static_cast<std::size_t>(worker)]);
+    find_pairs(tree, begin, end, kKeepAll, found[static_cast<std::size_t>(worker)]);
+  });
+  sort_pairs(found, size(), implementation_->row_ends, pairs);
+}
+
+void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool,
+                            const std::function<bool(const IndexPair&)>& is_wanted) const {
+  const Tree& tree = implementation_->tree;
+  const std::span found = implementation_->lists(static_cast<std::size_t>(pool.thread_count()));
+  const auto keep_wanted = [&](std::vector<IndexPair>& all, std::size_t old) {
+    const auto news = all.begin() + static_cast<std::ptrdiff_t>(old);
+    all.erase(std::remove_if(news, all.end(), std::not_fn(std::cref(is_wanted))), all.end());
+  };
+  pool.for_each_range(tree.bunch_count(), [&](std::size_t begin, std::size_t end, int worker) {
+    find_pairs(tree, begin, end, keep_wanted, found[static_cast<std::size_t>(worker)]);
   });
   sort_pairs(found, size(), implementation_->row_ends, pairs);
 }

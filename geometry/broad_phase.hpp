@@ -7,6 +7,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -59,6 +60,10 @@ class BroadPhase {
   void self_pairs(std::vector<IndexPair>& pairs) const;
   /// The same on several threads.
   void self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) const;
+  /// Only those of them that are wanted.
+  /// @param is_wanted  asked by several threads at the same time
+  void self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool,
+                  const std::function<bool(const IndexPair&)>& is_wanted) const;
 
   /// All pairs of a box of this (a) and an overlapping box of the other (b), each once, in order.
   /// Replaces what pairs held.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace plekton::geometry {
 namespace {
@@ -55,8 +56,8 @@ void Neighbours::rebuild(Positions x, ThreadPool& pool) {
   boxes_.clear();
   for (const Sphere& sphere : spheres_) boxes_.push_back(box(sphere, x, margin));
   fit(sphere_tree_);
-  sphere_tree_.self_pairs(sphere_pairs_, pool);
-  drop_distant_pairs(x);
+  const auto is_near = [&](const IndexPair& pair) { return may_touch(pair, x); };
+  sphere_tree_.self_pairs(sphere_pairs_, pool, std::cref(is_near));
 
   boxes_.clear();
   for (std::size_t c = 0; c < surface_->cell_count(); ++c) {
@@ -72,14 +73,12 @@ void Neighbours::rebuild(Positions x, ThreadPool& pool) {
   group_by_structure();
 }
 
-void Neighbours::drop_distant_pairs(Positions x) {
-  std::erase_if(sphere_pairs_, [&](const IndexPair& pair) {
-    const Sphere& a = spheres_[static_cast<std::size_t>(pair.a)];
-    const Sphere& b = spheres_[static_cast<std::size_t>(pair.b)];
-    // Squares and sums are within a few eps of their values; the factor pays for all of it.
-    const double range = (1.0 + 1e-12) * (a.radius + b.radius + skin());
-    return (x[index_of(a.nodes[0])] - x[index_of(b.nodes[0])]).squaredNorm() > range * range;
-  });
+bool Neighbours::may_touch(const IndexPair& pair, Positions x) const noexcept {
+  const Sphere& a = spheres_[static_cast<std::size_t>(pair.a)];
+  const Sphere& b = spheres_[static_cast<std::size_t>(pair.b)];
+  // Squares and sums are within a few eps of their values; the factor pays for all of it.
+  const double range = (1.0 + 1e-12) * (a.radius + b.radius + skin());
+  return !((x[index_of(a.nodes[0])] - x[index_of(b.nodes[0])]).squaredNorm() > range * range);
 }
 
 void Neighbours::group_by_structure() {

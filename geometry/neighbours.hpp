@@ -56,10 +56,10 @@ class Neighbours {
   void choose_skin();
   void rebuild(Positions x, ThreadPool& pool);
   void fit(BroadPhase& tree);
-  /// Of the spheres whose boxes overlap, keeps those whose surfaces are at most the skin apart: as
-  /// no centre moves by more than half the skin, no others can touch. A third fewer pairs to look
-  /// at in every step of a dense bed.
-  void drop_distant_pairs(Positions x);
+  /// Of the spheres whose boxes overlap, those whose surfaces are at most the skin apart: as no
+  /// centre moves by more than half the skin, no others can touch. A third fewer pairs to look at
+  /// in every step of a dense bed.
+  bool may_touch(const IndexPair& pair, Positions x) const noexcept;
   void group_by_structure();
 
   std::span<const Sphere> spheres_;

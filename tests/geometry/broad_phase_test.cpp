@@ -234,6 +234,21 @@ TEST(BroadPhase, FindsTheSamePairsOnAnyNumberOfThreads) {
   }
 }
 
+TEST(BroadPhase, LeavesOutPairsThatAreNotWanted) {
+  Random random(8);
+  const BroadPhase broad_phase = broad_phase_of(packing(random, 1000));
+  const auto is_wanted = [](const IndexPair& pair) { return (pair.a + pair.b) % 3 == 0; };
+  Pairs wanted = self_pairs(broad_phase);
+  std::erase_if(wanted, [&](const IndexPair& pair) { return !is_wanted(pair); });
+  ASSERT_FALSE(wanted.empty());
+  for (const int threads : {1, 3}) {
+    ThreadPool pool(threads);
+    Pairs pairs;
+    broad_phase.self_pairs(pairs, pool, is_wanted);
+    EXPECT_EQ(pairs, wanted);
+  }
+}
+
 TEST(BroadPhase, CanBeRebuiltWithAnotherNumberOfBoxes) {
   Random random(6);
   BroadPhase broad_phase;
