@@ -63,6 +63,10 @@ BeamSection circular_section(double radius, double young_modulus, double poisson
           2.0 * second_moment};
 }
 
+BeamSection bar_section(double radius, double young_modulus) noexcept {
+  return {young_modulus, 0.5 * young_modulus, std::numbers::pi * radius * radius, 0.0, 0.0};
+}
+
 void list_problems(const BeamBond& bond, std::size_t node_count, std::string_view name,
                    std::ostream& problems) {
   const auto a = static_cast<std::int32_t>(bond.nodes[0]);

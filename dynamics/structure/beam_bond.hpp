@@ -28,6 +28,10 @@ struct BeamSection {
 /// Full circular section: A = pi r², I = pi r⁴ / 4, J = 2 I, G = E / (2 (1 + nu)).
 BeamSection circular_section(double radius, double young_modulus, double poisson_ratio) noexcept;
 
+/// A bar of full circular section, which only resists stretching: the edges of a truss membrane. It
+/// does not turn its nodes: hold their rotations, or contacts spin them freely.
+BeamSection bar_section(double radius, double young_modulus) noexcept;
+
 /// An Euler-Bernoulli beam between two nodes, in total form: force and torque follow from where the
 /// nodes are and how they are turned now, with no history that could drift.
 struct BeamBond {

@@ -180,15 +180,16 @@ class SheetStatics {
     throw std::runtime_error("no matrix of the sheet is positive definite");
   }
 
-  /// How far to go along a change so that what is left of the force along it falls.
+  /// How far to go along a change so that what is left of the force along it falls; all the way
+  /// where no short way does: thin sheets that turn by much have to pass through large stretches.
   double shorten(const Eigen::VectorXd& change, const Eigen::VectorXd& residual,
                  const SheetLoads& loads) {
     const double before = residual.dot(change);
-    for (double length = 1.0; length > 1e-6; length *= 0.5) {
+    for (double length = 1.0; length > 0.05; length *= 0.5) {
       const Eigen::VectorXd after = free_part(forces(moved(scene_.state, length * change), loads));
       if (std::abs(after.dot(change)) <= 0.9 * before || before < 1e-14) return length;
     }
-    return 1e-3;
+    return 1.0;
   }
 
   Scene& scene_;
