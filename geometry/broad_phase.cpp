@@ -13,6 +13,8 @@
 #include <bit>
 #include <cassert>
 #include <functional>
+#include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -34,14 +36,19 @@ constexpr double kLargestCoordinate = 1e150;
 /// Nodes on the longest way down, root and leaf included. A tree of 2^31 boxes has 29.
 constexpr std::size_t kMaxHeight = 64;
 
+/// NaN is unbounded. std::max and std::min return their first argument when the second is NaN.
+double bounded_below(double lower) {
+  return std::min(kLargestCoordinate, std::max(-kLargestCoordinate, lower));
+}
+double bounded_above(double upper) {
+  return std::max(-kLargestCoordinate, std::min(kLargestCoordinate, upper));
+}
+
 fcl::AABBd to_fcl(const Box& box) {
   fcl::AABBd result;
   for (int axis = 0; axis < 3; ++axis) {
-    // std::max and std::min return their first argument when the second is NaN.
-    result.min_[axis] =
-        std::min(kLargestCoordinate, std::max(-kLargestCoordinate, box.lower[axis]));
-    result.max_[axis] =
-        std::max(-kLargestCoordinate, std::min(kLargestCoordinate, box.upper[axis]));
+    result.min_[axis] = bounded_below(box.lower[axis]);
+    result.max_[axis] = bounded_above(box.upper[axis]);
   }
   return result;
 }
@@ -83,11 +90,11 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
 
   void rebuild(std::span<const Box> boxes) {
     box_count_ = boxes.size();
-    items_.resize(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) items_[i] = {to_fcl(boxes[i]).center(), i};
+    order_.resize(boxes.size());
+    std::iota(order_.begin(), order_.end(), 0);
     make_room((boxes.size() + kInBunch - 1) / kInBunch);
     next_inner_ = n_leaves;
-    root_node = n_leaves == 0 ? NULL_NODE : split(0, boxes.size());
+    root_node = n_leaves == 0 ? NULL_NODE : split(0, boxes.size(), boxes);
     if (n_leaves > 0) nodes[root_node].parent = NULL_NODE;
     opath = 0;
     follow(boxes);
@@ -100,11 +107,6 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
 
  private:
   static constexpr std::size_t kInBunch = BoxLanes::kLanes;
-
-  struct Item {
-    Vec3 centre;
-    std::size_t index;
-  };
 
   void make_room(std::size_t count) {
     const std::size_t needed = 2 * count;  // One is never used.
@@ -121,21 +123,23 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
     nodes[freelist].next = NULL_NODE;
   }
 
-  /// A tree over the items [begin, end), halved near the median centre along the widest axis, so
-  /// that whole bunches remain; returns its top.
-  std::size_t split(std::size_t begin, std::size_t end) {
+  /// A tree over the boxes [begin, end) of the order, halved near the median centre along the
+  /// widest axis, so that whole bunches remain; returns its top.
+  std::size_t split(std::size_t begin, std::size_t end, std::span<const Box> boxes) {
     if (end - begin <= kInBunch) return make_bunch(begin, end);
     const std::size_t bunches = (end - begin + kInBunch - 1) / kInBunch;
     const std::size_t middle = begin + bunches / 2 * kInBunch;
-    const int axis = widest_axis(begin, end);
-    const auto item = [this](std::size_t k) {
-      return items_.begin() + static_cast<std::ptrdiff_t>(k);
+    const int axis = widest_axis(begin, end, boxes);
+    const auto at = [this](std::size_t k) {
+      return order_.begin() + static_cast<std::ptrdiff_t>(k);
     };
-    std::nth_element(item(begin), item(middle), item(end), [axis](const Item& p, const Item& q) {
-      return p.centre[axis] < q.centre[axis];
-    });
+    const auto place = [&](std::int32_t i) {
+      return twice_centre(boxes[static_cast<std::size_t>(i)], axis);
+    };
+    std::nth_element(at(begin), at(middle), at(end),
+                     [&](std::int32_t i, std::int32_t j) { return place(i) < place(j); });
     const std::size_t top = next_inner_++;
-    const std::array<std::size_t, 2> halves{split(begin, middle), split(middle, end)};
+    const std::array<std::size_t, 2> halves{split(begin, middle, boxes), split(middle, end, boxes)};
     for (std::size_t k = 0; k < 2; ++k) {
       nodes[top].children[k] = halves[k];
       nodes[halves[k]].parent = top;
@@ -146,19 +150,24 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
   std::size_t make_bunch(std::size_t begin, std::size_t end) {
     const std::size_t leaf = begin / kInBunch;
     bunches_[leaf].clear();
-    for (std::size_t k = begin; k < end; ++k)
-      bunches_[leaf].index[k - begin] = static_cast<std::int32_t>(items_[k].index);
+    for (std::size_t k = begin; k < end; ++k) bunches_[leaf].index[k - begin] = order_[k];
     nodes[leaf].children[0] = leaf;
     nodes[leaf].children[1] = NULL_NODE;
     return leaf;
   }
 
-  int widest_axis(std::size_t begin, std::size_t end) const {
-    Vec3 lower = items_[begin].centre;
-    Vec3 upper = lower;
-    for (std::size_t k = begin + 1; k < end; ++k) {
-      lower = lower.cwiseMin(items_[k].centre);
-      upper = upper.cwiseMax(items_[k].centre);
+  static double twice_centre(const Box& box, int axis) {
+    return bounded_below(box.lower[axis]) + bounded_above(box.upper[axis]);
+  }
+
+  int widest_axis(std::size_t begin, std::size_t end, std::span<const Box> boxes) const {
+    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::max());
+    Vec3 upper = -lower;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Box& box = boxes[static_cast<std::size_t>(order_[k])];
+      const Vec3 centre(twice_centre(box, 0), twice_centre(box, 1), twice_centre(box, 2));
+      lower = lower.cwiseMin(centre);
+      upper = upper.cwiseMax(centre);
     }
     int axis = 0;
     (upper - lower).maxCoeff(&axis);
@@ -177,8 +186,8 @@ class Tree : public fcl::detail::implementation_array::HierarchyTree<fcl::AABBd>
   }
 
   std::size_t box_count_ = 0;
-  std::vector<Item> items_;
-  std::vector<BoxLanes> bunches_;  ///< by leaf
+  std::vector<std::int32_t> order_;  ///< of the boxes, bunch by bunch
+  std::vector<BoxLanes> bunches_;    ///< by leaf
   std::size_t next_inner_ = 0;
 };
 
