@@ -4,6 +4,7 @@
 #include "contact/material.hpp"
 #include "contact/motion.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace plekton::contact {
@@ -13,6 +14,7 @@ struct Ball {
   NodeId node;
   double radius;  ///< m
   MaterialId material;
+  double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
 };
 
 /// A rigid half-space: a wall, a floor, a plate. It moves with a velocity of its own and does not

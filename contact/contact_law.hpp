@@ -10,6 +10,45 @@
 
 namespace plekton::contact {
 
+namespace detail {
+
+struct NoProperties {};
+template <class Law>
+struct PropertiesOf {
+  using Type = NoProperties;
+};
+template <class Law>
+requires requires {
+  typename Law::Properties;
+}
+struct PropertiesOf<Law> {
+  using Type = typename Law::Properties;
+};
+
+}  // namespace detail
+
+/// Numbers that a law has for a pair of materials, not for each of them: of most laws there are
+/// none.
+template <class Law>
+using PropertiesOf = typename detail::PropertiesOf<Law>::Type;
+
+/// Parameters of a pair of bodies.
+template <class Law>
+typename Law::Parameters combine(const PropertiesOf<Law>& properties, const Body& a,
+                                 const Body& b) {
+  if constexpr (requires { typename Law::Properties; }) {
+    return Law::combine(properties, a, b);
+  } else {
+    return Law::combine(a, b);
+  }
+}
+
+/// Whether a law answers with moments too; contacts under the others do not look at them.
+template <class Law>
+concept HasMoments = requires {
+  requires Law::has_moments;
+};
+
 /// What a contact law is: stateless functions of parameters, relative motion and history. It never
 /// sees a shape.
 ///
@@ -19,11 +58,11 @@ namespace plekton::contact {
 template <class Law>
 concept ContactLaw = requires(const typename Law::Parameters& parameters,
                               const RelativeMotion& motion, typename Law::History& history,
-                              const typename Law::History& other, const Material& material,
+                              const typename Law::History& other, const Body& body,
                               const FrameRotation& rotation, double number) {
   { Law::name } -> std::convertible_to<std::string_view>;
-  /// Parameters of a pair of bodies; the numbers are their radii (m).
-  { Law::combine(material, number, material, number) } -> std::same_as<typename Law::Parameters>;
+  /// Parameters of a pair of bodies. A law with a type Properties takes them first.
+  { combine<Law>(PropertiesOf<Law>{}, body, body) } -> std::same_as<typename Law::Parameters>;
   /// Parameters of that many equal contacts side by side.
   { Law::multiplied(parameters, number) } -> std::same_as<typename Law::Parameters>;
   /// Elastic normal force (N) of one feature at a gap (m); 0 for a gap >= 0.
@@ -50,5 +89,42 @@ concept TellsForce = requires(const typename Law::Parameters& parameters, double
                               const Vec3& normal, const typename Law::History& history) {
   { Law::force_of_state(parameters, gap, normal, history) } -> std::same_as<Vec3>;
 };
+
+/// A law whose contacts may go on over a distance, because the bodies stick to each other.
+///
+/// reach(parameters): how far apart (m) the surfaces may be; holds(history): whether they stick.
+template <class Law>
+concept HasReach = requires(const typename Law::Parameters& parameters,
+                            const typename Law::History& history) {
+  { Law::reach(parameters) } -> std::same_as<double>;
+  { Law::holds(history) } -> std::same_as<bool>;
+};
+
+/// m, 0 for laws that only push.
+template <class Law>
+double reach_of(const typename Law::Parameters& parameters) {
+  if constexpr (HasReach<Law>) {
+    return Law::reach(parameters);
+  } else {
+    return 0.0;
+  }
+}
+
+/// Whether bodies with this history stick to each other.
+template <class Law>
+bool holds(const typename Law::History& history) {
+  if constexpr (HasReach<Law>) {
+    return Law::holds(history);
+  } else {
+    return false;
+  }
+}
+
+/// Whether a contact with this history goes on at a gap (m) that is not negative.
+template <class Law>
+bool goes_on(const typename Law::Parameters& parameters, const typename Law::History& history,
+             double gap) {
+  return holds<Law>(history) && gap < reach_of<Law>(parameters);
+}
 
 }  // namespace plekton::contact

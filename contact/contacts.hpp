@@ -9,19 +9,12 @@
 #include "geometry/cell_neighbours.hpp"
 #include "geometry/neighbours.hpp"
 
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace plekton::contact {
-
-/// What the bodies of a scene are made of, as far as contacts are concerned.
-template <ContactLaw Law>
-struct ContactMaterials {
-  MaterialPairs<Law> pairs;
-  std::vector<MaterialId> of_spheres;     ///< by SphereId
-  std::vector<MaterialId> of_structures;  ///< by StructureId
-};
 
 /// How many contacts of each kind there are.
 struct ContactCounts {
@@ -116,25 +109,55 @@ inline double skin_of_structures(const geometry::Surface& surface, double skin) 
   return skin;
 }
 
+/// m, over which bodies of a scene may stick to each other; of laws whose reach grows with the
+/// radii of both bodies, or with the smaller one's.
+template <ContactLaw Law>
+double largest_reach(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
+                     const ContactMaterials<Law>& materials) {
+  if constexpr (!HasReach<Law>) return 0.0;
+  std::map<MaterialId, double> largest;  // m, radius of the bodies of a material
+  const auto add = [&](MaterialId material, double radius) {
+    largest[material] = std::max(largest[material], radius);
+  };
+  for (std::size_t i = 0; i < spheres.size(); ++i) add(materials.of_spheres[i], spheres[i].radius);
+  for (std::size_t i = 0; i < surface.structure_count(); ++i)
+    add(materials.of_structures[i], surface.radius(geometry::id_at<geometry::StructureId>(i)));
+  double reach = 0.0;
+  for (const auto& [material_a, radius_a] : largest) {
+    for (std::size_t b = 0; b < materials.pairs.size(); ++b) {
+      const auto material_b = geometry::id_at<MaterialId>(b);
+      const auto other = largest.find(material_b);
+      const double radius_b = other == largest.end() ? radius_a : other->second;
+      for (const double radius : {radius_a, radius_b}) {
+        reach = std::max(reach, reach_of<Law>(materials.pairs.combine({material_a, radius_a},
+                                                                      {material_b, radius})));
+      }
+    }
+  }
+  return reach;
+}
+
 template <ContactLaw Law>
 Contacts<Law>::Contacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
                         ContactMaterials<Law> materials, double skin,
                         const std::vector<bool>& meets_planes, Positions rest)
     : materials_(std::move(materials)),
-      neighbours_(spheres, surface, skin),
+      neighbours_(spheres, surface, skin, largest_reach(spheres, surface, materials_)),
       cell_neighbours_(surface, rest, skin_of_structures(surface, skin), !rest.empty()),
-      plane_neighbours_(skin),
+      plane_neighbours_(skin, largest_reach(spheres, surface, materials_)),
       with_surfaces_(surface),
       between_structures_(surface) {
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    balls_.push_back({spheres[i].nodes[0], spheres[i].radius, materials_.of_spheres[i]});
+    const NodeId node = spheres[i].nodes[0];
+    balls_.push_back({node, spheres[i].radius, materials_.of_spheres[i], materials_.mass_of(node)});
   }
   for (std::size_t n = 0; n < surface.node_count(); ++n) {
     const auto structure = surface.structure_of(geometry::id_at<NodeId>(n));
     if (structure == geometry::StructureId{-1} || (!meets_planes.empty() && !meets_planes[n]))
       continue;
-    balls_.push_back({geometry::id_at<NodeId>(n), surface.radius(structure),
-                      materials_.of_structures[index_of(structure)]});
+    const NodeId node = geometry::id_at<NodeId>(n);
+    balls_.push_back({node, surface.radius(structure),
+                      materials_.of_structures[index_of(structure)], materials_.mass_of(node)});
   }
 }
 
@@ -150,8 +173,7 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
     plane_neighbours_.expire(neighbours_.skin());
   }
   if (cell_neighbours_.update(motion.position, pool, motion.way)) {
-    dissipated_ += between_structures_.rebuild(cell_neighbours_.pairs(), materials_.of_structures,
-                                               materials_.pairs);
+    dissipated_ += between_structures_.rebuild(cell_neighbours_.pairs(), materials_);
   }
   if (plane_neighbours_.update(balls_, planes, motion.position)) {
     dissipated_ +=

@@ -11,15 +11,16 @@ namespace plekton::contact {
 using geometry::Pack;
 
 /// A law written for any Real: it may be asked about contacts side by side. Its ParametersOf and
-/// HistoryOf consist of Reals and Vec3Of<Real> only, and nothing in them branches.
+/// HistoryOf consist of Reals and Vec3Of<Real> only, and nothing in them branches. It has no
+/// moments and no reach.
 ///
 /// A new history turned from the normal 0 stays new: rotate() is linear in what it turns.
 template <class Law>
-concept LaneLaw = ContactLaw<Law> &&
-    requires(const typename Law::template ParametersOf<Pack<2>>& parameters,
-             const RelativeMotionOf<Pack<2>>& motion,
-             typename Law::template HistoryOf<Pack<2>>& history,
-             const FrameRotationOf<Pack<2>>& rotation, const Pack<2>& gap) {
+concept LaneLaw = ContactLaw<Law> && !HasMoments<Law> && !HasReach<Law> &&
+                  requires(const typename Law::template ParametersOf<Pack<2>>& parameters,
+                           const RelativeMotionOf<Pack<2>>& motion,
+                           typename Law::template HistoryOf<Pack<2>>& history,
+                           const FrameRotationOf<Pack<2>>& rotation, const Pack<2>& gap) {
   requires std::same_as < typename Law::template ParametersOf<double>,
   typename Law::Parameters > ;
   requires std::same_as < typename Law::template HistoryOf<double>,

@@ -34,7 +34,9 @@ PatchState lone_state(const PatchTerm& term, const typename Law::Parameters& par
   const Vec3& spin_a = motion.angular_velocity[index_of(ball)];
   state.relative_velocity = velocity_at(term.core, lever_b, motion) -
                             motion.velocity[index_of(ball)] - spin_a.cross(state.lever_a);
-  state.twist_rate = 0.5 * (spin_a + angular_velocity_at(term.core, motion)).dot(state.normal);
+  const Vec3 spin_b = angular_velocity_at(term.core, motion);
+  state.relative_spin = spin_b - spin_a;
+  state.twist_rate = 0.5 * (spin_a + spin_b).dot(state.normal);
   return state;
 }
 

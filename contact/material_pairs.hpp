@@ -4,10 +4,18 @@
 #include "contact/bodies.hpp"
 #include "contact/contact_law.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
 namespace plekton::contact {
+
+/// Properties of pairs of materials, in any order of the two. The rest has those of
+/// PropertiesOf<Law>{}.
+template <class Law>
+using PairProperties = std::map<std::pair<MaterialId, MaterialId>, PropertiesOf<Law>>;
 
 /// The contact materials of a scene, and what their pairs do.
 template <ContactLaw Law>
@@ -15,20 +23,50 @@ class MaterialPairs {
  public:
   using Parameters = typename Law::Parameters;
 
-  explicit MaterialPairs(std::vector<Material> materials = {}) : materials_(std::move(materials)) {}
+  /// A body of a material of this table.
+  struct Part {
+    MaterialId material;
+    double radius;                                          ///< m
+    double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
+  };
 
-  /// Parameters of a pair of bodies of these materials and radii (m).
-  Parameters combine(MaterialId a, double radius_a, MaterialId b, double radius_b) const {
-    return Law::combine(at(a), radius_a, at(b), radius_b);
+  explicit MaterialPairs(std::vector<Material> materials = {},
+                         const PairProperties<Law>& properties = {})
+      : materials_(std::move(materials)) {
+    for (const auto& [pair, of_pair] : properties)
+      properties_[std::minmax(pair.first, pair.second)] = of_pair;
   }
+
   Parameters combine(const Ball& a, const Ball& b) const {
-    return combine(a.material, a.radius, b.material, b.radius);
+    return combine(Part{a.material, a.radius, a.mass}, Part{b.material, b.radius, b.mass});
+  }
+  Parameters combine(const Part& a, const Part& b) const {
+    const auto own = properties_.find(std::minmax(a.material, b.material));
+    return contact::combine<Law>(own == properties_.end() ? PropertiesOf<Law>{} : own->second,
+                                 {at(a.material), a.radius, a.mass},
+                                 {at(b.material), b.radius, b.mass});
   }
 
+  std::size_t size() const noexcept { return materials_.size(); }
   const Material& at(MaterialId id) const { return materials_[static_cast<std::size_t>(id)]; }
 
  private:
   std::vector<Material> materials_;
+  PairProperties<Law> properties_;
+};
+
+/// What the bodies of a scene are made of, as far as contacts are concerned.
+template <ContactLaw Law>
+struct ContactMaterials {
+  MaterialPairs<Law> pairs;
+  std::vector<MaterialId> of_spheres;     ///< by SphereId
+  std::vector<MaterialId> of_structures;  ///< by StructureId
+  /// kg, by NodeId, for laws that ask for masses; empty: all bodies count as held.
+  std::vector<double> masses = {};
+
+  double mass_of(geometry::NodeId node) const {
+    return masses.empty() ? std::numeric_limits<double>::infinity() : masses[index_of(node)];
+  }
 };
 
 }  // namespace plekton::contact

@@ -20,6 +20,7 @@ struct PatchState {
                                 ///< force-weighted mean of the feet
   Vec3 lever_a = Vec3::Zero();  ///< m, from the ball's centre to the contact point
   Vec3 relative_velocity = Vec3::Zero();  ///< m/s, of b relative to a at the contact point
+  Vec3 relative_spin = Vec3::Zero();      ///< rad/s, of b relative to a
   double twist_rate = 0.0;  ///< rad/s, mean angular velocity of both bodies about the normal
 };
 
@@ -33,38 +34,44 @@ struct PatchTermForce {
 /// centre.
 /// @param elastic_force   gap -> N, of one feature
 /// @param elastic_energy  gap -> J
+/// @param hold            (gap, elastic force) -> how much of all that is not elastic goes to a
+///                        term, in any unit: its elastic force, if only what pushes is in contact
 /// @param term_forces     of the same length as terms
-template <class Force, class Energy>
+template <class Force, class Energy, class Hold>
 PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, double range,
-                       Force elastic_force, Energy elastic_energy,
+                       Force elastic_force, Energy elastic_energy, Hold hold,
                        std::span<PatchTermForce> term_forces) {
   PatchState state;
   state.root = patch.root;
   state.gap = terms[0].distance - range;
-  double total = 0.0;
-  Vec3 force = Vec3::Zero();
+  double total = 0.0, total_elastic = 0.0;
+  Vec3 force = Vec3::Zero(), holding = Vec3::Zero();
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const PatchTerm& term = terms[i];
     const double gap = term.distance - range;
-    const double elastic = term.weight * elastic_force(gap);
-    term_forces[i].elastic = elastic;
-    total += elastic;
-    force += elastic * term.normal;
-    state.foot += elastic * term.distance * term.normal;
+    const double of_one = elastic_force(gap);
+    const double share = term.weight * hold(gap, of_one);
+    term_forces[i] = {term.weight * of_one, share};
+    total += share;
+    total_elastic += term.weight * of_one;
+    force += term.weight * of_one * term.normal;
+    holding += share * term.normal;
+    state.foot += share * term.distance * term.normal;
     state.elastic_energy += term.weight * elastic_energy(gap);
   }
   if (terms.size() == 1 || !(total > 0.0)) {
     // One term, or no force yet: the deepest minimum stands for all.
     state.normal = terms[0].normal;
-    state.elastic_force = total;
+    state.elastic_force = total_elastic;
     state.foot = terms[0].distance * terms[0].normal;
     for (std::size_t i = 0; i < terms.size(); ++i) term_forces[i].share = i == 0 ? 1.0 : 0.0;
     return state;
   }
   state.elastic_force = force.norm();
-  state.normal = state.elastic_force > 0.0 ? Vec3(force / state.elastic_force) : terms[0].normal;
+  const double length = holding.norm();
+  state.normal = length > 0.0 ? Vec3(holding / length) : terms[0].normal;
   state.foot /= total;
-  for (PatchTermForce& term_force : term_forces) term_force.share = term_force.elastic / total;
+  for (PatchTermForce& term_force : term_forces) term_force.share /= total;
   return state;
 }
 
@@ -87,6 +94,7 @@ inline void set_kinematics(PatchState& state, NodeId ball, double radius, double
   const Vec3& spin_a = motion.angular_velocity[index_of(ball)];
   state.relative_velocity =
       velocity - motion.velocity[index_of(ball)] - spin_a.cross(state.lever_a);
+  state.relative_spin = spin - spin_a;
   state.twist_rate = 0.5 * (spin_a + spin).dot(state.normal);
 }
 

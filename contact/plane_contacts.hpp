@@ -44,11 +44,12 @@ class PlaneContacts {
   /// Force (N) of all bodies on a plane in the last step.
   Vec3 force_on(std::size_t plane) const;
 
-  /// Calls visit(ball's node, plane, parameters) for every touching pair.
+  /// Calls visit(ball's node, plane, parameters, gap) for every touching pair.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
     records_.for_each([&](const PlaneForce& record) {
-      visit(record.a, record.plane, slots_[record.contact].parameters);
+      const Slot& slot = slots_[record.contact];
+      visit(record.a, record.plane, slot.parameters, slot.gap);
     });
   }
 
@@ -102,8 +103,8 @@ double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
     if (old) return *old;
     const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
     const auto plane = static_cast<std::size_t>(keys[i].b);
-    const auto parameters =
-        materials.combine(ball.material, ball.radius, planes[plane].material, ball.radius);
+    const auto parameters = materials.combine({ball.material, ball.radius, ball.mass},
+                                              {planes[plane].material, ball.radius});
     return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}};
   };
   rekey_(slots_, keys, make, [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });
@@ -122,7 +123,8 @@ double PlaneContacts<Law>::advance(const Motion& motion, std::span<const Plane> 
       Slot& slot = slots_[i];
       const Plane& plane = planes[slot.plane];
       const double height = (motion.position[index_of(slot.node)] - plane.point).dot(plane.normal);
-      if (height < slot.radius) {
+      if (height < slot.radius ||
+          goes_on<Law>(slot.parameters, slot.memory.history, height - slot.radius)) {
         touching.slot[touching.count] = i;
         touching.height[touching.count++] = height;
         touching.all_have_images &= height + slot.radius > 0.0;
@@ -221,8 +223,9 @@ double PlaneContacts<Law>::advance_one(std::size_t i, double height, const Motio
                  pair.normal};
   const BallStepOf<double> step = ball_step<Law>(pair, slot.parameters, slot.memory.history, dt);
   slot.gap = step.gap;
-  records.add({slot.node, slot.plane, step.force, step.arm_a * step.force_cross_normal, i},
-              -step.gap / slot.radius);
+  records.add(
+      {slot.node, slot.plane, step.force, step.arm_a * step.force_cross_normal - step.moment, i},
+      -step.gap / slot.radius);
   return step.dissipated;
 }
 

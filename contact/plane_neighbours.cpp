@@ -20,7 +20,7 @@ bool PlaneNeighbours::update(std::span<const Ball> balls, std::span<const Plane>
   for (std::size_t i = 0; i < balls.size(); ++i) {
     for (std::size_t p = 0; p < planes.size(); ++p) {
       const double height = (x[index_of(balls[i].node)] - planes[p].point).dot(planes[p].normal);
-      if (height < balls[i].radius + 1.5 * skin_) {
+      if (height < balls[i].radius + reach_ + 1.5 * skin_) {
         pairs_.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(p)});
       }
     }

@@ -18,7 +18,9 @@ namespace plekton::contact {
 /// than one and a half skins is listed.
 class PlaneNeighbours {
  public:
-  explicit PlaneNeighbours(double skin) : skin_(skin) {}
+  /// @param skin   m, see expire()
+  /// @param reach  m, at which distance of the surfaces a pair is wanted already
+  explicit PlaneNeighbours(double skin, double reach = 0.0) : skin_(skin), reach_(reach) {}
 
   /// Has the list made anew at the next update.
   /// @param skin  m, of which balls move by no more than half before the next expiry
@@ -36,6 +38,7 @@ class PlaneNeighbours {
 
  private:
   double skin_;
+  double reach_;
   bool expired_ = true;
   std::vector<Plane> built_for_;
   std::vector<geometry::IndexPair> pairs_;

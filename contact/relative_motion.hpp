@@ -20,6 +20,8 @@ struct RelativeMotionOf {
   Real gap_rate;               ///< m/s, positive when separating
   Real
       elastic_normal_force;  ///< N, >= 0: the law's own elastic normal force, summed over the patch
+  /// rad/s, of b relative to a: for laws with moments.
+  Vec3Of<Real> spin_velocity = Vec3Of<Real>::Zero();
 };
 using RelativeMotion = RelativeMotionOf<double>;
 
@@ -28,6 +30,8 @@ template <class Real>
 struct ContactForceOf {
   Vec3Of<Real> force;  ///< N, on body b; the elastic normal force included
   Real dissipated;     ///< J, during this step, by friction or viscosity
+  /// N m, on body b; a gets the opposite. Zero but for laws that say has_moments.
+  Vec3Of<Real> moment = Vec3Of<Real>::Zero();
 };
 using ContactForce = ContactForceOf<double>;
 
@@ -35,10 +39,11 @@ using ContactForce = ContactForceOf<double>;
 template <class Real = double>
 PLEKTON_INLINE RelativeMotionOf<Real> relative_motion(
     const Vec3Of<Real>& normal, const std::type_identity_t<Real>& gap,
-    const std::type_identity_t<Real>& elastic_normal_force,
-    const Vec3Of<Real>& relative_velocity) noexcept {
+    const std::type_identity_t<Real>& elastic_normal_force, const Vec3Of<Real>& relative_velocity,
+    const Vec3Of<Real>& spin_velocity = Vec3Of<Real>::Zero()) noexcept {
   const Real gap_rate = relative_velocity.dot(normal);
-  return {normal, relative_velocity - gap_rate * normal, gap, gap_rate, elastic_normal_force};
+  return {normal,       relative_velocity - gap_rate * normal, gap, gap_rate, elastic_normal_force,
+          spin_velocity};
 }
 
 }  // namespace plekton::contact

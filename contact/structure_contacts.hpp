@@ -35,11 +35,8 @@ class StructureContacts {
   StructureContacts(StructureContacts&&) = default;  // a copy's springs would be those of another
 
   /// Takes a new list of cells that may touch, sorted; pairs in both lists keep their patches.
-  /// @param materials_of_structures  by StructureId
   /// @returns the energy (J) lost with patches that left the list
-  double rebuild(std::span<const geometry::CellPair> pairs,
-                 std::span<const MaterialId> materials_of_structures,
-                 const MaterialPairs<Law>& materials);
+  double rebuild(std::span<const geometry::CellPair> pairs, const ContactMaterials<Law>& materials);
 
   /// One step of all contacts: forces are found, not yet added.
   /// @returns the energy (J) dissipated
@@ -106,8 +103,8 @@ class StructureContacts {
     friend constexpr auto operator<=>(const Heir&, const Heir&) = default;
   };
 
-  void make_meetings(std::span<const MaterialId> materials_of_structures,
-                     const MaterialPairs<Law>& materials);
+  void make_meetings(const ContactMaterials<Law>& materials);
+  std::vector<double> mean_node_masses(const ContactMaterials<Law>& materials) const;
   void find_patches();
   void number_patches();
   void find_places();
@@ -133,8 +130,7 @@ class StructureContacts {
 
 template <ContactLaw Law>
 double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs,
-                                       std::span<const MaterialId> materials_of_structures,
-                                       const MaterialPairs<Law>& materials) {
+                                       const ContactMaterials<Law>& materials) {
   std::vector<PairOfCells> listed;
   std::vector<char> lives(patches_.size(), 0);
   auto old = pairs_.begin();
@@ -145,7 +141,7 @@ double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs
     if (known && old->patch >= 0) lives[static_cast<std::size_t>(old->patch)] = 1;
   }
   pairs_.swap(listed);
-  if (meetings_.empty()) make_meetings(materials_of_structures, materials);
+  if (meetings_.empty()) make_meetings(materials);
   terms_.rebuild(pairs);
   double lost = 0.0;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
@@ -155,21 +151,40 @@ double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs
 }
 
 template <ContactLaw Law>
-void StructureContacts<Law>::make_meetings(std::span<const MaterialId> materials_of_structures,
-                                           const MaterialPairs<Law>& materials) {
+void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& materials) {
+  const std::vector<double> masses = mean_node_masses(materials);
+  const auto part = [&](std::size_t i) {
+    return typename MaterialPairs<Law>::Part{
+        materials.of_structures[i], surface_->radius(geometry::id_at<geometry::StructureId>(i)),
+        masses[i]};
+  };
   for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
     for (std::size_t k = i; k < surface_->structure_count(); ++k) {
-      const double radius_i = surface_->radius(geometry::id_at<geometry::StructureId>(i));
-      const double radius_k = surface_->radius(geometry::id_at<geometry::StructureId>(k));
-      meetings_.push_back({materials.combine(materials_of_structures[i], radius_i,
-                                             materials_of_structures[k], radius_k),
-                           radius_i, radius_k});
+      meetings_.push_back(
+          {materials.pairs.combine(part(i), part(k)), part(i).radius, part(k).radius});
     }
   }
   for (const Meeting& meeting : meetings_) {
     springs_.push_back(structure::NormalSpring::of<Law>(
         meeting.parameters, meeting.radius_first + meeting.radius_second));
   }
+}
+
+/// kg, by StructureId. What moves in a contact of structures is about a node of each.
+template <ContactLaw Law>
+std::vector<double> StructureContacts<Law>::mean_node_masses(
+    const ContactMaterials<Law>& materials) const {
+  std::vector<double> masses(surface_->structure_count(), 0.0);
+  std::vector<double> counts(surface_->structure_count(), 0.0);
+  for (std::size_t n = 0; n < surface_->node_count(); ++n) {
+    const NodeId node = geometry::id_at<NodeId>(n);
+    const auto structure = surface_->structure_of(node);
+    if (structure == geometry::StructureId{-1}) continue;
+    masses[index_of(structure)] += materials.mass_of(node);
+    counts[index_of(structure)] += 1.0;
+  }
+  for (std::size_t i = 0; i < masses.size(); ++i) masses[i] /= counts[i];
+  return masses;
 }
 
 template <ContactLaw Law>
@@ -356,9 +371,9 @@ void StructureContacts<Law>::for_each_stiffness(Visit&& visit) const {
     const Meeting& meeting = meeting_of(patch);
     const auto parameters = patch.parameters(meeting);
     const auto on = [&](double radius) {
-      return [&visit, &parameters, radius](NodeId node, double share) {
-        visit(node, std::abs(share) * Law::normal_stiffness(parameters, 0.0),
-              std::abs(share) * Law::tangential_stiffness(parameters, 0.0), radius);
+      return [&, radius](NodeId node, double share) {
+        visit(node, std::abs(share) * Law::normal_stiffness(parameters, patch.gap),
+              std::abs(share) * Law::tangential_stiffness(parameters, patch.gap), radius);
       };
     };
     patch.first.for_each_share(on(meeting.radius_first));

@@ -64,12 +64,13 @@ class SurfaceContacts {
   /// Energy (J) stored in all contacts, at the positions of the last step.
   double elastic_energy() const;
 
-  /// Calls visit(ball's node, core point of a term, parameters, gap) for every term of every patch.
+  /// Calls visit(ball's node, core point of a term, parameters, range (m): radius of the ball and
+  /// of the surface) for every term of every patch.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
     records_.for_each([&](const SurfaceForce& record) {
       const Pair& pair = pairs_[record.contact];
-      visit(record.a, record.core, pair.parameters);
+      visit(record.a, record.core, pair.parameters, pair.range);
     });
   }
 
@@ -100,10 +101,11 @@ class SurfaceContacts {
   struct Pair {
     NodeId node;
     double radius;  ///< m, of the ball
-    double reach;   ///< m, radius of ball + radius of structure
+    double range;   ///< m, radius of ball + radius of structure
+    double reach;   ///< m, the range and the law's reach
     NearCells near;
     typename Law::Parameters parameters;
-    Range range;
+    Range contacts;
     CellWatch::Awake awake;
   };
   /// A pair that is awake, with the cells that may be in range.
@@ -147,12 +149,13 @@ class SurfaceContacts {
   double inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion, double dt,
                  Worker& worker);
   void write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
-                    const Vec3& force, std::span<const PatchTermForce> term_forces,
+                    const ContactForce& answer, std::span<const PatchTermForce> term_forces,
                     typename ForceRecords<SurfaceForce>::List& records) const;
   double drop(const Pair& pair) const;
   std::span<const Contact> contacts_of(const Pair& pair, const std::vector<Lists>& lists) const {
-    return {lists[static_cast<std::size_t>(pair.range.worker)].contacts.data() + pair.range.first,
-            pair.range.count};
+    return {
+        lists[static_cast<std::size_t>(pair.contacts.worker)].contacts.data() + pair.contacts.first,
+        pair.contacts.count};
   }
 
   const geometry::Surface* surface_;
@@ -179,12 +182,16 @@ double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
     const geometry::StructureId structure{keys[i].b};
     const double radius_b = surface_->radius(structure);
     const MaterialId material_b = materials_of_structures[index_of(structure)];
+    const auto parameters =
+        materials.combine({ball.material, ball.radius, ball.mass}, {material_b, radius_b});
+    const double range = ball.radius + radius_b;
     return Pair{ball.node,
                 ball.radius,
-                ball.radius + radius_b,
+                range,
+                range + reach_of<Law>(parameters),
                 near[i],
-                materials.combine(ball.material, ball.radius, material_b, radius_b),
-                old ? old->range : Range{},
+                parameters,
+                old ? old->contacts : Range{},
                 {}};
   };
   rekey_(pairs_, keys, make, [&](const Pair& old) { lost += drop(old); });
@@ -194,7 +201,7 @@ double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
 
 template <ContactLaw Law>
 double SurfaceContacts<Law>::drop(const Pair& pair) const {
-  if (pair.range.count == 0) return 0.0;
+  if (pair.contacts.count == 0) return 0.0;
   double lost = 0.0;
   for (const Contact& contact : contacts_of(pair, current_)) {
     lost += Law::history_energy(pair.parameters, contact.memory.history);
@@ -242,7 +249,7 @@ template <ContactLaw Law>
 double SurfaceContacts<Law>::elastic_energy() const {
   double energy = 0.0;
   for (const Pair& pair : pairs_) {
-    if (pair.range.count == 0) continue;
+    if (pair.contacts.count == 0) continue;
     for (const Contact& contact : contacts_of(pair, current_)) {
       energy +=
           contact.elastic_energy + Law::history_energy(pair.parameters, contact.memory.history);
@@ -255,7 +262,7 @@ template <ContactLaw Law>
 template <class Visit>
 void SurfaceContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
   for (const Pair& pair : pairs_) {
-    if (pair.range.count == 0) continue;
+    if (pair.contacts.count == 0) continue;
     const Vec3& centre = x[index_of(pair.node)];
     for (const Contact& contact : contacts_of(pair, current_)) {
       visit(contact_row(centre, centre + contact.foot, contact.memory.normal, contact.gap,

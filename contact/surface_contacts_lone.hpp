@@ -55,7 +55,7 @@ std::size_t SurfaceContacts<Law>::find_jobs(std::size_t begin, std::size_t end,
         gather(pair, geometry::id_at<geometry::FaceId>(face), motion, worker.lone);
       }
     }
-    if (job.cell_count > 0 || pair.range.count > 0) worker.jobs.push_back(job);
+    if (job.cell_count > 0 || pair.contacts.count > 0) worker.jobs.push_back(job);
     if constexpr (LaneLaw<Law>) {
       if (worker.lone.count == kLoneLanes) return i + 1;
     }
@@ -68,9 +68,9 @@ std::size_t SurfaceContacts<Law>::find_jobs(std::size_t begin, std::size_t end,
 template <ContactLaw Law>
 bool SurfaceContacts<Law>::may_be_alone(const Pair& pair,
                                         std::span<const geometry::CellId> cells) const noexcept {
-  if (cells.size() != 1 || pair.range.count != 1) return false;
+  if (cells.size() != 1 || pair.contacts.count != 1) return false;
   const Contact& contact = contacts_of(pair, previous_)[0];
-  const auto& minima = previous_[static_cast<std::size_t>(pair.range.worker)].minima;
+  const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
   return contact.minimum_count == 1 && index_of(cells[0]) < surface_->face_count() &&
          minima[contact.first_minimum] == surface_->feature_of(cells[0]);
 }
@@ -91,7 +91,7 @@ void SurfaceContacts<Law>::gather(const Pair& pair, geometry::FaceId face, const
   }
   const ContactMemory<Law>& memory = contacts_of(pair, previous_)[0].memory;
   block.radius.set(lane, pair.radius);
-  block.range.set(lane, pair.reach);
+  block.range.set(lane, pair.range);
   block.parameters.set(lane, pair.parameters);
   block.history.set(lane, memory.history);
   block.normal.set(lane, memory.normal);
@@ -118,7 +118,7 @@ double SurfaceContacts<Law>::keep_lone(Pair& pair, std::size_t lane, int worker_
   const double lost =
       Law::history_energy(pair.parameters, last) - Law::history_energy(pair.parameters, carried);
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
-  pair.range = {worker_index, static_cast<std::uint32_t>(lists.contacts.size()), 1};
+  pair.contacts = {worker_index, static_cast<std::uint32_t>(lists.contacts.size()), 1};
   lists.contacts.push_back({{block.history.template at<typename Law::History>(lane),
                              block.normal.template at<Vec3>(lane)},
                             block.force.template at<Vec3>(lane),

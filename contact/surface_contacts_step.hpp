@@ -14,10 +14,9 @@ double SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geometry::
   const Vec3& centre = motion.position[index_of(pair.node)];
   const auto patches = worker.patches.find(centre, pair.reach, cells, motion.position);
 
-  const Range range{worker_index, static_cast<std::uint32_t>(lists.contacts.size()),
-                    static_cast<std::uint32_t>(patches.size())};
+  const std::size_t first = lists.contacts.size();
   double dissipated = 0.0;
-  if (patches.size() == 1 && pair.range.count <= 1 &&
+  if (patches.size() == 1 && pair.contacts.count <= 1 &&
       is_lone(worker.patches.terms(patches.front()))) {
     dissipated = advance_alone(pair, patches[0], motion, dt, worker_index);
   } else {
@@ -31,7 +30,10 @@ double SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geometry::
                                 worker.histories[j], dt, worker_index);
     }
   }
-  pair.range = patches.empty() ? Range{} : range;
+  const std::size_t count = lists.contacts.size() - first;
+  pair.contacts = count == 0 ? Range{}
+                             : Range{worker_index, static_cast<std::uint32_t>(first),
+                                     static_cast<std::uint32_t>(count)};
   return dissipated;
 }
 
@@ -42,9 +44,11 @@ double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const Patch
                                          std::span<const PatchTermForce> term_forces,
                                          const typename Law::History& history, double dt,
                                          int worker_index) {
+  if (HasReach<Law> && !(state.gap < 0.0) && !holds<Law>(history))
+    return Law::history_energy(pair.parameters, history);
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
-  const RelativeMotion relative =
-      relative_motion(state.normal, state.gap, state.elastic_force, state.relative_velocity);
+  const RelativeMotion relative = relative_motion(state.normal, state.gap, state.elastic_force,
+                                                  state.relative_velocity, state.relative_spin);
   const auto first_minimum = static_cast<std::uint32_t>(lists.minima.size());
   for (const PatchTerm& term : terms) {
     if (term.weight > 0.0) lists.minima.push_back(term.core.feature);
@@ -58,7 +62,7 @@ double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const Patch
                             state.elastic_energy,
                             first_minimum,
                             static_cast<std::uint32_t>(lists.minima.size()) - first_minimum});
-  write_forces(pair, terms, state, result.force, term_forces, records_.of_worker(worker_index));
+  write_forces(pair, terms, state, result, term_forces, records_.of_worker(worker_index));
   return result.dissipated;
 }
 
@@ -69,13 +73,13 @@ double SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& patch,
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   const PatchTerm& term = worker.patches.terms(patch)[0];
   const PatchState state =
-      lone_state<Law>(term, pair.parameters, pair.node, pair.radius, pair.reach, motion);
+      lone_state<Law>(term, pair.parameters, pair.node, pair.radius, pair.range, motion);
   typename Law::History history{};
   double lost = 0.0;
   for (const Contact& old : contacts_of(pair, previous_)) {
     lost = Law::history_energy(pair.parameters, old.memory.history);
     const Feature* minima =
-        previous_[static_cast<std::size_t>(pair.range.worker)].minima.data() + old.first_minimum;
+        previous_[static_cast<std::size_t>(pair.contacts.worker)].minima.data() + old.first_minimum;
     const bool stays = old.minimum_count == 1 && *minima == term.core.feature;
     if (!stays && worker.heirs
                       .find({minima, old.minimum_count}, motion.position[index_of(pair.node)],
@@ -99,8 +103,8 @@ void SurfaceContacts<Law>::keep_sides(const Pair& pair, std::span<const Patch> p
                                       Worker& worker) {
   for (std::size_t j = 0; j < patches.size(); ++j) {
     const std::span<PatchTerm> terms = worker.patches.terms(patches[j]);
-    if (terms[0].distance > 0.0 || pair.range.count == 0) continue;  // the first is the nearest
-    const auto& minima = previous_[static_cast<std::size_t>(pair.range.worker)].minima;
+    if (terms[0].distance > 0.0 || pair.contacts.count == 0) continue;  // the first is the nearest
+    const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
     for (const Contact& old : contacts_of(pair, previous_)) {
       const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
                                            x[index_of(pair.node)], x, patches, worker.patches);
@@ -124,10 +128,14 @@ void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> 
     const std::span<PatchTermForce> term_forces{worker.term_forces.data() + patch.first_term,
                                                 terms.size()};
     worker.states.push_back(patch_state(
-        patch, terms, pair.reach,
+        patch, terms, pair.range,
         [&](double gap) { return Law::elastic_normal_force(pair.parameters, gap); },
-        [&](double gap) { return Law::elastic_normal_energy(pair.parameters, gap); }, term_forces));
-    set_kinematics(worker.states.back(), pair.node, pair.radius, pair.reach, terms, term_forces,
+        [&](double gap) { return Law::elastic_normal_energy(pair.parameters, gap); },
+        [&](double gap, double elastic) {
+          return HasReach<Law> ? std::max(0.0, pair.reach - pair.range - gap) : elastic;
+        },
+        term_forces));
+    set_kinematics(worker.states.back(), pair.node, pair.radius, pair.range, terms, term_forces,
                    motion);
   }
 }
@@ -139,9 +147,9 @@ template <ContactLaw Law>
 double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> patches,
                                      const Motion& motion, double dt, Worker& worker) {
   worker.histories.assign(patches.size(), typename Law::History{});
-  if (pair.range.count == 0) return 0.0;
+  if (pair.contacts.count == 0) return 0.0;
   double lost = 0.0;
-  const auto& minima = previous_[static_cast<std::size_t>(pair.range.worker)].minima;
+  const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
   for (const Contact& old : contacts_of(pair, previous_)) {
     lost += Law::history_energy(pair.parameters, old.memory.history);
     const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
@@ -170,15 +178,16 @@ double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> pa
 
 template <ContactLaw Law>
 void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchTerm> terms,
-                                        const PatchState& state, const Vec3& force,
+                                        const PatchState& state, const ContactForce& answer,
                                         std::span<const PatchTermForce> term_forces,
                                         typename ForceRecords<SurfaceForce>::List& records) const {
-  const Vec3 other_force = force - state.elastic_force * state.normal;
+  const Vec3 other_force = answer.force - state.elastic_force * state.normal;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Vec3 other = term_forces[i].share * other_force;
     const Vec3 lever_b = state.lever_a - terms[i].distance * terms[i].normal;
     records.add({pair.node, terms[i].core, term_forces[i].elastic * terms[i].normal + other,
-                 -state.lever_a.cross(other), lever_b.cross(other),
+                 -state.lever_a.cross(other) - term_forces[i].share * answer.moment,
+                 lever_b.cross(other) + term_forces[i].share * answer.moment,
                  static_cast<std::size_t>(&pair - pairs_.data())},
                 -state.gap / pair.radius);
   }

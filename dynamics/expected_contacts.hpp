@@ -13,6 +13,10 @@
 /// sheet on which a stiff grain lands needs a much shorter step than the sheet alone.
 namespace plekton::dynamics {
 
+/// Overlap over the smaller radius at which contacts to come are taken to be as stiff as they get.
+/// Those that get stiffer with the overlap are looked at again when they are there.
+inline constexpr double kExpectedOverlap = 0.02;
+
 /// Stiffness of the hardest contact of a kind (N/m).
 struct ExpectedStiffness {
   double normal = 0.0;
@@ -27,8 +31,9 @@ struct ExpectedStiffness {
 template <contact::ContactLaw Law>
 class ExpectedContacts {
  public:
-  ExpectedContacts(const Scene& scene, const geometry::Surface& surface)
-      : scene_(scene), surface_(surface), pairs_(scene.materials) {
+  ExpectedContacts(const Scene& scene, const geometry::Surface& surface,
+                   const contact::MaterialPairs<Law>& pairs)
+      : scene_(scene), surface_(surface), pairs_(pairs) {
     collect_structures();
     collect_kinds();
     if (structures_.size() > 1) collect_extents();
@@ -58,9 +63,10 @@ class ExpectedContacts {
   };
 
   void take(const Kind& a, const Kind& b, ExpectedStiffness& hardest) const {
-    const auto parameters = pairs_.combine(a.material, a.radius, b.material, b.radius);
-    hardest.take(Law::normal_stiffness(parameters, 0.0),
-                 Law::tangential_stiffness(parameters, 0.0));
+    const auto parameters = pairs_.combine({a.material, a.radius}, {b.material, b.radius});
+    const double gap = -kExpectedOverlap * std::min(a.radius, b.radius);
+    hardest.take(Law::normal_stiffness(parameters, gap),
+                 Law::tangential_stiffness(parameters, gap));
   }
 
   void collect_structures() {
@@ -124,9 +130,10 @@ class ExpectedContacts {
       const double range = own.radius + other.radius;
       const double count =
           1.0 + length_[index_of(node)] / range + area_[index_of(node)] / (range * range);
-      const auto one = pairs_.combine(own.material, own.radius, other.material, other.radius);
+      const auto one = pairs_.combine({own.material, own.radius}, {other.material, other.radius});
       const auto all = Law::multiplied(one, count);
-      hardest.take(Law::normal_stiffness(all, 0.0), Law::tangential_stiffness(all, 0.0));
+      const double gap = -kExpectedOverlap * std::min(own.radius, other.radius);
+      hardest.take(Law::normal_stiffness(all, gap), Law::tangential_stiffness(all, gap));
     }
     return hardest;
   }
@@ -159,7 +166,7 @@ class ExpectedContacts {
 
   const Scene& scene_;
   const geometry::Surface& surface_;
-  contact::MaterialPairs<Law> pairs_;
+  const contact::MaterialPairs<Law>& pairs_;
   std::vector<Kind> structures_;
   std::vector<Kind> kinds_;
   std::vector<double> length_;  ///< m, of cylinders, by node
@@ -169,8 +176,9 @@ class ExpectedContacts {
 /// Stiffness of the contacts that may come, by NodeId.
 template <contact::ContactLaw Law>
 std::vector<IsotropicStiffness> expected_contacts(const Scene& scene,
-                                                  const geometry::Surface& surface) {
-  return ExpectedContacts<Law>(scene, surface).of_nodes();
+                                                  const geometry::Surface& surface,
+                                                  const contact::MaterialPairs<Law>& pairs) {
+  return ExpectedContacts<Law>(scene, surface, pairs).of_nodes();
 }
 
 }  // namespace plekton::dynamics

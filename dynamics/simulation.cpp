@@ -5,5 +5,6 @@
 namespace plekton::dynamics {
 
 template class Simulation<contact::LinearFrictional>;
+template class Simulation<contact::AnyLaw>;
 
 }  // namespace plekton::dynamics

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/contacts.hpp"
-#include "contact/laws/linear_frictional.hpp"
+#include "contact/laws/any_law.hpp"
 #include "dynamics/diverged.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/integrators/leapfrog.hpp"
@@ -41,7 +41,9 @@ class Simulation {
   /// @throws std::invalid_argument listing every problem of the scene or the options, among them a
   /// time step above
   ///         kLargestStep of the critical one
-  Simulation(Scene scene, const SimulationOptions& options);
+  /// @param properties  of pairs of materials, for laws that have any
+  Simulation(Scene scene, const SimulationOptions& options,
+             const contact::PairProperties<Law>& properties = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -101,6 +103,7 @@ class Simulation {
   CriticalStep critical_step(NodalStiffness& space) const;
 
   Scene scene_;
+  contact::MaterialPairs<Law> material_pairs_;
   MotionOptions motion_;
   geometry::ThreadPool pool_;
   geometry::Surface surface_;
@@ -153,5 +156,6 @@ void Simulation<Law>::step() {
 
 /// Of another law: simulation_definitions.hpp.
 extern template class Simulation<contact::LinearFrictional>;
+extern template class Simulation<contact::AnyLaw>;
 
 }  // namespace plekton::dynamics

@@ -19,7 +19,8 @@ namespace plekton::dynamics {
 /// What the structures and spheres of a scene are made of.
 template <contact::ContactLaw Law>
 contact::ContactMaterials<Law> contact_materials(const Scene& scene,
-                                                 const geometry::Surface& surface) {
+                                                 const geometry::Surface& surface,
+                                                 const contact::MaterialPairs<Law>& pairs) {
   std::vector<contact::MaterialId> of_structures(surface.structure_count());
   for (std::size_t i = 0; i < scene.elements.facets.size(); ++i) {
     of_structures[index_of(surface.structure_of(scene.elements.facets[i].nodes[0]))] =
@@ -29,17 +30,19 @@ contact::ContactMaterials<Law> contact_materials(const Scene& scene,
     of_structures[index_of(surface.structure_of(scene.elements.cylinders[i].nodes[0]))] =
         scene.cylinder_materials[i];
   }
-  return {contact::MaterialPairs<Law>(scene.materials), scene.sphere_materials,
-          std::move(of_structures)};
+  return {pairs, scene.sphere_materials, std::move(of_structures), scene.properties.mass};
 }
 
 template <contact::ContactLaw Law>
-Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
+Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
+                            const contact::PairProperties<Law>& properties)
     : scene_((checked(scene, options), std::move(scene))),
+      material_pairs_(scene_.materials, properties),
       motion_(options.motion),
       pool_(options.threads),
       surface_(scene_.elements.cylinders, scene_.elements.facets, scene_.state.size()),
-      contacts_(scene_.elements.spheres, surface_, contact_materials<Law>(scene_, surface_),
+      contacts_(scene_.elements.spheres, surface_,
+                contact_materials<Law>(scene_, surface_, material_pairs_),
                 chosen_skin(scene_, options.skin), free_nodes(scene_.properties),
                 options.self_contact ? geometry::Positions(scene_.state.position)
                                      : geometry::Positions()),
@@ -57,7 +60,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options)
   sheet_facets_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
   forces_.set_zero();
-  expected_ = expected_contacts<Law>(scene_, surface_);
+  expected_ = expected_contacts<Law>(scene_, surface_, material_pairs_);
   NodalStiffness stiffness(scene_.state.size());
   add_expected_to(stiffness);
   add_structures_to(stiffness);
@@ -225,30 +228,31 @@ double Simulation<Law>::rounding_energy() const {
 template <contact::ContactLaw Law>
 void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
   const auto& x = scene_.state.position;
-  const auto contact = [&](const Vec3& normal, const typename Law::Parameters& parameters, NodeId a,
-                           NodeId b) {
-    return ContactStiffness{normal, Law::normal_stiffness(parameters, 0.0),
-                            Law::tangential_stiffness(parameters, 0.0), radii_[index_of(a)],
+  const auto contact = [&](const Vec3& normal, const typename Law::Parameters& parameters,
+                           double gap, NodeId a, NodeId b) {
+    return ContactStiffness{normal, Law::normal_stiffness(parameters, gap),
+                            Law::tangential_stiffness(parameters, gap), radii_[index_of(a)],
                             radii_[index_of(b)]};
   };
   contacts_.with_spheres().for_each_touching(
-      [&](NodeId a, NodeId b, const auto& parameters, double) {
+      [&](NodeId a, NodeId b, const auto& parameters, double gap) {
         const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
-        stiffness.add_pair(a, b, contact(normal, parameters, a, b));
+        stiffness.add_pair(a, b, contact(normal, parameters, gap, a, b));
       });
-  contacts_.with_surfaces().for_each_touching(
-      [&](NodeId ball, const auto& core, const auto& parameters) {
-        const Vec3 normal = (geometry::position(core, x) - x[index_of(ball)]).normalized();
-        stiffness.add_on_surface(ball, core, contact(normal, parameters, ball, core.nodes[0]));
-      });
+  contacts_.with_surfaces().for_each_touching([&](NodeId ball, const auto& core,
+                                                  const auto& parameters, double range) {
+    const Vec3 way = geometry::position(core, x) - x[index_of(ball)];
+    stiffness.add_on_surface(
+        ball, core, contact(way.normalized(), parameters, way.norm() - range, ball, core.nodes[0]));
+  });
   contacts_.between_structures().for_each_stiffness(
       [&](NodeId node, double normal, double tangential, double radius) {
         stiffness.add(node, from_all_sides(2.0 * normal, 2.0 * tangential, radius));
       });
-  contacts_.with_planes().for_each_touching(
-      [&](NodeId ball, std::size_t plane, const auto& parameters) {
-        stiffness.add_to_wall(ball, contact(scene_.planes[plane].normal, parameters, ball, ball));
-      });
+  contacts_.with_planes().for_each_touching([&](NodeId ball, std::size_t plane,
+                                                const auto& parameters, double gap) {
+    stiffness.add_to_wall(ball, contact(scene_.planes[plane].normal, parameters, gap, ball, ball));
+  });
 }
 
 template <contact::ContactLaw Law>

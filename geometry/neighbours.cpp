@@ -18,8 +18,9 @@ constexpr double kCostOfSkin = 0.7;
 
 }  // namespace
 
-Neighbours::Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin)
-    : spheres_(spheres), surface_(&surface), skin_(skin) {}
+Neighbours::Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin,
+                       double reach)
+    : spheres_(spheres), surface_(&surface), skin_(skin), reach_(reach) {}
 
 bool Neighbours::update(Positions x, ThreadPool& pool, double way) {
   ++steps_of_list_;
@@ -52,7 +53,7 @@ void Neighbours::fit(BroadPhase& tree) {
 }
 
 void Neighbours::rebuild(Positions x, ThreadPool& pool) {
-  const double margin = skin_.margin();
+  const double margin = skin_.margin() + 0.5 * reach_;
   boxes_.clear();
   for (const Sphere& sphere : spheres_) boxes_.push_back(box(sphere, x, margin));
   fit(sphere_tree_);
@@ -77,7 +78,7 @@ bool Neighbours::may_touch(const IndexPair& pair, Positions x) const noexcept {
   const Sphere& a = spheres_[static_cast<std::size_t>(pair.a)];
   const Sphere& b = spheres_[static_cast<std::size_t>(pair.b)];
   // Squares and sums are within a few eps of their values; the factor pays for all of it.
-  const double range = (1.0 + 1e-12) * (a.radius + b.radius + skin());
+  const double range = (1.0 + 1e-12) * (a.radius + b.radius + reach_ + skin());
   return !((x[index_of(a.nodes[0])] - x[index_of(b.nodes[0])]).squaredNorm() > range * range);
 }
 

@@ -25,7 +25,9 @@ struct NearCells {
 class Neighbours {
  public:
   /// @param skin  m, >= 0; 0 makes the lists anew whenever anything moved
-  Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin);
+  /// @param reach  m, at which distance of the surfaces a pair is wanted already
+  Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin,
+             double reach = 0.0);
 
   /// From now on chooses the skin anew whenever the lists are made, from how many steps the last
   /// ones lasted: the one for which the lists and the pairs in them, which grow with the skin, cost
@@ -65,6 +67,7 @@ class Neighbours {
   std::span<const Sphere> spheres_;
   const Surface* surface_;
   Skin skin_;
+  double reach_;
   BroadPhase sphere_tree_;
   BroadPhase cell_tree_;
   std::vector<Box> boxes_;

@@ -17,15 +17,17 @@ class Rows {
   template <class Thing>
   PLEKTON_INLINE void set(std::size_t lane, const Thing& thing) noexcept {
     static_assert(sizeof(Thing) == kNumbers * sizeof(double));
-    const auto* numbers = reinterpret_cast<const double*>(&thing);
+    double numbers[kNumbers];  // a thing may hold more than doubles: copied as it is
+    std::memcpy(numbers, &thing, sizeof(thing));
     for (std::size_t n = 0; n < kNumbers; ++n) rows_[n][lane] = numbers[n];
   }
 
   template <class Thing>
   PLEKTON_INLINE void get(std::size_t lane, Thing& thing) const noexcept {
     static_assert(sizeof(Thing) == kNumbers * sizeof(double));
-    auto* numbers = reinterpret_cast<double*>(&thing);
+    double numbers[kNumbers];
     for (std::size_t n = 0; n < kNumbers; ++n) numbers[n] = rows_[n][lane];
+    std::memcpy(static_cast<void*>(&thing), numbers, sizeof(thing));
   }
 
   /// Writes a thing of other rows into a lane.

@@ -294,7 +294,9 @@ void BallContacts<Law>::advance_one(std::size_t row, std::size_t lane, Work& wor
   const Parameters parameters = parameters_.of_lane(row, lane, balls);
   ContactMemory<Law> memory = rows.memory(lane);
   Outcome& outcome = work.outcome;
-  if (balls.touch() == 0.0) {
+  if (balls.touch() == 0.0 &&
+      !goes_on<Law>(parameters, memory.history,
+                    balls.separation.norm() - (balls.radius_a + balls.radius_b))) {
     outcome.dissipated[lane] += forget<Law>(parameters, memory);
     rows.set_memory(lane, memory);
     set_touched(row, lane, 1, 0);
@@ -323,6 +325,10 @@ void BallContacts<Law>::advance_one(std::size_t row, std::size_t lane, Work& wor
   const BallForce force{step.force, step.force_cross_normal, step.arm_a, step.arm_b};
   add_to_a(work.sums[members.a], force);
   add_to_b(work.sums[members.b], force);
+  if constexpr (HasMoments<Law>) {
+    work.sums[members.a].torque -= step.moment;
+    work.sums[members.b].torque += step.moment;
+  }
 }
 
 template <ContactLaw Law>

@@ -53,6 +53,7 @@ struct BallStepOf {
   Real arm_a;                       ///< m
   Real arm_b;                       ///< m
   Real dissipated;                  ///< J
+  Vec3Of<Real> moment;              ///< N m, on b
 };
 
 /// Asks the law. The forces act at the point half way through the overlap.
@@ -65,10 +66,13 @@ PLEKTON_INLINE BallStepOf<Real> ball_step(const BallPairOf<Real>& pair,
   const Real arm_a = pair.radius_a + Real(0.5) * gap;
   const Real arm_b = pair.radius_b + Real(0.5) * gap;
   const Vec3Of<Real> slip_of_spins = (arm_a * pair.spin_a + arm_b * pair.spin_b).cross(pair.normal);
-  const RelativeMotionOf<Real> motion = relative_motion<Real>(
-      pair.normal, gap, Law::elastic_normal_force(parameters, gap), pair.velocity - slip_of_spins);
+  const RelativeMotionOf<Real> motion =
+      relative_motion<Real>(pair.normal, gap, Law::elastic_normal_force(parameters, gap),
+                            pair.velocity - slip_of_spins, pair.spin_b - pair.spin_a);
   const ContactForceOf<Real> answer = Law::force(parameters, motion, history, dt);
-  return {gap, answer.force, answer.force.cross(pair.normal), arm_a, arm_b, answer.dissipated};
+  return {gap,          answer.force, answer.force.cross(pair.normal),
+          arm_a,        arm_b,        answer.dissipated,
+          answer.moment};
 }
 
 }  // namespace plekton::contact

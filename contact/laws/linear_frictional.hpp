@@ -43,6 +43,10 @@ struct LinearFrictional {
             std::min(a.friction, b.friction)};
   }
 
+  static Parameters combine(const Body& a, const Body& b) noexcept {
+    return combine<double>(a.material, a.radius, b.material, b.radius);
+  }
+
   static Parameters multiplied(const Parameters& p, double count) noexcept {
     return {count * p.normal_stiffness, count * p.tangential_stiffness, p.friction};
   }

@@ -85,6 +85,13 @@ class PatchSide {
     });
   }
 
+  /// Transpose of angular_velocity.
+  void add_moment(const Vec3& moment, NodeForces& forces) const {
+    for_each_share([&](NodeId node, double share) {
+      forces.torque[index_of(node)] += share * moment;
+    });
+  }
+
   template <class Visit>
   void for_each_share(Visit&& visit) const {
     for (std::size_t i = 0; i < nodes_.size(); ++i) visit(nodes_[i], shares_[i]);

@@ -31,6 +31,7 @@ struct StructurePatch {
   PatchSide second;
   ContactMemory<Law> memory;
   Vec3 other_force = Vec3::Zero();  ///< N, on the second side: all that is not elastic
+  Vec3 moment = Vec3::Zero();       ///< N m, on the second side
 
   /// No forces yet; the nodes stay.
   void reset() {
@@ -75,9 +76,12 @@ struct StructurePatch {
     const Vec3 velocity = second.velocity_at(lever_of_second(bodies), motion) -
                           first.velocity_at(lever_of_first(bodies), motion);
     memory.normal = elastic_force / normal_force;
-    const RelativeMotion relative = relative_motion(memory.normal, gap, normal_force, velocity);
+    const RelativeMotion relative =
+        relative_motion(memory.normal, gap, normal_force, velocity,
+                        second.angular_velocity(motion) - first.angular_velocity(motion));
     const ContactForce result = Law::force(parameters(bodies), relative, memory.history, dt);
     other_force = result.force - elastic_force;
+    moment = result.moment;
     return result.dissipated;
   }
 
@@ -87,6 +91,10 @@ struct StructurePatch {
     if (!pushes()) return;
     first.add_force_at(lever_of_first(bodies), -other_force, forces);
     second.add_force_at(lever_of_second(bodies), other_force, forces);
+    if constexpr (HasMoments<Law>) {
+      first.add_moment(-moment, forces);
+      second.add_moment(moment, forces);
+    }
   }
 
   /// The contact point lies between the two points on which the elastic force acts.

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/free_bodies.hpp"
 #include "tests/support/free_collision.hpp"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
-
-#include <functional>
 
 /// Two free structures that collide: no gravity, nothing held.
 namespace plekton::dynamics {
@@ -13,66 +11,7 @@ namespace {
 using test::momenta_of;
 using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
-constexpr double kRadius = 0.02;
-constexpr contact::MaterialId kMaterial{0};
-
-/// Adds a body whose first node is at a place, turned, with a velocity.
-struct Body {
-  std::vector<Vec3> x;
-  std::vector<std::array<std::size_t, 2>> beams;
-  std::vector<std::array<std::size_t, 3>> facets;
-};
-
-Body chain() {
-  Body body;
-  for (int i = 0; i <= 4; ++i) body.x.emplace_back(0.15 * i - 0.3, 0.0, 0.0);
-  for (std::size_t i = 0; i < 4; ++i) body.beams.push_back({i, i + 1});
-  return body;
-}
-
-Body sheet() {
-  Body body;
-  constexpr std::size_t kSquares = 3;
-  const auto node = [](std::size_t i, std::size_t j) { return j * (kSquares + 1) + i; };
-  for (std::size_t j = 0; j <= kSquares; ++j) {
-    for (std::size_t i = 0; i <= kSquares; ++i)
-      body.x.emplace_back(0.15 * static_cast<double>(i) - 0.225,
-                          0.15 * static_cast<double>(j) - 0.225, 0.0);
-  }
-  for (std::size_t j = 0; j < kSquares; ++j) {
-    for (std::size_t i = 0; i < kSquares; ++i) {
-      body.facets.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
-      body.facets.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
-      body.beams.push_back({node(i, j), node(i + 1, j + 1)});
-    }
-  }
-  for (std::size_t j = 0; j <= kSquares; ++j) {
-    for (std::size_t i = 0; i < kSquares; ++i) {
-      body.beams.push_back({node(i, j), node(i + 1, j)});
-      body.beams.push_back({node(j, i), node(j, i + 1)});
-    }
-  }
-  return body;
-}
-
-void add(Scene& scene, const Body& body, const Vec3& turns, const Vec3& place,
-         const Vec3& velocity) {
-  const geometry::Mat3 rotation =
-      (Eigen::AngleAxisd(turns.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(turns.y(), Vec3::UnitY()) *
-       Eigen::AngleAxisd(turns.x(), Vec3::UnitX()))
-          .toRotationMatrix();
-  std::vector<NodeId> nodes;
-  for (const Vec3& x : body.x) {
-    nodes.push_back(scene.add_node(rotation * x + place));
-    scene.state.velocity.back() = velocity;
-  }
-  for (const auto& f : body.facets)
-    scene.add_facet(nodes[f[0]], nodes[f[1]], nodes[f[2]], kRadius, kMaterial);
-  for (const auto& b : body.beams) {
-    scene.add_beam(nodes[b[0]], nodes[b[1]], circular_section(kRadius, 1e7, 0.3), 1000.0);
-    scene.add_cylinder(nodes[b[0]], nodes[b[1]], kRadius, kMaterial);
-  }
-}
+using namespace test::free_bodies;
 
 struct Case {
   const char* name;

@@ -23,7 +23,7 @@ class BallOnSurface {
         spin_(complex.x.size() + 1, Vec3::Zero()),
         ball_{id_at<NodeId>(complex.x.size()), ball_radius, MaterialId{0}},
         materials_({material}),
-        parameters_(Law::combine(material, ball_radius, material, 0.1)),
+        parameters_(Law::combine({material, ball_radius}, {material, 0.1})),
         contacts_(surface_),
         forces_(complex.x.size() + 1) {
     x_.push_back(Vec3::Constant(1e3));

@@ -100,7 +100,7 @@ class Meeting {
       const contact::MaterialPairs<contact::LinearFrictional> materials(
           {contact::Material{1.0 / radius, 0.0, 0.0}});
       const std::vector<contact::MaterialId> of_structures(surface_->structure_count());
-      contacts_->rebuild(neighbours_->pairs(), of_structures, materials);
+      contacts_->rebuild(neighbours_->pairs(), {materials, {}, of_structures});
     }
     const std::vector<Vec3> still(x_.size(), Vec3::Zero());
     contacts_->advance({x_, still, still}, 0.0, pool_);

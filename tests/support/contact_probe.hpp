@@ -51,7 +51,7 @@ class ContactProbe {
         position_(surface.nodes),
         velocity_(surface.nodes.size() + 1, Vec3::Zero()),
         spin_(surface.nodes.size() + 1, Vec3::Zero()),
-        parameters_(LinearFrictional::combine(material, ball_radius, material, surface.radius)),
+        parameters_(LinearFrictional::combine({material, ball_radius}, {material, surface.radius})),
         contacts_(spheres_, surface_,
                   {contact::MaterialPairs<LinearFrictional>({material}),
                    {MaterialId{0}},

@@ -78,7 +78,8 @@ struct Momenta {
   Vec3 angular = Vec3::Zero();  ///< kg m²/s, about the origin
 };
 
-inline Momenta momenta_of(const Simulation& simulation) {
+template <class AnySimulation>
+Momenta momenta_of(const AnySimulation& simulation) {
   const NodeState& state = simulation.state();
   Momenta momenta;
   for (std::size_t i = 0; i < state.size(); ++i) {

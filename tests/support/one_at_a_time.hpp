@@ -12,11 +12,9 @@ struct OneAtATime {
   static constexpr std::string_view name = Law::name;
   using Parameters = typename Law::Parameters;
   using History = typename Law::History;
-  using Material = contact::Material;
 
-  static Parameters combine(const Material& a, double radius_a, const Material& b,
-                            double radius_b) {
-    return Law::combine(a, radius_a, b, radius_b);
+  static Parameters combine(const contact::Body& a, const contact::Body& b) {
+    return Law::combine(a, b);
   }
   static Parameters multiplied(const Parameters& p, double count) {
     return Law::multiplied(p, count);

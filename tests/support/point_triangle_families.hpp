@@ -29,17 +29,17 @@ enum class Family {
   degenerate,  ///< collinear or coincident corners
 };
 inline constexpr std::array kFamilies{Family::generic,
-                               Family::near_edge_plane,
-                               Family::above_a_vertex,
-                               Family::coplanar_near_edge,
-                               Family::needle,
-                               Family::cap,
-                               Family::far_from_origin,
-                               Family::tiny,
-                               Family::rotated_flat_grid,
-                               Family::on_an_edge,
-                               Family::integer_grid,
-                               Family::degenerate};
+                                      Family::near_edge_plane,
+                                      Family::above_a_vertex,
+                                      Family::coplanar_near_edge,
+                                      Family::needle,
+                                      Family::cap,
+                                      Family::far_from_origin,
+                                      Family::tiny,
+                                      Family::rotated_flat_grid,
+                                      Family::on_an_edge,
+                                      Family::integer_grid,
+                                      Family::degenerate};
 inline constexpr std::array kFamilyNames{
     "generic",      "near edge plane", "above a vertex", "coplanar near edge", "needle",
     "cap",          "far from origin", "tiny",           "rotated flat grid",  "on an edge",

@@ -35,13 +35,13 @@ struct WeakeningSlider {
   };
   using History = HistoryOf<double>;
 
-  static Parameters combine(const contact::Material& a, double radius_a, const contact::Material& b,
-                            double radius_b) noexcept {
-    const double smaller = std::min(radius_a, radius_b);
-    const double stiffness = std::min(a.young_modulus, b.young_modulus) * smaller;
+  static Parameters combine(const contact::Body& a, const contact::Body& b) noexcept {
+    const contact::Material &m = a.material, &n = b.material;
+    const double smaller = std::min(a.radius, b.radius);
+    const double stiffness = std::min(m.young_modulus, n.young_modulus) * smaller;
     return {stiffness, stiffness / smaller,
-            std::min(a.stiffness_ratio, b.stiffness_ratio) * stiffness,
-            std::min(a.friction, b.friction), 0.01 * smaller};
+            std::min(m.stiffness_ratio, n.stiffness_ratio) * stiffness,
+            std::min(m.friction, n.friction), 0.01 * smaller};
   }
 
   static Parameters multiplied(const Parameters& p, double count) noexcept {

@@ -71,7 +71,8 @@ Felt drag_over_joint(double angle) {
     x[4] = now.x + Vec3(0.0, 0.6, 0.0);
     for (const std::size_t i : {std::size_t{3}, std::size_t{4}})
       velocity[i] = k == 0 ? Vec3(Vec3::Zero()) : Vec3((x[i] - before[i]) / kStep);
-    if (neighbours.update(x, pool)) contacts.rebuild(neighbours.pairs(), of_structures, materials);
+    if (neighbours.update(x, pool))
+      contacts.rebuild(neighbours.pairs(), {materials, {}, of_structures});
     contacts.advance({x, velocity, still}, kStep, pool);
     NodeForces forces(x.size());
     contacts.add_forces(forces);

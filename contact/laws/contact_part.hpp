@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/contact_law.hpp"
+
+namespace plekton::contact {
+
+/// N/m, of a contact.
+struct ContactStiffness {
+  double normal;
+  double tangential;
+};
+
+/// What can be added to a contact law (sum.hpp): forces and moments that come on top of its own,
+/// such as resistance to rolling, or a dashpot. It has no elastic normal force, and knows of the
+/// law it is added to the stiffness alone.
+template <class Part>
+concept ContactPart = requires(const typename Part::Properties& properties,
+                               const typename Part::Parameters& parameters, const Body& body,
+                               const RelativeMotion& motion, const ContactStiffness& stiffness,
+                               typename Part::History& history, const typename Part::History& other,
+                               const FrameRotation& rotation, double number) {
+  { Part::name } -> std::convertible_to<std::string_view>;
+  { Part::combine(properties, body, body) } -> std::same_as<typename Part::Parameters>;
+  { Part::multiplied(parameters, number) } -> std::same_as<typename Part::Parameters>;
+  /// What is added to the law's answer, of a step of the given length (s).
+  { Part::force(parameters, motion, stiffness, history, number) } -> std::same_as<ContactForce>;
+  /// Energy (J) stored by the history.
+  { Part::history_energy(parameters, other) } -> std::same_as<double>;
+  /// The stiffness that a time step has to be safe for, of a law that has this one.
+  { Part::effective(parameters, stiffness) } -> std::same_as<ContactStiffness>;
+  { Part::rotate(history, rotation) } -> std::same_as<void>;
+  { Part::add_share(history, other, number) } -> std::same_as<void>;
+};
+
+}  // namespace plekton::contact

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/laws/hertz_mindlin.hpp"
+
+#include <numbers>
+
+namespace plekton::contact {
+
+/// Elastic spheres that stick together: Hertz and Mindlin, and an attraction 2 pi w R as long as
+/// they touch. Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53 (1975) 314-326: for small,
+/// stiff bodies. Friction is limited by tan(phi) times the elastic force, what presses the surfaces
+/// together: it is there at zero load too (Derjaguin, 1934).
+///
+/// The attraction acts once on every contact, as it counts: a ball on a flat sheet has one, however
+/// many facets there are.
+struct DmtAdhesion {
+  static constexpr std::string_view name = "dmt_adhesion";
+
+  struct Properties {
+    double work_of_adhesion = 0.0;  ///< J/m², w, >= 0
+  };
+  struct Parameters {
+    HertzMindlin::Parameters elastic;
+    double attraction;  ///< N
+  };
+  struct History {
+    HertzMindlin::History elastic;
+    double overlap = 0.0;  ///< m
+  };
+
+  static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
+    const HertzMindlin::Parameters elastic = HertzMindlin::combine(a, b);
+    return {elastic, 2.0 * std::numbers::pi * properties.work_of_adhesion * elastic.radius};
+  }
+  static Parameters multiplied(const Parameters& p, double count) noexcept {
+    return {HertzMindlin::multiplied(p.elastic, count), count * p.attraction};
+  }
+
+  static double elastic_normal_force(const Parameters& p, double gap) noexcept {
+    return HertzMindlin::elastic_normal_force(p.elastic, gap);
+  }
+  static double elastic_normal_energy(const Parameters& p, double gap) noexcept {
+    return HertzMindlin::elastic_normal_energy(p.elastic, gap);
+  }
+
+  static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
+                            double dt) noexcept {
+    ContactForce answer = HertzMindlin::force(p.elastic, motion, history.elastic, dt);
+    history.overlap = std::max(0.0, -motion.gap);
+    if (history.overlap > 0.0) answer.force -= p.attraction * motion.normal;
+    return answer;
+  }
+
+  /// Bodies that touch have given up energy to the attraction.
+  static double history_energy(const Parameters& p, const History& history) noexcept {
+    return HertzMindlin::history_energy(p.elastic, history.elastic) -
+           p.attraction * history.overlap;
+  }
+
+  static double normal_stiffness(const Parameters& p, double gap) noexcept {
+    return HertzMindlin::normal_stiffness(p.elastic, gap);
+  }
+  static double tangential_stiffness(const Parameters& p, double gap) noexcept {
+    return HertzMindlin::tangential_stiffness(p.elastic, gap);
+  }
+
+  static void rotate(History& history, const FrameRotation& rotation) noexcept {
+    HertzMindlin::rotate(history.elastic, rotation);
+  }
+  static void add_share(History& history, const History& other, double share) noexcept {
+    HertzMindlin::add_share(history.elastic, other.elastic, share);
+    history.overlap += share * other.overlap;
+  }
+};
+
+static_assert(ContactLaw<DmtAdhesion>);
+
+}  // namespace plekton::contact

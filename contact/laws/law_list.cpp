@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/laws/law_list.hpp"
+
+#include "contact/laws/restitution.hpp"
+
+#include <array>
+#include <limits>
+
+namespace plekton::contact {
+namespace {
+
+using Kind = LawParameter::Kind;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A parameter of at least 0.
+constexpr LawParameter parameter(std::string_view name, Kind kind, double standard,
+                                 std::string_view what, double& (*in)(ContactSettings&)) {
+  return {name, kind, standard, 0.0, kInfinity, true, " of at least 0", what, in};
+}
+
+constexpr std::array kAdhesion{
+    parameter("work_of_adhesion", Kind::energy_per_area, 0.0,
+              "w; the bodies attract each other with 2 pi w R while they touch",
+              [](ContactSettings& s) -> double& { return s.adhesion.work_of_adhesion; })};
+
+constexpr std::array kCohesion{
+    parameter("tensile_strength", Kind::pressure, 0.0,
+              "a bond carries this times the square of the smaller radius (no pi)",
+              [](ContactSettings& s) -> double& { return s.cohesion.tensile_strength; }),
+    parameter("shear_strength", Kind::pressure, 0.0, "the same for shear, beyond friction",
+              [](ContactSettings& s) -> double& { return s.cohesion.shear_strength; }),
+    parameter("rupture_distance", Kind::length, 0.0,
+              "by which a bond yields until it breaks; 0: it breaks at once",
+              [](ContactSettings& s) -> double& { return s.cohesion.rupture_distance; })};
+
+constexpr std::array kCommon{
+    parameter("rolling_stiffness", Kind::number, 0.0,
+              "alpha: the stiffness of rolling is alpha R_a R_b k_s",
+              [](ContactSettings& s) -> double& { return s.rolling.rolling_stiffness; }),
+    parameter("twisting_stiffness", Kind::number, 0.0, "the same for twisting about the normal",
+              [](ContactSettings& s) -> double& { return s.rolling.twisting_stiffness; }),
+    parameter("rolling_limit", Kind::number, kInfinity,
+              "eta: the moment of rolling is at most eta times the smaller radius times the normal "
+              "force",
+              [](ContactSettings& s) -> double& { return s.rolling.rolling_limit; }),
+    parameter("twisting_limit", Kind::number, kInfinity, "the same for twisting",
+              [](ContactSettings& s) -> double& { return s.rolling.twisting_limit; }),
+    LawParameter{"restitution", Kind::number, 1.0, 0.0, 1.0, false, " above 0 and at most 1",
+                 "speed after an impact over that before, by a dashpot along the normal that never "
+                 "pulls; 1: none",
+                 [](ContactSettings& s) -> double& { return s.restitution; }}};
+
+constexpr std::array<LawRow, 4> kLaws{
+    {{LinearFrictional::name, "linear springs, Coulomb friction (Cundall & Strack 1979)", {}},
+     {HertzMindlin::name,
+      "elastic spheres, no slip inside the contact, Coulomb friction (Johnson 1985)",
+      {}},
+     {DmtAdhesion::name, "hertz_mindlin with adhesion (Derjaguin, Muller & Toporov 1975)",
+      kAdhesion},
+     {CohesiveFrictional::name,
+      "linear springs glued where they touch first, fragile or ductile (Bourrier et al. 2013)",
+      kCohesion}}};
+
+PropertiesOf<AnyLaw> with_law(const ContactSettings& settings) {
+  using Law = decltype(PropertiesOf<AnyLaw>{}.whole.whole);
+  using One = OneOf<LinearFrictional, HertzMindlin, DmtAdhesion, CohesiveFrictional>;
+  PropertiesOf<AnyLaw> properties;
+  Law& law = properties.whole.whole;
+  const std::string_view name = kLaws[settings.law].name;
+  if (name == HertzMindlin::name) law = One::Chosen<HertzMindlin>{};
+  if (name == DmtAdhesion::name) law = One::Chosen<DmtAdhesion>{settings.adhesion};
+  if (name == CohesiveFrictional::name) law = One::Chosen<CohesiveFrictional>{settings.cohesion};
+  return properties;
+}
+
+}  // namespace
+
+std::span<const LawRow> contact_laws() noexcept {
+  return kLaws;
+}
+
+std::span<const LawParameter> common_law_parameters() noexcept {
+  return kCommon;
+}
+
+PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings) {
+  PropertiesOf<AnyLaw> properties = with_law(settings);
+  const std::string_view name = kLaws[settings.law].name;
+  const bool is_hertz = name == HertzMindlin::name || name == DmtAdhesion::name;
+  properties.whole.part = settings.rolling;
+  properties.part.damping_ratio =
+      damping_ratio(is_hertz ? SpringKind::hertz : SpringKind::linear, settings.restitution);
+  return properties;
+}
+
+}  // namespace plekton::contact

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/laws/any_law.hpp"
+
+#include <span>
+#include <string_view>
+
+/// The contact laws by name, with their parameters: what scenario files may say and `plekton list`
+/// prints comes from here.
+namespace plekton::contact {
+
+/// What a scenario says about a pair of materials.
+struct ContactSettings {
+  std::size_t law = 0;  ///< place in contact_laws()
+  DmtAdhesion::Properties adhesion;
+  CohesiveFrictional::Properties cohesion;
+  RollingTwisting::Properties rolling;
+  double restitution = 1.0;  ///< of an impact along the normal, in (0, 1]
+};
+
+struct LawParameter {
+  enum class Kind { number, pressure, length, energy_per_area };
+
+  std::string_view name;
+  Kind kind;
+  double standard;  ///< SI, if nothing is said
+  double low;       ///< SI, the least that is allowed
+  double high;
+  bool with_low;          ///< whether low itself is
+  std::string_view text;  ///< of the range, as in " of at least 0"
+  std::string_view what;
+  double& (*in)(ContactSettings&);
+};
+
+struct LawRow {
+  std::string_view name;
+  std::string_view what;
+  std::span<const LawParameter> parameters;
+};
+
+/// The first one is that of pairs of which nothing is said.
+std::span<const LawRow> contact_laws() noexcept;
+
+/// Parameters that go with every law.
+std::span<const LawParameter> common_law_parameters() noexcept;
+
+PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings);
+
+}  // namespace plekton::contact

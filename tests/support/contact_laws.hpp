@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/laws/dashpot.hpp"
+#include "contact/laws/dmt_adhesion.hpp"
+#include "contact/laws/hertz_mindlin.hpp"
+#include "contact/laws/linear_frictional.hpp"
+#include "contact/laws/one_of.hpp"
+#include "contact/laws/rolling_twisting.hpp"
+#include "contact/laws/sum.hpp"
+#include "tests/support/seeded_random.hpp"
+#include "tests/support/weakening_slider.hpp"
+
+#include <gtest/gtest.h>
+
+/// The contact laws that every test of a law runs through. A new law joins the list.
+namespace plekton::test {
+
+using namespace contact;
+using RollingLinear = Sum<LinearFrictional, RollingTwisting>;
+using DampedHertz = Sum<HertzMindlin, Dashpot>;
+using Everything = Sum<Sum<HertzMindlin, RollingTwisting>, Dashpot>;
+using Chosen = OneOf<LinearFrictional, HertzMindlin, RollingLinear>;
+
+using AllLaws = ::testing::Types<LinearFrictional, HertzMindlin, DmtAdhesion, RollingLinear,
+                                 DampedHertz, Everything, Chosen, WeakeningSlider>;
+
+/// Properties for a law or a part, at random.
+template <class Law>
+struct RandomProperties {
+  static PropertiesOf<Law> from(Random&) { return {}; }
+};
+template <>
+struct RandomProperties<DmtAdhesion> {
+  static DmtAdhesion::Properties from(Random& random) { return {random.uniform(0.0, 1e-4)}; }
+};
+template <>
+struct RandomProperties<RollingTwisting> {
+  static RollingTwisting::Properties from(Random& random) {
+    return {random.uniform(0.0, 0.5), random.uniform(0.0, 0.5), random.uniform(0.0, 0.3),
+            random.uniform(0.0, 0.3)};
+  }
+};
+template <>
+struct RandomProperties<Dashpot> {
+  static Dashpot::Properties from(Random& random) { return {random.uniform(0.0, 0.5)}; }
+};
+template <class Whole, class Part>
+struct RandomProperties<Sum<Whole, Part>> {
+  static typename Sum<Whole, Part>::Properties from(Random& random) {
+    return {RandomProperties<Whole>::from(random), RandomProperties<Part>::from(random)};
+  }
+};
+template <>
+struct RandomProperties<Chosen> {
+  static Chosen::Properties from(Random& random) {
+    const double which = random.unit();
+    if (which < 0.3) return Chosen::Chosen<LinearFrictional>{};
+    if (which < 0.6) return Chosen::Chosen<HertzMindlin>{};
+    return Chosen::Chosen<RollingLinear>{RandomProperties<RollingLinear>::from(random)};
+  }
+};
+
+template <class Law>
+PropertiesOf<Law> random_properties(Random& random) {
+  return RandomProperties<Law>::from(random);
+}
+
+}  // namespace plekton::test
