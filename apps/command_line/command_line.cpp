@@ -3,6 +3,7 @@
 
 #include "apps/command_line/import_command.hpp"
 #include "apps/command_line/interrupt.hpp"
+#include "apps/command_line/list_command.hpp"
 #include "apps/command_line/summary.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scenario/closest_word.hpp"
@@ -135,6 +136,12 @@ geometry::RepairOptions repair_options(const CommandLine& line) {
   return options;
 }
 
+int list_command() {
+  list_choices(std::cout);
+  flush_output();
+  return kDone;
+}
+
 int import_command(const CommandLine& line) {
   ImportArguments arguments;
   arguments.mesh = line.mesh;
@@ -176,7 +183,7 @@ void print_error(const std::string& text) {
 
 /// @returns whether the command line begins with a word that is no command, after saying so
 bool is_unknown_command(int argc, const char* const* argv) {
-  constexpr std::array<std::string_view, 3> kCommands = {"run", "check", "import"};
+  constexpr std::array<std::string_view, 4> kCommands = {"run", "check", "import", "list"};
   if (argc < 2) return false;
   const std::string_view word = argv[1];
   if (word.starts_with('-') ||
@@ -221,6 +228,8 @@ int dispatch(int argc, const char* const* argv) {
                      "Say whether a membrane of this thickness goes with the mesh");
   import->add_option("--out", line.out, "Folder for the repaired mesh and report.json");
   import->add_flag("--json", line.json, "Print the report as JSON");
+  CLI::App* list =
+      app.add_subcommand("list", "Say what a scenario can name, with parameters and defaults");
 
   try {
     app.parse(argc, argv);
@@ -228,6 +237,7 @@ int dispatch(int argc, const char* const* argv) {
     return app.exit(error) == 0 ? kDone : kUsage;
   }
   if (run->parsed()) return run_command(line);
+  if (list->parsed()) return list_command();
   return check->parsed() ? check_command(line) : import_command(line);
 }
 

@@ -53,10 +53,9 @@ std::vector<double> tensions_of(const Simulation& simulation) {
 
 std::vector<dynamics::ContactRow> contact_rows(const Simulation& simulation) {
   std::vector<dynamics::ContactRow> rows;
-  simulation.contacts().for_each_row(
-      simulation.state().position, [&](const contact::ContactRow& row) {
-        rows.push_back({row.point_a, row.point_b, row.normal_force, row.tangential_force, row.gap});
-      });
+  simulation.for_each_contact([&](const contact::ContactRow& row) {
+    rows.push_back({row.point_a, row.point_b, row.normal_force, row.tangential_force, row.gap});
+  });
   return rows;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/run/simulation.hpp"
 #include "apps/scenario/scenario.hpp"
-#include "contact/laws/linear_frictional.hpp"
 #include "dynamics/output/pvd_series.hpp"
 #include "dynamics/output/vtk_writer.hpp"
-#include "dynamics/simulation.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -13,8 +12,6 @@
 #include <vector>
 
 namespace plekton::apps {
-
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 /// Writes what a simulation looks like for ParaView: the time series grains.pvd, membranes.pvd and
 /// contacts.pvd in a folder, their data sets in its folder frames. The series are valid after every

@@ -31,13 +31,13 @@ History::History(const std::filesystem::path& folder)
 
 void History::add(const Simulation& simulation, const LostGrains& lost) {
   const dynamics::Energy energy = simulation.energy();
-  const contact::ContactCounts counts = simulation.contacts().counts();
+  const contact::ContactCounts counts = simulation.contact_counts();
   writer_.add(
       {simulation.time(), energy.kinetic, energy.contact_elastic, energy.bond_elastic,
        energy.sheet_elastic, energy.gravity, energy.friction, energy.damping, energy.external_work,
        energy.closure_error(), static_cast<double>(counts.sphere_sphere),
        static_cast<double>(counts.sphere_surface), static_cast<double>(counts.between_structures),
-       static_cast<double>(counts.with_planes), simulation.contacts().largest_overlap_ratio(),
+       static_cast<double>(counts.with_planes), simulation.present_overlap_ratio(),
        simulation.time_step(), static_cast<double>(lost.total())});
 }
 

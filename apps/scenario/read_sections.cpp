@@ -14,6 +14,7 @@ namespace {
 constexpr Quantity kAnyNumber{kNumber};
 constexpr Range kFrictionAngle{0.0, 0.5 * std::numbers::pi, true, false,
                                " from 0 deg to below 90 deg"};
+constexpr Range kPoissonRatio{-1.0, 0.5, false, true, " above -1 and at most 0.5"};
 constexpr std::int64_t kLargestSeed = std::numeric_limits<std::int64_t>::max();
 constexpr int kMostThreads = 1024;
 
@@ -43,12 +44,15 @@ MaterialSettings read_material(const std::string& name, Section section) {
   material.stiffness_ratio =
       section.quantity("stiffness_ratio", {kNumber, kNotNegative}, material.stiffness_ratio);
   material.friction_angle = section.quantity("friction_angle", {kAngle, kFrictionAngle});
+  material.poisson_ratio =
+      section.quantity("poisson_ratio", {kNumber, kPoissonRatio}, material.poisson_ratio);
   section.finish();
   return material;
 }
 
-std::optional<std::size_t> read_material_of(Section& section, const Known& known) {
-  const std::string name = section.text("material");
+std::optional<std::size_t> read_material_of(Section& section, const Known& known,
+                                            std::string_view key) {
+  const std::string name = section.text(key);
   if (name.empty()) return std::nullopt;
   std::vector<std::string_view> names;
   for (const MaterialSettings& material : known.materials) {
@@ -60,7 +64,7 @@ std::optional<std::size_t> read_material_of(Section& section, const Known& known
                            : names.empty()
                                ? fmt::format("describe it in a table [materials.{}]", name)
                                : "the materials are " + listed(names);
-  section.complain("material", fmt::format("there is no material \"{}\"; {}", name, hint));
+  section.complain(key, fmt::format("there is no material \"{}\"; {}", name, hint));
   return std::nullopt;
 }
 

@@ -20,6 +20,8 @@ struct Known {
 
 SimulationSettings read_simulation(Section section);
 MaterialSettings read_material(const std::string& name, Section section);
+PairSettings read_contact(Section section, const Known& known,
+                          std::span<const PairSettings> earlier);
 MembraneSettings read_membrane(Section section, const Known& known);
 /// @param number  Position among the tables: grains without a seed of their own differ by it.
 GrainSettings read_grains(Section section, const Known& known, std::size_t number);
@@ -28,8 +30,9 @@ PlaneSettings read_plane(Section section, const Known& known);
 OutputSettings read_output(Section section, double duration);
 StopSettings read_stop(Section section);
 
-/// The material that the key `material` names; nothing after a problem.
-std::optional<std::size_t> read_material_of(Section& section, const Known& known);
+/// The material that a key names; nothing after a problem.
+std::optional<std::size_t> read_material_of(Section& section, const Known& known,
+                                            std::string_view key = "material");
 /// A box from the keys min and max of a table.
 geometry::Box read_box(Section section);
 

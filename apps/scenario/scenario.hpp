@@ -4,6 +4,7 @@
 #include "apps/grains/size_curve.hpp"
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/shape_settings.hpp"
+#include "contact/laws/law_list.hpp"
 #include "geometry/box.hpp"
 #include "geometry/mesh/repair.hpp"
 #include "geometry/types.hpp"
@@ -42,6 +43,14 @@ struct MaterialSettings {
   double young_modulus = 0.0;     ///< Pa
   double stiffness_ratio = 0.3;   ///< tangential over normal stiffness
   double friction_angle = 0.0;    ///< rad
+  double poisson_ratio = 0.3;     ///< of the solid, for laws after Hertz
+};
+
+/// What two materials do where they touch.
+struct PairSettings {
+  std::size_t first = 0;   ///< material
+  std::size_t second = 0;  ///< material
+  contact::ContactSettings contact;
 };
 
 /// Where a mesh is put: scaled, then turned, then moved.
@@ -131,6 +140,7 @@ struct Scenario {
   std::filesystem::path file;
   SimulationSettings simulation;
   std::vector<MaterialSettings> materials;
+  std::vector<PairSettings> contacts;
   std::vector<MembraneSettings> membranes;
   std::vector<GrainSettings> grains;
   std::vector<PlaneSettings> planes;

@@ -28,6 +28,8 @@ void require_new_name(const std::vector<Settings>& earlier, const Settings& adde
 
 void read_bodies(Section& root, Scenario& scenario) {
   const Known known{scenario.materials, scenario.file.parent_path(), scenario.simulation.seed};
+  for (Section& section : root.tables("contacts"))
+    scenario.contacts.push_back(read_contact(section, known, scenario.contacts));
   for (Section& section : root.tables("membranes")) {
     MembraneSettings membrane = read_membrane(section, known);
     require_new_name(scenario.membranes, membrane, section);

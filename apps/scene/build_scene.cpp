@@ -18,8 +18,8 @@ using geometry::index_of;
 
 void add_materials_and_planes(const Scenario& scenario, dynamics::Scene& scene) {
   for (const MaterialSettings& material : scenario.materials) {
-    scene.materials.push_back(
-        {material.young_modulus, material.stiffness_ratio, std::tan(material.friction_angle)});
+    scene.materials.push_back({material.young_modulus, material.stiffness_ratio,
+                               std::tan(material.friction_angle), material.poisson_ratio});
   }
   for (const PlaneSettings& plane : scenario.planes) {
     scene.planes.push_back({plane.point, plane.normal, plane.velocity,

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/list_command.hpp"
+
+#include "contact/laws/law_list.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+
+namespace plekton::apps {
+namespace {
+
+using contact::LawParameter;
+
+std::string_view unit_of(LawParameter::Kind kind) {
+  switch (kind) {
+    case LawParameter::Kind::pressure:
+      return "Pa";
+    case LawParameter::Kind::length:
+      return "m";
+    case LawParameter::Kind::energy_per_area:
+      return "J/m2";
+    case LawParameter::Kind::number:
+      break;
+  }
+  return "-";
+}
+
+std::string default_of(const LawParameter& parameter) {
+  return std::isinf(parameter.standard) ? "none" : fmt::format("{:g}", parameter.standard);
+}
+
+void list_parameters(std::span<const LawParameter> parameters, std::ostream& out) {
+  for (const LawParameter& parameter : parameters) {
+    out << fmt::format("    {:<20} {:<5} {:<5} {}\n", parameter.name, unit_of(parameter.kind),
+                       default_of(parameter), parameter.what);
+  }
+}
+
+}  // namespace
+
+void list_choices(std::ostream& out) {
+  out << "Contact laws, for `law` in [[contacts]]; parameters with unit, default and meaning\n";
+  for (const contact::LawRow& law : contact::contact_laws()) {
+    out << fmt::format("  {:<22} {}\n", law.name, law.what);
+    list_parameters(law.parameters, out);
+  }
+  out << "  with every law\n";
+  list_parameters(contact::common_law_parameters(), out);
+}
+
+}  // namespace plekton::apps

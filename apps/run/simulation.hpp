@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/laws/any_law.hpp"
+#include "dynamics/simulation.hpp"
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace plekton::apps {
+
+/// A simulation as a run sees it, whatever its contact laws are. Its functions are those of
+/// dynamics::Simulation of the same names.
+class Simulation {
+ public:
+  Simulation() = default;
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+  virtual ~Simulation() = default;
+
+  virtual void step() = 0;
+  virtual double time() const = 0;
+  virtual std::int64_t steps() const = 0;
+  virtual double time_step() const = 0;
+  virtual void set_time_step(double dt) = 0;
+
+  virtual const dynamics::NodeState& state() const = 0;
+  virtual const dynamics::NodeProperties& properties() const = 0;
+  virtual const geometry::Elements& elements() const = 0;
+  virtual const std::vector<contact::Plane>& planes() const = 0;
+  virtual const dynamics::BeamBonds& bonds() const = 0;
+  virtual const dynamics::NodeForces& forces() const = 0;
+
+  virtual dynamics::Energy energy() const = 0;
+  virtual dynamics::CriticalStep critical_step() const = 0;
+  virtual double motion_ratio() const = 0;
+  virtual double largest_overlap_ratio() const = 0;
+  virtual std::int64_t pass_throughs() const = 0;
+  virtual std::size_t most_crossings() const = 0;
+
+  virtual contact::ContactCounts contact_counts() const = 0;
+  /// Of the last step.
+  virtual double present_overlap_ratio() const = 0;
+  virtual const geometry::Neighbours& neighbours() const = 0;
+  virtual void for_each_contact(
+      const std::function<void(const contact::ContactRow&)>& visit) const = 0;
+};
+
+template <contact::ContactLaw Law>
+class SimulationUnder final : public Simulation {
+ public:
+  SimulationUnder(dynamics::Scene scene, const dynamics::SimulationOptions& options,
+                  const contact::PairProperties<Law>& properties)
+      : simulation_(std::move(scene), options, properties) {}
+
+  void step() override { simulation_.step(); }
+  double time() const override { return simulation_.time(); }
+  std::int64_t steps() const override { return simulation_.steps(); }
+  double time_step() const override { return simulation_.time_step(); }
+  void set_time_step(double dt) override { simulation_.set_time_step(dt); }
+
+  const dynamics::NodeState& state() const override { return simulation_.state(); }
+  const dynamics::NodeProperties& properties() const override { return simulation_.properties(); }
+  const geometry::Elements& elements() const override { return simulation_.elements(); }
+  const std::vector<contact::Plane>& planes() const override { return simulation_.planes(); }
+  const dynamics::BeamBonds& bonds() const override { return simulation_.bonds(); }
+  const dynamics::NodeForces& forces() const override { return simulation_.forces(); }
+
+  dynamics::Energy energy() const override { return simulation_.energy(); }
+  dynamics::CriticalStep critical_step() const override { return simulation_.critical_step(); }
+  double motion_ratio() const override { return simulation_.motion_ratio(); }
+  double largest_overlap_ratio() const override { return simulation_.largest_overlap_ratio(); }
+  std::int64_t pass_throughs() const override { return simulation_.pass_throughs(); }
+  std::size_t most_crossings() const override { return simulation_.most_crossings(); }
+
+  contact::ContactCounts contact_counts() const override { return simulation_.contacts().counts(); }
+  double present_overlap_ratio() const override {
+    return simulation_.contacts().largest_overlap_ratio();
+  }
+  const geometry::Neighbours& neighbours() const override {
+    return simulation_.contacts().neighbours();
+  }
+  void for_each_contact(
+      const std::function<void(const contact::ContactRow&)>& visit) const override {
+    simulation_.contacts().for_each_row(simulation_.state().position, visit);
+  }
+
+ private:
+  dynamics::Simulation<Law> simulation_;
+};
+
+}  // namespace plekton::apps

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/read_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace plekton::apps {
+namespace {
+
+using contact::LawParameter;
+
+const Dimension& dimension_of(LawParameter::Kind kind) {
+  switch (kind) {
+    case LawParameter::Kind::pressure:
+      return kPressure;
+    case LawParameter::Kind::length:
+      return kLength;
+    case LawParameter::Kind::energy_per_area:
+      return kEnergyPerArea;
+    case LawParameter::Kind::number:
+      break;
+  }
+  return kNumber;
+}
+
+void read_parameters(std::span<const LawParameter> parameters, Section& section,
+                     contact::ContactSettings& settings) {
+  for (const LawParameter& parameter : parameters) {
+    const Range range{parameter.low, parameter.high, parameter.with_low, true, parameter.text};
+    parameter.in(settings) =
+        section.quantity(parameter.name, {dimension_of(parameter.kind), range}, parameter.standard);
+  }
+}
+
+std::vector<std::string_view> names_of_laws() {
+  std::vector<std::string_view> names;
+  for (const contact::LawRow& law : contact::contact_laws()) names.push_back(law.name);
+  return names;
+}
+
+}  // namespace
+
+PairSettings read_contact(Section section, const Known& known,
+                          std::span<const PairSettings> earlier) {
+  PairSettings pair;
+  const auto first = read_material_of(section, known, "between");
+  const auto second = read_material_of(section, known, "and");
+  const std::vector<std::string_view> names = names_of_laws();
+  pair.contact.law = section.choice("law", names, 0);
+  read_parameters(contact::contact_laws()[pair.contact.law].parameters, section, pair.contact);
+  read_parameters(contact::common_law_parameters(), section, pair.contact);
+  section.finish();
+  if (!first || !second) return pair;
+  std::tie(pair.first, pair.second) = std::minmax(*first, *second);
+  const bool is_known = std::any_of(earlier.begin(), earlier.end(), [&](const PairSettings& other) {
+    return other.first == pair.first && other.second == pair.second;
+  });
+  if (is_known) {
+    section.complain(
+        "and", fmt::format("\"{}\" and \"{}\" have a table [[contacts]] already; "
+                           "expected one for each pair of materials",
+                           known.materials[pair.first].name, known.materials[pair.second].name));
+  }
+  return pair;
+}
+
+}  // namespace plekton::apps
