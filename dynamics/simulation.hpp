@@ -100,6 +100,8 @@ class Simulation {
   void add_expected_to(NodalStiffness& stiffness) const;
   void add_structures_to(NodalStiffness& stiffness) const;
   void add_contacts_to(NodalStiffness& stiffness) const;
+  template <class Look>
+  void for_each_piece(NodalStiffness& space, const Look& look) const;
   CriticalStep critical_step(NodalStiffness& space) const;
 
   Scene scene_;

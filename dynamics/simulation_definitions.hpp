@@ -33,6 +33,10 @@ contact::ContactMaterials<Law> contact_materials(const Scene& scene,
   return {pairs, scene.sphere_materials, std::move(of_structures), scene.properties.mass};
 }
 
+/// Into how many pieces the nodes are cut when their stiffness is looked at once: less space, as
+/// the contacts, already made, fill what there is.
+constexpr std::size_t kPieces = 16;
+
 template <contact::ContactLaw Law>
 Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
                             const contact::PairProperties<Law>& properties)
@@ -61,10 +65,16 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
   forces_.set_zero();
   expected_ = expected_contacts<Law>(scene_, surface_, material_pairs_);
-  NodalStiffness stiffness(scene_.state.size());
-  add_expected_to(stiffness);
-  add_structures_to(stiffness);
-  initial_stiffness_ = stiffness.total();
+  chooses_time_step_ = options.time_step == 0.0;
+  const std::size_t pieces = chooses_time_step_ ? 1 : kPieces;
+  NodalStiffness stiffness((scene_.state.size() + pieces - 1) / pieces);
+  for_each_piece(stiffness, [&] {
+    add_expected_to(stiffness);
+    add_structures_to(stiffness);
+    const NodalStiffness::Total total = stiffness.total();
+    initial_stiffness_.translation += total.translation;
+    initial_stiffness_.rotation += total.rotation;
+  });
   const double critical = critical_step(stiffness).dt;
   if (options.time_step > kLargestStep * critical) {
     std::ostringstream text;
@@ -73,7 +83,6 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
          << kLargestStep * critical << " s), or 0 to have " << kSafety << " of it chosen";
     throw std::invalid_argument(text.str());
   }
-  chooses_time_step_ = options.time_step == 0.0;
   dt_ = options.time_step;
   if (chooses_time_step_) {
     space_ = std::move(stiffness);
@@ -273,18 +282,35 @@ CriticalStep Simulation<Law>::critical_step() const {
   return critical_step(space);
 }
 
-/// @param space  for as many nodes as there are; its contents are overwritten
+/// Calls look() for all nodes, as many at once as there is space for.
+template <contact::ContactLaw Law>
+template <class Look>
+void Simulation<Law>::for_each_piece(NodalStiffness& space, const Look& look) const {
+  for (std::size_t first = 0; first < scene_.state.size(); first += space.node_count()) {
+    space.begin_at(first);
+    look();
+  }
+}
+
+/// @param space  for some of the nodes; its contents are overwritten
 template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::critical_step(NodalStiffness& space) const {
-  space.set_zero();
-  add_expected_to(space);
-  add_structures_to(space);
-  const CriticalStep step_expected = space.critical_step(scene_.properties);
-  space.set_zero();
-  add_structures_to(space);
-  add_contacts_to(space);
-  const CriticalStep step_now = space.critical_step(scene_.properties);
-  return step_now.dt < step_expected.dt ? step_now : step_expected;
+  CriticalStep shortest;
+  const auto look = [&] {
+    const CriticalStep step = space.critical_step(scene_.properties);
+    if (step.dt < shortest.dt) shortest = step;
+  };
+  for_each_piece(space, [&] {
+    add_expected_to(space);
+    add_structures_to(space);
+    look();
+  });
+  for_each_piece(space, [&] {
+    add_structures_to(space);
+    add_contacts_to(space);
+    look();
+  });
+  return shortest;
 }
 
 }  // namespace plekton::dynamics

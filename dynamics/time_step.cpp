@@ -40,6 +40,11 @@ Mat3 NodalStiffness::SymmetricMat3::full() const noexcept {
   return matrix;
 }
 
+void NodalStiffness::begin_at(std::size_t first_node) noexcept {
+  first_node_ = first_node;
+  set_zero();
+}
+
 void NodalStiffness::set_zero() noexcept {
   std::fill(blocks_.begin(), blocks_.end(), Block{});
 }
@@ -68,10 +73,7 @@ void NodalStiffness::add_beam(const BeamBond& bond, const NodeState& state) {
 
   const Mat3 translation = along_and_across(n, 2.0 * axial, 2.0 * (shear + tension / length));
   const Mat3 rotation = along_and_across(n, 2.0 * twist, 6.0 * bending * (1.0 + gamma));
-  for (const NodeId node : bond.nodes) {
-    blocks_[index_of(node)].translation += translation;
-    blocks_[index_of(node)].rotation += rotation;
-  }
+  for (const NodeId node : bond.nodes) add_to_node(node, translation, rotation);
 }
 
 /// The normal spring has g = (n, 0), the tangential ones (t, lever x t) for both t across n.
@@ -81,12 +83,13 @@ void NodalStiffness::add_beam(const BeamBond& bond, const NodeState& state) {
 ///                    (sum w_i y_i)² <= sum w_i y_i²
 void NodalStiffness::add_contact_end(NodeId node, const ContactStiffness& contact,
                                      double signed_arm, double factor) {
+  Block* const block = block_of(node);
+  if (!block) return;
   const double normal = factor * contact.normal_stiffness;
   const double tangential = factor * contact.tangential_stiffness;
-  Block& block = blocks_[index_of(node)];
-  block.translation += along_and_across(contact.normal, normal, tangential);
-  block.rotation += along_and_across(contact.normal, 0.0, signed_arm * signed_arm * tangential);
-  block.coupling -= (signed_arm * tangential) * contact.normal;
+  block->translation += along_and_across(contact.normal, normal, tangential);
+  block->rotation += along_and_across(contact.normal, 0.0, signed_arm * signed_arm * tangential);
+  block->coupling -= (signed_arm * tangential) * contact.normal;
 }
 
 void NodalStiffness::add_pair(NodeId a, NodeId b, const ContactStiffness& contact) {
@@ -108,9 +111,10 @@ void NodalStiffness::add_to_wall(NodeId ball, const ContactStiffness& contact) {
 }
 
 void NodalStiffness::add(NodeId node, const IsotropicStiffness& springs) noexcept {
-  Block& block = blocks_[index_of(node)];
-  block.translation.diagonal.array() += springs.translation;
-  block.rotation.diagonal.array() += springs.rotation;
+  Block* const block = block_of(node);
+  if (!block) return;
+  block->translation.diagonal.array() += springs.translation;
+  block->rotation.diagonal.array() += springs.rotation;
 }
 
 // 12 contacts, of which a third acts along each axis, with the factor 2 of a pair; across it their
@@ -135,9 +139,10 @@ NodalStiffness::Total NodalStiffness::total() const noexcept {
 }
 
 /// M^(-1/2) D M^(-1/2) of a node; zero where it is held.
-NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t node,
+NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t i,
                                               const NodeProperties& properties) const {
-  const Block& block = blocks_[node];
+  const Block& block = blocks_[i];
+  const std::size_t node = first_node_ + i;
   const Held held = properties.held[node];
   const double shift = holds_translation(held) ? 0.0 : 1.0 / std::sqrt(properties.mass[node]);
   const double turn = holds_rotation(held) ? 0.0 : 1.0 / std::sqrt(properties.inertia[node]);
@@ -151,7 +156,7 @@ NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t node,
 CriticalStep NodalStiffness::critical_step(const NodeProperties& properties) const {
   CriticalStep step;
   double largest = 0.0;  // omega², 1/s²
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+  for (std::size_t i = 0; i < blocks_.size() && first_node_ + i < properties.size(); ++i) {
     const Mat6 matrix = per_mass(i, properties);
     // The row sums are above the eigenvalues: most nodes need no eigenvalues.
     if (matrix.cwiseAbs().rowwise().sum().maxCoeff() <= largest) continue;
@@ -159,7 +164,7 @@ CriticalStep NodalStiffness::critical_step(const NodeProperties& properties) con
     if (solver.eigenvalues()[5] <= largest) continue;
     largest = solver.eigenvalues()[5];
     const bool mostly_turns = solver.eigenvectors().col(5).tail<3>().squaredNorm() > 0.5;
-    step = {2.0 / std::sqrt(largest), geometry::id_at<NodeId>(i), mostly_turns};
+    step = {2.0 / std::sqrt(largest), geometry::id_at<NodeId>(first_node_ + i), mostly_turns};
   }
   return step;
 }

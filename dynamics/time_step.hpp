@@ -67,6 +67,11 @@ class NodalStiffness {
  public:
   explicit NodalStiffness(std::size_t node_count);
 
+  std::size_t node_count() const noexcept { return blocks_.size(); }
+  /// Forgets what was added; from now on for as many nodes from this one on: what is added to
+  /// others is left out. So the stiffness of many nodes can be looked at piece by piece.
+  void begin_at(std::size_t first_node) noexcept;
+
   /// Forgets what was added; keeps its space, so that nothing is allocated.
   void set_zero() noexcept;
 
@@ -98,8 +103,10 @@ class NodalStiffness {
   /// @param translation  N/m, symmetric, T
   /// @param rotation     N m, symmetric, R
   void add_to_node(NodeId node, const Mat3& translation, const Mat3& rotation) {
-    blocks_[index_of(node)].translation += translation;
-    blocks_[index_of(node)].rotation += rotation;
+    Block* const block = block_of(node);
+    if (!block) return;
+    block->translation += translation;
+    block->rotation += rotation;
   }
 
   /// Sums of the stiffness around all nodes.
@@ -130,11 +137,17 @@ class NodalStiffness {
     Vec3 coupling = Vec3::Zero();  // N
   };
 
+  /// nullptr if it is not one of the nodes.
+  Block* block_of(NodeId node) noexcept {
+    const std::size_t i = index_of(node) - first_node_;  // wraps round below the first
+    return i < blocks_.size() ? &blocks_[i] : nullptr;
+  }
   void add_contact_end(NodeId node, const ContactStiffness& contact, double signed_arm,
                        double factor);
   using Mat6 = Eigen::Matrix<double, 6, 6>;
-  Mat6 per_mass(std::size_t node, const NodeProperties& properties) const;
+  Mat6 per_mass(std::size_t i, const NodeProperties& properties) const;
 
+  std::size_t first_node_ = 0;
   std::vector<Block> blocks_;
 };
 

@@ -301,6 +301,32 @@ TEST(TimeStep, CountsContactsOnTheNodesOfACylinder) {
 }
 
 // Spheres in the densest packing: those with even sums of integer coordinates, radius 1 / sqrt(2).
+TEST(TimeStep, IsTheShortestOfAllPiecesOfTheNodes) {
+  constexpr std::size_t kNodes = 23;
+  const NodeProperties properties{std::vector<double>(kNodes, 1.0),
+                                  std::vector<double>(kNodes, 1.0),
+                                  std::vector<Held>(kNodes, Held::nothing)};
+  NodalStiffness whole(kNodes);
+  NodalStiffness piece(5);
+  const auto add_to = [](NodalStiffness& stiffness) {
+    for (std::size_t i = 1; i < kNodes; ++i) {
+      const double k = 1.0 + static_cast<double>(i * i % 11);
+      stiffness.add_pair(geometry::id_at<NodeId>(i - 1), geometry::id_at<NodeId>(i),
+                         {Vec3::UnitX(), k, 0.5 * k, 1.0, 2.0});
+      stiffness.add(geometry::id_at<NodeId>(i), {k, 0.1 * k});
+    }
+  };
+  add_to(whole);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t first = 0; first < kNodes; first += piece.node_count()) {
+    piece.begin_at(first);
+    add_to(piece);
+    shortest = std::min(shortest, piece.critical_step(properties).dt);
+  }
+
+  EXPECT_EQ(shortest, whole.critical_step(properties).dt);
+}
+
 TEST(TimeStep, OfAnExpectedDensePackingHoldsForTheDensestOne) {
   const double radius = std::sqrt(0.5);
   std::vector<Vec3> centres;
