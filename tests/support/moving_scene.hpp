@@ -11,11 +11,13 @@ namespace plekton::test {
 
 /// Many spheres in prescribed motion over a rough sheet, a net and a plane, touching each other
 /// too.
-class MovingScene {
+template <contact::ContactLaw Law>
+class MovingSceneOf {
  public:
-  using Law = LinearFrictional;
-
-  MovingScene(int sphere_count, double skin, std::uint64_t seed, int threads) : pool_(threads) {
+  /// @param properties  of the one material that all have
+  MovingSceneOf(int sphere_count, double skin, std::uint64_t seed, int threads,
+                const contact::PropertiesOf<Law>& properties = {})
+      : pool_(threads) {
     Random random(seed);
     const Complex sheet_part = roughened(centred(sheet(12), 12, 0.5), 0.5, 0.02, random);
     add(sheet_part, Vec3::Zero());
@@ -37,7 +39,8 @@ class MovingScene {
       spin_[i] = random.in_cube(1.0);
     }
     ContactMaterials<Law> materials{
-        MaterialPairs<Law>({Material{1e6, 0.5, 0.4}}),
+        MaterialPairs<Law>({Material{1e6, 0.5, 0.4}},
+                           {{{MaterialId{0}, MaterialId{0}}, properties}}),
         std::vector<MaterialId>(spheres_.size(), MaterialId{0}),
         std::vector<MaterialId>(surface_.structure_count(), MaterialId{0})};
     contacts_ = std::make_unique<Contacts<Law>>(spheres_, surface_, std::move(materials), skin);
@@ -73,5 +76,6 @@ class MovingScene {
   NodeForces forces_;
   geometry::ThreadPool pool_;
 };
+using MovingScene = MovingSceneOf<LinearFrictional>;
 
 }  // namespace plekton::test
