@@ -51,6 +51,22 @@ std::vector<double> tensions_of(const Simulation& simulation) {
   return tensions;
 }
 
+/// Of every facet, 0 where it is none of a sheet; empty if there is no sheet. The facets of sheets
+/// come in the order of all facets (build_scene.hpp).
+std::vector<dynamics::PrincipalForces> membrane_forces_of(const Simulation& simulation) {
+  const dynamics::SheetFacets& sheets = simulation.sheet_facets();
+  if (sheets.size() == 0) return {};
+  const auto& facets = simulation.elements().facets;
+  std::vector<dynamics::PrincipalForces> forces(facets.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < facets.size() && next < sheets.size(); ++i) {
+    if (facets[i].nodes != sheets.nodes(next)) continue;
+    forces[i] =
+        dynamics::principal_forces(sheets.membrane_force(next++, simulation.state().position));
+  }
+  return forces;
+}
+
 std::vector<dynamics::ContactRow> contact_rows(const Simulation& simulation) {
   std::vector<dynamics::ContactRow> rows;
   simulation.for_each_contact([&](const contact::ContactRow& row) {
@@ -72,7 +88,8 @@ Frames::Frames(const fs::path& folder, const OutputSettings& settings, const Sim
       contacts_(folder / "contacts.pvd") {
   std::iota(sphere_ids_.begin(), sphere_ids_.end(), 0);
   settings_.grains = settings_.grains && !simulation.elements().spheres.empty();
-  settings_.membranes = settings_.membranes && !simulation.elements().cylinders.empty();
+  settings_.membranes = settings_.membranes && (!simulation.elements().cylinders.empty() ||
+                                                !simulation.elements().facets.empty());
   make_output_folder(folder_ / "frames");
   remove_earlier(folder_);
 }
@@ -102,10 +119,11 @@ void Frames::write(const Simulation& simulation) {
   }
   if (settings_.membranes) {
     const std::vector<double> tensions = tensions_of(simulation);
+    const auto membrane_forces = membrane_forces_of(simulation);
     const auto& elements = simulation.elements();
-    write_part(
-        "membranes", membranes_,
-        dynamics::surface_frame({nodes, elements.cylinders, tensions, elements.facets}, time));
+    write_part("membranes", membranes_,
+               dynamics::surface_frame(
+                   {nodes, elements.cylinders, tensions, elements.facets, membrane_forces}, time));
   }
   if (settings_.contacts)
     write_part("contacts", contacts_, dynamics::contacts_frame(contact_rows(simulation), time));

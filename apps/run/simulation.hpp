@@ -30,6 +30,7 @@ class Simulation {
   virtual const geometry::Elements& elements() const = 0;
   virtual const std::vector<contact::Plane>& planes() const = 0;
   virtual const dynamics::BeamBonds& bonds() const = 0;
+  virtual const dynamics::SheetFacets& sheet_facets() const = 0;
   virtual const dynamics::NodeForces& forces() const = 0;
 
   virtual dynamics::Energy energy() const = 0;
@@ -65,6 +66,7 @@ class SimulationUnder final : public Simulation {
   const geometry::Elements& elements() const override { return simulation_.elements(); }
   const std::vector<contact::Plane>& planes() const override { return simulation_.planes(); }
   const dynamics::BeamBonds& bonds() const override { return simulation_.bonds(); }
+  const dynamics::SheetFacets& sheet_facets() const override { return simulation_.sheet_facets(); }
   const dynamics::NodeForces& forces() const override { return simulation_.forces(); }
 
   dynamics::Energy energy() const override { return simulation_.energy(); }

@@ -60,6 +60,20 @@ std::optional<double> read_either(Section& section, std::pair<std::string_view, 
   return std::nullopt;
 }
 
+/// Keys that do not go with the mode.
+void require_mode(Section& section, const MembraneSettings& membrane) {
+  if (membrane.mode != MembraneMode::continuum) {
+    if (section.has("bending_stiffness"))
+      section.complain("bending_stiffness",
+                       "goes with mode = \"continuum\"; in a lattice it follows from the beams, "
+                       "and a truss has none");
+    return;
+  }
+  if (membrane.shape && is_net(*membrane.shape))
+    section.complain("mode",
+                     "a net has no facets that could be a sheet; use \"lattice\" or \"truss\"");
+}
+
 /// Keys that ask for what a net, a closed shape or a wrapped mesh does not have.
 void require_parts(Section& section, const MembraneSettings& membrane) {
   if (membrane.shape && is_net(*membrane.shape)) {
@@ -84,10 +98,13 @@ void require_parts(Section& section, const MembraneSettings& membrane) {
 
 MembraneSettings read_membrane(Section section, const Known& known) {
   constexpr std::array<std::string_view, 2> kMassModes = {"edge", "area"};
+  constexpr std::array<std::string_view, 3> kModes = {"lattice", "truss", "continuum"};
   MembraneSettings membrane;
   membrane.name = section.text("name", "membrane");
   read_membrane_source(section, known, membrane);
   membrane.placement = read_placement(section);
+  membrane.mode = static_cast<MembraneMode>(section.choice("mode", kModes, 0));
+  const bool is_sheet = membrane.mode == MembraneMode::continuum;
   membrane.thickness = section.quantity("thickness", {kLength, kPositive});
   membrane.material = read_material_of(section, known).value_or(0);
   membrane.young_modulus =
@@ -95,11 +112,16 @@ MembraneSettings read_membrane(Section section, const Known& known) {
                   {"sheet_stiffness", {kStiffness, kPositive}}, membrane.sheet_stiffness);
   membrane.poisson_ratio =
       section.quantity("poisson_ratio", {kNumber, kPoisson}, membrane.poisson_ratio);
-  membrane.mass_mode = static_cast<MassMode>(section.choice("mass_mode", kMassModes, 0));
+  if (section.has("bending_stiffness"))
+    membrane.bending_stiffness =
+        section.quantity("bending_stiffness", {kBendingStiffness, kNotNegative});
+  membrane.mass_mode =
+      static_cast<MassMode>(section.choice("mass_mode", kMassModes, is_sheet ? 1 : 0));
   membrane.density = read_either(section, {"density", {kDensity, kPositive}},
                                  {"areal_mass", {kArealMass, kPositive}}, membrane.areal_mass);
   membrane.hold = read_hold(section);
   require_parts(section, membrane);
+  require_mode(section, membrane);
   section.finish();
   return membrane;
 }

@@ -71,6 +71,10 @@ struct HoldSettings {
   Vec3 velocity = Vec3::Zero();                   ///< m/s
 };
 
+/// What resists in a membrane: beams along the edges, bars along the edges that only resist
+/// stretching, or the facets as a thin sheet.
+enum class MembraneMode : std::uint8_t { lattice, truss, continuum };
+
 /// How the mass of a membrane goes to its nodes: half of each edge to its ends, or a third of each
 /// facet to its corners.
 enum class MassMode : std::uint8_t { edge, area };
@@ -89,12 +93,14 @@ struct MembraneSettings {
   Place source_place;                                     ///< of the mesh or shape
   std::map<geometry::RepairStep, RepairKey> repair_keys;  ///< of the steps that are asked for
   Placement placement;
+  MembraneMode mode = MembraneMode::lattice;
   double thickness = 0.0;  ///< m
   std::size_t material = 0;
-  std::optional<double>
-      young_modulus;             ///< Pa, of the beams along the edges; else from sheet_stiffness
-  double sheet_stiffness = 0.0;  ///< N/m, of the membrane as a sheet
-  double poisson_ratio = 0.3;    ///< of the beams, for their torsion
+  std::optional<double> young_modulus;  ///< Pa, of the beams or bars along the edges, or of the
+                                        ///< sheet; else from sheet_stiffness
+  double sheet_stiffness = 0.0;             ///< N/m, of the membrane as a sheet
+  double poisson_ratio = 0.3;               ///< of the sheet, or of the beams, for their torsion
+  std::optional<double> bending_stiffness;  ///< N m, of a sheet; else that of a solid plate
   MassMode mass_mode = MassMode::edge;
   std::optional<double>
       density;  ///< kg/m³, of the beams (edge) or the plate (area); else from areal_mass

@@ -37,6 +37,8 @@ inline constexpr Dimension kStiffness{
     "a stiffness (force per length)", {1, 0, -2, 0}, "N/m", "N/m, kN/m, N/mm"};
 inline constexpr Dimension kEnergyPerArea{
     "an energy per area", {1, 0, -2, 0}, "J/m2", "J/m2, mJ/m2, N/m"};
+inline constexpr Dimension kBendingStiffness{
+    "a bending stiffness (moment)", {1, 2, -2, 0}, "N m", "N m, N mm, kN m"};
 inline constexpr Dimension kDensity{"a density", {1, -3, 0, 0}, "kg/m3", "kg/m3, g/cm3, t/m3"};
 inline constexpr Dimension kArealMass{"a mass per area", {1, -2, 0, 0}, "kg/m2", "kg/m2, g/m2"};
 

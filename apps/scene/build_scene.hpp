@@ -19,11 +19,12 @@ struct BuiltMembrane {
   std::size_t first_node = 0;
   std::size_t nodes = 0;
   std::size_t facets = 0;  ///< none in a net
-  std::size_t beams = 0;   ///< one for each edge of the mesh, with a cylinder of the same nodes
+  std::size_t beams = 0;   ///< or bars: one for each edge of the mesh, with a cylinder of the same
+                           ///< nodes; none in a sheet
   std::size_t held_nodes = 0;
   double area = 0.0;           ///< m², of the facets, or of the rectangle around a net
   double mass = 0.0;           ///< kg
-  double young_modulus = 0.0;  ///< Pa, of the beams
+  double young_modulus = 0.0;  ///< Pa, of the beams, or of the sheet
 };
 
 /// Grains of one table in the scene.
@@ -44,9 +45,10 @@ struct BuiltScene {
 
 /// Builds the scene of a scenario: membranes, then grains clear of them and of the planes.
 ///
-/// Every edge of a membrane's mesh, and every bar of a net, becomes a beam of full circular
+/// Every edge of a membrane's mesh, and every bar of a net, becomes a beam or bar of full circular
 /// section, radius half the thickness, and a cylinder; every facet a thick facet. The cylinders,
-/// like the facets, are numbered in the order of the membranes, and beam i is along cylinder i.
+/// like the facets, are numbered in the order of the membranes, and beam i is along cylinder i. In
+/// mode continuum there are neither: every facet is one of a thin sheet too, in the same order.
 /// @throws InputError listing every problem that only the files and the geometry show: meshes that
 /// cannot be used, nothing to hold,
 ///         grains that do not fit.

@@ -47,16 +47,22 @@ std::vector<bool> held_nodes(const HoldSettings& hold, const MembraneBody& body)
   return held;
 }
 
+/// Whether the structure turns its nodes. Where nothing does, contacts would spin them freely.
+bool turns_nodes(const MembraneSettings& settings) {
+  return settings.mode != MembraneMode::truss && settings.bending_stiffness != 0.0;
+}
+
 /// @returns How many of them are held.
 std::size_t add_nodes(const MembraneSettings& settings, const MembraneBody& body,
                       BuiltScene& built) {
   const std::size_t first_node = built.scene.state.size();
-  for (const Vec3& position : body.membrane.nodes) built.scene.add_node(position);
+  for (const Vec3& position : body.membrane.nodes)
+    built.scene.add_node(position, turns_nodes(settings) ? Held::nothing : Held::rotation);
   const std::vector<bool> held = held_nodes(settings.hold, body);
   for (std::size_t i = 0; i < held.size(); ++i) {
     if (!held[i]) continue;
     built.scene.properties.held[first_node + i] =
-        settings.hold.rotation ? Held::everything : Held::translation;
+        settings.hold.rotation || !turns_nodes(settings) ? Held::everything : Held::translation;
     built.scene.state.velocity[first_node + i] = settings.hold.velocity;
   }
   const auto count = static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
@@ -89,13 +95,57 @@ double beam_modulus(double sheet_stiffness, double area, double section_area, do
 void require_computable(const BuiltMembrane& built, double shortest_edge) {
   for (const auto& [what, value, unit] :
        {std::tuple{"area", built.area, "m2"}, std::tuple{"mass", built.mass, "kg"},
-        std::tuple{"Young's modulus of its beams", built.young_modulus, "Pa"},
-        std::tuple{"length of its shortest beam", shortest_edge, "m"}}) {
+        std::tuple{"its Young's modulus", built.young_modulus, "Pa"},
+        std::tuple{"length of its shortest edge", shortest_edge, "m"}}) {
     if (std::isnormal(value) && value > 0.0) continue;
     throw InputError(fmt::format(
         "\"{}\": {} is {} {}; expected a positive number that is not extreme; check scale, "
         "translate, thickness, stiffness and density against the size of the mesh",
         built.name, what, value, unit));
+  }
+}
+
+/// What a membrane weighs, and what its mode makes of that.
+struct Masses {
+  double total;   ///< kg
+  double edges;   ///< kg/m³, of a round bar along each edge; 0 in area mode
+  double facets;  ///< kg/m³, of a plate in each facet; 0 in edge mode
+};
+
+Masses masses_of(const MembraneSettings& settings, double area, double bar_volume) {
+  const double areal_mass =
+      settings.density ? *settings.density * settings.thickness : settings.areal_mass;
+  if (settings.mass_mode == MassMode::area)
+    return {areal_mass * area, 0.0, areal_mass / settings.thickness};
+  const double density = settings.density.value_or(areal_mass * area / bar_volume);
+  return {density * bar_volume, density, 0.0};
+}
+
+/// Adds the cylinders with their beams or bars.
+void add_edges(const MembraneSettings& settings, const Membrane& membrane,
+               const BuiltMembrane& built, double density, dynamics::Scene& scene) {
+  const double radius = 0.5 * settings.thickness;
+  const dynamics::BeamSection section =
+      settings.mode == MembraneMode::truss
+          ? dynamics::bar_section(radius, built.young_modulus)
+          : dynamics::circular_section(radius, built.young_modulus, settings.poisson_ratio);
+  for (const auto& [a, b] : membrane.edges) {
+    scene.add_cylinder(a, b, radius, static_cast<contact::MaterialId>(settings.material));
+    scene.add_beam(a, b, section, density);
+  }
+}
+
+/// Adds what resists in the facets of a sheet, and the mass of its edges.
+void add_sheet(const MembraneSettings& settings, const Membrane& membrane,
+               const BuiltMembrane& built, double density, dynamics::Scene& scene) {
+  dynamics::SheetSection section =
+      dynamics::solid_sheet(settings.thickness, built.young_modulus, settings.poisson_ratio);
+  section.bending_stiffness = settings.bending_stiffness.value_or(section.bending_stiffness);
+  for (const geometry::Facet& facet : membrane.facets)
+    scene.add_sheet_facet(facet.nodes, section, 0.0);
+  for (const auto& edge : membrane.edges) {
+    dynamics::add_edge_mass(scene.properties, edge, scene.state.position, 0.5 * settings.thickness,
+                            density);
   }
 }
 
@@ -105,30 +155,23 @@ void add_elements(const MembraneSettings& settings, const Membrane& membrane,
   const double radius = 0.5 * settings.thickness;
   const double section_area = std::numbers::pi * radius * radius;
   const auto [length, shortest] = edge_lengths(scene, membrane);
+  const bool is_sheet = settings.mode == MembraneMode::continuum;
   result.young_modulus = settings.young_modulus.value_or(
-      beam_modulus(settings.sheet_stiffness, result.area, section_area, length));
-  const double areal_mass =
-      settings.density ? *settings.density * settings.thickness : settings.areal_mass;
-  const bool by_edge = settings.mass_mode == MassMode::edge;
-  const double beam_density =
-      by_edge ? settings.density.value_or(areal_mass * result.area / (section_area * length)) : 0.0;
-  result.mass = by_edge ? beam_density * section_area * length : areal_mass * result.area;
+      is_sheet ? settings.sheet_stiffness / settings.thickness
+               : beam_modulus(settings.sheet_stiffness, result.area, section_area, length));
+  const Masses masses = masses_of(settings, result.area, section_area * length);
+  result.mass = masses.total;
 
   require_computable(result, shortest);
 
-  const auto material = static_cast<contact::MaterialId>(settings.material);
-  const dynamics::BeamSection section =
-      dynamics::circular_section(radius, result.young_modulus, settings.poisson_ratio);
-  for (const auto& [a, b] : membrane.edges) {
-    scene.add_cylinder(a, b, radius, material);
-    scene.add_beam(a, b, section, beam_density);
-  }
+  if (is_sheet)
+    add_sheet(settings, membrane, result, masses.edges, scene);
+  else
+    add_edges(settings, membrane, result, masses.edges, scene);
   for (const geometry::Facet& facet : membrane.facets) {
-    scene.add_facet(facet.nodes[0], facet.nodes[1], facet.nodes[2], radius, material);
-    if (!by_edge) {
-      dynamics::add_facet_mass(scene.properties, facet, scene.state.position,
-                               areal_mass / settings.thickness);
-    }
+    scene.add_facet(facet.nodes[0], facet.nodes[1], facet.nodes[2], radius,
+                    static_cast<contact::MaterialId>(settings.material));
+    dynamics::add_facet_mass(scene.properties, facet, scene.state.position, masses.facets);
   }
 }
 
@@ -146,7 +189,7 @@ BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) 
   result.first_node = first_node;
   result.nodes = body.membrane.nodes.size();
   result.facets = body.membrane.facets.size();
-  result.beams = body.membrane.edges.size();
+  result.beams = settings.mode == MembraneMode::continuum ? 0 : body.membrane.edges.size();
   result.area = body.area;
   result.held_nodes = add_nodes(settings, body, built);
   add_elements(settings, body.membrane, built.scene, result);

@@ -162,6 +162,15 @@ PolyData surface_frame(const SurfaceView& surface, double time) {
   data.cell_arrays.push_back(scalars("tension", data.cell_count(), [&](std::size_t i) {
     return i < lines ? surface.tension[i] : side_tension.mean(surface.facets[i - lines]);
   }));
+  if (surface.membrane_forces.empty()) return data;
+  assert(surface.membrane_forces.size() == surface.facets.size() && "one for each facet");
+  const auto add_forces = [&](std::string name, double PrincipalForces::*which) {
+    data.cell_arrays.push_back(scalars(std::move(name), data.cell_count(), [&](std::size_t i) {
+      return i < lines ? 0.0 : surface.membrane_forces[i - lines].*which;
+    }));
+  };
+  add_forces("membrane_force_largest", &PrincipalForces::largest);
+  add_forces("membrane_force_smallest", &PrincipalForces::smallest);
   return data;
 }
 

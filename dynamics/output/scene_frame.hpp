@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/output/vtk_writer.hpp"
+#include "dynamics/structure/membrane_force.hpp"
 #include "geometry/cylinder.hpp"
 #include "geometry/facet.hpp"
 #include "geometry/sphere.hpp"
@@ -36,6 +37,7 @@ struct SurfaceView {
   std::span<const geometry::Cylinder> cylinders;  ///< also those along the sides of facets
   std::span<const double> tension;  ///< N, one for each cylinder, negative in compression
   std::span<const geometry::Facet> facets;
+  std::span<const PrincipalForces> membrane_forces = {};  ///< one for each facet, or none at all
 };
 
 /// One contact.
@@ -53,7 +55,9 @@ PolyData grains_frame(const GrainsView& grains, double time);
 
 /// Cylinders as lines and facets as triangles, over the nodes they share, in the order of the node
 /// ids. Point arrays: velocity (m/s), angular_velocity (rad/s), force (N), node. Cell arrays:
-/// radius (m); tension (N), of a facet the mean over its sides that are cylinders, 0 if none is.
+/// radius (m); tension (N), of a facet the mean over its sides that are cylinders, 0 if none is;
+/// if membrane forces are given, membrane_force_largest and membrane_force_smallest (N/m), 0 of
+/// cylinders.
 /// Time grows with n log n for n cylinders.
 PolyData surface_frame(const SurfaceView& surface, double time);
 

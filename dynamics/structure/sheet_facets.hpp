@@ -51,6 +51,8 @@ class SheetFacets {
 
   std::size_t size() const noexcept { return springs_.size(); }
 
+  const std::array<NodeId, 3>& nodes(std::size_t facet) const noexcept { return nodes_[facet]; }
+
   /// Computes what all facets do to their nodes, facet by facet. No allocation.
   void advance(const NodeState& state, geometry::ThreadPool& pool);
 

@@ -107,6 +107,19 @@ TEST(SurfaceFrame, ShowsNoTensionInAFacetWithoutCylinders) {
   EXPECT_THAT(floats(data.cell_arrays, "tension"), ElementsAre(0));
 }
 
+TEST(SurfaceFrame, ShowsTheMembraneForcesOfFacets) {
+  const FiveNodes nodes;
+  const std::array<Facet, 1> facets = {Facet{{node(0), node(1), node(2)}, 0.2}};
+  const std::array<Cylinder, 1> cylinders = {Cylinder{{node(0), node(1)}, 0.2}};
+  const std::array<double, 1> tension = {1.0};
+  const std::array<PrincipalForces, 1> forces = {PrincipalForces{3.0, -2.0}};
+
+  const PolyData data = surface_frame({nodes.view(), cylinders, tension, facets, forces}, 0.0);
+
+  EXPECT_THAT(floats(data.cell_arrays, "membrane_force_largest"), ElementsAre(0, 3));
+  EXPECT_THAT(floats(data.cell_arrays, "membrane_force_smallest"), ElementsAre(0, -2));
+}
+
 TEST(ContactsFrame, DrawsEachContactBetweenItsCorePoints) {
   const std::array<ContactRow, 2> contacts = {
       ContactRow{Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, 5), Vec3(3, 4, 0), -0.125},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/sheet_facets.hpp"
 
+#include "dynamics/structure/membrane_force.hpp"
 #include "tests/support/seeded_random.hpp"
 #include "tests/support/sheet_structure.hpp"
 
@@ -282,6 +283,15 @@ TEST(SheetFacets, GiveTheSameBitsForAnyNumberOfThreads) {
   SheetFacets sheets(scene.sheet_facets, scene.state.size());
   const Eigen::VectorXd one = sheet_forces(sheets, state, 1);
   for (const int threads : {2, 4}) EXPECT_EQ(sheet_forces(sheets, state, threads), one);
+}
+
+TEST(SheetFacets, TellPrincipalForcesOfAMembraneForce) {
+  const Mat3 rotation = Random(16).rotation();
+  const auto [largest, smallest] = dynamics::principal_forces(
+      rotation * Vec3(-3.0, 5.0, 0.0).asDiagonal() * rotation.transpose());
+
+  EXPECT_NEAR(largest, 5.0, 1e-14);
+  EXPECT_NEAR(smallest, -3.0, 1e-14);
 }
 
 TEST(SheetFacets, StayFiniteWithoutArea) {

@@ -193,7 +193,7 @@ TEST_F(ShapeCommand, RefusesSizesThatGiveNoShape) {
       {R"(kind = "hexagonal_net", mesh_size = "8 cm", twist_length = "4 cm", wire_height = "3 cm", meshes = [1, 5])",
        "meshes[0]: got 1; expected a whole number from 2"},
       {R"(kind = "hexagonal_net", mesh_size = "8 cm", twist_length = "1e-30 m", wire_height = "3 cm", meshes = [2, 1])",
-       "case.toml:10:9: membranes.m: \"m\": length of its shortest beam is 0 m"},
+       "case.toml:10:9: membranes.m: \"m\": length of its shortest edge is 0 m"},
       {R"(kind = "biaxial_geogrid", rib_pitch = "4 cm", bar_pitch = "4 cm")",
        "apertures: missing; this key is required"},
   }};
@@ -211,6 +211,14 @@ TEST_F(ShapeCommand, RefusesKeysThatDoNotGoWithTheShape) {
   EXPECT_THAT(error_of(kBiaxial, "sheet_stiffness = \"20 kN/m\""),
               HasSubstr("case.toml:15:19: membranes.m.sheet_stiffness: a net is no sheet; give the "
                         "young_modulus of its bars"));
+  EXPECT_THAT(error_of(kBiaxial, "mode = \"continuum\""),
+              HasSubstr("case.toml:15:8: membranes.m.mode: a net has no facets that could be a "
+                        "sheet; use \"lattice\" or \"truss\""));
+  EXPECT_THAT(error_of(kSheet, "bending_stiffness = \"1 N m\""),
+              HasSubstr("case.toml:15:21: membranes.m.bending_stiffness: goes with mode = "
+                        "\"continuum\""));
+  EXPECT_THAT(error_of(kSheet, "mode = \"continuous\""),
+              HasSubstr("membranes.m.mode: got \"continuous\""));
   EXPECT_THAT(error_of(R"(kind = "sphere", radius = "1 m", subdivisions = 1)", "hold = \"rim\""),
               HasSubstr("case.toml:15:8: membranes.m.hold: a sphere or box is closed"));
   EXPECT_THAT(error_of(kSheet, "mesh = \"sheet.off\""),

@@ -124,6 +124,48 @@ TEST_F(BuildScene, GivesTheLatticeTheStiffnessOfTheSheet) {
   EXPECT_NEAR(energy, expected, kSum * expected);
 }
 
+TEST_F(BuildScene, MakesAThinSheetOfTheFacetsInModeContinuum) {
+  for (const char* mode : {"edge", "area"}) {
+    const BuiltScene scene =
+        built({"membranes.sheet.mode=continuum", std::string("membranes.sheet.mass_mode=") + mode,
+               "membranes.sheet.poisson_ratio=0.2"});
+
+    const BuiltMembrane& sheet = scene.membranes.at(0);
+    EXPECT_EQ(sheet.beams, 0U);
+    EXPECT_TRUE(scene.scene.bonds.empty());
+    EXPECT_TRUE(scene.scene.elements.cylinders.empty());
+    ASSERT_EQ(scene.scene.sheet_facets.size(), sheet.facets);
+    EXPECT_EQ(scene.scene.elements.facets.size(), sheet.facets);
+    EXPECT_NEAR(sheet.young_modulus, 20e3 / 2e-3, 1e-6);
+    const dynamics::SheetSection& section = scene.scene.sheet_facets[0].section;
+    EXPECT_NEAR(section.tensile_stiffness, 20e3, 1e-9);
+    EXPECT_NEAR(section.bending_stiffness, 20e3 * 4e-6 / (12.0 * (1.0 - 0.04)), 1e-15);
+    EXPECT_NEAR(total_mass(scene.scene, sheet.first_node, sheet.nodes), 0.3 * 0.06,
+                kSum * sheet.mass);
+    EXPECT_NO_THROW(scene.scene.check());
+  }
+}
+
+TEST_F(BuildScene, WeighsASheetByItsAreaUnlessToldOtherwise) {
+  const BuiltScene sheet = built({"membranes.sheet.mode=continuum"});
+  const BuiltScene by_area =
+      built({"membranes.sheet.mode=continuum", "membranes.sheet.mass_mode=area"});
+  EXPECT_EQ(sheet.scene.properties.mass, by_area.scene.properties.mass);
+}
+
+TEST_F(BuildScene, LetsNoNodeOfATrussOrALimpSheetTurn) {
+  const BuiltScene truss = built({"membranes.sheet.mode=truss"});
+  const BuiltScene limp =
+      built({"membranes.sheet.mode=continuum", "membranes.sheet.bending_stiffness=0"});
+  for (const BuiltScene* scene : {&truss, &limp}) {
+    for (std::size_t i = 0; i < scene->membranes[0].nodes; ++i)
+      EXPECT_TRUE(dynamics::holds_rotation(scene->scene.properties.held[i]));
+  }
+  EXPECT_EQ(truss.scene.bonds[0].section.second_moment, 0.0);
+  EXPECT_EQ(truss.scene.bonds[0].section.torsion_constant, 0.0);
+  EXPECT_EQ(limp.scene.sheet_facets[0].section.bending_stiffness, 0.0);
+}
+
 TEST_F(BuildScene, HoldsTheRimOnly) {
   const BuiltScene scene = built();
 
