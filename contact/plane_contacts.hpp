@@ -53,6 +53,16 @@ class PlaneContacts {
     });
   }
 
+  /// Calls visit(plane, force (N) on it, parameters, gap (m)) for every touching pair of the last
+  /// step, in a fixed order.
+  template <class Visit>
+  void for_each_force(Visit&& visit) const {
+    records_.for_each([&](const PlaneForce& record) {
+      const Slot& slot = slots_[record.contact];
+      visit(record.plane, record.force, slot.parameters, slot.gap);
+    });
+  }
+
   template <class Visit>
   void for_each_row(Positions x, Visit&& visit) const;
 

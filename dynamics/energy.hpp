@@ -15,7 +15,7 @@ struct Energy {
   double gravity = 0.0;        ///< of the nodes that are free, from their places at the start
   double friction = 0.0;       ///< dissipated in contacts
   double damping = 0.0;        ///< taken by numerical damping
-  double external_work = 0.0;  ///< done on the bodies by what moves as prescribed
+  double external_work = 0.0;  ///< done on the bodies by what moves as prescribed and by loads
   double initial = 0.0;        ///< kinetic + elastic at the start
   double rounding = 0.0;       ///< what rounding alone may add up to in closure_error()
 

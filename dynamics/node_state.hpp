@@ -30,15 +30,54 @@ struct NodeState {
 /// Squares of speeds (m²/s²) and spins (rad²/s²) beyond this are no motion that could be computed.
 constexpr double kLargestSquare = 1e300;
 
-/// Which motions of a node are prescribed: then its velocity is what the loads say, and forces do
-/// not change it.
-enum class Held : std::uint8_t { nothing = 0, translation = 1, rotation = 2, everything = 3 };
+/// Which motions of a node are prescribed, along and about the axes of the world: then its velocity
+/// is what the loads say, and forces do not change it.
+enum class Held : std::uint8_t {
+  nothing = 0,
+  along_x = 1,
+  along_y = 2,
+  along_z = 4,
+  translation = 7,
+  about_x = 8,
+  about_y = 16,
+  about_z = 32,
+  rotation = 56,
+  everything = 63
+};
 
-constexpr bool holds_translation(Held held) noexcept {
-  return (static_cast<std::uint8_t>(held) & 1U) != 0;
+constexpr Held operator|(Held a, Held b) noexcept {
+  return static_cast<Held>(static_cast<std::uint8_t>(a) | static_cast<std::uint8_t>(b));
 }
+constexpr Held operator&(Held a, Held b) noexcept {
+  return static_cast<Held>(static_cast<std::uint8_t>(a) & static_cast<std::uint8_t>(b));
+}
+
+/// Whether all of the translation is held.
+constexpr bool holds_translation(Held held) noexcept {
+  return (held & Held::translation) == Held::translation;
+}
+/// Whether all of the rotation is held.
 constexpr bool holds_rotation(Held held) noexcept {
-  return (static_cast<std::uint8_t>(held) & 2U) != 0;
+  return (held & Held::rotation) == Held::rotation;
+}
+/// Whether the translation along an axis of the world is held.
+constexpr bool holds_along(Held held, int axis) noexcept {
+  return (static_cast<unsigned>(held) >> axis & 1U) != 0;
+}
+/// Whether the rotation about an axis of the world is held.
+constexpr bool holds_about(Held held, int axis) noexcept {
+  return (static_cast<unsigned>(held) >> (3 + axis) & 1U) != 0;
+}
+
+/// 1 along the axes in which a node is free to move, 0 along the others.
+inline Vec3 free_axes(Held held) noexcept {
+  return {holds_along(held, 0) ? 0.0 : 1.0, holds_along(held, 1) ? 0.0 : 1.0,
+          holds_along(held, 2) ? 0.0 : 1.0};
+}
+/// 1 about the axes about which a node is free to turn, 0 about the others.
+inline Vec3 free_turns(Held held) noexcept {
+  return {holds_about(held, 0) ? 0.0 : 1.0, holds_about(held, 1) ? 0.0 : 1.0,
+          holds_about(held, 2) ? 0.0 : 1.0};
 }
 
 /// What does not change about a node. Arrays of equal length, by NodeId.

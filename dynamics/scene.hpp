@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/bodies.hpp"
+#include "dynamics/loads/loads.hpp"
 #include "dynamics/node_state.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facet.hpp"
@@ -26,6 +27,7 @@ struct Scene {
   std::vector<contact::MaterialId>
       cylinder_materials;  ///< one for each cylinder; one material for a connected structure
   std::vector<contact::MaterialId> facet_materials;  ///< one for each facet
+  Loads loads;
 
   /// Adds a node at rest. Mass and inertia are filled in by what is attached to it.
   NodeId add_node(const Vec3& position, Held held = Held::nothing);
@@ -57,7 +59,7 @@ struct Scene {
   /// range, a node
   ///         without mass that is not held, a value that is not finite, a structure of several
   ///         materials, a facet without area, a cylinder without length, a sphere on a node of
-  ///         another element.
+  ///         another element, loads that cannot be applied (loads/loads_check.hpp).
   void check() const;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/loads/loads_check.hpp"
 #include "dynamics/scene.hpp"
 #include "dynamics/shape_check.hpp"
 #include "geometry/problems.hpp"
@@ -35,6 +36,7 @@ class SceneProblems {
     list_planes();
     list_structures();
     list_shape_problems(scene_, text_);
+    list_load_problems(scene_, text_);
   }
 
   void throw_if_any() const { geometry::throw_if_any(text_); }
@@ -69,6 +71,8 @@ class SceneProblems {
 
   void list_nodes() {
     constexpr double kTolerance = 1e-9;  // far above rounding, far below any real mistake
+    const std::vector<Held> all_held =
+        held_with_motions(scene_.properties.held, scene_.loads.motions);
     for (std::size_t i = 0; i < scene_.state.size(); ++i) {
       expect_finite("node", i, "position", scene_.state.position[i]);
       expect_finite("node", i, "velocity", scene_.state.velocity[i]);
@@ -76,7 +80,7 @@ class SceneProblems {
       if (!(std::abs(scene_.state.orientation[i].squaredNorm() - 1.0) < kTolerance)) {
         line("node", i) << "its orientation is not a unit quaternion; normalise it\n";
       }
-      const Held held = scene_.properties.held[i];
+      const Held held = all_held[i];
       expect_inertia(i, "mass", scene_.properties.mass[i], holds_translation(held));
       expect_inertia(i, "moment of inertia", scene_.properties.inertia[i], holds_rotation(held));
     }

@@ -82,13 +82,19 @@ std::vector<bool> free_nodes(const NodeProperties& properties) {
   return is_free;
 }
 
+Scene held_as_prescribed(Scene scene) {
+  scene.properties.held = held_with_motions(std::move(scene.properties.held), scene.loads.motions);
+  return scene;
+}
+
 double kinetic_energy(const NodeState& state, const NodeProperties& properties) {
   double energy = 0.0;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    if (!holds_translation(properties.held[i]))
-      energy += 0.5 * properties.mass[i] * state.velocity[i].squaredNorm();
-    if (holds_rotation(properties.held[i])) continue;
-    energy += 0.5 * properties.inertia[i] * state.angular_velocity[i].squaredNorm();
+    const Held held = properties.held[i];
+    const Vec3 velocity = free_axes(held).cwiseProduct(state.velocity[i]);
+    const Vec3 spin = free_turns(held).cwiseProduct(state.angular_velocity[i]);
+    energy += 0.5 * properties.mass[i] * velocity.squaredNorm();
+    energy += 0.5 * properties.inertia[i] * spin.squaredNorm();
   }
   return energy;
 }

@@ -31,6 +31,9 @@ std::vector<double> node_radii(const Scene& scene, const geometry::Surface& surf
 /// By node. One that is held in place does not have to be kept out of walls.
 std::vector<bool> free_nodes(const NodeProperties& properties);
 
+/// The scene with prescribed motions held.
+Scene held_as_prescribed(Scene scene);
+
 /// J, of what is free.
 double kinetic_energy(const NodeState& state, const NodeProperties& properties);
 

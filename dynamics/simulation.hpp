@@ -6,6 +6,8 @@
 #include "dynamics/diverged.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/integrators/leapfrog.hpp"
+#include "dynamics/loads/applied_loads.hpp"
+#include "dynamics/loads/plane_servo.hpp"
 #include "dynamics/motion_step.hpp"
 #include "dynamics/scene.hpp"
 #include "dynamics/structure/beam_bond.hpp"
@@ -58,7 +60,8 @@ class Simulation {
   void set_time_step(double dt);
 
   const NodeState& state() const noexcept { return scene_.state; }
-  /// For prescribed motion: the velocities of held nodes may be set between steps.
+  /// The velocities of held nodes may be set between steps, unless a motion is prescribed for them
+  /// (Scene::loads).
   void set_velocity(NodeId node, const Vec3& velocity, const Vec3& angular_velocity = Vec3::Zero());
   const NodeProperties& properties() const noexcept { return scene_.properties; }
   const geometry::Elements& elements() const noexcept { return scene_.elements; }
@@ -66,9 +69,13 @@ class Simulation {
   const std::vector<contact::Plane>& planes() const noexcept { return scene_.planes; }
   const BeamBonds& bonds() const noexcept { return bonds_; }
   const SheetFacets& sheet_facets() const noexcept { return sheet_facets_; }
+  const AppliedLoads& loads() const noexcept { return loads_; }
   const contact::Contacts<Law>& contacts() const noexcept { return contacts_; }
-  /// Forces of contacts, bonds and sheets in the last step, gravity not included.
+  /// Forces of contacts, bonds, sheets and loads in the last step, gravity not included.
   const NodeForces& forces() const noexcept { return forces_; }
+
+  /// m/s², in the last step.
+  const Vec3& gravity() const noexcept { return motion_.gravity; }
 
   Energy energy() const;
   /// Largest overlap of any step so far over the radius of the smaller ball.
@@ -89,13 +96,17 @@ class Simulation {
 
  private:
   contact::Motion motion() const noexcept;
+  void apply_loads();
+  void drive_planes();
+  void follow_gravity();
+  Vec3 free_moment(double before) const;
+  double largest_gravity() const noexcept;
   void account(const StepWork& work, const StepLengths& lengths);
   void check_motion() const;
   void require_time_step() const;
   void choose_time_step();
   double motion_step() const noexcept;
   void move_planes();
-  double gravity_energy(double before) const;
   double rounding_energy() const;
   void add_expected_to(NodalStiffness& stiffness) const;
   void add_structures_to(NodalStiffness& stiffness) const;
@@ -112,6 +123,9 @@ class Simulation {
   contact::Contacts<Law> contacts_;
   BeamBonds bonds_;
   SheetFacets sheet_facets_;
+  AppliedLoads loads_;
+  DrivenPlanes driven_planes_;
+  std::vector<PlaneReaction> plane_reactions_;  ///< to drive planes
   NodeForces forces_;
   Leapfrog leapfrog_;
   std::vector<double> radii_;  ///< m, of the ball around each node; 0 where there is none
@@ -130,7 +144,8 @@ class Simulation {
   StepWork work_;                 ///< kinetic: of the last step; the rest: of all steps
   StepWork pending_;  ///< what of damped and external comes after the moment of the last forces
   double initial_energy_ = 0.0;
-  double initial_gravity_energy_ = 0.0;
+  Vec3 full_gravity_;                        ///< m/s², of which motion_.gravity is a part
+  Vec3 initial_moment_ = Vec3::Zero();       ///< kg m, free moment at the start
   NodalStiffness::Total initial_stiffness_;  ///< with the contacts that may come
   double largest_overlap_ratio_ = 0.0;
   std::int64_t pass_throughs_ = 0;
@@ -146,6 +161,7 @@ void Simulation<Law>::step() {
   sheet_facets_.advance(scene_.state, pool_);
   sheet_facets_.add_forces(forces_, pool_);
   contacts_.advance(motion(), scene_.planes, last_drift_, pool_, forces_);
+  apply_loads();
   const StepLengths lengths{0.5 * (last_drift_ + dt_), dt_};
   account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_),
           lengths);

@@ -4,6 +4,7 @@
 #include "dynamics/expected_contacts.hpp"
 #include "dynamics/scene_figures.hpp"
 #include "dynamics/simulation.hpp"
+#include "dynamics/simulation_loads.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +41,7 @@ constexpr std::size_t kPieces = 16;
 template <contact::ContactLaw Law>
 Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
                             const contact::PairProperties<Law>& properties)
-    : scene_((checked(scene, options), std::move(scene))),
+    : scene_((checked(scene, options), held_as_prescribed(std::move(scene)))),
       material_pairs_(scene_.materials, properties),
       motion_(options.motion),
       pool_(options.threads),
@@ -52,10 +53,16 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
                                      : geometry::Positions()),
       bonds_(scene_.bonds, scene_.state.size()),
       sheet_facets_(scene_.sheet_facets, scene_.state.size()),
+      loads_(scene_),
+      driven_planes_(scene_.loads, scene_.planes),
+      plane_reactions_(driven_planes_.empty() ? 0 : scene_.planes.size()),
       forces_(scene_.state.size()),
       radii_(node_radii(scene_, surface_)),
       furthest_(furthest_in_a_step(scene_)),
-      pace_radius_(pace_radius(scene_.elements)) {
+      pace_radius_(pace_radius(scene_.elements)),
+      full_gravity_(options.motion.gravity) {
+  motion_.gravity = scene_.loads.gravity_factor.at(0.0) * full_gravity_;
+  loads_.start(scene_.state);
   least_furthest_ = furthest_.empty() ? 0.0 : *std::min_element(furthest_.begin(), furthest_.end());
   if (options.skin == 0.0 && !scene_.elements.spheres.empty()) contacts_.tune_skin(pace_radius_);
   if (options.skin == 0.0) contacts_.choose_skin_of_structures();
@@ -90,7 +97,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
     // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
     dt_ = std::isfinite(critical) ? std::min(stable_step_, motion_step()) : stable_step_;
   }
-  initial_gravity_energy_ = gravity_energy(0.0);
+  initial_moment_ = free_moment(0.0);
   work_.kinetic = kinetic_energy(scene_.state, scene_.properties);
   initial_energy_ = work_.kinetic + contacts_.elastic_energy() + bonds_.elastic_energy() +
                     sheet_facets_.elastic_energy();
@@ -120,7 +127,7 @@ void Simulation<Law>::set_velocity(NodeId node, const Vec3& velocity,
   scene_.state.velocity[index_of(node)] = velocity;
   scene_.state.angular_velocity[index_of(node)] = angular_velocity;
   if (!chooses_time_step_ || !std::isfinite(dt_)) return;
-  dt_ = std::min(dt_, longest_step(velocity.norm(), motion_.gravity.norm(), pace_radius_));
+  dt_ = std::min(dt_, longest_step(velocity.norm(), largest_gravity(), pace_radius_));
 }
 
 template <contact::ContactLaw Law>
@@ -131,7 +138,9 @@ double Simulation<Law>::motion_ratio() const noexcept {
 /// Longest step that contacts can follow at the speeds of now (s).
 template <contact::ContactLaw Law>
 double Simulation<Law>::motion_step() const noexcept {
-  return longest_step(largest_speed(scene_.state), motion_.gravity.norm(), pace_radius_);
+  const double speed = std::max(
+      {largest_speed(scene_.state), loads_.largest_speed(), driven_planes_.largest_speed()});
+  return longest_step(speed, largest_gravity(), pace_radius_);
 }
 
 /// Nodes have drifted with the velocities after the last kick.
@@ -160,10 +169,11 @@ void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) 
   // The part of the kick that comes after the moment of the forces: all of the first one, half of
   // one between drifts of equal lengths.
   const double later = 0.5 * lengths.drift / lengths.kick;
-  pending_ = {0.0, later * step.damped, later * step.external};
+  const LoadWork left = loads_.work_after({time_, last_drift_, dt_}, scene_.state, pool_);
+  pending_ = {0.0, later * step.damped + left.damped, later * step.external + left.external};
   if (last_drift_ > 0.0) work_.kinetic = step.kinetic;
-  work_.damped += step.damped;
-  work_.external += step.external;
+  work_.damped += step.damped + left.damped;
+  work_.external += step.external + left.external;
   fastest_ = std::sqrt(work.fastest_squared);
   largest_overlap_ratio_ = std::max(largest_overlap_ratio_, contacts_.largest_overlap_ratio());
   pass_throughs_ += contacts_.with_surfaces().pass_throughs();
@@ -181,18 +191,6 @@ void Simulation<Law>::move_planes() {
   for (contact::Plane& plane : scene_.planes) plane.point += dt_ * plane.velocity;
 }
 
-/// Of the free nodes, at a time before now (s).
-template <contact::ContactLaw Law>
-double Simulation<Law>::gravity_energy(double before) const {
-  double energy = 0.0;
-  for (std::size_t i = 0; i < scene_.state.size(); ++i) {
-    if (holds_translation(scene_.properties.held[i])) continue;
-    const Vec3 position = scene_.state.position[i] - before * scene_.state.velocity[i];
-    energy -= scene_.properties.mass[i] * motion_.gravity.dot(position);
-  }
-  return energy;
-}
-
 template <contact::ContactLaw Law>
 Energy Simulation<Law>::energy() const {
   Energy energy;
@@ -202,7 +200,7 @@ Energy Simulation<Law>::energy() const {
   energy.sheet_elastic = sheet_facets_.elastic_energy();
   // Kinetic and elastic energy are those at the moment of the last forces, one step before the
   // positions.
-  energy.gravity = gravity_energy(last_drift_) - initial_gravity_energy_;
+  energy.gravity = -motion_.gravity.dot(free_moment(last_drift_) - initial_moment_);
   energy.friction = contacts_.dissipated();
   energy.damping = work_.damped - pending_.damped;
   energy.external_work = work_.external - pending_.external;
@@ -224,7 +222,7 @@ double Simulation<Law>::rounding_energy() const {
     const Vec3& x = scene_.state.position[i];
     furthest = std::max(furthest, x.cwiseAbs().maxCoeff());
     if (holds_translation(scene_.properties.held[i])) continue;
-    weight += scene_.properties.mass[i] * motion_.gravity.cwiseAbs().dot(x.cwiseAbs());
+    weight += scene_.properties.mass[i] * full_gravity_.cwiseAbs().dot(x.cwiseAbs());
   }
   const auto steps = static_cast<double>(steps_);
   const double springs =
@@ -274,6 +272,7 @@ template <contact::ContactLaw Law>
 void Simulation<Law>::add_structures_to(NodalStiffness& stiffness) const {
   for (const BeamBond& bond : scene_.bonds) stiffness.add_beam(bond, scene_.state);
   sheet_facets_.add_to(stiffness, scene_.state);
+  loads_.add_to(stiffness, scene_.state.position);
 }
 
 template <contact::ContactLaw Law>
@@ -310,6 +309,7 @@ CriticalStep Simulation<Law>::critical_step(NodalStiffness& space) const {
     add_contacts_to(space);
     look();
   });
+  shortest.dt = loads_.critical_step(shortest.dt, scene_);
   return shortest;
 }
 

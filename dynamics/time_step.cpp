@@ -150,7 +150,10 @@ NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t i,
   Mat6 matrix;
   matrix << (shift * shift) * block.translation.full(), coupling, coupling.transpose(),
       (turn * turn) * block.rotation.full();
-  return matrix;
+  if (held == Held::nothing) return matrix;
+  Eigen::Matrix<double, 6, 1> is_free;
+  is_free << free_axes(held), free_turns(held);
+  return is_free.asDiagonal() * matrix * is_free.asDiagonal();
 }
 
 CriticalStep NodalStiffness::critical_step(const NodeProperties& properties) const {

@@ -44,7 +44,7 @@ struct NodeMotion {
   Vector<Real> velocity;  ///< m/s or rad/s
   Vector<Real> force;     ///< N or N m
   Real inertia;           ///< kg or kg m²
-  Real is_held;           ///< 1 or 0
+  Vector<Real> held;      ///< 1 or 0 for each component
 
   /// Steps the velocity. The acceleration is force over inertia plus two parts of gravity, of which
   /// one is damped.
@@ -62,13 +62,22 @@ PLEKTON_INLINE Real damping_of(const Real& acceleration, const Real& velocity,
   return select(velocity > zero, drag, select(zero > velocity, -drag, zero));
 }
 
+/// For each component that of one of two vectors.
+template <class Real>
+PLEKTON_INLINE Vector<Real> choose(const Vector<Real>& held, const Vector<Real>& if_held,
+                                   const Vector<Real>& if_free) noexcept {
+  const Real zero = 0.0;
+  return {select(held.x > zero, if_held.x, if_free.x), select(held.y > zero, if_held.y, if_free.y),
+          select(held.z > zero, if_held.z, if_free.z)};
+}
+
 template <class Real>
 PLEKTON_INLINE StepWorkOf<Real> NodeMotion<Real>::kick(const Vector<Real>& damped_gravity,
                                                        const Vector<Real>& free_gravity,
                                                        const Real& damping,
                                                        const Real& dt) noexcept {
-  const Real zero = 0.0;
   const Real half = 0.5;
+  const Vector<Real> none = Vector<Real>::Zero();
   const Vector<Real> before = velocity;
   const Vector<Real> subject = (Real(1.0) / inertia) * force + damped_gravity;
   const Vector<Real> undamped = subject + free_gravity;
@@ -78,11 +87,11 @@ PLEKTON_INLINE StepWorkOf<Real> NodeMotion<Real>::kick(const Vector<Real>& dampe
                              damping_of(subject.z, now.z, damping)};
   const Vector<Real> after = before + dt * (undamped - removed);
 
-  velocity = {select(is_held > zero, before.x, after.x), select(is_held > zero, before.y, after.y),
-              select(is_held > zero, before.z, after.z)};
-  return {select(is_held > zero, zero, half * inertia * before.dot(after)),
-          select(is_held > zero, zero, half * dt * inertia * removed.dot(before + after)),
-          select(is_held > zero, -dt * force.dot(before), zero), zero};
+  // What is held keeps its velocity; it may have no inertia, and no number then for what is freed.
+  velocity = choose(held, before, after);
+  return {half * inertia * choose(held, none, before).dot(velocity),
+          half * dt * inertia * choose(held, none, removed).dot(before + velocity),
+          -dt * force.dot(choose(held, before, none)), Real(0.0)};
 }
 
 /// Nodes one after the other in memory.
@@ -121,17 +130,20 @@ PLEKTON_INLINE void store_vectors(const Vector<Pack<W>>& v, Vec3* to) noexcept {
   geometry::store_things<W, 3>({v.x, v.y, v.z}, numbers_of(to));
 }
 
-/// 1 for each node of which a motion is held, else 0.
+/// 1 for each component of a motion of each node that is held, else 0.
 template <int W>
-PLEKTON_INLINE Pack<W> load_held(const Held* from, bool (*holds)(Held)) noexcept {
+PLEKTON_INLINE Vector<Pack<W>> load_held(const Held* from, bool (*holds)(Held, int)) noexcept {
+  using Real = Pack<W>;
   std::uint64_t any_held = 0;
   std::memcpy(&any_held, from, std::size_t{W} * sizeof(Held));
   // Most often nothing is; and numbers just written one by one are slow to be read as a vector.
-  if (any_held == 0) return 0.0;
-  std::array<double, std::size_t{W}> is_held;
-  for (std::size_t lane = 0; lane < std::size_t{W}; ++lane)
-    is_held[lane] = holds(from[lane]) ? 1.0 : 0.0;
-  return Pack<W>::load(is_held.data());
+  if (any_held == 0) return Vector<Real>::Zero();
+  std::array<std::array<double, std::size_t{W}>, 3> held;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t lane = 0; lane < std::size_t{W}; ++lane)
+      held[static_cast<std::size_t>(axis)][lane] = holds(from[lane], axis) ? 1.0 : 0.0;
+  }
+  return {Real::load(held[0].data()), Real::load(held[1].data()), Real::load(held[2].data())};
 }
 
 /// Turns the orientations of nodes by any angle. What does not spin keeps its orientation to the
@@ -181,9 +193,9 @@ PLEKTON_INLINE StepWorkOf<Pack<W>> step_lanes(const NodeArrays& nodes, const Mot
   const Vector<Real> gravity = in_all_lanes<Real>(options.gravity);
   const Vector<Real> zero = Vector<Real>::Zero();
   NodeMotion<Real> moves{load_vectors<W>(nodes.velocity), load_vectors<W>(nodes.force),
-                         Real::load(nodes.mass), load_held<W>(nodes.held, holds_translation)};
+                         Real::load(nodes.mass), load_held<W>(nodes.held, holds_along)};
   NodeMotion<Real> spins{load_vectors<W>(nodes.angular_velocity), load_vectors<W>(nodes.torque),
-                         Real::load(nodes.inertia), load_held<W>(nodes.held, holds_rotation)};
+                         Real::load(nodes.inertia), load_held<W>(nodes.held, holds_about)};
   const auto of_translation =
       moves.kick(options.damps_gravity ? gravity : zero, options.damps_gravity ? zero : gravity,
                  options.damping, lengths.kick);

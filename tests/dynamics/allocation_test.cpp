@@ -146,6 +146,38 @@ TEST(Allocation, IsNoneInTheStepsOfGrainsOnASheet) {
   }
 }
 
+/// Loads of each kind on a sheet, and on the first of the walls around it.
+void add_loads(Scene& scene) {
+  dynamics::SurfacePressure pressure{{geometry::FaceId{20}, geometry::FaceId{21}}, 10.0, {}, {}};
+  dynamics::PlaneServo servo;
+  servo.force = 0.01;
+  servo.largest_speed = 0.01;
+  dynamics::PrescribedMotion motion;
+  const NodeId inside{24};
+  motion.nodes = {inside};
+  motion.held = Held::along_x;
+  motion.velocity = Vec3(0.01, 0.0, 0.0);
+  scene.loads.pressures = {pressure};
+  scene.loads.servos = {servo};
+  scene.loads.motions = {motion};
+  scene.loads.forces.push_back({{inside}, Vec3(0.0, 0.0, 0.01), Vec3::Zero(), {}});
+  scene.loads.ground_springs.push_back({{inside}, Vec3::Ones()});
+  scene.loads.beam_damping.push_back({{0, 5, 7}, 0.1});
+  scene.loads.mass_damping.push_back({{inside}, 1.0});
+  scene.loads.gravity_factor = dynamics::TimeTable({{0.0, 0.5}, {100.0, 1.0}});
+}
+
+TEST(Allocation, IsNoneInTheStepsUnderLoads) {
+  for (const int threads : {1, 2}) {
+    Scene scene = sheet_scene();
+    add_grains(scene, 0.006, 6, 0.05);
+    add_loads(scene);
+    Simulation simulation = simulation_of(std::move(scene), threads, threads == 1);
+
+    EXPECT_EQ(allocations_of_steps(simulation, 4000), 0u) << threads << " threads";
+  }
+}
+
 TEST(Allocation, IsNoneInTheStepsOfGrainsOnANet) {
   for (const int threads : {1, 2}) {
     Scene scene = net_scene();

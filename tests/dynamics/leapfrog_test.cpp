@@ -204,7 +204,7 @@ TEST(Leapfrog, StepsManyNodesToTheBitAsEachAlone) {
     all.state.angular_velocity[i] = random.in_cube(i % 7 == 0 && i < 300 ? 100.0 : 1.0);
     all.forces.force[i] = random.in_cube(10.0);
     all.forces.torque[i] = random.in_cube(10.0);
-    if (i > 100 && i < 400) all.properties.held[i] = static_cast<Held>(i % 4);
+    if (i > 100 && i < 400) all.properties.held[i] = static_cast<Held>(i % 64);
   }
   std::vector<NodeState> alone;
   for (std::size_t i = 0; i < kCount; ++i) {
@@ -251,7 +251,7 @@ TYPED_TEST(LeapfrogLanes, HaveTheBitsOfOneNodeAfterTheOther) {
       together.state.angular_velocity[i] = random.in_cube(spin);
       together.forces.force[i] = random.in_cube(10.0);
       together.forces.torque[i] = random.in_cube(10.0);
-      if (spin > 1.0) together.properties.held[i] = static_cast<Held>(i % 4);
+      if (spin > 1.0) together.properties.held[i] = static_cast<Held>(i % 64);
     }
     Nodes apart(std::size_t{W});
     apart.state = together.state;

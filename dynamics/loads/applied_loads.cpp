@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/loads/applied_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plekton::dynamics {
+
+AppliedLoads::AppliedLoads(const Scene& scene) {
+  const Loads& loads = scene.loads;
+  for (const PrescribedMotion& motion : loads.motions) motions_.emplace_back(motion, scene.state);
+  for (const NodalForce& load : loads.forces) forces_.emplace_back(load);
+  for (const GroundSprings& springs : loads.ground_springs)
+    springs_.emplace_back(springs, scene.state);
+  for (const SurfacePressure& load : loads.pressures)
+    pressures_.emplace_back(load, scene.elements.facets, scene.state);
+  for (const BeamDamping& damping : loads.beam_damping)
+    beams_.emplace_back(damping, scene.bonds, scene.properties);
+  for (const MassDamping& damping : loads.mass_damping)
+    dragged_.emplace_back(damping, scene.properties);
+}
+
+void AppliedLoads::start(NodeState& state) const {
+  for (const MovedNodes& motion : motions_) motion.start(state);
+}
+
+template <class Visit>
+LoadWork AppliedLoads::sum_over_forces(Visit&& visit) {
+  LoadWork work;
+  for (ForcedNodes& load : forces_) work.external += visit(load);
+  for (SprungNodes& load : springs_) work.external += visit(load);
+  for (PressedSurface& load : pressures_) work.external += visit(load);
+  for (DampedBeams& load : beams_) work.damped -= visit(load);
+  for (DraggedNodes& load : dragged_) work.damped -= visit(load);
+  return work;
+}
+
+LoadWork AppliedLoads::act(const LoadStep& step, NodeState& state, NodeForces& forces,
+                           geometry::ThreadPool& pool) {
+  LoadWork work = sum_over_forces([&](auto& load) {
+    LoadedNodes& nodes = load.act(step, state, pool);
+    nodes.add_to(forces, pool);
+    return 0.5 * step.before * nodes.power(state, pool);
+  });
+  for (MovedNodes& motion : motions_) work.external += motion.act(step, state, forces, pool);
+  return work;
+}
+
+LoadWork AppliedLoads::work_after(const LoadStep& step, const NodeState& state,
+                                  geometry::ThreadPool& pool) {
+  return sum_over_forces(
+      [&](auto& load) { return 0.5 * step.after * load.nodes().power(state, pool); });
+}
+
+void AppliedLoads::add_to(NodalStiffness& stiffness, geometry::Positions x) const {
+  for (const SprungNodes& springs : springs_) {
+    for (std::size_t i = 0; i < springs.nodes().size(); ++i)
+      stiffness.add_to_node(springs.nodes().node(i), springs.stiffness().asDiagonal(),
+                            Mat3::Zero());
+  }
+  for (const PressedSurface& surface : pressures_) {
+    surface.for_each_stiffness(x, [&](NodeId node, double of_facet) {
+      stiffness.add_to_node(node, of_facet * Mat3::Identity(), Mat3::Zero());
+    });
+  }
+}
+
+// The largest eigenvalue of a sum is at most the sum of the largest ones, 4 / dt² that of the rest.
+double AppliedLoads::critical_step(double without, const Scene& scene) const {
+  double squared = 4.0 / (without * without);
+  for (const PressedSurface& surface : pressures_)
+    squared += surface.gas_frequency_squared(scene.state.position, scene.properties);
+  double relaxation_time = 0.0;
+  double rate = 0.0;
+  for (const DampedBeams& beams : beams_) relaxation_time += beams.relaxation_time();
+  for (const DraggedNodes& nodes : dragged_) rate += nodes.rate();
+  if (squared == 4.0 / (without * without) && relaxation_time == 0.0 && rate == 0.0) return without;
+  return damped_step(2.0 / std::sqrt(squared), relaxation_time, rate);
+}
+
+double AppliedLoads::largest_speed() const noexcept {
+  double speed = 0.0;
+  for (const MovedNodes& motion : motions_) speed = std::max(speed, motion.largest_speed());
+  return speed;
+}
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/loads/ground_springs.hpp"
+#include "dynamics/loads/nodal_force.hpp"
+#include "dynamics/loads/prescribed_motion.hpp"
+#include "dynamics/loads/surface_pressure.hpp"
+#include "dynamics/loads/viscous_damping.hpp"
+#include "dynamics/scene.hpp"
+#include "dynamics/time_step.hpp"
+
+namespace plekton::dynamics {
+
+/// All loads of a scene at work on its nodes.
+class AppliedLoads {
+ public:
+  /// @param scene  checked
+  explicit AppliedLoads(const Scene& scene);
+
+  /// Sets the velocities of prescribed motions at the start.
+  void start(NodeState& state) const;
+
+  /// Adds the forces of all loads to those on the nodes, then sets the velocities of prescribed
+  /// motions for the drift that begins now. No allocation.
+  /// @returns the work of half of the drift before
+  LoadWork act(const LoadStep& step, NodeState& state, NodeForces& forces,
+               geometry::ThreadPool& pool);
+
+  /// Work of the forces of the last act over half of the drift after it.
+  /// @param state  with the velocities of that drift
+  LoadWork work_after(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
+
+  /// Adds the stiffness of springs and of facets under pressure.
+  void add_to(NodalStiffness& stiffness, geometry::Positions x) const;
+
+  /// The critical step (s) with viscous damping and the stiffness of gases.
+  /// @param without  s, without them; may be infinite
+  double critical_step(double without, const Scene& scene) const;
+
+  /// m/s, of prescribed motions at any time.
+  double largest_speed() const noexcept;
+
+  /// By place in Loads::pressures.
+  const std::vector<PressedSurface>& pressed_surfaces() const noexcept { return pressures_; }
+
+ private:
+  /// Calls visit with each load that is a force.
+  /// @returns the work that visit returned, what damping took apart from the rest
+  template <class Visit>
+  LoadWork sum_over_forces(Visit&& visit);
+
+  std::vector<MovedNodes> motions_;
+  std::vector<ForcedNodes> forces_;
+  std::vector<SprungNodes> springs_;
+  std::vector<PressedSurface> pressures_;
+  std::vector<DampedBeams> beams_;
+  std::vector<DraggedNodes> dragged_;
+};
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/loads/loads_check.hpp"
+
+#include "dynamics/loads/surface_pressure_check.hpp"
+#include "dynamics/scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ostream>
+#include <string>
+
+namespace plekton::dynamics {
+namespace {
+
+/// "translation along y"
+std::string name_of(int component) {
+  return std::string(component < 3 ? "translation along " : "rotation about ") +
+         "xyz"[component % 3];
+}
+
+bool holds(Held held, int component) {
+  return component < 3 ? holds_along(held, component) : holds_about(held, component - 3);
+}
+
+/// Collects what is wrong with the loads of a scene.
+class LoadProblems {
+ public:
+  LoadProblems(const Scene& scene, std::ostream& text) : scene_(scene), text_(text) {}
+
+  void list_all() {
+    const Loads& loads = scene_.loads;
+    for (std::size_t i = 0; i < loads.motions.size(); ++i)
+      list("prescribed motion " + std::to_string(i), loads.motions[i]);
+    list_motions_held_twice();
+    for (std::size_t i = 0; i < loads.plane_motions.size(); ++i)
+      list("motion of a plane " + std::to_string(i), loads.plane_motions[i]);
+    for (std::size_t i = 0; i < loads.servos.size(); ++i)
+      list("servo " + std::to_string(i), loads.servos[i]);
+    list_planes_driven_twice();
+    for (std::size_t i = 0; i < loads.forces.size(); ++i)
+      list("nodal force " + std::to_string(i), loads.forces[i]);
+    for (std::size_t i = 0; i < loads.ground_springs.size(); ++i)
+      list("ground springs " + std::to_string(i), loads.ground_springs[i]);
+    for (std::size_t i = 0; i < loads.pressures.size(); ++i)
+      list_problems(loads.pressures[i], scene_, "surface pressure " + std::to_string(i), text_);
+    for (std::size_t i = 0; i < loads.beam_damping.size(); ++i)
+      list("beam damping " + std::to_string(i), loads.beam_damping[i]);
+    for (std::size_t i = 0; i < loads.mass_damping.size(); ++i)
+      list("mass damping " + std::to_string(i), loads.mass_damping[i]);
+  }
+
+ private:
+  void list(const std::string& name, const PrescribedMotion& motion) {
+    expect_nodes(name, motion.nodes);
+    expect_finite(name, "displacement", motion.displacement);
+    expect_finite(name, "velocity", motion.velocity);
+    expect_finite(name, "angular velocity", motion.angular_velocity);
+    if (motion.held == Held::nothing)
+      text_ << name << ": prescribes no component; say which in held\n";
+  }
+
+  void list(const std::string& name, const PlaneMotion& motion) {
+    expect_plane(name, motion.plane);
+    expect_finite(name, "velocity", motion.velocity);
+  }
+
+  void list(const std::string& name, const PlaneServo& servo) {
+    expect_plane(name, servo.plane);
+    for (const auto& pair : servo.between) expect_facing(name, pair);
+    expect(servo.force >= 0.0 && servo.pressure >= 0.0 && servo.force + servo.pressure > 0.0, name,
+           "has no target; give a force (N) or a pressure (Pa) above 0");
+    expect(servo.area > 0.0, name, "its area must be above 0");
+    expect(servo.largest_speed > 0.0, name, "its largest speed must be above 0");
+    expect(servo.gain > 0.0 && servo.gain <= 1.0, name, "its gain must be above 0, at most 1");
+    expect_finite(name, "target, area and speed",
+                  Vec3(servo.force + servo.pressure, servo.area, servo.largest_speed));
+  }
+
+  void list(const std::string& name, const BeamDamping& damping) {
+    expect(std::isfinite(damping.ratio) && damping.ratio >= 0.0, name,
+           "its ratio must be finite and not negative");
+    for (const std::size_t bond : damping.bonds) {
+      if (bond < scene_.bonds.size()) continue;
+      text_ << name << ": there is no bond " << bond << ", only " << scene_.bonds.size()
+            << " bonds\n";
+    }
+  }
+
+  void list(const std::string& name, const MassDamping& damping) {
+    expect_nodes(name, damping.nodes);
+    expect(std::isfinite(damping.rate) && damping.rate >= 0.0, name,
+           "its rate must be finite and not negative");
+  }
+
+  void expect(bool holds, const std::string& name, const char* problem) {
+    if (!holds) text_ << name << ": " << problem << '\n';
+  }
+
+  /// Two planes whose normals are opposite.
+  void expect_facing(const std::string& name, const std::array<std::size_t, 2>& pair) {
+    constexpr double kTolerance = 1e-9;  // of unit normals
+    for (const std::size_t plane : pair) expect_plane(name, plane);
+    if (std::max(pair[0], pair[1]) >= scene_.planes.size()) return;
+    const Vec3 sum = scene_.planes[pair[0]].normal + scene_.planes[pair[1]].normal;
+    if (sum.norm() < kTolerance) return;
+    text_ << name << ": planes " << pair[0] << " and " << pair[1]
+          << " do not face each other; the distance of planes bounds an area only where their "
+             "normals are opposite\n";
+  }
+
+  void list_planes_driven_twice() {
+    std::vector<bool> driven(scene_.planes.size(), false);
+    const auto drive = [&](const std::string& name, std::size_t plane) {
+      if (plane >= driven.size()) return;
+      if (driven[plane])
+        text_ << name << ": plane " << plane << " is driven already; drive every plane once\n";
+      driven[plane] = true;
+    };
+    for (std::size_t i = 0; i < scene_.loads.plane_motions.size(); ++i) {
+      const std::string name = "motion of a plane " + std::to_string(i);
+      const std::size_t plane = scene_.loads.plane_motions[i].plane;
+      drive(name, plane);
+      if (plane < driven.size() && !scene_.planes[plane].velocity.isZero(0.0))
+        text_ << name << ": plane " << plane
+              << " has a velocity of its own; leave it to the motion\n";
+    }
+    for (std::size_t i = 0; i < scene_.loads.servos.size(); ++i)
+      drive("servo " + std::to_string(i), scene_.loads.servos[i].plane);
+  }
+
+  void list(const std::string& name, const NodalForce& load) {
+    expect_nodes(name, load.nodes);
+    expect_finite(name, "force", load.force);
+    expect_finite(name, "torque", load.torque);
+  }
+
+  void list(const std::string& name, const GroundSprings& springs) {
+    expect_nodes(name, springs.nodes);
+    if (!springs.stiffness.allFinite() || (springs.stiffness.array() < 0.0).any()) {
+      text_ << name << ": stiffness (" << springs.stiffness.transpose()
+            << ") N/m must be finite and not negative along every axis\n";
+    }
+  }
+
+  void expect_finite(const std::string& name, const char* what, const Vec3& value) {
+    if (!value.allFinite())
+      text_ << name << ": its " << what << " (" << value.transpose() << ") is not finite\n";
+  }
+
+  void expect_plane(const std::string& name, std::size_t plane) {
+    if (plane < scene_.planes.size()) return;
+    text_ << name << ": there is no plane " << plane << ", only " << scene_.planes.size()
+          << " planes\n";
+  }
+
+  /// Nodes that exist, each once, at least one.
+  void expect_nodes(const std::string& name, const std::vector<NodeId>& nodes) {
+    if (nodes.empty()) text_ << name << ": has no nodes; give at least one\n";
+    named_.assign(scene_.state.size(), false);
+    for (const NodeId node : nodes) {
+      if (!exists(node)) {
+        text_ << name << ": there is no node " << static_cast<std::int32_t>(node) << ", only "
+              << scene_.state.size() << " nodes\n";
+      } else if (named_[index_of(node)]) {
+        text_ << name << ": names node " << index_of(node) << " twice; name it once\n";
+      } else {
+        named_[index_of(node)] = true;
+      }
+    }
+  }
+
+  bool exists(NodeId node) const {
+    return static_cast<std::int32_t>(node) >= 0 && index_of(node) < scene_.state.size();
+  }
+
+  /// Says it once for each motion and component, with the first node.
+  void list_motions_held_twice() {
+    std::vector<Held> held = scene_.properties.held;
+    for (std::size_t i = 0; i < scene_.loads.motions.size(); ++i) {
+      const PrescribedMotion& motion = scene_.loads.motions[i];
+      std::array<bool, 6> said{};
+      for (const NodeId node : motion.nodes) {
+        if (!exists(node)) continue;
+        for (int component = 0; component < 6; ++component) {
+          bool& is_said = said[static_cast<std::size_t>(component)];
+          if (is_said || !holds(motion.held & held[index_of(node)], component)) continue;
+          is_said = true;
+          text_ << "prescribed motion " << i << ": node " << index_of(node) << ": its "
+                << name_of(component)
+                << " is held or prescribed already; prescribe every component once\n";
+        }
+      }
+      for (const NodeId node : motion.nodes) {
+        if (exists(node)) held[index_of(node)] = held[index_of(node)] | motion.held;
+      }
+    }
+  }
+
+  const Scene& scene_;
+  std::ostream& text_;
+  std::vector<bool> named_;  // by NodeId, of the set that is looked at
+};
+
+}  // namespace
+
+void list_load_problems(const Scene& scene, std::ostream& problems) {
+  LoadProblems(scene, problems).list_all();
+}
+
+}  // namespace plekton::dynamics

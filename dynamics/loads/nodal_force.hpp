@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/loads/load_step.hpp"
+#include "dynamics/loads/loaded_nodes.hpp"
+#include "dynamics/loads/loads.hpp"
+
+namespace plekton::dynamics {
+
+/// Forces and torques that follow a table.
+class ForcedNodes {
+ public:
+  explicit ForcedNodes(const NodalForce& load) : load_(load), nodes_(load.nodes) {}
+
+  LoadedNodes& act(const LoadStep& step, const NodeState&, geometry::ThreadPool& pool) {
+    const double factor = load_.factor.at(step.time);
+    const LoadedNodes::Force force{factor * load_.force, factor * load_.torque};
+    nodes_.set(pool, [&](std::size_t) { return force; });
+    return nodes_;
+  }
+  LoadedNodes& nodes() noexcept { return nodes_; }
+
+ private:
+  NodalForce load_;
+  LoadedNodes nodes_;
+};
+
+}  // namespace plekton::dynamics

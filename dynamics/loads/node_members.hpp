@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/node_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace plekton::dynamics {
+
+/// The nodes of many groups of N nodes, and in which groups each of them is: to sum over the groups
+/// of a node in a fixed order.
+template <std::size_t N>
+class NodeMembers {
+ public:
+  using Group = std::array<NodeId, N>;
+
+  /// A node of a group.
+  struct Member {
+    std::size_t group;
+    std::size_t place;  ///< in the group
+  };
+
+  explicit NodeMembers(std::vector<Group> groups) : groups_(std::move(groups)) {
+    std::vector<std::pair<NodeId, std::size_t>> slots;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      for (std::size_t k = 0; k < N; ++k) slots.emplace_back(groups_[g][k], g * N + k);
+    }
+    std::sort(slots.begin(), slots.end());
+    for (const auto& [node, slot] : slots) {
+      if (nodes_.empty() || nodes_.back() != node) {
+        nodes_.push_back(node);
+        start_.push_back(members_.size());
+      }
+      members_.push_back({slot / N, slot % N});
+    }
+    start_.push_back(members_.size());
+  }
+
+  const std::vector<Group>& groups() const noexcept { return groups_; }
+  /// Each once, ascending.
+  const std::vector<NodeId>& nodes() const noexcept { return nodes_; }
+  /// Where nodes()[i] is a member, by group.
+  std::span<const Member> of(std::size_t i) const noexcept {
+    return {members_.data() + start_[i], start_[i + 1] - start_[i]};
+  }
+
+ private:
+  std::vector<Group> groups_;
+  std::vector<NodeId> nodes_;
+  std::vector<std::size_t> start_;
+  std::vector<Member> members_;
+};
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/loads/surface_pressure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plekton::dynamics {
+namespace {
+
+using geometry::Positions;
+using Corners = std::array<NodeId, 3>;
+
+/// Six times the volume (m³) between a facet and a point.
+double six_volumes(const Corners& corners, const Vec3& point, Positions x) noexcept {
+  const Vec3 a = x[index_of(corners[0])] - point;
+  const Vec3 b = x[index_of(corners[1])] - point;
+  const Vec3 c = x[index_of(corners[2])] - point;
+  return a.dot(b.cross(c));
+}
+
+std::vector<Corners> corners_of(const SurfacePressure& load,
+                                std::span<const geometry::Facet> facets) {
+  std::vector<Corners> corners;
+  for (const geometry::FaceId facet : load.facets) corners.push_back(facets[index_of(facet)].nodes);
+  return corners;
+}
+
+}  // namespace
+
+double volume_under(std::span<const Corners> facets, Positions x) {
+  double sum = 0.0;
+  for (const Corners& corners : facets) sum += six_volumes(corners, x[index_of(facets[0][0])], x);
+  return sum / 6.0;
+}
+
+PressedSurface::PressedSurface(const SurfacePressure& load, std::span<const geometry::Facet> facets,
+                               const NodeState& at_start)
+    : load_(load),
+      members_(corners_of(load, facets)),
+      nodes_(members_.nodes()),
+      shares_(load.facets.size()) {
+  if (load_.gas) start_volume_ = volume_under(members_.groups(), at_start.position);
+  volume_ = start_volume_;
+  pressure_ = pressure_at(0.0, volume_);
+}
+
+/// Pa
+double PressedSurface::pressure_at(double time, double volume) const {
+  const double pressure = load_.factor.at(time) * load_.pressure;
+  if (!load_.gas) return pressure;
+  const double outside = load_.gas->outside_pressure;
+  return (outside + pressure) * std::pow(start_volume_ / volume, load_.gas->exponent) - outside;
+}
+
+/// Pa, over the outside: of the table at any time, or of now if the gas has been compressed.
+double PressedSurface::largest_pressure() const noexcept {
+  return std::max(std::abs(load_.factor.largest() * load_.pressure), std::abs(pressure_));
+}
+
+Vec3 PressedSurface::area_share(std::size_t facet, Positions x) const noexcept {
+  const Corners& corners = members_.groups()[facet];
+  const Vec3& origin = x[index_of(corners[0])];
+  return (x[index_of(corners[1])] - origin).cross(x[index_of(corners[2])] - origin) / 6.0;
+}
+
+LoadedNodes& PressedSurface::act(const LoadStep& step, const NodeState& state,
+                                 geometry::ThreadPool& pool) {
+  const Positions x = state.position;
+  const Vec3 origin = x[index_of(members_.nodes().front())];
+  const double six = sum_(shares_.size(), pool, [&](std::size_t begin, std::size_t end, int) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      shares_[i] = area_share(i, x);
+      if (load_.gas) sum += six_volumes(members_.groups()[i], origin, x);
+    }
+    return sum;
+  });
+  volume_ = six / 6.0;
+  pressure_ = pressure_at(step.time, volume_);
+  nodes_.set(pool, [&](std::size_t i) {
+    Vec3 area = Vec3::Zero();
+    for (const auto& member : members_.of(i)) area += shares_[member.group];
+    return LoadedNodes::Force{pressure_ * area};
+  });
+  return nodes_;
+}
+
+double PressedSurface::gas_frequency_squared(Positions x, const NodeProperties& properties) const {
+  if (!load_.gas) return 0.0;
+  double sum = 0.0;  // m⁴/kg
+  for (std::size_t i = 0; i < members_.nodes().size(); ++i) {
+    const std::size_t node = index_of(members_.nodes()[i]);
+    if (holds_translation(properties.held[node])) continue;
+    Vec3 area = Vec3::Zero();
+    for (const auto& member : members_.of(i)) area += area_share(member.group, x);
+    sum += area.squaredNorm() / properties.mass[node];
+  }
+  const double absolute = load_.gas->outside_pressure + largest_pressure();
+  return load_.gas->exponent * absolute / volume_ * sum;
+}
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/loads/load_step.hpp"
+#include "dynamics/loads/loaded_nodes.hpp"
+#include "dynamics/loads/loads.hpp"
+#include "dynamics/loads/node_members.hpp"
+#include "geometry/facet.hpp"
+
+#include <span>
+
+namespace plekton::dynamics {
+
+/// m³, under facets and over the first corner of the first: what they enclose if they are closed
+/// and face outward. 0 without facets.
+double volume_under(std::span<const std::array<NodeId, 3>> facets, geometry::Positions x);
+
+/// Facets under pressure. With A = (x1 - x0) x (x2 - x0) / 2 the force on each corner is p A / 3.
+///
+/// The volume over any point o is V = sum (x0 - o).((x1 - o) x (x2 - o)) / 6, and dV/dx of a corner
+/// is the sum of (x1 - o) x (x2 - o) / 6 over its facets. For a fan that is closed around the
+/// corner this is the sum of A / 3, so on a closed surface the force is p dV/dx: its work is the
+/// integral of p dV, and its resultant and moment vanish, since V does not change when the surface
+/// is moved or turned. At a rim it is the share of linear shape functions in the follower load p A.
+class PressedSurface {
+ public:
+  PressedSurface(const SurfacePressure& load, std::span<const geometry::Facet> facets,
+                 const NodeState& at_start);
+
+  LoadedNodes& act(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
+  LoadedNodes& nodes() noexcept { return nodes_; }
+
+  /// m³, at the last act; only where the surface holds a gas.
+  double volume() const noexcept { return volume_; }
+  /// Pa, at the last act.
+  double pressure() const noexcept { return pressure_; }
+
+  /// Stiffness (N/m) that is not below what the turning facets add around a node: with p e x dx / 6
+  /// on a corner for each of the others, e the side across, a facet adds at most p (sum of its
+  /// sides) / 6 to each of its corners.
+  /// @param add  add(NodeId, stiffness)
+  template <class Add>
+  void for_each_stiffness(geometry::Positions x, Add&& add) const {
+    const double largest = std::abs(largest_pressure());
+    for (const auto& [a, b, c] : members_.groups()) {
+      const Vec3 &xa = x[index_of(a)], &xb = x[index_of(b)], &xc = x[index_of(c)];
+      const double sides = (xb - xa).norm() + (xc - xb).norm() + (xa - xc).norm();
+      for (const NodeId node : {a, b, c}) add(node, largest * sides / 6.0);
+    }
+  }
+
+  /// 1/s², at least the square of the frequency at which the gas alone makes the surface breathe:
+  /// its stiffness is dp/dV (dV/dx)(dV/dx)^T, of rank one.
+  double gas_frequency_squared(geometry::Positions x, const NodeProperties& properties) const;
+
+ private:
+  double pressure_at(double time, double volume) const;
+  double largest_pressure() const noexcept;
+  Vec3 area_share(std::size_t facet, geometry::Positions x) const noexcept;
+
+  SurfacePressure load_;
+  NodeMembers<3> members_;
+  LoadedNodes nodes_;
+  std::vector<Vec3> shares_;  // m², by facet: a third of its area vector
+  double start_volume_ = 0.0;
+  double volume_ = 0.0;
+  double pressure_ = 0.0;
+  geometry::ParallelSum<double> sum_;
+};
+
+}  // namespace plekton::dynamics

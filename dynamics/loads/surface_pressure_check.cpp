@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/loads/surface_pressure_check.hpp"
+
+#include "dynamics/loads/surface_pressure.hpp"
+#include "dynamics/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <tuple>
+
+namespace plekton::dynamics {
+namespace {
+
+/// A side of a facet, from its lower to its higher node.
+struct Side {
+  NodeId low, high;
+  int direction;  ///< 1 if the facet goes round from low to high, else -1
+  std::size_t facet;
+};
+
+/// Sorted: the sides of one edge follow each other.
+std::vector<Side> sides_of(std::span<const geometry::Facet> facets) {
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < facets.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const NodeId from = facets[i].nodes[k];
+      const NodeId to = facets[i].nodes[(k + 1) % 3];
+      sides.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1, i});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.facet) < std::tie(b.low, b.high, b.facet);
+  });
+  return sides;
+}
+
+/// Calls visit(span of sides) for each edge.
+template <class Visit>
+void for_each_edge(const std::vector<Side>& sides, Visit&& visit) {
+  for (std::size_t begin = 0; begin < sides.size();) {
+    std::size_t end = begin + 1;
+    while (end < sides.size() && sides[end].low == sides[begin].low &&
+           sides[end].high == sides[begin].high)
+      ++end;
+    visit(std::span(sides).subspan(begin, end - begin));
+    begin = end;
+  }
+}
+
+/// The facets that exist; a line for each that does not or is named twice.
+std::vector<geometry::Facet> facets_of(const SurfacePressure& load, const Scene& scene,
+                                       const std::string& name, std::ostream& problems) {
+  const std::vector<geometry::Facet>& all = scene.elements.facets;
+  std::vector<bool> named(all.size(), false);
+  std::vector<geometry::Facet> facets;
+  for (const geometry::FaceId facet : load.facets) {
+    const auto id = static_cast<std::int32_t>(facet);
+    if (id < 0 || index_of(facet) >= all.size()) {
+      problems << name << ": there is no facet " << id << ", only " << all.size() << " facets\n";
+    } else if (named[index_of(facet)]) {
+      problems << name << ": names facet " << id << " twice; name it once\n";
+    } else {
+      named[index_of(facet)] = true;
+      facets.push_back(all[index_of(facet)]);
+    }
+  }
+  if (load.facets.empty()) problems << name << ": has no facets; give at least one\n";
+  return facets;
+}
+
+void list_facets_the_other_way(const SurfacePressure& load, std::span<const geometry::Facet> facets,
+                               const std::string& name, std::ostream& problems) {
+  bool is_said = false;
+  for_each_edge(sides_of(facets), [&](std::span<const Side> sides) {
+    if (is_said || sides.size() != 2 || sides[0].direction != sides[1].direction) return;
+    is_said = true;
+    problems << name << ": facets " << index_of(load.facets[sides[0].facet]) << " and "
+             << index_of(load.facets[sides[1].facet])
+             << " are neighbours but face opposite ways; swap two nodes of one of them\n";
+  });
+}
+
+void list_gas_problems(const SurfacePressure& load, std::span<const geometry::Facet> facets,
+                       const Scene& scene, const std::string& name, std::ostream& problems) {
+  const Gas& gas = *load.gas;
+  if (!(gas.outside_pressure >= 0.0) || !std::isfinite(gas.outside_pressure))
+    problems << name << ": outside pressure " << gas.outside_pressure
+             << " Pa must be finite and not negative\n";
+  if (!(gas.exponent > 0.0) || !std::isfinite(gas.exponent))
+    problems << name << ": exponent " << gas.exponent << " of the gas must be above 0\n";
+  if (!are_closed(facets)) {
+    problems << name << ": a gas needs a closed surface, and this one is open; give a pressure "
+             << "without gas, or close it\n";
+    return;
+  }
+  std::vector<std::array<NodeId, 3>> corners;
+  for (const geometry::Facet& facet : facets) corners.push_back(facet.nodes);
+  const double volume = facets.empty() ? 1.0 : volume_under(corners, scene.state.position);
+  if (!(volume > 0.0))
+    problems << name << ": a gas needs a volume, and this surface encloses " << volume
+             << " m3; let its facets face outward\n";
+}
+
+}  // namespace
+
+bool are_closed(std::span<const geometry::Facet> facets) {
+  bool closed = true;
+  for_each_edge(sides_of(facets), [&](std::span<const Side> sides) {
+    int sum = 0;
+    for (const Side& side : sides) sum += side.direction;
+    closed = closed && sum == 0;
+  });
+  return closed;
+}
+
+void list_problems(const SurfacePressure& load, const Scene& scene, const std::string& name,
+                   std::ostream& problems) {
+  const std::vector<geometry::Facet> facets = facets_of(load, scene, name, problems);
+  if (!std::isfinite(load.pressure))
+    problems << name << ": its pressure is " << load.pressure << " Pa; it must be finite\n";
+  if (facets.size() != load.facets.size()) return;
+  for (const geometry::Facet& facet : facets) {
+    for (const NodeId node : facet.nodes) {
+      if (static_cast<std::int32_t>(node) < 0 || index_of(node) >= scene.state.size()) return;
+    }
+  }
+  list_facets_the_other_way(load, facets, name, problems);
+  if (load.gas) list_gas_problems(load, facets, scene, name, problems);
+}
+
+}  // namespace plekton::dynamics

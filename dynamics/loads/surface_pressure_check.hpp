@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/loads/loads.hpp"
+#include "geometry/facet.hpp"
+
+#include <iosfwd>
+#include <span>
+#include <string>
+
+namespace plekton::dynamics {
+
+struct Scene;
+
+/// Whether facets have no rim: each side belongs to as many facets in one direction as in the
+/// other.
+bool are_closed(std::span<const geometry::Facet> facets);
+
+/// Writes a line for everything that is wrong with a pressure: facets that do not exist or are
+/// named twice, neighbours that face opposite ways, a gas that is not enclosed, numbers out of
+/// range.
+/// @param name  how the lines begin, as in "surface pressure 0"
+void list_problems(const SurfacePressure& load, const Scene& scene, const std::string& name,
+                   std::ostream& problems);
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+namespace plekton::dynamics {
+
+/// A number that changes with time: straight lines between rows, the value of the first row before
+/// it and of the last row after it. Exactly the value of a row at its time.
+class TimeTable {
+ public:
+  struct Row {
+    double time;  ///< s
+    double value;
+  };
+
+  /// 1 at all times.
+  TimeTable() : TimeTable(1.0) {}
+  /// The same number at all times.
+  explicit TimeTable(double constant);
+
+  /// @param rows  at least one, finite, their times increasing
+  /// @throws std::invalid_argument listing every problem of the rows
+  explicit TimeTable(std::vector<Row> rows);
+
+  const std::vector<Row>& rows() const noexcept { return rows_; }
+
+  /// Logarithmic in the number of rows.
+  double at(double time) const noexcept;
+  /// From time 0 to this one (s times the value), negative times included; exact but for rounding.
+  double integral(double time) const noexcept;
+  /// Right after this time (1/s).
+  double slope(double time) const noexcept;
+
+  /// Largest absolute value and slope (1/s) of all times.
+  double largest() const noexcept;
+  double largest_slope() const noexcept;
+
+ private:
+  std::size_t row_after(double time) const noexcept;
+  double integral_from_first_row(double time) const noexcept;
+
+  std::vector<Row> rows_;
+  std::vector<double> integrals_;  // by row, from the first one
+  double integral_to_zero_ = 0.0;  // from the first row to time 0
+};
+
+}  // namespace plekton::dynamics

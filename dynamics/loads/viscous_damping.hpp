@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/loads/load_step.hpp"
+#include "dynamics/loads/loaded_nodes.hpp"
+#include "dynamics/loads/loads.hpp"
+#include "dynamics/loads/node_members.hpp"
+#include "dynamics/structure/beam_bond.hpp"
+
+#include <span>
+
+namespace plekton::dynamics {
+
+/// N s/m, of the dashpot along a beam: 2 ratio sqrt(k m), k = EA/L0, m the reduced mass of its
+/// nodes. 0 if both are held.
+double dashpot_of(const BeamBond& bond, double ratio, const NodeProperties& properties);
+
+/// Beams with dashpots along them: the force on the second node is -c ((v_b - v_a).n) n, n along
+/// the beam from a to b, minus that on the first. It turns with the beam and leaves both momenta
+/// alone. The velocities are those of the last drift. 0 where the nodes coincide.
+class DampedBeams {
+ public:
+  DampedBeams(const BeamDamping& damping, std::span<const BeamBond> bonds,
+              const NodeProperties& properties);
+
+  LoadedNodes& act(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
+  LoadedNodes& nodes() noexcept { return nodes_; }
+
+  /// s, the largest c / k: these dashpots are nowhere above that times the stiffness of the beams.
+  double relaxation_time() const noexcept { return relaxation_time_; }
+
+ private:
+  NodeMembers<2> members_;
+  LoadedNodes nodes_;
+  std::vector<double> dashpots_;  // N s/m, by group of members_
+  std::vector<Vec3> forces_;      // N, on the second node, likewise
+  double relaxation_time_ = 0.0;
+};
+
+/// Nodes that are slowed down in proportion to their mass and inertia.
+class DraggedNodes {
+ public:
+  DraggedNodes(const MassDamping& damping, const NodeProperties& properties);
+
+  LoadedNodes& act(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
+  LoadedNodes& nodes() noexcept { return nodes_; }
+  double rate() const noexcept { return rate_; }  ///< 1/s
+
+ private:
+  double rate_;
+  LoadedNodes nodes_;
+  std::vector<double> mass_;     // kg, by place in nodes_
+  std::vector<double> inertia_;  // kg m²
+};
+
+/// Longest stable step (s) of the leapfrog with forces of damping that see the velocity of the last
+/// drift: of M x'' + C x' + K x = 0 with C <= relaxation_time K + rate M it is stable for
+/// dt² K + 2 dt C < 4 M, so with 4 M / dt0² the bound of K, for
+///
+///     dt² + 2 (relaxation_time + rate dt0² / 4) dt < dt0².
+///
+/// @param undamped  s, dt0; may be infinite
+double damped_step(double undamped, double relaxation_time, double rate) noexcept;
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/simulation.hpp"
+
+#include <algorithm>
+
+/// How a simulation applies its loads; simulation_definitions.hpp includes this.
+namespace plekton::dynamics {
+
+/// m/s², at any time.
+template <contact::ContactLaw Law>
+double Simulation<Law>::largest_gravity() const noexcept {
+  return scene_.loads.gravity_factor.largest() * full_gravity_.norm();
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::apply_loads() {
+  follow_gravity();
+  const LoadWork work = loads_.act({time_, last_drift_, dt_}, scene_.state, forces_, pool_);
+  work_.external += work.external;
+  work_.damped += work.damped;
+  if (!driven_planes_.empty()) drive_planes();
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::drive_planes() {
+  std::fill(plane_reactions_.begin(), plane_reactions_.end(), PlaneReaction{});
+  contacts_.with_planes().for_each_force([&](std::size_t plane, const Vec3& force,
+                                             const typename Law::Parameters& parameters,
+                                             double gap) {
+    plane_reactions_[plane].force += force;
+    plane_reactions_[plane].stiffness += Law::normal_stiffness(parameters, gap);
+  });
+  work_.external += driven_planes_.act({time_, last_drift_, dt_}, plane_reactions_, scene_.planes);
+}
+
+/// Gravity that grows does work on what lies still: its energy is that of the gravity of now.
+///
+/// Kicks by g0 and g1 do the work (g0 + g1)/2 . (C1 - C0) over the drift between them, C the free
+/// moment; -g1.C1 + g0.C0 differs from it by -(g1 - g0).(C0 + C1)/2.
+template <contact::ContactLaw Law>
+void Simulation<Law>::follow_gravity() {
+  const Vec3 gravity = scene_.loads.gravity_factor.at(time_) * full_gravity_;
+  if (gravity == motion_.gravity) return;
+  const Vec3 mean = 0.5 * (free_moment(last_drift_) + free_moment(0.0)) - initial_moment_;
+  work_.external -= (gravity - motion_.gravity).dot(mean);
+  motion_.gravity = gravity;
+}
+
+/// Mass times place (kg m) of the free nodes along the axes they are free in, at a time before now
+/// (s).
+template <contact::ContactLaw Law>
+Vec3 Simulation<Law>::free_moment(double before) const {
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t i = 0; i < scene_.state.size(); ++i) {
+    const Vec3 position = scene_.state.position[i] - before * scene_.state.velocity[i];
+    moment +=
+        scene_.properties.mass[i] * free_axes(scene_.properties.held[i]).cwiseProduct(position);
+  }
+  return moment;
+}
+
+}  // namespace plekton::dynamics

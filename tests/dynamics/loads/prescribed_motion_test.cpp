@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/loads/prescribed_motion.hpp"
+
+#include "dynamics/rotation_step.hpp"
+#include "tests/support/beam_structure.hpp"
+#include "tests/support/loaded_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace plekton::test {
+namespace {
+
+using dynamics::Held;
+using dynamics::PrescribedMotion;
+using dynamics::TimeTable;
+using testing::HasSubstr;
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+Scene lump_that(PrescribedMotion motion, const Vec3& place = Vec3(1.0, -2.0, 0.5)) {
+  Scene scene;
+  motion.nodes = {add_lump(scene, place)};
+  scene.loads.motions.push_back(std::move(motion));
+  return scene;
+}
+
+TEST(PrescribedMotion, IsAtThePlaceOfItsDisplacementTableAfterEveryStep) {
+  PrescribedMotion motion;
+  motion.displacement = Vec3(0.3, 0.0, -0.7);
+  motion.factor = TimeTable({{0.1, 0.0}, {0.35, 1.0}, {0.5, -0.5}, {0.6, 2.0}});
+  auto simulation = simulation_of(lump_that(motion), 0.0071, Vec3(0.0, 0.0, -9.81));
+
+  while (simulation.time() < 1.0) {
+    simulation.step();
+
+    const Vec3 expected =
+        Vec3(1.0, -2.0, 0.5) + motion.factor.at(simulation.time()) * motion.displacement;
+    // x + dt ((target - x) / dt): a few roundings of numbers up to 3 m.
+    EXPECT_LE((simulation.state().position[0] - expected).norm(), 8.0 * kEps * 3.0);
+  }
+  EXPECT_EQ(simulation.state().velocity[0], Vec3(Vec3::Zero()));  // at the end of the table
+}
+
+TEST(PrescribedMotion, CountsTheDisplacementFromThatOfTheStart) {
+  PrescribedMotion motion;
+  motion.displacement = Vec3(0.0, 0.1, 0.0);
+  motion.factor = TimeTable({{0.0, 5.0}, {1.0, 6.0}});
+  auto simulation = simulation_of(lump_that(motion), 0.25);
+
+  simulation.step();
+
+  EXPECT_NEAR(simulation.state().position[0].y(), -2.0 + 0.025, 8.0 * kEps * 2.0);
+}
+
+TEST(PrescribedMotion, IsAtTheIntegralOfItsVelocityTable) {
+  PrescribedMotion motion;
+  motion.velocity = Vec3(2.0, 0.0, 1.0);
+  motion.factor = TimeTable({{0.2, 0.0}, {0.4, 1.0}, {0.7, 1.0}, {0.8, -1.0}});
+  auto simulation = simulation_of(lump_that(motion), 0.013);
+
+  while (simulation.time() < 1.0) {
+    simulation.step();
+
+    const Vec3 expected =
+        Vec3(1.0, -2.0, 0.5) + motion.factor.integral(simulation.time()) * motion.velocity;
+    EXPECT_LE((simulation.state().position[0] - expected).norm(), 16.0 * kEps * 3.0);
+  }
+}
+
+TEST(PrescribedMotion, TurnsByTheIntegralOfItsAngularVelocity) {
+  PrescribedMotion motion;
+  motion.held = Held::rotation;
+  motion.angular_velocity = Vec3(0.0, 3.0, 0.0);
+  motion.factor = TimeTable({{0.0, 0.0}, {0.5, 1.0}});
+  auto simulation = simulation_of(lump_that(motion), 0.01);
+
+  for (int i = 0; i < 100; ++i) simulation.step();
+
+  const double angle = 3.0 * motion.factor.integral(simulation.time());
+  const geometry::Quat expected(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+  // A turn by rounding in each of 100 steps.
+  EXPECT_LE(simulation.state().orientation[0].angularDistance(expected), 100 * 8.0 * kEps);
+  EXPECT_EQ(simulation.state().velocity[0], Vec3(Vec3::Zero()));
+}
+
+TEST(PrescribedMotion, LeavesOtherComponentsToTheForces) {
+  PrescribedMotion motion;
+  motion.held = Held::along_x | Held::about_z;
+  motion.velocity = Vec3(1.0, 7.0, 7.0);
+  motion.angular_velocity = Vec3(7.0, 7.0, 2.0);
+  auto simulation = simulation_of(lump_that(motion), 0.125, Vec3(5.0, 0.0, -8.0));
+
+  for (int i = 0; i < 8; ++i) simulation.step();
+
+  const auto& state = simulation.state();
+  EXPECT_NEAR(state.position[0].x(), 2.0, 8.0 * kEps * 2.0);
+  EXPECT_EQ(state.position[0].y(), -2.0);
+  EXPECT_EQ(state.position[0].z(), 0.5 - 0.5 * 8.0);  // a leapfrog falls exactly
+  EXPECT_EQ(state.angular_velocity[0].head<2>(), Vec3::Zero().head<2>());
+  EXPECT_NEAR(state.angular_velocity[0].z(), 2.0, 16.0 * kEps * 2.0);
+}
+
+/// A beam whose end is moved to and fro and turned, so that its velocity changes in every step.
+Scene shaken_beam(bool held_along_the_beam_only) {
+  Scene scene = chain(8, 0.2, dynamics::circular_section(0.003, 1e7, 0.3));
+  scene.properties.held.back() = Held::everything;
+  PrescribedMotion motion;
+  motion.nodes = {NodeId{0}};
+  motion.held = held_along_the_beam_only ? Held::along_x : Held::everything;
+  motion.velocity = Vec3(0.5, 0.2, 0.3);
+  motion.angular_velocity = Vec3(2.0, 1.0, 0.0);
+  motion.factor = TimeTable({{0.0, 0.0}, {0.004, 1.0}, {0.012, -1.0}, {0.02, 0.5}});
+  scene.loads.motions.push_back(motion);
+  return scene;
+}
+
+TEST(PrescribedMotion, IsCountedInTheEnergyToSecondOrder) {
+  for (const bool along_the_beam_only : {false, true}) {
+    const Scene scene = shaken_beam(along_the_beam_only);
+    const double dt = LoadedSimulation(scene, {}).time_step();
+    auto coarse = simulation_of(scene, dt);
+    auto fine = simulation_of(scene, 0.25 * dt);
+
+    const double error = closure_until(coarse, 0.03);
+
+    EXPECT_GT(coarse.energy().external_work, 1e-6);
+    EXPECT_LT(error, 1e-3);
+    // The margin is for terms of higher order. Along the beam alone all is linear and exact.
+    EXPECT_LT(closure_until(fine, 0.03), std::max(1.2 * error / 16.0, 1e-12));
+  }
+}
+
+TEST(PrescribedMotion, MayHoldANodeWithoutMass) {
+  Scene scene;
+  PrescribedMotion motion;
+  motion.nodes = {scene.add_node(Vec3::Zero())};
+  motion.held = Held::everything;
+  motion.velocity = Vec3::UnitX();
+  scene.loads.motions.push_back(motion);
+
+  auto simulation = simulation_of(scene, 0.5);
+  simulation.step();
+
+  EXPECT_EQ(simulation.state().position[0], Vec3(0.5, 0.0, 0.0));
+}
+
+TEST(PrescribedMotion, IsRefusedWhereAComponentIsPrescribedTwice) {
+  Scene scene;
+  const NodeId a = add_lump(scene, Vec3::Zero());
+  const NodeId b = add_lump(scene, Vec3::UnitX());
+  PrescribedMotion up, along;
+  up.nodes = {a, b};
+  up.held = Held::along_z;
+  along.nodes = {b};
+  along.held = Held::along_x | Held::along_y;
+  scene.loads.motions = {up, along};
+  EXPECT_EQ(problems_of(scene), "");
+
+  scene.loads.motions[1].held = Held::translation;
+  EXPECT_THAT(problems_of(scene),
+              HasSubstr("prescribed motion 1: node 1: its translation along z is held or "
+                        "prescribed already"));
+
+  scene.loads.motions.pop_back();
+  scene.properties.held[0] = Held::translation;
+  EXPECT_THAT(problems_of(scene),
+              HasSubstr("prescribed motion 0: node 0: its translation along z"));
+}
+
+TEST(PrescribedMotion, IsRefusedForNodesThatAreNotThereOrNamedTwice) {
+  Scene scene;
+  add_lump(scene, Vec3::Zero());
+  PrescribedMotion motion;
+  motion.nodes = {NodeId{0}, NodeId{3}, NodeId{0}};
+  motion.held = Held::nothing;
+  motion.velocity.x() = std::numeric_limits<double>::infinity();
+  scene.loads.motions = {motion, PrescribedMotion{}};
+
+  const std::string problems = problems_of(scene);
+
+  EXPECT_THAT(problems, HasSubstr("prescribed motion 0: there is no node 3, only 1 nodes"));
+  EXPECT_THAT(problems, HasSubstr("prescribed motion 0: names node 0 twice"));
+  EXPECT_THAT(problems, HasSubstr("prescribed motion 0: prescribes no component"));
+  EXPECT_THAT(problems, HasSubstr("its velocity (inf   0   0) is not finite"));
+  EXPECT_THAT(problems, HasSubstr("prescribed motion 1: has no nodes"));
+}
+
+}  // namespace
+}  // namespace plekton::test
