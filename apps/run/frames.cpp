@@ -77,11 +77,9 @@ std::vector<dynamics::ContactRow> contact_rows(const Simulation& simulation) {
 
 }  // namespace
 
-Frames::Frames(const fs::path& folder, const OutputSettings& settings, const Simulation& simulation,
-               const Vec3& gravity)
+Frames::Frames(const fs::path& folder, const OutputSettings& settings, const Simulation& simulation)
     : folder_(folder),
       settings_(settings),
-      gravity_(gravity),
       sphere_ids_(simulation.elements().spheres.size()),
       grains_(folder / "grains.pvd"),
       membranes_(folder / "membranes.pvd"),
@@ -97,7 +95,7 @@ Frames::Frames(const fs::path& folder, const OutputSettings& settings, const Sim
 std::vector<Vec3> Frames::node_forces(const Simulation& simulation) const {
   std::vector<Vec3> forces = simulation.forces().force;
   for (std::size_t i = 0; i < forces.size(); ++i)
-    forces[i] += simulation.properties().mass[i] * gravity_;
+    forces[i] += simulation.properties().mass[i] * simulation.gravity();
   return forces;
 }
 

@@ -21,7 +21,7 @@ class Frames {
   /// Removes the series and frames that an earlier run left under the same names. @throws
   /// dynamics::OutputError
   Frames(const std::filesystem::path& folder, const OutputSettings& settings,
-         const Simulation& simulation, const Vec3& gravity);
+         const Simulation& simulation);
 
   /// Writes the state of now. @throws dynamics::OutputError
   void write(const Simulation& simulation);
@@ -31,12 +31,11 @@ class Frames {
  private:
   void write_part(const std::string& name, dynamics::PvdSeries& series,
                   const dynamics::PolyData& data);
-  /// Sum of contacts, bonds and gravity on each node (N).
+  /// Sum of contacts, bonds, loads and gravity on each node (N).
   std::vector<Vec3> node_forces(const Simulation& simulation) const;
 
   std::filesystem::path folder_;
   OutputSettings settings_;
-  Vec3 gravity_;
   std::vector<std::int64_t> sphere_ids_;
   dynamics::PvdSeries grains_;
   dynamics::PvdSeries membranes_;

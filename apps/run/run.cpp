@@ -49,7 +49,7 @@ class Run {
         settings_(settings),
         simulation_(*prepared.simulation),
         lost_(simulation_.elements(), simulation_.state().position),
-        frames_(settings.out, scenario.output, simulation_, scenario.simulation.gravity),
+        frames_(settings.out, scenario.output, simulation_),
         history_(settings.out),
         progress_(settings.progress, settings.style, scenario.simulation.duration) {
     report_.warnings = prepared.built.warnings;

@@ -32,6 +32,7 @@ class Simulation {
   virtual const dynamics::BeamBonds& bonds() const = 0;
   virtual const dynamics::SheetFacets& sheet_facets() const = 0;
   virtual const dynamics::NodeForces& forces() const = 0;
+  virtual const geometry::Vec3& gravity() const = 0;
 
   virtual dynamics::Energy energy() const = 0;
   virtual dynamics::CriticalStep critical_step() const = 0;
@@ -68,6 +69,7 @@ class SimulationUnder final : public Simulation {
   const dynamics::BeamBonds& bonds() const override { return simulation_.bonds(); }
   const dynamics::SheetFacets& sheet_facets() const override { return simulation_.sheet_facets(); }
   const dynamics::NodeForces& forces() const override { return simulation_.forces(); }
+  const geometry::Vec3& gravity() const override { return simulation_.gravity(); }
 
   dynamics::Energy energy() const override { return simulation_.energy(); }
   dynamics::CriticalStep critical_step() const override { return simulation_.critical_step(); }

@@ -30,6 +30,10 @@ PlaneSettings read_plane(Section section, const Known& known);
 OutputSettings read_output(Section section, double duration);
 StopSettings read_stop(Section section);
 
+/// @param scenario  with its membranes, grains and planes
+/// @param number    Position among the tables, for those without a name.
+LoadSettings read_load(Section section, const Scenario& scenario, std::size_t number);
+
 /// The material that a key names; nothing after a problem.
 std::optional<std::size_t> read_material_of(Section& section, const Known& known,
                                             std::string_view key = "material");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/grains/size_curve.hpp"
+#include "apps/scenario/load_settings.hpp"
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/shape_settings.hpp"
 #include "contact/laws/law_list.hpp"
@@ -150,6 +151,7 @@ struct Scenario {
   std::vector<MembraneSettings> membranes;
   std::vector<GrainSettings> grains;
   std::vector<PlaneSettings> planes;
+  std::vector<LoadSettings> loads;
   OutputSettings output;
   std::optional<StopSettings> stop;
 };

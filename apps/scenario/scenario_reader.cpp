@@ -45,6 +45,11 @@ void read_bodies(Section& root, Scenario& scenario) {
     require_new_name(scenario.planes, plane, section);
     scenario.planes.push_back(std::move(plane));
   }
+  for (Section& section : root.tables("loads")) {
+    LoadSettings load = read_load(section, scenario, scenario.loads.size());
+    require_new_name(scenario.loads, load, section);
+    scenario.loads.push_back(std::move(load));
+  }
 }
 
 Scenario scenario_of(const Table& table, const fs::path& path) {

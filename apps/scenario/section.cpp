@@ -182,6 +182,53 @@ std::vector<int> Section::integers(std::string_view key, std::vector<int> least,
   return numbers;
 }
 
+std::vector<std::array<double, 2>> Section::rising_rows(std::string_view key, const Quantity& first,
+                                                        const Quantity& second) {
+  const Value* value = require(key);
+  if (value == nullptr) return {};
+  const auto* array = std::get_if<Array>(&value->data);
+  const std::size_t problems = problems_->count();
+  if (array == nullptr || array->empty())
+    complain(key,
+             fmt::format("got {}; expected a list of pairs, [[..., ...], ...]", shown(*value)));
+  std::vector<std::array<double, 2>> rows;
+  for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
+    const Value& row = (*array)[i];
+    const std::string path = fmt::format("{}[{}]", path_of(key), i);
+    const auto* pair = std::get_if<Array>(&row.data);
+    if (pair == nullptr || pair->size() != 2) {
+      problems_->add(row.place,
+                     fmt::format("{}: got {}; expected a pair, [{}, {}]", path, shown(row),
+                                 first.dimension.name, second.dimension.name));
+      continue;
+    }
+    rows.push_back({read_quantity((*pair)[0], path + "[0]", first),
+                    read_quantity((*pair)[1], path + "[1]", second)});
+    if (rows.size() < 2 || !(rows.back()[0] <= rows[rows.size() - 2][0])) continue;
+    problems_->add(row.place,
+                   fmt::format("{}: {} {} is not above {} {} of the row before; list "
+                               "the rows by increasing {}",
+                               path, rows.back()[0], first.dimension.si_unit,
+                               rows[rows.size() - 2][0], first.dimension.si_unit,
+                               first.dimension.name.substr(first.dimension.name.find(' ') + 1)));
+  }
+  return problems_->count() == problems ? rows : std::vector<std::array<double, 2>>{};
+}
+
+std::vector<std::string> Section::texts(std::string_view key) {
+  const Value* value = require(key);
+  if (value == nullptr) return {};
+  const auto* array = std::get_if<Array>(&value->data);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
+    const auto* text = std::get_if<std::string>(&(*array)[i].data);
+    if (text != nullptr && !text->empty()) texts.push_back(*text);
+  }
+  if (array != nullptr && texts.size() == array->size() && !texts.empty()) return texts;
+  complain(key, fmt::format("got {}; expected a list of texts in quotes", shown(*value)));
+  return {};
+}
+
 bool Section::truth(std::string_view key, bool fallback) {
   const Value* value = find(key);
   if (value == nullptr) return fallback;

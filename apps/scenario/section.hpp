@@ -5,6 +5,7 @@
 #include "apps/scenario/units.hpp"
 #include "geometry/types.hpp"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -75,9 +76,15 @@ class Section {
                        std::optional<std::int64_t> fallback = {});
   /// A list of whole numbers, each from its least to most. The least ones after a problem.
   std::vector<int> integers(std::string_view key, std::vector<int> least, int most);
+  /// A list of pairs, [[first, second], ...], at least one, whose first numbers increase. Empty
+  /// after a problem.
+  std::vector<std::array<double, 2>> rising_rows(std::string_view key, const Quantity& first,
+                                                 const Quantity& second);
   bool truth(std::string_view key, bool fallback);
   /// Empty after a problem.
   std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
+  /// A list of texts, none of them empty; empty after a problem.
+  std::vector<std::string> texts(std::string_view key);
   /// Position among the words; 0 after a problem. Without a fallback the key is required.
   std::size_t choice(std::string_view key, std::span<const std::string_view> words,
                      std::optional<std::size_t> fallback = {});

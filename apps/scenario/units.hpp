@@ -30,6 +30,10 @@ inline constexpr Dimension kAngle{"an angle", {0, 0, 0, 1}, "rad", "deg, rad"};
 inline constexpr Dimension kVelocity{"a velocity", {0, 1, -1, 0}, "m/s", "m/s, mm/s, cm/min, km/h"};
 inline constexpr Dimension kAcceleration{"an acceleration", {0, 1, -2, 0}, "m/s2", "m/s2, mm/s2"};
 inline constexpr Dimension kForce{"a force", {1, 1, -2, 0}, "N", "N, kN, MN, mN"};
+inline constexpr Dimension kRate{"a rate", {0, 0, -1, 0}, "1/s", "Hz, s-1"};
+inline constexpr Dimension kAngularVelocity{
+    "an angular velocity", {0, 0, -1, 1}, "rad/s", "rad/s, deg/s"};
+inline constexpr Dimension kTorque{"a torque", {1, 2, -2, 0}, "N m", "N m, kN m, N mm"};
 inline constexpr Dimension kEnergy{"an energy", {1, 2, -2, 0}, "J", "J, kJ, mJ, uJ"};
 inline constexpr Dimension kPressure{
     "a pressure or modulus", {1, -1, -2, 0}, "Pa", "Pa, kPa, MPa, GPa, N/mm2"};

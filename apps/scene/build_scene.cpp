@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/build_scene.hpp"
 
+#include "apps/scene/build_loads.hpp"
 #include "apps/scene/grain_generator.hpp"
 #include "apps/scene/membrane_builder.hpp"
 #include "geometry/mesh/import.hpp"
@@ -117,6 +118,7 @@ BuiltScene build_scene(const Scenario& scenario) {
     }
   }
   problems.throw_if_any();
+  add_loads(scenario, built);
   return built;
 }
 

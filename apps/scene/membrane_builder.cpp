@@ -190,6 +190,7 @@ BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) 
   result.nodes = body.membrane.nodes.size();
   result.facets = body.membrane.facets.size();
   result.beams = settings.mode == MembraneMode::continuum ? 0 : body.membrane.edges.size();
+  result.on_rim = body.on_rim;
   result.area = body.area;
   result.held_nodes = add_nodes(settings, body, built);
   add_elements(settings, body.membrane, built.scene, result);

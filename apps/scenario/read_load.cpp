@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/closest_word.hpp"
+#include "apps/scenario/read_load_targets.hpp"
+#include "apps/scenario/read_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace plekton::apps {
+namespace {
+
+using dynamics::Held;
+using dynamics::TimeTable;
+
+constexpr Range kGain{0.0, 1.0, false, true, " above 0, at most 1"};
+
+/// The table that multiplies a load; 1 if there is none.
+TimeTable read_factor(Section& section) {
+  if (!section.has("factor")) return {};
+  std::vector<TimeTable::Row> rows;
+  for (const auto& [time, value] : section.rising_rows("factor", {kTime}, {kNumber}))
+    rows.push_back({time, value});
+  return rows.empty() ? TimeTable() : TimeTable(std::move(rows));
+}
+
+/// Whether exactly one of two keys is there; complains otherwise.
+bool has_one_of(Section& section, std::string_view a, std::string_view b, std::string_view why) {
+  const bool has_a = section.has(a);
+  const bool has_b = section.has(b);
+  if (has_a != has_b) return true;
+  section.complain(a, fmt::format("got {} of {} and {}; expected exactly one of them: {}",
+                                  has_a ? "both" : "none", a, b, why));
+  return false;
+}
+
+Held read_components(Section& section) {
+  constexpr std::array<std::string_view, 7> kWords = {"xyz", "x", "y", "z", "xy", "xz", "yz"};
+  constexpr std::array kMeanings = {Held::translation,
+                                    Held::along_x,
+                                    Held::along_y,
+                                    Held::along_z,
+                                    Held::along_x | Held::along_y,
+                                    Held::along_x | Held::along_z,
+                                    Held::along_y | Held::along_z};
+  return kMeanings[section.choice("components", kWords, 0)];
+}
+
+dynamics::PlaneMotion read_plane_motion(Section& section, const Scenario& scenario) {
+  dynamics::PlaneMotion motion;
+  motion.plane = read_plane_name(section, scenario).value_or(0);
+  motion.velocity = section.vector("velocity", {kVelocity});
+  motion.factor = read_factor(section);
+  return motion;
+}
+
+MotionSettings read_motion(Section& section, const Scenario& scenario) {
+  MotionSettings settings;
+  settings.nodes = read_node_set(section, scenario);
+  dynamics::PrescribedMotion& motion = settings.motion;
+  const bool turns = section.has("angular_velocity");
+  const bool moves = section.has("displacement") || section.has("velocity");
+  motion.held = Held::nothing;
+  if (moves || !turns) {
+    has_one_of(section, "displacement", "velocity", "a motion needs to be told");
+    motion.held = read_components(section);
+    if (section.has("displacement"))
+      motion.displacement = section.vector("displacement", {kLength});
+    if (section.has("velocity")) motion.velocity = section.vector("velocity", {kVelocity});
+  }
+  if (section.truth("hold_rotation", turns)) motion.held = motion.held | Held::rotation;
+  if (turns) motion.angular_velocity = section.vector("angular_velocity", {kAngularVelocity});
+  if (turns && (motion.held & Held::rotation) != Held::rotation)
+    section.complain("hold_rotation", "got false, but angular_velocity says how the nodes turn");
+  motion.factor = read_factor(section);
+  return settings;
+}
+
+ForceSettings read_force(Section& section, const Scenario& scenario) {
+  ForceSettings settings;
+  settings.nodes = read_node_set(section, scenario);
+  settings.is_total = section.has("total_force");
+  const bool has_torque = section.has("torque");
+  if (has_torque) settings.load.torque = section.vector("torque", {kTorque});
+  if (!has_torque || settings.is_total || section.has("force"))
+    has_one_of(section, "force", "total_force", "the force on each node, or on all together");
+  if (section.has("force")) settings.load.force = section.vector("force", {kForce});
+  if (settings.is_total) settings.load.force = section.vector("total_force", {kForce});
+  settings.load.factor = read_factor(section);
+  return settings;
+}
+
+GroundSpringSettings read_ground_springs(Section& section, const Scenario& scenario) {
+  return {read_node_set(section, scenario),
+          {{}, section.vector("stiffness", {kStiffness, kNotNegative})}};
+}
+
+MassDampingSettings read_mass_damping(Section& section, const Scenario& scenario) {
+  return {read_node_set(section, scenario), {{}, section.quantity("rate", {kRate, kNotNegative})}};
+}
+
+BeamDampingSettings read_beam_damping(Section& section, const Scenario& scenario) {
+  return {read_membrane_name(section, scenario).value_or(0),
+          {{}, section.quantity("ratio", {kNumber, kNotNegative})}};
+}
+
+PressureSettings read_pressure(Section& section, const Scenario& scenario) {
+  PressureSettings settings;
+  settings.membrane = read_membrane_name(section, scenario).value_or(0);
+  settings.membrane_place = section.place_of("membrane");
+  settings.load.pressure = section.quantity("pressure", {kPressure});
+  settings.load.factor = read_factor(section);
+  settings.gas_place = section.place_of("gas");
+  if (auto table = section.table("gas")) {
+    dynamics::Gas gas;
+    gas.outside_pressure =
+        table->quantity("outside_pressure", {kPressure, kNotNegative}, gas.outside_pressure);
+    gas.exponent = table->quantity("exponent", {kNumber, kPositive}, gas.exponent);
+    table->finish();
+    settings.load.gas = gas;
+  }
+  return settings;
+}
+
+dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
+  dynamics::PlaneServo servo;
+  servo.plane = read_plane_name(section, scenario).value_or(0);
+  has_one_of(section, "force", "pressure", "a servo needs a target");
+  if (section.has("force")) servo.force = section.quantity("force", {kForce, kPositive});
+  if (section.has("pressure")) {
+    servo.pressure = section.quantity("pressure", {kPressure, kPositive});
+    has_one_of(section, "area", "between", "a pressure needs the area of the plate");
+  }
+  if (section.has("area")) servo.area = section.quantity("area", {kArea, kPositive});
+  if (section.has("between")) servo.between = read_plane_pairs(section, scenario);
+  if (section.has("force") && (section.has("area") || section.has("between")))
+    section.complain("force", "is the whole force on the plate; area and between go with pressure");
+  servo.largest_speed = section.quantity("speed", {kVelocity, kPositive});
+  servo.gain = section.quantity("gain", {kNumber, kGain}, servo.gain);
+  servo.factor = read_factor(section);
+  return servo;
+}
+
+}  // namespace
+
+LoadSettings read_load(Section section, const Scenario& scenario, std::size_t number) {
+  constexpr std::array<std::string_view, 8> kKinds = {
+      "motion",  "force",          "pressure",     "servo",
+      "gravity", "ground_springs", "beam_damping", "mass_damping"};
+  LoadSettings settings;
+  settings.name = section.text("name", fmt::format("loads {}", number));
+  settings.path = section.path();
+  settings.place = section.place();
+  const std::optional<std::size_t> kind = section.known_choice("kind", kKinds);
+  if (!kind) return settings;
+  switch (*kind) {
+    case 0:
+      if (section.has("plane"))
+        settings.load = read_plane_motion(section, scenario);
+      else
+        settings.load = read_motion(section, scenario);
+      break;
+    case 1:
+      settings.load = read_force(section, scenario);
+      break;
+    case 2:
+      settings.load = read_pressure(section, scenario);
+      break;
+    case 3:
+      settings.load = read_servo(section, scenario);
+      break;
+    case 4:
+      if (!section.has("factor"))
+        section.complain(
+            "factor", "missing; expected a list of [time, factor], by which gravity is multiplied");
+      settings.load = GravitySettings{read_factor(section)};
+      break;
+    case 5:
+      settings.load = read_ground_springs(section, scenario);
+      break;
+    case 6:
+      settings.load = read_beam_damping(section, scenario);
+      break;
+    default:
+      settings.load = read_mass_damping(section, scenario);
+      break;
+  }
+  section.finish();
+  return settings;
+}
+
+}  // namespace plekton::apps

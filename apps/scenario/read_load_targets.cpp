@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/read_load_targets.hpp"
+
+#include "apps/scenario/closest_word.hpp"
+#include "apps/scenario/read_sections.hpp"
+
+#include <fmt/format.h>
+
+namespace plekton::apps {
+namespace {
+
+/// Position of a name among the bodies of a kind.
+/// @param kind  as in "membrane"; their tables are [[kind]] or [[kinds]]
+template <class Body>
+std::optional<std::size_t> find_name(Section& section, std::string_view key,
+                                     const std::string& name, const std::vector<Body>& bodies) {
+  if (name.empty()) return std::nullopt;
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].name == name) return i;
+    if (!bodies[i].name.empty()) names.push_back(bodies[i].name);
+  }
+  const std::string closest = closest_word(name, names);
+  section.complain(key, fmt::format("there is none called \"{}\"; {}", name,
+                                    !closest.empty() ? fmt::format("did you mean \"{}\"?", closest)
+                                    : names.empty()  ? "none of them has a name; give it one"
+                                                     : "there are " + listed(names)));
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::size_t> read_membrane_name(Section& section, const Scenario& scenario) {
+  return find_name(section, "membrane", section.text("membrane"), scenario.membranes);
+}
+
+std::optional<std::size_t> read_plane_name(Section& section, const Scenario& scenario) {
+  return find_name(section, "plane", section.text("plane"), scenario.planes);
+}
+
+std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
+                                                         const Scenario& scenario) {
+  const std::vector<std::string> names = section.texts("between");
+  if (names.size() % 2 != 0 || names.size() > 4) {
+    section.complain("between", fmt::format("got {} names; expected those of two planes that face "
+                                            "each other, or of two such pairs",
+                                            names.size()));
+    return {};
+  }
+  std::vector<std::array<std::size_t, 2>> pairs;
+  for (std::size_t i = 0; i + 1 < names.size(); i += 2) {
+    const auto a = find_name(section, "between", names[i], scenario.planes);
+    const auto b = find_name(section, "between", names[i + 1], scenario.planes);
+    if (!a || !b) continue;
+    constexpr double kTolerance = 1e-9;  // of unit normals
+    if ((scenario.planes[*a].normal + scenario.planes[*b].normal).norm() < kTolerance)
+      pairs.push_back({*a, *b});
+    else
+      section.complain("between", fmt::format("\"{}\" and \"{}\" do not face each other: their "
+                                              "normals are not opposite; name them in pairs",
+                                              names[i], names[i + 1]));
+  }
+  return pairs;
+}
+
+NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
+  constexpr std::array<std::string_view, 8> kWords = {"all",   "rim",   "x_min", "x_max",
+                                                      "y_min", "y_max", "z_min", "z_max"};
+  NodeSetSettings set;
+  set.of_grains = section.has("grains");
+  if (set.of_grains == section.has("membrane")) {
+    section.complain("membrane", fmt::format("got {} of membrane and grains; expected exactly one "
+                                             "of them: whose nodes are meant",
+                                             set.of_grains ? "both" : "none"));
+    section.has("nodes");
+    return set;
+  }
+  set.body = (set.of_grains ? find_name(section, "grains", section.text("grains"), scenario.grains)
+                            : read_membrane_name(section, scenario))
+                 .value_or(0);
+  set.place = section.place_of("nodes");
+  if (section.is_table("nodes")) {
+    set.which = SetWhich::box;
+    set.box = read_box(*section.table("nodes"));
+    return set;
+  }
+  const auto fallback = set.of_grains ? std::optional(std::size_t{0}) : std::nullopt;
+  set.which = static_cast<SetWhich>(section.choice("nodes", kWords, fallback));
+  if (set.of_grains && set.which == SetWhich::rim)
+    section.complain("nodes",
+                     "grains have no rim; expected \"all\", a side such as \"z_max\", or "
+                     "a box { min = [...], max = [...] }");
+  return set;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scenario/scenario.hpp"
+#include "apps/scenario/section.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+/// What a load acts on, by name. Each function complains about names that are not there.
+namespace plekton::apps {
+
+/// The membrane that the key `membrane` names; nothing after a problem.
+std::optional<std::size_t> read_membrane_name(Section& section, const Scenario& scenario);
+
+/// The plane that the key `plane` names; nothing after a problem.
+std::optional<std::size_t> read_plane_name(Section& section, const Scenario& scenario);
+
+/// The planes that the key `between` names, in pairs that follow each other.
+std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
+                                                         const Scenario& scenario);
+
+/// From the keys `membrane` or `grains`, and `nodes`.
+NodeSetSettings read_node_set(Section& section, const Scenario& scenario);
+
+}  // namespace plekton::apps

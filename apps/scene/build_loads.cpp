@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scene/build_loads.hpp"
+
+#include "apps/scene/node_set.hpp"
+#include "apps/scene/prescribed_once.hpp"
+#include "dynamics/loads/surface_pressure.hpp"
+#include "dynamics/loads/surface_pressure_check.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+namespace plekton::apps {
+namespace {
+
+using geometry::NodeId;
+
+/// Adds one load after the other and collects what is wrong with them.
+class LoadBuilder {
+ public:
+  LoadBuilder(const Scenario& scenario, BuiltScene& built)
+      : scenario_(scenario),
+        built_(built),
+        loads_(built.scene.loads),
+        prescribed_(built.scene.properties.held) {}
+
+  void add_all() {
+    for (const LoadSettings& settings : scenario_.loads) {
+      current_ = &settings;
+      std::visit([&](const auto& load) { add(load); }, settings.load);
+    }
+    problems_.throw_if_any();
+  }
+
+ private:
+  void add(const GravitySettings& gravity) {
+    if (std::exchange(has_gravity_, true))
+      complain(current_->place, "kind", "there is a load of kind gravity already; expected one");
+    loads_.gravity_factor = gravity.factor;
+  }
+
+  void add(const MotionSettings& settings) {
+    dynamics::PrescribedMotion motion = settings.motion;
+    motion.nodes = nodes_of_set(settings.nodes);
+    const std::string taken = prescribed_.add(motion, *current_);
+    if (!taken.empty()) {
+      complain(
+          settings.nodes.place, "nodes",
+          fmt::format("in \"{}\", {}; expected each component of a node to be prescribed once: "
+                      "take other nodes or components",
+                      name_of(settings.nodes), taken));
+    }
+    loads_.motions.push_back(std::move(motion));
+  }
+
+  void add(const ForceSettings& settings) {
+    dynamics::NodalForce load = settings.load;
+    load.nodes = nodes_of_set(settings.nodes);
+    if (settings.is_total && !load.nodes.empty())
+      load.force /= static_cast<double>(load.nodes.size());
+    loads_.forces.push_back(std::move(load));
+  }
+
+  void add(const GroundSpringSettings& settings) {
+    loads_.ground_springs.push_back({nodes_of_set(settings.nodes), settings.springs.stiffness});
+  }
+
+  void add(const MassDampingSettings& settings) {
+    loads_.mass_damping.push_back({nodes_of_set(settings.nodes), settings.damping.rate});
+  }
+
+  void add(const BeamDampingSettings& settings) {
+    dynamics::BeamDamping damping = settings.damping;
+    const auto [first, count] = range_of(settings.membrane, &BuiltMembrane::beams);
+    if (count == 0)
+      complain(current_->place, "membrane",
+               fmt::format("\"{}\" has no beams to damp; expected a membrane of beams or bars, or "
+                           "kind = \"mass_damping\"",
+                           built_.membranes[settings.membrane].name));
+    for (std::size_t i = 0; i < count; ++i) damping.bonds.push_back(first + i);
+    loads_.beam_damping.push_back(std::move(damping));
+  }
+
+  void add(const PressureSettings& settings) {
+    dynamics::SurfacePressure load = settings.load;
+    const auto [first, count] = range_of(settings.membrane, &BuiltMembrane::facets);
+    for (std::size_t i = 0; i < count; ++i)
+      load.facets.push_back(geometry::id_at<geometry::FaceId>(first + i));
+    const std::string& name = built_.membranes[settings.membrane].name;
+    if (count == 0)
+      complain(settings.membrane_place, "membrane",
+               fmt::format("\"{}\" is a net without facets; expected a sheet or a shell for the "
+                           "pressure to act on",
+                           name));
+    else if (load.gas)
+      require_closed(settings, load);
+    loads_.pressures.push_back(std::move(load));
+  }
+
+  void add(const dynamics::PlaneMotion& motion) {
+    drive(motion.plane);
+    const PlaneSettings& plane = scenario_.planes[motion.plane];
+    if (!plane.velocity.isZero(0.0))
+      complain(current_->place, "plane",
+               fmt::format("\"{}\" has a velocity of its own; leave planes.{}.velocity out",
+                           plane.name, plane.name));
+    loads_.plane_motions.push_back(motion);
+  }
+
+  void add(const dynamics::PlaneServo& servo) {
+    drive(servo.plane);
+    loads_.servos.push_back(servo);
+  }
+
+  /// The first facet or beam of a membrane, and how many there are.
+  std::pair<std::size_t, std::size_t> range_of(std::size_t membrane,
+                                               std::size_t BuiltMembrane::*count) const {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < membrane; ++i) first += built_.membranes[i].*count;
+    return {first, built_.membranes[membrane].*count};
+  }
+
+  const std::string& name_of(const NodeSetSettings& set) const {
+    return set.of_grains ? built_.grains[set.body].name : built_.membranes[set.body].name;
+  }
+
+  std::vector<NodeId> nodes_of_set(const NodeSetSettings& set) {
+    std::vector<NodeId> nodes = nodes_of(set, built_);
+    if (nodes.empty())
+      complain(set.place, "nodes",
+               set.which == SetWhich::rim
+                   ? fmt::format("\"{}\" is closed and has no rim; expected a side such as "
+                                 "\"x_min\", or a box {{ min = [...], max = [...] }}",
+                                 name_of(set))
+                   : fmt::format("\"{}\" has no node there; the box counts in the scene, after "
+                                 "scale, rotate and translate",
+                                 name_of(set)));
+    return nodes;
+  }
+
+  void require_closed(const PressureSettings& settings, const dynamics::SurfacePressure& load) {
+    std::vector<geometry::Facet> facets;
+    std::vector<std::array<NodeId, 3>> corners;
+    for (const geometry::FaceId facet : load.facets) {
+      facets.push_back(built_.scene.elements.facets[index_of(facet)]);
+      corners.push_back(facets.back().nodes);
+    }
+    const std::string& name = built_.membranes[settings.membrane].name;
+    if (!dynamics::are_closed(facets))
+      complain(
+          settings.gas_place, "gas",
+          fmt::format("\"{}\" is open and encloses no volume; expected a closed surface: close "
+                      "it (fill_holes), or leave gas out for a pressure that does not depend "
+                      "on the volume",
+                      name));
+    else if (!(dynamics::volume_under(corners, built_.scene.state.position) > 0.0))
+      complain(
+          settings.gas_place, "gas",
+          fmt::format("the facets of \"{}\" face inward; expected them to face outward", name));
+  }
+
+  void drive(std::size_t plane) {
+    if (driven_.empty()) driven_.resize(scenario_.planes.size(), nullptr);
+    const LoadSettings* const by = std::exchange(driven_[plane], current_);
+    if (by != nullptr)
+      complain(current_->place, "plane",
+               fmt::format("\"{}\" is driven by {} already; expected one load for a plane",
+                           scenario_.planes[plane].name, by->path));
+  }
+
+  void complain(const Place& place, std::string_view key, const std::string& what) {
+    problems_.add(place, fmt::format("{}.{}: {}", current_->path, key, what));
+  }
+
+  const Scenario& scenario_;
+  BuiltScene& built_;
+  dynamics::Loads& loads_;
+  PrescribedOnce prescribed_;
+  Problems problems_;
+  const LoadSettings* current_ = nullptr;
+  std::vector<const LoadSettings*> driven_;  // by plane
+  bool has_gravity_ = false;
+};
+
+}  // namespace
+
+void add_loads(const Scenario& scenario, BuiltScene& built) {
+  LoadBuilder(scenario, built).add_all();
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scene/build_scene.hpp"
+
+namespace plekton::apps {
+
+/// Adds the loads of a scenario to a scene that is otherwise complete: looks up their nodes, facets
+/// and beams.
+/// @throws InputError listing every problem, each with its place: sets without nodes, motions that
+/// are prescribed twice or held, pressure on a net, a gas in a surface that is not closed.
+void add_loads(const Scenario& scenario, BuiltScene& built);
+
+}  // namespace plekton::apps

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scene/node_set.hpp"
+
+#include <algorithm>
+
+namespace plekton::apps {
+namespace {
+
+using geometry::index_of;
+using geometry::NodeId;
+
+std::vector<NodeId> nodes_of_body(const NodeSetSettings& set, const BuiltScene& built) {
+  std::vector<NodeId> nodes;
+  if (!set.of_grains) {
+    const BuiltMembrane& membrane = built.membranes[set.body];
+    for (std::size_t i = 0; i < membrane.nodes; ++i)
+      nodes.push_back(geometry::id_at<NodeId>(membrane.first_node + i));
+    return nodes;
+  }
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < set.body; ++i) first += built.grains[i].count;
+  for (std::size_t i = 0; i < built.grains[set.body].count; ++i)
+    nodes.push_back(built.scene.elements.spheres[first + i].nodes[0]);
+  return nodes;
+}
+
+/// The box that holds the nodes of a side.
+geometry::Box box_of_side(SetWhich which, const std::vector<NodeId>& nodes, geometry::Positions x) {
+  constexpr double kTolerance = 1e-9;  // of the size: rounding of a turned mesh
+  geometry::Box box{x[index_of(nodes.front())], x[index_of(nodes.front())]};
+  for (const NodeId node : nodes) {
+    box.lower = box.lower.cwiseMin(x[index_of(node)]);
+    box.upper = box.upper.cwiseMax(x[index_of(node)]);
+  }
+  const int side = static_cast<int>(which) - static_cast<int>(SetWhich::x_min);
+  const double tolerance = kTolerance * (box.upper - box.lower).norm();
+  if (side % 2 == 0)
+    box.upper[side / 2] = box.lower[side / 2] + tolerance;
+  else
+    box.lower[side / 2] = box.upper[side / 2] - tolerance;
+  return box;
+}
+
+}  // namespace
+
+std::vector<NodeId> nodes_of(const NodeSetSettings& set, const BuiltScene& built) {
+  const geometry::Positions x = built.scene.state.position;
+  std::vector<NodeId> nodes = nodes_of_body(set, built);
+  if (set.which == SetWhich::all || nodes.empty()) return nodes;
+  if (set.which == SetWhich::rim) {
+    const BuiltMembrane& membrane = built.membranes[set.body];
+    std::erase_if(
+        nodes, [&](NodeId node) { return !membrane.on_rim[index_of(node) - membrane.first_node]; });
+    return nodes;
+  }
+  const geometry::Box box = set.which == SetWhich::box ? set.box : box_of_side(set.which, nodes, x);
+  std::erase_if(nodes, [&](NodeId node) {
+    const Vec3& place = x[index_of(node)];
+    return (place.array() < box.lower.array()).any() || (place.array() > box.upper.array()).any();
+  });
+  return nodes;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scene/build_scene.hpp"
+
+#include <vector>
+
+namespace plekton::apps {
+
+/// The nodes of a set, ascending. None if the set is empty.
+///
+/// A side is where a coordinate of the body is least or greatest, to 1e-9 of the body's size.
+std::vector<geometry::NodeId> nodes_of(const NodeSetSettings& set, const BuiltScene& built);
+
+}  // namespace plekton::apps

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loads of a scenario, as the user of the program meets them.
+#include "tests/apps/command_line/command_fixture.hpp"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A sheet, a closed ball, a net, grains, and planes around them; loads are added below.
+constexpr std::string_view kBodies = R"([simulation]
+duration = "2 ms"
+[materials.stone]
+density = "2650 kg/m3"
+young_modulus = "20 MPa"
+friction_angle = "35 deg"
+[[membranes]]
+name = "sheet"
+shape = { kind = "sheet", width = "10 cm", length = "10 cm", cells = [4, 4] }
+thickness = "2 mm"
+material = "stone"
+young_modulus = "50 MPa"
+areal_mass = "300 g/m2"
+[[membranes]]
+name = "ball"
+shape = { kind = "sphere", radius = "3 cm", subdivisions = 1 }
+translate = [0, 0, "6 cm"]
+thickness = "2 mm"
+material = "stone"
+young_modulus = "50 MPa"
+areal_mass = "300 g/m2"
+[[membranes]]
+name = "net"
+shape = { kind = "biaxial_geogrid", rib_pitch = "2 cm", bar_pitch = "2 cm", apertures = [3, 3] }
+translate = [0, 0, "-4 cm"]
+thickness = "2 mm"
+material = "stone"
+young_modulus = "50 MPa"
+density = "1000 kg/m3"
+hold = "rim"
+[[grains]]
+name = "gravel"
+material = "stone"
+count = 5
+radius = "5 mm"
+box = { min = ["-5 cm", "-5 cm", "12 cm"], max = ["5 cm", "5 cm", "14 cm"] }
+[[planes]]
+name = "floor"
+point = [0, 0, "-5 cm"]
+material = "stone"
+[[planes]]
+name = "lid"
+point = [0, 0, "20 cm"]
+normal = [0, 0, -1]
+material = "stone"
+[[planes]]
+name = "left"
+point = ["-20 cm", 0, 0]
+normal = [1, 0, 0]
+material = "stone"
+velocity = [0.01, 0, 0]
+[[planes]]
+name = "right"
+point = ["20 cm", 0, 0]
+normal = [-1, 0, 0]
+material = "stone"
+)";
+
+class Loads : public Command {
+ protected:
+  /// `plekton check` of the bodies with these tables [[loads]].
+  Outcome check(const std::string& loads) const {
+    const std::string file = (folder_ / "loads.toml").string();
+    test::write_bytes(file, std::string(kBodies) + loads);
+    return outcome_of({"check", file});
+  }
+
+  void expect_problem(const std::string& load, const std::string& problem) const {
+    const Outcome outcome = check("[[loads]]\nname = \"a\"\n" + load);
+    EXPECT_EQ(outcome.exit_code, kFailed) << load;
+    EXPECT_THAT(outcome.err, HasSubstr(problem)) << load;
+    EXPECT_THAT(outcome.err, HasSubstr("loads.toml:")) << load;
+  }
+};
+
+constexpr std::string_view kAllLoads = R"([[loads]]
+name = "start"
+kind = "gravity"
+factor = [[0, 0], ["1 ms", 1]]
+[[loads]]
+kind = "motion"
+membrane = "sheet"
+nodes = "x_max"
+velocity = ["10 mm/s", 0, 0]
+factor = [["0 s", 0], ["1 ms", 1]]
+[[loads]]
+kind = "motion"
+membrane = "sheet"
+nodes = "x_min"
+components = "yz"
+displacement = [0, 0, "1 mm"]
+angular_velocity = [0, 0, "90 deg/s"]
+factor = [["0 s", 0], ["2 ms", 1]]
+[[loads]]
+kind = "force"
+membrane = "sheet"
+nodes = { min = ["-1 cm", "-1 cm", "-1 mm"], max = ["1 cm", "1 cm", "1 mm"] }
+total_force = [0, 0, "-1 N"]
+torque = [0, 0, "1 N mm"]
+[[loads]]
+kind = "force"
+grains = "gravel"
+force = ["1 mN", 0, 0]
+[[loads]]
+kind = "ground_springs"
+membrane = "ball"
+nodes = "z_min"
+stiffness = ["1 N/mm", 0, "2 N/mm"]
+[[loads]]
+kind = "pressure"
+membrane = "ball"
+pressure = "2 kPa"
+factor = [[0, 0], ["1 ms", 1]]
+gas = { exponent = 1.4, outside_pressure = "1 bar" }
+[[loads]]
+kind = "pressure"
+membrane = "sheet"
+pressure = "-100 Pa"
+[[loads]]
+kind = "beam_damping"
+membrane = "net"
+ratio = 0.1
+[[loads]]
+kind = "mass_damping"
+membrane = "ball"
+nodes = "all"
+rate = "10 Hz"
+[[loads]]
+kind = "servo"
+plane = "lid"
+pressure = "1 kPa"
+area = "0.4 m2"
+speed = "5 cm/s"
+)";
+
+TEST_F(Loads, RunAndKeepTheBooks) {
+  const std::string file = (folder_ / "all.toml").string();
+  test::write_bytes(file, std::string(kBodies) + std::string(kAllLoads));
+
+  const Outcome outcome = outcome_of({"run", file, "--out", out()});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_LT(report()["energy_closure"], 0.01);
+  EXPECT_NE(report()["energy"]["external_work_J"], 0.0);
+  EXPECT_GT(report()["energy"]["damping_J"], 0.0);
+}
+
+TEST_F(Loads, AreRefusedWithTheNameOfWhatIsNotThere) {
+  expect_problem("kind = \"presure\"\n", "loads.a.kind: got \"presure\"; expected one of");
+  expect_problem("kind = \"presure\"\n", "did you mean \"pressure\"?");
+  expect_problem("", "loads.a.kind: missing; expected one of");
+  expect_problem("kind = \"pressure\"\nmembrane = \"shet\"\npressure = 1\n",
+                 "loads.a.membrane: there is none called \"shet\"; did you mean \"sheet\"?");
+  expect_problem("kind = \"servo\"\nplane = \"top\"\nforce = 1\nspeed = 1\n",
+                 "loads.a.plane: there is none called \"top\"; there are \"floor\"");
+  expect_problem("kind = \"force\"\nforce = [0, 0, 1]\n",
+                 "loads.a.membrane: got none of membrane and grains");
+  expect_problem("kind = \"force\"\ngrains = \"gravel\"\nnodes = \"rim\"\nforce = [0, 0, 1]\n",
+                 "loads.a.nodes: grains have no rim");
+  expect_problem("kind = \"force\"\nmembrane = \"sheet\"\nnodes = \"all\"\nforces = [0, 0, 1]\n",
+                 "loads.a.forces: unknown key; did you mean \"force\"?");
+}
+
+TEST_F(Loads, AreRefusedWithoutNodesToActOn) {
+  expect_problem("kind = \"force\"\nmembrane = \"ball\"\nnodes = \"rim\"\nforce = [0, 0, 1]\n",
+                 "loads.a.nodes: \"ball\" is closed and has no rim");
+  expect_problem(
+      "kind = \"force\"\nmembrane = \"ball\"\nforce = [0, 0, 1]\n"
+      "nodes = { min = [5, 5, 5], max = [6, 6, 6] }\n",
+      "loads.a.nodes: \"ball\" has no node there; the box counts in the scene");
+}
+
+TEST_F(Loads, AreRefusedWithTablesWhoseTimesDoNotIncrease) {
+  const std::string force =
+      "kind = \"force\"\nmembrane = \"sheet\"\nnodes = \"all\"\nforce = [0, 0, 1]\n";
+  expect_problem(force + "factor = [[0, 0], [\"2 ms\", 1], [\"1 ms\", 2]]\n",
+                 "loads.a.factor[2]: 0.001 s is not above 0.002 s of the row before; list the rows "
+                 "by increasing time");
+  expect_problem(force + "factor = [[0, 0], [\"1 mm\", 1]]\n", "loads.a.factor[1][0]");
+  expect_problem(force + "factor = [[0, 0], 3]\n", "loads.a.factor[1]: got 3; expected a pair");
+  expect_problem(force + "factor = 2\n", "loads.a.factor: got 2; expected a list of pairs");
+  expect_problem("kind = \"gravity\"\n", "loads.a.factor: missing");
+}
+
+TEST_F(Loads, AreRefusedWhereAComponentIsPrescribedTwice) {
+  const std::string pull =
+      "kind = \"motion\"\nmembrane = \"sheet\"\nnodes = \"x_max\"\nvelocity = [1, 0, 0]\n";
+  expect_problem(pull +
+                     "[[loads]]\nname = \"b\"\nkind = \"motion\"\nmembrane = \"sheet\"\n"
+                     "nodes = \"y_min\"\ncomponents = \"xz\"\nvelocity = [0, 0, 1]\n",
+                 "loads.b.nodes: in \"sheet\", the translation along x of node 4 is prescribed by "
+                 "loads.a already");
+  expect_problem("kind = \"motion\"\nmembrane = \"net\"\nnodes = \"all\"\nvelocity = [1, 0, 0]\n",
+                 "is held by hold of its membrane already");
+  EXPECT_EQ(check("[[loads]]\nname = \"a\"\ncomponents = \"x\"\n" + pull +
+                  "[[loads]]\nname = \"b\"\nkind = \"motion\"\nmembrane = \"sheet\"\n"
+                  "nodes = \"y_min\"\ncomponents = \"z\"\nvelocity = [0, 0, 1]\n")
+                .exit_code,
+            kDone);
+}
+
+TEST_F(Loads, AreRefusedAsMotionsThatDoNotSayHow) {
+  const std::string motion = "kind = \"motion\"\nmembrane = \"sheet\"\nnodes = \"all\"\n";
+  expect_problem(motion, "loads.a.displacement: got none of displacement and velocity");
+  expect_problem(motion + "velocity = [0, 0, 1]\ndisplacement = [0, 0, 1]\n",
+                 "loads.a.displacement: got both of displacement and velocity");
+  expect_problem(motion + "angular_velocity = [0, 0, 1]\nhold_rotation = false\n",
+                 "loads.a.hold_rotation: got false");
+}
+
+TEST_F(Loads, AreRefusedAsServosWithoutATarget) {
+  const std::string servo = "kind = \"servo\"\nplane = \"lid\"\nspeed = \"1 cm/s\"\n";
+  expect_problem(servo,
+                 "loads.a.force: got none of force and pressure; expected exactly one of "
+                 "them: a servo needs a target");
+  expect_problem(servo + "force = \"-3 N\"\n",
+                 "loads.a.force: got \"-3 N\"; expected a force above 0");
+  expect_problem(servo + "pressure = \"1 kPa\"\n",
+                 "loads.a.area: got none of area and between; expected exactly one of them: a "
+                 "pressure needs the area of the plate");
+  expect_problem(servo + "pressure = 1\nbetween = [\"left\", \"floor\"]\n",
+                 "loads.a.between: \"left\" and \"floor\" do not face each other");
+  expect_problem(servo + "pressure = 1\nbetween = [\"left\"]\n", "loads.a.between: got 1 names");
+  expect_problem(servo + "force = 1\narea = 1\n", "loads.a.force: is the whole force");
+  expect_problem(servo + "force = 1\ngain = 2\n", "loads.a.gain: got 2; expected");
+  expect_problem(servo + "force = 1\n[[loads]]\nname = \"b\"\n" + servo + "force = 2\n",
+                 "loads.b.plane: \"lid\" is driven by loads.a already");
+  expect_problem("kind = \"motion\"\nplane = \"left\"\nvelocity = [1, 0, 0]\n",
+                 "loads.a.plane: \"left\" has a velocity of its own");
+}
+
+TEST_F(Loads, AreRefusedWithNegativeStiffnessOrDamping) {
+  expect_problem(
+      "kind = \"ground_springs\"\nmembrane = \"ball\"\nnodes = \"all\"\n"
+      "stiffness = [1, \"-2 N/mm\", 0]\n",
+      "loads.a.stiffness[1]: got \"-2 N/mm\"; expected a stiffness (force per length) of "
+      "at least 0");
+  expect_problem("kind = \"beam_damping\"\nmembrane = \"ball\"\nratio = -0.1\n",
+                 "loads.a.ratio: got -0.1; expected");
+  expect_problem("kind = \"mass_damping\"\nmembrane = \"ball\"\nnodes = \"all\"\nrate = \"3 s\"\n",
+                 "loads.a.rate");
+}
+
+TEST_F(Loads, AreRefusedAsGasInAnOpenSurface) {
+  expect_problem(
+      "kind = \"pressure\"\nmembrane = \"sheet\"\npressure = \"1 kPa\"\ngas = {}\n",
+      "loads.a.gas: \"sheet\" is open and encloses no volume; expected a closed surface");
+  expect_problem("kind = \"pressure\"\nmembrane = \"net\"\npressure = \"1 kPa\"\n",
+                 "loads.a.membrane: \"net\" is a net without facets");
+  expect_problem("kind = \"pressure\"\nmembrane = \"ball\"\npressure = 1\ngas = { exponent = 0 }\n",
+                 "loads.a.gas.exponent: got 0; expected");
+}
+
+}  // namespace
+}  // namespace plekton::apps
