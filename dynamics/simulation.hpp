@@ -103,6 +103,7 @@ class Simulation {
   double largest_gravity() const noexcept;
   void account(const StepWork& work, const StepLengths& lengths);
   void check_motion() const;
+  void set_first_step(double asked, NodalStiffness space);
   void require_time_step() const;
   void choose_time_step();
   double motion_step() const noexcept;

@@ -82,25 +82,33 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
     initial_stiffness_.translation += total.translation;
     initial_stiffness_.rotation += total.rotation;
   });
-  const double critical = critical_step(stiffness).dt;
-  if (options.time_step > kLargestStep * critical) {
-    std::ostringstream text;
-    text << "time step " << options.time_step << " s: the critical time step of this scene is "
-         << critical << " s; choose at most " << kLargestStep << " of it ("
-         << kLargestStep * critical << " s), or 0 to have " << kSafety << " of it chosen";
-    throw std::invalid_argument(text.str());
-  }
-  dt_ = options.time_step;
-  if (chooses_time_step_) {
-    space_ = std::move(stiffness);
-    stable_step_ = kSafety * critical;
-    // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
-    dt_ = std::isfinite(critical) ? std::min(stable_step_, motion_step()) : stable_step_;
-  }
+  set_first_step(options.time_step, std::move(stiffness));
   initial_moment_ = free_moment(0.0);
   work_.kinetic = kinetic_energy(scene_.state, scene_.properties);
   initial_energy_ = work_.kinetic + contacts_.elastic_energy() + bonds_.elastic_energy() +
                     sheet_facets_.elastic_energy();
+}
+
+/// @param asked  s; 0: chosen
+/// @param space  for the critical step; kept where the step is chosen
+/// @throws std::invalid_argument if that is too long
+template <contact::ContactLaw Law>
+void Simulation<Law>::set_first_step(double asked, NodalStiffness space) {
+  const double critical = critical_step(space).dt;
+  if (asked > kLargestStep * critical) {
+    std::ostringstream text;
+    text << "time step " << asked << " s: the critical time step of this scene is " << critical
+         << " s; choose at most " << kLargestStep << " of it (" << kLargestStep * critical
+         << " s), or 0 to have " << kSafety << " of it chosen";
+    throw std::invalid_argument(text.str());
+  }
+  dt_ = asked;
+  if (chooses_time_step_) {
+    space_ = std::move(space);
+    stable_step_ = kSafety * critical;
+    // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
+    dt_ = std::isfinite(critical) ? std::min(stable_step_, motion_step()) : stable_step_;
+  }
 }
 
 template <contact::ContactLaw Law>
