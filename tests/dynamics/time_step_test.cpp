@@ -301,7 +301,6 @@ TEST(TimeStep, CountsContactsOnTheNodesOfACylinder) {
   EXPECT_FALSE(step.rotation);
 }
 
-// Spheres in the densest packing: those with even sums of integer coordinates, radius 1 / sqrt(2).
 TEST(TimeStep, IsTheShortestOfAllPiecesOfTheNodes) {
   constexpr std::size_t kNodes = 23;
   const NodeProperties properties{std::vector<double>(kNodes, 1.0),
@@ -328,6 +327,7 @@ TEST(TimeStep, IsTheShortestOfAllPiecesOfTheNodes) {
   EXPECT_EQ(shortest, whole.critical_step(properties).dt);
 }
 
+// Spheres in the densest packing: those with even sums of integer coordinates, radius 1 / sqrt(2).
 TEST(TimeStep, OfAnExpectedDensePackingHoldsForTheDensestOne) {
   const double radius = std::sqrt(0.5);
   std::vector<Vec3> centres;

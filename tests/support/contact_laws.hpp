@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include <type_traits>
+
 /// The contact laws that every test of a law runs through. A new law joins the list.
 namespace plekton::test {
 
@@ -24,6 +26,10 @@ using Chosen = OneOf<LinearFrictional, HertzMindlin, RollingLinear>;
 
 using AllLaws = ::testing::Types<LinearFrictional, HertzMindlin, DmtAdhesion, RollingLinear,
                                  DampedHertz, Everything, Chosen, WeakeningSlider>;
+
+template <class Law>
+inline constexpr bool kHasDashpot =
+    std::is_same_v<Law, DampedHertz> || std::is_same_v<Law, Everything>;
 
 /// Properties for a law or a part, at random.
 template <class Law>
