@@ -12,10 +12,11 @@
 
 namespace plekton::contact {
 
-/// Any of the laws of this folder, with resistance to rolling and a dashpot: each pair of materials
-/// has its own. Scenes in which all pairs are LinearFrictional are faster with that.
-using AnyLaw = Sum<
-    Sum<OneOf<LinearFrictional, HertzMindlin, DmtAdhesion, CohesiveFrictional>, RollingTwisting>,
-    Dashpot>;
+/// Any of the laws of this folder that push: each pair of materials has its own.
+using AnyBaseLaw = OneOf<LinearFrictional, HertzMindlin, DmtAdhesion, CohesiveFrictional>;
+
+/// With resistance to rolling and a dashpot. Scenes in which all pairs are LinearFrictional are
+/// faster with that.
+using AnyLaw = Sum<Sum<AnyBaseLaw, RollingTwisting>, Dashpot>;
 
 }  // namespace plekton::contact

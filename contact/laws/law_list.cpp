@@ -63,14 +63,13 @@ constexpr std::array<LawRow, 4> kLaws{
       kCohesion}}};
 
 PropertiesOf<AnyLaw> with_law(const ContactSettings& settings) {
-  using Law = decltype(PropertiesOf<AnyLaw>{}.whole.whole);
-  using One = OneOf<LinearFrictional, HertzMindlin, DmtAdhesion, CohesiveFrictional>;
   PropertiesOf<AnyLaw> properties;
-  Law& law = properties.whole.whole;
+  AnyBaseLaw::Properties& law = properties.whole.whole;
   const std::string_view name = kLaws[settings.law].name;
-  if (name == HertzMindlin::name) law = One::Chosen<HertzMindlin>{};
-  if (name == DmtAdhesion::name) law = One::Chosen<DmtAdhesion>{settings.adhesion};
-  if (name == CohesiveFrictional::name) law = One::Chosen<CohesiveFrictional>{settings.cohesion};
+  if (name == HertzMindlin::name) law = AnyBaseLaw::Chosen<HertzMindlin>{};
+  if (name == DmtAdhesion::name) law = AnyBaseLaw::Chosen<DmtAdhesion>{settings.adhesion};
+  if (name == CohesiveFrictional::name)
+    law = AnyBaseLaw::Chosen<CohesiveFrictional>{settings.cohesion};
   return properties;
 }
 

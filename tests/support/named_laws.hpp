@@ -18,10 +18,8 @@ contact::PropertiesOf<contact::AnyLaw> with(
     const contact::PropertiesOf<Law>& properties,
     const contact::RollingTwisting::Properties& rolling = {},
     const contact::Dashpot::Properties& dashpot = {}) {
-  using Choice = decltype(contact::PropertiesOf<contact::AnyLaw>{}.whole.whole);
-  using One = contact::OneOf<contact::LinearFrictional, contact::HertzMindlin, contact::DmtAdhesion,
-                             contact::CohesiveFrictional>;
-  return {{Choice{One::Chosen<Law>{properties}}, rolling}, dashpot};
+  using Base = contact::AnyBaseLaw;
+  return {{Base::Properties{Base::Chosen<Law>{properties}}, rolling}, dashpot};
 }
 
 /// One of every kind, for stiffnesses of some 1e5 N/m and bodies of some kg.

@@ -14,7 +14,7 @@
 namespace plekton::contact {
 namespace {
 
-/// Schwager & Poeschel (2007), eq. 18, for a damping ratio below 1 / sqrt(2).
+/// Schwager & Poeschel (2007), for a damping ratio below 1 / sqrt(2).
 double of_linear_spring_that_never_pulls(double xi) {
   const double root = std::sqrt(1.0 - xi * xi);
   const double duration = std::numbers::pi - std::atan2(2.0 * xi * root, 1.0 - 2.0 * xi * xi);
