@@ -34,6 +34,20 @@ void read_parameters(std::span<const LawParameter> parameters, Section& section,
   }
 }
 
+/// Complains about parameters of laws that were not chosen.
+void refuse_others(const contact::LawRow& chosen, Section& section) {
+  for (const contact::LawRow& law : contact::contact_laws()) {
+    if (law.name == chosen.name) continue;
+    for (const LawParameter& parameter : law.parameters) {
+      if (!section.has(parameter.name)) continue;
+      section.complain(parameter.name,
+                       fmt::format("goes with law = \"{}\", but this pair has \"{}\"; change the "
+                                   "law, or leave {} out",
+                                   law.name, chosen.name, parameter.name));
+    }
+  }
+}
+
 std::vector<std::string_view> names_of_laws() {
   std::vector<std::string_view> names;
   for (const contact::LawRow& law : contact::contact_laws()) names.push_back(law.name);
@@ -49,8 +63,10 @@ PairSettings read_contact(Section section, const Known& known,
   const auto second = read_material_of(section, known, "and");
   const std::vector<std::string_view> names = names_of_laws();
   pair.contact.law = section.choice("law", names, 0);
-  read_parameters(contact::contact_laws()[pair.contact.law].parameters, section, pair.contact);
+  const contact::LawRow& law = contact::contact_laws()[pair.contact.law];
+  read_parameters(law.parameters, section, pair.contact);
   read_parameters(contact::common_law_parameters(), section, pair.contact);
+  refuse_others(law, section);
   section.finish();
   if (!first || !second) return pair;
   std::tie(pair.first, pair.second) = std::minmax(*first, *second);

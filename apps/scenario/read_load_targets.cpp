@@ -28,14 +28,23 @@ std::optional<std::size_t> find_name(Section& section, std::string_view key,
   return std::nullopt;
 }
 
+/// The name of one body; empty after a problem.
+std::string read_name(Section& section, std::string_view key) {
+  if (!section.is_list(key)) return section.text(key);
+  section.has(key);
+  section.complain(key,
+                   "got a list; expected one name in quotes; give each body a table of its own");
+  return "";
+}
+
 }  // namespace
 
 std::optional<std::size_t> read_membrane_name(Section& section, const Scenario& scenario) {
-  return find_name(section, "membrane", section.text("membrane"), scenario.membranes);
+  return find_name(section, "membrane", read_name(section, "membrane"), scenario.membranes);
 }
 
 std::optional<std::size_t> read_plane_name(Section& section, const Scenario& scenario) {
-  return find_name(section, "plane", section.text("plane"), scenario.planes);
+  return find_name(section, "plane", read_name(section, "plane"), scenario.planes);
 }
 
 std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
@@ -75,9 +84,10 @@ NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
     section.has("nodes");
     return set;
   }
-  set.body = (set.of_grains ? find_name(section, "grains", section.text("grains"), scenario.grains)
-                            : read_membrane_name(section, scenario))
-                 .value_or(0);
+  set.body =
+      (set.of_grains ? find_name(section, "grains", read_name(section, "grains"), scenario.grains)
+                     : read_membrane_name(section, scenario))
+          .value_or(0);
   set.place = section.place_of("nodes");
   if (section.is_table("nodes")) {
     set.which = SetWhich::box;

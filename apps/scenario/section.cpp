@@ -53,6 +53,11 @@ bool Section::is_table(std::string_view key) const {
   return entry && std::holds_alternative<Table>(entry->value.data);
 }
 
+bool Section::is_list(std::string_view key) const {
+  const Entry* entry = table_->find(key);
+  return entry && std::holds_alternative<Array>(entry->value.data);
+}
+
 const Value* Section::find(std::string_view key) {
   if (std::find(announced_.begin(), announced_.end(), key) == announced_.end())
     announced_.emplace_back(key);

@@ -61,6 +61,7 @@ class Section {
   /// Also announces the key, so that it is not unknown.
   bool has(std::string_view key);
   bool is_table(std::string_view key) const;
+  bool is_list(std::string_view key) const;
 
   /// NaN after a problem.
   double quantity(std::string_view key, const Quantity& expected);

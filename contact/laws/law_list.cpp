@@ -19,6 +19,20 @@ constexpr LawParameter parameter(std::string_view name, Kind kind, double standa
   return {name, kind, standard, 0.0, kInfinity, true, " of at least 0", what, in};
 }
 
+/// A limit of at least 0 that is not there if nothing is said.
+constexpr LawParameter limit(std::string_view name, std::string_view what,
+                             double& (*in)(ContactSettings&)) {
+  return {name,
+          Kind::number,
+          kInfinity,
+          0.0,
+          kInfinity,
+          true,
+          " of at least 0, or no such key for no limit",
+          what,
+          in};
+}
+
 constexpr std::array kAdhesion{
     parameter("work_of_adhesion", Kind::energy_per_area, 0.0,
               "w; the bodies attract each other with 2 pi w R while they touch",
@@ -40,12 +54,12 @@ constexpr std::array kCommon{
               [](ContactSettings& s) -> double& { return s.rolling.rolling_stiffness; }),
     parameter("twisting_stiffness", Kind::number, 0.0, "the same for twisting about the normal",
               [](ContactSettings& s) -> double& { return s.rolling.twisting_stiffness; }),
-    parameter("rolling_limit", Kind::number, kInfinity,
-              "eta: the moment of rolling is at most eta times the smaller radius times the normal "
-              "force",
-              [](ContactSettings& s) -> double& { return s.rolling.rolling_limit; }),
-    parameter("twisting_limit", Kind::number, kInfinity, "the same for twisting",
-              [](ContactSettings& s) -> double& { return s.rolling.twisting_limit; }),
+    limit("rolling_limit",
+          "eta: the moment of rolling is at most eta times the smaller radius times the normal "
+          "force",
+          [](ContactSettings& s) -> double& { return s.rolling.rolling_limit; }),
+    limit("twisting_limit", "the same for twisting",
+          [](ContactSettings& s) -> double& { return s.rolling.twisting_limit; }),
     LawParameter{"restitution", Kind::number, 1.0, 0.0, 1.0, false, " above 0 and at most 1",
                  "speed after an impact over that before, by a dashpot along the normal that never "
                  "pulls; 1: none",
