@@ -68,6 +68,10 @@ class Simulation {
   const geometry::Surface& surface() const noexcept { return surface_; }
   const std::vector<contact::Plane>& planes() const noexcept { return scene_.planes; }
   const BeamBonds& bonds() const noexcept { return bonds_; }
+  /// What a bond carries where its nodes are now.
+  BondForces bond_forces(std::size_t bond) const noexcept {
+    return bonds_.forces_of(bond, scene_.state);
+  }
   const SheetFacets& sheet_facets() const noexcept { return sheet_facets_; }
   const AppliedLoads& loads() const noexcept { return loads_; }
   const contact::Contacts<Law>& contacts() const noexcept { return contacts_; }

@@ -126,6 +126,7 @@ BeamBonds::BeamBonds(std::span<const BeamBond> bonds, std::size_t node_count) {
   blocks_ = BeamBlocks(ends, node_count);
   rows_.resize(blocks_.row_count());
   slots_.resize(bonds.size());
+  is_broken_.assign(bonds.size(), false);
   for (const BeamBlocks::Block& block : blocks_.blocks()) fill_block(block, bonds);
   gather_nodes(node_count);
 }
@@ -189,6 +190,22 @@ void BeamBonds::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const
       }
     }
   });
+}
+
+BondForces BeamBonds::forces_of(std::size_t bond, const NodeState& state) const noexcept {
+  const BeamRow& row = row_of(bond);
+  const std::size_t lane = lane_of(bond);
+  return bond_forces(row.spring.at<BeamSpringOf<double>>(lane), ends_of(row, lane, state));
+}
+
+double BeamBonds::break_bond(std::size_t bond) noexcept {
+  if (is_broken_[bond]) return 0.0;
+  is_broken_[bond] = true;
+  BeamRow& row = rows_[slots_[bond] / BeamRow::kLanes];
+  auto spring = row.spring.at<BeamSpringOf<double>>(lane_of(bond));
+  spring.axial = spring.bending = spring.twist = 0.0;
+  row.spring.set(lane_of(bond), spring);
+  return row.energy.number(lane_of(bond));
 }
 
 double BeamBonds::elastic_energy() const noexcept {

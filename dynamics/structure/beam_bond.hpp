@@ -4,6 +4,7 @@
 #include "dynamics/node_state.hpp"
 #include "dynamics/structure/beam_blocks.hpp"
 #include "dynamics/structure/beam_rows.hpp"
+#include "dynamics/structure/bond_forces.hpp"
 #include "geometry/thread_pool.hpp"
 
 #include <array>
@@ -103,10 +104,23 @@ class BeamBonds {
 
   /// Axial force (N) of a bond at the last advance, tension positive.
   double axial_force(std::size_t bond) const noexcept {
-    return rows_[slots_[bond] / BeamRow::kLanes].tension.number(slots_[bond] % BeamRow::kLanes);
+    return row_of(bond).tension.number(lane_of(bond));
   }
 
+  /// What a bond carries where its nodes are as given.
+  BondForces forces_of(std::size_t bond, const NodeState& state) const noexcept;
+
+  /// Takes all stiffness from a bond, for good: from the next advance on it does nothing, and
+  /// stores nothing. Again: no effect.
+  /// @returns J, what it stored at the last advance, which is lost
+  double break_bond(std::size_t bond) noexcept;
+  bool is_broken(std::size_t bond) const noexcept { return is_broken_[bond]; }
+
  private:
+  const BeamRow& row_of(std::size_t bond) const noexcept {
+    return rows_[slots_[bond] / BeamRow::kLanes];
+  }
+  std::size_t lane_of(std::size_t bond) const noexcept { return slots_[bond] % BeamRow::kLanes; }
   void fill_block(const BeamBlocks::Block& block, std::span<const BeamBond> bonds);
   void gather_nodes(std::size_t node_count);
 
@@ -114,6 +128,7 @@ class BeamBonds {
   std::vector<BeamRow> rows_;
   std::vector<BeamSum> sums_;         // by member of the blocks
   std::vector<std::uint32_t> slots_;  // by bond: row and lane, slot / kLanes and slot % kLanes
+  std::vector<bool> is_broken_;       // by bond
   // Members by node: of nodes_[i], members_[start_[i]] up to start_[i + 1].
   std::vector<NodeId> nodes_;
   std::vector<std::uint32_t> start_;

@@ -127,10 +127,10 @@ PLEKTON_INLINE BeamReactionOf<Real> beam_reaction(const BeamSpringOf<Real>& spri
               spring.twist * (Real(2.0) + Real(2.0 / 3.0) * x2) * x2};
 }
 
-/// The same for one bond, whatever its chord: between coincident nodes there is no shear force, and
-/// the chord has the mean direction of the axes.
-inline BeamReactionOf<double> any_beam_reaction(const BeamSpringOf<double>& spring,
-                                                const BeamEndsOf<double>& ends) noexcept {
+/// How one bond lies, whatever its chord: between coincident nodes the chord has the mean direction
+/// of the axes, and per_length is 0.
+inline BeamPoseOf<double> any_beam_pose(const BeamSpringOf<double>& spring,
+                                        const BeamEndsOf<double>& ends) noexcept {
   BeamPoseOf<double> pose = beam_pose(spring, ends);
   if (!(pose.length > 0.0)) {
     const PackVec3<double> sum = pose.a + pose.b;
@@ -138,7 +138,13 @@ inline BeamReactionOf<double> any_beam_reaction(const BeamSpringOf<double>& spri
     pose.n = size > 0.0 ? (1.0 / size) * sum : PackVec3<double>::Zero();
     pose.per_length = 0.0;
   }
-  return beam_reaction(spring, pose);
+  return pose;
+}
+
+/// What one bond does, whatever its chord: between coincident nodes there is no shear force.
+inline BeamReactionOf<double> any_beam_reaction(const BeamSpringOf<double>& spring,
+                                                const BeamEndsOf<double>& ends) noexcept {
+  return beam_reaction(spring, any_beam_pose(spring, ends));
 }
 
 }  // namespace plekton::dynamics

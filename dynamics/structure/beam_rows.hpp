@@ -86,6 +86,17 @@ inline QuatOf<double> numbers_of(const Quat& q) noexcept {
 
 }  // namespace detail
 
+/// The ends of one bond.
+inline BeamEndsOf<double> ends_of(const BeamRow& row, std::size_t lane,
+                                  const NodeState& state) noexcept {
+  const std::size_t a = row.node(0, lane);
+  const std::size_t b = row.node(1, lane);
+  const Vec3 chord = state.position[b] - state.position[a];
+  return {{chord[0], chord[1], chord[2]},
+          detail::numbers_of(state.orientation[a]),
+          detail::numbers_of(state.orientation[b])};
+}
+
 /// One step of W bonds from a lane on.
 /// @returns whether all of them could be computed side by side; otherwise nothing has been done
 template <int W>
@@ -116,13 +127,8 @@ PLEKTON_INLINE bool advance_side_by_side(BeamRow& row, std::size_t first, const 
 /// One step of a bond, wherever its nodes are.
 inline void advance_one(BeamRow& row, std::size_t lane, const NodeState& state,
                         BeamSum* sums) noexcept {
-  const std::size_t a = row.node(0, lane);
-  const std::size_t b = row.node(1, lane);
-  const Vec3 chord = state.position[b] - state.position[a];
-  const BeamReactionOf<double> answer = any_beam_reaction(
-      row.spring.at<BeamSpringOf<double>>(lane), {{chord[0], chord[1], chord[2]},
-                                                  detail::numbers_of(state.orientation[a]),
-                                                  detail::numbers_of(state.orientation[b])});
+  const BeamReactionOf<double> answer =
+      any_beam_reaction(row.spring.at<BeamSpringOf<double>>(lane), ends_of(row, lane, state));
   row.tension.set(lane, answer.tension);
   row.energy.set(lane, answer.energy);
   const Vec3 force(answer.force.x, answer.force.y, answer.force.z);
