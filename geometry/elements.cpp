@@ -8,6 +8,8 @@
 #include <map>
 #include <numeric>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 
 namespace plekton::geometry {
 namespace {
@@ -145,15 +147,49 @@ void check_elements(std::span<const Cylinder> cylinders, std::span<const Facet> 
 Surface::Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
                  std::size_t node_count) {
   check_elements(cylinders, facets, node_count);
-  face_nodes_.reserve(facets.size());
-  for (const Facet& facet : facets) face_nodes_.push_back(facet.nodes);
   node_structure_.assign(node_count, StructureId{-1});
-  build_edges(cylinders);
+  build_edges(cylinders, facets);
   build_incidence();
   build_structures(cylinders, facets);
 }
 
-void Surface::build_edges(std::span<const Cylinder> cylinders) {
+Surface Surface::left_with(std::span<const Cylinder> cylinders,
+                           std::span<const Facet> facets) const {
+  Surface left;
+  left.build_edges(cylinders, facets);
+  require_part(left);
+  left.node_structure_ = node_structure_;
+  left.structure_radius_ = structure_radius_;
+  left.build_incidence();
+  for (std::size_t n = 0; n < node_count(); ++n) {
+    if (left.node_edges_[n].empty()) left.node_structure_[n] = StructureId{-1};
+  }
+  return left;
+}
+
+/// @throws std::invalid_argument if facets or edges are none of this surface
+void Surface::require_part(const Surface& part) const {
+  auto face = face_nodes_.begin();
+  for (std::size_t f = 0; f < part.face_nodes_.size(); ++f) {
+    face = std::find(face, face_nodes_.end(), part.face_nodes_[f]);
+    if (face == face_nodes_.end()) {
+      throw std::invalid_argument("surface: facet " + std::to_string(f) +
+                                  " of those left is none of the facets there were, or not in "
+                                  "their order; only take elements away");
+    }
+    ++face;
+  }
+  if (!std::includes(edge_nodes_.begin(), edge_nodes_.end(), part.edge_nodes_.begin(),
+                     part.edge_nodes_.end())) {
+    throw std::invalid_argument(
+        "surface: a cylinder of those left is along none of the edges there were; only take "
+        "elements away");
+  }
+}
+
+void Surface::build_edges(std::span<const Cylinder> cylinders, std::span<const Facet> facets) {
+  face_nodes_.reserve(facets.size());
+  for (const Facet& facet : facets) face_nodes_.push_back(facet.nodes);
   for (const auto& n : face_nodes_) {
     for (std::size_t k = 0; k < 3; ++k) edge_nodes_.push_back(sorted(n[k], n[(k + 1) % 3]));
   }

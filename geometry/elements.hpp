@@ -37,6 +37,17 @@ class Surface {
   Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
           std::size_t node_count);
 
+  /// The surface of those elements that are left when others have broken away: as if built anew,
+  /// but structures keep their numbers and radii. So a structure is what was connected at first; it
+  /// may fall apart, and one without elements is left as a number.
+  ///
+  /// A side of a facet that is gone stays only as the side of another facet or with a cylinder
+  /// along it. Linear in the number of elements, times log for sorting the edges.
+  /// @param cylinders  along edges of this surface
+  /// @param facets     of this surface, in their order
+  /// @throws std::invalid_argument if an element is none of this surface, or the order is another
+  Surface left_with(std::span<const Cylinder> cylinders, std::span<const Facet> facets) const;
+
   std::size_t face_count() const noexcept { return face_nodes_.size(); }
   std::size_t edge_count() const noexcept { return edge_nodes_.size(); }
   std::size_t cell_count() const noexcept { return face_nodes_.size() + free_edges_.size(); }
@@ -76,7 +87,8 @@ class Surface {
   /// Of a node that belongs to some cell.
   CellId owner_of(NodeId node) const noexcept { return node_owner_[index_of(node)]; }
 
-  /// The connected structure of a node; -1 for a node that no cell uses.
+  /// The structure of a node: what is connected, or was before elements broke away; -1 for a node
+  /// that no cell uses.
   StructureId structure_of(NodeId node) const noexcept { return node_structure_[index_of(node)]; }
   StructureId structure_of(CellId cell) const noexcept {
     return structure_of(nodes_of(cell).front());
@@ -100,7 +112,8 @@ class Surface {
     }
   };
 
-  void build_edges(std::span<const Cylinder> cylinders);
+  void build_edges(std::span<const Cylinder> cylinders, std::span<const Facet> facets);
+  void require_part(const Surface& part) const;
   void build_incidence();
   void build_structures(std::span<const Cylinder> cylinders, std::span<const Facet> facets);
 
