@@ -5,6 +5,7 @@
 #include "contact/laws/any_law.hpp"
 #include "dynamics/diverged.hpp"
 #include "dynamics/energy.hpp"
+#include "dynamics/exact_step.hpp"
 #include "dynamics/integrators/leapfrog.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/loads/plane_servo.hpp"
@@ -93,6 +94,11 @@ class Simulation {
   /// Critical time step: of the structures and contacts as they are now, or with the contacts that
   /// may come (expected_contacts.hpp), whichever is shorter.
   CriticalStep critical_step() const;
+  /// Critical time step of the structures and contacts as they are now, by the frequencies of the
+  /// scene as a whole (exact_step.hpp). Contacts between structures count with what holds each of
+  /// their nodes by itself, and ones in a concave crease are all counted: there it may be too
+  /// short.
+  ExactStep exact_critical_step() const;
   /// How far the fastest node moves in a step over the smallest radius: of the spheres, or of the
   /// structures if there are none. Above kLargestMotion (dynamics/motion_step.hpp) contacts are
   /// seen late; a chosen step keeps below that, a given one may not.
@@ -115,7 +121,8 @@ class Simulation {
   double rounding_energy() const;
   void add_expected_to(NodalStiffness& stiffness) const;
   void add_structures_to(NodalStiffness& stiffness) const;
-  void add_contacts_to(NodalStiffness& stiffness) const;
+  template <class Springs>
+  void add_contacts_to(Springs& springs) const;
   template <class Look>
   void for_each_piece(NodalStiffness& space, const Look& look) const;
   CriticalStep critical_step(NodalStiffness& space) const;

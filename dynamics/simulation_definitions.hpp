@@ -240,8 +240,10 @@ double Simulation<Law>::rounding_energy() const {
 }
 
 /// Every touching pair, as it is now.
+/// @param springs  NodalStiffness, or what else has its functions for contacts
 template <contact::ContactLaw Law>
-void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
+template <class Springs>
+void Simulation<Law>::add_contacts_to(Springs& springs) const {
   const auto& x = scene_.state.position;
   const auto contact = [&](const Vec3& normal, const typename Law::Parameters& parameters,
                            double gap, NodeId a, NodeId b) {
@@ -252,21 +254,21 @@ void Simulation<Law>::add_contacts_to(NodalStiffness& stiffness) const {
   contacts_.with_spheres().for_each_touching(
       [&](NodeId a, NodeId b, const auto& parameters, double gap) {
         const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
-        stiffness.add_pair(a, b, contact(normal, parameters, gap, a, b));
+        springs.add_pair(a, b, contact(normal, parameters, gap, a, b));
       });
   contacts_.with_surfaces().for_each_touching([&](NodeId ball, const auto& core,
                                                   const auto& parameters, double range) {
     const Vec3 way = geometry::position(core, x) - x[index_of(ball)];
-    stiffness.add_on_surface(
+    springs.add_on_surface(
         ball, core, contact(way.normalized(), parameters, way.norm() - range, ball, core.nodes[0]));
   });
   contacts_.between_structures().for_each_stiffness(
       [&](NodeId node, double normal, double tangential, double radius) {
-        stiffness.add(node, from_all_sides(2.0 * normal, 2.0 * tangential, radius));
+        springs.add(node, from_all_sides(2.0 * normal, 2.0 * tangential, radius));
       });
   contacts_.with_planes().for_each_touching([&](NodeId ball, std::size_t plane,
                                                 const auto& parameters, double gap) {
-    stiffness.add_to_wall(ball, contact(scene_.planes[plane].normal, parameters, gap, ball, ball));
+    springs.add_to_wall(ball, contact(scene_.planes[plane].normal, parameters, gap, ball, ball));
   });
 }
 
@@ -287,6 +289,13 @@ template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::critical_step() const {
   NodalStiffness space(scene_.state.size());
   return critical_step(space);
+}
+
+template <contact::ContactLaw Law>
+ExactStep Simulation<Law>::exact_critical_step() const {
+  ContactSprings springs;
+  add_contacts_to(springs);
+  return dynamics::exact_critical_step(scene_, loads_, springs, time_);
 }
 
 /// Calls look() for all nodes, as many at once as there is space for.

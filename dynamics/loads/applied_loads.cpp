@@ -67,15 +67,26 @@ void AppliedLoads::add_to(NodalStiffness& stiffness, geometry::Positions x) cons
 
 // The largest eigenvalue of a sum is at most the sum of the largest ones, 4 / dt² that of the rest.
 double AppliedLoads::critical_step(double without, const Scene& scene) const {
-  double squared = 4.0 / (without * without);
+  double gas = 0.0;
   for (const PressedSurface& surface : pressures_)
-    squared += surface.gas_frequency_squared(scene.state.position, scene.properties);
+    gas += surface.gas_frequency_squared(scene.state.position, scene.properties);
+  return damped_step(gas == 0.0 ? without : 2.0 / std::sqrt(4.0 / (without * without) + gas));
+}
+
+double AppliedLoads::damped_step(double undamped) const noexcept {
   double relaxation_time = 0.0;
   double rate = 0.0;
   for (const DampedBeams& beams : beams_) relaxation_time += beams.relaxation_time();
   for (const DraggedNodes& nodes : dragged_) rate += nodes.rate();
-  if (squared == 4.0 / (without * without) && relaxation_time == 0.0 && rate == 0.0) return without;
-  return damped_step(2.0 / std::sqrt(squared), relaxation_time, rate);
+  if (relaxation_time == 0.0 && rate == 0.0) return undamped;
+  return dynamics::damped_step(undamped, relaxation_time, rate);
+}
+
+void AppliedLoads::add_elastic_forces(double time, const NodeState& state, NodeForces& forces,
+                                      geometry::ThreadPool& pool) {
+  const LoadStep step{time, 0.0, 0.0};
+  for (SprungNodes& load : springs_) load.act(step, state, pool).add_to(forces, pool);
+  for (PressedSurface& load : pressures_) load.act(step, state, pool).add_to(forces, pool);
 }
 
 double AppliedLoads::largest_speed() const noexcept {

@@ -37,6 +37,14 @@ class AppliedLoads {
   /// @param without  s, without them; may be infinite
   double critical_step(double without, const Scene& scene) const;
 
+  /// The critical step (s) with viscous damping, which shortens it.
+  /// @param undamped  s, without; may be infinite
+  double damped_step(double undamped) const noexcept;
+
+  /// Adds the forces that follow from where the nodes are: of springs and pressures. No allocation.
+  void add_elastic_forces(double time, const NodeState& state, NodeForces& forces,
+                          geometry::ThreadPool& pool);
+
   /// m/s, of prescribed motions at any time.
   double largest_speed() const noexcept;
 
