@@ -12,21 +12,23 @@ struct Energy {
   double contact_elastic = 0.0;
   double bond_elastic = 0.0;
   double sheet_elastic = 0.0;
-  double gravity = 0.0;        ///< of the nodes that are free, from their places at the start
-  double friction = 0.0;       ///< dissipated in contacts
-  double damping = 0.0;        ///< taken by numerical damping
-  double external_work = 0.0;  ///< done on the bodies by what moves as prescribed and by loads
-  double initial = 0.0;        ///< kinetic + elastic at the start
-  double rounding = 0.0;       ///< what rounding alone may add up to in closure_error()
+  double gravity = 0.0;          ///< of the nodes that are free, from their places at the start
+  double friction = 0.0;         ///< dissipated in contacts
+  double bond_dissipated = 0.0;  ///< by bonds that yielded or broke
+  double damping = 0.0;          ///< taken by numerical damping
+  double external_work = 0.0;    ///< done on the bodies by what moves as prescribed and by loads
+  double initial = 0.0;          ///< kinetic + elastic at the start
+  double rounding = 0.0;         ///< what rounding alone may add up to in closure_error()
 
   /// What is not accounted for: 0 but for the error of the time integration.
   double closure_error() const noexcept {
-    return kinetic + contact_elastic + bond_elastic + sheet_elastic + gravity + friction + damping -
-           external_work - initial;
+    return kinetic + contact_elastic + bond_elastic + sheet_elastic + gravity + friction +
+           bond_dissipated + damping - external_work - initial;
   }
   /// What went through: all that is or was something else than energy of position.
   double turnover() const noexcept {
-    return kinetic + contact_elastic + bond_elastic + sheet_elastic + friction + damping;
+    return kinetic + contact_elastic + bond_elastic + sheet_elastic + friction + bond_dissipated +
+           damping;
   }
   /// Closure error over turnover; 0 where the error is no more than rounding, as when nothing has
   /// happened.

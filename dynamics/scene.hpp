@@ -5,6 +5,7 @@
 #include "dynamics/loads/loads.hpp"
 #include "dynamics/node_state.hpp"
 #include "dynamics/structure/beam_bond.hpp"
+#include "dynamics/structure/bond_law.hpp"
 #include "dynamics/structure/sheet_facet.hpp"
 #include "geometry/elements.hpp"
 
@@ -20,6 +21,7 @@ struct Scene {
   NodeProperties properties;
   geometry::Elements elements;
   std::vector<BeamBond> bonds;
+  std::vector<BondLaw> bond_laws;  ///< of the bonds that yield or break
   std::vector<SheetFacet> sheet_facets;
   std::vector<contact::Plane> planes;
   std::vector<contact::Material> materials;           ///< by MaterialId

@@ -28,6 +28,7 @@ class SceneProblems {
     for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
       list_problems(scene_.bonds[i], scene_.state.size(), "bond " + std::to_string(i), text_);
     }
+    list_problems(scene_.bond_laws, scene_.bonds, text_);
     for (std::size_t i = 0; i < scene_.sheet_facets.size(); ++i) {
       list_problems(scene_.sheet_facets[i], scene_.state.size(), "sheet facet " + std::to_string(i),
                     text_);

@@ -13,6 +13,7 @@
 #include "dynamics/scene.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
+#include "dynamics/structure/yielding_bonds.hpp"
 #include "dynamics/time_step.hpp"
 
 #include <cstdint>
@@ -69,6 +70,8 @@ class Simulation {
   const geometry::Surface& surface() const noexcept { return surface_; }
   const std::vector<contact::Plane>& planes() const noexcept { return scene_.planes; }
   const BeamBonds& bonds() const noexcept { return bonds_; }
+  /// The bonds that yield or break, and which of them broke in the last step.
+  const YieldingBonds& yielding_bonds() const noexcept { return yielding_bonds_; }
   /// What a bond carries where its nodes are now.
   BondForces bond_forces(std::size_t bond) const noexcept {
     return bonds_.forces_of(bond, scene_.state);
@@ -134,6 +137,7 @@ class Simulation {
   geometry::Surface surface_;
   contact::Contacts<Law> contacts_;
   BeamBonds bonds_;
+  YieldingBonds yielding_bonds_;
   SheetFacets sheet_facets_;
   AppliedLoads loads_;
   DrivenPlanes driven_planes_;
@@ -168,6 +172,7 @@ template <contact::ContactLaw Law>
 void Simulation<Law>::step() {
   require_time_step();
   forces_.set_zero();
+  yielding_bonds_.advance(bonds_, scene_.state, pool_);
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
   sheet_facets_.advance(scene_.state, pool_);

@@ -52,6 +52,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
                 options.self_contact ? geometry::Positions(scene_.state.position)
                                      : geometry::Positions()),
       bonds_(scene_.bonds, scene_.state.size()),
+      yielding_bonds_(scene_.bond_laws, scene_.bonds),
       sheet_facets_(scene_.sheet_facets, scene_.state.size()),
       loads_(scene_),
       driven_planes_(scene_.loads, scene_.planes),
@@ -67,6 +68,8 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
   if (options.skin == 0.0 && !scene_.elements.spheres.empty()) contacts_.tune_skin(pace_radius_);
   if (options.skin == 0.0) contacts_.choose_skin_of_structures();
   // The first look at the contacts: histories are empty, so nothing is changed by it.
+  yielding_bonds_.advance(bonds_, scene_.state, pool_);
+  yielding_bonds_.forget_dissipated();
   bonds_.advance(scene_.state, pool_);
   sheet_facets_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
@@ -210,6 +213,7 @@ Energy Simulation<Law>::energy() const {
   // positions.
   energy.gravity = -motion_.gravity.dot(free_moment(last_drift_) - initial_moment_);
   energy.friction = contacts_.dissipated();
+  energy.bond_dissipated = yielding_bonds_.dissipated();
   energy.damping = work_.damped - pending_.damped;
   energy.external_work = work_.external - pending_.external;
   energy.initial = initial_energy_;
@@ -280,7 +284,9 @@ void Simulation<Law>::add_expected_to(NodalStiffness& stiffness) const {
 
 template <contact::ContactLaw Law>
 void Simulation<Law>::add_structures_to(NodalStiffness& stiffness) const {
-  for (const BeamBond& bond : scene_.bonds) stiffness.add_beam(bond, scene_.state);
+  for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
+    if (!bonds_.is_broken(i)) stiffness.add_beam(scene_.bonds[i], scene_.state);
+  }
   sheet_facets_.add_to(stiffness, scene_.state);
   loads_.add_to(stiffness, scene_.state.position);
 }

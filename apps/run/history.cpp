@@ -6,13 +6,14 @@
 namespace plekton::apps {
 namespace {
 
-const std::array<dynamics::CsvColumn, 17> kColumns = {{{"time", "s"},
+const std::array<dynamics::CsvColumn, 18> kColumns = {{{"time", "s"},
                                                        {"kinetic", "J"},
                                                        {"contact_elastic", "J"},
                                                        {"bond_elastic", "J"},
                                                        {"sheet_elastic", "J"},
                                                        {"gravity", "J"},
                                                        {"friction", "J"},
+                                                       {"bond_dissipated", "J"},
                                                        {"damping", "J"},
                                                        {"external_work", "J"},
                                                        {"closure_error", "J"},
@@ -32,13 +33,14 @@ History::History(const std::filesystem::path& folder)
 void History::add(const Simulation& simulation, const LostGrains& lost) {
   const dynamics::Energy energy = simulation.energy();
   const contact::ContactCounts counts = simulation.contact_counts();
-  writer_.add(
-      {simulation.time(), energy.kinetic, energy.contact_elastic, energy.bond_elastic,
-       energy.sheet_elastic, energy.gravity, energy.friction, energy.damping, energy.external_work,
-       energy.closure_error(), static_cast<double>(counts.sphere_sphere),
-       static_cast<double>(counts.sphere_surface), static_cast<double>(counts.between_structures),
-       static_cast<double>(counts.with_planes), simulation.present_overlap_ratio(),
-       simulation.time_step(), static_cast<double>(lost.total())});
+  writer_.add({simulation.time(), energy.kinetic, energy.contact_elastic, energy.bond_elastic,
+               energy.sheet_elastic, energy.gravity, energy.friction, energy.bond_dissipated,
+               energy.damping, energy.external_work, energy.closure_error(),
+               static_cast<double>(counts.sphere_sphere),
+               static_cast<double>(counts.sphere_surface),
+               static_cast<double>(counts.between_structures),
+               static_cast<double>(counts.with_planes), simulation.present_overlap_ratio(),
+               simulation.time_step(), static_cast<double>(lost.total())});
 }
 
 }  // namespace plekton::apps

@@ -36,11 +36,17 @@ Json timing_of(const RunReport& report) {
 }
 
 Json energy_of(const dynamics::Energy& energy) {
-  return {{"kinetic_J", energy.kinetic},           {"contact_elastic_J", energy.contact_elastic},
-          {"bond_elastic_J", energy.bond_elastic}, {"sheet_elastic_J", energy.sheet_elastic},
-          {"gravity_J", energy.gravity},           {"friction_J", energy.friction},
-          {"damping_J", energy.damping},           {"external_work_J", energy.external_work},
-          {"initial_J", energy.initial},           {"closure_error_J", energy.closure_error()},
+  return {{"kinetic_J", energy.kinetic},
+          {"contact_elastic_J", energy.contact_elastic},
+          {"bond_elastic_J", energy.bond_elastic},
+          {"sheet_elastic_J", energy.sheet_elastic},
+          {"gravity_J", energy.gravity},
+          {"friction_J", energy.friction},
+          {"bond_dissipated_J", energy.bond_dissipated},
+          {"damping_J", energy.damping},
+          {"external_work_J", energy.external_work},
+          {"initial_J", energy.initial},
+          {"closure_error_J", energy.closure_error()},
           {"turnover_J", energy.turnover()}};
 }
 

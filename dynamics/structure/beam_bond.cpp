@@ -193,19 +193,16 @@ void BeamBonds::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const
 }
 
 BondForces BeamBonds::forces_of(std::size_t bond, const NodeState& state) const noexcept {
-  const BeamRow& row = row_of(bond);
-  const std::size_t lane = lane_of(bond);
-  return bond_forces(row.spring.at<BeamSpringOf<double>>(lane), ends_of(row, lane, state));
+  return bond_forces(spring(bond), ends(bond, state));
 }
 
 double BeamBonds::break_bond(std::size_t bond) noexcept {
   if (is_broken_[bond]) return 0.0;
   is_broken_[bond] = true;
-  BeamRow& row = rows_[slots_[bond] / BeamRow::kLanes];
-  auto spring = row.spring.at<BeamSpringOf<double>>(lane_of(bond));
-  spring.axial = spring.bending = spring.twist = 0.0;
-  row.spring.set(lane_of(bond), spring);
-  return row.energy.number(lane_of(bond));
+  BeamSpringOf<double> without = spring(bond);
+  without.axial = without.bending = without.twist = 0.0;
+  set_spring(bond, without);
+  return row_of(bond).energy.number(lane_of(bond));
 }
 
 double BeamBonds::elastic_energy() const noexcept {

@@ -110,6 +110,18 @@ class BeamBonds {
   /// What a bond carries where its nodes are as given.
   BondForces forces_of(std::size_t bond, const NodeState& state) const noexcept;
 
+  /// What the force knows of a bond, and where its ends are.
+  BeamSpringOf<double> spring(std::size_t bond) const noexcept {
+    return row_of(bond).spring.at<BeamSpringOf<double>>(lane_of(bond));
+  }
+  BeamEndsOf<double> ends(std::size_t bond, const NodeState& state) const noexcept {
+    return ends_of(row_of(bond), lane_of(bond), state);
+  }
+  /// Changes a bond from the next advance on. Several bonds may be changed at the same time.
+  void set_spring(std::size_t bond, const BeamSpringOf<double>& spring) noexcept {
+    rows_[slots_[bond] / BeamRow::kLanes].spring.set(lane_of(bond), spring);
+  }
+
   /// Takes all stiffness from a bond, for good: from the next advance on it does nothing, and
   /// stores nothing. Again: no effect.
   /// @returns J, what it stored at the last advance, which is lost

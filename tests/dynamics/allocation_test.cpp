@@ -3,6 +3,7 @@
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/beam_structure.hpp"
 #include "tests/support/complexes.hpp"
+#include "tests/support/yielding_lattice.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,26 @@ TEST(Allocation, IsNoneInTheForcesOfBeams) {
     });
 
     EXPECT_EQ(count, 0U);
+  }
+}
+
+TEST(Allocation, IsNoneWhileBondsYieldAndBreak) {
+  for (const bool are_wires : {false, true}) {
+    dynamics::SimulationOptions options;
+    options.threads = are_wires ? 2 : 1;
+    Simulation simulation(are_wires ? yielding_wires() : yielding_beams(), options);
+    simulation.step();
+
+    std::size_t broken = 0;
+    const std::size_t count = allocations_of([&] {
+      for (int i = 0; i < 1500; ++i) {
+        simulation.step();
+        broken += simulation.yielding_bonds().broken().size();
+      }
+    });
+
+    EXPECT_EQ(count, 0U);
+    EXPECT_GT(broken, 0U);
   }
 }
 

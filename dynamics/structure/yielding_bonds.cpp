@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/structure/yielding_bonds.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace plekton::dynamics {
+namespace {
+
+template <class Bond>
+const Bond* find(const std::vector<Bond>& all, std::size_t bond) noexcept {
+  const auto place = std::lower_bound(all.begin(), all.end(), bond,
+                                      [](const Bond& b, std::size_t i) { return b.bond < i; });
+  return place != all.end() && place->bond == bond ? &*place : nullptr;
+}
+
+template <class Bond>
+void sort_by_bond(std::vector<Bond>& all) {
+  std::sort(all.begin(), all.end(), [](const Bond& a, const Bond& b) { return a.bond < b.bond; });
+}
+
+}  // namespace
+
+YieldingBonds::YieldingBonds(std::vector<BondLaw> laws, std::span<const BeamBond> bonds) {
+  for (BondLaw& law : laws) {
+    if (auto* const curve = std::get_if<WireCurve>(&law.law)) {
+      for (const std::size_t bond : law.bonds)
+        wires_.push_back({bond, curves_.size(), bonds[bond].length, {bonds[bond].length}});
+      curves_.push_back(std::move(*curve));
+      continue;
+    }
+    const BondStrength& strength = std::get<BondStrength>(law.law);
+    for (const std::size_t bond : law.bonds)
+      beams_.push_back({bond, limits_of(strength, bonds[bond]), {}});
+  }
+  sort_by_bond(beams_);
+  sort_by_bond(wires_);
+  breaks_.assign(beams_.size() + wires_.size() > 0 ? bonds.size() : 0, 0);
+  broken_.reserve(beams_.size() + wires_.size());
+}
+
+void YieldingBonds::yield_one(Beam& beam, BeamBonds& bonds, const NodeState& state) noexcept {
+  BeamSpringOf<double> spring = bonds.spring(beam.bond);
+  yield(bonds.ends(beam.bond, state), beam.limits, spring, beam.memory);
+  bonds.set_spring(beam.bond, spring);
+  breaks_[beam.bond] = is_broken(beam.limits, beam.memory);
+}
+
+void YieldingBonds::yield_one(Wire& wire, BeamBonds& bonds, const NodeState& state) noexcept {
+  BeamSpringOf<double> spring = bonds.spring(wire.bond);
+  const double length = bonds.ends(wire.bond, state).chord.norm();
+  breaks_[wire.bond] = yield(length, wire.length, curves_[wire.curve], spring, wire.memory);
+  bonds.set_spring(wire.bond, spring);
+}
+
+template <class Bond>
+void YieldingBonds::yield_all(std::vector<Bond>& all, BeamBonds& bonds, const NodeState& state,
+                              geometry::ThreadPool& pool) {
+  if (all.empty()) return;
+  pool.for_each_range(all.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!bonds.is_broken(all[i].bond)) yield_one(all[i], bonds, state);
+    }
+  });
+}
+
+/// The leapfrog lets the forces of before act for half of the way to where a bond breaks, and none
+/// for the other half. So of what it would have stored and lost on that way only half is there to
+/// be lost: to the second order of the step the balance closes.
+template <class Bond>
+void YieldingBonds::break_all(std::vector<Bond>& all, BeamBonds& bonds,
+                              const NodeState& state) noexcept {
+  for (Bond& one : all) {
+    if (breaks_[one.bond] == 0) continue;
+    breaks_[one.bond] = 0;
+    const double after =
+        any_beam_reaction(bonds.spring(one.bond), bonds.ends(one.bond, state)).energy;
+    one.memory.dissipated += 0.5 * (bonds.break_bond(one.bond) + after - one.memory.loss);
+    broken_.push_back(one.bond);
+  }
+}
+
+void YieldingBonds::advance(BeamBonds& bonds, const NodeState& state, geometry::ThreadPool& pool) {
+  if (breaks_.empty()) return;
+  yield_all(beams_, bonds, state, pool);
+  yield_all(wires_, bonds, state, pool);
+  broken_.clear();
+  break_all(beams_, bonds, state);
+  break_all(wires_, bonds, state);
+  std::sort(broken_.begin(), broken_.end());
+}
+
+double YieldingBonds::dissipated() const noexcept {
+  double sum = 0.0;
+  for (const Beam& beam : beams_) sum += beam.memory.dissipated;
+  for (const Wire& wire : wires_) sum += wire.memory.dissipated;
+  return sum;
+}
+
+double YieldingBonds::dissipated(std::size_t bond) const noexcept {
+  if (const Beam* const beam = find(beams_, bond)) return beam->memory.dissipated;
+  const Wire* const wire = find(wires_, bond);
+  return wire ? wire->memory.dissipated : 0.0;
+}
+
+void YieldingBonds::forget_dissipated() noexcept {
+  for (Beam& beam : beams_) beam.memory.dissipated = 0.0;
+  for (Wire& wire : wires_) wire.memory.dissipated = 0.0;
+}
+
+double YieldingBonds::plastic_strain(std::size_t bond) const noexcept {
+  if (const Beam* const beam = find(beams_, bond))
+    return beam->memory.stretch / beam->limits.length;
+  const Wire* const wire = find(wires_, bond);
+  return wire ? wire->memory.rest_length / wire->length - 1.0 : 0.0;
+}
+
+}  // namespace plekton::dynamics

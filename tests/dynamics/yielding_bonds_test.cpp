@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/structure/yielding_bonds.hpp"
+
+#include "dynamics/simulation.hpp"
+#include "tests/support/yielding_lattice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace plekton::test {
+namespace {
+
+using dynamics::BondStrength;
+using dynamics::WireCurve;
+using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+
+std::size_t broken_bonds(const Simulation& simulation) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < simulation.bonds().size(); ++i)
+    count += simulation.bonds().is_broken(i);
+  return count;
+}
+
+Simulation simulation_of(Scene scene, int threads = 1, double time_step = 0.0) {
+  dynamics::SimulationOptions options;
+  options.threads = threads;
+  options.time_step = time_step;
+  return Simulation(std::move(scene), options);
+}
+
+struct Momenta {
+  Vec3 linear = Vec3::Zero();   // kg m/s
+  Vec3 angular = Vec3::Zero();  // kg m²/s
+};
+
+Momenta momenta(const Simulation& simulation) {
+  Momenta sum;
+  const dynamics::NodeState& state = simulation.state();
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Vec3 momentum = simulation.properties().mass[i] * state.velocity[i];
+    sum.linear += momentum;
+    sum.angular += state.position[i].cross(momentum) +
+                   simulation.properties().inertia[i] * state.angular_velocity[i];
+  }
+  return sum;
+}
+
+void expect_balances(Scene scene) {
+  const double size = 4.0 * kLatticeSpacing;
+  double scale = 0.0;
+  for (std::size_t i = 0; i < scene.state.size(); ++i)
+    scale += scene.properties.mass[i] * scene.state.velocity[i].norm();
+  Simulation simulation = simulation_of(std::move(scene), 1, 2e-5);
+  const Momenta before = momenta(simulation);
+
+  double lost = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    simulation.step();
+    EXPECT_GE(simulation.energy().bond_dissipated, lost);
+    lost = simulation.energy().bond_dissipated;
+  }
+
+  const Momenta after = momenta(simulation);
+  EXPECT_LT((after.linear - before.linear).norm(), 1e-10 * scale);
+  EXPECT_LT((after.angular - before.angular).norm(), 1e-10 * scale * size);
+  EXPECT_GT(broken_bonds(simulation), 5U);
+  EXPECT_LT(broken_bonds(simulation), simulation.bonds().size());
+  EXPECT_GT(lost, 0.1 * simulation.energy().initial);
+  EXPECT_LT(simulation.energy().closure(), 5e-4);  // of second order in the step
+}
+
+TEST(YieldingBonds, KeepBothMomentaAndAccountForTheEnergyAsBeamsBreak) {
+  expect_balances(yielding_beams());
+}
+
+TEST(YieldingBonds, KeepBothMomentaAndAccountForTheEnergyAsWiresBreak) {
+  expect_balances(yielding_wires());
+}
+
+double closure_after(Scene scene, double time_step, int steps) {
+  Simulation simulation = simulation_of(std::move(scene), 1, time_step);
+  for (int i = 0; i < steps; ++i) simulation.step();
+  return simulation.energy().closure();
+}
+
+TEST(YieldingBonds, AccountForTheEnergyToTheSecondOrderOfTheStepWhileTheyYield) {
+  Scene scene = yielding_beams();
+  std::get<BondStrength>(scene.bond_laws[0].law).rupture_strain = BondStrength::kNever;
+  constexpr double kStep = 4e-5;  // s
+
+  const double coarse = closure_after(scene, kStep, 400);
+  const double fine = closure_after(scene, kStep / 4.0, 1600);
+
+  EXPECT_LT(coarse, 1e-3);
+  EXPECT_LT(fine, coarse / 8.0);
+}
+
+TEST(YieldingBonds, GiveTheSameBitsForAnyNumberOfThreads) {
+  for (const bool as_wires : {false, true}) {
+    Simulation one = simulation_of(as_wires ? yielding_wires() : yielding_beams());
+    for (int i = 0; i < 1500; ++i) one.step();
+    for (const int threads : {2, 4}) {
+      Simulation other = simulation_of(as_wires ? yielding_wires() : yielding_beams(), threads);
+      for (int i = 0; i < 1500; ++i) other.step();
+
+      for (std::size_t i = 0; i < other.state().size(); ++i) {
+        EXPECT_EQ(one.state().position[i], other.state().position[i]);
+        EXPECT_EQ(one.state().angular_velocity[i], other.state().angular_velocity[i]);
+      }
+      EXPECT_EQ(one.energy().bond_dissipated, other.energy().bond_dissipated);
+      EXPECT_GT(broken_bonds(other), 0U);
+    }
+  }
+}
+
+TEST(YieldingBonds, TellWhichBrokeInTheStep) {
+  Simulation simulation = simulation_of(yielding_beams());
+  std::vector<std::size_t> told;
+  for (int i = 0; i < 1500; ++i) {
+    simulation.step();
+    const auto broken = simulation.yielding_bonds().broken();
+    EXPECT_TRUE(std::is_sorted(broken.begin(), broken.end()));
+    told.insert(told.end(), broken.begin(), broken.end());
+  }
+
+  std::sort(told.begin(), told.end());
+  EXPECT_EQ(std::adjacent_find(told.begin(), told.end()), told.end());
+  EXPECT_EQ(told.size(), broken_bonds(simulation));
+}
+
+TEST(YieldingBonds, LeaveElasticBondsAsTheyAre) {
+  Scene elastic = yielding_beams();
+  elastic.bond_laws.clear();
+  Scene strong = yielding_beams();
+  strong.bond_laws[0].law = BondStrength{};
+  Simulation one = simulation_of(elastic);
+  Simulation other = simulation_of(strong);
+  for (int i = 0; i < 300; ++i) {
+    one.step();
+    other.step();
+  }
+
+  for (std::size_t i = 0; i < one.state().size(); ++i)
+    EXPECT_EQ(one.state().position[i], other.state().position[i]);
+}
+
+TEST(Scene, ListsBondLawsThatDoNotFit) {
+  Scene scene = yielding_beams();
+  scene.bond_laws.push_back({WireCurve{}, {0}});
+  try {
+    scene.check();
+    ADD_FAILURE() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("bond law 1: has no points"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("bond 0 has a law already"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace plekton::test
