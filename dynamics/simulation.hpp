@@ -11,6 +11,7 @@
 #include "dynamics/loads/plane_servo.hpp"
 #include "dynamics/motion_step.hpp"
 #include "dynamics/scene.hpp"
+#include "dynamics/step_cause.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/yielding_bonds.hpp"
@@ -61,6 +62,8 @@ class Simulation {
   /// @param dt  s, > 0, from the next step on; from then on it is not chosen any more
   void set_time_step(double dt);
 
+  /// What it is made of, in its present state.
+  const Scene& scene() const noexcept { return scene_; }
   const NodeState& state() const noexcept { return scene_.state; }
   /// The velocities of held nodes may be set between steps, unless a motion is prescribed for them
   /// (Scene::loads).
@@ -97,6 +100,8 @@ class Simulation {
   /// Critical time step: of the structures and contacts as they are now, or with the contacts that
   /// may come (expected_contacts.hpp), whichever is shorter.
   CriticalStep critical_step() const;
+  /// What limits critical_step().
+  StepCause critical_cause() const;
   /// Critical time step of the structures and contacts as they are now, by the frequencies of the
   /// scene as a whole (exact_step.hpp). Contacts between structures count with what holds each of
   /// their nodes by itself, and ones in a concave crease are all counted: there it may be too
@@ -129,6 +134,8 @@ class Simulation {
   template <class Look>
   void for_each_piece(NodalStiffness& space, const Look& look) const;
   CriticalStep critical_step(NodalStiffness& space) const;
+  CriticalStep structural_step(NodalStiffness& space, bool expected) const;
+  void consider_structures(StiffestPart& parts) const;
 
   Scene scene_;
   contact::MaterialPairs<Law> material_pairs_;

@@ -4,6 +4,7 @@
 #include "dynamics/expected_contacts.hpp"
 #include "dynamics/scene_figures.hpp"
 #include "dynamics/simulation.hpp"
+#include "dynamics/simulation_cause.hpp"
 #include "dynamics/simulation_loads.hpp"
 
 #include <algorithm>
@@ -288,7 +289,8 @@ void Simulation<Law>::add_structures_to(NodalStiffness& stiffness) const {
     if (!bonds_.is_broken(i)) stiffness.add_beam(scene_.bonds[i], scene_.state);
   }
   sheet_facets_.add_to(stiffness, scene_.state);
-  loads_.add_to(stiffness, scene_.state.position);
+  loads_.add_springs_to(stiffness);
+  loads_.add_pressures_to(stiffness, scene_.state.position);
 }
 
 template <contact::ContactLaw Law>
@@ -317,22 +319,25 @@ void Simulation<Law>::for_each_piece(NodalStiffness& space, const Look& look) co
 /// @param space  for some of the nodes; its contents are overwritten
 template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::critical_step(NodalStiffness& space) const {
+  CriticalStep shortest = structural_step(space, true);
+  const CriticalStep present = structural_step(space, false);
+  if (present.dt < shortest.dt) shortest = present;
+  shortest.dt = loads_.critical_step(shortest.dt, scene_);
+  return shortest;
+}
+
+/// Without gases and viscous damping.
+/// @param expected  with the contacts that may come, or else with those of now
+template <contact::ContactLaw Law>
+CriticalStep Simulation<Law>::structural_step(NodalStiffness& space, bool expected) const {
   CriticalStep shortest;
-  const auto look = [&] {
+  for_each_piece(space, [&] {
+    if (expected) add_expected_to(space);
+    add_structures_to(space);
+    if (!expected) add_contacts_to(space);
     const CriticalStep step = space.critical_step(scene_.properties);
     if (step.dt < shortest.dt) shortest = step;
-  };
-  for_each_piece(space, [&] {
-    add_expected_to(space);
-    add_structures_to(space);
-    look();
   });
-  for_each_piece(space, [&] {
-    add_structures_to(space);
-    add_contacts_to(space);
-    look();
-  });
-  shortest.dt = loads_.critical_step(shortest.dt, scene_);
   return shortest;
 }
 

@@ -156,6 +156,10 @@ NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t i,
   return is_free.asDiagonal() * matrix * is_free.asDiagonal();
 }
 
+double NodalStiffness::along(const CriticalStep& step, const NodeProperties& properties) const {
+  return step.mode.dot(per_mass(index_of(step.node) - first_node_, properties) * step.mode);
+}
+
 CriticalStep NodalStiffness::critical_step(const NodeProperties& properties) const {
   CriticalStep step;
   double largest = 0.0;  // omega², 1/s²
@@ -167,7 +171,8 @@ CriticalStep NodalStiffness::critical_step(const NodeProperties& properties) con
     if (solver.eigenvalues()[5] <= largest) continue;
     largest = solver.eigenvalues()[5];
     const bool mostly_turns = solver.eigenvectors().col(5).tail<3>().squaredNorm() > 0.5;
-    step = {2.0 / std::sqrt(largest), geometry::id_at<NodeId>(first_node_ + i), mostly_turns};
+    step = {2.0 / std::sqrt(largest), geometry::id_at<NodeId>(first_node_ + i), mostly_turns,
+            solver.eigenvectors().col(5)};
   }
   return step;
 }

@@ -16,6 +16,8 @@ struct CriticalStep {
       std::numeric_limits<double>::infinity();  ///< s; infinite if nothing is stiff and free
   NodeId node{-1};                              ///< -1 if the step is infinite
   bool rotation = false;  ///< it is the node turning that limits the step, more than moving
+  /// How the node moves and turns, per root of mass and inertia; of length 1.
+  Eigen::Matrix<double, 6, 1> mode = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
 /// Springs of a contact between a and b.
@@ -115,6 +117,9 @@ class NodalStiffness {
     double rotation = 0.0;     ///< N m, likewise
   };
   Total total() const noexcept;
+
+  /// 1/s², the share of what was added in omega² of the node and motion of a step.
+  double along(const CriticalStep& step, const NodeProperties& properties) const;
 
   /// Complexity: linear in the number of nodes.
   CriticalStep critical_step(const NodeProperties& properties) const;

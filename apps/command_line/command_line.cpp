@@ -4,6 +4,7 @@
 #include "apps/command_line/import_command.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/list_command.hpp"
+#include "apps/command_line/step_advice.hpp"
 #include "apps/command_line/summary.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scenario/closest_word.hpp"
@@ -50,6 +51,7 @@ struct CommandLine {
   bool refuse_intersections = false;
   std::optional<std::string> thickness;
   bool json = false;
+  bool power_iteration = false;
 };
 
 Scenario scenario_of(const CommandLine& line) {
@@ -103,7 +105,9 @@ int run_command(const CommandLine& line) {
 int check_command(const CommandLine& line) {
   const Scenario scenario = scenario_of(line);
   const PreparedRun prepared = prepare_run(scenario);
-  std::cout << summary_of(prepared) << line.scenario.string() << ": no problems\n";
+  std::cout << summary_of(prepared) << step_advice(scenario, prepared);
+  if (line.power_iteration) std::cout << summary_of(prepared.simulation->exact_critical_step());
+  std::cout << line.scenario.string() << ": no problems\n";
   flush_output();
   return kDone;
 }
@@ -210,6 +214,9 @@ int dispatch(int argc, const char* const* argv) {
   CLI::App* check = app.add_subcommand(
       "check", "Read a scenario, build its scene, and say what it is or what is wrong with it");
   add_scenario_options(*check, line);
+  check->add_flag("--power-iteration", line.power_iteration,
+                  "Also find the critical time step of the scene as it is by power iteration on "
+                  "its forces");
   CLI::App* import = app.add_subcommand(
       "import", "Read and repair a mesh (.off, .obj, .stl, .ply, .msh, .vtp), and report on it");
   import->add_option("mesh", line.mesh, "Mesh file")->required();

@@ -56,6 +56,17 @@ std::string summary_of(const PreparedRun& prepared) {
   return text;
 }
 
+std::string summary_of(const dynamics::ExactStep& step) {
+  if (!std::isfinite(step.dt))
+    return "critical step by power iteration: none; nothing is stiff and free as the scene is "
+           "now\n";
+  return fmt::format(
+      "critical step by power iteration: {:.4g} s (to {:.1g} %, {} products), of the scene as it "
+      "is "
+      "now: with its {} contacts, and none that may come\n",
+      step.dt, 100.0 * step.error, step.products, step.contacts);
+}
+
 std::string summary_of(const RunReport& report) {
   std::string text = fmt::format(
       "{} at {:.4g} s after {} steps in {} ({:.3g} ms each)\n", name_of(report.status),

@@ -25,6 +25,7 @@ class Simulation {
   virtual double time_step() const = 0;
   virtual void set_time_step(double dt) = 0;
 
+  virtual const dynamics::Scene& scene() const = 0;
   virtual const dynamics::NodeState& state() const = 0;
   virtual const dynamics::NodeProperties& properties() const = 0;
   virtual const geometry::Elements& elements() const = 0;
@@ -36,6 +37,8 @@ class Simulation {
 
   virtual dynamics::Energy energy() const = 0;
   virtual dynamics::CriticalStep critical_step() const = 0;
+  virtual dynamics::StepCause critical_cause() const = 0;
+  virtual dynamics::ExactStep exact_critical_step() const = 0;
   virtual double motion_ratio() const = 0;
   virtual double largest_overlap_ratio() const = 0;
   virtual std::int64_t pass_throughs() const = 0;
@@ -62,6 +65,7 @@ class SimulationUnder final : public Simulation {
   double time_step() const override { return simulation_.time_step(); }
   void set_time_step(double dt) override { simulation_.set_time_step(dt); }
 
+  const dynamics::Scene& scene() const override { return simulation_.scene(); }
   const dynamics::NodeState& state() const override { return simulation_.state(); }
   const dynamics::NodeProperties& properties() const override { return simulation_.properties(); }
   const geometry::Elements& elements() const override { return simulation_.elements(); }
@@ -73,6 +77,10 @@ class SimulationUnder final : public Simulation {
 
   dynamics::Energy energy() const override { return simulation_.energy(); }
   dynamics::CriticalStep critical_step() const override { return simulation_.critical_step(); }
+  dynamics::StepCause critical_cause() const override { return simulation_.critical_cause(); }
+  dynamics::ExactStep exact_critical_step() const override {
+    return simulation_.exact_critical_step();
+  }
   double motion_ratio() const override { return simulation_.motion_ratio(); }
   double largest_overlap_ratio() const override { return simulation_.largest_overlap_ratio(); }
   std::int64_t pass_throughs() const override { return simulation_.pass_throughs(); }

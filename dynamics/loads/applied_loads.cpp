@@ -52,12 +52,15 @@ LoadWork AppliedLoads::work_after(const LoadStep& step, const NodeState& state,
       [&](auto& load) { return 0.5 * step.after * load.nodes().power(state, pool); });
 }
 
-void AppliedLoads::add_to(NodalStiffness& stiffness, geometry::Positions x) const {
+void AppliedLoads::add_springs_to(NodalStiffness& stiffness) const {
   for (const SprungNodes& springs : springs_) {
     for (std::size_t i = 0; i < springs.nodes().size(); ++i)
       stiffness.add_to_node(springs.nodes().node(i), springs.stiffness().asDiagonal(),
                             Mat3::Zero());
   }
+}
+
+void AppliedLoads::add_pressures_to(NodalStiffness& stiffness, geometry::Positions x) const {
   for (const PressedSurface& surface : pressures_) {
     surface.for_each_stiffness(x, [&](NodeId node, double of_facet) {
       stiffness.add_to_node(node, of_facet * Mat3::Identity(), Mat3::Zero());

@@ -30,8 +30,10 @@ class AppliedLoads {
   /// @param state  with the velocities of that drift
   LoadWork work_after(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
 
-  /// Adds the stiffness of springs and of facets under pressure.
-  void add_to(NodalStiffness& stiffness, geometry::Positions x) const;
+  /// Adds the stiffness of springs to ground.
+  void add_springs_to(NodalStiffness& stiffness) const;
+  /// Adds the stiffness of facets under pressure.
+  void add_pressures_to(NodalStiffness& stiffness, geometry::Positions x) const;
 
   /// The critical step (s) with viscous damping and the stiffness of gases.
   /// @param without  s, without them; may be infinite

@@ -73,37 +73,40 @@ SheetFacets::Bounds SheetFacets::bounds_of(const SheetFacet& facet, const SheetS
           spring.shape.area * largest_eigenvalue(slopes)};
 }
 
+void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state) const {
+  for (std::size_t i = 0; i < springs_.size(); ++i) add_to(stiffness, state, i);
+}
+
 // Stretching acts on F^T du, which is longer than du by at most the largest stretch s: its matrix
 // is below s² times that at rest, plus the tension times the gradients of the shape functions. A
 // lever of bending is an edge, which is longer by s at most as well.
-void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state) const {
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
-    const SheetSpring& spring = springs_[i];
-    const Bounds& bounds = bounds_[i];
-    const SheetPose pose = pose_of(spring, nodes_[i], state);
-    const auto f = deformation_gradient(spring.shape, pose.x);
-    const Eigen::Matrix2d metric = f.transpose() * f;
-    const double stretch = std::max(1.0, largest_eigenvalue(metric));  // squared
-    SheetReaction reaction;
-    add_stretching(spring, pose, reaction);
-    Eigen::Matrix2d stress;
-    stress << reaction.stress[0], reaction.stress[2], reaction.stress[2], reaction.stress[1];
-    const double tension = bounds.tension * std::max(0.0, largest_eigenvalue(stress));
-    const double in_plane = stretch * bounds.in_plane + tension;
-    const double across = stretch * bounds.across + tension;
+void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state,
+                         std::size_t facet) const {
+  const SheetSpring& spring = springs_[facet];
+  const Bounds& bounds = bounds_[facet];
+  const SheetPose pose = pose_of(spring, nodes_[facet], state);
+  const auto f = deformation_gradient(spring.shape, pose.x);
+  const Eigen::Matrix2d metric = f.transpose() * f;
+  const double stretch = std::max(1.0, largest_eigenvalue(metric));  // squared
+  SheetReaction reaction;
+  add_stretching(spring, pose, reaction);
+  Eigen::Matrix2d stress;
+  stress << reaction.stress[0], reaction.stress[2], reaction.stress[2], reaction.stress[1];
+  const double tension = bounds.tension * std::max(0.0, largest_eigenvalue(stress));
+  const double in_plane = stretch * bounds.in_plane + tension;
+  const double across = stretch * bounds.across + tension;
 
-    const Vec3 area = f.col(0).cross(f.col(1));
-    const bool has_area = area.norm() > 0.0;
-    const Vec3 n = area.stableNormalized();
-    const auto along_and_across = [&](double along, double beside) -> Mat3 {
-      if (!has_area) return std::max(along, beside) * Mat3::Identity();
-      return beside * Mat3::Identity() + ((along - beside) * n) * n.transpose();
-    };
-    const Mat3 translation = along_and_across(across, in_plane);
-    const Mat3 rotation =
-        along_and_across(stretch * bounds.turning, bounds.gyration * stretch * bounds.across);
-    for (const NodeId node : nodes_[i]) stiffness.add_to_node(node, translation, rotation);
-  }
+  const Vec3 area = f.col(0).cross(f.col(1));
+  const bool has_area = area.norm() > 0.0;
+  const Vec3 n = area.stableNormalized();
+  const auto along_and_across = [&](double along, double beside) -> Mat3 {
+    if (!has_area) return std::max(along, beside) * Mat3::Identity();
+    return beside * Mat3::Identity() + ((along - beside) * n) * n.transpose();
+  };
+  const Mat3 translation = along_and_across(across, in_plane);
+  const Mat3 rotation =
+      along_and_across(stretch * bounds.turning, bounds.gyration * stretch * bounds.across);
+  for (const NodeId node : nodes_[facet]) stiffness.add_to_node(node, translation, rotation);
 }
 
 }  // namespace plekton::dynamics

@@ -71,6 +71,8 @@ class SheetFacets {
   /// Adds the stiffness of all facets as they are now; see NodalStiffness. Bending counts as if the
   /// nodes were turned little against the facets.
   void add_to(NodalStiffness& stiffness, const NodeState& state) const;
+  /// That of one facet.
+  void add_to(NodalStiffness& stiffness, const NodeState& state, std::size_t facet) const;
 
  private:
   /// Largest eigenvalues at rest of the parts of a facet's stiffness matrix.
