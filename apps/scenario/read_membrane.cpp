@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/read_membrane_source.hpp"
+#include "apps/scenario/read_membrane_strength.hpp"
 
 #include <fmt/format.h>
 
@@ -107,9 +108,12 @@ MembraneSettings read_membrane(Section section, const Known& known) {
   const bool is_sheet = membrane.mode == MembraneMode::continuum;
   membrane.thickness = section.quantity("thickness", {kLength, kPositive});
   membrane.material = read_material_of(section, known).value_or(0);
-  membrane.young_modulus =
-      read_either(section, {"young_modulus", {kPressure, kPositive}},
-                  {"sheet_stiffness", {kStiffness, kPositive}}, membrane.sheet_stiffness);
+  read_membrane_strength(section, membrane);
+  if (!section.has("wire")) {
+    membrane.young_modulus =
+        read_either(section, {"young_modulus", {kPressure, kPositive}},
+                    {"sheet_stiffness", {kStiffness, kPositive}}, membrane.sheet_stiffness);
+  }
   membrane.poisson_ratio =
       section.quantity("poisson_ratio", {kNumber, kPoisson}, membrane.poisson_ratio);
   if (section.has("bending_stiffness"))

@@ -6,6 +6,8 @@
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/shape_settings.hpp"
 #include "contact/laws/law_list.hpp"
+#include "dynamics/structure/bond_strength.hpp"
+#include "dynamics/structure/wire_curve.hpp"
 #include "geometry/box.hpp"
 #include "geometry/mesh/repair.hpp"
 #include "geometry/types.hpp"
@@ -97,11 +99,14 @@ struct MembraneSettings {
   MembraneMode mode = MembraneMode::lattice;
   double thickness = 0.0;  ///< m
   std::size_t material = 0;
-  std::optional<double> young_modulus;  ///< Pa, of the beams or bars along the edges, or of the
-                                        ///< sheet; else from sheet_stiffness
+  std::optional<double> young_modulus;      ///< Pa, of the beams or bars along the edges, or of the
+                                            ///< sheet; else from sheet_stiffness
   double sheet_stiffness = 0.0;             ///< N/m, of the membrane as a sheet
   double poisson_ratio = 0.3;               ///< of the sheet, or of the beams, for their torsion
   std::optional<double> bending_stiffness;  ///< N m, of a sheet; else that of a solid plate
+  std::optional<dynamics::BondStrength> strength;  ///< of the beams or bars, if they yield or break
+  std::optional<dynamics::WireCurve> wire;         ///< of the bars, instead of a modulus
+  std::optional<dynamics::WireCurve> twist_wire;   ///< of the twists of a hexagonal net; else wire
   MassMode mass_mode = MassMode::edge;
   std::optional<double>
       density;  ///< kg/m³, of the beams (edge) or the plate (area); else from areal_mass

@@ -210,11 +210,12 @@ std::vector<std::array<double, 2>> Section::rising_rows(std::string_view key, co
     rows.push_back({read_quantity((*pair)[0], path + "[0]", first),
                     read_quantity((*pair)[1], path + "[1]", second)});
     if (rows.size() < 2 || !(rows.back()[0] <= rows[rows.size() - 2][0])) continue;
+    const std::string unit =
+        first.dimension.si_unit.empty() ? "" : fmt::format(" {}", first.dimension.si_unit);
     problems_->add(row.place,
-                   fmt::format("{}: {} {} is not above {} {} of the row before; list "
-                               "the rows by increasing {}",
-                               path, rows.back()[0], first.dimension.si_unit,
-                               rows[rows.size() - 2][0], first.dimension.si_unit,
+                   fmt::format("{}: {}{} is not above {}{} of the row before; list the rows by "
+                               "increasing {}",
+                               path, rows.back()[0], unit, rows[rows.size() - 2][0], unit,
                                first.dimension.name.substr(first.dimension.name.find(' ') + 1)));
   }
   return problems_->count() == problems ? rows : std::vector<std::array<double, 2>>{};

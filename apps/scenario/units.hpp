@@ -21,6 +21,7 @@ struct Dimension {
 };
 
 inline constexpr Dimension kNumber{"a number without unit", {0, 0, 0, 0}, "", "none, %"};
+inline constexpr Dimension kStrain{"a strain", {0, 0, 0, 0}, "", "none, %"};
 inline constexpr Dimension kLength{"a length", {0, 1, 0, 0}, "m", "m, cm, mm, um, nm, km"};
 inline constexpr Dimension kArea{"an area", {0, 2, 0, 0}, "m2", "m2, cm2, mm2"};
 inline constexpr Dimension kVolume{"a volume", {0, 3, 0, 0}, "m3", "m3, l, cm3, mm3"};

@@ -70,8 +70,11 @@ double area_of(const Mesh& mesh) {
 
 MembraneBody body_of(Mesh mesh, const MembraneSettings& settings, std::size_t first_node) {
   put_in_place(mesh.points, settings.placement);
-  return {geometry::make_membrane(mesh, {settings.thickness, first_node}), rim_of(mesh),
-          area_of(mesh), std::nullopt};
+  return {geometry::make_membrane(mesh, {settings.thickness, first_node}),
+          rim_of(mesh),
+          {},
+          area_of(mesh),
+          std::nullopt};
 }
 
 /// A bar that is shorter than thick overlaps more bars than its neighbours.
@@ -108,6 +111,8 @@ MembraneBody body_of(Lattice lattice, const MembraneSettings& settings, std::siz
   for (const geometry::Cylinder& bar :
        geometry::cylinders_of(lattice, 0.5 * settings.thickness, first_node))
     body.membrane.edges.push_back(bar.nodes);
+  for (const geometry::LatticeEdge& edge : lattice.edges)
+    body.is_twist.push_back(edge.part == geometry::LatticePart::twist);
   warn_about_bars(body.membrane, lattice, settings.thickness);
   body.membrane.nodes = std::move(lattice.points);
   return body;

@@ -121,18 +121,31 @@ Masses masses_of(const MembraneSettings& settings, double area, double bar_volum
   return {density * bar_volume, density, 0.0};
 }
 
-/// Adds the cylinders with their beams or bars.
-void add_edges(const MembraneSettings& settings, const Membrane& membrane,
+/// The section of all edges of a membrane but for wires.
+dynamics::BeamSection section_of(const MembraneSettings& settings, const BuiltMembrane& built) {
+  const double radius = 0.5 * settings.thickness;
+  return settings.mode == MembraneMode::truss
+             ? dynamics::bar_section(radius, built.young_modulus)
+             : dynamics::circular_section(radius, built.young_modulus, settings.poisson_ratio);
+}
+
+/// Adds the cylinders with their beams, bars or wires.
+void add_edges(const MembraneSettings& settings, const MembraneBody& body,
                const BuiltMembrane& built, double density, dynamics::Scene& scene) {
   const double radius = 0.5 * settings.thickness;
-  const dynamics::BeamSection section =
-      settings.mode == MembraneMode::truss
-          ? dynamics::bar_section(radius, built.young_modulus)
-          : dynamics::circular_section(radius, built.young_modulus, settings.poisson_ratio);
-  for (const auto& [a, b] : membrane.edges) {
+  const dynamics::BeamSection section = section_of(settings, built);
+  std::vector<std::size_t> plain, twists;
+  for (std::size_t i = 0; i < body.membrane.edges.size(); ++i) {
+    const auto& [a, b] = body.membrane.edges[i];
+    const bool is_twist = settings.twist_wire && body.is_twist[i];
     scene.add_cylinder(a, b, radius, static_cast<contact::MaterialId>(settings.material));
-    scene.add_beam(a, b, section, density);
+    const std::size_t bond = scene.add_beam(
+        a, b, is_twist ? dynamics::wire_section(radius, *settings.twist_wire) : section, density);
+    (is_twist ? twists : plain).push_back(bond);
   }
+  if (settings.strength) scene.bond_laws.push_back({*settings.strength, plain});
+  if (settings.wire) scene.bond_laws.push_back({*settings.wire, std::move(plain)});
+  if (!twists.empty()) scene.bond_laws.push_back({*settings.twist_wire, std::move(twists)});
 }
 
 /// Adds what resists in the facets of a sheet, and the mass of its edges.
@@ -150,15 +163,17 @@ void add_sheet(const MembraneSettings& settings, const Membrane& membrane,
 }
 
 /// Adds the cylinders, beams and facets, and with them the mass.
-void add_elements(const MembraneSettings& settings, const Membrane& membrane,
+void add_elements(const MembraneSettings& settings, const MembraneBody& body,
                   dynamics::Scene& scene, BuiltMembrane& result) {
+  const Membrane& membrane = body.membrane;
   const double radius = 0.5 * settings.thickness;
   const double section_area = std::numbers::pi * radius * radius;
   const auto [length, shortest] = edge_lengths(scene, membrane);
   const bool is_sheet = settings.mode == MembraneMode::continuum;
   result.young_modulus = settings.young_modulus.value_or(
-      is_sheet ? settings.sheet_stiffness / settings.thickness
-               : beam_modulus(settings.sheet_stiffness, result.area, section_area, length));
+      settings.wire ? settings.wire->first_slope() / section_area
+      : is_sheet    ? settings.sheet_stiffness / settings.thickness
+                    : beam_modulus(settings.sheet_stiffness, result.area, section_area, length));
   const Masses masses = masses_of(settings, result.area, section_area * length);
   result.mass = masses.total;
 
@@ -167,7 +182,7 @@ void add_elements(const MembraneSettings& settings, const Membrane& membrane,
   if (is_sheet)
     add_sheet(settings, membrane, result, masses.edges, scene);
   else
-    add_edges(settings, membrane, result, masses.edges, scene);
+    add_edges(settings, body, result, masses.edges, scene);
   for (const geometry::Facet& facet : membrane.facets) {
     scene.add_facet(facet.nodes[0], facet.nodes[1], facet.nodes[2], radius,
                     static_cast<contact::MaterialId>(settings.material));
@@ -193,7 +208,7 @@ BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) 
   result.on_rim = body.on_rim;
   result.area = body.area;
   result.held_nodes = add_nodes(settings, body, built);
-  add_elements(settings, body.membrane, built.scene, result);
+  add_elements(settings, body, built.scene, result);
   return result;
 }
 
