@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 /// Statics of beams, from the forces of the library alone. A displacement has six entries for each
 /// node: translation (m), then rotation vector (rad) in world axes.
@@ -76,12 +77,26 @@ inline Scene chain(int bond_count, double total_length, const BeamSection& secti
   return scene;
 }
 
+/// Entries that may change: all but those of the first node, which is clamped, and what is held.
+inline std::vector<Eigen::Index> free_entries(const Scene& scene) {
+  std::vector<Eigen::Index> entries;
+  for (std::size_t i = 1; i < scene.state.size(); ++i) {
+    for (int k = 0; k < 6; ++k) {
+      const auto held = scene.properties.held[i];
+      const bool is_held = k < 3 ? holds_along(held, k) : holds_about(held, k - 3);
+      if (!is_held) entries.push_back(first_entry(i) + k);
+    }
+  }
+  return entries;
+}
+
 /// Moves all nodes but the first, which is clamped, to where the bonds balance the loads (N and
-/// N m): Newton's method from the state of the scene, in equal load steps.
+/// N m), as far as they are not held: Newton's method from the state of the scene, in equal load
+/// steps.
 /// @throws std::runtime_error if it does not converge
 inline void balance(Scene& scene, const Eigen::VectorXd& loads, int load_steps) {
   BeamBonds bonds(scene.bonds, scene.state.size());
-  const Eigen::Index free = loads.size() - 6;
+  const std::vector<Eigen::Index> free = free_entries(scene);
   const double length = scene.bonds.front().length;
   for (int k = 1; k <= load_steps; ++k) {
     const Eigen::VectorXd load = loads * k / load_steps;
@@ -90,8 +105,10 @@ inline void balance(Scene& scene, const Eigen::VectorXd& loads, int load_steps) 
       const Eigen::VectorXd residual = load + bond_forces(bonds, scene.state);
       const Eigen::MatrixXd stiffness = stiffness_matrix(bonds, scene.state, 1e-6 * length);
       Eigen::VectorXd change = Eigen::VectorXd::Zero(loads.size());
-      change.tail(free) =
-          stiffness.bottomRightCorner(free, free).partialPivLu().solve(residual.tail(free));
+      const Eigen::VectorXd of_free =
+          stiffness(free, free).eval().partialPivLu().solve(residual(free).eval());
+      for (std::size_t i = 0; i < free.size(); ++i)
+        change[free[i]] = of_free[static_cast<Eigen::Index>(i)];
       scene.state = displaced(scene.state, change);
       if (change.lpNorm<Eigen::Infinity>() < 1e-11 * length) break;
     }

@@ -68,6 +68,9 @@ class ContactProbe {
   const contact::Contacts<LinearFrictional>& contacts() const { return contacts_; }
   const std::vector<Vec3>& positions() const { return position_; }
 
+  /// Puts the nodes elsewhere; the ball is the last.
+  void set_positions(const std::vector<Vec3>& positions) { position_ = positions; }
+
   /// Velocities (m/s) and angular velocities (rad/s), by node; the ball is the last.
   std::vector<Vec3>& velocity() { return velocity_; }
   std::vector<Vec3>& spin() { return spin_; }
@@ -138,6 +141,20 @@ inline double largest_jump(std::span<const Felt> felt) {
     largest = std::max(largest, (felt[k].force - felt[k - 1].force).norm());
   }
   return largest;
+}
+
+/// Gives every node the velocities of a rigid rotation (rad/s) about the origin.
+inline void turn_rigidly(ContactProbe& probe, const Vec3& spin) {
+  for (std::size_t i = 0; i < probe.positions().size(); ++i) {
+    probe.velocity()[i] = spin.cross(probe.positions()[i]);
+    probe.spin()[i] = spin;
+  }
+}
+
+/// Slip velocity (m/s) at the contact: the tangential force is k_s times it after a step of 1 s.
+inline double slip_velocity(ContactProbe& probe, const Vec3& normal) {
+  const Vec3 force = probe.feel().force;
+  return (force - force.dot(normal) * normal).norm() / probe.parameters().tangential_stiffness;
 }
 
 }  // namespace plekton::test

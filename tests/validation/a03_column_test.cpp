@@ -1,31 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/support/beam_structure.hpp"
+#include "tests/support/column.hpp"
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <vector>
 
 namespace plekton::test {
 namespace {
-
-/// Whether a straight column between pins, along x, is stable in the x-z plane under a force.
-bool is_stable(Scene column, double force) {
-  const BeamSection& section = column.bonds.front().section;
-  const double strain = force / (section.young_modulus * section.area);
-  for (Vec3& position : column.state.position) position *= 1.0 - strain;
-  BeamBonds bonds(column.bonds, column.state.size());
-  const Eigen::MatrixXd stiffness = stiffness_matrix(bonds, column.state, 1e-6);
-
-  std::vector<Eigen::Index> free;  // all turns about y, and the deflections between the pins
-  for (std::size_t i = 0; i < column.state.size(); ++i) {
-    if (i > 0 && i + 1 < column.state.size()) free.push_back(first_entry(i) + 2);
-    free.push_back(first_entry(i) + 4);
-  }
-  const Eigen::MatrixXd in_plane = stiffness(free, free);
-  return Eigen::LLT<Eigen::MatrixXd>(in_plane).info() == Eigen::Success;
-}
 
 // Euler: P = pi² E I / L².
 TEST(A03Column, BucklesAtTheForceOfEuler) {

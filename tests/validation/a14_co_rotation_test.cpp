@@ -13,20 +13,6 @@ using namespace dragged;
 
 constexpr double kTolerance = 1e-10;  // m/s
 
-/// Gives every node the velocities of a rigid rotation (rad/s) about the origin.
-void turn_rigidly(ContactProbe& probe, const Vec3& spin) {
-  for (std::size_t i = 0; i < probe.positions().size(); ++i) {
-    probe.velocity()[i] = spin.cross(probe.positions()[i]);
-    probe.spin()[i] = spin;
-  }
-}
-
-/// Slip velocity (m/s) at the contact: the tangential force is k_s times it after a step of 1 s.
-double slip_velocity(ContactProbe& probe, const Vec3& normal) {
-  const Vec3 force = probe.feel().force;
-  return (force - force.dot(normal) * normal).norm() / probe.parameters().tangential_stiffness;
-}
-
 TEST(A14CoRotation, ABallOnACylinderOfAnyLengthDoesNotSlip) {
   for (const double length : {0.1, 0.5, 1.0, 3.0}) {
     for (const double place : {0.0, 0.3}) {

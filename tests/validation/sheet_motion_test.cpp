@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/simulation.hpp"
+#include "tests/support/free_swing.hpp"
 #include "tests/support/refinement.hpp"
 #include "tests/support/sheet_meshes.hpp"
 
@@ -16,7 +17,7 @@ using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 constexpr double kDensity = 1000.0;  // kg/m³
 const SheetSection kPlate = dynamics::solid_sheet(0.02, 1e9, 0.3);
 
-/// 1/s, of the lowest mode of a clamped disk of 1 m, from the zeros of its part in the motion.
+/// 1/s, of the lowest mode of a clamped disk of 1 m.
 double lowest_frequency(int rings) {
   Scene scene = sheet_of(disk(1.0, rings), kPlate, kDensity, [](const Vec3& x) {
     return x.norm() > 1.0 - 1e-9 ? Held::everything : Held::nothing;
@@ -28,19 +29,7 @@ double lowest_frequency(int rings) {
     scene.state.velocity[i] = Vec3(0.0, 0.0, 1e-4 * w);
   }
   Simulation simulation(scene, {});
-  double before = 0.0, first = 0.0;
-  for (int zeros = 0;;) {
-    simulation.step();
-    double now = 0.0;
-    for (std::size_t i = 0; i < shape.size(); ++i)
-      now += shape[i] * simulation.state().position[i].z();
-    if (before != 0.0 && (now > 0.0) != (before > 0.0)) {
-      const double time = simulation.time() - simulation.time_step() * now / (now - before);
-      if (zeros == 0) first = time;
-      if (++zeros == 7) return 3.0 / (time - first);
-    }
-    before = now;
-  }
+  return frequency_of_swing(simulation, shape);
 }
 
 // omega = 10.2158 / a² sqrt(D / (rho t)) (Leissa, Vibration of Plates (1969), 2.1).
