@@ -77,7 +77,7 @@ class Simulation {
   const YieldingBonds& yielding_bonds() const noexcept { return yielding_bonds_; }
   /// What a bond carries where its nodes are now.
   BondForces bond_forces(std::size_t bond) const noexcept {
-    return bonds_.forces_of(bond, scene_.state);
+    return yielding_bonds_.forces_of(bond, bonds_, scene_.state);
   }
   const SheetFacets& sheet_facets() const noexcept { return sheet_facets_; }
   const AppliedLoads& loads() const noexcept { return loads_; }

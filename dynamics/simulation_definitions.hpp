@@ -286,7 +286,8 @@ void Simulation<Law>::add_expected_to(NodalStiffness& stiffness) const {
 template <contact::ContactLaw Law>
 void Simulation<Law>::add_structures_to(NodalStiffness& stiffness) const {
   for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
-    if (!bonds_.is_broken(i)) stiffness.add_beam(scene_.bonds[i], scene_.state);
+    if (!bonds_.is_broken(i))
+      stiffness.add_beam(scene_.bonds[i], scene_.state, bonds_.spring(i).length);
   }
   sheet_facets_.add_to(stiffness, scene_.state);
   loads_.add_springs_to(stiffness);

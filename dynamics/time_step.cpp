@@ -56,7 +56,7 @@ void NodalStiffness::set_zero() noexcept {
 // with v² <= 2 (v_a² + v_b²), and u² + t² = 2 (u_a² + u_b²) since sum and difference are
 // orthogonal: the larger of their factors holds for both. gamma = 4 rho² / L², with rho² = 2/5 A /
 // pi the square of a node's radius of gyration, makes both parts limit the step alike.
-void NodalStiffness::add_beam(const BeamBond& bond, const NodeState& state) {
+void NodalStiffness::add_beam(const BeamBond& bond, const NodeState& state, double rest_length) {
   const BeamSection& section = bond.section;
   const Vec3 chord =
       state.position[index_of(bond.nodes[1])] - state.position[index_of(bond.nodes[0])];
@@ -69,7 +69,7 @@ void NodalStiffness::add_beam(const BeamBond& bond, const NodeState& state) {
   const double twist = section.shear_modulus * section.torsion_constant / bond.length;
   const double gamma = 1.6 * section.area / (std::numbers::pi * length * length);
   const double shear = 12.0 * bending / (length * length) * (1.0 + 1.0 / gamma);
-  const double tension = std::max(0.0, axial * (length - bond.length));
+  const double tension = std::max(0.0, axial * (length - rest_length));
 
   const Mat3 translation = along_and_across(n, 2.0 * axial, 2.0 * (shear + tension / length));
   const Mat3 rotation = along_and_across(n, 2.0 * twist, 6.0 * bending * (1.0 + gamma));

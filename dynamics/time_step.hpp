@@ -87,7 +87,11 @@ class NodalStiffness {
   /// scale at which translation and rotation limit an unloaded beam alike. For equal beams in a
   /// chain this gives omega² <= (E / density) / L² (7.5 + 12 A / (pi L²)), which is what Fried's
   /// theorem gives for single elements, exact for slender ones.
-  void add_beam(const BeamBond& bond, const NodeState& state);
+  /// @param rest_length  m, where its tension begins: the bond's length, or what yielding made it
+  void add_beam(const BeamBond& bond, const NodeState& state, double rest_length);
+  void add_beam(const BeamBond& bond, const NodeState& state) {
+    add_beam(bond, state, bond.length);
+  }
 
   /// Adds a contact between two balls.
   void add_pair(NodeId a, NodeId b, const ContactStiffness& contact);

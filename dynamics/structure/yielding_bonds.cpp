@@ -90,6 +90,22 @@ void YieldingBonds::advance(BeamBonds& bonds, const NodeState& state, geometry::
   std::sort(broken_.begin(), broken_.end());
 }
 
+BondForces YieldingBonds::forces_of(std::size_t bond, const BeamBonds& bonds,
+                                    const NodeState& state) const noexcept {
+  const BeamEndsOf<double> ends = bonds.ends(bond, state);
+  BeamSpringOf<double> spring = bonds.spring(bond);
+  bool breaks = bonds.is_broken(bond);
+  if (const Beam* const beam = find(beams_, bond)) {
+    BeamYield memory = beam->memory;
+    yield(ends, beam->limits, spring, memory);
+    breaks = breaks || is_broken(beam->limits, memory);
+  } else if (const Wire* const wire = find(wires_, bond)) {
+    WireYield memory = wire->memory;
+    breaks = yield(ends.chord.norm(), wire->length, curves_[wire->curve], spring, memory) || breaks;
+  }
+  return breaks ? BondForces{} : bond_forces(spring, ends);
+}
+
 double YieldingBonds::dissipated() const noexcept {
   double sum = 0.0;
   for (const Beam& beam : beams_) sum += beam.memory.dissipated;

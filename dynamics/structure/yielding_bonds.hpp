@@ -22,6 +22,10 @@ class YieldingBonds {
   /// same bits for any number of threads.
   void advance(BeamBonds& bonds, const NodeState& state, geometry::ThreadPool& pool);
 
+  /// What any bond would carry after an advance to this state; nothing if it broke.
+  BondForces forces_of(std::size_t bond, const BeamBonds& bonds,
+                       const NodeState& state) const noexcept;
+
   /// The bonds that broke in the last advance, ascending.
   std::span<const std::size_t> broken() const noexcept { return broken_; }
 
