@@ -43,7 +43,9 @@ typename Law::Parameters combine(const PropertiesOf<Law>& properties, const Body
   }
 }
 
-/// Whether a law answers with moments too; contacts under the others do not look at them.
+/// Whether a law answers with moments too; contacts under the others do not look at them. Such a
+/// law also tells the moment (N m, on b) of the last step from the history and the normal then:
+/// moment(history, normal).
 template <class Law>
 concept HasMoments = requires {
   requires Law::has_moments;
@@ -88,6 +90,14 @@ template <class Law>
 concept TellsForce = requires(const typename Law::Parameters& parameters, double gap,
                               const Vec3& normal, const typename Law::History& history) {
   { Law::force_of_state(parameters, gap, normal, history) } -> std::same_as<Vec3>;
+};
+
+/// A law that tells how large (N) the tangential force may be, from the parameters, the magnitude
+/// of the elastic normal force and the history.
+template <class Law>
+concept TellsTangentialLimit = requires(const typename Law::Parameters& parameters, double force,
+                                        const typename Law::History& history) {
+  { Law::tangential_limit(parameters, force, history) } -> std::same_as<double>;
 };
 
 /// A law whose contacts may go on over a distance, because the bodies stick to each other.

@@ -9,6 +9,7 @@
 #include "geometry/cell_neighbours.hpp"
 #include "geometry/neighbours.hpp"
 
+#include <cstdint>
 #include <map>
 #include <span>
 #include <utility>
@@ -71,13 +72,34 @@ class Contacts {
                      with_planes_.largest_overlap_ratio()});
   }
 
-  /// Calls visit(ContactRow) for every contact of the last step, in a fixed order.
+  /// Numbers the contacts of the last step that have no number yet, from 1 on, in a fixed order:
+  /// the same numbers for any number of threads, and none given twice. A contact keeps its number
+  /// as long as it lasts, from element to element, whoever asks for it in between. Where a patch
+  /// splits, the part that pushes most keeps it; where some merge, the one that pushed most.
+  void number() {
+    with_spheres_.number(last_number_);
+    with_surfaces_.number(last_number_);
+    between_structures_.number(last_number_);
+    with_planes_.number(last_number_);
+  }
+
+  /// Calls visit(ContactRow) for every contact of the last step, in a fixed order. Together the
+  /// rows hold all that contacts did to the nodes.
+  /// @param x  m, where the nodes were in that step
   template <class Visit>
   void for_each_row(Positions x, Visit&& visit) const {
     with_spheres_.for_each_row(x, visit);
     with_surfaces_.for_each_row(x, visit);
-    between_structures_.for_each_row(visit);
-    with_planes_.for_each_row(x, visit);
+    between_structures_.for_each_row(x, visit);
+    with_planes_.for_each_row(x, *surface_, visit);
+  }
+
+  /// Adds what contacts did in the last step to the nodes of surfaces: forces of spheres on each
+  /// other are left out.
+  void add_surface_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
+    with_surfaces_.add_forces(forces, pool);
+    between_structures_.add_forces(forces);
+    with_planes_.add_forces(forces, pool);
   }
 
   const BallContacts<Law>& with_spheres() const noexcept { return with_spheres_; }
@@ -97,7 +119,9 @@ class Contacts {
   SurfaceContacts<Law> with_surfaces_;
   StructureContacts<Law> between_structures_;
   PlaneContacts<Law> with_planes_;
+  const geometry::Surface* surface_;
   double dissipated_ = 0.0;
+  std::int64_t last_number_ = 0;
 };
 
 /// Structures are thinner than grains are wide: with the grains' skin a net would list half of
@@ -146,7 +170,8 @@ Contacts<Law>::Contacts(std::span<const geometry::Sphere> spheres, const geometr
       cell_neighbours_(surface, rest, skin_of_structures(surface, skin), !rest.empty()),
       plane_neighbours_(skin, largest_reach(spheres, surface, materials_)),
       with_surfaces_(surface),
-      between_structures_(surface) {
+      between_structures_(surface),
+      surface_(&surface) {
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const NodeId node = spheres[i].nodes[0];
     balls_.push_back({node, spheres[i].radius, materials_.of_spheres[i], materials_.mass_of(node)});
@@ -183,9 +208,7 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
   dissipated_ += with_surfaces_.advance(motion, dt, pool);
   dissipated_ += between_structures_.advance(motion, dt, pool);
   dissipated_ += with_planes_.advance(motion, planes, dt, pool);
-  with_surfaces_.add_forces(forces, pool);
-  between_structures_.add_forces(forces);
-  with_planes_.add_forces(forces, pool);
+  add_surface_forces(forces, pool);
 }
 
 }  // namespace plekton::contact

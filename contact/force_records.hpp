@@ -5,6 +5,7 @@
 #include "geometry/thread_pool.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 /// Forces of contacts, written down by whoever computes them and summed afterwards, node by node in
@@ -15,10 +16,11 @@ namespace plekton::contact {
 struct SurfaceForce {
   NodeId a;
   geometry::CorePoint core;
-  Vec3 force;     ///< N, on b
-  Vec3 torque_a;  ///< N m, on a
-  Vec3 torque_b;  ///< N m, on b, shared by its nodes by weight
-  std::size_t contact;
+  Vec3 force;             ///< N, on b
+  Vec3 torque_a;          ///< N m, on a
+  Vec3 torque_b;          ///< N m, on b, shared by its nodes by weight
+  std::uint32_t pair;     ///< of ball and structure
+  std::uint32_t contact;  ///< among those of the worker
 
   template <class Owns>
   void add_to(NodeForces& forces, Owns owns) const {
@@ -83,6 +85,8 @@ class ForceRecords {
   }
 
   List& of_worker(int worker) noexcept { return lists_[static_cast<std::size_t>(worker)]; }
+
+  const std::vector<List>& lists() const noexcept { return lists_; }
 
   template <class Visit>
   void for_each(Visit&& visit) const {

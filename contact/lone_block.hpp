@@ -88,8 +88,7 @@ struct LoneBlock {
   RowsOf<Vec3> weights;                   ///< of the corners
   RowsOf<double> gap;                     ///< m
   RowsOf<Vec3> foot;                      ///< m, from the ball's centre
-  RowsOf<Vec3> force;                     ///< N, on the facet, as the law has it
-  RowsOf<Vec3> force_b;                   ///< N, the same as the sum of its two parts
+  RowsOf<Vec3> force_b;                   ///< N, on the facet
   RowsOf<Vec3> torque_a;                  ///< N m
   RowsOf<Vec3> torque_b;                  ///< N m
   RowsOf<double> dissipated;              ///< J, by the law
@@ -149,7 +148,6 @@ PLEKTON_INLINE void LoneBlock<Law>::advance_lanes(std::size_t lane, double dt) n
   weights.store(lane, at.weights);
   gap.store(lane, state.gap);
   foot.store(lane, state.foot);
-  force.store(lane, answer.force);
   force_b.store(lane, Vector(elastic_force + other));
   torque_a.store(lane, Vector{-turning.x, -turning.y, -turning.z});
   torque_b.store(lane, state.lever_b.cross(other));

@@ -4,10 +4,11 @@
 #include "contact/balls/ball_batch.hpp"
 #include "contact/bodies.hpp"
 #include "contact/contact_memory.hpp"
-#include "contact/contact_row.hpp"
 #include "contact/force_records.hpp"
 #include "contact/material_pairs.hpp"
 #include "contact/rekey.hpp"
+#include "contact/slip_state.hpp"
+#include "geometry/elements.hpp"
 #include "geometry/parallel_sum.hpp"
 
 #include <array>
@@ -63,8 +64,17 @@ class PlaneContacts {
     });
   }
 
+  /// Gives a number after the last one to every contact that has none.
+  void number(std::int64_t& last) {
+    for (Slot& slot : slots_) {
+      if (!slot.memory.is_new() && slot.id == 0) slot.id = ++last;
+    }
+  }
+
+  /// Calls visit(ContactRow) for every touching pair of the last step, in the order of the list.
+  /// @param surface  of whose nodes some of the balls are
   template <class Visit>
-  void for_each_row(Positions x, Visit&& visit) const;
+  void for_each_row(Positions x, const geometry::Surface& surface, Visit&& visit) const;
 
  private:
   struct Slot {
@@ -74,6 +84,7 @@ class PlaneContacts {
     double gap = 0.0;  ///< m, of the last step
     typename Law::Parameters parameters;
     ContactMemory<Law> memory;
+    std::int64_t id = 0;  ///< 0: none yet
   };
 
   using Records = typename ForceRecords<PlaneForce>::List;
@@ -115,7 +126,7 @@ double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
     const auto plane = static_cast<std::size_t>(keys[i].b);
     const auto parameters = materials.combine({ball.material, ball.radius, ball.mass},
                                               {planes[plane].material, ball.radius});
-    return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}};
+    return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}, 0};
   };
   rekey_(slots_, keys, make, [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });
   return lost;
@@ -138,8 +149,9 @@ double PlaneContacts<Law>::advance(const Motion& motion, std::span<const Plane> 
         touching.slot[touching.count] = i;
         touching.height[touching.count++] = height;
         touching.all_have_images &= height + slot.radius > 0.0;
-      } else {
+      } else if (!slot.memory.is_new()) {
         dissipated += forget<Law>(slot.parameters, slot.memory);
+        slot.id = 0;
       }
       if (touching.count < kBatchLanes && i + 1 < end) continue;
       dissipated += advance_touching(touching, motion, planes, dt, records);
@@ -261,12 +273,30 @@ Vec3 PlaneContacts<Law>::force_on(std::size_t plane) const {
 
 template <ContactLaw Law>
 template <class Visit>
-void PlaneContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
+void PlaneContacts<Law>::for_each_row(Positions x, const geometry::Surface& surface,
+                                      Visit&& visit) const {
   records_.for_each([&](const PlaneForce& record) {
     const Slot& slot = slots_[record.contact];
-    const Vec3& centre = x[index_of(record.a)];
-    const Vec3 foot = centre + (slot.radius + slot.gap) * slot.memory.normal;
-    visit(contact_row(centre, foot, slot.memory.normal, slot.gap, record.force));
+    const geometry::Feature node(slot.node);
+    const geometry::StructureId structure = surface.structure_of(slot.node);
+    ContactRow row;
+    row.id = slot.id;
+    // Spheres come first among the balls.
+    row.a = structure == geometry::StructureId{-1}
+                ? ContactBody{BodyKind::sphere, rekey_.key(record.contact).a, node}
+                : ContactBody{BodyKind::structure, static_cast<std::int32_t>(structure), node};
+    row.b = {BodyKind::plane, static_cast<std::int32_t>(slot.plane), {}};
+    row.normal = slot.memory.normal;
+    row.gap = slot.gap;
+    const Vec3 lever = (slot.radius + 0.5 * slot.gap) * row.normal;
+    row.point_a = x[index_of(slot.node)];
+    row.point_b = row.point_a + (slot.radius + slot.gap) * row.normal;
+    row.point = row.point_a + lever;
+    set_force(row, record.force);
+    if constexpr (HasMoments<Law>) row.moment = -record.torque_a - lever.cross(record.force);
+    set_state<Law>(row, slot.parameters, slot.memory.history,
+                   Law::elastic_normal_force(slot.parameters, slot.gap));
+    visit(row);
   });
 }
 

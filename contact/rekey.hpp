@@ -37,6 +37,9 @@ void match_keys(std::span<const geometry::IndexPair> old_keys,
 template <class Thing>
 class Rekey {
  public:
+  /// Of the thing at a place.
+  const geometry::IndexPair& key(std::size_t place) const noexcept { return keys_[place]; }
+
   /// @param things  by the keys of the last call, empty at first; afterwards by new_keys
   /// @param make    (place in new_keys, old thing of that key or nullptr) -> thing
   /// @param drop    (old thing whose key is not in the new list)

@@ -66,8 +66,17 @@ class StructureContacts {
   template <class Visit>
   void for_each_stiffness(Visit&& visit) const;
 
+  /// Gives a number after the last one to every patch that has none.
+  void number(std::int64_t& last) {
+    for (Patch& patch : patches_) {
+      if (patch.id == 0) patch.id = ++last;
+    }
+  }
+
+  /// Calls visit(ContactRow) for every patch that pushed in the last step, in the order of the
+  /// list.
   template <class Visit>
-  void for_each_row(Visit&& visit) const;
+  void for_each_row(Positions x, Visit&& visit) const;
 
  private:
   using PairTerm = structure::PairTerm;
@@ -94,6 +103,8 @@ class StructureContacts {
     std::uint32_t meeting;
     double count;
     double energy;  ///< J, of the history
+    std::int64_t id;
+    double normal_force;  ///< N
   };
   /// A patch of the last step that lives on in one of this.
   struct Heir {
@@ -111,6 +122,9 @@ class StructureContacts {
   void find_heirs();
   void add_up_patches(Positions x);
   double inherit(const Motion& motion, double dt);
+  void hand_on_number(const Legacy& old, std::span<const Heir> heirs);
+  std::vector<std::uint32_t> deepest_places() const;
+  ContactRow row_of(const Patch& patch, std::uint32_t deepest, Positions x) const;
   const Meeting& meeting_of(const Patch& patch) const { return meetings_[patch.meeting]; }
   double history_energy(const Patch& patch) const {
     return patch.history_energy(meeting_of(patch));
@@ -194,7 +208,8 @@ double StructureContacts<Law>::advance(const Motion& motion, double dt,
   terms_.evaluate(springs_, motion, pool);
   previous_.clear();
   for (const Patch& patch : patches_) {
-    previous_.push_back({patch.memory, patch.meeting, patch.count, history_energy(patch)});
+    previous_.push_back({patch.memory, patch.meeting, patch.count, history_energy(patch), patch.id,
+                         patch.normal_force});
   }
   if (terms_.acting_changed()) {
     find_patches();
@@ -276,26 +291,6 @@ void StructureContacts<Law>::find_places() {
 }
 
 template <ContactLaw Law>
-void StructureContacts<Law>::find_heirs() {
-  heirs_.clear();
-  if (!terms_.acting_changed()) {
-    for (std::uint32_t i = 0; i < patches_.size(); ++i) heirs_.push_back({i, i, false});
-    return;
-  }
-  for (const PairOfCells& pair : pairs_) {
-    if (pair.old_patch < 0 || pair.patch < 0) continue;
-    heirs_.push_back({static_cast<std::uint32_t>(pair.old_patch),
-                      static_cast<std::uint32_t>(pair.patch), pair.was_turned != pair.is_turned});
-  }
-  std::sort(heirs_.begin(), heirs_.end());
-  heirs_.erase(std::unique(heirs_.begin(), heirs_.end(),
-                           [](const Heir& p, const Heir& q) {
-                             return p.old_patch == q.old_patch && p.patch == q.patch;
-                           }),
-               heirs_.end());
-}
-
-template <ContactLaw Law>
 void StructureContacts<Law>::add_up_patches(Positions x) {
   largest_overlap_ratio_ = 0.0;
   for (Patch& patch : patches_) patch.reset();
@@ -315,40 +310,6 @@ void StructureContacts<Law>::add_up_patches(Positions x) {
       side_b.add_force(places.b[k], term.forces.on_b[k]);
   }
   for (Patch& patch : patches_) patch.find_totals(meeting_of(patch), x);
-}
-
-/// Hands the histories of the last step's patches to this step's. A spring that comes to count for
-/// more contacts keeps its force, one that counts for less keeps its stretch: neither gains energy.
-/// @returns the energy (J) that is lost on the way
-template <ContactLaw Law>
-double StructureContacts<Law>::inherit(const Motion& motion, double dt) {
-  double lost = 0.0;
-  for (const Heir& heir : heirs_) {
-    if (&heir == heirs_.data() || (&heir - 1)->old_patch != heir.old_patch) {
-      lost += previous_[heir.old_patch].energy;
-    }
-  }
-  for (auto begin = heirs_.begin(); begin != heirs_.end();) {
-    const auto end = std::find_if(
-        begin, heirs_.end(), [&](const Heir& heir) { return heir.old_patch != begin->old_patch; });
-    const Legacy& old = previous_[begin->old_patch];
-    double total = 0.0;
-    for (auto heir = begin; heir != end; ++heir) total += patches_[heir->patch].normal_force;
-    for (auto heir = begin; heir != end && total > 0.0; ++heir) {
-      Patch& patch = patches_[heir->patch];
-      if (!(patch.normal_force > 0.0)) continue;
-      const double sign = heir->is_turned ? -1.0 : 1.0;
-      const Vec3 normal = sign / patch.normal_force * patch.elastic_force;
-      const Vec3 spin =
-          0.5 * (patch.first.angular_velocity(motion) + patch.second.angular_velocity(motion));
-      const auto carried = carried_history<Law>(old.memory, normal, dt * spin.dot(normal));
-      const double share = patch.normal_force / total * old.count / patch.count;
-      Law::add_share(patch.memory.history, carried, sign * std::min(1.0, share));
-    }
-    begin = end;
-  }
-  for (const Patch& patch : patches_) lost -= history_energy(patch);
-  return lost;
 }
 
 template <ContactLaw Law>
@@ -381,14 +342,7 @@ void StructureContacts<Law>::for_each_stiffness(Visit&& visit) const {
   }
 }
 
-template <ContactLaw Law>
-template <class Visit>
-void StructureContacts<Law>::for_each_row(Visit&& visit) const {
-  for (const Patch& patch : patches_) {
-    if (!(patch.normal_force > 0.0)) continue;
-    visit(contact_row(patch.first.point(), patch.second.point(), patch.memory.normal, patch.gap,
-                      patch.elastic_force + patch.other_force));
-  }
-}
-
 }  // namespace plekton::contact
+
+#include "contact/structure_contacts_heirs.hpp"
+#include "contact/structure_contacts_rows.hpp"

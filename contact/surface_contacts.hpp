@@ -69,11 +69,15 @@ class SurfaceContacts {
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
     records_.for_each([&](const SurfaceForce& record) {
-      const Pair& pair = pairs_[record.contact];
+      const Pair& pair = pairs_[record.pair];
       visit(record.a, record.core, pair.parameters, pair.range);
     });
   }
 
+  /// Gives a number after the last one to every contact that has none.
+  void number(std::int64_t& last);
+
+  /// Calls visit(ContactRow) for every contact of the last step, in the order of the list.
   template <class Visit>
   void for_each_row(Positions x, Visit&& visit) const;
 
@@ -81,10 +85,11 @@ class SurfaceContacts {
   /// A contact as it is kept for the next step.
   struct Contact {
     ContactMemory<Law> memory;
-    Vec3 force;                   ///< N, on b
     Vec3 foot;                    ///< m, from the ball's centre to the representative point
     double gap;                   ///< m, of the deepest minimum
+    double elastic_force;         ///< N, magnitude of the sum of the normal forces
     double elastic_energy;        ///< J, of the normal forces
+    std::int64_t id;              ///< 0: none yet
     std::uint32_t first_minimum;  ///< features of its minima, in Lists::minima
     std::uint32_t minimum_count;
   };
@@ -115,6 +120,12 @@ class SurfaceContacts {
     std::size_t cell_count;
     std::size_t lane;  ///< in Worker::lone; kNoLane: to be computed by itself
   };
+  /// What a contact has from those of the last step.
+  struct Inherited {
+    typename Law::History history{};
+    std::int64_t id = 0;
+    double from = -1.0;  ///< N, elastic force of the contact that the id is from
+  };
   static constexpr std::size_t kNoLane = std::numeric_limits<std::size_t>::max();
   struct Worker {
     explicit Worker(const geometry::Surface& surface) : patches(surface), heirs(surface) {}
@@ -124,8 +135,8 @@ class SurfaceContacts {
     std::vector<geometry::CellId> cells;  ///< of the jobs
     std::vector<PatchState> states;
     std::vector<PatchTermForce> term_forces;  ///< in the order of the patches and their terms
-    std::vector<typename Law::History> histories;
-    std::int64_t pass_throughs = 0;  ///< in this step
+    std::vector<Inherited> inherited;         ///< by patch
+    std::int64_t pass_throughs = 0;           ///< in this step
     LonePairs<Law> lone;
   };
 
@@ -141,8 +152,8 @@ class SurfaceContacts {
   double advance_alone(const Pair& pair, const Patch& patch, const Motion& motion, double dt,
                        int worker);
   double add_contact(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
-                     std::span<const PatchTermForce> term_forces,
-                     const typename Law::History& history, double dt, int worker);
+                     std::span<const PatchTermForce> term_forces, const Inherited& inherited,
+                     double dt, int worker);
   void keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x, Worker& worker);
   void find_states(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
                    Worker& worker);
@@ -150,8 +161,12 @@ class SurfaceContacts {
                  Worker& worker);
   void write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
                     const ContactForce& answer, std::span<const PatchTermForce> term_forces,
-                    typename ForceRecords<SurfaceForce>::List& records) const;
+                    int worker);
+  static void hand_on_number(const Contact& old, std::span<const std::uint32_t> heirs,
+                             Worker& worker);
   double drop(const Pair& pair) const;
+  ContactRow row_of(std::span<const SurfaceForce> records, const Contact& contact,
+                    Positions x) const;
   std::span<const Contact> contacts_of(const Pair& pair, const std::vector<Lists>& lists) const {
     return {
         lists[static_cast<std::size_t>(pair.contacts.worker)].contacts.data() + pair.contacts.first,
@@ -258,20 +273,8 @@ double SurfaceContacts<Law>::elastic_energy() const {
   return energy;
 }
 
-template <ContactLaw Law>
-template <class Visit>
-void SurfaceContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
-  for (const Pair& pair : pairs_) {
-    if (pair.contacts.count == 0) continue;
-    const Vec3& centre = x[index_of(pair.node)];
-    for (const Contact& contact : contacts_of(pair, current_)) {
-      visit(contact_row(centre, centre + contact.foot, contact.memory.normal, contact.gap,
-                        contact.force));
-    }
-  }
-}
-
 }  // namespace plekton::contact
 
 #include "contact/surface_contacts_lone.hpp"
+#include "contact/surface_contacts_rows.hpp"
 #include "contact/surface_contacts_step.hpp"

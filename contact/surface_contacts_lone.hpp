@@ -111,20 +111,22 @@ double SurfaceContacts<Law>::keep_lone(Pair& pair, std::size_t lane, int worker_
   block.force_b.get(lane, record.force);
   block.torque_a.get(lane, record.torque_a);
   block.torque_b.get(lane, record.torque_b);
-  record.contact = static_cast<std::size_t>(&pair - pairs_.data());
+  record.pair = static_cast<std::uint32_t>(&pair - pairs_.data());
 
-  const auto& last = contacts_of(pair, previous_)[0].memory.history;
+  const Contact& old = contacts_of(pair, previous_)[0];
   const auto carried = block.carried.template at<typename Law::History>(lane);
-  const double lost =
-      Law::history_energy(pair.parameters, last) - Law::history_energy(pair.parameters, carried);
+  const double lost = Law::history_energy(pair.parameters, old.memory.history) -
+                      Law::history_energy(pair.parameters, carried);
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   pair.contacts = {worker_index, static_cast<std::uint32_t>(lists.contacts.size()), 1};
+  record.contact = pair.contacts.first;
   lists.contacts.push_back({{block.history.template at<typename Law::History>(lane),
                              block.normal.template at<Vec3>(lane)},
-                            block.force.template at<Vec3>(lane),
                             block.foot.template at<Vec3>(lane),
                             gap,
+                            Law::elastic_normal_force(pair.parameters, gap),
                             Law::elastic_normal_energy(pair.parameters, gap),
+                            old.id,
                             static_cast<std::uint32_t>(lists.minima.size()),
                             1});
   lists.minima.push_back(record.core.feature);

@@ -27,7 +27,7 @@ double SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geometry::
       const auto terms = worker.patches.terms(patches[j]);
       dissipated += add_contact(pair, terms, worker.states[j],
                                 {worker.term_forces.data() + patches[j].first_term, terms.size()},
-                                worker.histories[j], dt, worker_index);
+                                worker.inherited[j], dt, worker_index);
     }
   }
   const std::size_t count = lists.contacts.size() - first;
@@ -42,10 +42,9 @@ template <ContactLaw Law>
 double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const PatchTerm> terms,
                                          const PatchState& state,
                                          std::span<const PatchTermForce> term_forces,
-                                         const typename Law::History& history, double dt,
-                                         int worker_index) {
-  if (HasReach<Law> && !(state.gap < 0.0) && !holds<Law>(history))
-    return Law::history_energy(pair.parameters, history);
+                                         const Inherited& inherited, double dt, int worker_index) {
+  if (HasReach<Law> && !(state.gap < 0.0) && !holds<Law>(inherited.history))
+    return Law::history_energy(pair.parameters, inherited.history);
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const RelativeMotion relative = relative_motion(state.normal, state.gap, state.elastic_force,
                                                   state.relative_velocity, state.relative_spin);
@@ -53,16 +52,17 @@ double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const Patch
   for (const PatchTerm& term : terms) {
     if (term.weight > 0.0) lists.minima.push_back(term.core.feature);
   }
-  typename Law::History next = history;
+  typename Law::History next = inherited.history;
   const ContactForce result = Law::force(pair.parameters, relative, next, dt);
   lists.contacts.push_back({{next, state.normal},
-                            result.force,
                             state.foot,
                             state.gap,
+                            state.elastic_force,
                             state.elastic_energy,
+                            inherited.id,
                             first_minimum,
                             static_cast<std::uint32_t>(lists.minima.size()) - first_minimum});
-  write_forces(pair, terms, state, result, term_forces, records_.of_worker(worker_index));
+  write_forces(pair, terms, state, result, term_forces, worker_index);
   return result.dissipated;
 }
 
@@ -74,7 +74,7 @@ double SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& patch,
   const PatchTerm& term = worker.patches.terms(patch)[0];
   const PatchState state =
       lone_state<Law>(term, pair.parameters, pair.node, pair.radius, pair.range, motion);
-  typename Law::History history{};
+  Inherited inherited;
   double lost = 0.0;
   for (const Contact& old : contacts_of(pair, previous_)) {
     lost = Law::history_energy(pair.parameters, old.memory.history);
@@ -88,12 +88,13 @@ double SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& patch,
       continue;
     }
     worker.pass_throughs += is_turned_over(old.memory.normal, state.normal);
-    Law::add_share(history, carried_history<Law>(old.memory, state.normal, dt * state.twist_rate),
-                   1.0);
+    Law::add_share(inherited.history,
+                   carried_history<Law>(old.memory, state.normal, dt * state.twist_rate), 1.0);
+    inherited.id = old.id;
   }
-  lost -= Law::history_energy(pair.parameters, history);
+  lost -= Law::history_energy(pair.parameters, inherited.history);
   const PatchTermForce term_force{state.elastic_force, 1.0};
-  return lost + add_contact(pair, {&term, 1}, state, {&term_force, 1}, history, dt, worker_index);
+  return lost + add_contact(pair, {&term, 1}, state, {&term_force, 1}, inherited, dt, worker_index);
 }
 
 /// Where a ball's centre lies on the surface itself, the contact of the last step says on which
@@ -141,12 +142,13 @@ void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> 
 }
 
 /// Hands the histories of the last step's contacts to this step's patches. A contact that splits
-/// shares its history in proportion to the elastic forces. @returns the energy (J) that is lost on
-/// the way
+/// shares its history in proportion to the elastic forces, and its number goes to the patch with
+/// the largest; of contacts that merge the one with the largest hands its number on. @returns the
+/// energy (J) that is lost on the way
 template <ContactLaw Law>
 double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> patches,
                                      const Motion& motion, double dt, Worker& worker) {
-  worker.histories.assign(patches.size(), typename Law::History{});
+  worker.inherited.assign(patches.size(), Inherited{});
   if (pair.contacts.count == 0) return 0.0;
   double lost = 0.0;
   const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
@@ -157,6 +159,7 @@ double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> pa
                                          patches, worker.patches);
     double total = 0.0;
     for (const std::uint32_t heir : heirs) total += worker.states[heir].elastic_force;
+    hand_on_number(old, heirs, worker);
     // A ball rolls around an edge little by little: a normal that turns over in one step has gone
     // through the surface.
     worker.pass_throughs +=
@@ -167,20 +170,36 @@ double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> pa
       const PatchState& state = worker.states[heir];
       const double share =
           total > 0.0 ? state.elastic_force / total : 1.0 / static_cast<double>(heirs.size());
-      Law::add_share(worker.histories[heir],
+      Law::add_share(worker.inherited[heir].history,
                      carried_history<Law>(old.memory, state.normal, dt * state.twist_rate), share);
     }
   }
-  for (const auto& history : worker.histories)
-    lost -= Law::history_energy(pair.parameters, history);
+  for (const Inherited& inherited : worker.inherited)
+    lost -= Law::history_energy(pair.parameters, inherited.history);
   return lost;
+}
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::hand_on_number(const Contact& old, std::span<const std::uint32_t> heirs,
+                                          Worker& worker) {
+  if (heirs.empty()) return;
+  const std::uint32_t largest =
+      *std::max_element(heirs.begin(), heirs.end(), [&](std::uint32_t p, std::uint32_t q) {
+        return worker.states[p].elastic_force < worker.states[q].elastic_force;
+      });
+  Inherited& inherited = worker.inherited[largest];
+  if (!(old.elastic_force > inherited.from)) return;
+  inherited.id = old.id;
+  inherited.from = old.elastic_force;
 }
 
 template <ContactLaw Law>
 void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchTerm> terms,
                                         const PatchState& state, const ContactForce& answer,
-                                        std::span<const PatchTermForce> term_forces,
-                                        typename ForceRecords<SurfaceForce>::List& records) const {
+                                        std::span<const PatchTermForce> term_forces, int worker) {
+  auto& records = records_.of_worker(worker);
+  const auto contact =
+      static_cast<std::uint32_t>(current_[static_cast<std::size_t>(worker)].contacts.size() - 1);
   const Vec3 other_force = answer.force - state.elastic_force * state.normal;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Vec3 other = term_forces[i].share * other_force;
@@ -188,7 +207,7 @@ void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchT
     records.add({pair.node, terms[i].core, term_forces[i].elastic * terms[i].normal + other,
                  -state.lever_a.cross(other) - term_forces[i].share * answer.moment,
                  lever_b.cross(other) + term_forces[i].share * answer.moment,
-                 static_cast<std::size_t>(&pair - pairs_.data())},
+                 static_cast<std::uint32_t>(&pair - pairs_.data()), contact},
                 -state.gap / pair.radius);
   }
 }

@@ -116,4 +116,22 @@ ProductFeatures product_features(const Surface& surface, std::span<const CellPai
   return found;
 }
 
+Feature feature_of(const Surface& surface, const FeatureNodes& nodes) noexcept {
+  const auto has_all = [&](std::span<const NodeId> of_feature) {
+    return std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) {
+      return std::find(of_feature.begin(), of_feature.end(), node) != of_feature.end();
+    });
+  };
+  if (nodes.count == 1) return Feature(nodes.ids[0]);
+  if (nodes.count == 2) {
+    for (const EdgeId edge : surface.edges_of(nodes.ids[0]))
+      if (has_all(surface.nodes_of(edge))) return Feature(edge);
+  }
+  if (nodes.count == 3) {
+    for (const FaceId face : surface.faces_of(nodes.ids[0]))
+      if (has_all(surface.nodes_of(face))) return Feature(face);
+  }
+  return {};
+}
+
 }  // namespace plekton::geometry

@@ -63,4 +63,7 @@ struct FeatureNodes {
 };
 FeatureNodes nodes_of(const Surface& surface, const Feature& feature) noexcept;
 
+/// The feature that has these nodes, in any order; without an id if there is none.
+Feature feature_of(const Surface& surface, const FeatureNodes& nodes) noexcept;
+
 }  // namespace plekton::geometry

@@ -7,11 +7,13 @@
 #include "contact/balls/ball_sums.hpp"
 #include "contact/balls/block_outcome.hpp"
 #include "contact/balls/move_slots.hpp"
+#include "contact/balls/pair_numbers.hpp"
 #include "contact/balls/pair_parameters.hpp"
 #include "contact/balls/pair_rows.hpp"
-#include "contact/contact_row.hpp"
+#include "contact/balls/touched_lanes.hpp"
 #include "contact/material_pairs.hpp"
 #include "contact/rekey.hpp"
+#include "contact/slip_state.hpp"
 
 #include <algorithm>
 #include <array>
@@ -54,6 +56,11 @@ class BallContacts {
     });
   }
 
+  /// Gives a number after the last one to every touching pair that has none. A pair keeps its
+  /// number as long as it touches.
+  void number(std::int64_t& last);
+
+  /// Calls visit(ContactRow) for every touching pair, in the order of the list.
   template <class Visit>
   void for_each_row(Positions x, Visit&& visit) const;
 
@@ -64,6 +71,12 @@ class BallContacts {
   static constexpr std::size_t kLanes = BallBlocks::kLanes;
   using Outcome = BlockOutcome<kLanes>;
   static_assert(Rows::kLanes == kLanes);
+
+  /// What goes along with a pair from slot to slot.
+  struct Moved {
+    ContactMemory<Law> memory;
+    bool is_numbered = false;
+  };
 
   /// What one thread works with.
   struct Work {
@@ -81,11 +94,10 @@ class BallContacts {
     return parameters_.of_pair(ball(keys_[i].a), ball(keys_[i].b), blocks_.slot(i));
   }
   bool touched(std::size_t slot) const noexcept {
-    return (touched_[slot / kLanes] >> (slot % kLanes) & 1) != 0;
+    return touched_[slot / kLanes].last(slot % kLanes);
   }
   void set_touched(std::size_t row, std::size_t lane, unsigned lanes, unsigned touching) noexcept {
-    touched_[row] =
-        static_cast<std::uint8_t>((touched_[row] & ~(lanes << lane)) | touching << lane);
+    touched_[row].set(lane, lanes, touching);
   }
   ContactMemory<Law> memory_of(std::size_t slot) const noexcept {
     return rows_[slot / kLanes].memory(slot % kLanes);
@@ -120,10 +132,11 @@ class BallContacts {
   BallBlocks blocks_;
   PairParameters<Law> parameters_;
   std::vector<Rows> rows_;
-  std::vector<std::uint8_t> touched_;     ///< by row: bit l tells whether lane l touched last time
-  std::vector<BallSum> lent_;             ///< of balls that blocks borrow
-  std::vector<Outcome> outcomes_;         ///< by block
-  std::vector<Work> work_;                ///< by thread
+  std::vector<TouchedLanes> touched_;  ///< by row
+  PairNumbers numbers_;                ///< of the pairs that touched when they were numbered last
+  std::vector<BallSum> lent_;          ///< of balls that blocks borrow
+  std::vector<Outcome> outcomes_;      ///< by block
+  std::vector<Work> work_;             ///< by thread
   std::vector<std::uint32_t> old_slots_;  ///< by pair of a new list
   std::vector<std::uint32_t> sources_;    ///< by slot of a new list
   std::vector<bool> is_source_;
@@ -161,7 +174,7 @@ void BallContacts<Law>::move_memories() {
     make_room(rows_, rows);
     make_room(touched_, rows);
     rows_.resize(rows);
-    touched_.resize(rows, 0);
+    touched_.resize(rows);
   };
   resize(std::max(rows_.size(), blocks_.row_count()));
   make_room(sources_, rows_.size() * kLanes);
@@ -169,10 +182,13 @@ void BallContacts<Law>::move_memories() {
   sources_.assign(rows_.size() * kLanes, kNoSlot);
   for (std::size_t i = 0; i < keys_.size(); ++i) sources_[blocks_.slot(i)] = old_slots_[i];
   move_slots(
-      sources_, is_source_, [this](std::uint32_t slot) { return memory_of(slot); },
-      [this](std::uint32_t slot, const ContactMemory<Law>& memory) {
-        rows_[slot / kLanes].set(slot % kLanes, memory);
-        set_touched(slot / kLanes, slot % kLanes, 1, !memory.is_new());
+      sources_, is_source_,
+      [this](std::uint32_t slot) {
+        return Moved{memory_of(slot), touched_[slot / kLanes].since_numbered(slot % kLanes)};
+      },
+      [this](std::uint32_t slot, const Moved& moved) {
+        rows_[slot / kLanes].set(slot % kLanes, moved.memory);
+        touched_[slot / kLanes].set_moved(slot % kLanes, !moved.memory.is_new(), moved.is_numbered);
       });
   resize(blocks_.row_count());
 }
@@ -219,7 +235,7 @@ template <int W>
 PLEKTON_INLINE void BallContacts<Law>::advance_rows(const BallBlocks::Block& block, Work& work) {
   for (std::size_t row = block.first_row; row < block.first_row + block.row_count; ++row) {
     // Pairs of the second stretch were apart when the list was made: most rows of theirs still are.
-    if (row >= block.stretches[1].first_row && touched_[row] == 0 &&
+    if (row >= block.stretches[1].first_row && !touched_[row].any() &&
         !work.balls.template any_touch<W>(blocks_.row(row)))
       continue;
     for (std::size_t lane = 0; lane < kLanes; lane += std::size_t{W}) {
@@ -243,7 +259,7 @@ PLEKTON_INLINE bool BallContacts<Law>::advance_side_by_side(std::size_t row, std
   const BallMotionOf<Real> balls = work.balls.template pairs<W>(pairs + lane);
   const Real touch = balls.touch();
   const unsigned touching = bits_of(touch);
-  const unsigned touched = touched_[row] >> lane & geometry::kAllBits<W>;
+  const unsigned touched = touched_[row].from(lane) & geometry::kAllBits<W>;
   if ((touching | touched) == 0) return true;
 
   const auto last_normal = rows.normal.template load<Vector>(lane);
@@ -355,41 +371,6 @@ void BallContacts<Law>::return_loans(NodeForces& forces, geometry::ThreadPool& p
   });
 }
 
-template <ContactLaw Law>
-std::size_t BallContacts<Law>::touching() const noexcept {
-  std::size_t count = 0;
-  for (const Outcome& outcome : outcomes_) count += outcome.touching;
-  return count;
-}
-
-template <ContactLaw Law>
-double BallContacts<Law>::largest_overlap_ratio() const noexcept {
-  double deepest = 0.0;
-  for (const Outcome& outcome : outcomes_) deepest = std::max(deepest, outcome.largest_ratio());
-  return deepest;
-}
-
-template <ContactLaw Law>
-double BallContacts<Law>::elastic_energy() const {
-  double energy = 0.0;
-  for_each_lane([&](const geometry::IndexPair&, const Parameters& parameters, const Rows& rows,
-                    std::size_t lane) {
-    energy += Law::elastic_normal_energy(parameters, rows.gap.number(lane)) +
-              Law::history_energy(parameters, rows.memory(lane).history);
-  });
-  return energy;
-}
-
-template <ContactLaw Law>
-template <class Visit>
-void BallContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
-  for_each_lane([&](const geometry::IndexPair& pair, const Parameters& parameters, const Rows& rows,
-                    std::size_t lane) {
-    const Vec3& xa = x[index_of(ball(pair.a).node)];
-    const Vec3& xb = x[index_of(ball(pair.b).node)];
-    visit(contact_row(xa, xb, rows.normal.template at<Vec3>(lane), rows.gap.number(lane),
-                      rows.force_on_b(lane, parameters)));
-  });
-}
-
 }  // namespace plekton::contact
+
+#include "contact/balls/ball_contact_rows.hpp"

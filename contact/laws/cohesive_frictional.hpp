@@ -90,6 +90,12 @@ struct CohesiveFrictional {
             dissipated};
   }
 
+  /// See TellsTangentialLimit.
+  static double tangential_limit(const Parameters& p, double elastic_force,
+                                 const History& history) noexcept {
+    return shear_limit(p, history, elastic_force + history.pull);
+  }
+
   static double history_energy(const Parameters& p, const History& history) noexcept {
     return history.spring.energy() + bond_energy(p, history);
   }

@@ -52,6 +52,12 @@ struct DmtAdhesion {
     return answer;
   }
 
+  /// See TellsTangentialLimit.
+  static double tangential_limit(const Parameters& p, double elastic_force,
+                                 const History& history) noexcept {
+    return HertzMindlin::tangential_limit(p.elastic, elastic_force, history.elastic);
+  }
+
   /// Bodies that touch have given up energy to the attraction.
   static double history_energy(const Parameters& p, const History& history) noexcept {
     return HertzMindlin::history_energy(p.elastic, history.elastic) -

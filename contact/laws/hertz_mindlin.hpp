@@ -64,6 +64,12 @@ struct HertzMindlin {
     return {motion.elastic_normal_force * motion.normal + history.spring.force, dissipated};
   }
 
+  /// See TellsTangentialLimit.
+  static double tangential_limit(const Parameters& p, double elastic_force,
+                                 const History&) noexcept {
+    return p.friction * elastic_force;
+  }
+
   static double history_energy(const Parameters&, const History& history) noexcept {
     return history.spring.energy();
   }

@@ -88,6 +88,12 @@ struct LinearFrictional {
     return elastic_force(p, elastic_normal_force(p, gap), normal, history);
   }
 
+  /// See TellsTangentialLimit.
+  static double tangential_limit(const Parameters& p, double elastic_force,
+                                 const History&) noexcept {
+    return p.friction * elastic_force;
+  }
+
   static double history_energy(const Parameters& p, const History& history) noexcept {
     return 0.5 * p.tangential_stiffness * history.elastic_slip.squaredNorm();
   }

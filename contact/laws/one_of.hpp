@@ -3,6 +3,7 @@
 
 #include "contact/contact_law.hpp"
 
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -73,6 +74,30 @@ struct OneOf {
                             History& history, double dt) {
     return of_law(parameters, [&]<class Law>(const ParametersFor<Law>& p) {
       return Law::force(p.values, motion, own<Law>(history), dt);
+    });
+  }
+
+  /// See HasMoments.
+  static Vec3 moment(const History& history, const Vec3& normal) {
+    return std::visit(
+        [&]<class Law>(const HistoryFor<Law>& kept) -> Vec3 {
+          if constexpr (HasMoments<Law>) return Law::moment(kept.values, normal);
+          return Vec3::Zero();
+        },
+        history);
+  }
+
+  /// See TellsTangentialLimit; infinite of a law that does not tell, and of a new history.
+  static double tangential_limit(const Parameters& parameters, double elastic_force,
+                                 const History& history) {
+    return of_law(parameters, [&]<class Law>(const ParametersFor<Law>& p) {
+      constexpr double kNone = std::numeric_limits<double>::infinity();
+      if constexpr (TellsTangentialLimit<Law>) {
+        const auto* kept = std::get_if<HistoryFor<Law>>(&history);
+        return kept ? Law::tangential_limit(p.values, elastic_force, kept->values) : kNone;
+      } else {
+        return kNone;
+      }
     });
   }
 

@@ -59,8 +59,12 @@ struct RollingTwisting {
                                 p.rolling_arms * stiffness.tangential, limit(p.rolling_arm));
     dissipated += history.twisting.advance(
         {twist, 0.0, 0.0}, p.twisting_arms * stiffness.tangential, limit(p.twisting_arm));
-    return {Vec3::Zero(), dissipated,
-            history.rolling.force + history.twisting.force[0] * motion.normal};
+    return {Vec3::Zero(), dissipated, moment(history, motion.normal)};
+  }
+
+  /// See HasMoments.
+  static Vec3 moment(const History& history, const Vec3& normal) noexcept {
+    return history.rolling.force + history.twisting.force[0] * normal;
   }
 
   static double history_energy(const Parameters&, const History& history) noexcept {

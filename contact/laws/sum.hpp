@@ -50,6 +50,20 @@ struct Sum {
             whole.moment + part.moment};
   }
 
+  /// See HasMoments.
+  static Vec3 moment(const History& history, const Vec3& normal) {
+    Vec3 moment = Vec3::Zero();
+    if constexpr (HasMoments<Whole>) moment += Whole::moment(history.whole, normal);
+    if constexpr (HasMoments<Part>) moment += Part::moment(history.part, normal);
+    return moment;
+  }
+
+  /// See TellsTangentialLimit.
+  static double tangential_limit(const Parameters& p, double elastic_force,
+                                 const History& history) requires TellsTangentialLimit<Whole> {
+    return Whole::tangential_limit(p.whole, elastic_force, history.whole);
+  }
+
   static double history_energy(const Parameters& p, const History& history) noexcept {
     return Whole::history_energy(p.whole, history.whole) +
            Part::history_energy(p.part, history.part);

@@ -56,6 +56,14 @@ class PatchSide {
     for (std::size_t i = 0; i < nodes_.size(); ++i) forces.force[index_of(nodes_[i])] += forces_[i];
   }
 
+  /// N m, of what add_force() has added up.
+  Vec3 moment_about(const Vec3& about, Positions x) const {
+    Vec3 moment = Vec3::Zero();
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      moment += (x[index_of(nodes_[i])] - about).cross(forces_[i]);
+    return moment;
+  }
+
   /// m, weighted mean of the nodes.
   const Vec3& point() const noexcept { return point_; }
 
@@ -87,9 +95,8 @@ class PatchSide {
 
   /// Transpose of angular_velocity.
   void add_moment(const Vec3& moment, NodeForces& forces) const {
-    for_each_share([&](NodeId node, double share) {
-      forces.torque[index_of(node)] += share * moment;
-    });
+    for_each_share(
+        [&](NodeId node, double share) { forces.torque[index_of(node)] += share * moment; });
   }
 
   template <class Visit>

@@ -30,6 +30,8 @@ struct StructurePatch {
   PatchSide first;
   PatchSide second;
   ContactMemory<Law> memory;
+  std::int64_t id = 0;    ///< 0: none yet
+  double id_from = -1.0;  ///< N, normal force of the patch of the last step that the id is from
   Vec3 other_force = Vec3::Zero();  ///< N, on the second side: all that is not elastic
   Vec3 moment = Vec3::Zero();       ///< N m, on the second side
 
@@ -39,6 +41,8 @@ struct StructurePatch {
     second.reset_forces();
     energy = 0.0;
     memory = {};
+    id = 0;
+    id_from = -1.0;
     other_force = Vec3::Zero();
   }
 

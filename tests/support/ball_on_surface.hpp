@@ -88,6 +88,12 @@ class BallOnSurface {
     return rows;
   }
 
+  /// Rows with their numbers.
+  std::vector<ContactRow> numbered_rows() {
+    contacts_.number(last_number_);
+    return rows();
+  }
+
   double dissipated() const { return dissipated_; }
 
  private:
@@ -109,6 +115,7 @@ class BallOnSurface {
   NodeForces forces_;
   geometry::ThreadPool pool_;
   double dissipated_ = 0.0;
+  std::int64_t last_number_ = 0;
 };
 
 }  // namespace plekton::test

@@ -54,6 +54,14 @@ class MovingSceneOf {
   }
 
   const Contacts<Law>& contacts() const { return *contacts_; }
+
+  /// Contacts of the last step, numbered.
+  std::vector<ContactRow> list() {
+    contacts_->number();
+    std::vector<ContactRow> rows;
+    contacts_->for_each_row(complex_.x, [&](const ContactRow& row) { rows.push_back(row); });
+    return rows;
+  }
   const NodeForces& forces() const { return forces_; }
 
  private:

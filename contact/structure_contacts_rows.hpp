@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/slip_state.hpp"
+#include "contact/structure_contacts.hpp"
+
+/// Contacts of structures as they are reported.
+namespace plekton::contact {
+
+/// By patch, which of the acting terms overlaps most.
+template <ContactLaw Law>
+std::vector<std::uint32_t> StructureContacts<Law>::deepest_places() const {
+  constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> deepest(patches_.size(), kNone);
+  const auto overlap = [&](std::uint32_t i) { return terms_[terms_.acting()[i]].overlap; };
+  for (std::uint32_t i = 0; i < places_.size(); ++i) {
+    std::uint32_t& so_far = deepest[places_[i].patch];
+    if (so_far == kNone || overlap(i) > overlap(so_far)) so_far = i;
+  }
+  return deepest;
+}
+
+template <ContactLaw Law>
+template <class Visit>
+void StructureContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
+  if (patches_.empty()) return;
+  const std::vector<std::uint32_t> deepest = deepest_places();
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if (patches_[i].pushes()) visit(row_of(patches_[i], deepest[i], x));
+  }
+}
+
+template <ContactLaw Law>
+ContactRow StructureContacts<Law>::row_of(const Patch& patch, std::uint32_t deepest,
+                                          Positions x) const {
+  const Meeting& meeting = meeting_of(patch);
+  const PairTerm& term = terms_[terms_.acting()[deepest]];
+  const bool is_turned = places_[deepest].is_turned;
+  const auto body = [&](const geometry::FeatureNodes& nodes) {
+    return ContactBody{BodyKind::structure,
+                       static_cast<std::int32_t>(surface_->structure_of(nodes.ids[0])),
+                       geometry::feature_of(*surface_, nodes)};
+  };
+  ContactRow row;
+  row.id = patch.id;
+  row.a = body(is_turned ? term.b : term.a);
+  row.b = body(is_turned ? term.a : term.b);
+  row.point_a = patch.first.point();
+  row.point_b = patch.second.point();
+  row.point = row.point_b + patch.lever_of_second(meeting);
+  row.normal = patch.memory.normal;
+  row.gap = patch.gap;
+  set_force(row, patch.elastic_force + patch.other_force);
+  row.moment = patch.second.moment_about(row.point, x);
+  if constexpr (HasMoments<Law>) row.moment += patch.moment;
+  set_state<Law>(row, patch.parameters(meeting), patch.memory.history, patch.normal_force);
+  return row;
+}
+
+}  // namespace plekton::contact
