@@ -10,6 +10,9 @@
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/loads/plane_servo.hpp"
 #include "dynamics/motion_step.hpp"
+#include "dynamics/readout/bond_stress.hpp"
+#include "dynamics/readout/facet_traction.hpp"
+#include "dynamics/readout/reactions.hpp"
 #include "dynamics/scene.hpp"
 #include "dynamics/step_cause.hpp"
 #include "dynamics/structure/beam_bond.hpp"
@@ -19,6 +22,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace plekton::dynamics {
@@ -87,6 +91,27 @@ class Simulation {
 
   /// m/s², in the last step.
   const Vec3& gravity() const noexcept { return motion_.gravity; }
+
+  /// m, where the nodes were when the forces of the last step were found: a drift before now.
+  std::vector<Vec3> force_positions() const;
+  /// m, where the point of a plane was then.
+  Vec3 force_point(std::size_t plane) const;
+  /// All contacts of the last step with all that they did to the nodes. Those that have no number
+  /// get one (contact::Contacts::number).
+  std::vector<contact::ContactRow> list_contacts();
+  /// What bodies do to a plane, about force_point(plane).
+  ForceAndMoment plane_reaction(std::size_t plane) const;
+  /// What the supports of nodes bear: readout/reactions.hpp. Of grains, membranes and any other
+  /// bodies contact_force_on() there tells what contacts do to them.
+  /// @param about  m, point of the moment
+  ForceAndMoment support_reaction(std::span<const NodeId> nodes, const Vec3& about) const;
+  /// How far from balance the last step was: readout/unbalanced_force.hpp. Like all reading out it
+  /// costs nothing until it is asked for; then time linear in the number of nodes and contacts.
+  double unbalanced_force_ratio() const;
+  /// What contacts did to the facets in the last step: readout/facet_traction.hpp.
+  std::vector<FacetTraction> facet_tractions();
+  /// Of a bond as its nodes are now.
+  BondStress bond_stress(std::size_t bond) const;
 
   Energy energy() const;
   /// Largest overlap of any step so far over the radius of the smaller ball.

@@ -6,6 +6,7 @@
 #include "dynamics/simulation.hpp"
 #include "dynamics/simulation_cause.hpp"
 #include "dynamics/simulation_loads.hpp"
+#include "dynamics/simulation_readout.hpp"
 
 #include <algorithm>
 #include <cmath>

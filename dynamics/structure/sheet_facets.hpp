@@ -60,6 +60,11 @@ class SheetFacets {
   /// bits for any number of threads.
   void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const;
 
+  /// Force (N) of a facet on one of its corners at the last advance.
+  const Vec3& corner_force(std::size_t facet, std::size_t corner) const noexcept {
+    return reactions_[facet].force[corner];
+  }
+
   /// Energy (J) stored in all facets at the last advance.
   double elastic_energy() const noexcept;
 
