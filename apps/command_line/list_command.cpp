@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/list_command.hpp"
 
+#include "apps/scenario/key_list.hpp"
 #include "contact/laws/law_list.hpp"
 
 #include <fmt/format.h>
@@ -39,6 +40,14 @@ void list_parameters(std::span<const LawParameter> parameters, std::ostream& out
   }
 }
 
+void list_keys(const KeyGroup& group, std::ostream& out) {
+  out << group.table;
+  if (!group.kind.empty()) out << fmt::format(" kind = \"{}\"", group.kind);
+  out << '\n';
+  for (const ListedKey& key : group.keys)
+    out << fmt::format("    {:<20} {:<20} {}\n", key.path, key.standard, key.kind);
+}
+
 }  // namespace
 
 void list_choices(std::ostream& out) {
@@ -49,6 +58,10 @@ void list_choices(std::ostream& out) {
   }
   out << "  with every law\n";
   list_parameters(contact::common_law_parameters(), out);
+  out << "\nKeys of a scenario with default (SI) and what they take; \"-\" may be left out, "
+         "\"other "
+         "keys\" decide; apps/scenario.md has their meaning\n";
+  for (const KeyGroup& group : scenario_keys()) list_keys(group, out);
 }
 
 }  // namespace plekton::apps

@@ -78,15 +78,16 @@ std::variant<std::size_t, double> read_amount(Section& section, std::optional<do
   constexpr std::array<std::string_view, 3> kKeys = {"count", "mass", "volume"};
   const auto given = std::count_if(kKeys.begin(), kKeys.end(),
                                    [&](std::string_view key) { return section.has(key); });
-  if (given != 1) {
+  if (given != 1)
     section.complain(
         "count", fmt::format("got {} of {}; expected exactly one of them", given, listed(kKeys)));
-    return std::size_t{1};
-  }
+  std::variant<std::size_t, double> amount{std::size_t{1}};
+  if (section.has("mass"))
+    amount = section.quantity("mass", {kMass, kPositive}) / density.value_or(1.0);
+  if (section.has("volume")) amount = section.quantity("volume", {kVolume, kPositive});
   if (section.has("count"))
-    return static_cast<std::size_t>(section.integer("count", 1, kMostGrains));
-  if (section.has("volume")) return section.quantity("volume", {kVolume, kPositive});
-  return section.quantity("mass", {kMass, kPositive}) / density.value_or(1.0);
+    amount = static_cast<std::size_t>(section.integer("count", 1, kMostGrains));
+  return amount;
 }
 
 }  // namespace

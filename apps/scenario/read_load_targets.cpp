@@ -89,7 +89,7 @@ NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
                      : read_membrane_name(section, scenario))
           .value_or(0);
   set.place = section.place_of("nodes");
-  if (section.is_table("nodes")) {
+  if (section.is_table("nodes", "{ min = [..], max = [..] }")) {
     set.which = SetWhich::box;
     set.box = read_box(*section.table("nodes"));
     return set;

@@ -52,16 +52,15 @@ void read_bodies(Section& root, Scenario& scenario) {
   }
 }
 
-Scenario scenario_of(const Table& table, const fs::path& path) {
-  Problems problems;
+/// All sections, whether the root has a table or a recorder of keys.
+Scenario read_root(Section root, Problems& problems, const fs::path& path) {
   Scenario scenario;
   scenario.file = path;
-  Section root(table, {path.string(), 1, 1}, "", problems);
   const Table none;
 
   if (const auto section = root.table("simulation")) {
     scenario.simulation = read_simulation(*section);
-  } else if (table.find("simulation") == nullptr) {
+  } else if (!root.has("simulation")) {
     problems.add(root.place(),
                  "simulation: missing; a scenario needs a table [simulation] with a duration");
   }
@@ -75,8 +74,15 @@ Scenario scenario_of(const Table& table, const fs::path& path) {
                                 scenario.simulation.duration);
   if (const auto section = root.table("stop")) scenario.stop = read_stop(*section);
   root.finish();
+  return scenario;
+}
+
+Scenario scenario_of(const Table& table, const fs::path& path) {
+  Problems problems;
+  const Place start{path.string(), 1, 1};
+  Scenario scenario = read_root(Section(table, start, "", problems), problems, path);
   if (problems.empty() && scenario.membranes.empty() && scenario.grains.empty()) {
-    problems.add(root.place(),
+    problems.add(start,
                  "nothing to simulate; expected at least one table [[grains]] or [[membranes]]");
   }
   problems.throw_if_any();
@@ -96,6 +102,12 @@ Scenario read_scenario(const fs::path& path, std::span<const std::string> overri
   Table table = read_toml_file(path);
   apply_overrides(table, overrides);
   return scenario_of(table, path);
+}
+
+void record_keys(KeyRecorder& recorder) {
+  Problems ignored;
+  const Table none;
+  read_root(Section(none, {}, "", ignored, &recorder), ignored, {});
 }
 
 }  // namespace plekton::apps

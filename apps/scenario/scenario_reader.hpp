@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/scenario/key_recorder.hpp"
 #include "apps/scenario/scenario.hpp"
 
 #include <filesystem>
@@ -23,5 +24,8 @@ Scenario read_scenario(const std::filesystem::path& path,
 /// @param path  What messages call it; mesh files are relative to its folder.
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& path,
                         std::span<const std::string> overrides = {});
+
+/// Tells a recorder of every key that the reader asks for.
+void record_keys(KeyRecorder& recorder);
 
 }  // namespace plekton::apps

@@ -32,8 +32,20 @@ std::string listed(std::span<const std::string_view> words) {
   return words.empty() ? "" : fmt::format("\"{}\"", fmt::join(words, "\", \""));
 }
 
-Section::Section(const Table& table, Place place, std::string path, Problems& problems)
-    : table_(&table), place_(std::move(place)), path_(std::move(path)), problems_(&problems) {}
+Section::Section(const Table& table, Place place, std::string path, Problems& problems,
+                 KeyRecorder* recorder)
+    : table_(&table),
+      place_(std::move(place)),
+      path_(std::move(path)),
+      problems_(&problems),
+      recorder_(recorder) {}
+
+bool Section::records(std::string_view key, const std::string& kind,
+                      const std::optional<std::string>& standard,
+                      std::span<const std::string_view> words) const {
+  if (recorder_) recorder_->add(path_of(key), kind, standard, words);
+  return recorder_ != nullptr;
+}
 
 const Place& Section::place_of(std::string_view key) const {
   const Entry* entry = table_->find(key);
@@ -45,10 +57,12 @@ std::string Section::path_of(std::string_view key) const {
 }
 
 bool Section::has(std::string_view key) {
+  if (recorder_) return recorder_->ask(path_of(key));
   return find(key) != nullptr;
 }
 
-bool Section::is_table(std::string_view key) const {
+bool Section::is_table(std::string_view key, std::string_view what) const {
+  if (recorder_) recorder_->add_alternative(path_of(key), std::string(what));
   const Entry* entry = table_->find(key);
   return entry && std::holds_alternative<Table>(entry->value.data);
 }
@@ -107,17 +121,22 @@ double Section::read_quantity(const Value& value, const std::string& path,
 }
 
 double Section::quantity(std::string_view key, const Quantity& expected) {
+  if (records(key, kind_text(expected), {})) return kNaN;
   const Value* value = require(key);
   return value ? read_quantity(*value, path_of(key), expected) : kNaN;
 }
 
 double Section::quantity(std::string_view key, const Quantity& expected, double fallback) {
+  if (records(key, kind_text(expected), standard_text(fallback))) return fallback;
   const Value* value = find(key);
   return value ? read_quantity(*value, path_of(key), expected) : fallback;
 }
 
 std::optional<double> Section::quantity_unless(std::string_view key, std::string_view word,
                                                const Quantity& expected) {
+  const std::string standard = fmt::format("\"{}\"", word);
+  if (records(key, fmt::format("{}, or {}", kind_text(expected), standard), standard))
+    return std::nullopt;
   const Value* value = find(key);
   if (value == nullptr) return std::nullopt;
   const auto* text = std::get_if<std::string>(&value->data);
@@ -143,18 +162,25 @@ geometry::Vec3 Section::read_vector(const Value& value, const std::string& path,
 }
 
 geometry::Vec3 Section::vector(std::string_view key, const Quantity& expected) {
+  if (records(key, "3 x " + kind_text(expected), {})) return geometry::Vec3::Constant(kNaN);
   const Value* value = require(key);
   return value ? read_vector(*value, path_of(key), expected) : geometry::Vec3::Constant(kNaN);
 }
 
 geometry::Vec3 Section::vector(std::string_view key, const Quantity& expected,
                                const geometry::Vec3& fallback) {
+  if (records(key, "3 x " + kind_text(expected),
+              fmt::format("[{:g}, {:g}, {:g}]", fallback[0], fallback[1], fallback[2])))
+    return fallback;
   const Value* value = find(key);
   return value ? read_vector(*value, path_of(key), expected) : fallback;
 }
 
 std::int64_t Section::integer(std::string_view key, std::int64_t low, std::int64_t high,
                               std::optional<std::int64_t> fallback) {
+  if (records(key, fmt::format("whole number from {}", low),
+              fallback ? std::optional(std::to_string(*fallback)) : std::nullopt))
+    return fallback.value_or(low);
   const Value* value = fallback ? find(key) : require(key);
   if (value == nullptr) return fallback.value_or(0);
   const auto* number = std::get_if<std::int64_t>(&value->data);
@@ -165,6 +191,8 @@ std::int64_t Section::integer(std::string_view key, std::int64_t low, std::int64
 }
 
 std::vector<int> Section::integers(std::string_view key, std::vector<int> least, int most) {
+  if (records(key, fmt::format("{} x whole number from {}", least.size(), least[0]), {}))
+    return least;
   const Value* value = require(key);
   if (value == nullptr) return least;
   const auto* array = std::get_if<Array>(&value->data);
@@ -189,6 +217,8 @@ std::vector<int> Section::integers(std::string_view key, std::vector<int> least,
 
 std::vector<std::array<double, 2>> Section::rising_rows(std::string_view key, const Quantity& first,
                                                         const Quantity& second) {
+  if (records(key, fmt::format("pairs of {} and {}", kind_text(first), kind_text(second)), {}))
+    return {};
   const Value* value = require(key);
   if (value == nullptr) return {};
   const auto* array = std::get_if<Array>(&value->data);
@@ -222,6 +252,7 @@ std::vector<std::array<double, 2>> Section::rising_rows(std::string_view key, co
 }
 
 std::vector<std::string> Section::texts(std::string_view key) {
+  if (records(key, "texts", {})) return {};
   const Value* value = require(key);
   if (value == nullptr) return {};
   const auto* array = std::get_if<Array>(&value->data);
@@ -236,6 +267,7 @@ std::vector<std::string> Section::texts(std::string_view key) {
 }
 
 bool Section::truth(std::string_view key, bool fallback) {
+  if (records(key, "true or false", fallback ? "true" : "false")) return fallback;
   const Value* value = find(key);
   if (value == nullptr) return fallback;
   if (const auto* truth = std::get_if<bool>(&value->data)) return *truth;
@@ -244,6 +276,7 @@ bool Section::truth(std::string_view key, bool fallback) {
 }
 
 std::string Section::text(std::string_view key, const std::optional<std::string>& fallback) {
+  if (records(key, "text", fallback == "" ? "none" : fallback)) return fallback.value_or("");
   const Value* value = fallback ? find(key) : require(key);
   if (value == nullptr) return fallback.value_or("");
   const auto* text = std::get_if<std::string>(&value->data);
@@ -264,6 +297,10 @@ std::optional<std::size_t> Section::position_of(const Value& value, std::string_
 
 std::size_t Section::choice(std::string_view key, std::span<const std::string_view> words,
                             std::optional<std::size_t> fallback) {
+  if (records(key, listed(words),
+              fallback ? std::optional(fmt::format("\"{}\"", words[*fallback])) : std::nullopt,
+              words))
+    return recorder_->choice(path_of(key), words).value_or(fallback.value_or(0));
   const Value* value = fallback ? find(key) : require(key);
   if (value == nullptr) return fallback.value_or(0);
   return position_of(*value, key, words).value_or(0);
@@ -271,6 +308,8 @@ std::size_t Section::choice(std::string_view key, std::span<const std::string_vi
 
 std::optional<std::size_t> Section::known_choice(std::string_view key,
                                                  std::span<const std::string_view> words) {
+  if (records(key, listed(words), {}, words))
+    return recorder_->choice(path_of(key), words).value_or(0);
   const Value* value = find(key);
   if (value) return position_of(*value, key, words);
   problems_->add(place_,
@@ -279,15 +318,17 @@ std::optional<std::size_t> Section::known_choice(std::string_view key,
 }
 
 std::optional<Section> Section::table(std::string_view key) {
+  if (recorder_) return within(*table_, place_, path_of(key));
   const Value* value = find(key);
   if (value == nullptr) return std::nullopt;
   if (const auto* table = std::get_if<Table>(&value->data))
-    return Section(*table, value->place, path_of(key), *problems_);
+    return within(*table, value->place, path_of(key));
   complain(key, fmt::format("got {}; expected a table", shown(*value)));
   return std::nullopt;
 }
 
 std::vector<Section> Section::tables(std::string_view key) {
+  if (recorder_) return {within(*table_, place_, path_of(key) + "[]")};
   const Value* value = find(key);
   if (value == nullptr) return {};
   const auto* array = std::get_if<Array>(&value->data);
@@ -308,12 +349,13 @@ std::vector<Section> Section::tables(std::string_view key) {
     const Entry* name = table->find("name");
     const auto* text = name ? std::get_if<std::string>(&name->value.data) : nullptr;
     if (text) path = fmt::format("{}.{}", path_of(key), *text);
-    sections.push_back(Section(*table, item.place, std::move(path), *problems_));
+    sections.push_back(within(*table, item.place, std::move(path)));
   }
   return sections;
 }
 
 std::vector<std::pair<std::string, Section>> Section::all_tables() {
+  if (recorder_) return {{"NAME", within(*table_, place_, path_of("NAME"))}};
   std::vector<std::pair<std::string, Section>> sections;
   for (const Entry& entry : table_->entries) {
     if (auto section = table(entry.key)) sections.emplace_back(entry.key, *section);

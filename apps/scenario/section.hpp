@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/scenario/config_tree.hpp"
+#include "apps/scenario/key_recorder.hpp"
 #include "apps/scenario/units.hpp"
 #include "geometry/types.hpp"
 
@@ -49,7 +50,9 @@ class Section {
  public:
   /// @param path  What messages call it, as in "membranes.hammock"; empty for the whole file.
   /// @param place  Of the table, for missing keys.
-  Section(const Table& table, Place place, std::string path, Problems& problems);
+  /// @param recorder  If given, nothing is read: it is told of every key, as if all were there.
+  Section(const Table& table, Place place, std::string path, Problems& problems,
+          KeyRecorder* recorder = nullptr);
 
   const Place& place() const noexcept { return place_; }
   const std::string& path() const noexcept { return path_; }
@@ -60,7 +63,8 @@ class Section {
 
   /// Also announces the key, so that it is not unknown.
   bool has(std::string_view key);
-  bool is_table(std::string_view key) const;
+  /// @param what  of the table, for a list of keys
+  bool is_table(std::string_view key, std::string_view what = "a table") const;
   bool is_list(std::string_view key) const;
 
   /// NaN after a problem.
@@ -108,6 +112,13 @@ class Section {
   void finish();
 
  private:
+  Section within(const Table& table, const Place& place, std::string path) const {
+    return Section(table, place, std::move(path), *problems_, recorder_);
+  }
+  /// Tells the recorder of a key. @returns whether there is one
+  bool records(std::string_view key, const std::string& kind,
+               const std::optional<std::string>& standard,
+               std::span<const std::string_view> words = {}) const;
   const Value* find(std::string_view key);
   const Value* require(std::string_view key);
   double read_quantity(const Value& value, const std::string& path, const Quantity& expected);
@@ -119,6 +130,7 @@ class Section {
   Place place_;
   std::string path_;
   Problems* problems_;
+  KeyRecorder* recorder_;
   std::vector<std::string> announced_;
 };
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scenario/units.hpp"
+
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plekton::apps {
+
+struct Quantity;
+
+/// A key that a scenario may have.
+struct ListedKey {
+  std::string path;      ///< as in "membranes.shape.radius"
+  std::string kind;      ///< what its value is, with its SI unit, as in "length (m) above 0"
+  std::string standard;  ///< SI, if nothing is said; "required", or "-" where it may be left out
+  std::vector<std::string> words;  ///< of a choice
+};
+
+/// Writes down which keys the reader asks for, instead of reading a file: so what is listed is what
+/// is read. The reader sees every key as present, but for those that are to be absent.
+class KeyRecorder {
+ public:
+  /// @param absent  paths of keys that are not there
+  /// @param chosen  word of a choice, by the path of its key; the first or the default elsewhere
+  KeyRecorder(std::set<std::string> absent, std::map<std::string, std::string> chosen)
+      : absent_(std::move(absent)), chosen_(std::move(chosen)) {}
+
+  /// A question whether a key is there. @returns whether it is
+  bool ask(const std::string& path);
+  /// A key whose value is read.
+  /// @param standard  nothing where the key is required, unless it was asked for before
+  void add(const std::string& path, std::string kind, const std::optional<std::string>& standard,
+           std::span<const std::string_view> words = {});
+  /// A value that may also be something else.
+  void add_alternative(const std::string& path, const std::string& what);
+
+  /// Position of the chosen word.
+  std::optional<std::size_t> choice(const std::string& path,
+                                    std::span<const std::string_view> words) const;
+
+  /// In the order in which they were read, each once.
+  const std::vector<ListedKey>& keys() const noexcept { return keys_; }
+
+ private:
+  std::set<std::string> absent_;
+  std::map<std::string, std::string> chosen_;
+  std::set<std::string> asked_;
+  std::map<std::string, std::string> alternatives_;
+  std::vector<ListedKey> keys_;
+};
+
+/// As in "length (m) above 0".
+std::string kind_text(const Quantity& expected);
+/// A default: "none" if infinite, "other keys" if it is not known before they are.
+std::string standard_text(double value);
+
+}  // namespace plekton::apps

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list of keys against what the reader takes and what apps/scenario.md says.
+#include "apps/scenario/key_list.hpp"
+
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace plekton::apps {
+namespace {
+
+using Words = std::set<std::string>;
+
+const std::string& documentation() {
+  static const std::string text =
+      test::bytes_of(std::filesystem::path(PLEKTON_SOURCE_DIR) / "apps/scenario.md");
+  return text;
+}
+
+/// The part of the documentation below a heading, as in "[[loads]]".
+std::string section_of(const std::string& table) {
+  const std::size_t begin = documentation().find("\n## " + table + "\n");
+  if (begin == std::string::npos) return "";
+  return documentation().substr(begin, documentation().find("\n## ", begin + 1) - begin);
+}
+
+/// The names of keys in code marks: `key`, `key = ...`.
+Words names_in(const std::string& text) {
+  Words names;
+  const std::regex mark("`([a-z_]+)( = [^`]*)?`");
+  for (std::sregex_iterator at(text.begin(), text.end(), mark), end; at != end; ++at)
+    names.insert((*at)[1]);
+  return names;
+}
+
+/// The cells of a row of a table; none in other lines.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  if (!line.starts_with("| ")) return cells;
+  std::istringstream row(line.substr(1));
+  for (std::string cell; std::getline(row, cell, '|');) cells.push_back(cell);
+  return cells;
+}
+
+/// "sieves[].sieve" and "gas.exponent" to "sieves" and "gas".
+std::string first_part(const std::string& path) {
+  return path.substr(0, path.find_first_of(".["));
+}
+
+Words listed_in(const std::string& table, const std::string& kind = "") {
+  Words names;
+  for (const KeyGroup& group : scenario_keys()) {
+    if (group.table != table || (!kind.empty() && group.kind != kind)) continue;
+    for (const ListedKey& key : group.keys) names.insert(first_part(key.path));
+  }
+  return names;
+}
+
+TEST(KeyList, HasEveryTableOfTheDocumentation) {
+  Words tables;
+  for (const KeyGroup& group : scenario_keys()) tables.insert(group.table);
+
+  EXPECT_EQ(tables, Words({"[simulation]", "[materials.NAME]", "[[contacts]]", "[[membranes]]",
+                           "[[membranes]] shape", "[[grains]]", "[[planes]]", "[[loads]]",
+                           "[output]", "[stop]"}));
+}
+
+TEST(KeyList, HasNoKeyThatIsNotDocumented) {
+  for (const KeyGroup& group : scenario_keys()) {
+    const std::string table = group.table.substr(0, group.table.find(' ', 3));
+    const std::string text = section_of(table);
+    const Words names = names_in(text);
+    for (const ListedKey& key : group.keys)
+      EXPECT_TRUE(names.contains(first_part(key.path))) << group.table << ' ' << key.path;
+    if (group.kind.empty()) continue;
+    EXPECT_THAT(text, testing::HasSubstr("`\"" + group.kind + "\"`"));
+  }
+}
+
+TEST(KeyList, HasEveryKeyOfTheTablesOfTheDocumentation) {
+  for (const KeyGroup& group : scenario_keys()) {
+    if (!group.kind.empty()) continue;
+    Words listed = listed_in(group.table);
+    // Of other laws than the first, and a table whose kinds are listed by themselves.
+    if (group.table == "[[contacts]]")
+      listed.insert({"work_of_adhesion", "tensile_strength", "shear_strength", "rupture_distance"});
+    if (group.table == "[[membranes]]") listed.insert("shape");
+    const std::string text = section_of(group.table);
+    std::istringstream lines(text.substr(0, text.find("\n### ")));
+    for (std::string line; std::getline(lines, line);) {
+      const auto cells = cells_of(line);
+      for (const std::string& name : cells.empty() ? Words{} : names_in(cells[0]))
+        EXPECT_TRUE(listed.contains(name)) << group.table << ' ' << name;
+    }
+  }
+}
+
+TEST(KeyList, HasEveryKeyOfTheKindsOfTheDocumentation) {
+  for (const auto& [table, heading] :
+       {std::pair("[[loads]]", "[[loads]]"), std::pair("[[membranes]]", "[[membranes]] shape")}) {
+    std::istringstream lines(section_of(table));
+    int rows = 0;
+    for (std::string line; std::getline(lines, line);) {
+      const auto cells = cells_of(line);
+      const std::regex kind(" `\"([a-z_]+)\"` ");
+      std::smatch match;
+      if (cells.size() < 2 || !std::regex_match(cells[0], match, kind)) continue;
+      const Words listed = listed_in(heading, match[1]);
+      if (listed.empty()) continue;  // the table of modes
+      ++rows;
+      for (const std::string& name : names_in(cells[1]))
+        EXPECT_TRUE(listed.contains(name)) << match[1] << ' ' << name;
+    }
+    EXPECT_GE(rows, 7);
+  }
+}
+
+TEST(KeyList, HasUnitsRangesAndDefaults) {
+  const auto key = [](const std::string& table, const std::string& kind, const std::string& path) {
+    for (const KeyGroup& group : scenario_keys()) {
+      if (group.table != table || group.kind != kind) continue;
+      for (const ListedKey& listed : group.keys)
+        if (listed.path == path) return listed.standard + "; " + listed.kind;
+    }
+    return std::string("not there");
+  };
+
+  EXPECT_EQ(key("[simulation]", "", "duration"), "required; time (s) above 0");
+  EXPECT_EQ(key("[[membranes]]", "", "fill_holes"), "false; true or false");
+  EXPECT_EQ(key("[[loads]]", "pressure", "gas.exponent"), "1; number without unit above 0");
+  EXPECT_EQ(key("[[loads]]", "motion", "angular_velocity"), "-; 3 x angular velocity (rad/s)");
+  EXPECT_EQ(key("[[loads]]", "motion", "grains"), "-; text");
+  EXPECT_EQ(key("[[membranes]] shape", "box", "size"), "required; 3 x length (m) above 0");
+}
+
+}  // namespace
+}  // namespace plekton::apps
