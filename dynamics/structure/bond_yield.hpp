@@ -31,7 +31,8 @@ struct BeamYield {
 ///
 /// The loss is half the sum of the forces before and after, times the plastic change: together with
 /// the leapfrog that balances to rounding as long as the bond is linear.
-void yield(const BeamEndsOf<double>& ends, const BondLimits& limits, BeamSpringOf<double>& spring,
+/// @returns whether it yields, so that spring has changed
+bool yield(const BeamEndsOf<double>& ends, const BondLimits& limits, BeamSpringOf<double>& spring,
            BeamYield& memory) noexcept;
 
 /// Whether a beam breaks under the forces, or by the plastic strain, that it remembers.

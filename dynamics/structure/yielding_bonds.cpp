@@ -41,8 +41,8 @@ YieldingBonds::YieldingBonds(std::vector<BondLaw> laws, std::span<const BeamBond
 
 void YieldingBonds::yield_one(Beam& beam, BeamBonds& bonds, const NodeState& state) noexcept {
   BeamSpringOf<double> spring = bonds.spring(beam.bond);
-  yield(bonds.ends(beam.bond, state), beam.limits, spring, beam.memory);
-  bonds.set_spring(beam.bond, spring);
+  if (yield(bonds.ends(beam.bond, state), beam.limits, spring, beam.memory))
+    bonds.set_spring(beam.bond, spring);
   breaks_[beam.bond] = is_broken(beam.limits, beam.memory);
 }
 
