@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/thread_pool.hpp"
 #include "geometry/types.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <span>
@@ -34,9 +36,17 @@ struct NodeForces {
   explicit NodeForces(std::size_t node_count = 0)
       : force(node_count, Vec3::Zero()), torque(node_count, Vec3::Zero()) {}
 
-  void set_zero() {
-    std::fill(force.begin(), force.end(), Vec3::Zero());
-    std::fill(torque.begin(), torque.end(), Vec3::Zero());
+  void set_zero() { set_zero(0, force.size()); }
+  /// Each thread its part of the nodes, those that it moves: they are near it.
+  void set_zero(geometry::ThreadPool& pool) {
+    pool.for_each_range(force.size(),
+                        [this](std::size_t begin, std::size_t end, int) { set_zero(begin, end); });
+  }
+
+ private:
+  void set_zero(std::size_t begin, std::size_t end) {
+    std::fill_n(force.data() + begin, end - begin, Vec3::Zero());
+    std::fill_n(torque.data() + begin, end - begin, Vec3::Zero());
   }
 };
 

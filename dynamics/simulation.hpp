@@ -203,7 +203,7 @@ class Simulation {
 template <contact::ContactLaw Law>
 void Simulation<Law>::step() {
   require_time_step();
-  forces_.set_zero();
+  forces_.set_zero(pool_);
   yielding_bonds_.advance(bonds_, scene_.state, pool_);
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);

@@ -199,7 +199,6 @@ constexpr auto kKeepAll = [](const std::vector<IndexPair>&, std::size_t) {};
 template <class Keep>
 void find_pairs(const Tree& tree, std::size_t begin, std::size_t end, const Keep& keep,
                 std::vector<IndexPair>& pairs) {
-  pairs.clear();
   with_widest_vectors([&](auto width) __attribute__((always_inline)) {
     BunchPairs<width, Tree, true> bunch_pairs(tree, tree, pairs);
     for (std::size_t k = begin; k < end; ++k) {
@@ -238,9 +237,10 @@ void sort_pairs(std::span<const std::vector<IndexPair>> parts, std::size_t row_c
 
 struct BroadPhase::Implementation {
   Tree tree;
-  /// One for each thread; they keep their room.
+  /// An empty one for each thread; they keep their room.
   std::span<std::vector<IndexPair>> lists(std::size_t count) {
     if (found.size() < count) found.resize(count);
+    for (std::vector<IndexPair>& pairs : found) pairs.clear();
     return std::span(found).first(count);
   }
 
@@ -330,7 +330,6 @@ void BroadPhase::pairs_with(const BroadPhase& other, std::vector<IndexPair>& pai
   const Tree& tree = implementation_->tree;
   const Tree& other_tree = other.implementation_->tree;
   const std::span found = implementation_->lists(1);
-  found[0].clear();
   if (size() > 0 && other.size() > 0) {
     with_widest_vectors([&](auto width) __attribute__((always_inline)) {
       BunchPairs<width, Tree, false>(tree, other_tree, found[0])

@@ -13,7 +13,7 @@ constexpr std::int64_t kListsPerTree = 16;
 
 /// What the lists cost, in steps of a dense packing of spheres, and by what share of a step more it
 /// gets when the skin grows by a radius (measured: tests/benchmarks/README.md).
-constexpr double kCostOfLists = 5.0;
+constexpr double kCostOfLists = 9.0;
 constexpr double kCostOfSkin = 0.7;
 
 }  // namespace

@@ -66,10 +66,12 @@ std::span<const Proximity> ProximityQuery::find(Positions x) {
                                 std::to_string(surface_->node_count()));
   }
   list_candidates(x);
-  pool_.for_each_range(candidates_.size(), [&](std::size_t begin, std::size_t end, int worker) {
-    Found& found = found_by_worker_[static_cast<std::size_t>(worker)];
+  for (Found& found : found_by_worker_) {
     found.proximities.clear();
     found.elements.clear();
+  }
+  pool_.for_each_range(candidates_.size(), [&](std::size_t begin, std::size_t end, int worker) {
+    Found& found = found_by_worker_[static_cast<std::size_t>(worker)];
     for (std::size_t i = begin; i < end; ++i) {
       const Proximity proximity = proximity_of(candidates_[i], x);
       if (!(proximity.gap < choice_.largest_gap)) continue;

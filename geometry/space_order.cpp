@@ -3,6 +3,7 @@
 
 #include <CGAL/Hilbert_sort_median_3.h>
 
+#include <numeric>
 #include <utility>
 
 namespace plekton::geometry {
@@ -39,6 +40,15 @@ void order_along_curve(Positions x, std::span<const NodeId> nodes,
                        std::vector<std::int32_t>& order) {
   CGAL::Hilbert_sort_median_3<IndexTraits, CGAL::Sequential_tag> sort(IndexTraits{x, nodes});
   sort(order.begin(), order.end());
+}
+
+std::vector<std::int32_t> order_along_curve(Positions points) {
+  std::vector<NodeId> nodes;
+  for (std::size_t i = 0; i < points.size(); ++i) nodes.push_back(id_at<NodeId>(i));
+  std::vector<std::int32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  order_along_curve(points, nodes, order);
+  return order;
 }
 
 }  // namespace plekton::geometry

@@ -5,6 +5,7 @@
 #include "apps/scene/grain_generator.hpp"
 #include "apps/scene/membrane_builder.hpp"
 #include "geometry/mesh/import.hpp"
+#include "geometry/space_order.hpp"
 
 #include <fmt/format.h>
 
@@ -64,10 +65,22 @@ void complain(const MembraneSettings& membrane, std::optional<geometry::RepairSt
                  fmt::format("membranes.{}.{}: {}", membrane.name, key->second.name, what));
 }
 
+/// So that grains near each other are near each other in memory; largest first, as they are placed,
+/// they would lie anywhere.
+std::vector<PlacedGrain> in_order_of_space(const std::vector<PlacedGrain>& grains) {
+  std::vector<geometry::Vec3> centres;
+  for (const PlacedGrain& grain : grains) centres.push_back(grain.centre);
+  std::vector<PlacedGrain> sorted;
+  for (const std::int32_t i : geometry::order_along_curve(centres))
+    sorted.push_back(grains[static_cast<std::size_t>(i)]);
+  return sorted;
+}
+
 BuiltGrains add_grains(const GrainSettings& settings, double density, BuiltScene& built) {
   dynamics::Scene& scene = built.scene;
   const std::vector<Obstacle> obstacles = obstacles_of(built);
-  const std::vector<PlacedGrain> grains = generate_grains(settings, {obstacles, scene.planes});
+  const std::vector<PlacedGrain> grains =
+      in_order_of_space(generate_grains(settings, {obstacles, scene.planes}));
   BuiltGrains result{settings.name, grains.size(), 0.0, grains.front().radius,
                      grains.front().radius};
   for (const PlacedGrain& grain : grains) {

@@ -201,18 +201,18 @@ double BallContacts<Law>::advance(const Motion& motion, double dt, geometry::Thr
   lent_.resize(blocks_.borrowed_count());
   outcomes_.resize(blocks.size());
   work_.resize(static_cast<std::size_t>(pool.thread_count()));
-  pool.for_each_range(blocks.size(), [&](std::size_t begin, std::size_t end, int worker) {
-    Work& work = work_[static_cast<std::size_t>(worker)];
+  for (Work& work : work_) {
     work.balls.reserve(blocks_.largest_member_count());
     make_room(work.sums, blocks_.largest_member_count());
     work.sums.resize(blocks_.largest_member_count());
     work.dt = dt;
-    for (std::size_t k = begin; k < end; ++k) {
-      work.outcome = {};
-      advance_block(blocks[k], motion, work);
-      outcomes_[k] = work.outcome;
-      add_sums(blocks[k], work, forces);
-    }
+  }
+  pool.for_each_shared(blocks.size(), [&](std::size_t k, int worker) {
+    Work& work = work_[static_cast<std::size_t>(worker)];
+    work.outcome = {};
+    advance_block(blocks[k], motion, work);
+    outcomes_[k] = work.outcome;
+    add_sums(blocks[k], work, forces);
   });
   return_loans(forces, pool);
   double dissipated = 0.0;

@@ -44,6 +44,14 @@ TEST(SpaceOrder, PutsNeighboursInSpaceNextToEachOther) {
   for (std::int32_t i = 0; i < 4096; ++i) EXPECT_EQ(cloud.order[static_cast<std::size_t>(i)], i);
 }
 
+TEST(SpaceOrder, OfPointsIsThatOfNodesThere) {
+  Cloud cloud(500);
+
+  order_along_curve(cloud.x, cloud.nodes, cloud.order);
+
+  EXPECT_EQ(order_along_curve(cloud.x), cloud.order);
+}
+
 TEST(SpaceOrder, DoesNotDependOnTheOrderBefore) {
   Cloud cloud(1000);
   std::vector<std::int32_t> backwards(cloud.order.rbegin(), cloud.order.rend());

@@ -43,7 +43,7 @@ TEST_P(ThreadPools, HaveTheThreadsAskedFor) {
 }
 
 TEST_P(ThreadPools, GiveEveryWorkerOneOfNearlyEqualPartsThatFollowEachOther) {
-  for (const std::size_t count : {0u, 1u, 2u, 3u, 6u, 7u, 8u, 1000u, 1001u}) {
+  for (const std::size_t count : {1u, 2u, 3u, 6u, 7u, 8u, 1000u, 1001u}) {
     SCOPED_TRACE(count);
     const std::vector<Part> parts = parts_of(pool, count);
 
@@ -138,7 +138,7 @@ TEST_P(ThreadPools, ThrowWhatTheLowestFailingWorkerThrewAfterAllHaveEnded) {
 TEST_P(ThreadPools, WorkAsBeforeAfterAnException) {
   const auto fail = [](std::size_t, std::size_t, int) { throw std::runtime_error("all of them"); };
   EXPECT_THROW(pool.for_each_range(1, fail), std::runtime_error);
-  EXPECT_THROW(pool.for_each_range(0, fail), std::runtime_error);
+  EXPECT_THROW(pool.for_each_range(3, fail), std::runtime_error);
 
   const std::vector<Part> parts = parts_of(pool, 10);
 
@@ -153,6 +153,55 @@ TEST_P(ThreadPools, TakeAConstantBodyAndATemporaryOne) {
   pool.for_each_range(6, [&](std::size_t begin, std::size_t end, int) { covered += end - begin; });
 
   EXPECT_EQ(covered, 11u);
+}
+
+TEST_P(ThreadPools, CallNobodyWhereThereIsNothingToDo) {
+  pool.for_each_range(0, [](std::size_t, std::size_t, int) { FAIL(); });
+  pool.for_each_shared(0, [](std::size_t, int) { FAIL(); });
+}
+
+TEST_P(ThreadPools, GoThroughASharedLoopOnceForEveryIndex) {
+  for (const std::size_t count : {1u, 2u, 5u, 1000u}) {
+    std::vector<std::atomic<int>> calls(count);
+
+    for (int round = 0; round < 20; ++round) {
+      pool.for_each_shared(count, [&](std::size_t index, int worker) {
+        EXPECT_GE(worker, 0);
+        EXPECT_LT(worker, pool.thread_count());
+        ++calls[index];
+      });
+    }
+
+    for (const std::atomic<int>& of_index : calls) EXPECT_EQ(of_index, 20);
+  }
+}
+
+TEST_P(ThreadPools, ThrowWhatTheBodyOfASharedLoopThrew) {
+  const auto loop = [&] {
+    pool.for_each_shared(100, [](std::size_t index, int) {
+      if (index == 57) throw std::runtime_error("57");
+    });
+  };
+  for (int round = 0; round < 3; ++round) EXPECT_THROW(loop(), std::runtime_error);
+}
+
+TEST(ThreadPool, GivesWhatALateWorkerHasNotBegunToTheOthers) {
+  ThreadPool pool(2);
+  std::vector<int> worker_of(20, -1);
+  std::atomic<int> others = 0;
+
+  // The first of worker 0's ten indices takes until worker 1 has done the other nine.
+  pool.for_each_shared(worker_of.size(), [&](std::size_t index, int worker) {
+    worker_of[index] = worker;
+    if (index == 0) {
+      while (others < 19) std::this_thread::yield();
+    } else {
+      ++others;
+    }
+  });
+
+  EXPECT_EQ(worker_of[0], 0);
+  for (std::size_t index = 1; index < worker_of.size(); ++index) EXPECT_EQ(worker_of[index], 1);
 }
 
 TEST(ThreadPool, RefusesALoopInsideALoopWhenItHasSeveralThreads) {

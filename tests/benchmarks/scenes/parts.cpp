@@ -2,6 +2,7 @@
 #include "tests/benchmarks/scenes/parts.hpp"
 
 #include "geometry/mesh/membrane.hpp"
+#include "geometry/space_order.hpp"
 
 namespace plekton::benchmarks {
 
@@ -15,7 +16,10 @@ BenchmarkScene empty_scene(double damping) {
 }
 
 void add_spheres(const Bed& bed, dynamics::Scene& scene) {
-  for (const Bed::Grain& grain : bed.grains) {
+  std::vector<Vec3> centres;
+  for (const Bed::Grain& grain : bed.grains) centres.push_back(grain.position);
+  for (const std::int32_t i : geometry::order_along_curve(centres)) {
+    const Bed::Grain& grain = bed.grains[static_cast<std::size_t>(i)];
     const auto sphere =
         scene.add_sphere(grain.position, grain.radius, kSphereDensity, kCommonMaterial);
     const std::size_t node = index_of(scene.elements.spheres[index_of(sphere)].nodes[0]);
