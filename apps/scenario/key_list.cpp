@@ -18,7 +18,7 @@ using Keys = std::vector<ListedKey>;
 const std::vector<std::set<std::string>>& absences() {
   static const std::vector<std::set<std::string>> sets = {
       {"loads[].plane", "loads[].grains", "loads[].angular_velocity", "membranes[].longest_hole",
-       "membranes[].wrap_detail"},
+       "membranes[].wrap_detail", "membranes[].wire"},
       {"loads[].plane", "loads[].membrane"},
       {}};
   return sets;
