@@ -134,6 +134,8 @@ Verdict certify(Corners a, Corners b, Carriers carriers) noexcept {
   if (count_a == 2 && count_b == 1) return corner_side(b, carriers.b, a, carriers.a);
   if (count_a == 1) return corner_face(a, carriers.a, b);
   if (count_b == 1) return corner_face(b, carriers.b, a);
+  // A side and a face, as of cores that crossed: where they are apart, lower features are nearest.
+  if (count_a + count_b > 4) return Verdict::refuted;
   return side_side(a, b, carriers);
 }
 

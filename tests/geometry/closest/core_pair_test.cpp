@@ -69,5 +69,30 @@ TEST(CoreProximity, OfAPointOnAnEdgeDependsOnTheEdgeAlone) {
   EXPECT_EQ(first.signed_distance, 0.0);
 }
 
+TEST(CoreProximity, GivesTheSameBitsWithAnyGuess) {
+  // Also with that of cores that crossed, a side and a face, which no nearest points have.
+  test::SimplexFamilies<3, 3> families(2);
+  std::size_t crossings = 0;
+  for (const auto family : test::kPairFamilies) {
+    for (int trial = 0; trial < 100 && !::testing::Test::HasNonfatalFailure(); ++trial) {
+      for_all_kinds(families.draw(family), [&](const Core& a, const Core& b) {
+        const CoreProximity plain = core_proximity(a, b);
+        crossings += plain.points.relation == Relation::touching_or_crossing;
+        for (unsigned of_a = 1; of_a < 1U << a.count; ++of_a) {
+          for (unsigned of_b = 1; of_b < 1U << b.count; ++of_b) {
+            const CoreProximity guessed = core_proximity(a, b, closest::Carriers{of_a, of_b});
+            EXPECT_EQ(guessed.points.relation, plain.points.relation);
+            EXPECT_EQ(guessed.points.weights_a, plain.points.weights_a);
+            EXPECT_EQ(guessed.points.weights_b, plain.points.weights_b);
+            EXPECT_EQ(guessed.normal, plain.normal);
+            EXPECT_EQ(guessed.signed_distance, plain.signed_distance);
+          }
+        }
+      });
+    }
+  }
+  EXPECT_GT(crossings, 100u);
+}
+
 }  // namespace
 }  // namespace plekton::geometry
