@@ -52,6 +52,17 @@ class Contacts {
   void advance(const Motion& motion, std::span<const Plane> planes, double dt,
                geometry::ThreadPool& pool, NodeForces& forces);
 
+  /// Goes on with what is left of the surface after some of its elements have broken away
+  /// (geometry::Surface::left_with). Contacts go on where a feature they touch is left, those far
+  /// from the change to the last bit. Nodes go on touching planes, also those that have lost their
+  /// last element. To be called where advance() would be, before it; linear in the lists.
+  /// @param change  to the surface as it is now, which outlives this
+  /// @param motion  of this step
+  /// @param at      m, where the nodes were half a drift ago: to compare elastic energies there
+  ///                loses nothing to second order (trapezoidal rule)
+  void follow(const geometry::SurfaceChange& change, const Motion& motion, Positions at,
+              geometry::ThreadPool& pool);
+
   ContactCounts counts() const noexcept {
     return {with_spheres_.touching(), with_surfaces_.touching(), between_structures_.touching(),
             with_planes_.touching()};
@@ -110,6 +121,8 @@ class Contacts {
   const geometry::CellNeighbours& cell_neighbours() const noexcept { return cell_neighbours_; }
 
  private:
+  double list_on_surfaces();
+
   ContactMaterials<Law> materials_;
   std::vector<Ball> balls_;  ///< the spheres, then the nodes of the surface
   geometry::Neighbours neighbours_;
@@ -192,9 +205,7 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
   if (neighbours_.update(motion.position, pool, motion.way)) {
     dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs,
                                          motion.position);
-    dissipated_ += with_surfaces_.rebuild(neighbours_.sphere_structures(), neighbours_.near_cells(),
-                                          neighbours_.cells(), balls_, materials_.of_structures,
-                                          materials_.pairs);
+    dissipated_ += list_on_surfaces();
     plane_neighbours_.expire(neighbours_.skin());
   }
   if (cell_neighbours_.update(motion.position, pool, motion.way)) {
@@ -209,6 +220,27 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
   dissipated_ += between_structures_.advance(motion, dt, pool);
   dissipated_ += with_planes_.advance(motion, planes, dt, pool);
   add_surface_forces(forces, pool);
+}
+
+/// @returns the energy (J) lost with contacts that left the list
+template <ContactLaw Law>
+double Contacts<Law>::list_on_surfaces() {
+  return with_surfaces_.rebuild(neighbours_.sphere_structures(), neighbours_.near_cells(),
+                                neighbours_.cells(), balls_, materials_.of_structures,
+                                materials_.pairs);
+}
+
+template <ContactLaw Law>
+void Contacts<Law>::follow(const geometry::SurfaceChange& change, const Motion& motion,
+                           Positions at, geometry::ThreadPool& pool) {
+  dissipated_ += with_surfaces_.follow(change, neighbours_.cells(), at);
+  neighbours_.follow(change);
+  dissipated_ += list_on_surfaces();
+  cell_neighbours_.follow(change);
+  cell_neighbours_.update(motion.position, pool);
+  const Motion then{at, motion.velocity, motion.angular_velocity};
+  dissipated_ +=
+      between_structures_.follow(change, cell_neighbours_.pairs(), materials_, then, pool);
 }
 
 }  // namespace plekton::contact

@@ -4,11 +4,13 @@
 #include "contact/bodies.hpp"
 #include "contact/contact_row.hpp"
 #include "contact/material_pairs.hpp"
+#include "contact/structure/mean_node_masses.hpp"
 #include "contact/structure/pair_terms.hpp"
 #include "contact/structure/structure_patch.hpp"
 #include "contact/structure/touching_patches.hpp"
 #include "geometry/cell_neighbours.hpp"
 #include "geometry/parallel_sum.hpp"
+#include "geometry/surface_change.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -37,6 +39,14 @@ class StructureContacts {
   /// Takes a new list of cells that may touch, sorted; pairs in both lists keep their patches.
   /// @returns the energy (J) lost with patches that left the list
   double rebuild(std::span<const geometry::CellPair> pairs, const ContactMaterials<Law>& materials);
+
+  /// Goes on with what is left of the surface and a new list of its cells: patches keep their
+  /// histories as long as one of the features in contact is left.
+  /// @param at  where the elastic energy of before and after is compared
+  /// @returns the energy (J) lost, of histories and of elastic forces
+  double follow(const geometry::SurfaceChange& change, std::span<const geometry::CellPair> pairs,
+                const ContactMaterials<Law>& materials, const Motion& at,
+                geometry::ThreadPool& pool);
 
   /// One step of all contacts: forces are found, not yet added.
   /// @returns the energy (J) dissipated
@@ -115,7 +125,11 @@ class StructureContacts {
   };
 
   void make_meetings(const ContactMaterials<Law>& materials);
-  std::vector<double> mean_node_masses(const ContactMaterials<Law>& materials) const;
+  double normal_energy(const geometry::Surface& surface, std::span<const geometry::CellPair> pairs,
+                       const Motion& at, geometry::ThreadPool& pool) const;
+  void renumber(const geometry::SurfaceChange& change);
+  void hand_to_sides(const PairTerm& term, const structure::Holder& holder,
+                     const geometry::SurfaceChange& change, std::vector<PairOfCells>& left) const;
   void find_patches();
   void number_patches();
   void find_places();
@@ -166,7 +180,7 @@ double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs
 
 template <ContactLaw Law>
 void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& materials) {
-  const std::vector<double> masses = mean_node_masses(materials);
+  const std::vector<double> masses = structure::mean_node_masses(*surface_, materials);
   const auto part = [&](std::size_t i) {
     return typename MaterialPairs<Law>::Part{
         materials.of_structures[i], surface_->radius(geometry::id_at<geometry::StructureId>(i)),
@@ -182,23 +196,6 @@ void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& material
     springs_.push_back(structure::NormalSpring::of<Law>(
         meeting.parameters, meeting.radius_first + meeting.radius_second));
   }
-}
-
-/// kg, by StructureId. What moves in a contact of structures is about a node of each.
-template <ContactLaw Law>
-std::vector<double> StructureContacts<Law>::mean_node_masses(
-    const ContactMaterials<Law>& materials) const {
-  std::vector<double> masses(surface_->structure_count(), 0.0);
-  std::vector<double> counts(surface_->structure_count(), 0.0);
-  for (std::size_t n = 0; n < surface_->node_count(); ++n) {
-    const NodeId node = geometry::id_at<NodeId>(n);
-    const auto structure = surface_->structure_of(node);
-    if (structure == geometry::StructureId{-1}) continue;
-    masses[index_of(structure)] += materials.mass_of(node);
-    counts[index_of(structure)] += 1.0;
-  }
-  for (std::size_t i = 0; i < masses.size(); ++i) masses[i] /= counts[i];
-  return masses;
 }
 
 template <ContactLaw Law>
@@ -344,5 +341,6 @@ void StructureContacts<Law>::for_each_stiffness(Visit&& visit) const {
 
 }  // namespace plekton::contact
 
+#include "contact/structure_contacts_change.hpp"
 #include "contact/structure_contacts_heirs.hpp"
 #include "contact/structure_contacts_rows.hpp"

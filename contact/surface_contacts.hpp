@@ -16,6 +16,7 @@
 #include "contact/rekey.hpp"
 #include "geometry/neighbours.hpp"
 #include "geometry/parallel_sum.hpp"
+#include "geometry/surface_change.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -42,6 +43,17 @@ class SurfaceContacts {
                  std::span<const geometry::CellId> cells, std::span<const Ball> balls,
                  std::span<const MaterialId> materials_of_structures,
                  const MaterialPairs<Law>& materials);
+
+  /// Goes on with what is left of the surface: contacts keep their histories on the minima that are
+  /// left, and one without any is over. A new list has to follow.
+  /// @param cells  of the present list, as rebuild() took them
+  /// @param at     m, where the elastic energy of before and after is compared
+  /// @returns the energy (J) lost: of histories that are over, and what of the elastic energy is
+  /// not
+  ///          in the surface that is left. Where a torn facet leaves sides that push more than once
+  ///          it may be negative.
+  double follow(const geometry::SurfaceChange& change, std::span<const geometry::CellId> cells,
+                Positions at);
 
   /// One step of all contacts: forces are written down, not yet added.
   /// @returns the energy (J) dissipated
@@ -167,6 +179,11 @@ class SurfaceContacts {
   double drop(const Pair& pair) const;
   ContactRow row_of(std::span<const SurfaceForce> records, const Contact& contact,
                     Positions x) const;
+  double released_by(const geometry::SurfaceChange& change, std::span<const geometry::CellId> cells,
+                     Positions at) const;
+  static double normal_energy(const Pair& pair, PatchFinder& finder,
+                              std::span<const geometry::CellId> cells, Positions x);
+  double keep_minima(const Pair& pair, const geometry::SurfaceChange& change);
   std::span<const Contact> contacts_of(const Pair& pair, const std::vector<Lists>& lists) const {
     return {
         lists[static_cast<std::size_t>(pair.contacts.worker)].contacts.data() + pair.contacts.first,
@@ -275,6 +292,7 @@ double SurfaceContacts<Law>::elastic_energy() const {
 
 }  // namespace plekton::contact
 
+#include "contact/surface_contacts_change.hpp"
 #include "contact/surface_contacts_lone.hpp"
 #include "contact/surface_contacts_rows.hpp"
 #include "contact/surface_contacts_step.hpp"

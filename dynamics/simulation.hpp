@@ -59,6 +59,19 @@ class Simulation {
   /// One time step. @throws Diverged; std::logic_error if none was given where nothing sets one
   void step();
 
+  /// Breaks a bond for good, in the next step: it carries nothing any more, and the elements it
+  /// held are gone from elements() and surface() (structure/broken_elements.hpp). Nothing touches
+  /// them then; contacts on what is left go on with their histories. Masses stay with the nodes, so
+  /// no momentum is lost; what bond and contacts had stored is counted as dissipated.
+  ///
+  /// A structure may fall apart: its pieces keep its material, and touch each other as a structure
+  /// touches itself, if options said so, and not where they were near along edges at rest. A node
+  /// that has lost its last element goes on moving with its mass; it touches nothing but planes, as
+  /// a ball of the radius it had.
+  /// @param bond  by its place in Scene::bonds; broken already: no effect
+  /// @throws std::out_of_range if there is no such bond
+  void break_bond(std::size_t bond);
+
   double time() const noexcept { return time_; }
   std::int64_t steps() const noexcept { return steps_; }
   /// s; infinite if none was given and nothing in the scene sets one.
@@ -73,6 +86,7 @@ class Simulation {
   /// (Scene::loads).
   void set_velocity(NodeId node, const Vec3& velocity, const Vec3& angular_velocity = Vec3::Zero());
   const NodeProperties& properties() const noexcept { return scene_.properties; }
+  /// Those that are left; nodes keep their ids.
   const geometry::Elements& elements() const noexcept { return scene_.elements; }
   const geometry::Surface& surface() const noexcept { return surface_; }
   const std::vector<contact::Plane>& planes() const noexcept { return scene_.planes; }
@@ -139,6 +153,9 @@ class Simulation {
 
  private:
   contact::Motion motion() const noexcept;
+  void follow_breaks();
+  void break_asked();
+  void follow_surface();
   void apply_loads();
   void drive_planes();
   void follow_gravity();
@@ -174,6 +191,8 @@ class Simulation {
   AppliedLoads loads_;
   DrivenPlanes driven_planes_;
   std::vector<PlaneReaction> plane_reactions_;  ///< to drive planes
+  std::vector<std::size_t> asked_to_break_;     ///< bonds, in the next step
+  double broken_energy_ = 0.0;                  ///< J, of those, when they broke
   NodeForces forces_;
   Leapfrog leapfrog_;
   std::vector<double> radii_;  ///< m, of the ball around each node; 0 where there is none
@@ -205,6 +224,7 @@ void Simulation<Law>::step() {
   require_time_step();
   forces_.set_zero(pool_);
   yielding_bonds_.advance(bonds_, scene_.state, pool_);
+  follow_breaks();
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
   sheet_facets_.advance(scene_.state, pool_);

@@ -4,6 +4,7 @@
 #include "dynamics/expected_contacts.hpp"
 #include "dynamics/scene_figures.hpp"
 #include "dynamics/simulation.hpp"
+#include "dynamics/simulation_breaks.hpp"
 #include "dynamics/simulation_cause.hpp"
 #include "dynamics/simulation_loads.hpp"
 #include "dynamics/simulation_readout.hpp"
@@ -72,6 +73,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   yielding_bonds_.advance(bonds_, scene_.state, pool_);
   yielding_bonds_.forget_dissipated();
+  follow_breaks();
   bonds_.advance(scene_.state, pool_);
   sheet_facets_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
@@ -215,7 +217,7 @@ Energy Simulation<Law>::energy() const {
   // positions.
   energy.gravity = -motion_.gravity.dot(free_moment(last_drift_) - initial_moment_);
   energy.friction = contacts_.dissipated();
-  energy.bond_dissipated = yielding_bonds_.dissipated();
+  energy.bond_dissipated = broken_energy_ + yielding_bonds_.dissipated();
   energy.damping = work_.damped - pending_.damped;
   energy.external_work = work_.external - pending_.external;
   energy.initial = initial_energy_;

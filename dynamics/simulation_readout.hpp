@@ -58,6 +58,7 @@ double Simulation<Law>::unbalanced_force_ratio() const {
   contacts_.for_each_row(positions,
                          [&](const contact::ContactRow& row) { carried.add(row.force().norm()); });
   for (std::size_t i = 0; i < bonds_.size(); ++i) {
+    if (bonds_.is_broken(i)) continue;
     const BondForces forces = bond_forces(i);
     carried.add(std::hypot(forces.tension, forces.shear.norm()));
   }

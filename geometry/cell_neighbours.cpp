@@ -67,11 +67,24 @@ Box box(const Surface& surface, CellId cell, Positions x, double margin) noexcep
 CellNeighbours::CellNeighbours(const Surface& surface, Positions rest, double skin,
                                bool self_contact)
     : surface_(&surface), skin_(skin), self_contact_(self_contact) {
-  for (std::size_t n = 0; n < surface.node_count(); ++n) {
-    const NodeId node = id_at<NodeId>(n);
-    if (surface.structure_of(node) != StructureId{-1}) own_nodes_.push_back(node);
-  }
+  find_own_nodes();
   if (self_contact) collect_near_nodes(rest);
+}
+
+void CellNeighbours::find_own_nodes() {
+  own_nodes_.clear();
+  for (std::size_t n = 0; n < surface_->node_count(); ++n) {
+    const NodeId node = id_at<NodeId>(n);
+    if (surface_->structure_of(node) != StructureId{-1}) own_nodes_.push_back(node);
+  }
+}
+
+void CellNeighbours::follow(const SurfaceChange& change) {
+  surface_ = &change.after();
+  find_own_nodes();
+  pairs_.clear();
+  tree_ = BroadPhase();
+  skin_.set(2.0 * skin_.margin());
 }
 
 void CellNeighbours::choose_skin() {

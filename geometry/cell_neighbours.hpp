@@ -5,6 +5,7 @@
 #include "geometry/elements.hpp"
 #include "geometry/product_features.hpp"
 #include "geometry/skin.hpp"
+#include "geometry/surface_change.hpp"
 #include "geometry/thread_pool.hpp"
 
 #include <cstdint>
@@ -20,7 +21,8 @@ namespace plekton::geometry {
 /// The list is a superset, made anew only when some node has moved by more than half the skin
 /// (skin.hpp). Cells of one structure that hang together are not in it: those that share a node,
 /// and those with nodes at most two diameters apart along edges at rest, because a thick body
-/// cannot fold more sharply than that.
+/// cannot fold more sharply than that. That holds for the pieces of a structure that has fallen
+/// apart too: what was near at rest does not touch, so nothing is pushed apart by a break alone.
 class CellNeighbours {
  public:
   /// @param surface       must outlive this
@@ -40,6 +42,9 @@ class CellNeighbours {
   /// @param way  m, see Skin::may_need_rebuild
   bool update(Positions x, ThreadPool& pool, double way = std::numeric_limits<double>::infinity());
 
+  /// Goes on with what is left of the surface: the next update makes the list anew.
+  void follow(const SurfaceChange& change);
+
   /// Sorted; a on the lower structure, or on the same and lower itself.
   std::span<const CellPair> pairs() const noexcept { return pairs_; }
   /// How often the list was made.
@@ -48,6 +53,7 @@ class CellNeighbours {
  private:
   bool may_touch(CellId a, CellId b) const;
   bool are_distant(CellId a, CellId b, Positions x) const;
+  void find_own_nodes();
   void gather_own_nodes(Positions x);
   std::vector<NodeId> nodes_near(NodeId node, Positions rest) const;
   void require_room(Positions rest) const;

@@ -82,6 +82,21 @@ bool Neighbours::may_touch(const IndexPair& pair, Positions x) const noexcept {
   return !((x[index_of(a.nodes[0])] - x[index_of(b.nodes[0])]).squaredNorm() > range * range);
 }
 
+/// A side lies in the box of its facet.
+void Neighbours::follow(const SurfaceChange& change) {
+  surface_ = &change.after();
+  std::vector<IndexPair> left;
+  for (const IndexPair& pair : sphere_cells_) {
+    for (const CellId cell : change.left_of(CellId{pair.b}))
+      left.push_back({pair.a, static_cast<std::int32_t>(cell)});
+  }
+  std::sort(left.begin(), left.end());
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  sphere_cells_.swap(left);
+  cell_tree_ = BroadPhase();
+  group_by_structure();
+}
+
 void Neighbours::group_by_structure() {
   const auto structure_of = [this](const IndexPair& pair) {
     return surface_->structure_of(CellId{pair.b});

@@ -4,6 +4,7 @@
 #include "geometry/broad_phase.hpp"
 #include "geometry/elements.hpp"
 #include "geometry/skin.hpp"
+#include "geometry/surface_change.hpp"
 #include "geometry/thread_pool.hpp"
 
 #include <limits>
@@ -39,6 +40,13 @@ class Neighbours {
   /// Makes the lists anew if they have to be. @returns whether they were
   /// @param way  m, see Skin::may_need_rebuild
   bool update(Positions x, ThreadPool& pool, double way = std::numeric_limits<double>::infinity());
+
+  /// Goes on with what is left of the surface: the lists stay as they are but for the cells that
+  /// are gone; the sides that a torn facet has left take its place. So pairs of spheres keep their
+  /// order, and the lists last as long as they would have. Linear in the length of the lists, times
+  /// log for sorting.
+  /// @param change  to what the surface is now
+  void follow(const SurfaceChange& change);
 
   double skin() const noexcept { return 2.0 * skin_.margin(); }
   /// How often the lists were made.

@@ -50,7 +50,8 @@ std::optional<CellId> SurfaceChange::now(CellId cell) const noexcept {
   return after_->owner_of(EdgeId{feature->id});
 }
 
-std::vector<CellId> SurfaceChange::sides_left_of(CellId cell) const {
+std::vector<CellId> SurfaceChange::left_of(CellId cell) const {
+  if (const std::optional<CellId> same = now(cell)) return {*same};
   std::vector<CellId> sides;
   if (index_of(cell) >= before_->face_count()) return sides;
   for (const EdgeId edge : before_->edges_of(id_at<FaceId>(index_of(cell)))) {

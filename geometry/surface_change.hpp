@@ -26,8 +26,9 @@ class SurfaceChange {
   /// Likewise of a cell.
   std::optional<CellId> now(CellId cell) const noexcept;
 
-  /// What a cell that is gone has left, ascending: the sides of a facet that are cylinders now.
-  std::vector<CellId> sides_left_of(CellId cell) const;
+  /// What there is of a cell now, ascending: itself; of a torn facet its sides that are cylinders
+  /// now; nothing.
+  std::vector<CellId> left_of(CellId cell) const;
 
  private:
   const Surface* before_;

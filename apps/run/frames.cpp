@@ -4,6 +4,7 @@
 #include "apps/run/output_folder.hpp"
 #include "dynamics/output/file.hpp"
 #include "dynamics/output/scene_frame.hpp"
+#include "dynamics/structure/bonds_along.hpp"
 
 #include <fmt/format.h>
 
@@ -44,10 +45,12 @@ void remove_earlier(const fs::path& folder) {
   for (const fs::path& file : old) fs::remove(file, ignored);
 }
 
-/// Beam i is along cylinder i (build_scene.hpp).
+/// Of every cylinder that is left; 0 where no bond is along it.
 std::vector<double> tensions_of(const Simulation& simulation) {
-  std::vector<double> tensions(simulation.elements().cylinders.size());
-  for (std::size_t i = 0; i < tensions.size(); ++i) tensions[i] = simulation.bonds().axial_force(i);
+  const dynamics::BeamBonds& bonds = simulation.bonds();
+  std::vector<double> tensions;
+  for (const std::size_t bond : dynamics::bonds_along(simulation.elements().cylinders, bonds))
+    tensions.push_back(bond == dynamics::kNoBond ? 0.0 : bonds.axial_force(bond));
   return tensions;
 }
 

@@ -52,6 +52,14 @@ LoadWork AppliedLoads::work_after(const LoadStep& step, const NodeState& state,
       [&](auto& load) { return 0.5 * step.after * load.nodes().power(state, pool); });
 }
 
+void AppliedLoads::follow(const BeamBonds& bonds) {
+  for (DampedBeams& beams : beams_) beams.follow(bonds);
+}
+
+void AppliedLoads::follow(const geometry::SurfaceChange& change) {
+  for (PressedSurface& surface : pressures_) surface.follow(change);
+}
+
 void AppliedLoads::add_springs_to(NodalStiffness& stiffness) const {
   for (const SprungNodes& springs : springs_) {
     for (std::size_t i = 0; i < springs.nodes().size(); ++i)

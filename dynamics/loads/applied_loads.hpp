@@ -30,6 +30,11 @@ class AppliedLoads {
   /// @param state  with the velocities of that drift
   LoadWork work_after(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
 
+  /// Goes on without the dashpots of broken bonds.
+  void follow(const BeamBonds& bonds);
+  /// Goes on without pressure on facets that are gone.
+  void follow(const geometry::SurfaceChange& change);
+
   /// Adds the stiffness of springs to ground.
   void add_springs_to(NodalStiffness& stiffness) const;
   /// Adds the stiffness of facets under pressure.

@@ -58,7 +58,8 @@ struct Gas {
 
 /// A pressure on facets along their normals, as they are at any time: p A / 3 on each corner, the
 /// area vector A by the order of the corners. On a closed surface that is the gradient of p V,
-/// without any resultant force or moment.
+/// without any resultant force or moment. Facets that are torn are pressed no more; a gas escapes
+/// with the first of them, and its pressure is over.
 struct SurfacePressure {
   std::vector<geometry::FaceId> facets;
   double pressure = 0.0;   ///< Pa, over the outside where the surface holds a gas

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plekton::dynamics {
 namespace {
@@ -44,6 +45,28 @@ PressedSurface::PressedSurface(const SurfacePressure& load, std::span<const geom
   pressure_ = pressure_at(0.0, volume_);
 }
 
+void PressedSurface::follow(const geometry::SurfaceChange& change) {
+  std::vector<geometry::FaceId> facets;
+  std::vector<Corners> corners;
+  for (const geometry::FaceId facet : load_.facets) {
+    const auto left = change.now(geometry::Feature(facet));
+    if (!left) continue;
+    facets.push_back(geometry::FaceId{left->id});
+    corners.push_back(change.after().nodes_of(facets.back()));
+  }
+  const bool is_torn = facets.size() < load_.facets.size();
+  load_.facets = std::move(facets);
+  if (!is_torn) return;
+  if (load_.gas) {
+    load_ = SurfacePressure{};
+    corners.clear();
+    pressure_ = 0.0;
+  }
+  members_ = NodeMembers<3>(std::move(corners));
+  nodes_ = LoadedNodes(members_.nodes());
+  shares_.resize(load_.facets.size());
+}
+
 /// Pa
 double PressedSurface::pressure_at(double time, double volume) const {
   const double pressure = load_.factor.at(time) * load_.pressure;
@@ -65,6 +88,7 @@ Vec3 PressedSurface::area_share(std::size_t facet, Positions x) const noexcept {
 
 LoadedNodes& PressedSurface::act(const LoadStep& step, const NodeState& state,
                                  geometry::ThreadPool& pool) {
+  if (shares_.empty()) return nodes_;  // all are gone
   const Positions x = state.position;
   const Vec3 origin = x[index_of(members_.nodes().front())];
   const double six = sum_(shares_.size(), pool, [&](std::size_t begin, std::size_t end, int) {

@@ -6,6 +6,7 @@
 #include "dynamics/loads/loads.hpp"
 #include "dynamics/loads/node_members.hpp"
 #include "geometry/facet.hpp"
+#include "geometry/surface_change.hpp"
 
 #include <span>
 
@@ -24,11 +25,16 @@ double volume_under(std::span<const std::array<NodeId, 3>> facets, geometry::Pos
 /// is moved or turned. At a rim it is the share of linear shape functions in the follower load p A.
 class PressedSurface {
  public:
+  /// @param facets  of the surface; load names some of them
   PressedSurface(const SurfacePressure& load, std::span<const geometry::Facet> facets,
                  const NodeState& at_start);
 
   LoadedNodes& act(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
   LoadedNodes& nodes() noexcept { return nodes_; }
+
+  /// Goes on with the facets that are left. A gas escapes through the first hole: from then on
+  /// there is no pressure.
+  void follow(const geometry::SurfaceChange& change);
 
   /// m³, at the last act; only where the surface holds a gas.
   double volume() const noexcept { return volume_; }

@@ -32,13 +32,20 @@ double dashpot_of(const BeamBond& bond, double ratio, const NodeProperties& prop
 
 DampedBeams::DampedBeams(const BeamDamping& damping, std::span<const BeamBond> bonds,
                          const NodeProperties& properties)
-    : members_(nodes_of(damping, bonds)),
+    : bonds_(damping.bonds),
+      members_(nodes_of(damping, bonds)),
       nodes_(members_.nodes()),
       forces_(damping.bonds.size(), Vec3::Zero()) {
   for (const std::size_t bond : damping.bonds) {
     dashpots_.push_back(dashpot_of(bonds[bond], damping.ratio, properties));
     relaxation_time_ =
         std::max(relaxation_time_, dashpots_.back() / stretching_stiffness(bonds[bond]));
+  }
+}
+
+void DampedBeams::follow(const BeamBonds& bonds) {
+  for (std::size_t i = 0; i < bonds_.size(); ++i) {
+    if (bonds.is_broken(bonds_[i])) dashpots_[i] = 0.0;
   }
 }
 

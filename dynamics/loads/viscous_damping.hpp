@@ -26,10 +26,14 @@ class DampedBeams {
   LoadedNodes& act(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
   LoadedNodes& nodes() noexcept { return nodes_; }
 
+  /// Takes the dashpots off beams that are broken.
+  void follow(const BeamBonds& bonds);
+
   /// s, the largest c / k: these dashpots are nowhere above that times the stiffness of the beams.
   double relaxation_time() const noexcept { return relaxation_time_; }
 
  private:
+  std::vector<std::size_t> bonds_;  // by group of members_
   NodeMembers<2> members_;
   LoadedNodes nodes_;
   std::vector<double> dashpots_;  // N s/m, by group of members_

@@ -196,6 +196,10 @@ BondForces BeamBonds::forces_of(std::size_t bond, const NodeState& state) const 
   return bond_forces(spring(bond), ends(bond, state));
 }
 
+double BeamBonds::energy_of(std::size_t bond, const NodeState& state) const noexcept {
+  return any_beam_reaction(spring(bond), ends(bond, state)).energy;
+}
+
 double BeamBonds::break_bond(std::size_t bond) noexcept {
   if (is_broken_[bond]) return 0.0;
   is_broken_[bond] = true;

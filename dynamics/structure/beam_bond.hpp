@@ -90,6 +90,11 @@ class BeamBonds {
 
   std::size_t size() const noexcept { return slots_.size(); }
 
+  std::array<NodeId, 2> nodes(std::size_t bond) const noexcept {
+    const BeamRow& row = row_of(bond);
+    return {row.nodes[0][lane_of(bond)], row.nodes[1][lane_of(bond)]};
+  }
+
   /// Computes the forces of all bonds, summed block by block but not yet added. Linear in the
   /// number of bonds; no allocation. Coincident nodes: no shear force, and the chord has the mean
   /// direction of the axes.
@@ -121,6 +126,8 @@ class BeamBonds {
   void set_spring(std::size_t bond, const BeamSpringOf<double>& spring) noexcept {
     rows_[slots_[bond] / BeamRow::kLanes].spring.set(lane_of(bond), spring);
   }
+  /// Energy (J) that a bond stores where its nodes are as given.
+  double energy_of(std::size_t bond, const NodeState& state) const noexcept;
 
   /// Takes all stiffness from a bond, for good: from the next advance on it does nothing, and
   /// stores nothing. Again: no effect.

@@ -2,6 +2,7 @@
 #include "geometry/surface_change.hpp"
 
 #include "tests/support/complexes.hpp"
+#include "tests/support/same_incidence.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,6 +52,7 @@ TEST(SurfaceChange, FindsTheFeaturesThatAreLeftAndNoOthers) {
   EXPECT_FALSE(change.now(Feature(NodeId{0})));
   EXPECT_EQ(change.now(Feature(NodeId{1})), Feature(NodeId{1}));
   EXPECT_FALSE(change.now(CellId{0}));
+  EXPECT_THAT(change.left_of(CellId{0}), IsEmpty());
   EXPECT_EQ(change.now(CellId{1}), CellId{0});
   EXPECT_EQ(change.now(CellId{2}), CellId{1});
 }
@@ -64,9 +66,9 @@ TEST(SurfaceChange, LeavesTheSidesOfATornFacetThatHaveCylinders) {
   const Surface after = before.left_with(complex.cylinders, complex.facets);
   const SurfaceChange change(before, after);
 
-  EXPECT_THAT(change.sides_left_of(CellId{0}), ElementsAre(CellId{0}));
-  EXPECT_THAT(change.sides_left_of(CellId{1}), ElementsAre(CellId{1}));
-  EXPECT_THAT(change.sides_left_of(CellId{2}), IsEmpty());
+  EXPECT_THAT(change.left_of(CellId{0}), ElementsAre(CellId{0}));
+  EXPECT_THAT(change.left_of(CellId{1}), ElementsAre(CellId{1}));
+  EXPECT_THAT(change.left_of(CellId{2}), ElementsAre(CellId{2}));
   EXPECT_EQ(after.feature_of(CellId{0}), edge_between(after, 0, 1));
   EXPECT_EQ(after.structure_of(NodeId{2}), StructureId{-1});
 }
@@ -106,30 +108,6 @@ TEST(SurfaceChange, TheSurfaceThatIsLeftTakesNothingNew) {
   EXPECT_THROW(surface.left_with(more.cylinders, more.facets), std::invalid_argument);
 }
 
-/// Nodes of both ends and of all sides, cell by cell.
-void expect_same_incidence(const Surface& left, const Surface& anew) {
-  ASSERT_EQ(left.face_count(), anew.face_count());
-  ASSERT_EQ(left.edge_count(), anew.edge_count());
-  ASSERT_EQ(left.cell_count(), anew.cell_count());
-  for (std::size_t e = 0; e < left.edge_count(); ++e) {
-    const auto edge = id_at<EdgeId>(e);
-    EXPECT_EQ(left.nodes_of(edge), anew.nodes_of(edge));
-    EXPECT_TRUE(std::ranges::equal(left.faces_of(edge), anew.faces_of(edge)));
-    EXPECT_EQ(left.owner_of(edge), anew.owner_of(edge));
-  }
-  for (std::size_t f = 0; f < left.face_count(); ++f)
-    EXPECT_EQ(left.edges_of(id_at<FaceId>(f)), anew.edges_of(id_at<FaceId>(f)));
-  for (std::size_t n = 0; n < left.node_count(); ++n) {
-    const auto node = id_at<NodeId>(n);
-    EXPECT_TRUE(std::ranges::equal(left.edges_of(node), anew.edges_of(node)));
-    EXPECT_TRUE(std::ranges::equal(left.faces_of(node), anew.faces_of(node)));
-    EXPECT_EQ(left.structure_of(node) == StructureId{-1},
-              anew.structure_of(node) == StructureId{-1});
-    if (left.edges_of(node).empty()) continue;
-    EXPECT_EQ(left.owner_of(node), anew.owner_of(node));
-  }
-}
-
 TEST(SurfaceChange, TakingElementsAwayInAnyOrderGivesTheIncidenceOfASurfaceBuiltAnew) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
@@ -149,7 +127,7 @@ TEST(SurfaceChange, TakingElementsAwayInAnyOrderGivesTheIncidenceOfASurfaceBuilt
       if (random.uniform(0.0, 1.0) < 0.7 && !has_side(torn.nodes[1], torn.nodes[2]))
         complex.cylinders.push_back({{torn.nodes[1], torn.nodes[2]}, torn.radius});
       surface = surface.left_with(complex.cylinders, complex.facets);
-      expect_same_incidence(surface, complex.surface());
+      test::expect_same_incidence(surface, complex.surface());
     }
   }
 }
