@@ -40,13 +40,13 @@ double shortest_length(const Scene& scene) {
 /// M^(-1/2) K M^(-1/2) of the free motions, by its products.
 class ScaledStiffness {
  public:
-  ScaledStiffness(const Scene& scene, const AppliedLoads& loads, const ContactSprings& contacts,
-                  double time)
+  ScaledStiffness(const Scene& scene, const BeamBonds& bonds, const AppliedLoads& loads,
+                  const ContactSprings& contacts, double time)
       : scene_(scene),
         loads_(loads),
         contacts_(contacts),
         time_(time),
-        bonds_(scene.bonds, scene.state.size()),
+        bonds_(bonds),
         sheets_(scene.sheet_facets, scene.state.size()),
         moved_(scene.state),
         shift_(scene.state.size(), Vec3::Zero()),
@@ -133,9 +133,9 @@ class ScaledStiffness {
 
 }  // namespace
 
-ExactStep exact_critical_step(const Scene& scene, const AppliedLoads& loads,
+ExactStep exact_critical_step(const Scene& scene, const BeamBonds& bonds, const AppliedLoads& loads,
                               const ContactSprings& contacts, double time) {
-  ScaledStiffness stiffness(scene, loads, contacts, time);
+  ScaledStiffness stiffness(scene, bonds, loads, contacts, time);
   const LargestEigenvalue largest = largest_eigenvalue(
       {stiffness.size(), [&](const VectorXd& x, VectorXd& y) { stiffness.multiply(x, y); }},
       kTolerance, kMostProducts);

@@ -28,9 +28,10 @@ struct ExactStep {
 ///
 /// It costs two evaluations of all forces of structures for each product, of which there are some
 /// ten to some hundred, and memory for four motions and a second copy of the structures.
+/// @param bonds     of the scene, as they have yielded and broken
 /// @param contacts  as they touch now
 /// @param time      s, at which loads are taken
-ExactStep exact_critical_step(const Scene& scene, const AppliedLoads& loads,
+ExactStep exact_critical_step(const Scene& scene, const BeamBonds& bonds, const AppliedLoads& loads,
                               const ContactSprings& contacts, double time);
 
 }  // namespace plekton::dynamics

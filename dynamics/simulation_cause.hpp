@@ -38,9 +38,9 @@ void Simulation<Law>::consider_structures(StiffestPart& parts) const {
     return std::find(nodes.begin(), nodes.end(), parts.node()) != nodes.end();
   };
   for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
-    if (!holds_it(scene_.bonds[i].nodes)) continue;
+    if (bonds_.is_broken(i) || !holds_it(scene_.bonds[i].nodes)) continue;
     parts.consider({StepPart::Kind::bond, i}, [&](NodalStiffness& stiffness) {
-      stiffness.add_beam(scene_.bonds[i], scene_.state);
+      stiffness.add_beam(scene_.bonds[i], scene_.state, bonds_.spring(i).length);
     });
   }
   for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {

@@ -307,7 +307,7 @@ template <contact::ContactLaw Law>
 ExactStep Simulation<Law>::exact_critical_step() const {
   ContactSprings springs;
   add_contacts_to(springs);
-  return dynamics::exact_critical_step(scene_, loads_, springs, time_);
+  return dynamics::exact_critical_step(scene_, bonds_, loads_, springs, time_);
 }
 
 /// Calls look() for all nodes, as many at once as there is space for.

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace plekton::test {
 namespace {
@@ -21,6 +22,11 @@ using dynamics::ExactStep;
 
 // What Lanczos' method leaves of the step, and what differences of forces leave of both sides.
 constexpr double kTolerance = 1e-3;
+
+ExactStep exact_step(const Scene& scene, const ContactSprings& contacts = {}) {
+  const BeamBonds bonds(scene.bonds, scene.state.size());
+  return dynamics::exact_critical_step(scene, bonds, AppliedLoads(scene), contacts, 0.0);
+}
 
 /// dt lies between (1 - error) of the reference and a little above it.
 void expect_close(const ExactStep& step, double reference) {
@@ -76,8 +82,7 @@ TEST(ExactStep, OfAnyFrameIsThatOfItsWholeMatrix) {
       for (Vec3& x : scene.state.position) x += random.in_cube(0.02);
     }
 
-    expect_close(dynamics::exact_critical_step(scene, AppliedLoads(scene), {}, 0.0),
-                 true_limit(scene));
+    expect_close(exact_step(scene), true_limit(scene));
   }
 }
 
@@ -106,7 +111,7 @@ TEST(ExactStep, OfASheetThatIsStretchedAndCurvedIsThatOfItsWholeMatrix) {
     for (Vec3& x : scene.state.position) x = 1.02 * x + random.in_cube(0.001);
     const double reference = true_limit(sheet_matrix(scene, 1e-6), scene.properties);
 
-    expect_close(dynamics::exact_critical_step(scene, AppliedLoads(scene), {}, 0.0), reference);
+    expect_close(exact_step(scene), reference);
   }
 }
 
@@ -143,7 +148,7 @@ TEST(ExactStep, OfContactsIsThatOfTheirSprings) {
       }
     }
 
-    const ExactStep step = dynamics::exact_critical_step(scene, AppliedLoads(scene), springs, 0.0);
+    const ExactStep step = exact_step(scene, springs);
 
     EXPECT_EQ(step.contacts, 9U);
     expect_close(step, true_limit(matrix.matrix(), scene.properties));
@@ -154,21 +159,20 @@ TEST(ExactStep, CountsSpringsToGroundGasAndDamping) {
   Scene lump;
   add_lump(lump, Vec3::Zero());  // 2 kg
   lump.loads.ground_springs = {{{NodeId{0}}, Vec3(0.0, 50.0, 200.0)}};
-  expect_close(dynamics::exact_critical_step(lump, AppliedLoads(lump), {}, 0.0),
-               2.0 / std::sqrt(200.0 / 2.0));
+  expect_close(exact_step(lump), 2.0 / std::sqrt(200.0 / 2.0));
 
   // With v' = -rate v the leapfrog is stable for (rate + 4 / (rate dt0²) ...) less than without:
   // dt²/dt0² + rate dt / 2 = 1.
   lump.loads.mass_damping = {{{NodeId{0}}, 30.0}};
-  const double damped = dynamics::exact_critical_step(lump, AppliedLoads(lump), {}, 0.0).dt;
+  const double damped = exact_step(lump).dt;
   EXPECT_NEAR(damped * damped / 0.04 + 0.5 * 30.0 * damped, 1.0, 1e-3);
 
   Scene ball;
   const auto facets = add_membrane(ball, geometry::icosphere(0.1, 1));
-  const double without = dynamics::exact_critical_step(ball, AppliedLoads(ball), {}, 0.0).dt;
+  const double without = exact_step(ball).dt;
   ball.loads.pressures = {{facets, 0.0, {}, dynamics::Gas{1e8, 1.4}}};
   const AppliedLoads gas(ball);
-  const double with = dynamics::exact_critical_step(ball, gas, {}, 0.0).dt;
+  const double with = exact_step(ball).dt;
   EXPECT_LT(with, 0.8 * without);
   EXPECT_GE(with, (1.0 - kTolerance) * gas.critical_step(without, ball));
 }
@@ -177,8 +181,8 @@ TEST(ExactStep, IsInfiniteWhereNothingIsStiffAndFree) {
   Scene scene;
   add_lump(scene, Vec3::Zero());
 
-  EXPECT_TRUE(std::isinf(dynamics::exact_critical_step(scene, AppliedLoads(scene), {}, 0.0).dt));
-  EXPECT_TRUE(std::isinf(dynamics::exact_critical_step({}, AppliedLoads({}), {}, 0.0).dt));
+  EXPECT_TRUE(std::isinf(exact_step(scene).dt));
+  EXPECT_TRUE(std::isinf(exact_step({}).dt));
 }
 
 /// Balls in a row that overlap, between two planes.
@@ -206,6 +210,26 @@ TEST(ExactStep, OfASimulationCountsTheContactsThatTouch) {
   EXPECT_EQ(step.contacts, kBalls - 1);
   expect_close(step, true_limit(matrix.matrix(), scene.properties));
   EXPECT_LT(step.dt, 2.0 / std::sqrt(normal / mass));
+}
+
+TEST(ExactStep, LeavesOutBondsThatAreBroken) {
+  Scene scene;
+  add_lump(scene, Vec3::Zero());
+  add_lump(scene, Vec3::UnitX());
+  scene.add_beam(NodeId{0}, NodeId{1}, dynamics::bar_section(0.01, 1e6), 0.0);
+  dynamics::BondStrength strength;
+  strength.strength = 1e4;  // Pa, at a strain of 1 percent
+  scene.bond_laws = {{strength, {0}}};
+  scene.state.velocity[1] = Vec3::UnitX();
+  LoadedSimulation simulation = simulation_of(scene, 1e-3);
+  const double stiffness = 1e6 * 1e-4 * std::numbers::pi;  // N/m; 2 kg at either end
+
+  expect_close(simulation.exact_critical_step(), 2.0 / std::sqrt(stiffness));
+  EXPECT_EQ(simulation.critical_cause().part.kind, dynamics::StepPart::Kind::bond);
+  while (simulation.time() < 0.05) simulation.step();
+
+  EXPECT_TRUE(std::isinf(simulation.exact_critical_step().dt));
+  EXPECT_EQ(simulation.critical_cause().part.kind, dynamics::StepPart::Kind::nothing);
 }
 
 TEST(ExactStep, IsTheSameEveryTime) {
