@@ -183,6 +183,30 @@ TEST(YieldingBonds, LeaveElasticBondsAsTheyAre) {
     EXPECT_EQ(one.state().position[i], other.state().position[i]);
 }
 
+TEST(YieldingBonds, TakeTheirCylindersWithThemWhereTheyBreakAtTheStart) {
+  Scene scene;
+  scene.materials = {{1e7, 0.3, 0.5}};
+  const NodeId a = scene.add_node(Vec3::Zero());
+  const NodeId b = scene.add_node(Vec3::UnitX());
+  const NodeId c = scene.add_node(2.0 * Vec3::UnitX());
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c)}) {
+    scene.add_beam(from, to, dynamics::circular_section(0.01, 1e8, 0.3), 1000.0);
+    scene.add_cylinder(from, to, 0.01, contact::MaterialId{0});
+  }
+  scene.bonds[1].length = 0.9;  // it is pulled by a strain of 1/9
+  BondStrength strength;
+  strength.strength = 1e6;
+  scene.bond_laws = {{strength, {0, 1}}};
+  Simulation simulation = simulation_of(scene);
+
+  simulation.step();
+
+  EXPECT_TRUE(simulation.bonds().is_broken(1));
+  ASSERT_EQ(simulation.elements().cylinders.size(), 1U);
+  EXPECT_EQ(simulation.elements().cylinders[0].nodes[0], a);
+  EXPECT_EQ(simulation.energy().turnover(), 0.0);
+}
+
 TEST(Scene, ListsBondLawsThatDoNotFit) {
   Scene scene = yielding_beams();
   scene.bond_laws.push_back({WireCurve{}, {0}});

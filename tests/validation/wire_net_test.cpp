@@ -187,6 +187,8 @@ std::vector<NodeId> nodes_at(const Scene& scene, int axis, double place) {
 GuidedNet guided_net() {
   GuidedNet net;
   Scene& scene = net.scene;
+  constexpr contact::MaterialId kSteel{0};
+  scene.materials = {{1e9, 0.3, 0.36}};
   const geometry::Lattice lattice = geometry::hexagonal_net(kNet);
   Vec3 lower = lattice.points[0], upper = lattice.points[0];
   for (const Vec3& point : lattice.points) {
@@ -198,6 +200,7 @@ GuidedNet guided_net() {
   for (const auto& [nodes, part] : lattice.edges) {
     const double x = lattice.points[index_of(nodes[0])].x();
     const bool is_aside = std::min(x - lower.x(), upper.x() - x) < 1e-9;
+    scene.add_cylinder(nodes[0], nodes[1], kWireRadius, kSteel);
     dynamics::BondLaw& law = laws[part == LatticePart::wire ? 0 : is_aside ? 2 : 1];
     law.bonds.push_back(scene.add_beam(
         nodes[0], nodes[1], dynamics::wire_section(kWireRadius, std::get<WireCurve>(law.law)),
@@ -283,6 +286,7 @@ TEST(WireNet, FollowsTheCurveOfItsMeshesAndClosesItsEnergyThroughTheBreaks) {
   EXPECT_NEAR(largest, last.force, 0.02 * last.force);
   EXPECT_GE(broken, across);  // it has torn from side to side
   EXPECT_LT(std::abs(force_on(simulation, net.top, 1)), 0.01 * last.force);
+  EXPECT_EQ(simulation.elements().cylinders.size() + broken, simulation.bonds().size());
   EXPECT_LT(closure, 5e-3);
 }
 
