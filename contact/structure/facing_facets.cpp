@@ -103,7 +103,6 @@ class Overlap {
   template <class Height>
   void cut(std::size_t plane, Height height);
   void cut_back(const Cut& cut);
-  void drop_repeats();
   double integral(const NormalSpring& spring) const;
   void integral_back(const NormalSpring& spring, double by_integral);
 
@@ -168,21 +167,6 @@ void Overlap::cut(std::size_t plane, Height height) {
   region_ = kept;
 }
 
-/// Takes out corners that repeat the one before.
-void Overlap::drop_repeats() {
-  const auto& x = points_;
-  double size = 0.0;
-  for (std::size_t i = 0; i < region_.size; ++i)
-    size = std::max(size, (x[region_.points[i]].x - x[region_.points[0]].x).squaredNorm());
-  Polygon kept;
-  for (std::size_t i = 0; i < region_.size; ++i) {
-    const Vec3 step = x[region_.points[region_.next(i)]].x - x[region_.points[i]].x;
-    if (step.squaredNorm() > kRoundoff * kRoundoff * size)
-      kept.points[kept.size++] = region_.points[i];
-  }
-  region_ = kept;
-}
-
 /// @returns whether any part is in range
 bool Overlap::make_region() {
   if (!face_each_other()) return false;
@@ -195,8 +179,6 @@ bool Overlap::make_region() {
     cut(i, [&](std::size_t point) { return height(point, i); });
     if (region_.size < 3) return false;
   }
-  drop_repeats();
-  if (region_.size < 3) return false;
   double above = 0.0;
   for (std::size_t i = 0; i < region_.size; ++i)
     above += (b_[0].x - points_[region_.points[i]].x).dot(normal_b());

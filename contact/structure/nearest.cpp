@@ -60,12 +60,15 @@ std::optional<PairForces> parallel_facets(const Simplex& a, const Simplex& b,
   const auto inward_normal = [&](std::size_t i) {
     return unit(facets.axis.cross(region.next(i) - region[i]));
   };
+  // The shares add up to 1, so only what the corners' energies differ by has to be shared. Overlaps
+  // thinner than rounding have shares that change wildly; where they are level, nothing is shared.
+  const double level = spring.energy(facets.distance(region[0])).value;
   Vector before = inward_normal(region.size() - 1);
-  Real energy(0.0);
+  Real energy(level);
   for (std::size_t i = 0; i < region.size(); ++i) {
     const Vector after = inward_normal(i);
-    energy =
-        energy + slopes.share_between(before, after) * spring.energy(facets.distance(region[i]));
+    const Real here = spring.energy(facets.distance(region[i]));
+    energy = energy + slopes.share_between(before, after) * (here - Real(level));
     before = after;
   }
   return forces_of(energy);

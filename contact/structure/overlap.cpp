@@ -68,6 +68,24 @@ void drop_repeats(PolygonOf<Number>& polygon) {
   if (kept.size() < polygon.size()) polygon = kept;
 }
 
+/// Takes out corners at which the rim does not turn, or turns back, up to round-off: of an overlap
+/// that is a line nothing is left. A corner that turns back would count as a whole turn.
+template <class Number>
+void drop_straight(PolygonOf<Number>& polygon, const Point<Number>& axis) {
+  for (std::size_t before = 0; polygon.size() > 0 && polygon.size() != before;) {
+    before = polygon.size();
+    PolygonOf<Number> kept;
+    for (std::size_t i = 0; i < before; ++i) {
+      const Vec3 here = still(polygon[i]);
+      const Vec3 come = here - still(polygon[i == 0 ? before - 1 : i - 1]);
+      const Vec3 go = still(polygon.next(i)) - here;
+      const double least = kRoundoff * std::sqrt(come.squaredNorm() * go.squaredNorm());
+      if (still(axis).dot(come.cross(go)) > least) kept.add(polygon[i]);
+    }
+    if (kept.size() < before) polygon = kept;
+  }
+}
+
 template <class Number>
 FacetOverlapOf<Number> overlap_of(const std::array<Point<Number>, 3>& a,
                                   const std::array<Point<Number>, 3>& b) {
@@ -88,6 +106,7 @@ FacetOverlapOf<Number> overlap_of(const std::array<Point<Number>, 3>& a,
     if (region.size() < 3) break;
   }
   drop_repeats(region);
+  drop_straight(region, found.axis);
   if (region.size() < 3) {
     region.clear();
     return found;

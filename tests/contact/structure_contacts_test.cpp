@@ -82,6 +82,28 @@ TEST(StructureContacts, PressFlatSquaresAlikeInAnyTriangulation) {
   }
 }
 
+// Sides of both meshes that lie on each other leave overlaps of facets that are lines up to
+// rounding. Each is part of the one contact, and no node gets more than what lies around it.
+TEST(StructureContacts, CountSquaresOnceWhoseMeshesFallTogether) {
+  struct Case {
+    int cells_a, columns_b, rows_b;
+    double shift;
+  };
+  for (const auto& [cells_a, columns_b, rows_b, shift] :
+       {Case{10, 4, 4, 0.0}, Case{10, 8, 8, 0.0}, Case{20, 8, 8, 0.0}, Case{10, 10, 10, 0.02},
+        Case{10, 11, 10, 0.02}, Case{10, 1, 10, 0.02}, Case{10, 2, 10, 0.02}}) {
+    const Body b = sheet(columns_b, rows_b, 0.4, 0.4);
+    for (const double turn : {0.0, 1e-14, 1e-10, 1e-8, 1e-6, 1e-5}) {
+      Meeting meeting(sheet(cells_a, cells_a, 1.0, 1.0), b, kRange);
+      const Resultant found = at(meeting, b, {{0.0, 0.0, turn}, {0.0, shift, kHeight}});
+      EXPECT_NEAR(meeting.energy() / (0.5 * kOverlap * kOverlap), 17.0, 1e-6) << cells_a;
+      EXPECT_NEAR(found.force.z() / kOverlap, 17.0, 1e-6) << cells_a << ' ' << turn;
+      for (const Vec3& force : meeting.forces()) EXPECT_LT(force.norm(), 17.0 * kOverlap);
+      EXPECT_EQ(meeting.patches(), 1u);
+    }
+  }
+}
+
 TEST(StructureContacts, PressInProportionToTheAreaOfContact) {
   const Body a = sheet(3, 3, 2.0, 2.0, Cut::alternating, 5);
   const auto extent = [&](double width) {

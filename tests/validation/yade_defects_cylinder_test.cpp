@@ -107,6 +107,21 @@ TEST(D10_FacetsOnFacets, PushTheSameHoweverTheyAreCut) {
   }
 }
 
+// A sheet on its like, node on node, and turned by very little.
+TEST(D10_FacetsOnFacets, PushTheSameWhereTheirMeshesFallTogether) {
+  const auto force = [](int cells, double turn) {
+    const Body upper =
+        moved(sheet(cells, cells, 0.5, 0.5), {0.0, 0.0, turn}, {0.0, 0.0, kRange - kOverlap});
+    Meeting meeting(sheet(cells, cells, 0.5, 0.5), upper, kRange);
+    meeting.place(upper);
+    return meeting.force_on_b().z();
+  };
+  for (const double turn : {0.0, 1e-8}) {
+    EXPECT_NEAR(force(5, turn) / force(1, turn), 1.0, 1e-6) << turn;
+    EXPECT_NEAR(force(10, turn) / force(1, turn), 1.0, 1e-6) << turn;
+  }
+}
+
 // YADE: 3 k_n u of a cylinder across the seam of two facets.
 TEST(D10_FacetsOnFacets, ACylinderPushesTheSameAcrossSeams) {
   std::vector<double> forces;

@@ -121,6 +121,25 @@ TEST_P(FacingFacets, KeepForceAndMoment) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, FacingFacets, ::testing::Values(1U, 2U, 3U));
 
+// A corner of one on a corner of the other, and sides at a small angle: where the sides cross moves
+// fast along them, and that is no reason for a force.
+TEST(FacingFacetsAlone, DoNotPushHardAcrossWhereCornersFallTogether) {
+  Simplex a;
+  a.count = 3;
+  a.x = {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0, 0.1, 0)};
+  for (const double turn : {1e-10, 1e-8, 1e-6, 1e-4}) {
+    Simplex b = a;
+    for (Vec3& x : b.x)
+      x = Vec3(std::cos(turn) * x[0] - std::sin(turn) * x[1],
+               std::sin(turn) * x[0] + std::cos(turn) * x[1], 0.9 * kRange);
+
+    const PairForces pair = facing_facets(a, b, spring());
+
+    EXPECT_GT(pair.energy, 0.0);
+    for (const Vec3& force : pair.on_b) EXPECT_LT(force.norm(), 10.0 * pair.energy / 0.1) << turn;
+  }
+}
+
 TEST(FacingFacetsAlone, DoNothingWithoutArea) {
   Simplex needle;
   needle.count = 3;
