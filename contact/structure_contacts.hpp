@@ -13,6 +13,7 @@
 #include "geometry/surface_change.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -128,7 +129,7 @@ class StructureContacts {
   double normal_energy(const geometry::Surface& surface, std::span<const geometry::CellPair> pairs,
                        const Motion& at, geometry::ThreadPool& pool) const;
   void renumber(const geometry::SurfaceChange& change);
-  void hand_to_sides(const PairTerm& term, const structure::Holder& holder,
+  void hand_to_sides(const PairOfCells& pair, const std::array<geometry::FeatureNodes, 2>& carriers,
                      const geometry::SurfaceChange& change, std::vector<PairOfCells>& left) const;
   void find_patches();
   void number_patches();

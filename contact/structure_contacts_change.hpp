@@ -39,19 +39,20 @@ double StructureContacts<Law>::normal_energy(const geometry::Surface& surface,
   return energy;
 }
 
-/// Pairs of cells keep their patches. Those of a torn facet go to its sides, where a term that acts
-/// lies on the side: a patch lives as long as one of its features does.
+/// Pairs of cells keep their patches. Those of a torn facet go to its sides that hold the nearest
+/// points: there the contact goes on.
 template <ContactLaw Law>
 void StructureContacts<Law>::renumber(const geometry::SurfaceChange& change) {
   std::vector<PairOfCells> left;
-  for (const PairOfCells& pair : pairs_) {
+  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+    const PairOfCells& pair = pairs_[i];
     const auto a = change.now(pair.cells.a);
     const auto b = change.now(pair.cells.b);
-    if (a && b) left.push_back({{*a, *b}, pair.patch, pair.is_turned});
-  }
-  for (const std::uint32_t acting : terms_.acting()) {
-    for (const structure::Holder& holder : terms_.holders(terms_[acting]))
-      hand_to_sides(terms_[acting], holder, change, left);
+    if (a && b) {
+      left.push_back({{*a, *b}, pair.patch, pair.is_turned});
+    } else if (pair.patch >= 0) {
+      hand_to_sides(pair, terms_.carriers(i), change, left);
+    }
   }
   std::stable_sort(left.begin(), left.end(),
                    [](const PairOfCells& p, const PairOfCells& q) { return p.cells < q.cells; });
@@ -62,25 +63,24 @@ void StructureContacts<Law>::renumber(const geometry::SurfaceChange& change) {
   pairs_.swap(left);
 }
 
+/// @param carriers  corners of the features of both cells that hold the nearest points
 template <ContactLaw Law>
-void StructureContacts<Law>::hand_to_sides(const PairTerm& term, const structure::Holder& holder,
+void StructureContacts<Law>::hand_to_sides(const PairOfCells& pair,
+                                           const std::array<geometry::FeatureNodes, 2>& carriers,
                                            const geometry::SurfaceChange& change,
                                            std::vector<PairOfCells>& left) const {
-  const PairOfCells& pair = pairs_[holder.pair];
-  if (change.now(pair.cells.a) && change.now(pair.cells.b)) return;
   const auto has = [&](geometry::CellId cell, const geometry::FeatureNodes& feature) {
     const auto nodes = change.after().nodes_of(cell);
     return std::all_of(feature.begin(), feature.end(), [&](NodeId node) {
       return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
     });
   };
+  const bool is_of_one =
+      change.before().structure_of(pair.cells.a) == change.before().structure_of(pair.cells.b);
   for (const geometry::CellId a : change.left_of(pair.cells.a)) {
     for (const geometry::CellId b : change.left_of(pair.cells.b)) {
-      if (!has(holder.is_turned ? b : a, term.a) || !has(holder.is_turned ? a : b, term.b))
-        continue;
-      // Within one structure the lower cell comes first.
-      const bool swaps =
-          b < a && surface_->structure_of(pair.cells.a) == surface_->structure_of(pair.cells.b);
+      if (!has(a, carriers[0]) || !has(b, carriers[1])) continue;
+      const bool swaps = is_of_one && b < a;  // within one structure the lower cell comes first
       left.push_back({swaps ? geometry::CellPair{b, a} : geometry::CellPair{a, b}, pair.patch,
                       pair.is_turned != swaps});
     }

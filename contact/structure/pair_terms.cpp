@@ -18,7 +18,23 @@ void in_turns(std::size_t count, geometry::ThreadPool& pool, Visit visit) {
   });
 }
 
+geometry::FeatureNodes some_of(const geometry::FeatureNodes& nodes, unsigned corners) noexcept {
+  geometry::FeatureNodes some{nodes.ids, 0};
+  for (std::size_t k = 0; k < nodes.count; ++k) {
+    if ((corners >> k & 1U) != 0) some.ids[some.count++] = nodes.ids[k];
+  }
+  return some;
+}
+
 }  // namespace
+
+std::array<geometry::FeatureNodes, 2> PairTerms::carriers(std::uint32_t pair) const noexcept {
+  const PairTerm& term = terms_[term_of_pair_[pair]];
+  const geometry::ClosestPoints& points = proximity_[pair].cores.points;
+  const auto a = some_of(term.a, points.corners_a);
+  const auto b = some_of(term.b, points.corners_b);
+  return holders(term).front().is_turned ? std::array{b, a} : std::array{a, b};
+}
 
 void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   const geometry::ProductFeatures features = geometry::product_features(*surface_, pairs);

@@ -5,6 +5,7 @@
 #include "contact/structure/pair_term.hpp"
 #include "geometry/thread_pool.hpp"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,6 +41,10 @@ class PairTerms {
   std::span<const Holder> holders(const PairTerm& term) const noexcept {
     return {holders_.data() + term.first_holder, term.holder_count};
   }
+
+  /// Of a pair of cells in range at the last evaluate(): the corners of the features that hold its
+  /// nearest points, of its first cell and of its second.
+  std::array<geometry::FeatureNodes, 2> carriers(std::uint32_t pair) const noexcept;
 
   /// Terms in range, ascending.
   std::span<const std::uint32_t> acting() const noexcept { return acting_; }

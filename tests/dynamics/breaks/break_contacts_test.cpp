@@ -89,6 +89,79 @@ TEST(BreakContacts, ASphereOnAJointKeepsItsForceWhenOneOfTwoCylindersIsLeft) {
   EXPECT_EQ(simulation.contacts().counts().sphere_surface, 1u);
 }
 
+/// A facet of held nodes with bonds along its sides, to be torn by the break of bond 1. Its side 0
+/// along x stays.
+Scene one_facet() {
+  Scene scene;
+  scene.materials = {{1e6, 0.5, 0.6}};
+  for (const Vec3& x : {Vec3(0, 0, 0), Vec3(0.4, 0, 0), Vec3(0.2, 0.3, 0)})
+    scene.add_node(x, Held::everything);
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 0}})
+    scene.add_beam(NodeId{a}, NodeId{b}, circular_section(kWireRadius, 1e8, 0.3), 1000.0);
+  scene.add_facet(NodeId{0}, NodeId{1}, NodeId{2}, kWireRadius, kWire);
+  return scene;
+}
+
+/// Slides along x, tears the facet, and slides on: the force on node 3 goes on as it grew before.
+void expect_spring_goes_on(const Scene& scene) {
+  constexpr double kStep = 1e-6;
+  BreakingSimulation simulation(scene, {.time_step = kStep, .motion = {.gravity = Vec3::Zero()}});
+  for (int i = 0; i < 1000; ++i) simulation.step();
+  const Vec3 before = simulation.forces().force[3];
+  simulation.step();
+  const Vec3 growth = simulation.forces().force[3] - before;
+  ASSERT_LT(before.x(), 0.0);
+  ASSERT_NE(growth.x(), 0.0);
+
+  simulation.break_bond(1);
+  simulation.step();
+
+  EXPECT_TRUE(simulation.elements().facets.empty());
+  EXPECT_LE((simulation.forces().force[3] - before - 2.0 * growth).norm(), 1e-9 * before.norm());
+}
+
+TEST(BreakContacts, TheFrictionOfABallOnARimGoesOnWhenItsFacetIsTorn) {
+  Scene scene = one_facet();
+  scene.add_sphere(Vec3(0.2, -0.059, 0.0), 0.05, 1000.0, kWire);
+  scene.properties.held.back() = Held::everything;
+  scene.state.velocity.back() = Vec3(0.01, 0.0, 0.0);
+
+  expect_spring_goes_on(scene);
+}
+
+TEST(BreakContacts, TheFrictionOfAWireOnARimGoesOnWhenItsFacetIsTorn) {
+  Scene scene = one_facet();
+  for (const double z : {-0.1, 0.1}) {
+    scene.add_node(Vec3(0.2, -0.019, z), Held::everything);
+    scene.state.velocity.back() = Vec3(0.01, 0.0, 0.0);
+  }
+  scene.add_cylinder(NodeId{3}, NodeId{4}, kWireRadius, kWire);
+
+  expect_spring_goes_on(scene);
+}
+
+TEST(BreakContacts, AWireThatSlidesAlongAChainDoesNotFeelABreakOutOfItsRange) {
+  Scene scene = chain_and_sphere(6, Vec3(0.0, 0.0, 9.0), 0.05);
+  for (const double y : {-0.1, 0.1}) {
+    scene.add_node(Vec3(0.27, y, 0.0199), Held::everything);
+    scene.state.velocity.back() = Vec3(0.5, 0.0, 0.0);
+  }
+  const auto wire = static_cast<int>(scene.state.size()) - 2;
+  scene.add_cylinder(NodeId{wire}, NodeId{wire + 1}, kWireRadius, kWire);
+  BreakingSimulation whole(scene, with_gravity(1e-5));
+  BreakingSimulation broken(scene, with_gravity(1e-5));
+  for (int i = 0; i < 20000; ++i) {
+    if (i == 100) broken.break_bond(1);
+    if (i == 10000) broken.break_bond(5);
+    whole.step();
+    broken.step();
+    ASSERT_EQ(whole.forces().force, broken.forces().force) << "in step " << i;
+  }
+
+  EXPECT_EQ(broken.surface().cell_count(), 5u);
+  EXPECT_GT(broken.state().position.back().x(), 0.35);  // it has gone over a joint
+}
+
 TEST(BreakContacts, ASphereFallsThroughTheHoleWhenTheWireBelowItBreaks) {
   // Across a square of 0.2 m, a wire in the middle of it, a ball of 0.08 m on the wire.
   Scene scene;

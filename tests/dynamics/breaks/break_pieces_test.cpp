@@ -191,6 +191,18 @@ TEST(BreakPieces, ABrokenBeamIsNotDampedAnyMore) {
   EXPECT_EQ(simulation.forces().force[0], Vec3(0, 0, 0));
 }
 
+TEST(BreakPieces, ABrokenBondHasNoPartInTheCriticalTimeStep) {
+  Scene scene = free_chain(3, kMesh);
+  scene.bonds[1].section.young_modulus *= 100.0;
+  BreakingSimulation simulation(scene, weightless(1e-7));
+  const double estimate = simulation.critical_step().dt;
+
+  simulation.break_bond(1);
+  simulation.step();
+
+  EXPECT_GT(simulation.critical_step().dt, 5.0 * estimate);
+}
+
 /// A wire of 0.1 m that breaks at 5 %, one end of which is pulled away.
 Scene pulled_wire() {
   Scene scene = free_chain(1, kMesh);
