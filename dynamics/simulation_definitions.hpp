@@ -73,8 +73,6 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   yielding_bonds_.advance(bonds_, scene_.state, pool_);
   yielding_bonds_.forget_dissipated();
-  const auto broken = yielding_bonds_.broken();
-  asked_to_break_.assign(broken.begin(), broken.end());  // what they held goes in the first step
   follow_breaks();
   bonds_.advance(scene_.state, pool_);
   sheet_facets_.advance(scene_.state, pool_);
