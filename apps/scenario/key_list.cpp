@@ -17,8 +17,8 @@ using Keys = std::vector<ListedKey>;
 /// these sets away, one after the other, it asks for everything.
 const std::vector<std::set<std::string>>& absences() {
   static const std::vector<std::set<std::string>> sets = {
-      {"loads[].plane", "loads[].grains", "loads[].angular_velocity", "membranes[].longest_hole",
-       "membranes[].wrap_detail", "membranes[].wire"},
+      {"loads[].plane", "loads[].grains", "loads[].angular_velocity", "loads[].turn",
+       "membranes[].longest_hole", "membranes[].wrap_detail", "membranes[].wire"},
       {"loads[].plane", "loads[].membrane"},
       {}};
   return sets;

@@ -54,21 +54,49 @@ dynamics::PlaneMotion read_plane_motion(Section& section, const Scenario& scenar
   return motion;
 }
 
+std::optional<dynamics::AxisTurn> read_turn(Section& section) {
+  std::optional<Section> table = section.table("turn");
+  if (!table) return std::nullopt;
+  dynamics::AxisTurn turn;
+  turn.point = table->vector("point", {kLength});
+  turn.axis = table->vector("axis", {kNumber}, turn.axis);
+  turn.angle = table->quantity("angle", {kAngle});
+  if (turn.axis.stableNorm() == 0.0)
+    table->complain("axis", "got a vector of no length; expected the direction of the axis");
+  turn.axis.stableNormalize();
+  table->finish();
+  return turn;
+}
+
+/// Whether something in the nodes' body resists turning them.
+bool are_turned(const NodeSetSettings& set, const Scenario& scenario) {
+  if (set.of_grains || set.body >= scenario.membranes.size()) return true;
+  const MembraneSettings& membrane = scenario.membranes[set.body];
+  return membrane.mode != MembraneMode::truss && membrane.bending_stiffness != 0.0;
+}
+
 MotionSettings read_motion(Section& section, const Scenario& scenario) {
   MotionSettings settings;
   settings.nodes = read_node_set(section, scenario);
   dynamics::PrescribedMotion& motion = settings.motion;
+  motion.turn = read_turn(section);
   const bool turns = section.has("angular_velocity");
   const bool moves = section.has("displacement") || section.has("velocity");
   motion.held = Held::nothing;
-  if (moves || !turns) {
-    has_one_of(section, "displacement", "velocity", "a motion needs to be told");
+  if (moves || motion.turn || !turns) {
+    if (moves || !motion.turn)
+      has_one_of(section, "displacement", "velocity", "a motion needs to be told");
     motion.held = read_components(section);
+    if (motion.turn && motion.held != Held::translation)
+      section.complain("components",
+                       "a turn moves nodes along all axes; leave components or turn out");
     if (section.has("displacement"))
       motion.displacement = section.vector("displacement", {kLength});
     if (section.has("velocity")) motion.velocity = section.vector("velocity", {kVelocity});
   }
-  if (section.truth("hold_rotation", turns)) motion.held = motion.held | Held::rotation;
+  const bool turns_with_axis = motion.turn && are_turned(settings.nodes, scenario);
+  if (section.truth("hold_rotation", turns || turns_with_axis))
+    motion.held = motion.held | Held::rotation;
   if (turns) motion.angular_velocity = section.vector("angular_velocity", {kAngularVelocity});
   if (turns && (motion.held & Held::rotation) != Held::rotation)
     section.complain("hold_rotation", "got false, but angular_velocity says how the nodes turn");

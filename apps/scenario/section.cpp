@@ -318,6 +318,7 @@ std::optional<std::size_t> Section::known_choice(std::string_view key,
 }
 
 std::optional<Section> Section::table(std::string_view key) {
+  if (recorder_ && !recorder_->ask(path_of(key))) return std::nullopt;
   if (recorder_) return within(*table_, place_, path_of(key));
   const Value* value = find(key);
   if (value == nullptr) return std::nullopt;

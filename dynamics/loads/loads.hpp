@@ -14,11 +14,20 @@
 /// multiplies what stands beside it, at the time of the simulation; 1 unless told.
 namespace plekton::dynamics {
 
+/// A turn about an axis that stays where it is.
+struct AxisTurn {
+  Vec3 point = Vec3::Zero();  ///< m, any of the axis
+  Vec3 axis = Vec3::UnitZ();  ///< unit
+  double angle = 0.0;         ///< rad, counterclockwise seen against the axis
+};
+
 /// Nodes that move as prescribed: by displacement factor(t), counted from the factor at time 0,
 /// plus velocity times the integral of the factor, from where they are at the start. What is
 /// prescribed is held, so forces do not change it; the other motions stay free. Rotations turn with
 /// angular_velocity factor(t). Places are those of the tables to rounding after every step; a
-/// displacement that has a corner makes the velocity jump.
+/// displacement that has a corner makes the velocity jump. With a turn the nodes go round its axis
+/// by angle (factor(t) - factor(0)), exactly on their circles, and turn with it where their
+/// rotation is prescribed; a displacement or velocity comes after that.
 struct PrescribedMotion {
   std::vector<NodeId> nodes;
   Held held = Held::translation;         ///< the motions that are prescribed
@@ -26,6 +35,7 @@ struct PrescribedMotion {
   Vec3 velocity = Vec3::Zero();          ///< m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
   TimeTable factor;
+  std::optional<AxisTurn> turn;  ///< only where all of the translation is prescribed
 };
 
 /// A plane that moves with velocity factor(t).

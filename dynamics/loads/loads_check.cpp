@@ -56,8 +56,20 @@ class LoadProblems {
     expect_finite(name, "displacement", motion.displacement);
     expect_finite(name, "velocity", motion.velocity);
     expect_finite(name, "angular velocity", motion.angular_velocity);
+    if (motion.turn) list_turn(name, motion);
     if (motion.held == Held::nothing)
       text_ << name << ": prescribes no component; say which in held\n";
+  }
+
+  void list_turn(const std::string& name, const PrescribedMotion& motion) {
+    constexpr double kTolerance = 1e-9;  // of a unit vector
+    const AxisTurn& turn = *motion.turn;
+    expect_finite(name, "point of the axis", turn.point);
+    expect(std::isfinite(turn.angle), name, "the angle of its turn must be finite");
+    expect(std::abs(turn.axis.squaredNorm() - 1.0) < kTolerance, name,
+           "the axis of its turn is not a unit vector; normalise it");
+    expect(holds_translation(motion.held), name,
+           "a turn about an axis moves nodes along all axes; prescribe all of their translation");
   }
 
   void list(const std::string& name, const PlaneMotion& motion) {

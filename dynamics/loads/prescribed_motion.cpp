@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/prescribed_motion.hpp"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
 namespace plekton::dynamics {
 
 MovedNodes::MovedNodes(const PrescribedMotion& motion, const NodeState& at_start)
@@ -14,20 +19,46 @@ Vec3 MovedNodes::displacement(double time) const noexcept {
   return way * motion_.displacement + motion_.factor.integral(time) * motion_.velocity;
 }
 
+/// About the axis, from the start.
+Mat3 MovedNodes::rotation(double time) const {
+  if (!motion_.turn) return Mat3::Identity();
+  const double share = motion_.factor.at(time) - motion_.factor.at(0.0);
+  return Eigen::AngleAxisd(share * motion_.turn->angle, motion_.turn->axis).toRotationMatrix();
+}
+
+/// m, of the node at a place in motion_.nodes.
+Vec3 MovedNodes::place(std::size_t i, const Mat3& rotation, const Vec3& way) const noexcept {
+  if (!motion_.turn) return start_[i] + way;
+  const Vec3& point = motion_.turn->point;
+  return point + rotation * (start_[i] - point) + way;
+}
+
 /// rad/s, over the drift that begins now.
-Vec3 MovedNodes::turn(const LoadStep& step) const noexcept {
+Vec3 MovedNodes::spin(const LoadStep& step) const noexcept {
   const double share =
       motion_.factor.integral(step.time + step.after) - motion_.factor.integral(step.time);
-  return share / step.after * motion_.angular_velocity;
+  Vec3 angle = share * motion_.angular_velocity;
+  if (motion_.turn) {
+    const double change = motion_.factor.at(step.time + step.after) - motion_.factor.at(step.time);
+    angle += change * motion_.turn->angle * motion_.turn->axis;
+  }
+  return angle / step.after;
 }
 
 void MovedNodes::start(NodeState& state) const {
   const Vec3 velocity =
       motion_.factor.slope(0.0) * motion_.displacement + motion_.factor.at(0.0) * motion_.velocity;
-  const Vec3 spin = motion_.factor.at(0.0) * motion_.angular_velocity;
-  for (const NodeId node : motion_.nodes) {
+  Vec3 spin = motion_.factor.at(0.0) * motion_.angular_velocity;
+  Vec3 turn = Vec3::Zero();  // rad/s, about the axis
+  if (motion_.turn) turn = motion_.factor.slope(0.0) * motion_.turn->angle * motion_.turn->axis;
+  spin += turn;
+  for (std::size_t i = 0; i < motion_.nodes.size(); ++i) {
+    const NodeId node = motion_.nodes[i];
+    const Vec3 round =
+        motion_.turn ? Vec3(turn.cross(start_[i] - motion_.turn->point)) : Vec3(Vec3::Zero());
     for (int axis = 0; axis < 3; ++axis) {
-      if (holds_along(motion_.held, axis)) state.velocity[index_of(node)][axis] = velocity[axis];
+      if (holds_along(motion_.held, axis))
+        state.velocity[index_of(node)][axis] = velocity[axis] + round[axis];
       if (holds_about(motion_.held, axis))
         state.angular_velocity[index_of(node)][axis] = spin[axis];
     }
@@ -37,7 +68,8 @@ void MovedNodes::start(NodeState& state) const {
 double MovedNodes::act(const LoadStep& step, NodeState& state, const NodeForces& forces,
                        geometry::ThreadPool& pool) {
   const Vec3 way = displacement(step.time + step.after);
-  const Vec3 spin = turn(step);
+  const Mat3 turned = rotation(step.time + step.after);
+  const Vec3 turning = spin(step);
   return sum_(motion_.nodes.size(), pool, [&](std::size_t begin, std::size_t end, int) {
     double power = 0.0;  // W, at the new velocity more than at the old one
     const auto set = [&](double& velocity, double wanted, double force) {
@@ -46,12 +78,12 @@ double MovedNodes::act(const LoadStep& step, NodeState& state, const NodeForces&
     };
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t node = index_of(motion_.nodes[i]);
-      const Vec3 velocity = (start_[i] + way - state.position[node]) / step.after;
+      const Vec3 velocity = (place(i, turned, way) - state.position[node]) / step.after;
       for (int axis = 0; axis < 3; ++axis) {
         if (holds_along(motion_.held, axis))
           set(state.velocity[node][axis], velocity[axis], forces.force[node][axis]);
         if (holds_about(motion_.held, axis))
-          set(state.angular_velocity[node][axis], spin[axis], forces.torque[node][axis]);
+          set(state.angular_velocity[node][axis], turning[axis], forces.torque[node][axis]);
       }
     }
     return 0.5 * step.before * power;
@@ -59,7 +91,14 @@ double MovedNodes::act(const LoadStep& step, NodeState& state, const NodeForces&
 }
 
 double MovedNodes::largest_speed() const noexcept {
-  return motion_.factor.largest_slope() * motion_.displacement.norm() +
+  double furthest = 0.0;  // m, from the axis
+  for (const Vec3& start : start_) {
+    if (motion_.turn)
+      furthest = std::max(furthest, motion_.turn->axis.cross(start - motion_.turn->point).norm());
+  }
+  const double round = motion_.turn ? std::abs(motion_.turn->angle) * furthest : 0.0;
+  return motion_.factor.largest_slope() * round +
+         motion_.factor.largest_slope() * motion_.displacement.norm() +
          motion_.factor.largest() * motion_.velocity.norm();
 }
 

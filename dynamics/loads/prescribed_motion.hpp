@@ -29,7 +29,9 @@ class MovedNodes {
 
  private:
   Vec3 displacement(double time) const noexcept;
-  Vec3 turn(const LoadStep& step) const noexcept;
+  Mat3 rotation(double time) const;
+  Vec3 place(std::size_t i, const Mat3& rotation, const Vec3& way) const noexcept;
+  Vec3 spin(const LoadStep& step) const noexcept;
 
   PrescribedMotion motion_;
   std::vector<Vec3> start_;  // m, by place in motion_.nodes

@@ -107,6 +107,12 @@ displacement = [0, 0, "1 mm"]
 angular_velocity = [0, 0, "90 deg/s"]
 factor = [["0 s", 0], ["2 ms", 1]]
 [[loads]]
+kind = "motion"
+membrane = "net"
+nodes = { min = ["-1 mm", "-2 cm", "-5 cm"], max = ["2 cm", "2 cm", "5 cm"] }
+turn = { point = [0, 0, 0], axis = [0, 1, 0], angle = "2 deg" }
+factor = [["0 s", 0], ["2 ms", 1]]
+[[loads]]
 kind = "force"
 membrane = "sheet"
 nodes = { min = ["-1 cm", "-1 cm", "-1 mm"], max = ["1 cm", "1 cm", "1 mm"] }
@@ -221,6 +227,11 @@ TEST_F(Loads, AreRefusedAsMotionsThatDoNotSayHow) {
                  "loads.a.displacement: got both of displacement and velocity");
   expect_problem(motion + "angular_velocity = [0, 0, 1]\nhold_rotation = false\n",
                  "loads.a.hold_rotation: got false");
+  expect_problem(motion + "turn = { angle = \"9 deg\" }\n", "loads.a.turn.point: missing");
+  expect_problem(motion + "turn = { point = [0, 0, 0], axis = [0, 0, 0], angle = 1 }\n",
+                 "loads.a.turn.axis: got a vector of no length; expected the direction");
+  expect_problem(motion + "components = \"x\"\nturn = { point = [0, 0, 0], angle = 1 }\n",
+                 "loads.a.components: a turn moves nodes along all axes");
 }
 
 TEST_F(Loads, AreRefusedAsServosWithoutATarget) {

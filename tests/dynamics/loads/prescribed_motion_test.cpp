@@ -103,6 +103,75 @@ TEST(PrescribedMotion, LeavesOtherComponentsToTheForces) {
   EXPECT_NEAR(state.angular_velocity[0].z(), 2.0, 16.0 * kEps * 2.0);
 }
 
+TEST(PrescribedMotion, GoesRoundAnAxisExactlyOnItsCircle) {
+  PrescribedMotion motion;
+  motion.held = Held::everything;
+  motion.turn = {Vec3(1.0, 0.0, 0.0), Vec3(1.0, 2.0, 2.0) / 3.0, 5.0};
+  motion.displacement = Vec3(0.0, 0.0, 0.2);
+  motion.factor = TimeTable({{0.0, 0.5}, {0.4, 1.5}, {0.6, -1.0}});
+  const Vec3 start(1.0, -2.0, 0.5);
+  auto simulation = simulation_of(lump_that(motion, start), 0.0071);
+
+  for (int i = 0; i < 100; ++i) {
+    simulation.step();
+
+    const double share = motion.factor.at(simulation.time()) - 0.5;
+    const Eigen::AngleAxisd turn(5.0 * share, motion.turn->axis);
+    const Vec3 expected =
+        motion.turn->point + turn * (start - motion.turn->point) + share * motion.displacement;
+    EXPECT_LE((simulation.state().position[0] - expected).norm(), 16.0 * kEps * 5.0);
+    EXPECT_LE(simulation.state().orientation[0].angularDistance(geometry::Quat(turn)),
+              (i + 1) * 8.0 * kEps * 10.0);
+  }
+}
+
+// A beam from the axis outward, turned about it with all of its nodes free but the first: the
+// moment that turns it is that which its inertia takes.
+TEST(PrescribedMotion, ThatTurnsABeamGivesItsAngularMomentumAndItsEnergy) {
+  Scene scene = chain(4, 0.2, dynamics::circular_section(0.01, 1e8, 0.3));
+  PrescribedMotion motion;
+  motion.nodes = {NodeId{0}};
+  motion.held = Held::everything;
+  motion.turn = {Vec3(-0.1, 0.0, 0.0), Vec3::UnitZ(), 0.2};
+  motion.factor = TimeTable({{0.0, 0.0}, {0.05, 1.0}});
+  scene.loads.motions.push_back(motion);
+  auto simulation = simulation_of(scene, 0.0);
+  double moment = 0.0;  // N m s, about the axis, of the support on the beam
+  double momentum = 0.0;
+  double closure = 0.0;
+
+  while (simulation.time() < 0.06) {
+    simulation.step();
+    const auto reaction = simulation.support_reaction(std::vector{NodeId{0}}, motion.turn->point);
+    moment += simulation.time_step() * reaction.moment.z();
+    closure = std::max(closure, std::abs(simulation.energy().closure_error()));
+  }
+  for (std::size_t i = 1; i < scene.state.size(); ++i) {
+    momentum +=
+        simulation.properties().inertia[i] * simulation.state().angular_velocity[i].z() +
+        simulation.properties().mass[i] * (simulation.state().position[i] - motion.turn->point)
+                                              .cross(simulation.state().velocity[i])
+                                              .z();
+  }
+
+  EXPECT_GT(momentum, 1e-4);
+  // The place at which forces act lies half a step before that of the momentum.
+  EXPECT_NEAR(std::abs(moment), std::abs(momentum), 1e-2 * std::abs(momentum));
+  EXPECT_LT(closure, 1e-2 * simulation.energy().turnover());
+}
+
+TEST(PrescribedMotion, ThatTurnsIsRefusedWithoutAnAxisOrWithFreeComponents) {
+  PrescribedMotion motion;
+  motion.held = Held::along_x;
+  motion.turn = {Vec3::Zero(), Vec3(0.0, 0.0, 2.0), 1.0};
+
+  const std::string problems = problems_of(lump_that(motion));
+
+  EXPECT_THAT(problems,
+              HasSubstr("prescribed motion 0: the axis of its turn is not a unit vector"));
+  EXPECT_THAT(problems, HasSubstr("a turn about an axis moves nodes along all axes"));
+}
+
 /// A beam whose end is moved to and fro and turned, so that its velocity changes in every step.
 Scene shaken_beam(bool held_along_the_beam_only) {
   Scene scene = chain(8, 0.2, dynamics::circular_section(0.003, 1e7, 0.3));
