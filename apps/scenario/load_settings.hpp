@@ -49,7 +49,7 @@ struct PressureSettings {
   std::size_t membrane = 0;
   Place membrane_place;
   dynamics::SurfacePressure load;
-  Place gas_place;
+  Place volume_place;  ///< of the key gas or by_volume
 };
 struct BeamDampingSettings {
   std::size_t membrane = 0;

@@ -136,9 +136,16 @@ PressureSettings read_pressure(Section& section, const Scenario& scenario) {
   PressureSettings settings;
   settings.membrane = read_membrane_name(section, scenario).value_or(0);
   settings.membrane_place = section.place_of("membrane");
-  settings.load.pressure = section.quantity("pressure", {kPressure});
+  has_one_of(section, "pressure", "by_volume", "how strong it is");
+  if (section.has("pressure")) settings.load.pressure = section.quantity("pressure", {kPressure});
+  settings.volume_place = section.place_of(section.has("by_volume") ? "by_volume" : "gas");
+  if (section.has("by_volume")) {
+    auto rows = section.rising_rows("by_volume", {kVolume, kPositive}, {kPressure});
+    if (!rows.empty()) settings.load.by_volume = dynamics::PressureByVolume{std::move(rows)};
+    if (section.has("gas"))
+      section.complain("gas", "by_volume says how the pressure follows the volume; leave one out");
+  }
   settings.load.factor = read_factor(section);
-  settings.gas_place = section.place_of("gas");
   if (auto table = section.table("gas")) {
     dynamics::Gas gas;
     gas.outside_pressure =

@@ -93,7 +93,7 @@ class LoadBuilder {
                fmt::format("\"{}\" is a net without facets; expected a sheet or a shell for the "
                            "pressure to act on",
                            name));
-    else if (load.gas)
+    else if (load.gas || load.by_volume)
       require_closed(settings, load);
     loads_.pressures.push_back(std::move(load));
   }
@@ -147,16 +147,17 @@ class LoadBuilder {
       corners.push_back(facets.back().nodes);
     }
     const std::string& name = built_.membranes[settings.membrane].name;
+    const std::string_view key = load.gas ? "gas" : "by_volume";
     if (!dynamics::are_closed(facets))
       complain(
-          settings.gas_place, "gas",
+          settings.volume_place, key,
           fmt::format("\"{}\" is open and encloses no volume; expected a closed surface: close "
-                      "it (fill_holes), or leave gas out for a pressure that does not depend "
+                      "it (fill_holes), or leave {} out for a pressure that does not depend "
                       "on the volume",
-                      name));
+                      name, key));
     else if (!(dynamics::volume_under(corners, built_.scene.state.position) > 0.0))
       complain(
-          settings.gas_place, "gas",
+          settings.volume_place, key,
           fmt::format("the facets of \"{}\" face inward; expected them to face outward", name));
   }
 

@@ -66,6 +66,12 @@ struct Gas {
   double exponent = 1.0;               ///< > 0; 1: the temperature stays; 1.4: no heat passes (air)
 };
 
+/// The pressure on a closed surface by the volume that it holds: straight lines between rows, the
+/// ends stay.
+struct PressureByVolume {
+  std::vector<std::array<double, 2>> rows;  ///< m³, increasing, and Pa
+};
+
 /// A pressure on facets along their normals, as they are at any time: p A / 3 on each corner, the
 /// area vector A by the order of the corners. On a closed surface that is the gradient of p V,
 /// without any resultant force or moment. Facets that are torn are pressed no more; a gas escapes
@@ -75,6 +81,8 @@ struct SurfacePressure {
   double pressure = 0.0;   ///< Pa, over the outside where the surface holds a gas
   TimeTable factor;        ///< of the pressure
   std::optional<Gas> gas;  ///< only where the facets are closed
+  /// In place of the pressure and a gas, times factor(t); only where the facets are closed.
+  std::optional<PressureByVolume> by_volume;
 };
 
 /// Dashpots along beams: c = 2 ratio sqrt(EA/L0 m), with m the reduced mass of the two nodes (half

@@ -19,6 +19,13 @@ double six_volumes(const Corners& corners, const Vec3& point, Positions x) noexc
   return a.dot(b.cross(c));
 }
 
+std::optional<TimeTable> table_of(const std::optional<PressureByVolume>& pressure) {
+  if (!pressure) return std::nullopt;
+  std::vector<TimeTable::Row> rows;
+  for (const auto& [volume, value] : pressure->rows) rows.push_back({volume, value});
+  return TimeTable(std::move(rows));
+}
+
 std::vector<Corners> corners_of(const SurfacePressure& load,
                                 std::span<const geometry::Facet> facets) {
   std::vector<Corners> corners;
@@ -37,10 +44,11 @@ double volume_under(std::span<const Corners> facets, Positions x) {
 PressedSurface::PressedSurface(const SurfacePressure& load, std::span<const geometry::Facet> facets,
                                const NodeState& at_start)
     : load_(load),
+      by_volume_(table_of(load.by_volume)),
       members_(corners_of(load, facets)),
       nodes_(members_.nodes()),
       shares_(load.facets.size()) {
-  if (load_.gas) start_volume_ = volume_under(members_.groups(), at_start.position);
+  if (follows_volume()) start_volume_ = volume_under(members_.groups(), at_start.position);
   volume_ = start_volume_;
   pressure_ = pressure_at(0.0, volume_);
 }
@@ -57,8 +65,9 @@ void PressedSurface::follow(const geometry::SurfaceChange& change) {
   const bool is_torn = facets.size() < load_.facets.size();
   load_.facets = std::move(facets);
   if (!is_torn) return;
-  if (load_.gas) {
+  if (follows_volume()) {
     load_ = SurfacePressure{};
+    by_volume_.reset();
     corners.clear();
     pressure_ = 0.0;
   }
@@ -69,6 +78,7 @@ void PressedSurface::follow(const geometry::SurfaceChange& change) {
 
 /// Pa
 double PressedSurface::pressure_at(double time, double volume) const {
+  if (by_volume_) return load_.factor.at(time) * by_volume_->at(volume);
   const double pressure = load_.factor.at(time) * load_.pressure;
   if (!load_.gas) return pressure;
   const double outside = load_.gas->outside_pressure;
@@ -77,7 +87,8 @@ double PressedSurface::pressure_at(double time, double volume) const {
 
 /// Pa, over the outside: of the table at any time, or of now if the gas has been compressed.
 double PressedSurface::largest_pressure() const noexcept {
-  return std::max(std::abs(load_.factor.largest() * load_.pressure), std::abs(pressure_));
+  const double full = by_volume_ ? by_volume_->largest() : load_.pressure;
+  return std::max(std::abs(load_.factor.largest() * full), std::abs(pressure_));
 }
 
 Vec3 PressedSurface::area_share(std::size_t facet, Positions x) const noexcept {
@@ -95,7 +106,7 @@ LoadedNodes& PressedSurface::act(const LoadStep& step, const NodeState& state,
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
       shares_[i] = area_share(i, x);
-      if (load_.gas) sum += six_volumes(members_.groups()[i], origin, x);
+      if (follows_volume()) sum += six_volumes(members_.groups()[i], origin, x);
     }
     return sum;
   });
@@ -110,7 +121,7 @@ LoadedNodes& PressedSurface::act(const LoadStep& step, const NodeState& state,
 }
 
 double PressedSurface::gas_frequency_squared(Positions x, const NodeProperties& properties) const {
-  if (!load_.gas) return 0.0;
+  if (!follows_volume()) return 0.0;
   double sum = 0.0;  // m⁴/kg
   for (std::size_t i = 0; i < members_.nodes().size(); ++i) {
     const std::size_t node = index_of(members_.nodes()[i]);
@@ -119,6 +130,8 @@ double PressedSurface::gas_frequency_squared(Positions x, const NodeProperties& 
     for (const auto& member : members_.of(i)) area += area_share(member.group, x);
     sum += area.squaredNorm() / properties.mass[node];
   }
+  // A pressure that grows with the volume only makes the surface softer.
+  if (by_volume_) return load_.factor.largest() * by_volume_->largest_slope() * sum;
   const double absolute = load_.gas->outside_pressure + largest_pressure();
   return load_.gas->exponent * absolute / volume_ * sum;
 }

@@ -36,7 +36,7 @@ class PressedSurface {
   /// there is no pressure.
   void follow(const geometry::SurfaceChange& change);
 
-  /// m³, at the last act; only where the surface holds a gas.
+  /// m³, at the last act; only where the pressure follows it.
   double volume() const noexcept { return volume_; }
   /// Pa, at the last act.
   double pressure() const noexcept { return pressure_; }
@@ -55,16 +55,18 @@ class PressedSurface {
     }
   }
 
-  /// 1/s², at least the square of the frequency at which the gas alone makes the surface breathe:
-  /// its stiffness is dp/dV (dV/dx)(dV/dx)^T, of rank one.
+  /// 1/s², at least the square of the frequency at which the pressure of a gas or by volume alone
+  /// makes the surface breathe: its stiffness is dp/dV (dV/dx)(dV/dx)^T, of rank one.
   double gas_frequency_squared(geometry::Positions x, const NodeProperties& properties) const;
 
  private:
   double pressure_at(double time, double volume) const;
   double largest_pressure() const noexcept;
+  bool follows_volume() const noexcept { return load_.gas || by_volume_; }
   Vec3 area_share(std::size_t facet, geometry::Positions x) const noexcept;
 
   SurfacePressure load_;
+  std::optional<TimeTable> by_volume_;  // Pa, with m³ in place of the time
   NodeMembers<3> members_;
   LoadedNodes nodes_;
   std::vector<Vec3> shares_;  // m², by facet: a third of its area vector

@@ -81,24 +81,43 @@ void list_facets_the_other_way(const SurfacePressure& load, std::span<const geom
   });
 }
 
-void list_gas_problems(const SurfacePressure& load, std::span<const geometry::Facet> facets,
-                       const Scene& scene, const std::string& name, std::ostream& problems) {
-  const Gas& gas = *load.gas;
+void list_gas_problems(const Gas& gas, const std::string& name, std::ostream& problems) {
   if (!(gas.outside_pressure >= 0.0) || !std::isfinite(gas.outside_pressure))
     problems << name << ": outside pressure " << gas.outside_pressure
              << " Pa must be finite and not negative\n";
   if (!(gas.exponent > 0.0) || !std::isfinite(gas.exponent))
     problems << name << ": exponent " << gas.exponent << " of the gas must be above 0\n";
+}
+
+void list_row_problems(const PressureByVolume& pressure, const std::string& name,
+                       std::ostream& problems) {
+  if (pressure.rows.empty())
+    problems << name << ": its pressure by volume has no rows; give at least one\n";
+  for (std::size_t i = 0; i < pressure.rows.size(); ++i) {
+    const auto& [volume, value] = pressure.rows[i];
+    if (!std::isfinite(volume) || !std::isfinite(value))
+      problems << name << ": row " << i << " of its pressure by volume is not finite\n";
+    else if (i > 0 && !(volume > pressure.rows[i - 1][0]))
+      problems << name << ": row " << i << " of its pressure by volume is at " << volume
+               << " m3, not above " << pressure.rows[i - 1][0]
+               << " m3 of the row before; list the rows by increasing volume\n";
+  }
+}
+
+/// Of what needs a volume.
+/// @param name_and_what  as in "surface pressure 0: a gas"
+void list_volume_problems(std::span<const geometry::Facet> facets, const Scene& scene,
+                          const std::string& name_and_what, std::ostream& problems) {
   if (!are_closed(facets)) {
-    problems << name << ": a gas needs a closed surface, and this one is open; give a pressure "
-             << "without gas, or close it\n";
+    problems << name_and_what << " needs a closed surface, and this one is open; give a pressure "
+             << "without it, or close it\n";
     return;
   }
   std::vector<std::array<NodeId, 3>> corners;
   for (const geometry::Facet& facet : facets) corners.push_back(facet.nodes);
   const double volume = facets.empty() ? 1.0 : volume_under(corners, scene.state.position);
   if (!(volume > 0.0))
-    problems << name << ": a gas needs a volume, and this surface encloses " << volume
+    problems << name_and_what << " needs a volume, and this surface encloses " << volume
              << " m3; let its facets face outward\n";
 }
 
@@ -119,6 +138,10 @@ void list_problems(const SurfacePressure& load, const Scene& scene, const std::s
   const std::vector<geometry::Facet> facets = facets_of(load, scene, name, problems);
   if (!std::isfinite(load.pressure))
     problems << name << ": its pressure is " << load.pressure << " Pa; it must be finite\n";
+  if (load.gas) list_gas_problems(*load.gas, name, problems);
+  if (load.by_volume) list_row_problems(*load.by_volume, name, problems);
+  if (load.by_volume && (load.gas || load.pressure != 0.0))
+    problems << name << ": has a pressure by volume and another pressure or a gas; give one\n";
   if (facets.size() != load.facets.size()) return;
   for (const geometry::Facet& facet : facets) {
     for (const NodeId node : facet.nodes) {
@@ -126,7 +149,9 @@ void list_problems(const SurfacePressure& load, const Scene& scene, const std::s
     }
   }
   list_facets_the_other_way(load, facets, name, problems);
-  if (load.gas) list_gas_problems(load, facets, scene, name, problems);
+  if (load.gas) list_volume_problems(facets, scene, name + ": a gas", problems);
+  if (load.by_volume)
+    list_volume_problems(facets, scene, name + ": a pressure by volume", problems);
 }
 
 }  // namespace plekton::dynamics

@@ -267,6 +267,22 @@ TEST_F(Loads, AreRefusedWithNegativeStiffnessOrDamping) {
                  "loads.a.rate");
 }
 
+TEST_F(Loads, ArePressuresByVolume) {
+  const std::string load = "[[loads]]\nname = \"a\"\nkind = \"pressure\"\nmembrane = \"ball\"\n";
+  EXPECT_EQ(check(load + "by_volume = [[\"0.1 l\", \"2 kPa\"], [\"0.2 l\", 0]]\n").exit_code,
+            kDone);
+  const std::string ball = "kind = \"pressure\"\nmembrane = \"ball\"\n";
+  const std::string table = "by_volume = [[\"0.1 l\", \"2 kPa\"], [\"0.2 l\", 0]]\n";
+  expect_problem(ball, "loads.a.pressure: got none of pressure and by_volume");
+  expect_problem(ball + table + "pressure = 1\n", "got both of pressure and by_volume");
+  expect_problem(ball + table + "gas = {}\n", "loads.a.gas: by_volume says how");
+  expect_problem(ball + "by_volume = [[2, 1], [1, 0]]\n",
+                 "loads.a.by_volume[1]: 1 m3 is not above 2 m3 of the row before; list the rows by "
+                 "increasing volume");
+  expect_problem("kind = \"pressure\"\nmembrane = \"sheet\"\n" + table,
+                 "loads.a.by_volume: \"sheet\" is open and encloses no volume");
+}
+
 TEST_F(Loads, AreRefusedAsGasInAnOpenSurface) {
   expect_problem(
       "kind = \"pressure\"\nmembrane = \"sheet\"\npressure = \"1 kPa\"\ngas = {}\n",

@@ -126,11 +126,16 @@ struct Blown {
   double closure = 0.0;
 };
 
-Blown blown_up(std::optional<Gas> gas, double part_of_step) {
+Blown blown_up(std::optional<Gas> gas, double part_of_step, bool by_volume = false) {
   SurfacePressure load;
   Scene scene = rough_ball(load.facets, Vec3::Zero());
   load.pressure = 5e3;
   load.gas = gas;
+  if (by_volume) {
+    const double start = volume_of(scene);
+    load.pressure = 0.0;
+    load.by_volume = {{{{0.5 * start, 9e3}, {1.01 * start, 5e3}, {1.5 * start, 0.0}}}};
+  }
   load.factor = TimeTable({{0.0, 0.0}, {0.004, 1.0}, {0.008, 0.4}});
   scene.loads.pressures.push_back(load);
   auto simulation = simulation_of(scene, part_of_step * LoadedSimulation(scene, {}).time_step());
@@ -171,6 +176,78 @@ TEST(SurfacePressure, DoesTheWorkOfTheIntegralOfPressureOverVolume) {
     EXPECT_LT(coarse.closure, 1e-3);
     EXPECT_LT(fine.closure, 1.5 / 16.0 * coarse.closure);
   }
+}
+
+TEST(SurfacePressure, ByVolumeDoesTheWorkOfItsIntegralOverTheVolume) {
+  const Blown coarse = blown_up({}, 1.0, true);
+  const Blown fine = blown_up({}, 0.25, true);
+
+  EXPECT_GT(coarse.integral, 0.01);
+  EXPECT_NEAR(coarse.work, coarse.integral, 1e-4 * coarse.integral);
+  EXPECT_NEAR(fine.work, fine.integral,
+              1.5 / 16.0 * std::abs(coarse.work - coarse.integral) + 1e-12);
+  EXPECT_LT(coarse.closure, 1e-3);
+  EXPECT_LT(fine.closure, 1.5 / 16.0 * coarse.closure);
+}
+
+TEST(SurfacePressure, ByVolumeFollowsStraightLinesBetweenRowsWithoutForceOrMomentInAll) {
+  SurfacePressure load;
+  Scene scene = rough_ball(load.facets, Vec3(0.2, 0.0, 0.0));
+  const double volume = volume_of(scene);
+  load.by_volume = {{{{volume, 4e3}, {1.331 * volume, 1e3}}}};
+  load.factor = TimeTable(0.5);
+  PressedSurface surface(load, scene.elements.facets, scene.state);
+  geometry::ThreadPool pool;
+  const auto pressure_at = [&](double size) {
+    dynamics::NodeState state = scene.state;
+    for (Vec3& x : state.position) x *= size;
+    surface.act({0.0, 0.0, 1.0}, state, pool);
+    return surface.pressure();
+  };
+
+  EXPECT_NEAR(pressure_at(1.0), 2e3, 1e-9);
+  EXPECT_NEAR(pressure_at(std::cbrt(1.1655)), 0.5 * 2.5e3, 1e-9);
+  EXPECT_NEAR(pressure_at(0.9), 2e3, 1e-9);
+  EXPECT_NEAR(pressure_at(1.2), 0.5e3, 1e-9);
+  NodeForces forces(scene.state.size());
+  surface.act({0.0, 0.0, 1.0}, scene.state, pool).add_to(forces, pool);
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  for (std::size_t i = 0; i < scene.state.size(); ++i) {
+    force += forces.force[i];
+    moment += scene.state.position[i].cross(forces.force[i]);
+  }
+  // 2 kPa on 0.13 m².
+  EXPECT_LT(force.norm(), 1e-12 * 250.0);
+  EXPECT_LT(moment.norm(), 1e-12 * 250.0);
+}
+
+TEST(SurfacePressure, ByVolumeShortensTheCriticalStepWhereItIsSteep) {
+  SurfacePressure load;
+  Scene scene = rough_ball(load.facets, Vec3::Zero());
+  const double volume = volume_of(scene);
+  const double without = LoadedSimulation(scene, {}).critical_step().dt;
+  load.by_volume = {{{{volume, 1e6}, {1.1 * volume, 0.0}}}};
+  scene.loads.pressures.push_back(load);
+  const LoadedSimulation simulation(scene, {});
+
+  EXPECT_LT(simulation.critical_step().dt, 0.9 * without);
+  EXPECT_LE(simulation.critical_step().dt, simulation.exact_critical_step().dt);
+}
+
+TEST(SurfacePressure, ByVolumeIsRefusedOnAnOpenSurfaceAndWithRowsThatGoBack) {
+  Scene scene;
+  scene.materials = {{1e6, 0.3, 0.4}};
+  SurfacePressure load;
+  load.facets = add_membrane(scene, geometry::plane_sheet({0.3, 0.2, 3, 2}));
+  load.pressure = 1.0;
+  load.by_volume = {{{{2.0, 1.0}, {1.0, 0.0}}}};
+  scene.loads.pressures.push_back(load);
+
+  const std::string problems = problems_of(scene);
+
+  EXPECT_THAT(problems, HasSubstr("a pressure by volume needs a closed surface"));
+  EXPECT_THAT(problems, HasSubstr("row 1 of its pressure by volume is at 1 m3, not above 2 m3"));
+  EXPECT_THAT(problems, HasSubstr("has a pressure by volume and another pressure or a gas"));
 }
 
 TEST(SurfacePressure, OfAGasFallsAsItsVolumeGrows) {
