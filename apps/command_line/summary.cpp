@@ -77,6 +77,8 @@ std::string summary_of(const RunReport& report) {
       "{}\n",
       report.contacts, 100.0 * report.largest_overlap_ratio, 100.0 * report.energy_closure,
       report.lost_grains);
+  if (report.broken_bonds > 0)
+    text += fmt::format("broken bonds: {} of {}\n", report.broken_bonds, report.bonds);
   for (const std::string& warning : report.warnings) text += "warning: " + warning + '\n';
   return text;
 }

@@ -7,6 +7,9 @@
 
 namespace plekton::apps {
 
+/// How many bonds have broken so far. Linear in the number of bonds.
+std::size_t broken_bonds(const Simulation& simulation);
+
 /// Writes energy.csv: time, the energies and their closure error, contacts, overlap, lost grains.
 class History {
  public:

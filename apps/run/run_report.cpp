@@ -19,9 +19,15 @@ Json options_of(const RunReport& report) {
 }
 
 Json counts_of(const RunReport& report) {
-  return {{"grains", report.grains},       {"nodes", report.nodes},  {"facets", report.facets},
-          {"cylinders", report.cylinders}, {"bonds", report.bonds},  {"planes", report.planes},
-          {"contacts", report.contacts},   {"frames", report.frames}};
+  return {{"grains", report.grains},
+          {"nodes", report.nodes},
+          {"facets", report.facets},
+          {"cylinders", report.cylinders},
+          {"bonds", report.bonds},
+          {"planes", report.planes},
+          {"broken_bonds", report.broken_bonds},
+          {"contacts", report.contacts},
+          {"frames", report.frames}};
 }
 
 Json timing_of(const RunReport& report) {

@@ -171,6 +171,7 @@ wire = [["1 %", "1 kN"], ["6 %", "1.5 kN"]]
   EXPECT_LT(std::abs(energy.at("closure_error_J").get<double>()),
             5e-3 * energy.at("turnover_J").get<double>());
   EXPECT_THAT(test::bytes_of(folder_ / "out/energy.csv"), HasSubstr("bond_dissipated"));
+  EXPECT_THAT(outcome.out, HasSubstr("broken bonds: "));
 }
 
 }  // namespace
