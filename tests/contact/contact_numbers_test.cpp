@@ -151,6 +151,66 @@ TEST(ContactNumbers, DoNotDependOnTheNumberOfThreads) {
   }
 }
 
+/// A small sheet that is moved over a larger one.
+class SheetOnSheet {
+ public:
+  SheetOnSheet() {
+    add(centred(sheet(8), 8, 0.5));
+    first_of_small_ = complex_.x.size();
+    add(centred(sheet(2), 2, 0.45));
+    for (std::size_t i = first_of_small_; i < complex_.x.size(); ++i)
+      complex_.x[i] += Vec3(-0.83, -0.41, 0.19);  // both are 0.2 thick
+    surface_ = complex_.surface();
+    contacts_ = std::make_unique<Contacts<LinearFrictional>>(
+        std::span<const Sphere>(), surface_,
+        ContactMaterials<LinearFrictional>{
+            MaterialPairs<LinearFrictional>({Material{1e6, 0.5, 0.3}}),
+            {},
+            {MaterialId{0}, MaterialId{0}}},
+        0.05);
+  }
+  std::vector<ContactRow> move(const Vec3& way) {
+    const std::vector<Vec3> still(complex_.x.size(), Vec3::Zero());
+    for (std::size_t i = first_of_small_; i < complex_.x.size(); ++i) complex_.x[i] += way;
+    NodeForces forces(complex_.x.size());
+    contacts_->advance({complex_.x, still, still}, {}, 1.0, pool_, forces);
+    contacts_->number();
+    std::vector<ContactRow> rows;
+    contacts_->for_each_row(complex_.x, [&](const ContactRow& row) { rows.push_back(row); });
+    return rows;
+  }
+
+ private:
+  void add(const Complex& part) {
+    const int first = static_cast<int>(complex_.x.size());
+    const auto at = [&](NodeId node) { return first + static_cast<int>(node); };
+    for (const Vec3& x : part.x) complex_.node(x);
+    for (const auto& f : part.facets)
+      complex_.facet(at(f.nodes[0]), at(f.nodes[1]), at(f.nodes[2]));
+  }
+
+  Complex complex_;
+  std::size_t first_of_small_ = 0;
+  Surface surface_;
+  std::unique_ptr<Contacts<LinearFrictional>> contacts_;
+  geometry::ThreadPool pool_;
+};
+
+TEST(ContactNumbers, OfStructuresLastAsTheySlideAndEndWhereTheyPart) {
+  SheetOnSheet sheets;
+  std::set<geometry::Feature> features;
+  for (int k = 0; k < 60; ++k) {
+    const std::vector<ContactRow> rows = sheets.move(Vec3(0.021, 0.013, 0));
+    ASSERT_EQ(rows.size(), 1u);
+    ASSERT_EQ(rows[0].id, 1);
+    features.insert(rows[0].a.feature);
+  }
+  EXPECT_GT(features.size(), 2u);
+
+  EXPECT_TRUE(sheets.move(Vec3(0, 0, 0.1)).empty());
+  EXPECT_EQ(sheets.move(Vec3(0, 0, -0.1)).at(0).id, 2);
+}
+
 TEST(ContactRow, SaysWhetherAContactSlips) {
   const Material material{1e6, 0.5, 0.3};
   BallOnSurface ball(centred(sheet(8), 8, 0.5), 0.9, material);
