@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/list_command.hpp"
 
+#include "apps/command_line/list_outputs.hpp"
 #include "apps/scenario/key_list.hpp"
 #include "contact/laws/law_list.hpp"
 
@@ -62,6 +63,8 @@ void list_choices(std::ostream& out) {
          "\"other "
          "keys\" decide; apps/scenario.md has their meaning\n";
   for (const KeyGroup& group : scenario_keys()) list_keys(group, out);
+  out << '\n';
+  list_outputs(out);
 }
 
 }  // namespace plekton::apps

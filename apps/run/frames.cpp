@@ -2,8 +2,8 @@
 #include "apps/run/frames.hpp"
 
 #include "apps/run/output_folder.hpp"
+#include "dynamics/output/contact_fields.hpp"
 #include "dynamics/output/file.hpp"
-#include "dynamics/output/scene_frame.hpp"
 #include "dynamics/structure/bonds_along.hpp"
 
 #include <fmt/format.h>
@@ -38,6 +38,7 @@ void remove_earlier(const fs::path& folder) {
   std::error_code ignored;
   for (const std::string_view part : kParts)
     fs::remove(folder / fmt::format("{}.pvd", part), ignored);
+  fs::remove(folder / "contacts.csv", ignored);
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder / "frames", ignored)) {
     if (is_frame(entry.path().filename().string())) old.push_back(entry.path());
@@ -70,12 +71,15 @@ std::vector<dynamics::PrincipalForces> membrane_forces_of(const Simulation& simu
   return forces;
 }
 
-std::vector<dynamics::ContactRow> contact_rows(const Simulation& simulation) {
-  std::vector<dynamics::ContactRow> rows;
-  simulation.for_each_contact([&](const contact::ContactRow& row) {
-    rows.push_back({row.point_a, row.point_b, row.normal_force, row.tangential_force, row.gap});
-  });
-  return rows;
+/// Likewise, and of bonds that broke.
+std::vector<dynamics::BondStress> stresses_of(const Simulation& simulation) {
+  std::vector<dynamics::BondStress> stresses;
+  for (const std::size_t bond :
+       dynamics::bonds_along(simulation.elements().cylinders, simulation.bonds()))
+    stresses.push_back(bond == dynamics::kNoBond || simulation.bonds().is_broken(bond)
+                           ? dynamics::BondStress{}
+                           : simulation.bond_stress(bond));
+  return stresses;
 }
 
 }  // namespace
@@ -93,6 +97,10 @@ Frames::Frames(const fs::path& folder, const OutputSettings& settings, const Sim
                                                 !simulation.elements().facets.empty());
   make_output_folder(folder_ / "frames");
   remove_earlier(folder_);
+  if (settings_.contact_list) {
+    contact_list_.emplace(folder_ / "contacts.csv", dynamics::contact_columns(),
+                          dynamics::CsvWriter::Flush::on_request);
+  }
 }
 
 std::vector<Vec3> Frames::node_forces(const Simulation& simulation) const {
@@ -109,25 +117,43 @@ void Frames::write_part(const std::string& name, dynamics::PvdSeries& series,
   series.add({{data.time, name, file}});
 }
 
-void Frames::write(const Simulation& simulation) {
+void Frames::write_membranes(Simulation& simulation, const dynamics::NodesView& nodes) {
+  const std::vector<double> tensions = tensions_of(simulation);
+  const auto membrane_forces = membrane_forces_of(simulation);
+  const auto stresses = stresses_of(simulation);
+  const auto tractions = simulation.facet_tractions();
+  const auto& elements = simulation.elements();
+  write_part("membranes", membranes_,
+             dynamics::surface_frame({nodes, elements.cylinders, tensions, elements.facets,
+                                      membrane_forces, stresses, tractions},
+                                     simulation.time()));
+}
+
+void Frames::write_contacts(Simulation& simulation) {
+  const std::vector<contact::ContactRow> contacts = simulation.list_contacts();
+  const double time = simulation.time();
+  if (settings_.contacts)
+    write_part("contacts", contacts_, dynamics::contacts_frame(contacts, time));
+  if (!contact_list_) return;
+  std::vector<double> row;
+  for (const contact::ContactRow& contact : contacts) {
+    dynamics::fill_contact_row(time, contact, row);
+    contact_list_->add(row);
+  }
+  contact_list_->flush();
+}
+
+void Frames::write(Simulation& simulation) {
   const dynamics::NodeState& state = simulation.state();
   const std::vector<Vec3> forces = node_forces(simulation);
   const dynamics::NodesView nodes{state.position, state.velocity, state.angular_velocity, forces};
-  const double time = simulation.time();
   if (settings_.grains) {
     write_part("grains", grains_,
-               dynamics::grains_frame({nodes, simulation.elements().spheres, sphere_ids_}, time));
+               dynamics::grains_frame({nodes, simulation.elements().spheres, sphere_ids_},
+                                      simulation.time()));
   }
-  if (settings_.membranes) {
-    const std::vector<double> tensions = tensions_of(simulation);
-    const auto membrane_forces = membrane_forces_of(simulation);
-    const auto& elements = simulation.elements();
-    write_part("membranes", membranes_,
-               dynamics::surface_frame(
-                   {nodes, elements.cylinders, tensions, elements.facets, membrane_forces}, time));
-  }
-  if (settings_.contacts)
-    write_part("contacts", contacts_, dynamics::contacts_frame(contact_rows(simulation), time));
+  if (settings_.membranes) write_membranes(simulation, nodes);
+  if (settings_.contacts || settings_.contact_list) write_contacts(simulation);
   ++count_;
 }
 

@@ -3,11 +3,14 @@
 
 #include "apps/run/simulation.hpp"
 #include "apps/scenario/scenario.hpp"
+#include "dynamics/output/csv_writer.hpp"
 #include "dynamics/output/pvd_series.hpp"
+#include "dynamics/output/scene_frame.hpp"
 #include "dynamics/output/vtk_writer.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +18,7 @@ namespace plekton::apps {
 
 /// Writes what a simulation looks like for ParaView: the time series grains.pvd, membranes.pvd and
 /// contacts.pvd in a folder, their data sets in its folder frames. The series are valid after every
-/// frame.
+/// frame. If it is asked for, contacts.csv has the contacts of every frame too.
 class Frames {
  public:
   /// Removes the series and frames that an earlier run left under the same names. @throws
@@ -24,7 +27,7 @@ class Frames {
          const Simulation& simulation);
 
   /// Writes the state of now. @throws dynamics::OutputError
-  void write(const Simulation& simulation);
+  void write(Simulation& simulation);
 
   std::size_t count() const noexcept { return count_; }
 
@@ -33,6 +36,8 @@ class Frames {
                   const dynamics::PolyData& data);
   /// Sum of contacts, bonds, loads and gravity on each node (N).
   std::vector<Vec3> node_forces(const Simulation& simulation) const;
+  void write_membranes(Simulation& simulation, const dynamics::NodesView& nodes);
+  void write_contacts(Simulation& simulation);
 
   std::filesystem::path folder_;
   OutputSettings settings_;
@@ -40,6 +45,7 @@ class Frames {
   dynamics::PvdSeries grains_;
   dynamics::PvdSeries membranes_;
   dynamics::PvdSeries contacts_;
+  std::optional<dynamics::CsvWriter> contact_list_;
   std::size_t count_ = 0;
 };
 

@@ -2,29 +2,43 @@
 #include "apps/run/history.hpp"
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace plekton::apps {
 namespace {
 
-const std::array<dynamics::CsvColumn, 19> kColumns = {{{"time", "s"},
-                                                       {"kinetic", "J"},
-                                                       {"contact_elastic", "J"},
-                                                       {"bond_elastic", "J"},
-                                                       {"sheet_elastic", "J"},
-                                                       {"gravity", "J"},
-                                                       {"friction", "J"},
-                                                       {"bond_dissipated", "J"},
-                                                       {"damping", "J"},
-                                                       {"external_work", "J"},
-                                                       {"closure_error", "J"},
-                                                       {"grain_grain_contacts", ""},
-                                                       {"grain_membrane_contacts", ""},
-                                                       {"membrane_membrane_contacts", ""},
-                                                       {"plane_contacts", ""},
-                                                       {"broken_bonds", ""},
-                                                       {"largest_overlap_ratio", ""},
-                                                       {"time_step", "s"},
-                                                       {"lost_grains", ""}}};
+constexpr std::array<dynamics::OutputField, 20> kFields = {{
+    {"time", "s", "simulated"},
+    {"kinetic", "J", "energy of motion of free nodes"},
+    {"contact_elastic", "J", "energy stored in contacts"},
+    {"bond_elastic", "J", "energy stored in beams and bars"},
+    {"sheet_elastic", "J", "energy stored in sheets"},
+    {"gravity", "J", "energy of weight, from the start"},
+    {"friction", "J", "dissipated by contacts"},
+    {"bond_dissipated", "J", "dissipated by bonds that yield or break"},
+    {"damping", "J", "dissipated by numerical and viscous damping"},
+    {"external_work", "J", "done by loads and by what is moved"},
+    {"closure_error", "J", "by which these do not add up"},
+    {"grain_grain_contacts", "", "how many"},
+    {"grain_membrane_contacts", "", "how many"},
+    {"membrane_membrane_contacts", "", "how many"},
+    {"plane_contacts", "", "how many"},
+    {"broken_bonds", "", "how many so far"},
+    {"largest_overlap_ratio", "", "overlap over the radius of the smaller ball"},
+    {"time_step", "s", "of the last step"},
+    {"lost_grains", "", "how many"},
+    {"unbalanced_force_ratio", "",
+     "mean resultant force on free nodes over the mean force that contacts, bonds and sheets "
+     "carry; inf where nothing is carried"},
+}};
+
+std::vector<dynamics::CsvColumn> columns() {
+  std::vector<dynamics::CsvColumn> columns;
+  for (const dynamics::OutputField& field : kFields)
+    columns.push_back({std::string(field.name), std::string(field.unit)});
+  return columns;
+}
 
 }  // namespace
 
@@ -35,20 +49,36 @@ std::size_t broken_bonds(const Simulation& simulation) {
   return count;
 }
 
+std::span<const dynamics::OutputField> history_fields() {
+  return kFields;
+}
+
 History::History(const std::filesystem::path& folder)
-    : writer_(folder / "energy.csv", kColumns, dynamics::CsvWriter::Flush::on_request) {}
+    : writer_(folder / "energy.csv", columns(), dynamics::CsvWriter::Flush::on_request) {}
 
 void History::add(const Simulation& simulation, const LostGrains& lost) {
   const dynamics::Energy energy = simulation.energy();
   const contact::ContactCounts counts = simulation.contact_counts();
-  writer_.add(
-      {simulation.time(), energy.kinetic, energy.contact_elastic, energy.bond_elastic,
-       energy.sheet_elastic, energy.gravity, energy.friction, energy.bond_dissipated,
-       energy.damping, energy.external_work, energy.closure_error(),
-       static_cast<double>(counts.sphere_sphere), static_cast<double>(counts.sphere_surface),
-       static_cast<double>(counts.between_structures), static_cast<double>(counts.with_planes),
-       static_cast<double>(broken_bonds(simulation)), simulation.present_overlap_ratio(),
-       simulation.time_step(), static_cast<double>(lost.total())});
+  writer_.add({simulation.time(),
+               energy.kinetic,
+               energy.contact_elastic,
+               energy.bond_elastic,
+               energy.sheet_elastic,
+               energy.gravity,
+               energy.friction,
+               energy.bond_dissipated,
+               energy.damping,
+               energy.external_work,
+               energy.closure_error(),
+               static_cast<double>(counts.sphere_sphere),
+               static_cast<double>(counts.sphere_surface),
+               static_cast<double>(counts.between_structures),
+               static_cast<double>(counts.with_planes),
+               static_cast<double>(broken_bonds(simulation)),
+               simulation.present_overlap_ratio(),
+               simulation.time_step(),
+               static_cast<double>(lost.total()),
+               simulation.unbalanced_force_ratio()});
 }
 
 }  // namespace plekton::apps

@@ -4,11 +4,17 @@
 #include "apps/run/frames.hpp"
 #include "apps/run/lost_grains.hpp"
 #include "dynamics/output/csv_writer.hpp"
+#include "dynamics/output/output_field.hpp"
+
+#include <span>
 
 namespace plekton::apps {
 
 /// How many bonds have broken so far. Linear in the number of bonds.
 std::size_t broken_bonds(const Simulation& simulation);
+
+/// The columns of energy.csv.
+std::span<const dynamics::OutputField> history_fields();
 
 /// Writes energy.csv: time, the energies and their closure error, contacts, overlap, lost grains.
 class History {

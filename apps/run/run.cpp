@@ -4,6 +4,7 @@
 #include "apps/run/history.hpp"
 #include "apps/run/lost_grains.hpp"
 #include "apps/run/output_folder.hpp"
+#include "apps/run/reactions.hpp"
 #include "apps/run/run_warnings.hpp"
 #include "dynamics/output/file.hpp"
 
@@ -13,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -51,8 +53,10 @@ class Run {
         lost_(simulation_.elements(), simulation_.state().position),
         frames_(settings.out, scenario.output, simulation_),
         history_(settings.out),
+        reactions_(settings.out, prepared.built.reactions),
         progress_(settings.progress, settings.style, scenario.simulation.duration) {
     report_.warnings = prepared.built.warnings;
+    if (reactions_.empty()) next_reactions_ = std::numeric_limits<double>::infinity();
     describe();
   }
 
@@ -106,11 +110,15 @@ class Run {
   /// Frames and rows whose time has come.
   void write_due(double time) {
     const double soon = 0.5 * simulation_.time_step();
-    if (time < std::min(next_row_, next_frame_) - soon) return;
+    if (time < std::min({next_row_, next_reactions_, next_frame_}) - soon) return;
     const TimeInto output(report_.output_time);
     if (time >= next_row_ - soon) {
       history_.add(simulation_, lost_);
       next_row_ = std::max(next_row_ + scenario_.output.history_interval, time);
+    }
+    if (time >= next_reactions_ - soon) {
+      reactions_.add(simulation_);
+      next_reactions_ = std::max(next_reactions_ + scenario_.output.reactions_interval, time);
     }
     if (time >= next_frame_ - soon) {
       write_frame();
@@ -121,6 +129,7 @@ class Run {
   void write_frame() {
     frames_.write(simulation_);
     history_.flush();
+    reactions_.flush();
     last_frame_step_ = simulation_.steps();
   }
 
@@ -130,9 +139,11 @@ class Run {
     const TimeInto output(report_.output_time);
     if (last_frame_step_ != simulation_.steps()) {
       history_.add(simulation_, lost_);
+      if (!reactions_.empty()) reactions_.add(simulation_);
       write_frame();
     }
     history_.close();
+    reactions_.close();
   }
 
   void watch_time_step() {
@@ -212,11 +223,13 @@ class Run {
   LostGrains lost_;
   Frames frames_;
   History history_;
+  Reactions reactions_;
   Progress progress_;
   RunReport report_;
   Progress::Clock::time_point start_ = Progress::Clock::now();
-  double next_row_ = 0.0;    // s
-  double next_frame_ = 0.0;  // s
+  double next_row_ = 0.0;        // s
+  double next_reactions_ = 0.0;  // s; infinite if there are none
+  double next_frame_ = 0.0;      // s
   std::int64_t last_frame_step_ = -1;
   std::int64_t next_look_at_grains_ = 1;
   bool has_moved_ = false;  // its kinetic energy was above that of [stop]

@@ -4,9 +4,11 @@
 #include "contact/laws/any_law.hpp"
 #include "dynamics/simulation.hpp"
 
-#include <functional>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace plekton::apps {
 
@@ -34,6 +36,7 @@ class Simulation {
   virtual const dynamics::SheetFacets& sheet_facets() const = 0;
   virtual const dynamics::NodeForces& forces() const = 0;
   virtual const geometry::Vec3& gravity() const = 0;
+  virtual const geometry::Surface& surface() const = 0;
 
   virtual dynamics::Energy energy() const = 0;
   virtual dynamics::CriticalStep critical_step() const = 0;
@@ -48,8 +51,15 @@ class Simulation {
   /// Of the last step.
   virtual double present_overlap_ratio() const = 0;
   virtual const geometry::Neighbours& neighbours() const = 0;
-  virtual void for_each_contact(
-      const std::function<void(const contact::ContactRow&)>& visit) const = 0;
+
+  virtual std::vector<contact::ContactRow> list_contacts() = 0;
+  virtual geometry::Vec3 force_point(std::size_t plane) const = 0;
+  virtual dynamics::ForceAndMoment plane_reaction(std::size_t plane) const = 0;
+  virtual dynamics::ForceAndMoment support_reaction(std::span<const geometry::NodeId> nodes,
+                                                    const geometry::Vec3& about) const = 0;
+  virtual double unbalanced_force_ratio() const = 0;
+  virtual std::vector<dynamics::FacetTraction> facet_tractions() = 0;
+  virtual dynamics::BondStress bond_stress(std::size_t bond) const = 0;
 };
 
 template <contact::ContactLaw Law>
@@ -74,6 +84,7 @@ class SimulationUnder final : public Simulation {
   const dynamics::SheetFacets& sheet_facets() const override { return simulation_.sheet_facets(); }
   const dynamics::NodeForces& forces() const override { return simulation_.forces(); }
   const geometry::Vec3& gravity() const override { return simulation_.gravity(); }
+  const geometry::Surface& surface() const override { return simulation_.surface(); }
 
   dynamics::Energy energy() const override { return simulation_.energy(); }
   dynamics::CriticalStep critical_step() const override { return simulation_.critical_step(); }
@@ -93,9 +104,24 @@ class SimulationUnder final : public Simulation {
   const geometry::Neighbours& neighbours() const override {
     return simulation_.contacts().neighbours();
   }
-  void for_each_contact(
-      const std::function<void(const contact::ContactRow&)>& visit) const override {
-    simulation_.contacts().for_each_row(simulation_.state().position, visit);
+
+  std::vector<contact::ContactRow> list_contacts() override { return simulation_.list_contacts(); }
+  geometry::Vec3 force_point(std::size_t plane) const override {
+    return simulation_.force_point(plane);
+  }
+  dynamics::ForceAndMoment plane_reaction(std::size_t plane) const override {
+    return simulation_.plane_reaction(plane);
+  }
+  dynamics::ForceAndMoment support_reaction(std::span<const geometry::NodeId> nodes,
+                                            const geometry::Vec3& about) const override {
+    return simulation_.support_reaction(nodes, about);
+  }
+  double unbalanced_force_ratio() const override { return simulation_.unbalanced_force_ratio(); }
+  std::vector<dynamics::FacetTraction> facet_tractions() override {
+    return simulation_.facet_tractions();
+  }
+  dynamics::BondStress bond_stress(std::size_t bond) const override {
+    return simulation_.bond_stress(bond);
   }
 
  private:

@@ -18,8 +18,9 @@ using Keys = std::vector<ListedKey>;
 const std::vector<std::set<std::string>>& absences() {
   static const std::vector<std::set<std::string>> sets = {
       {"loads[].plane", "loads[].grains", "loads[].angular_velocity", "loads[].turn",
-       "membranes[].longest_hole", "membranes[].wrap_detail", "membranes[].wire"},
-      {"loads[].plane", "loads[].membrane"},
+       "membranes[].longest_hole", "membranes[].wrap_detail", "membranes[].wire",
+       "output.reactions[].grains"},
+      {"loads[].plane", "loads[].membrane", "output.reactions[].membrane"},
       {}};
   return sets;
 }

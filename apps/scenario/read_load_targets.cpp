@@ -72,22 +72,31 @@ std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
   return pairs;
 }
 
-NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
-  constexpr std::array<std::string_view, 8> kWords = {"all",   "rim",   "x_min", "x_max",
-                                                      "y_min", "y_max", "z_min", "z_max"};
+NodeSetSettings read_whole_body(Section& section, const Scenario& scenario) {
   NodeSetSettings set;
+  set.place = section.place();
   set.of_grains = section.has("grains");
   if (set.of_grains == section.has("membrane")) {
     section.complain("membrane", fmt::format("got {} of membrane and grains; expected exactly one "
                                              "of them: whose nodes are meant",
                                              set.of_grains ? "both" : "none"));
-    section.has("nodes");
     return set;
   }
   set.body =
       (set.of_grains ? find_name(section, "grains", read_name(section, "grains"), scenario.grains)
                      : read_membrane_name(section, scenario))
           .value_or(0);
+  return set;
+}
+
+NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
+  constexpr std::array<std::string_view, 8> kWords = {"all",   "rim",   "x_min", "x_max",
+                                                      "y_min", "y_max", "z_min", "z_max"};
+  NodeSetSettings set = read_whole_body(section, scenario);
+  if (section.has("grains") == section.has("membrane")) {
+    section.has("nodes");
+    return set;
+  }
   set.place = section.place_of("nodes");
   if (section.is_table("nodes", "{ min = [..], max = [..] }")) {
     set.which = SetWhich::box;

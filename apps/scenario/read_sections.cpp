@@ -103,18 +103,6 @@ PlaneSettings read_plane(Section section, const Known& known) {
   return plane;
 }
 
-OutputSettings read_output(Section section, double duration) {
-  OutputSettings output;
-  output.interval = section.quantity("interval", {kTime, kPositive}, duration / 100.0);
-  output.history_interval =
-      section.quantity("history_interval", {kTime, kPositive}, duration / 1000.0);
-  output.grains = section.truth("grains", output.grains);
-  output.membranes = section.truth("membranes", output.membranes);
-  output.contacts = section.truth("contacts", output.contacts);
-  section.finish();
-  return output;
-}
-
 StopSettings read_stop(Section section) {
   StopSettings stop;
   stop.kinetic_energy = section.quantity("kinetic_energy", {kEnergy, kPositive});

@@ -26,8 +26,8 @@ MembraneSettings read_membrane(Section section, const Known& known);
 /// @param number  Position among the tables: grains without a seed of their own differ by it.
 GrainSettings read_grains(Section section, const Known& known, std::size_t number);
 PlaneSettings read_plane(Section section, const Known& known);
-/// @param duration  s, from which the intervals have their defaults
-OutputSettings read_output(Section section, double duration);
+/// @param scenario  with its duration, from which the intervals have their defaults, and its bodies
+OutputSettings read_output(Section section, const Scenario& scenario);
 StopSettings read_stop(Section section);
 
 /// @param scenario  with its membranes, grains and planes

@@ -134,12 +134,29 @@ struct PlaneSettings {
   std::size_t material = 0;
 };
 
+/// What forces a reaction adds up: those of bodies on a plane; those on supports of nodes; those of
+/// contacts on a body.
+enum class ReactionKind : std::uint8_t { plane, support, contacts };
+
+/// A force and a moment to be written as time goes on.
+struct ReactionSettings {
+  std::string name;
+  std::string path;  ///< what messages call it, as in "output.reactions.floor"
+  ReactionKind kind = ReactionKind::plane;
+  std::size_t plane = 0;      ///< of kind plane
+  NodeSetSettings nodes;      ///< of the other kinds; of contacts all nodes of the body
+  std::optional<Vec3> about;  ///< m, point of the moment; nothing: that of the plane, or the origin
+};
+
 struct OutputSettings {
-  double interval = 0.0;          ///< s, between frames
-  double history_interval = 0.0;  ///< s, between rows of energy.csv
+  double interval = 0.0;            ///< s, between frames
+  double history_interval = 0.0;    ///< s, between rows of energy.csv
+  double reactions_interval = 0.0;  ///< s, between rows of reactions.csv
   bool grains = true;
   bool membranes = true;
   bool contacts = true;
+  bool contact_list = false;  ///< contacts.csv
+  std::vector<ReactionSettings> reactions;
 };
 
 /// When to stop before the duration is over.

@@ -70,8 +70,8 @@ Scenario read_root(Section root, Problems& problems, const fs::path& path) {
   }
   read_bodies(root, scenario);
   const auto output = root.table("output");
-  scenario.output = read_output(output.value_or(Section(none, root.place(), "output", problems)),
-                                scenario.simulation.duration);
+  scenario.output =
+      read_output(output.value_or(Section(none, root.place(), "output", problems)), scenario);
   if (const auto section = root.table("stop")) scenario.stop = read_stop(*section);
   root.finish();
   return scenario;

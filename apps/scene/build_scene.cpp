@@ -2,6 +2,7 @@
 #include "apps/scene/build_scene.hpp"
 
 #include "apps/scene/build_loads.hpp"
+#include "apps/scene/build_reactions.hpp"
 #include "apps/scene/grain_generator.hpp"
 #include "apps/scene/membrane_builder.hpp"
 #include "geometry/mesh/import.hpp"
@@ -132,6 +133,7 @@ BuiltScene build_scene(const Scenario& scenario) {
   }
   problems.throw_if_any();
   add_loads(scenario, built);
+  add_reactions(scenario, built);
   return built;
 }
 

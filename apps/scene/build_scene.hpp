@@ -37,10 +37,20 @@ struct BuiltGrains {
   double largest = 0.0;   ///< m, radius
 };
 
+/// A reaction that is asked for, with its nodes.
+struct BuiltReaction {
+  std::string name;
+  ReactionKind kind = ReactionKind::plane;
+  std::size_t plane = 0;                ///< of kind plane
+  std::vector<geometry::NodeId> nodes;  ///< of the other kinds
+  std::optional<Vec3> about;            ///< m
+};
+
 struct BuiltScene {
   dynamics::Scene scene;
   std::vector<BuiltMembrane> membranes;
   std::vector<BuiltGrains> grains;
+  std::vector<BuiltReaction> reactions;
   std::vector<std::string> warnings;
 };
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/output/scene_frame.hpp"
 
+#include "dynamics/output/contact_fields.hpp"
+#include "dynamics/output/frame_fields.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -17,35 +20,35 @@ using geometry::Vec3;
 
 /// Scalars in single precision: value(i) for i in [0, count).
 template <class Value>
-DataArray scalars(std::string name, std::size_t count, Value value) {
+DataArray scalars(const OutputField& field, std::size_t count, Value value) {
   std::vector<float> values(count);
   for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<float>(value(i));
-  return {std::move(name), 1, std::move(values)};
+  return {std::string(field.name), 1, std::move(values)};
 }
 
 /// Vectors in single precision: value(i) for i in [0, count).
 template <class Value>
-DataArray vectors(std::string name, std::size_t count, Value value) {
+DataArray vectors(const OutputField& field, std::size_t count, Value value) {
   std::vector<float> values;
   values.reserve(3 * count);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3& vector = value(i);
     for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<float>(vector[axis]));
   }
-  return {std::move(name), 3, std::move(values)};
+  return {std::string(field.name), 3, std::move(values)};
 }
 
 /// The results every node has, for a choice of nodes.
 std::vector<DataArray> node_results(const NodesView& nodes, std::span<const NodeId> chosen) {
-  const auto results = [&](std::string name, std::span<const Vec3> values) {
+  const auto results = [&](const OutputField& field, std::span<const Vec3> values) {
     assert(values.size() == nodes.position.size() && "one value for each node");
-    return vectors(std::move(name), chosen.size(),
+    return vectors(field, chosen.size(),
                    [&](std::size_t i) -> const Vec3& { return values[index_of(chosen[i])]; });
   };
   std::vector<DataArray> arrays;
-  arrays.push_back(results("velocity", nodes.velocity));
-  arrays.push_back(results("angular_velocity", nodes.angular_velocity));
-  arrays.push_back(results("force", nodes.force));
+  arrays.push_back(results(frame_fields::kVelocity, nodes.velocity));
+  arrays.push_back(results(frame_fields::kSpin, nodes.angular_velocity));
+  arrays.push_back(results(frame_fields::kForce, nodes.force));
   return arrays;
 }
 
@@ -118,6 +121,63 @@ void add_cells(const SurfaceView& surface, std::span<const NodeId> nodes, PolyDa
   }
 }
 
+/// What a line and a facet have of something that only one of them may have.
+template <class OfLine, class OfFacet>
+DataArray cell_scalars(const OutputField& field, const SurfaceView& surface, OfLine of_line,
+                       OfFacet of_facet) {
+  const std::size_t lines = surface.cylinders.size();
+  return scalars(field, lines + surface.facets.size(),
+                 [&](std::size_t i) { return i < lines ? of_line(i) : of_facet(i - lines); });
+}
+
+constexpr auto kNothing = [](std::size_t) { return 0.0; };
+
+void add_stresses(const SurfaceView& surface, PolyData& data) {
+  assert(surface.stresses.size() == surface.cylinders.size() && "one for each cylinder");
+  const auto add = [&](const OutputField& field, double BondStress::*which) {
+    data.cell_arrays.push_back(cell_scalars(
+        field, surface, [&](std::size_t i) { return surface.stresses[i].*which; }, kNothing));
+  };
+  add(frame_fields::kAxialStress, &BondStress::axial);
+  add(frame_fields::kBendingStress, &BondStress::bending);
+  add(frame_fields::kTorsionStress, &BondStress::torsion);
+}
+
+void add_membrane_forces(const SurfaceView& surface, PolyData& data) {
+  assert(surface.membrane_forces.size() == surface.facets.size() && "one for each facet");
+  const auto add = [&](const OutputField& field, double PrincipalForces::*which) {
+    data.cell_arrays.push_back(cell_scalars(field, surface, kNothing, [&](std::size_t i) {
+      return surface.membrane_forces[i].*which;
+    }));
+  };
+  add(frame_fields::kLargest, &PrincipalForces::largest);
+  add(frame_fields::kSmallest, &PrincipalForces::smallest);
+}
+
+void add_tractions(const SurfaceView& surface, PolyData& data) {
+  assert(surface.tractions.size() == surface.facets.size() && "one for each facet");
+  const std::size_t lines = surface.cylinders.size();
+  data.cell_arrays.push_back(
+      cell_scalars(frame_fields::kPressure, surface, kNothing,
+                   [&](std::size_t i) { return surface.tractions[i].pressure; }));
+  data.cell_arrays.push_back(vectors(frame_fields::kShear, data.cell_count(), [&](std::size_t i) {
+    return i < lines ? Vec3(Vec3::Zero()) : surface.tractions[i - lines].shear;
+  }));
+}
+
+void add_cell_arrays(const SurfaceView& surface, PolyData& data) {
+  const SideTension side_tension(surface);
+  data.cell_arrays.push_back(cell_scalars(
+      frame_fields::kRadius, surface, [&](std::size_t i) { return surface.cylinders[i].radius; },
+      [&](std::size_t i) { return surface.facets[i].radius; }));
+  data.cell_arrays.push_back(cell_scalars(
+      frame_fields::kTension, surface, [&](std::size_t i) { return surface.tension[i]; },
+      [&](std::size_t i) { return side_tension.mean(surface.facets[i]); }));
+  if (!surface.stresses.empty()) add_stresses(surface, data);
+  if (!surface.membrane_forces.empty()) add_membrane_forces(surface, data);
+  if (!surface.tractions.empty()) add_tractions(surface, data);
+}
+
 }  // namespace
 
 PolyData grains_frame(const GrainsView& grains, double time) {
@@ -132,11 +192,11 @@ PolyData grains_frame(const GrainsView& grains, double time) {
   data.time = time;
   data.points = positions_of(grains.nodes, nodes);
   data.point_arrays = node_results(grains.nodes, nodes);
-  data.point_arrays.insert(data.point_arrays.begin(), scalars("radius", count, [&](std::size_t i) {
-                             return grains.spheres[i].radius;
-                           }));
-  data.point_arrays.push_back(
-      {"id", 1, std::vector<std::int64_t>(grains.id.begin(), grains.id.end())});
+  data.point_arrays.insert(data.point_arrays.begin(),
+                           scalars(frame_fields::kRadius, count,
+                                   [&](std::size_t i) { return grains.spheres[i].radius; }));
+  data.point_arrays.push_back({std::string(frame_fields::kId.name), 1,
+                               std::vector<std::int64_t>(grains.id.begin(), grains.id.end())});
   return data;
 }
 
@@ -152,48 +212,36 @@ PolyData surface_frame(const SurfaceView& surface, double time) {
   std::vector<std::int32_t> ids(nodes.size());
   std::transform(nodes.begin(), nodes.end(), ids.begin(),
                  [](NodeId node) { return static_cast<std::int32_t>(node); });
-  data.point_arrays.push_back({"node", 1, std::move(ids)});
-
-  const std::size_t lines = surface.cylinders.size();
-  const SideTension side_tension(surface);
-  data.cell_arrays.push_back(scalars("radius", data.cell_count(), [&](std::size_t i) {
-    return i < lines ? surface.cylinders[i].radius : surface.facets[i - lines].radius;
-  }));
-  data.cell_arrays.push_back(scalars("tension", data.cell_count(), [&](std::size_t i) {
-    return i < lines ? surface.tension[i] : side_tension.mean(surface.facets[i - lines]);
-  }));
-  if (surface.membrane_forces.empty()) return data;
-  assert(surface.membrane_forces.size() == surface.facets.size() && "one for each facet");
-  const auto add_forces = [&](std::string name, double PrincipalForces::*which) {
-    data.cell_arrays.push_back(scalars(std::move(name), data.cell_count(), [&](std::size_t i) {
-      return i < lines ? 0.0 : surface.membrane_forces[i - lines].*which;
-    }));
-  };
-  add_forces("membrane_force_largest", &PrincipalForces::largest);
-  add_forces("membrane_force_smallest", &PrincipalForces::smallest);
+  data.point_arrays.push_back({std::string(frame_fields::kNode.name), 1, std::move(ids)});
+  add_cell_arrays(surface, data);
   return data;
 }
 
-PolyData contacts_frame(std::span<const ContactRow> contacts, double time) {
+PolyData contacts_frame(std::span<const contact::ContactRow> contacts, double time) {
   const std::size_t count = contacts.size();
   PolyData data;
   data.time = time;
   data.points.reserve(2 * count);
-  for (const ContactRow& contact : contacts) {
+  for (const contact::ContactRow& contact : contacts) {
     const auto first = static_cast<std::int32_t>(data.points.size());
-    data.points.push_back(contact.core_point_a);
-    data.points.push_back(contact.core_point_b);
+    data.points.push_back(contact.point_a);
+    data.points.push_back(contact.point_b);
     data.lines.add({first, first + 1});
   }
-  const auto add_force = [&](const std::string& name, Vec3 ContactRow::*force) {
-    data.cell_arrays.push_back(
-        vectors(name, count, [&](std::size_t i) -> const Vec3& { return contacts[i].*force; }));
-    data.cell_arrays.push_back(scalars(name + "_magnitude", count,
-                                       [&](std::size_t i) { return (contacts[i].*force).norm(); }));
-  };
-  add_force("normal_force", &ContactRow::normal_force);
-  add_force("tangential_force", &ContactRow::tangential_force);
-  data.cell_arrays.push_back(scalars("gap", count, [&](std::size_t i) { return contacts[i].gap; }));
+  for (const ContactField& field : contact_fields()) {
+    if (const auto* vector = std::get_if<ContactField::Vector>(&field.value)) {
+      data.cell_arrays.push_back(
+          vectors(field, count, [&](std::size_t i) { return (*vector)(contacts[i]); }));
+    } else if (const auto* number = std::get_if<ContactField::Number>(&field.value)) {
+      data.cell_arrays.push_back(
+          scalars(field, count, [&](std::size_t i) { return (*number)(contacts[i]); }));
+    } else {
+      const auto whole = std::get<ContactField::Whole>(field.value);
+      std::vector<std::int64_t> values(count);
+      std::transform(contacts.begin(), contacts.end(), values.begin(), whole);
+      data.cell_arrays.push_back({std::string(field.name), 1, std::move(values)});
+    }
+  }
   return data;
 }
 

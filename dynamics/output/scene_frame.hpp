@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/contact_row.hpp"
 #include "dynamics/output/vtk_writer.hpp"
+#include "dynamics/readout/bond_stress.hpp"
+#include "dynamics/readout/facet_traction.hpp"
 #include "dynamics/structure/membrane_force.hpp"
 #include "geometry/cylinder.hpp"
 #include "geometry/facet.hpp"
@@ -38,32 +41,20 @@ struct SurfaceView {
   std::span<const double> tension;  ///< N, one for each cylinder, negative in compression
   std::span<const geometry::Facet> facets;
   std::span<const PrincipalForces> membrane_forces = {};  ///< one for each facet, or none at all
+  std::span<const BondStress> stresses = {};              ///< one for each cylinder, or none
+  std::span<const FacetTraction> tractions = {};          ///< one for each facet, or none
 };
 
-/// One contact.
-struct ContactRow {
-  geometry::Vec3 core_point_a;      ///< m
-  geometry::Vec3 core_point_b;      ///< m
-  geometry::Vec3 normal_force;      ///< N, on side b
-  geometry::Vec3 tangential_force;  ///< N, on side b
-  double gap;                       ///< m, negative when overlapping
-};
-
-/// One point and vertex for each sphere, in their order. Point arrays: radius (m), velocity (m/s),
-/// angular_velocity (rad/s), force (N), id.
+/// One point and vertex for each sphere, in their order, with the arrays frame_fields::kOfGrains.
 PolyData grains_frame(const GrainsView& grains, double time);
 
 /// Cylinders as lines and facets as triangles, over the nodes they share, in the order of the node
-/// ids. Point arrays: velocity (m/s), angular_velocity (rad/s), force (N), node. Cell arrays:
-/// radius (m); tension (N), of a facet the mean over its sides that are cylinders, 0 if none is;
-/// if membrane forces are given, membrane_force_largest and membrane_force_smallest (N/m), 0 of
-/// cylinders.
-/// Time grows with n log n for n cylinders.
+/// ids. Point arrays: frame_fields::kOfNodes; cell arrays: those of frame_fields::kOfCells for
+/// which something is given. Time grows with n log n for n cylinders.
 PolyData surface_frame(const SurfaceView& surface, double time);
 
 /// A line for each contact, from core point a to core point b; of no length where the cores touch.
-/// Cell arrays: normal_force and tangential_force (N, vectors on side b), their magnitudes, gap
-/// (m).
-PolyData contacts_frame(std::span<const ContactRow> contacts, double time);
+/// Cell arrays: contact_fields().
+PolyData contacts_frame(std::span<const contact::ContactRow> contacts, double time);
 
 }  // namespace plekton::dynamics

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/output/scene_frame.hpp"
 
+#include "dynamics/output/contact_fields.hpp"
+#include "dynamics/output/frame_fields.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -120,10 +123,75 @@ TEST(SurfaceFrame, ShowsTheMembraneForcesOfFacets) {
   EXPECT_THAT(floats(data.cell_arrays, "membrane_force_smallest"), ElementsAre(0, -2));
 }
 
+TEST(SurfaceFrame, ShowsStressesOfCylindersAndTractionsOnFacets) {
+  const FiveNodes nodes;
+  const std::array<Facet, 1> facets = {Facet{{node(0), node(1), node(2)}, 0.2}};
+  const std::array<Cylinder, 1> cylinders = {Cylinder{{node(0), node(1)}, 0.2}};
+  const std::array<double, 1> tension = {1.0};
+  const std::array<BondStress, 1> stresses = {BondStress{-1.0, 2.0, 3.0}};
+  const std::array<FacetTraction, 1> tractions = {FacetTraction{4.0, Vec3(5.0, 6.0, 7.0)}};
+
+  const PolyData data =
+      surface_frame({nodes.view(), cylinders, tension, facets, {}, stresses, tractions}, 0.0);
+
+  EXPECT_THAT(floats(data.cell_arrays, "axial_stress"), ElementsAre(-1, 0));
+  EXPECT_THAT(floats(data.cell_arrays, "bending_stress"), ElementsAre(2, 0));
+  EXPECT_THAT(floats(data.cell_arrays, "torsion_stress"), ElementsAre(3, 0));
+  EXPECT_THAT(floats(data.cell_arrays, "contact_pressure"), ElementsAre(0, 4));
+  EXPECT_THAT(floats(data.cell_arrays, "contact_shear"), ElementsAre(0, 0, 0, 5, 6, 7));
+}
+
+contact::ContactRow contact_of(const Vec3& point_a, const Vec3& point_b, const Vec3& normal_force,
+                               const Vec3& tangential_force, double gap) {
+  contact::ContactRow row;
+  row.point_a = point_a;
+  row.point_b = point_b;
+  row.point = 0.5 * (point_a + point_b);
+  row.normal = (point_b - point_a).normalized();
+  row.normal_force = normal_force;
+  row.tangential_force = tangential_force;
+  row.gap = gap;
+  return row;
+}
+
+std::vector<std::string> names_of(const std::vector<DataArray>& arrays) {
+  std::vector<std::string> names;
+  for (const DataArray& array : arrays) names.push_back(array.name);
+  return names;
+}
+
+template <class Fields>
+std::vector<std::string> names_of_fields(const Fields& fields) {
+  std::vector<std::string> names;
+  for (const OutputField& field : fields) names.emplace_back(field.name);
+  return names;
+}
+
+// What `plekton list` prints.
+TEST(SceneFrames, HaveTheArraysOfTheTablesInTheirOrder) {
+  const FiveNodes nodes;
+  const std::array<Facet, 1> facets = {Facet{{node(0), node(1), node(2)}, 0.2}};
+  const std::array<PrincipalForces, 1> forces{};
+  const std::array<FacetTraction, 1> tractions{};
+  const std::array<Cylinder, 1> cylinders = {Cylinder{{node(0), node(1)}, 0.2}};
+  const std::array<double, 1> tension{};
+  const std::array<BondStress, 1> stresses{};
+
+  const PolyData surface =
+      surface_frame({nodes.view(), cylinders, tension, facets, forces, stresses, tractions}, 0.0);
+
+  EXPECT_EQ(names_of(grains_frame({}, 0.0).point_arrays), names_of_fields(frame_fields::kOfGrains));
+  EXPECT_EQ(names_of(surface.point_arrays), names_of_fields(frame_fields::kOfNodes));
+  EXPECT_EQ(names_of(surface.cell_arrays), names_of_fields(frame_fields::kOfCells));
+  EXPECT_EQ(names_of(contacts_frame({}, 0.0).cell_arrays), names_of_fields(contact_fields()));
+}
+
 TEST(ContactsFrame, DrawsEachContactBetweenItsCorePoints) {
-  const std::array<ContactRow, 2> contacts = {
-      ContactRow{Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, 5), Vec3(3, 4, 0), -0.125},
-      ContactRow{Vec3(1, 0, 0), Vec3(1, 0, 2), Vec3(0, 0, 2), Vec3(0, 0, 0), -0.25}};
+  std::array<contact::ContactRow, 2> contacts = {
+      contact_of(Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, 5), Vec3(3, 4, 0), -0.125),
+      contact_of(Vec3(1, 0, 0), Vec3(1, 0, 2), Vec3(0, 0, 2), Vec3(0, 0, 0), -0.25)};
+  contacts[1].id = 7'000'000'000;
+  contacts[1].b = {contact::BodyKind::structure, 3, geometry::Feature(geometry::EdgeId{9})};
 
   const PolyData data = contacts_frame(contacts, 1.0);
 
@@ -135,6 +203,34 @@ TEST(ContactsFrame, DrawsEachContactBetweenItsCorePoints) {
   EXPECT_THAT(floats(data.cell_arrays, "tangential_force"), ElementsAre(3, 4, 0, 0, 0, 0));
   EXPECT_THAT(floats(data.cell_arrays, "tangential_force_magnitude"), ElementsAre(5, 0));
   EXPECT_THAT(floats(data.cell_arrays, "gap"), ElementsAre(-0.125F, -0.25F));
+  EXPECT_THAT(floats(data.cell_arrays, "point"), ElementsAre(0, 0, 0.5F, 1, 0, 1));
+  EXPECT_THAT(floats(data.cell_arrays, "normal"), ElementsAre(0, 0, 1, 0, 0, 1));
+  const auto whole = [&](const std::string& name) {
+    return std::get<std::vector<std::int64_t>>(array(data.cell_arrays, name).values);
+  };
+  EXPECT_THAT(whole("id"), ElementsAre(0, 7'000'000'000));
+  EXPECT_THAT(whole("kind_b"), ElementsAre(0, 2));
+  EXPECT_THAT(whole("body_b"), ElementsAre(-1, 3));
+  EXPECT_THAT(whole("feature_b"), ElementsAre(-1, 9));
+}
+
+TEST(ContactList, HasAColumnForEachNumberOfARow) {
+  std::vector<double> row{1.0, 2.0, 3.0};
+
+  fill_contact_row(
+      0.5, contact_of(Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, 5), Vec3(3, 4, 0), -0.125), row);
+
+  const std::vector<CsvColumn> columns = contact_columns();
+  ASSERT_EQ(row.size(), columns.size());
+  const auto value = [&](const std::string& name) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (columns[i].name == name) return row[i];
+    throw std::runtime_error("no column " + name);
+  };
+  EXPECT_EQ(value("time"), 0.5);
+  EXPECT_EQ(value("normal_force_z"), 5.0);
+  EXPECT_EQ(value("tangential_force_magnitude"), 5.0);
+  EXPECT_EQ(value("gap"), -0.125);
 }
 
 TEST(SceneFrames, KeepTheirArraysWhenThereIsNothingToShow) {
@@ -148,7 +244,7 @@ TEST(SceneFrames, KeepTheirArraysWhenThereIsNothingToShow) {
   }
   EXPECT_EQ(grains.point_arrays.size(), 5U);
   EXPECT_EQ(surface.cell_arrays.size(), 2U);
-  EXPECT_EQ(contacts.cell_arrays.size(), 5U);
+  EXPECT_EQ(contacts.cell_arrays.size(), contact_fields().size());
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(KeyList, HasEveryTableOfTheDocumentation) {
 
   EXPECT_EQ(tables, Words({"[simulation]", "[materials.NAME]", "[[contacts]]", "[[membranes]]",
                            "[[membranes]] shape", "[[grains]]", "[[planes]]", "[[loads]]",
-                           "[output]", "[stop]"}));
+                           "[output]", "[[output.reactions]]", "[stop]"}));
 }
 
 TEST(KeyList, HasNoKeyThatIsNotDocumented) {

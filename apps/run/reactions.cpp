@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/reactions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+namespace plekton::apps {
+namespace {
+
+using dynamics::ForceAndMoment;
+using geometry::index_of;
+
+constexpr std::array<dynamics::OutputField, 2> kFields = {{
+    {"force", "N", "what the plane, the supports or the body bear"},
+    {"moment", "N m", "about the point of the plane, the origin, or the point `about`"},
+}};
+
+std::vector<dynamics::CsvColumn> columns_of(const std::vector<BuiltReaction>& reactions) {
+  std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
+  for (const BuiltReaction& reaction : reactions) {
+    for (const dynamics::OutputField& field : kFields) {
+      for (const char* axis : {"_x", "_y", "_z"})
+        columns.push_back(
+            {reaction.name + "." + std::string(field.name) + axis, std::string(field.unit)});
+    }
+  }
+  return columns;
+}
+
+/// Spheres and structures.
+struct BodySet {
+  std::vector<bool> spheres;     // by SphereId
+  std::vector<bool> structures;  // by StructureId
+
+  bool has(const contact::ContactBody& body) const {
+    const auto index = static_cast<std::size_t>(body.index);
+    if (body.kind == contact::BodyKind::sphere) return spheres[index];
+    return body.kind == contact::BodyKind::structure && structures[index];
+  }
+};
+
+/// Those of the nodes, as they are now: structures come apart where bonds break.
+BodySet bodies_of(const BuiltReaction& reaction, const Simulation& simulation) {
+  std::vector<bool> is_node(simulation.state().size());
+  for (const geometry::NodeId node : reaction.nodes) is_node[index_of(node)] = true;
+  BodySet bodies;
+  for (const geometry::Sphere& sphere : simulation.elements().spheres)
+    bodies.spheres.push_back(is_node[index_of(sphere.nodes[0])]);
+  bodies.structures.resize(simulation.surface().structure_count());
+  for (const geometry::NodeId node : reaction.nodes) {
+    const geometry::StructureId structure = simulation.surface().structure_of(node);
+    if (structure != geometry::StructureId{-1}) bodies.structures[index_of(structure)] = true;
+  }
+  return bodies;
+}
+
+Vec3 about(const BuiltReaction& reaction) {
+  return reaction.about.value_or(Vec3::Zero());
+}
+
+ForceAndMoment of_contacts(const BuiltReaction& reaction,
+                           std::span<const contact::ContactRow> contacts,
+                           const Simulation& simulation) {
+  const BodySet bodies = bodies_of(reaction, simulation);
+  return dynamics::contact_force_on(
+      contacts, [&](const contact::ContactBody& body) { return bodies.has(body); },
+      about(reaction));
+}
+
+ForceAndMoment on_plane(const BuiltReaction& reaction, const Simulation& simulation) {
+  const ForceAndMoment value = simulation.plane_reaction(reaction.plane);
+  if (!reaction.about) return value;
+  ForceAndMoment moved;
+  moved.add(simulation.force_point(reaction.plane) - *reaction.about, value.force, value.moment);
+  return moved;
+}
+
+}  // namespace
+
+std::span<const dynamics::OutputField> reaction_fields() {
+  return kFields;
+}
+
+Reactions::Reactions(const std::filesystem::path& folder,
+                     const std::vector<BuiltReaction>& reactions)
+    : reactions_(reactions) {
+  std::error_code ignored;
+  std::filesystem::remove(folder / "reactions.csv", ignored);
+  lists_contacts_ = std::any_of(reactions_.begin(), reactions_.end(), [](const auto& reaction) {
+    return reaction.kind == ReactionKind::contacts;
+  });
+  if (!reactions_.empty()) {
+    writer_.emplace(folder / "reactions.csv", columns_of(reactions_),
+                    dynamics::CsvWriter::Flush::on_request);
+  }
+}
+
+void Reactions::add(Simulation& simulation) {
+  std::vector<contact::ContactRow> contacts;
+  if (lists_contacts_) contacts = simulation.list_contacts();
+  std::vector<double> row{simulation.time()};
+  for (const BuiltReaction& reaction : reactions_) {
+    ForceAndMoment value;
+    if (reaction.kind == ReactionKind::plane) value = on_plane(reaction, simulation);
+    if (reaction.kind == ReactionKind::support)
+      value = simulation.support_reaction(reaction.nodes, about(reaction));
+    if (reaction.kind == ReactionKind::contacts)
+      value = of_contacts(reaction, contacts, simulation);
+    row.insert(row.end(), value.force.data(), value.force.data() + 3);
+    row.insert(row.end(), value.moment.data(), value.moment.data() + 3);
+  }
+  writer_->add(row);
+}
+
+void Reactions::flush() {
+  if (writer_) writer_->flush();
+}
+
+void Reactions::close() {
+  if (writer_) writer_->close();
+}
+
+}  // namespace plekton::apps

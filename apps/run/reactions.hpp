@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/run/simulation.hpp"
+#include "apps/scene/build_scene.hpp"
+#include "dynamics/output/csv_writer.hpp"
+#include "dynamics/output/output_field.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace plekton::apps {
+
+/// What reactions.csv has of every reaction, for each of three axes, behind its name and a dot.
+std::span<const dynamics::OutputField> reaction_fields();
+
+/// Writes reactions.csv, if any are asked for.
+class Reactions {
+ public:
+  /// Removes the file of an earlier run. @throws dynamics::OutputError
+  Reactions(const std::filesystem::path& folder, const std::vector<BuiltReaction>& reactions);
+
+  bool empty() const noexcept { return reactions_.empty(); }
+
+  /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
+  /// dynamics::OutputError
+  void add(Simulation& simulation);
+  void flush();
+  void close();
+
+ private:
+  std::vector<BuiltReaction> reactions_;
+  bool lists_contacts_ = false;  ///< one of them is of kind contacts
+  std::optional<dynamics::CsvWriter> writer_;
+};
+
+}  // namespace plekton::apps

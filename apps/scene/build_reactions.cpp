@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scene/build_reactions.hpp"
+
+#include "apps/scene/node_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace plekton::apps {
+namespace {
+
+using dynamics::Held;
+
+const std::string& name_of_body(const NodeSetSettings& set, const BuiltScene& built) {
+  return set.of_grains ? built.grains[set.body].name : built.membranes[set.body].name;
+}
+
+/// Why there is nothing to support; empty if there is.
+std::string problem_of(const ReactionSettings& settings, const BuiltReaction& reaction,
+                       const std::vector<Held>& held, const BuiltScene& built) {
+  const std::string& name = name_of_body(settings.nodes, built);
+  if (reaction.nodes.empty())
+    return settings.nodes.which == SetWhich::rim
+               ? fmt::format(
+                     "\"{}\" is closed and has no rim; expected a side such as \"x_min\", "
+                     "or a box {{ min = [...], max = [...] }}",
+                     name)
+               : fmt::format(
+                     "\"{}\" has no node there; the box counts in the scene, after scale, "
+                     "rotate and translate",
+                     name);
+  const bool any_is_held = std::any_of(
+      reaction.nodes.begin(), reaction.nodes.end(),
+      [&](geometry::NodeId node) { return held[geometry::index_of(node)] != Held::nothing; });
+  if (any_is_held) return {};
+  return fmt::format(
+      "none of these nodes of \"{}\" is held or moved, so nothing supports them; "
+      "expected nodes of its `hold` or of a load of kind \"motion\", or kind = "
+      "\"contacts\"",
+      name);
+}
+
+}  // namespace
+
+void add_reactions(const Scenario& scenario, BuiltScene& built) {
+  Problems problems;
+  const std::vector<Held> held =
+      dynamics::held_with_motions(built.scene.properties.held, built.scene.loads.motions);
+  for (const ReactionSettings& settings : scenario.output.reactions) {
+    BuiltReaction reaction{settings.name, settings.kind, settings.plane, {}, settings.about};
+    if (settings.kind != ReactionKind::plane) reaction.nodes = nodes_of(settings.nodes, built);
+    if (settings.kind == ReactionKind::support) {
+      const std::string problem = problem_of(settings, reaction, held, built);
+      if (!problem.empty())
+        problems.add(settings.nodes.place, fmt::format("{}.nodes: {}", settings.path, problem));
+    }
+    built.reactions.push_back(std::move(reaction));
+  }
+  problems.throw_if_any();
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reactions and lists of contacts that a scenario asks for.
+#include "apps/run/history.hpp"
+#include "dynamics/output/contact_fields.hpp"
+#include "tests/apps/command_line/command_fixture.hpp"
+
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::string_view kReactions = R"(history_interval = "1 ms"
+contact_list = true
+[[output.reactions]]
+kind = "plane"
+plane = "floor"
+[[output.reactions]]
+name = "rim"
+kind = "support"
+membrane = "sheet"
+nodes = "rim"
+[[output.reactions]]
+kind = "contacts"
+membrane = "sheet"
+about = [0, 0, "-5 cm"]
+[[output.reactions]]
+kind = "contacts"
+grains = "gravel"
+about = [0, 0, "-5 cm"]
+)";
+
+/// A table of numbers under its head row.
+class Table {
+ public:
+  explicit Table(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    names_ = parts(line);
+    while (std::getline(lines, line)) {
+      std::vector<double> row;
+      for (const std::string& part : parts(line)) row.push_back(std::stod(part));
+      rows.push_back(row);
+    }
+  }
+  double at(const std::vector<double>& row, const std::string& name) const {
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (names_[i] == name) return row.at(i);
+    throw std::runtime_error("no column " + name);
+  }
+
+  std::vector<std::vector<double>> rows;
+
+ private:
+  static std::vector<std::string> parts(const std::string& line) {
+    std::vector<std::string> parts;
+    std::istringstream in(line);
+    for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+    return parts;
+  }
+  std::vector<std::string> names_;
+};
+
+class Outputs : public Command {
+ protected:
+  void set_output(const std::string& text) {
+    test::write_bytes(folder_ / "case.toml", std::string(kScenario) + text);
+  }
+  Outcome checked(const std::string& text) {
+    set_output(text);
+    return outcome_of({"check", scenario()});
+  }
+};
+
+TEST_F(Outputs, OfARunHaveReactionsThatObeyNewtonsThirdLaw) {
+  set_output(std::string(kReactions));
+  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out()}).exit_code, kDone);
+
+  const Table table(test::bytes_of(folder_ / "out/reactions.csv"));
+
+  ASSERT_EQ(table.rows.size(), 21u);
+  double largest = 0.0;
+  for (const auto& row : table.rows) {
+    for (const char* what : {"force_x (N)", "force_y (N)", "force_z (N)", "moment_x (N m)",
+                             "moment_y (N m)", "moment_z (N m)"}) {
+      const auto of = [&](const std::string& name) { return table.at(row, name + "." + what); };
+      const double size =
+          std::abs(of("floor")) + std::abs(of("sheet")) + table.at(row, "sheet.force_z (N)");
+      EXPECT_NEAR(of("gravel") + of("sheet") + of("floor"), 0.0, 1e-12 * std::abs(size) + 1e-14);
+    }
+    largest = std::max(largest, std::abs(table.at(row, "rim.force_z (N)")));
+  }
+  EXPECT_GT(largest, 0.0);
+}
+
+TEST_F(Outputs, ListTheContactsOfEveryFrameWithNumbersThatLast) {
+  set_output(std::string(kReactions));
+  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out()}).exit_code, kDone);
+
+  const Table table(test::bytes_of(folder_ / "out/contacts.csv"));
+
+  std::set<std::pair<double, double>> seen;
+  for (const auto& row : table.rows) {
+    EXPECT_GE(table.at(row, "id"), 1.0);
+    EXPECT_TRUE(seen.insert({table.at(row, "time (s)"), table.at(row, "id")}).second);
+  }
+  EXPECT_EQ(table.rows.back().at(0), table.at(table.rows.back(), "time (s)"));
+  const std::string frame = test::bytes_of(folder_ / "out/frames/contacts_00004.vtp");
+  const test::VtpReader reader(frame);
+  std::size_t at_end = 0;
+  for (const auto& row : table.rows) at_end += row[0] == table.rows.back()[0];
+  EXPECT_EQ(reader.count("NumberOfLines"), at_end);
+  for (const auto& field : dynamics::contact_fields())
+    EXPECT_THAT(frame, HasSubstr("Name=\"" + std::string(field.name) + "\""));
+}
+
+TEST_F(Outputs, LeaveNoListsOfAnEarlierRunBehind) {
+  set_output(std::string(kReactions));
+  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out()}).exit_code, kDone);
+  set_output("");
+
+  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out()}).exit_code, kDone);
+
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/reactions.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/contacts.csv"));
+}
+
+TEST_F(Outputs, ThatCannotBeAreNamedWithLineAndRemedy) {
+  const std::string text = checked(R"([[output.reactions]]
+kind = "plane"
+plane = "flor"
+[[output.reactions]]
+kind = "suport"
+[[output.reactions]]
+kind = "contacts"
+membrane = "sheet"
+nodes = "rim"
+[[output.reactions]]
+kind = "plane"
+plane = "floor"
+[[output.reactions]]
+kind = "support"
+name = "floor"
+membrane = "sheet"
+nodes = "rim"
+)")
+                               .err;
+
+  EXPECT_THAT(text, HasSubstr("case.toml:31:9: output.reactions[0].plane"));
+  EXPECT_THAT(text, HasSubstr("there is none called \"flor\"; did you mean \"floor\"?"));
+  EXPECT_THAT(text, HasSubstr("\"suport\""));
+  EXPECT_THAT(text, HasSubstr("did you mean \"support\"?"));
+  EXPECT_THAT(text, HasSubstr("expected kind = \"support\""));
+  EXPECT_THAT(text,
+              HasSubstr("case.toml:43:8: output.reactions.floor.name: \"floor\" is a reaction "
+                        "already"));
+  EXPECT_THAT(text, HasSubstr("4 problems"));
+}
+
+TEST_F(Outputs, OfSupportsNeedNodesThatAreHeld) {
+  EXPECT_THAT(checked(R"([[output.reactions]]
+kind = "support"
+grains = "gravel"
+)")
+                  .err,
+              HasSubstr("none of these nodes of \"gravel\" is held or moved, so nothing supports "
+                        "them; expected nodes of its `hold`"));
+  EXPECT_THAT(checked(R"([[output.reactions]]
+kind = "support"
+membrane = "sheet"
+nodes = { min = ["5 m", "5 m", "5 m"], max = ["6 m", "6 m", "6 m"] }
+)")
+                  .err,
+              HasSubstr("\"sheet\" has no node there"));
+}
+
+TEST_F(Outputs, AreListedFromTheTablesThatWriteThem) {
+  const std::string text = outcome_of({"list"}).out;
+
+  for (const dynamics::OutputField& field : history_fields())
+    EXPECT_THAT(text, HasSubstr("    " + std::string(field.name) + " "));
+  for (const dynamics::OutputField& field : dynamics::contact_fields())
+    EXPECT_THAT(text, HasSubstr("    " + std::string(field.name) + " "));
+  EXPECT_THAT(text, HasSubstr("contact_pressure           Pa"));
+}
+
+}  // namespace
+}  // namespace plekton::apps
