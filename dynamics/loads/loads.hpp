@@ -35,7 +35,7 @@ struct PrescribedMotion {
   Vec3 velocity = Vec3::Zero();          ///< m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
   TimeTable factor;
-  std::optional<AxisTurn> turn;  ///< only where all of the translation is prescribed
+  std::optional<AxisTurn> turn = std::nullopt;  ///< only where all of the translation is prescribed
 };
 
 /// A plane that moves with velocity factor(t).
@@ -82,7 +82,7 @@ struct SurfacePressure {
   TimeTable factor;        ///< of the pressure
   std::optional<Gas> gas;  ///< only where the facets are closed
   /// In place of the pressure and a gas, times factor(t); only where the facets are closed.
-  std::optional<PressureByVolume> by_volume;
+  std::optional<PressureByVolume> by_volume = std::nullopt;
 };
 
 /// Dashpots along beams: c = 2 ratio sqrt(EA/L0 m), with m the reduced mass of the two nodes (half
