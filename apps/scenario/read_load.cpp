@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace plekton::apps {
 namespace {
@@ -16,11 +18,21 @@ using dynamics::TimeTable;
 constexpr Range kGain{0.0, 1.0, false, true, " above 0, at most 1"};
 
 /// The table that multiplies a load; 1 if there is none.
-TimeTable read_factor(Section& section) {
-  if (!section.has("factor")) return {};
+/// @param must_change  the load does nothing where the factor stays as it is
+TimeTable read_factor(Section& section, bool must_change = false) {
+  constexpr std::string_view kRemedy =
+      "nodes move as the factor changes; give factor = [[\"0 s\", 0], [\"10 ms\", 1]]";
+  const bool is_given = section.has("factor");
+  if (must_change && !is_given) section.complain("factor", fmt::format("missing; {}", kRemedy));
+  if (!is_given) return {};
   std::vector<TimeTable::Row> rows;
   for (const auto& [time, value] : section.rising_rows("factor", {kTime}, {kNumber}))
     rows.push_back({time, value});
+  const bool changes = std::any_of(rows.begin(), rows.end(), [&](const TimeTable::Row& row) {
+    return row.value != rows.front().value;
+  });
+  if (must_change && !rows.empty() && !changes)
+    section.complain("factor", fmt::format("is {} at all times; {}", rows.front().value, kRemedy));
   return rows.empty() ? TimeTable() : TimeTable(std::move(rows));
 }
 
@@ -75,6 +87,12 @@ bool are_turned(const NodeSetSettings& set, const Scenario& scenario) {
   return membrane.mode != MembraneMode::truss && membrane.bending_stiffness != 0.0;
 }
 
+/// Whether the motion has a part that goes with the change of its factor.
+bool follows_change(const dynamics::PrescribedMotion& motion) {
+  const bool turns = motion.turn && std::abs(motion.turn->angle) > 0.0;
+  return turns || (motion.displacement.array().abs() > 0.0).any();
+}
+
 MotionSettings read_motion(Section& section, const Scenario& scenario) {
   MotionSettings settings;
   settings.nodes = read_node_set(section, scenario);
@@ -100,7 +118,7 @@ MotionSettings read_motion(Section& section, const Scenario& scenario) {
   if (turns) motion.angular_velocity = section.vector("angular_velocity", {kAngularVelocity});
   if (turns && (motion.held & Held::rotation) != Held::rotation)
     section.complain("hold_rotation", "got false, but angular_velocity says how the nodes turn");
-  motion.factor = read_factor(section);
+  motion.factor = read_factor(section, follows_change(motion));
   return settings;
 }
 

@@ -234,6 +234,22 @@ TEST_F(Loads, AreRefusedAsMotionsThatDoNotSayHow) {
                  "loads.a.components: a turn moves nodes along all axes");
 }
 
+TEST_F(Loads, AreRefusedAsMotionsWhoseFactorNeverChanges) {
+  const std::string motion = "kind = \"motion\"\nmembrane = \"sheet\"\nnodes = \"x_max\"\n";
+  const std::string remedy =
+      "nodes move as the factor changes; give factor = [[\"0 s\", 0], [\"10 ms\", 1]]";
+  const std::string lift = motion + "displacement = [0, 0, \"1 mm\"]\n";
+  expect_problem(lift, "loads.a.factor: missing; " + remedy);
+  expect_problem(lift + "factor = [[0, 1], [\"1 ms\", 1]]\n",
+                 "loads.a.factor: is 1 at all times; " + remedy);
+  expect_problem(motion + "turn = { point = [0, 0, 0], angle = \"9 deg\" }\n",
+                 "loads.a.factor: missing; " + remedy);
+  expect_problem(motion + "velocity = [0, 0, 1]\nturn = { point = [0, 0, 0], angle = 1 }\n",
+                 "loads.a.factor: missing; " + remedy);
+  EXPECT_EQ(check("[[loads]]\nname = \"a\"\n" + motion + "displacement = [0, 0, 0]\n").exit_code,
+            kDone);
+}
+
 TEST_F(Loads, AreRefusedAsServosWithoutATarget) {
   const std::string servo = "kind = \"servo\"\nplane = \"lid\"\nspeed = \"1 cm/s\"\n";
   expect_problem(servo,
