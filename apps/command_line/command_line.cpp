@@ -63,13 +63,16 @@ Scenario scenario_of(const CommandLine& line) {
 /// What a run has written to its folder.
 std::string files_in(const fs::path& folder) {
   std::string files = "run.json, energy.csv";
-  std::string_view before = ", and for ParaView ";
-  for (const std::string_view series : {"grains.pvd", "membranes.pvd", "contacts.pvd"}) {
+  const auto add = [&](std::string_view name, std::string_view before) {
     std::error_code ignored;
-    if (!fs::exists(folder / series, ignored)) continue;
-    files += fmt::format("{}{}", before, series);
-    before = ", ";
-  }
+    const bool is_there = fs::exists(folder / name, ignored);
+    if (is_there) files += fmt::format("{}{}", before, name);
+    return is_there;
+  };
+  for (const std::string_view table : {"reactions.csv", "contacts.csv"}) add(table, ", ");
+  std::string_view before = ", and for ParaView ";
+  for (const std::string_view series : {"grains.pvd", "membranes.pvd", "contacts.pvd"})
+    if (add(series, before)) before = ", ";
   return files;
 }
 

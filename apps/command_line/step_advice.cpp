@@ -159,9 +159,10 @@ class StepAdvice {
           "target_edge)",
           what, name, length_text(usual), length_text(size));
     return fmt::format(
-        "the {}s of {} are all of about this size: a coarser mesh, a lower young_modulus or a "
-        "larger density of it",
-        what, name);
+        "the {}s of {} are all of about this size: a coarser mesh, {} or a larger density of it",
+        what, name,
+        scenario_.membranes[*membrane_].wire ? "a softer first piece of wire"
+                                             : "a lower young_modulus");
   }
 
   std::string contact_advice() const {

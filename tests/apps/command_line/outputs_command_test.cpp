@@ -99,7 +99,10 @@ TEST_F(Outputs, OfARunHaveReactionsThatObeyNewtonsThirdLaw) {
 
 TEST_F(Outputs, ListTheContactsOfEveryFrameWithNumbersThatLast) {
   set_output(std::string(kReactions));
-  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out()}).exit_code, kDone);
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
+  ASSERT_EQ(outcome.exit_code, kDone);
+  EXPECT_THAT(outcome.out, HasSubstr("run.json, energy.csv, reactions.csv, contacts.csv, and for "
+                                     "ParaView "));
 
   const Table table(test::bytes_of(folder_ / "out/contacts.csv"));
 

@@ -58,6 +58,17 @@ class StrengthCommand : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
+TEST_F(StrengthCommand, AdvisesASofterWireWhereThereIsNoModulusToLower) {
+  test::write_bytes(folder_ / "case.toml",
+                    scenario_with(kHexagonal, "mode = \"truss\"\nwire = [[0.01, 1000]]"));
+
+  const Outcome outcome = outcome_of({"check", (folder_ / "case.toml").string()});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("a coarser mesh, a softer first piece of wire or a larger "
+                                     "density"));
+}
+
 TEST_F(StrengthCommand, GivesBeamsTheirLimits) {
   const BuiltScene scene = built(kSheet, R"(young_modulus = "2 GPa"
 yield_stress = "20 MPa"
