@@ -48,6 +48,12 @@ void refuse_others(const contact::LawRow& chosen, Section& section) {
   }
 }
 
+/// For a law that is not known: any parameter may be one of its.
+void announce_all(Section& section) {
+  for (const contact::LawRow& law : contact::contact_laws())
+    for (const LawParameter& parameter : law.parameters) section.has(parameter.name);
+}
+
 std::vector<std::string_view> names_of_laws() {
   std::vector<std::string_view> names;
   for (const contact::LawRow& law : contact::contact_laws()) names.push_back(law.name);
@@ -62,11 +68,15 @@ PairSettings read_contact(Section section, const Known& known,
   const auto first = read_material_of(section, known, "between");
   const auto second = read_material_of(section, known, "and");
   const std::vector<std::string_view> names = names_of_laws();
-  pair.contact.law = section.choice("law", names, 0);
+  const auto chosen = section.known_choice("law", names, 0);
+  pair.contact.law = chosen.value_or(0);
   const contact::LawRow& law = contact::contact_laws()[pair.contact.law];
   read_parameters(law.parameters, section, pair.contact);
   read_parameters(contact::common_law_parameters(), section, pair.contact);
-  refuse_others(law, section);
+  if (chosen)
+    refuse_others(law, section);
+  else
+    announce_all(section);
   section.finish();
   if (!first || !second) return pair;
   std::tie(pair.first, pair.second) = std::minmax(*first, *second);

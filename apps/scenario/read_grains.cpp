@@ -94,7 +94,7 @@ std::variant<std::size_t, double> read_amount(Section& section, std::optional<do
 
 GrainSettings read_grains(Section section, const Known& known, std::size_t number) {
   GrainSettings grains;
-  grains.name = section.text("name", fmt::format("grains {}", number));
+  grains.name = section.name("name", fmt::format("grains {}", number));
   grains.place = section.place();
   std::optional<double> density;
   if (const auto material = read_material_of(section, known)) {

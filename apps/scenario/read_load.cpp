@@ -201,7 +201,7 @@ LoadSettings read_load(Section section, const Scenario& scenario, std::size_t nu
       "motion",  "force",          "pressure",     "servo",
       "gravity", "ground_springs", "beam_damping", "mass_damping"};
   LoadSettings settings;
-  settings.name = section.text("name", fmt::format("loads {}", number));
+  settings.name = section.name("name", fmt::format("loads {}", number));
   settings.path = section.path();
   settings.place = section.place();
   const std::optional<std::size_t> kind = section.known_choice("kind", kKinds);

@@ -101,7 +101,7 @@ MembraneSettings read_membrane(Section section, const Known& known) {
   constexpr std::array<std::string_view, 2> kMassModes = {"edge", "area"};
   constexpr std::array<std::string_view, 3> kModes = {"lattice", "truss", "continuum"};
   MembraneSettings membrane;
-  membrane.name = section.text("name", "membrane");
+  membrane.name = section.name("name", "membrane");
   read_membrane_source(section, known, membrane);
   membrane.placement = read_placement(section);
   membrane.mode = static_cast<MembraneMode>(section.choice("mode", kModes, 0));

@@ -31,6 +31,11 @@ std::optional<dynamics::BondStrength> read_strength(Section& section) {
   strength.rupture_strain = section.quantity("rupture_strain", {kStrain, kPositive}, kNever);
   require_yield(section, "hardening");
   require_yield(section, "rupture_strain");
+  if (section.has("yield_stress") && strength.strength < strength.yield_stress)
+    section.complain(
+        "strength", fmt::format("{:g} Pa is below the yield_stress of {:g} Pa: it breaks before it "
+                                "yields; leave yield_stress out, or give a strength above it",
+                                strength.strength, strength.yield_stress));
   return strength;
 }
 
@@ -38,7 +43,8 @@ std::optional<dynamics::BondStrength> read_strength(Section& section) {
 std::optional<dynamics::WireCurve> read_curve(Section& section, std::string_view key) {
   if (!section.has(key)) return std::nullopt;
   dynamics::WireCurve curve;
-  for (const auto& [strain, force] : section.rising_rows(key, {kStrain}, {kForce}))
+  for (const auto& [strain, force] :
+       section.rising_rows(key, {kStrain, kPositive}, {kForce, kNotNegative}))
     curve.points.push_back({strain, force});
   if (curve.points.empty()) return std::nullopt;
   std::ostringstream problems;

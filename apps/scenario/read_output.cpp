@@ -32,7 +32,7 @@ ReactionSettings read_reaction(Section section, const Scenario& scenario,
                                const std::vector<ReactionSettings>& earlier) {
   ReactionSettings reaction;
   reaction.path = section.path();
-  const std::string name = section.text("name", "");
+  const std::string name = section.name("name", "");
   if (section.has("about")) reaction.about = section.vector("about", {kLength});
   const auto kind = section.known_choice("kind", kReactionKinds);
   if (!kind) return reaction;

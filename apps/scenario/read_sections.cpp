@@ -89,7 +89,7 @@ geometry::Box read_box(Section section) {
 
 PlaneSettings read_plane(Section section, const Known& known) {
   PlaneSettings plane;
-  plane.name = section.text("name", "");
+  plane.name = section.name("name", "");
   plane.point = section.vector("point", {kLength});
   plane.normal = section.vector("normal", kAnyNumber, plane.normal);
   plane.velocity = section.vector("velocity", {kVelocity}, plane.velocity);

@@ -285,6 +285,16 @@ std::string Section::text(std::string_view key, const std::optional<std::string>
   return "";
 }
 
+std::string Section::name(std::string_view key, const std::optional<std::string>& fallback) {
+  const std::string name = text(key, fallback);
+  const bool is_one_line = std::none_of(name.begin(), name.end(), [](char c) {
+    return static_cast<unsigned char>(c) < ' ' || c == 127;
+  });
+  if (is_one_line) return name;
+  complain(key, "has a line break or another control character; expected a name on one line");
+  return "";
+}
+
 std::optional<std::size_t> Section::position_of(const Value& value, std::string_view key,
                                                 std::span<const std::string_view> words) {
   const auto* text = std::get_if<std::string>(&value.data);
@@ -297,21 +307,20 @@ std::optional<std::size_t> Section::position_of(const Value& value, std::string_
 
 std::size_t Section::choice(std::string_view key, std::span<const std::string_view> words,
                             std::optional<std::size_t> fallback) {
+  if (!recorder_ && !fallback && require(key) == nullptr) return 0;
+  return known_choice(key, words, fallback).value_or(0);
+}
+
+std::optional<std::size_t> Section::known_choice(std::string_view key,
+                                                 std::span<const std::string_view> words,
+                                                 std::optional<std::size_t> fallback) {
   if (records(key, listed(words),
               fallback ? std::optional(fmt::format("\"{}\"", words[*fallback])) : std::nullopt,
               words))
     return recorder_->choice(path_of(key), words).value_or(fallback.value_or(0));
-  const Value* value = fallback ? find(key) : require(key);
-  if (value == nullptr) return fallback.value_or(0);
-  return position_of(*value, key, words).value_or(0);
-}
-
-std::optional<std::size_t> Section::known_choice(std::string_view key,
-                                                 std::span<const std::string_view> words) {
-  if (records(key, listed(words), {}, words))
-    return recorder_->choice(path_of(key), words).value_or(0);
   const Value* value = find(key);
   if (value) return position_of(*value, key, words);
+  if (fallback) return fallback;
   problems_->add(place_,
                  fmt::format("{}: missing; expected one of {}", path_of(key), listed(words)));
   return std::nullopt;

@@ -88,15 +88,18 @@ class Section {
   bool truth(std::string_view key, bool fallback);
   /// Empty after a problem.
   std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
+  /// A text of one line: no control characters. Empty after a problem.
+  std::string name(std::string_view key, const std::optional<std::string>& fallback = {});
   /// A list of texts, none of them empty; empty after a problem.
   std::vector<std::string> texts(std::string_view key);
   /// Position among the words; 0 after a problem. Without a fallback the key is required.
   std::size_t choice(std::string_view key, std::span<const std::string_view> words,
                      std::optional<std::size_t> fallback = {});
 
-  /// Position among the words of a key that is required; nothing after a problem.
+  /// Position among the words; nothing after a problem. Without a fallback the key is required.
   std::optional<std::size_t> known_choice(std::string_view key,
-                                          std::span<const std::string_view> words);
+                                          std::span<const std::string_view> words,
+                                          std::optional<std::size_t> fallback = {});
 
   /// A table in this one.
   std::optional<Section> table(std::string_view key);

@@ -121,6 +121,15 @@ TEST_F(Outputs, ListTheContactsOfEveryFrameWithNumbersThatLast) {
     EXPECT_THAT(frame, HasSubstr("Name=\"" + std::string(field.name) + "\""));
 }
 
+TEST_F(Outputs, RefuseANameThatWouldBreakTheHeaderOfATable) {
+  const Outcome outcome =
+      checked("[[output.reactions]]\nname = \"a\\nb\"\nkind = \"plane\"\nplane = \"floor\"\n");
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr(".name: has a line break or another control character; "
+                                     "expected a name on one line"));
+}
+
 TEST_F(Outputs, LeaveNoListsOfAnEarlierRunBehind) {
   set_output(std::string(kReactions));
   ASSERT_EQ(outcome_of({"run", scenario(), "--out", out()}).exit_code, kDone);

@@ -18,6 +18,7 @@ namespace {
 using dynamics::BondStrength;
 using dynamics::WireCurve;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::string_view kHexagonal =
     R"(kind = "hexagonal_net", mesh_size = "8 cm", twist_length = "4 cm", wire_height = "3 cm", meshes = [4, 3])";
@@ -112,7 +113,7 @@ TEST_F(StrengthCommand, NamesWhatIsWrongWithItsLineAndARemedy) {
   struct Case {
     std::string_view shape, more, message;
   };
-  const std::array<Case, 14> cases{{
+  const std::array<Case, 15> cases{{
       {kSheet, "young_modulus = \"2 GPa\"\nyield_stress = \"-1 MPa\"",
        "case.toml:14:16: membranes.m.yield_stress: got \"-1 MPa\""},
       {kSheet, "young_modulus = \"2 GPa\"\nyield_stress = \"1 MPa\"\nhardening = \"-1 MPa\"",
@@ -131,8 +132,10 @@ TEST_F(StrengthCommand, NamesWhatIsWrongWithItsLineAndARemedy) {
        "rows by "
        "increasing strain"},
       {kHexagonal, "mode = \"truss\"\nwire = [[0.01, 1000], [0.02, \"-1 N\"]]",
-       "case.toml:14:8: membranes.m.wire: the curve, point 2: the force is -1 N; a wire does not "
-       "push"},
+       "case.toml:14:30: membranes.m.wire[1][1]: got \"-1 N\"; expected a force of at least 0"},
+      {kSheet, "young_modulus = 1e9\nyield_stress = \"20 MPa\"\nstrength = \"10 MPa\"",
+       "case.toml:15:12: membranes.m.strength: 1e+07 Pa is below the yield_stress of 2e+07 Pa: it "
+       "breaks before it yields; leave yield_stress out"},
       {kHexagonal, "mode = \"truss\"\nwire = [[0.01, 1000], [0.02, 3000]]",
        "membranes.m.wire: the curve, point 2: the piece before it is steeper"},
       {kHexagonal, "mode = \"truss\"\nwire = [[0.01, \"1 MPa\"]]", "expected a force"},
@@ -147,6 +150,8 @@ TEST_F(StrengthCommand, NamesWhatIsWrongWithItsLineAndARemedy) {
   }};
   for (const Case& c : cases)
     EXPECT_THAT(error_of(c.shape, c.more), HasSubstr(std::string(c.message))) << c.more;
+  EXPECT_THAT(error_of(kHexagonal, "mode = \"truss\"\nwire = [[0.01, -1000], [0.02, 3000]]"),
+              Not(HasSubstr("problems")));
   EXPECT_THAT(error_of(kHexagonal, "mode = \"truss\"\ntwist_wire = [[0.01, 1000]]"),
               HasSubstr("twist_wire: goes with wire, the curve of the single wires; give both"));
 }

@@ -75,6 +75,10 @@ TEST(ReadContact, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(complaint("[[contacts]]\nbetween = \"soil\"\nand = \"stel\"\n")
                 .find("did you mean \"steel\"?"),
             std::string::npos);
+  const std::string unknown =
+      complaint(pair + "law = \"jkr\"\nwork_of_adhesion = \"1 J/m2\"\ntensile_strength = 1\n");
+  EXPECT_NE(unknown.find("got \"jkr\"; expected one of"), std::string::npos) << unknown;
+  EXPECT_EQ(unknown.find('\n'), std::string::npos) << unknown;
   const std::string twice = complaint(pair + pair);
   EXPECT_NE(twice.find("already"), std::string::npos);
   EXPECT_NE(twice.find("test.toml:21"), std::string::npos) << twice;
