@@ -25,13 +25,16 @@ struct Energy {
     return kinetic + contact_elastic + bond_elastic + sheet_elastic + gravity + friction +
            bond_dissipated + damping - external_work - initial;
   }
-  /// What went through: all that is or was something else than energy of position.
+  /// What went through: all that is or was something else than energy of position, in magnitude.
+  /// What bodies give up to an attraction is negative while they touch, and energy that a step too
+  /// long or a law makes shows as negative dissipation: taken off, they would hide an error.
   double turnover() const noexcept {
-    return kinetic + contact_elastic + bond_elastic + sheet_elastic + friction + bond_dissipated +
-           damping;
+    return std::abs(kinetic) + std::abs(contact_elastic) + std::abs(bond_elastic) +
+           std::abs(sheet_elastic) + std::abs(friction) + std::abs(bond_dissipated) +
+           std::abs(damping);
   }
-  /// Closure error over turnover; 0 where the error is no more than rounding, as when nothing has
-  /// happened.
+  /// Magnitude of the closure error over turnover, >= 0; 0 where the error is no more than
+  /// rounding, as when nothing has happened.
   double closure() const noexcept {
     const double error = std::abs(closure_error());
     return error > rounding ? error / turnover() : 0.0;

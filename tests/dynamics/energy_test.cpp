@@ -176,6 +176,19 @@ TEST(Energy, HasNoClosureWhereNothingHasHappened) {
   EXPECT_EQ(dynamics::Energy{}.closure(), 0.0);
 }
 
+/// Friction of -3 J is energy that was made, and an attraction stores less than nothing.
+TEST(Energy, HasAClosureWhereWhatIsNegativeOutweighsTheRest) {
+  dynamics::Energy energy;
+  energy.kinetic = 1.0;
+  energy.contact_elastic = -0.5;
+  energy.friction = -3.0;
+  energy.initial = 0.5;
+
+  EXPECT_EQ(energy.closure_error(), -3.0);
+  EXPECT_EQ(energy.turnover(), 4.5);
+  EXPECT_EQ(energy.closure(), 3.0 / 4.5);
+}
+
 TEST(Energy, HasNoClosureWhereASheetRattlesInItsLastDigits) {
   for (const double offset : {0.0, 1000.0}) {
     Scene scene;

@@ -43,5 +43,14 @@ TEST(RunWarnings, NameDeepOverlapsEnergyThatDoesNotAddUpAndLostGrains) {
                           HasSubstr("20 grains are lost: 4 passed through")));
 }
 
+TEST(RunWarnings, NameEnergyThatDoesNotAddUpWhereNegativePartsOutweighTheRest) {
+  RunReport report;
+  report.energy.kinetic = 1.0;
+  report.energy.friction = -3.0;
+  report.energy_closure = report.energy.closure();
+
+  EXPECT_THAT(warnings_about(report), ElementsAre(HasSubstr("off by 50 %")));
+}
+
 }  // namespace
 }  // namespace plekton::apps
