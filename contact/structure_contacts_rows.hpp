@@ -54,6 +54,7 @@ ContactRow StructureContacts<Law>::row_of(const Patch& patch, std::uint32_t deep
   row.moment = patch.second.moment_about(row.point, x);
   if constexpr (HasMoments<Law>) row.moment += patch.moment;
   set_state<Law>(row, patch.parameters(meeting), patch.memory.history, patch.normal_force);
+  row.is_bonded = false;  // bonds between structures do not pull
   return row;
 }
 

@@ -63,7 +63,8 @@ std::string summary_of(const dynamics::ExactStep& step) {
   return fmt::format(
       "critical step by power iteration: {:.4g} s (to {:.1g} %, {} products), of the scene as it "
       "is "
-      "now: with its {} contacts, and none that may come\n",
+      "now: with its {} contacts of grains and planes, those between membranes by bounds at their "
+      "nodes (not counted), and none that may come\n",
       step.dt, 100.0 * step.error, step.products, step.contacts);
 }
 

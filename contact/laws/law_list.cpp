@@ -73,7 +73,8 @@ constexpr std::array<LawRow, 4> kLaws{
      {DmtAdhesion::name, "hertz_mindlin with adhesion (Derjaguin, Muller & Toporov 1975)",
       kAdhesion},
      {CohesiveFrictional::name,
-      "linear springs glued where they touch first, fragile or ductile (Bourrier et al. 2013)",
+      "linear springs glued where they touch first, fragile or ductile (Bourrier et al. 2013); "
+      "between membranes the glue carries shear while they touch, but does not pull",
       kCohesion}}};
 
 PropertiesOf<AnyLaw> with_law(const ContactSettings& settings) {

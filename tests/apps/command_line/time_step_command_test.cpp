@@ -91,7 +91,9 @@ TEST_F(TimeStepAdvice, IsJoinedByPowerIterationIfAsked) {
   const std::string asked = check({}, {"--power-iteration"});
 
   EXPECT_THAT(asked, HasSubstr("critical step by power iteration: "));
-  EXPECT_THAT(asked, HasSubstr("with its 0 contacts, and none that may come"));
+  EXPECT_THAT(asked,
+              HasSubstr("with its 0 contacts of grains and planes, those between membranes by "
+                        "bounds at their nodes (not counted), and none that may come"));
   EXPECT_THAT(check({}), Not(HasSubstr("power iteration")));
 }
 
