@@ -120,6 +120,37 @@ double reach_of(const typename Law::Parameters& parameters) {
   }
 }
 
+/// A law under which bodies that touch attract each other with a force that does not depend on how
+/// deep. force() and history_energy() have it too; structures, whose contacts are counted by a
+/// measure that moves with them, take it from here instead and give the law parameters without it.
+///
+/// attraction(parameters): the force (N), >= 0; without_attraction(parameters): the same but for
+/// it.
+template <class Law>
+concept HasAttraction = requires(const typename Law::Parameters& parameters) {
+  { Law::attraction(parameters) } -> std::same_as<double>;
+  { Law::without_attraction(parameters) } -> std::same_as<typename Law::Parameters>;
+};
+
+/// N, 0 for laws without one.
+template <class Law>
+double attraction_of(const typename Law::Parameters& parameters) {
+  if constexpr (HasAttraction<Law>) {
+    return Law::attraction(parameters);
+  } else {
+    return 0.0;
+  }
+}
+
+template <class Law>
+typename Law::Parameters without_attraction(const typename Law::Parameters& parameters) {
+  if constexpr (HasAttraction<Law>) {
+    return Law::without_attraction(parameters);
+  } else {
+    return parameters;
+  }
+}
+
 /// Whether bodies with this history stick to each other.
 template <class Law>
 bool holds(const typename Law::History& history) {

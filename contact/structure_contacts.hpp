@@ -23,13 +23,13 @@ namespace plekton::contact {
 
 /// Contacts of structures with each other, and of a structure with itself where it folds.
 ///
-/// The elastic force is the gradient of one energy, a sum over pairs of features
-/// (structure/nearest.hpp, structure/extended.hpp) with the weights of product_features.hpp: one
-/// contact for every part of the contact region, and one more for every diameter of length or
-/// square diameter of area on which bodies run side by side. Everything else - friction - is
-/// decided once per patch, a part of the region that hangs together: its spring is as stiff as the
-/// contacts it counts, it acts where the elastic force acts, and it follows the patch over the
-/// mesh.
+/// The elastic force, and an attraction of bodies that touch, is the gradient of one energy, a sum
+/// over pairs of features (structure/nearest.hpp, structure/extended.hpp) with the weights of
+/// product_features.hpp: one contact for every part of the contact region, and one more for every
+/// diameter of length or square diameter of area on which bodies run side by side. Everything else
+/// - friction - is decided once per patch, a part of the region that hangs together: its spring is
+/// as stiff as the contacts it counts, it acts where the elastic force acts, and it follows the
+/// patch over the mesh.
 template <ContactLaw Law>
 class StructureContacts {
  public:
@@ -189,13 +189,14 @@ void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& material
   };
   for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
     for (std::size_t k = i; k < surface_->structure_count(); ++k) {
-      meetings_.push_back(
-          {materials.pairs.combine(part(i), part(k)), part(i).radius, part(k).radius});
+      const typename Law::Parameters parameters = materials.pairs.combine(part(i), part(k));
+      meetings_.push_back({without_attraction<Law>(parameters), part(i).radius, part(k).radius,
+                           attraction_of<Law>(parameters)});
     }
   }
   for (const Meeting& meeting : meetings_) {
     springs_.push_back(structure::NormalSpring::of<Law>(
-        meeting.parameters, meeting.radius_first + meeting.radius_second));
+        meeting.parameters, meeting.radius_first + meeting.radius_second, &meeting.attraction));
   }
 }
 
@@ -306,6 +307,13 @@ void StructureContacts<Law>::add_up_patches(Positions x) {
       side_a.add_force(places.a[k], term.forces.on_a[k]);
     for (std::size_t k = 0; k < term.b.count; ++k)
       side_b.add_force(places.b[k], term.forces.on_b[k]);
+    const structure::PairForces* const attraction = terms_.attraction(terms_.acting()[i]);
+    if (attraction == nullptr) continue;
+    patch.attraction_energy += attraction->energy;
+    for (std::size_t k = 0; k < term.a.count; ++k)
+      side_a.add_attraction(places.a[k], attraction->on_a[k]);
+    for (std::size_t k = 0; k < term.b.count; ++k)
+      side_b.add_attraction(places.b[k], attraction->on_b[k]);
   }
   for (Patch& patch : patches_) patch.find_totals(meeting_of(patch), x);
 }
@@ -318,7 +326,8 @@ void StructureContacts<Law>::add_forces(NodeForces& forces) const {
 template <ContactLaw Law>
 double StructureContacts<Law>::elastic_energy() const {
   double energy = 0.0;
-  for (const Patch& patch : patches_) energy += patch.energy + history_energy(patch);
+  for (const Patch& patch : patches_)
+    energy += patch.energy + patch.attraction_energy + history_energy(patch);
   return energy;
 }
 

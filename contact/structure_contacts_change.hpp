@@ -26,7 +26,7 @@ double StructureContacts<Law>::follow(const geometry::SurfaceChange& change,
   return lost - normal_energy(*surface_, pairs, at, pool);
 }
 
-/// J, of the elastic normal forces where the nodes are at a moment.
+/// J, of the elastic normal forces and of the attraction where the nodes are at a moment.
 template <ContactLaw Law>
 double StructureContacts<Law>::normal_energy(const geometry::Surface& surface,
                                              std::span<const geometry::CellPair> pairs,
@@ -35,7 +35,10 @@ double StructureContacts<Law>::normal_energy(const geometry::Surface& surface,
   terms.rebuild(pairs);
   terms.evaluate(springs_, at, pool);
   double energy = 0.0;
-  for (const std::uint32_t acting : terms.acting()) energy += terms[acting].forces.energy;
+  for (const std::uint32_t acting : terms.acting()) {
+    energy += terms[acting].forces.energy;
+    if (const structure::PairForces* of = terms.attraction(acting)) energy += of->energy;
+  }
   return energy;
 }
 

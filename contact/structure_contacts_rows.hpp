@@ -50,7 +50,7 @@ ContactRow StructureContacts<Law>::row_of(const Patch& patch, std::uint32_t deep
   row.point = row.point_b + patch.lever_of_second(meeting);
   row.normal = patch.memory.normal;
   row.gap = patch.gap;
-  set_force(row, patch.elastic_force + patch.other_force);
+  set_force(row, patch.elastic_force + patch.second.total_attraction() + patch.other_force);
   row.moment = patch.second.moment_about(row.point, x);
   if constexpr (HasMoments<Law>) row.moment += patch.moment;
   set_state<Law>(row, patch.parameters(meeting), patch.memory.history, patch.normal_force);

@@ -13,7 +13,13 @@ namespace plekton::contact {
 /// together: it is there at zero load too (Derjaguin, 1934).
 ///
 /// The attraction acts once on every contact, as it counts: a ball on a flat sheet has one, however
-/// many facets there are.
+/// many facets there are. Between structures, whose contacts count for more the longer they lie
+/// side by side, it is part of the energy that is summed over the region: -(2 pi w R) per contact
+/// and overlap, so that it also pulls towards more of it, and an overlap of 0 stores nothing.
+///
+/// The force jumps where bodies come to touch or part. In the energy of a step of length dt that is
+/// an error up to F v dt / 2 of either sign, with F all attraction that begins at once and v the
+/// speed of approach: sheets that fall flat on each other want short steps.
 struct DmtAdhesion {
   static constexpr std::string_view name = "dmt_adhesion";
 
@@ -43,6 +49,10 @@ struct DmtAdhesion {
   static double elastic_normal_energy(const Parameters& p, double gap) noexcept {
     return HertzMindlin::elastic_normal_energy(p.elastic, gap);
   }
+
+  /// See HasAttraction.
+  static double attraction(const Parameters& p) noexcept { return p.attraction; }
+  static Parameters without_attraction(const Parameters& p) noexcept { return {p.elastic, 0.0}; }
 
   static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
                             double dt) noexcept {

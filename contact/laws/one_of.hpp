@@ -70,6 +70,18 @@ struct OneOf {
         history);
   }
 
+  /// See HasAttraction.
+  static double attraction(const Parameters& parameters) {
+    return of_law(parameters, []<class Law>(const ParametersFor<Law>& p) {
+      return attraction_of<Law>(p.values);
+    });
+  }
+  static Parameters without_attraction(const Parameters& parameters) {
+    return of_law(parameters, []<class Law>(const ParametersFor<Law>& p) -> Parameters {
+      return ParametersFor<Law>{contact::without_attraction<Law>(p.values)};
+    });
+  }
+
   static ContactForce force(const Parameters& parameters, const RelativeMotion& motion,
                             History& history, double dt) {
     return of_law(parameters, [&]<class Law>(const ParametersFor<Law>& p) {

@@ -41,6 +41,12 @@ struct Sum {
   static double reach(const Parameters& p) { return reach_of<Whole>(p.whole); }
   static bool holds(const History& history) { return contact::holds<Whole>(history.whole); }
 
+  /// See HasAttraction.
+  static double attraction(const Parameters& p) { return attraction_of<Whole>(p.whole); }
+  static Parameters without_attraction(const Parameters& p) {
+    return {contact::without_attraction<Whole>(p.whole), p.part};
+  }
+
   static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
                             double dt) noexcept {
     const ContactForce whole = Whole::force(p.whole, motion, history.whole, dt);

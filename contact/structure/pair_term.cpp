@@ -92,18 +92,10 @@ bool find_on(const geometry::FeatureNodes& feature, const geometry::FeatureNodes
 }
 
 /// Adds forces, as often as the term counts.
-void add(const PairForces& from, PairTerm& term) {
-  PairForces& to = term.forces;
+void add(const PairForces& from, const PairTerm& term, PairForces& to) {
   to.energy += term.weight * from.energy;
   for (std::size_t i = 0; i < term.a.count; ++i) to.on_a[i] += term.weight * from.on_a[i];
   for (std::size_t i = 0; i < term.b.count; ++i) to.on_b[i] += term.weight * from.on_b[i];
-}
-
-void assign(const PairForces& from, PairTerm& term) {
-  PairForces& to = term.forces;
-  to.energy = term.weight * from.energy;
-  for (std::size_t i = 0; i < term.a.count; ++i) to.on_a[i] = term.weight * from.on_a[i];
-  for (std::size_t i = 0; i < term.b.count; ++i) to.on_b[i] = term.weight * from.on_b[i];
 }
 
 }  // namespace
@@ -161,19 +153,26 @@ bool takes_over(const PairTerm& term, const PairTerm& other, bool is_turned,
   return true;
 }
 
-void evaluate(PairTerm& term, const TermProximity& found, const NormalSpring& spring,
-              geometry::Positions x) {
+PairForces pair_forces(const PairTerm& term, const TermProximity& found, const NormalSpring& spring,
+                       geometry::Positions x) {
   const CoreProximity& nearest = found.cores;
-  term.meets = nearest.points.relation == geometry::Relation::touching_or_crossing;
-  term.overlap = spring.range() - nearest.signed_distance;
+  PairForces forces;
   if (nearest.signed_distance < kMeeting * spring.range()) {
-    assign(at_nearest_points(nearest, spring), term);
-    return;
+    add(at_nearest_points(nearest, spring), term, forces);
+    return forces;
   }
   const Simplex a = simplex_at(term.a, term.is_seam_a, x);
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
-  assign(nearest_part(a, b, nearest, found.may_be_flat, spring), term);
-  if (can_extend(a, b)) add(extended_part(a, b, spring), term);
+  add(nearest_part(a, b, nearest, found.may_be_flat, spring), term, forces);
+  if (can_extend(a, b)) add(extended_part(a, b, spring), term, forces);
+  return forces;
+}
+
+void evaluate(PairTerm& term, const TermProximity& found, const NormalSpring& spring,
+              geometry::Positions x) {
+  term.meets = found.cores.points.relation == geometry::Relation::touching_or_crossing;
+  term.overlap = spring.range() - found.cores.signed_distance;
+  term.forces = pair_forces(term, found, spring, x);
 }
 
 }  // namespace plekton::contact::structure

@@ -49,6 +49,11 @@ TermProximity proximity(const PairTerm& term, double range, geometry::Positions 
 bool takes_over(const PairTerm& term, const PairTerm& other, bool is_turned,
                 const TermProximity& of_other, TermProximity& found);
 
+/// What a spring of the same range as its own does in a term in range: its weight times what the
+/// spring does at the nearest points, plus what it does over the extent.
+PairForces pair_forces(const PairTerm& term, const TermProximity& found, const NormalSpring& spring,
+                       geometry::Positions x);
+
 /// Finds the forces of a term in range.
 void evaluate(PairTerm& term, const TermProximity& found, const NormalSpring& spring,
               geometry::Positions x);

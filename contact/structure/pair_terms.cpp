@@ -67,11 +67,12 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
 
 void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& motion,
                          geometry::ThreadPool& pool) {
+  if (terms_are_new_) prepare_attractions(springs);
   find_near_pairs(springs, motion, pool);
   list_candidates();
   is_acting_.resize(candidates_.size());
   in_turns(candidates_.size(), pool, [&](std::size_t i) {
-    is_acting_[i] = evaluate_candidate(terms_[candidates_[i]], springs, motion.position);
+    is_acting_[i] = evaluate_candidate(candidates_[i], springs, motion.position);
   });
   acted_.swap(acting_);
   acting_.clear();
@@ -80,6 +81,15 @@ void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& mo
   }
   acting_changed_ = terms_are_new_ || acting_ != acted_;
   terms_are_new_ = false;
+}
+
+void PairTerms::prepare_attractions(std::span<const NormalSpring> springs) {
+  attracts_.clear();
+  attractions_.clear();
+  if (std::none_of(springs.begin(), springs.end(), [](const auto& of) { return of.attracts(); }))
+    return;
+  for (const NormalSpring& spring : springs) attracts_.push_back(spring.attracts());
+  attractions_.resize(terms_.size());
 }
 
 void PairTerms::find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
@@ -119,23 +129,30 @@ void PairTerms::list_candidates() {
 }
 
 /// @returns whether it is in range
-bool PairTerms::evaluate_candidate(PairTerm& term, std::span<const NormalSpring> springs,
+bool PairTerms::evaluate_candidate(std::size_t i, std::span<const NormalSpring> springs,
                                    Positions x) {
+  const PairTerm& term = terms_[i];
   const NormalSpring& spring = springs[term.spring];
   if (term.is_of_cells) {
-    structure::evaluate(term, proximity_[holders(term).front().pair], spring, x);
+    act(i, proximity_[holders(term).front().pair], spring, x);
     return true;
   }
   TermProximity own;
   for (const Holder& holder : holders(term)) {
     const PairTerm& cells = terms_[term_of_pair_[holder.pair]];
     if (!takes_over(term, cells, holder.is_turned, proximity_[holder.pair], own)) continue;
-    structure::evaluate(term, own, spring, x);
+    act(i, own, spring, x);
     return true;
   }
   own = proximity(term, spring.range(), x, false, {});
-  if (own.clearance < 0.0) structure::evaluate(term, own, spring, x);
+  if (own.clearance < 0.0) act(i, own, spring, x);
   return own.clearance < 0.0;
+}
+
+void PairTerms::act(std::size_t i, const TermProximity& found, const NormalSpring& spring,
+                    Positions x) {
+  structure::evaluate(terms_[i], found, spring, x);
+  if (spring.attracts()) attractions_[i] = pair_forces(terms_[i], found, spring.attraction(), x);
 }
 
 }  // namespace plekton::contact::structure

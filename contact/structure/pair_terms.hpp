@@ -42,6 +42,11 @@ class PairTerms {
     return {holders_.data() + term.first_holder, term.holder_count};
   }
 
+  /// What attracts the features of a term in range, besides its forces; null if nothing does.
+  const PairForces* attraction(std::size_t term) const noexcept {
+    return attracts_.empty() || attracts_[terms_[term].spring] == 0 ? nullptr : &attractions_[term];
+  }
+
   /// Of a pair of cells in range at the last evaluate(): the corners of the features that hold its
   /// nearest points, of its first cell and of its second.
   std::array<geometry::FeatureNodes, 2> carriers(std::uint32_t pair) const noexcept;
@@ -55,11 +60,16 @@ class PairTerms {
   void find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
                        geometry::ThreadPool& pool);
   void list_candidates();
-  bool evaluate_candidate(PairTerm& term, std::span<const NormalSpring> springs, Positions x);
+  void prepare_attractions(std::span<const NormalSpring> springs);
+  bool evaluate_candidate(std::size_t i, std::span<const NormalSpring> springs, Positions x);
+  void act(std::size_t i, const TermProximity& found, const NormalSpring& spring, Positions x);
 
   const geometry::Surface* surface_;
   std::vector<PairTerm> terms_;
   std::vector<Holder> holders_;
+  std::vector<char> attracts_;  ///< by spring; empty if none does
+  std::vector<PairForces>
+      attractions_;  ///< by term, of those in range; empty if no spring attracts
   std::vector<std::uint32_t> first_holders_;  ///< by term, and the number of all
   std::vector<std::uint32_t> term_of_pair_;   ///< of both cells
   bool terms_are_new_ = false;

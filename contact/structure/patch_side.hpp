@@ -10,8 +10,8 @@
 
 namespace plekton::contact::structure {
 
-/// The nodes of one side of a patch, each with the elastic force on it and with its share of the
-/// patch's force. A share may be negative; the shares add up to 1.
+/// The nodes of one side of a patch, each with the elastic force on it, with what attracts it, and
+/// with its share of the patch's elastic force. A share may be negative; the shares add up to 1.
 class PatchSide {
  public:
   void clear() noexcept { nodes_.clear(); }
@@ -28,11 +28,24 @@ class PatchSide {
     return static_cast<std::uint32_t>(found - nodes_.begin());
   }
 
-  void reset_forces() { forces_.assign(nodes_.size(), Vec3::Zero()); }
+  void reset_forces() {
+    forces_.assign(nodes_.size(), Vec3::Zero());
+    attractions_.assign(nodes_.size(), Vec3::Zero());
+  }
   void add_force(std::uint32_t place, const Vec3& force) noexcept { forces_[place] += force; }
+  void add_attraction(std::uint32_t place, const Vec3& force) noexcept {
+    attractions_[place] += force;
+  }
+  /// Of what add_force() has added up.
   Vec3 total_force() const {
     Vec3 total = Vec3::Zero();
     for (const Vec3& force : forces_) total += force;
+    return total;
+  }
+
+  Vec3 total_attraction() const {
+    Vec3 total = Vec3::Zero();
+    for (const Vec3& force : attractions_) total += force;
     return total;
   }
 
@@ -51,16 +64,17 @@ class PatchSide {
     point_ = origin + point_ / sum;
   }
 
-  /// What add_force() has added up, on the nodes.
-  void add_elastic_forces(NodeForces& forces) const {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) forces.force[index_of(nodes_[i])] += forces_[i];
+  /// What add_force() and add_attraction() have added up, on the nodes.
+  void add_normal_forces(NodeForces& forces) const {
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      forces.force[index_of(nodes_[i])] += forces_[i] + attractions_[i];
   }
 
-  /// N m, of what add_force() has added up.
+  /// N m, of the same.
   Vec3 moment_about(const Vec3& about, Positions x) const {
     Vec3 moment = Vec3::Zero();
     for (std::size_t i = 0; i < nodes_.size(); ++i)
-      moment += (x[index_of(nodes_[i])] - about).cross(forces_[i]);
+      moment += (x[index_of(nodes_[i])] - about).cross(forces_[i] + attractions_[i]);
     return moment;
   }
 
@@ -105,8 +119,9 @@ class PatchSide {
   }
 
  private:
-  std::vector<NodeId> nodes_;  ///< ascending
-  std::vector<Vec3> forces_;   ///< N
+  std::vector<NodeId> nodes_;      ///< ascending
+  std::vector<Vec3> forces_;       ///< N
+  std::vector<Vec3> attractions_;  ///< N
   std::vector<double> shares_;
   Vec3 point_ = Vec3::Zero();
 };

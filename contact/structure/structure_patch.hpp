@@ -12,9 +12,10 @@ namespace plekton::contact::structure {
 /// Two structures that may touch, or one that may touch itself.
 template <ContactLaw Law>
 struct Meeting {
-  typename Law::Parameters parameters;
-  double radius_first;  ///< m, of the lower structure
+  typename Law::Parameters parameters;  ///< without the attraction
+  double radius_first;                  ///< m, of the lower structure
   double radius_second;
+  double attraction;  ///< N, of one contact
 };
 
 /// A part of the contact region of two structures that hangs together: one contact, as far as the
@@ -23,6 +24,7 @@ template <ContactLaw Law>
 struct StructurePatch {
   std::uint32_t meeting = 0;
   double energy = 0.0;                ///< J, elastic
+  double attraction_energy = 0.0;     ///< J, <= 0 but for what counts as negative
   Vec3 elastic_force = Vec3::Zero();  ///< N, on the second side
   double normal_force = 0.0;          ///< N, its magnitude
   double count = 0.0;                 ///< how many contacts it is
@@ -32,7 +34,7 @@ struct StructurePatch {
   ContactMemory<Law> memory;
   std::int64_t id = 0;    ///< 0: none yet
   double id_from = -1.0;  ///< N, normal force of the patch of the last step that the id is from
-  Vec3 other_force = Vec3::Zero();  ///< N, on the second side: all that is not elastic
+  Vec3 other_force = Vec3::Zero();  ///< N, on the second side: all but that and attraction
   Vec3 moment = Vec3::Zero();       ///< N m, on the second side
 
   /// No forces yet; the nodes stay.
@@ -40,6 +42,7 @@ struct StructurePatch {
     first.reset_forces();
     second.reset_forces();
     energy = 0.0;
+    attraction_energy = 0.0;
     memory = {};
     id = 0;
     id_from = -1.0;
@@ -90,8 +93,8 @@ struct StructurePatch {
   }
 
   void add_forces(const Meeting<Law>& bodies, NodeForces& forces) const {
-    first.add_elastic_forces(forces);
-    second.add_elastic_forces(forces);
+    first.add_normal_forces(forces);
+    second.add_normal_forces(forces);
     if (!pushes()) return;
     first.add_force_at(lever_of_first(bodies), -other_force, forces);
     second.add_force_at(lever_of_second(bodies), other_force, forces);

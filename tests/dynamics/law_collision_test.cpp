@@ -46,6 +46,17 @@ std::vector<Case> all_cases() {
   return cases;
 }
 
+/// Of structures, which fall on each other with some 100 N: on one contact, an attraction of 12 N.
+std::vector<Case> sticky_cases() {
+  const NamedLaw sticky{"StrongAdhesion", test::with<contact::DmtAdhesion>({200.0})};
+  std::vector<Case> cases;
+  for (std::size_t i = 1; i < kBodies.size(); ++i) {
+    for (std::size_t j = i; j < kBodies.size(); ++j)
+      cases.push_back({sticky, kBodies[i], kBodies[j]});
+  }
+  return cases;
+}
+
 /// The node of a body that stands alone that is furthest along z, up (1) or down (-1).
 Vec3 extreme_node(const Scene& scene, double side) {
   const auto& x = scene.state.position;
@@ -105,9 +116,12 @@ TEST_P(LawCollision, KeepsBothMomentaAndGainsNoEnergy) {
   EXPECT_LE(worst_closure, 5e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, LawCollision, testing::ValuesIn(all_cases()), [](const auto& item) {
+std::string name_of(const testing::TestParamInfo<Case>& item) {
   return std::string(item.param.law.name) + item.param.flying.name + "On" + item.param.still.name;
-});
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, LawCollision, testing::ValuesIn(all_cases()), name_of);
+INSTANTIATE_TEST_SUITE_P(OfSticky, LawCollision, testing::ValuesIn(sticky_cases()), name_of);
 
 }  // namespace
 }  // namespace plekton::dynamics

@@ -80,14 +80,19 @@ inline Body moved(Body body, const Vec3& turns, const Vec3& shift) {
   return body;
 }
 
-/// Contact of two bodies of radius r / 2 each: a spring of 1 N/m per contact, without friction.
-class Meeting {
+/// Contact of two bodies of radius r / 2 each, without friction; of a linear law a spring of 1 N/m
+/// per contact.
+template <class Law>
+class MeetingUnder {
  public:
-  Meeting(const Body& a, const Body& b, double range) : count_a_(a.x.size()) {
+  MeetingUnder(const Body& a, const Body& b, double range,
+               const contact::PropertiesOf<Law>& properties = {})
+      : count_a_(a.x.size()),
+        properties_{{{contact::MaterialId{0}, contact::MaterialId{0}}, properties}} {
     add(a, 0.5 * range);
     add(b, 0.5 * range);
     surface_ = std::make_unique<geometry::Surface>(cylinders_, facets_, x_.size());
-    contacts_ = std::make_unique<contact::StructureContacts<contact::LinearFrictional>>(*surface_);
+    contacts_ = std::make_unique<contact::StructureContacts<Law>>(*surface_);
     neighbours_ = std::make_unique<geometry::CellNeighbours>(*surface_, x_, 0.0, false);
   }
 
@@ -97,8 +102,8 @@ class Meeting {
     if (neighbours_->update(x_, pool_)) {
       // k = 2 E R E R / (E R + E R) = E R: with E = 1 / R, 1 N/m.
       const double radius = surface_->radius(geometry::StructureId{0});
-      const contact::MaterialPairs<contact::LinearFrictional> materials(
-          {contact::Material{1.0 / radius, 0.0, 0.0}});
+      const contact::MaterialPairs<Law> materials({contact::Material{1.0 / radius, 0.0, 0.0}},
+                                                  properties_);
       const std::vector<contact::MaterialId> of_structures(surface_->structure_count());
       contacts_->rebuild(neighbours_->pairs(), {materials, {}, of_structures});
     }
@@ -139,14 +144,17 @@ class Meeting {
   }
 
   std::size_t count_a_;
+  contact::PairProperties<Law> properties_;
   std::vector<Vec3> x_;
   std::vector<Facet> facets_;
   std::vector<Cylinder> cylinders_;
   geometry::ThreadPool pool_{1};
   std::unique_ptr<geometry::Surface> surface_;
-  std::unique_ptr<contact::StructureContacts<contact::LinearFrictional>> contacts_;
+  std::unique_ptr<contact::StructureContacts<Law>> contacts_;
   std::unique_ptr<geometry::CellNeighbours> neighbours_;
   NodeForces forces_{0};
 };
+
+using Meeting = MeetingUnder<contact::LinearFrictional>;
 
 }  // namespace plekton::test
