@@ -16,9 +16,24 @@ namespace plekton::dynamics {
 /// - The facets with a broken edge are torn: they are gone too, but for those of a sheet (a sheet
 ///   facet on the same nodes), which carries them without the bond.
 /// - Another side of a torn facet that is no side of a facet that is left stays as a cylinder of
-/// the
-///   facet's radius and material where a bond holds along it; without one it is gone. Cylinders
-///   that come into being in this way follow those there are.
+///   the facet's radius and material where a bond holds along it; without one it is gone.
+///   Cylinders that come into being in this way follow those there are.
+///
+/// What contacts store changes at once, and what it falls by counts as dissipated by friction. It
+/// may grow, and the friction of the ledger falls then: that energy is made. A ball's contact is
+/// the part of a surface in its range that hangs together, counted at every level (patch.hpp), with
+/// phi(d) the energy of one contact at a distance. When a cylinder goes that the ball lies on,
+/// - its minimum d0 is gone, with phi(d0), and where the parts on either side stay in range each
+///   goes on by itself: the passes d1, d2 at its nodes, which counted -1, count no more, or its
+///   nodes are minima themselves, if they were none nor passes. Both parts are then whole contacts
+///   up to the level where they hang together otherwise, if at all. A ball on the middle of a
+///   straight wire goes from phi(d0) to 2 phi(d1), up to twice as much where the nodes are as near;
+/// - if it closed a ring, the one that the hole gave back goes with it, wherever its links had it:
+///   a jump by -sum of share * phi(upper vertex), mostly of the passes furthest off, which has the
+///   other sign and is small where the ring closes just inside the range.
+/// So one cylinder with a minimum makes at most phi(d1) + phi(d2) - phi(d0), but for what holes
+/// beside it that become one share out anew. A ball that overlaps the wires of a net by 30 % of
+/// their radius was seen to go from 31.6 to 44.2 J, when a break made two contacts of one.
 /// @param broken  bonds that have just broken, by their places in the scene
 /// @param bonds   of the scene; tells which hold
 /// @returns whether anything is gone

@@ -150,5 +150,37 @@ TEST(BreakEnergy, WhatAContactOnABrokenCylinderHadStoredIsDissipated) {
               1e-12 * before.contact_elastic);
 }
 
+TEST(BreakEnergy, AContactThatABreakSplitsStoresMoreAndTheLedgerSaysSo) {
+  // A held ball on the middle one of three held wires. It is pressed once, by the wire, and then by
+  // the ends of the other two, each a contact: k u^2 / 2 with the overlaps of these.
+  constexpr double kLength = 0.02, kHeight = 0.055, kRange = 0.06;
+  Scene scene;
+  scene.materials = {{1e6, 0.5, 0.0}};
+  for (int i = 0; i < 4; ++i) scene.add_node(Vec3(kLength * i, 0.0, 0.0), Held::everything);
+  for (int i = 0; i < 3; ++i) {
+    scene.add_beam(NodeId{i}, NodeId{i + 1}, circular_section(0.01, 1e7, 0.3), 1000.0);
+    scene.add_cylinder(NodeId{i}, NodeId{i + 1}, 0.01, kWire);
+  }
+  scene.add_sphere(Vec3(1.5 * kLength, 0.0, kHeight), kRange - 0.01, 1000.0, kWire);
+  scene.properties.held.back() = Held::everything;
+  BreakingSimulation simulation(scene, {.time_step = 1e-5, .motion = {.gravity = Vec3::Zero()}});
+  simulation.step();
+  const Energy before = simulation.energy();
+
+  simulation.break_bond(1);
+  simulation.step();
+
+  const Energy after = simulation.energy();
+  const double above_wire = kRange - kHeight;
+  const double above_ends = kRange - std::hypot(kHeight, 0.5 * kLength);
+  const double growth = 2.0 * std::pow(above_ends / above_wire, 2);
+  EXPECT_EQ(simulation.contacts().counts().sphere_surface, 2u);
+  EXPECT_NEAR(after.contact_elastic, growth * before.contact_elastic,
+              1e-12 * before.contact_elastic);
+  EXPECT_NEAR(after.friction, before.contact_elastic - after.contact_elastic,
+              1e-12 * before.contact_elastic);
+  EXPECT_LT(after.friction, 0.0);
+}
+
 }  // namespace
 }  // namespace plekton::dynamics
