@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <string>
@@ -45,8 +46,10 @@ void list_keys(const KeyGroup& group, std::ostream& out) {
   out << group.table;
   if (!group.kind.empty()) out << fmt::format(" kind = \"{}\"", group.kind);
   out << '\n';
+  std::size_t width = 20;
+  for (const ListedKey& key : group.keys) width = std::max(width, key.standard.size());
   for (const ListedKey& key : group.keys)
-    out << fmt::format("    {:<20} {:<20} {}\n", key.path, key.standard, key.kind);
+    out << fmt::format("    {:<20} {:<{}} {}\n", key.path, key.standard, width, key.kind);
 }
 
 }  // namespace
@@ -60,8 +63,8 @@ void list_choices(std::ostream& out) {
   out << "  with every law\n";
   list_parameters(contact::common_law_parameters(), out);
   out << "\nKeys of a scenario with default (SI) and what they take; \"-\" may be left out, "
-         "\"other "
-         "keys\" decide; apps/scenario.md has their meaning\n";
+         "N is "
+         "the number of a table; apps/scenario.md has their meaning\n";
   for (const KeyGroup& group : scenario_keys()) list_keys(group, out);
   out << '\n';
   list_outputs(out);

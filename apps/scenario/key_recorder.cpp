@@ -23,10 +23,26 @@ void KeyRecorder::add(const std::string& path, std::string kind,
   if (is_known) return;
   const auto other = alternatives_.find(path);
   if (other != alternatives_.end()) kind += ", or " + other->second;
+  const auto told = standards_.find(path);
   keys_.push_back({path,
                    std::move(kind),
-                   standard.value_or(asked_.contains(path) ? "-" : "required"),
+                   told != standards_.end() ? told->second : standard.value_or(without(path)),
                    {words.begin(), words.end()}});
+}
+
+std::string KeyRecorder::without(const std::string& path) const {
+  if (asked_.contains(path)) return "-";
+  const std::string table = path.substr(0, path.rfind('.'));
+  if (!optional_tables_.contains(table)) return "required";
+  return "required in " + table.substr(table.rfind('.') + 1);
+}
+
+void KeyRecorder::set_standard(const std::string& path, const std::string& text) {
+  standards_[path] = text;
+}
+
+void KeyRecorder::add_optional_table(const std::string& path) {
+  optional_tables_.insert(path);
 }
 
 void KeyRecorder::add_alternative(const std::string& path, const std::string& what) {
@@ -51,7 +67,6 @@ std::string kind_text(const Quantity& expected) {
 }
 
 std::string standard_text(double value) {
-  if (std::isnan(value)) return "other keys";
   return std::isinf(value) ? "none" : fmt::format("{:g}", value);
 }
 

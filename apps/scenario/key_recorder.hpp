@@ -38,6 +38,10 @@ class KeyRecorder {
   /// @param standard  nothing where the key is required, unless it was asked for before
   void add(const std::string& path, std::string kind, const std::optional<std::string>& standard,
            std::span<const std::string_view> words = {});
+  /// What the list says of a default that is no plain value. Before the key is read.
+  void set_standard(const std::string& path, const std::string& text);
+  /// A table that may be left out: what is required in it is not required without it.
+  void add_optional_table(const std::string& path);
   /// A value that may also be something else.
   void add_alternative(const std::string& path, const std::string& what);
 
@@ -49,16 +53,21 @@ class KeyRecorder {
   const std::vector<ListedKey>& keys() const noexcept { return keys_; }
 
  private:
+  /// What the list says of a key without a default.
+  std::string without(const std::string& path) const;
+
   std::set<std::string> absent_;
   std::map<std::string, std::string> chosen_;
   std::set<std::string> asked_;
   std::map<std::string, std::string> alternatives_;
+  std::map<std::string, std::string> standards_;
+  std::set<std::string> optional_tables_;
   std::vector<ListedKey> keys_;
 };
 
 /// As in "length (m) above 0".
 std::string kind_text(const Quantity& expected);
-/// A default: "none" if infinite, "other keys" if it is not known before they are.
+/// A default: "none" if infinite.
 std::string standard_text(double value);
 
 }  // namespace plekton::apps

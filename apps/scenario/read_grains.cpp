@@ -94,6 +94,7 @@ std::variant<std::size_t, double> read_amount(Section& section, std::optional<do
 
 GrainSettings read_grains(Section section, const Known& known, std::size_t number) {
   GrainSettings grains;
+  section.tell_default("name", "grains N");
   grains.name = section.name("name", fmt::format("grains {}", number));
   grains.place = section.place();
   std::optional<double> density;
@@ -115,6 +116,7 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
                      "[...], max = [...] }");
   }
   grains.velocity = section.vector("velocity", {kVelocity}, grains.velocity);
+  section.tell_default("seed", "that of [simulation] + N");
   const auto seed = section.integer("seed", 0, std::numeric_limits<std::int64_t>::max(),
                                     static_cast<std::int64_t>(known.seed));
   grains.seed = static_cast<std::uint64_t>(seed) + (section.has("seed") ? 0 : number);

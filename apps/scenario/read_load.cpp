@@ -67,7 +67,7 @@ dynamics::PlaneMotion read_plane_motion(Section& section, const Scenario& scenar
 }
 
 std::optional<dynamics::AxisTurn> read_turn(Section& section) {
-  std::optional<Section> table = section.table("turn");
+  std::optional<Section> table = section.optional_table("turn");
   if (!table) return std::nullopt;
   dynamics::AxisTurn turn;
   turn.point = table->vector("point", {kLength});
@@ -113,6 +113,7 @@ MotionSettings read_motion(Section& section, const Scenario& scenario) {
     if (section.has("velocity")) motion.velocity = section.vector("velocity", {kVelocity});
   }
   const bool turns_with_axis = motion.turn && are_turned(settings.nodes, scenario);
+  section.tell_default("hold_rotation", "whether they are turned");
   if (section.truth("hold_rotation", turns || turns_with_axis))
     motion.held = motion.held | Held::rotation;
   if (turns) motion.angular_velocity = section.vector("angular_velocity", {kAngularVelocity});
@@ -164,7 +165,7 @@ PressureSettings read_pressure(Section& section, const Scenario& scenario) {
       section.complain("gas", "by_volume says how the pressure follows the volume; leave one out");
   }
   settings.load.factor = read_factor(section);
-  if (auto table = section.table("gas")) {
+  if (auto table = section.optional_table("gas")) {
     dynamics::Gas gas;
     gas.outside_pressure =
         table->quantity("outside_pressure", {kPressure, kNotNegative}, gas.outside_pressure);
@@ -201,6 +202,7 @@ LoadSettings read_load(Section section, const Scenario& scenario, std::size_t nu
       "motion",  "force",          "pressure",     "servo",
       "gravity", "ground_springs", "beam_damping", "mass_damping"};
   LoadSettings settings;
+  section.tell_default("name", "loads N");
   settings.name = section.name("name", fmt::format("loads {}", number));
   settings.path = section.path();
   settings.place = section.place();
@@ -223,6 +225,7 @@ LoadSettings read_load(Section section, const Scenario& scenario, std::size_t nu
       settings.load = read_servo(section, scenario);
       break;
     case 4:
+      section.tell_default("factor", "required");
       if (!section.has("factor"))
         section.complain(
             "factor", "missing; expected a list of [time, factor], by which gravity is multiplied");

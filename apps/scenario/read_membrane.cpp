@@ -15,7 +15,7 @@ Placement read_placement(Section& section) {
   Placement placement;
   placement.scale = section.quantity("scale", {kNumber, kPositive}, placement.scale);
   placement.translation = section.vector("translate", {kLength}, placement.translation);
-  if (auto rotate = section.table("rotate")) {
+  if (auto rotate = section.optional_table("rotate")) {
     placement.axis = rotate->vector("axis", {kNumber}, placement.axis);
     placement.angle = rotate->quantity("angle", {kAngle});
     if (placement.axis.stableNorm() == 0.0)
@@ -119,6 +119,7 @@ MembraneSettings read_membrane(Section section, const Known& known) {
   if (section.has("bending_stiffness"))
     membrane.bending_stiffness =
         section.quantity("bending_stiffness", {kBendingStiffness, kNotNegative});
+  section.tell_default("mass_mode", "\"edge\"; of a continuum \"area\"");
   membrane.mass_mode =
       static_cast<MassMode>(section.choice("mass_mode", kMassModes, is_sheet ? 1 : 0));
   membrane.density = read_either(section, {"density", {kDensity, kPositive}},

@@ -46,7 +46,9 @@ geometry::RepairOptions read_repair(Section& section) {
   repair.fill_holes = read_step(section, "fill_holes", "longest_hole");
   repair.longest_hole = section.quantity("longest_hole", kPositiveLength, repair.longest_hole);
   repair.wrap = read_step(section, "wrap", "wrap_detail");
+  section.tell_default("wrap_detail", "1/30 of the mesh's size");
   repair.wrap_detail = section.quantity("wrap_detail", kPositiveLength, repair.wrap_detail);
+  section.tell_default("target_edge", "none");
   repair.target_edge = section.quantity("target_edge", kPositiveLength, repair.target_edge);
   repair.refuse_intersections = section.truth("refuse_intersections", repair.refuse_intersections);
   return repair;

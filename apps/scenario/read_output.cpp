@@ -32,6 +32,7 @@ ReactionSettings read_reaction(Section section, const Scenario& scenario,
                                const std::vector<ReactionSettings>& earlier) {
   ReactionSettings reaction;
   reaction.path = section.path();
+  section.tell_default("name", "that of its body");
   const std::string name = section.name("name", "");
   if (section.has("about")) reaction.about = section.vector("about", {kLength});
   const auto kind = section.known_choice("kind", kReactionKinds);
@@ -60,6 +61,9 @@ ReactionSettings read_reaction(Section section, const Scenario& scenario,
 OutputSettings read_output(Section section, const Scenario& scenario) {
   const double duration = scenario.simulation.duration;
   OutputSettings output;
+  section.tell_default("interval", "duration / 100");
+  section.tell_default("history_interval", "duration / 1000");
+  section.tell_default("reactions_interval", "history_interval");
   output.interval = section.quantity("interval", {kTime, kPositive}, duration / 100.0);
   output.history_interval =
       section.quantity("history_interval", {kTime, kPositive}, duration / 1000.0);

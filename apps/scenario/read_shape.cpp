@@ -52,6 +52,7 @@ ShapeSettings read_sphere(Section& section) {
 
 ShapeSettings read_box_shell(Section& section) {
   BoxShape box{section.vector("size", kPositiveLength), {1, 1, 1}};
+  section.tell_default("cells", "[1, 1, 1]");
   if (section.has("cells")) {
     const auto cells = section.integers("cells", {1, 1, 1}, kMostCells);
     box.cells = {cells[0], cells[1], cells[2]};

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace plekton::apps {
 namespace {
@@ -120,6 +121,10 @@ double Section::read_quantity(const Value& value, const std::string& path,
                              degrees ? fmt::format("; did you mean \"{} deg\"?", number) : ""));
 }
 
+void Section::tell_default(std::string_view key, std::string_view text) {
+  if (recorder_) recorder_->set_standard(path_of(key), std::string(text));
+}
+
 double Section::quantity(std::string_view key, const Quantity& expected) {
   if (records(key, kind_text(expected), {})) return kNaN;
   const Value* value = require(key);
@@ -191,7 +196,10 @@ std::int64_t Section::integer(std::string_view key, std::int64_t low, std::int64
 }
 
 std::vector<int> Section::integers(std::string_view key, std::vector<int> least, int most) {
-  if (records(key, fmt::format("{} x whole number from {}", least.size(), least[0]), {}))
+  const bool is_same = std::count(least.begin(), least.end(), least[0]) == std::ssize(least);
+  const std::string lowest =
+      is_same ? std::to_string(least[0]) : fmt::format("{}", fmt::join(least, " and "));
+  if (records(key, fmt::format("{} x whole number from {}", least.size(), lowest), {}))
     return least;
   const Value* value = require(key);
   if (value == nullptr) return least;
@@ -335,6 +343,11 @@ std::optional<Section> Section::table(std::string_view key) {
     return within(*table, value->place, path_of(key));
   complain(key, fmt::format("got {}; expected a table", shown(*value)));
   return std::nullopt;
+}
+
+std::optional<Section> Section::optional_table(std::string_view key) {
+  if (recorder_) recorder_->add_optional_table(path_of(key));
+  return table(key);
 }
 
 std::vector<Section> Section::tables(std::string_view key) {

@@ -67,6 +67,9 @@ class Section {
   bool is_table(std::string_view key, std::string_view what = "a table") const;
   bool is_list(std::string_view key) const;
 
+  /// For the list of keys: the default where it is no plain value of the key. Before it is read.
+  void tell_default(std::string_view key, std::string_view text);
+
   /// NaN after a problem.
   double quantity(std::string_view key, const Quantity& expected);
   double quantity(std::string_view key, const Quantity& expected, double fallback);
@@ -103,6 +106,8 @@ class Section {
 
   /// A table in this one.
   std::optional<Section> table(std::string_view key);
+  /// One that may be left out.
+  std::optional<Section> optional_table(std::string_view key);
   /// The tables [[key]], each called by its key `name` or its number.
   std::vector<Section> tables(std::string_view key);
   /// All keys with the tables they hold, such as [materials.sand].

@@ -122,6 +122,36 @@ TEST(KeyList, HasEveryKeyOfTheKindsOfTheDocumentation) {
   }
 }
 
+/// A default without code marks and quotes; the same word for all of a limit that is not there.
+std::string bare(std::string text) {
+  std::erase_if(text, [](char c) { return c == '`' || c == '"'; });
+  text.erase(0, text.find_first_not_of(' '));
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text == "never" || text == "-" ? "none" : text;
+}
+
+TEST(KeyList, HasTheDefaultsOfTheDocumentationWhereTheseArePlainValues) {
+  const std::regex plain(
+      R"(required|none|true|false|auto|edge|[a-z]+ N|-?[0-9.]+|\[[-0-9., ]+\]|duration / \d+)");
+  int compared = 0;
+  for (const KeyGroup& group : scenario_keys()) {
+    const std::string text = section_of(group.table);
+    std::istringstream lines(text.substr(0, text.find("\n### ")));
+    for (std::string line; std::getline(lines, line);) {
+      const auto cells = cells_of(line);
+      if (!group.kind.empty() || cells.size() != 4 || !std::regex_match(bare(cells[2]), plain))
+        continue;
+      const Words names = names_in(cells[0]);
+      for (const ListedKey& key : group.keys) {
+        if (!names.contains(key.path)) continue;
+        ++compared;
+        EXPECT_EQ(bare(key.standard), bare(cells[2])) << group.table << ' ' << key.path;
+      }
+    }
+  }
+  EXPECT_GT(compared, 40);
+}
+
 TEST(KeyList, HasUnitsRangesAndDefaults) {
   const auto key = [](const std::string& table, const std::string& kind, const std::string& path) {
     for (const KeyGroup& group : scenario_keys()) {
@@ -138,6 +168,12 @@ TEST(KeyList, HasUnitsRangesAndDefaults) {
   EXPECT_EQ(key("[[loads]]", "motion", "angular_velocity"), "-; 3 x angular velocity (rad/s)");
   EXPECT_EQ(key("[[loads]]", "motion", "grains"), "-; text");
   EXPECT_EQ(key("[[membranes]] shape", "box", "size"), "required; 3 x length (m) above 0");
+  EXPECT_EQ(key("[[membranes]] shape", "box", "cells"), "[1, 1, 1]; 3 x whole number from 1");
+  EXPECT_EQ(key("[[membranes]] shape", "tube", "cells"), "required; 2 x whole number from 3 and 1");
+  EXPECT_EQ(key("[[membranes]]", "", "rotate.angle"), "required in rotate; angle (rad)");
+  EXPECT_EQ(key("[[loads]]", "motion", "turn.point"), "required in turn; 3 x length (m)");
+  EXPECT_EQ(key("[[loads]]", "gravity", "factor"),
+            "required; pairs of time (s) and number without unit");
 }
 
 }  // namespace
