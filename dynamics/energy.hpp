@@ -35,9 +35,13 @@ struct Energy {
   }
   /// Magnitude of the closure error over turnover, >= 0; 0 where the error is no more than
   /// rounding, as when nothing has happened.
-  double closure() const noexcept {
+  double closure() const noexcept { return closure(turnover()); }
+  /// The same over what went through at another moment. A ball at its highest point has little else
+  /// than energy of position: over time an error is measured against the largest turnover so far.
+  /// @param turnover  J, > 0 if anything has happened
+  double closure(double turnover) const noexcept {
     const double error = std::abs(closure_error());
-    return error > rounding ? error / turnover() : 0.0;
+    return error > rounding ? error / turnover : 0.0;
   }
 };
 

@@ -58,6 +58,11 @@ class Simulation {
 
   /// One time step. @throws Diverged; std::logic_error if none was given where nothing sets one
   void step();
+  /// One time step, shorter where it would end after a time; the next step() is as long as chosen
+  /// or given again. A rest of a thousandth of a step, as rounding leaves it, is left out.
+  /// @param end  s
+  /// @returns whether there was any time left; nothing is done without
+  bool step_until(double end);
 
   /// Breaks a bond for good, in the next step: it carries nothing any more, and the elements it
   /// held are gone from elements() and surface() (structure/broken_elements.hpp). Nothing touches
@@ -239,6 +244,20 @@ void Simulation<Law>::step() {
   time_ += dt_;
   last_drift_ = dt_;
   if (++steps_ % kStepsBetweenLooks == 0 && chooses_time_step_) choose_time_step();
+}
+
+template <contact::ContactLaw Law>
+bool Simulation<Law>::step_until(double end) {
+  constexpr double kRest = 1e-3;  // of a step
+  require_time_step();
+  const double left = end - time_;
+  const double whole = dt_;
+  if (!(left > kRest * whole)) return false;
+  const double part = left < (1.0 - kRest) * whole ? left : whole;
+  dt_ = part;
+  step();
+  if (dt_ == part) dt_ = whole;
+  return true;
 }
 
 /// Of another law: simulation_definitions.hpp.

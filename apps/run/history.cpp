@@ -26,7 +26,7 @@ constexpr std::array<dynamics::OutputField, 20> kFields = {{
     {"plane_contacts", "", "how many"},
     {"broken_bonds", "", "how many so far"},
     {"largest_overlap_ratio", "", "overlap over the radius of the smaller ball"},
-    {"time_step", "s", "of the last step"},
+    {"time_step", "s", "chosen or given; the last step of a run may be shorter"},
     {"lost_grains", "", "how many"},
     {"unbalanced_force_ratio", "",
      "mean resultant force on free nodes over the mean force that contacts, bonds and sheets "
@@ -56,8 +56,8 @@ std::span<const dynamics::OutputField> history_fields() {
 History::History(const std::filesystem::path& folder)
     : writer_(folder / "energy.csv", columns(), dynamics::CsvWriter::Flush::on_request) {}
 
-void History::add(const Simulation& simulation, const LostGrains& lost) {
-  const dynamics::Energy energy = simulation.energy();
+void History::add(const Simulation& simulation, const dynamics::Energy& energy,
+                  const LostGrains& lost) {
   const contact::ContactCounts counts = simulation.contact_counts();
   writer_.add({simulation.time(),
                energy.kinetic,

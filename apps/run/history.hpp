@@ -24,7 +24,7 @@ class History {
 
   /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
   /// dynamics::OutputError
-  void add(const Simulation& simulation, const LostGrains& lost);
+  void add(const Simulation& simulation, const dynamics::Energy& energy, const LostGrains& lost);
   void flush() { writer_.flush(); }
   void close() { writer_.close(); }
 

@@ -85,8 +85,7 @@ class Run {
     watch_motion();
     write_due(0.0);
     report_.start_up_time = seconds_since(settings_.began);
-    while (simulation_.time() < scenario_.simulation.duration - 0.5 * simulation_.time_step()) {
-      simulation_.step();
+    while (simulation_.step_until(scenario_.simulation.duration)) {
       const bool looks = simulation_.steps() % kStepsBetweenLooks == 0;
       if (simulation_.steps() >= next_look_at_grains_) look_at_grains();
       if (simulation_.steps() % kStepsBetweenCriticalSteps == 0) watch_time_step();
@@ -109,21 +108,35 @@ class Run {
 
   /// Frames and rows whose time has come.
   void write_due(double time) {
-    const double soon = 0.5 * simulation_.time_step();
+    // Before a last step that is short nothing is due at the end already.
+    const bool ends_soon = scenario_.simulation.duration - time < 0.5 * simulation_.time_step();
+    const double soon = ends_soon ? 0.0 : 0.5 * simulation_.time_step();
     if (time < std::min({next_row_, next_reactions_, next_frame_}) - soon) return;
     const TimeInto output(report_.output_time);
     if (time >= next_row_ - soon) {
-      history_.add(simulation_, lost_);
+      add_row();
       next_row_ = std::max(next_row_ + scenario_.output.history_interval, time);
     }
     if (time >= next_reactions_ - soon) {
-      reactions_.add(simulation_);
+      add_reactions();
       next_reactions_ = std::max(next_reactions_ + scenario_.output.reactions_interval, time);
     }
     if (time >= next_frame_ - soon) {
       write_frame();
       next_frame_ = std::max(next_frame_ + scenario_.output.interval, time);
     }
+  }
+
+  void add_row() {
+    const dynamics::Energy energy = simulation_.energy();
+    largest_turnover_ = std::max(largest_turnover_, energy.turnover());
+    history_.add(simulation_, energy, lost_);
+    last_row_step_ = simulation_.steps();
+  }
+
+  void add_reactions() {
+    reactions_.add(simulation_);
+    last_reactions_step_ = simulation_.steps();
   }
 
   void write_frame() {
@@ -137,11 +150,9 @@ class Run {
   void write_last() {
     look_at_grains();
     const TimeInto output(report_.output_time);
-    if (last_frame_step_ != simulation_.steps()) {
-      history_.add(simulation_, lost_);
-      if (!reactions_.empty()) reactions_.add(simulation_);
-      write_frame();
-    }
+    if (last_row_step_ != simulation_.steps()) add_row();
+    if (!reactions_.empty() && last_reactions_step_ != simulation_.steps()) add_reactions();
+    if (last_frame_step_ != simulation_.steps()) write_frame();
     history_.close();
     reactions_.close();
   }
@@ -202,7 +213,8 @@ class Run {
     report_.pass_throughs = simulation_.pass_throughs();
     report_.most_crossings = simulation_.most_crossings();
     report_.energy = simulation_.energy();
-    report_.energy_closure = report_.energy.closure();
+    report_.energy_closure =
+        report_.energy.closure(std::max(largest_turnover_, report_.energy.turnover()));
     report_.lost_grains = lost_.total();
     report_.lost_through_membranes = lost_.through_membranes();
     report_.lost_out_of_bounds = lost_.out_of_bounds();
@@ -227,9 +239,12 @@ class Run {
   Progress progress_;
   RunReport report_;
   Progress::Clock::time_point start_ = Progress::Clock::now();
-  double next_row_ = 0.0;        // s
-  double next_reactions_ = 0.0;  // s; infinite if there are none
-  double next_frame_ = 0.0;      // s
+  double next_row_ = 0.0;          // s
+  double next_reactions_ = 0.0;    // s; infinite if there are none
+  double next_frame_ = 0.0;        // s
+  double largest_turnover_ = 0.0;  // J, of all rows
+  std::int64_t last_row_step_ = -1;
+  std::int64_t last_reactions_step_ = -1;
   std::int64_t last_frame_step_ = -1;
   std::int64_t next_look_at_grains_ = 1;
   bool has_moved_ = false;  // its kinetic energy was above that of [stop]

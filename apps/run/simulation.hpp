@@ -21,7 +21,7 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
   virtual ~Simulation() = default;
 
-  virtual void step() = 0;
+  virtual bool step_until(double end) = 0;
   virtual double time() const = 0;
   virtual std::int64_t steps() const = 0;
   virtual double time_step() const = 0;
@@ -69,7 +69,7 @@ class SimulationUnder final : public Simulation {
                   const contact::PairProperties<Law>& properties)
       : simulation_(std::move(scene), options, properties) {}
 
-  void step() override { simulation_.step(); }
+  bool step_until(double end) override { return simulation_.step_until(end); }
   double time() const override { return simulation_.time(); }
   std::int64_t steps() const override { return simulation_.steps(); }
   double time_step() const override { return simulation_.time_step(); }

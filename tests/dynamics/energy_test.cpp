@@ -189,6 +189,16 @@ TEST(Energy, HasAClosureWhereWhatIsNegativeOutweighsTheRest) {
   EXPECT_EQ(energy.closure(), 3.0 / 4.5);
 }
 
+/// At its highest point a ball has only energy of position: the error is one of the way there.
+TEST(Energy, HasAClosureOverTheLargestTurnoverOfAllTimes) {
+  dynamics::Energy energy;
+  energy.kinetic = 0.25;
+  energy.gravity = -0.75;
+
+  EXPECT_EQ(energy.closure(), 2.0);
+  EXPECT_EQ(energy.closure(10.0), 0.05);
+}
+
 TEST(Energy, HasNoClosureWhereASheetRattlesInItsLastDigits) {
   for (const double offset : {0.0, 1000.0}) {
     Scene scene;

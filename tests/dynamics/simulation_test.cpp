@@ -50,6 +50,45 @@ TEST(Simulation, ChoosesAStepThatStaysSafeWhenAStiffBallLandsOnALightSheet) {
   EXPECT_LT(simulation.energy().closure(), 5e-3);
 }
 
+TEST(Simulation, EndsAtTheTimeThatItIsAskedForAndGoesOnWithItsOwnStep) {
+  Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {.motion = {.gravity = kGravity}});
+  const double step = simulation.time_step();
+
+  while (simulation.step_until(2.3 * step)) {
+  }
+
+  EXPECT_EQ(simulation.steps(), 3);
+  EXPECT_NEAR(simulation.time(), 2.3 * step, 1e-15 * step);
+  EXPECT_EQ(simulation.time_step(), step);
+}
+
+TEST(Simulation, LeavesOutTheRestThatRoundingLeavesBeforeAnEnd) {
+  Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {.motion = {.gravity = kGravity}});
+  const double step = simulation.time_step();
+
+  EXPECT_TRUE(simulation.step_until(1.0001 * step));
+  EXPECT_EQ(simulation.time(), step);
+  EXPECT_FALSE(simulation.step_until(1.0001 * step));
+}
+
+// A mass on a spring, omega dt = 1.8e-3: kinetic energy is read in the middle of two drifts, which
+// differ by up to a step, so up to omega dt / 2 beside the moment of the forces.
+TEST(Simulation, KeepsItsEnergyThroughAShorterStep) {
+  Scene scene;
+  scene.materials = {{5e6, 0.3, 0.5}};
+  scene.add_sphere(Vec3::Zero(), 0.03, 2650.0, contact::MaterialId{0});
+  scene.loads.ground_springs.push_back({{NodeId{0}}, Vec3(1e4, 1e4, 1e4)});
+  scene.state.velocity[0] = Vec3(0.0, 0.0, -1.0);
+  Simulation simulation(scene, {.time_step = 1e-5, .motion = {}});
+
+  for (int i = 1; i <= 20; ++i) {
+    while (simulation.step_until(10.37e-5 * i)) {
+    }
+  }
+
+  EXPECT_LT(simulation.energy().closure(), 1e-3);
+}
+
 TEST(Simulation, RefusesAStepAboveTheCriticalOneAndNamesIt) {
   try {
     Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {.time_step = 1.0, .motion = {}});

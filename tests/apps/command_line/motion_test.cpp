@@ -39,6 +39,31 @@ TEST_F(FastMotion, IsWarnedOfWhereTheStepIsGiven) {
   EXPECT_EQ(report()["timing"]["time_step_s"], 2e-6);
 }
 
+// A ball is dropped and comes to its highest point again, where nothing is left but its weight.
+TEST_F(FastMotion, OfABallEndsAtItsTimeWithAnErrorOverWhatWentThrough) {
+  test::write_bytes(folder_ / "ball.toml", R"([simulation]
+duration = "0.2 s"
+[materials.rock]
+density = 2650
+young_modulus = "10 MPa"
+friction_angle = "30 deg"
+[[grains]]
+material = "rock"
+count = 1
+radius = "5 cm"
+box = { min = [-0.051, -0.051, 0.01], max = [0.051, 0.051, 0.1102] }
+[[planes]]
+point = [0, 0, 0]
+material = "rock"
+)");
+
+  const Outcome outcome = outcome_of({"run", (folder_ / "ball.toml").string(), "--out", out()});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_NEAR(report()["timing"]["simulated_time_s"], 0.2, 1e-15);
+  EXPECT_LT(report()["energy_closure"], 0.05);
+}
+
 // Soft on the scale of its weight: the critical step is longer than it takes to fall by a radius.
 TEST_F(FastMotion, OfBouldersOnASheetOfTenKilometresDoesNotDiverge) {
   geometry::write_mesh_file(folder_ / "sheet.off", geometry::plane_sheet({1e4, 1e4, 20, 20}));
