@@ -49,7 +49,8 @@ void list_keys(const KeyGroup& group, std::ostream& out) {
   std::size_t width = 20;
   for (const ListedKey& key : group.keys) width = std::max(width, key.standard.size());
   for (const ListedKey& key : group.keys)
-    out << fmt::format("    {:<20} {:<{}} {}\n", key.path, key.standard, width, key.kind);
+    out << fmt::format("    {:<20} {:<{}} {}; {}\n", key.path, key.standard, width, key.kind,
+                       key.what);
 }
 
 }  // namespace
@@ -62,9 +63,8 @@ void list_choices(std::ostream& out) {
   }
   out << "  with every law\n";
   list_parameters(contact::common_law_parameters(), out);
-  out << "\nKeys of a scenario with default (SI) and what they take; \"-\" may be left out, "
-         "N is "
-         "the number of a table; apps/scenario.md has their meaning\n";
+  out << "\nKeys of a scenario with default (SI), what they take, and their meaning; \"-\" may be "
+         "left out, N is the number of a table; more in apps/scenario.md\n";
   for (const KeyGroup& group : scenario_keys()) list_keys(group, out);
   out << '\n';
   list_outputs(out);

@@ -12,9 +12,10 @@ namespace {
 
 std::string line_of(const BuiltMembrane& m) {
   return fmt::format(
-      "membrane {}: {} nodes ({} held), {} beams, {} facets, area {:.4g} m2, mass {:.4g} kg, {} "
+      "membrane {}: {} nodes ({} held), {} beams, {} facets, {}mass {:.4g} kg, {} "
       "of E = {:.4g} Pa; {}\n",
-      m.name, m.nodes, m.held_nodes, m.beams, m.facets, m.area, m.mass,
+      m.name, m.nodes, m.held_nodes, m.beams, m.facets,
+      m.area > 0.0 ? fmt::format("area {:.4g} m2, ", m.area) : "", m.mass,
       m.beams > 0 ? "beams" : "sheet", m.young_modulus,
       m.report ? fmt::format("mesh {}", geometry::name_of(m.report->verdict)) : "generated");
 }

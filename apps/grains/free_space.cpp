@@ -84,7 +84,8 @@ void FreeSpace::add(const Obstacle& obstacle) {
 
 bool FreeSpace::has_room(const Vec3& centre, double radius) const {
   for (int axis = 0; axis < 3; ++axis) {
-    if (centre[axis] - radius < box_.lower[axis] || centre[axis] + radius > box_.upper[axis])
+    const double size = (1.0 - kRounding) * radius;
+    if (centre[axis] - size < box_.lower[axis] || centre[axis] + size > box_.upper[axis])
       return false;
   }
   for (const contact::Plane& plane : planes_) {

@@ -11,6 +11,9 @@
 
 namespace plekton::apps {
 
+/// Part of a radius by which a box may be too narrow for a ball.
+inline constexpr double kRounding = 1e-9;
+
 using geometry::Box;
 using geometry::Vec3;
 

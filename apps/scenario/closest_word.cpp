@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/closest_word.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <vector>
@@ -50,6 +52,11 @@ std::string closest_word(std::string_view written, std::span<const std::string_v
     }
   }
   return std::string(best);
+}
+
+std::string did_you_mean(std::string_view written, std::span<const std::string_view> known) {
+  const std::string closest = closest_word(written, known);
+  return closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest);
 }
 
 }  // namespace plekton::apps

@@ -18,4 +18,7 @@ double edit_distance(std::string_view a, std::string_view b);
 /// Empty if none is near.
 std::string closest_word(std::string_view written, std::span<const std::string_view> known);
 
+/// As in `; did you mean "radius"?`, to end a message with; empty if no word is near.
+std::string did_you_mean(std::string_view written, std::span<const std::string_view> known);
+
 }  // namespace plekton::apps

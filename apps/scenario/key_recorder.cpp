@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/key_recorder.hpp"
 
+#include "apps/scenario/key_meanings.hpp"
 #include "apps/scenario/section.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,8 @@ void KeyRecorder::add(const std::string& path, std::string kind,
   keys_.push_back({path,
                    std::move(kind),
                    told != standards_.end() ? told->second : standard.value_or(without(path)),
-                   {words.begin(), words.end()}});
+                   {words.begin(), words.end()},
+                   meaning_of_key(path)});
 }
 
 std::string KeyRecorder::without(const std::string& path) const {

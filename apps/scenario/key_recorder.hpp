@@ -21,6 +21,7 @@ struct ListedKey {
   std::string kind;      ///< what its value is, with its SI unit, as in "length (m) above 0"
   std::string standard;  ///< SI, if nothing is said; "required", or "-" where it may be left out
   std::vector<std::string> words;  ///< of a choice
+  std::string_view what;           ///< its meaning
 };
 
 /// Writes down which keys the reader asks for, instead of reading a file: so what is listed is what

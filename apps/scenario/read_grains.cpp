@@ -90,6 +90,46 @@ std::variant<std::size_t, double> read_amount(Section& section, std::optional<do
   return amount;
 }
 
+/// The corners of the space in which grains are placed.
+geometry::Box read_space(Section& section) {
+  if (const auto box = section.table("box")) return read_box(*box);
+  if (!section.has("box"))
+    section.complain("box",
+                     "missing; expected the corners of the space for the grains, box = { min = "
+                     "[...], max = [...] }, or the place of each, centres = [[x, y, z], ...]");
+  return {Vec3::Zero(), Vec3::Zero()};
+}
+
+std::uint64_t read_seed(Section& section, const Known& known, std::size_t number) {
+  section.tell_default("seed", "that of [simulation] + N");
+  const auto seed = section.integer("seed", 0, std::numeric_limits<std::int64_t>::max(),
+                                    static_cast<std::int64_t>(known.seed));
+  return static_cast<std::uint64_t>(seed) + (section.has("seed") ? 0 : number);
+}
+
+/// The places of all grains, without what says how they would be placed.
+std::vector<Vec3> read_centres(Section& section) {
+  for (const std::string_view key :
+       {"count", "mass", "volume", "box", "seed", "sieves", "passing_by"}) {
+    if (section.has(key))
+      section.complain(key,
+                       "centres says where each grain is, and how many there are; leave one "
+                       "of them out");
+  }
+  std::vector<Vec3> centres = section.vectors("centres", {kLength}, 1);
+  std::vector<Vec3> sorted = centres;
+  const auto before = [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::sort(sorted.begin(), sorted.end(), before);
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end())
+    section.complain("centres", fmt::format("two grains are at ({}, {}, {}) m; expected a place of "
+                                            "its own for each",
+                                            (*twice)[0], (*twice)[1], (*twice)[2]));
+  return centres;
+}
+
 }  // namespace
 
 GrainSettings read_grains(Section section, const Known& known, std::size_t number) {
@@ -107,19 +147,16 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
     }
   }
   grains.sizes = read_sizes(section);
-  grains.amount = read_amount(section, density);
-  if (const auto box = section.table("box")) {
-    grains.box = read_box(*box);
-  } else if (!section.has("box")) {
-    section.complain("box",
-                     "missing; expected the corners of the space for the grains, box = { min = "
-                     "[...], max = [...] }");
+  if (section.has("centres")) {
+    grains.centres = read_centres(section);
+  } else {
+    grains.amount = read_amount(section, density);
+    grains.box = read_space(section);
+    grains.seed = read_seed(section, known, number);
   }
   grains.velocity = section.vector("velocity", {kVelocity}, grains.velocity);
-  section.tell_default("seed", "that of [simulation] + N");
-  const auto seed = section.integer("seed", 0, std::numeric_limits<std::int64_t>::max(),
-                                    static_cast<std::int64_t>(known.seed));
-  grains.seed = static_cast<std::uint64_t>(seed) + (section.has("seed") ? 0 : number);
+  grains.angular_velocity =
+      section.vector("angular_velocity", {kAngularVelocity}, grains.angular_velocity);
   section.finish();
   return grains;
 }

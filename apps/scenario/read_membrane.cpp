@@ -83,6 +83,8 @@ void require_parts(Section& section, const MembraneSettings& membrane) {
           "sheet_stiffness",
           "a net is no sheet; give the young_modulus of its bars: of bars at a pitch p "
           "that together have the stiffness J, E = J p / (pi thickness^2 / 4)");
+    if (is_chain(*membrane.shape) && section.has("areal_mass"))
+      section.complain("areal_mass", "a chain has no area; give the density of its links");
     if (membrane.mass_mode == MassMode::area)
       section.complain("mass_mode",
                        "a net has no facets to weigh; leave mass_mode out: half the mass of each "
@@ -125,6 +127,8 @@ MembraneSettings read_membrane(Section section, const Known& known) {
   membrane.density = read_either(section, {"density", {kDensity, kPositive}},
                                  {"areal_mass", {kArealMass, kPositive}}, membrane.areal_mass);
   membrane.hold = read_hold(section);
+  membrane.initial_velocity =
+      section.vector("initial_velocity", {kVelocity}, membrane.initial_velocity);
   require_parts(section, membrane);
   require_mode(section, membrane);
   section.finish();

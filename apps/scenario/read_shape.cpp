@@ -107,11 +107,20 @@ ShapeSettings read_hexagonal(Section& section) {
   return net;
 }
 
-constexpr std::array<std::string_view, 7> kKinds = {
-    "sheet", "tube", "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid", "hexagonal_net"};
-constexpr std::array<ShapeSettings (*)(Section&), 7> kReaders = {
-    read_sheet,   read_tube,     read_sphere,   read_box_shell,
-    read_biaxial, read_uniaxial, read_hexagonal};
+ShapeSettings read_chain(Section& section) {
+  geometry::Chain chain;
+  chain.points = section.vectors("points", {kLength}, 2);
+  chain.divisions = static_cast<int>(section.integer("divisions", 1, kMostCells, chain.divisions));
+  require_few(section, "divisions", static_cast<double>(chain.points.size()) * chain.divisions);
+  return chain;
+}
+
+constexpr std::array<std::string_view, 8> kKinds = {
+    "sheet",         "tube", "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid",
+    "hexagonal_net", "chain"};
+constexpr std::array<ShapeSettings (*)(Section&), 8> kReaders = {
+    read_sheet,   read_tube,     read_sphere,    read_box_shell,
+    read_biaxial, read_uniaxial, read_hexagonal, read_chain};
 
 }  // namespace
 

@@ -112,6 +112,7 @@ struct MembraneSettings {
       density;  ///< kg/m³, of the beams (edge) or the plate (area); else from areal_mass
   double areal_mass = 0.0;  ///< kg/m²
   HoldSettings hold;
+  Vec3 initial_velocity = Vec3::Zero();  ///< m/s, of the nodes that are not held
 };
 
 struct GrainSettings {
@@ -121,8 +122,10 @@ struct GrainSettings {
   SizeCurve sizes{1.0};
   std::variant<std::size_t, double> amount{
       std::size_t{0}};                            ///< count, or volume of the solids (m³)
+  std::vector<Vec3> centres;                      ///< m, of all grains; empty: placed in the box
   geometry::Box box{Vec3::Zero(), Vec3::Zero()};  ///< m, holds the grains wholly
   Vec3 velocity = Vec3::Zero();                   ///< m/s
+  Vec3 angular_velocity = Vec3::Zero();           ///< rad/s
   std::uint64_t seed = 0;
 };
 

@@ -79,6 +79,9 @@ class Section {
   geometry::Vec3 vector(std::string_view key, const Quantity& expected);
   geometry::Vec3 vector(std::string_view key, const Quantity& expected,
                         const geometry::Vec3& fallback);
+  /// A list of vectors. Empty after a problem.
+  std::vector<geometry::Vec3> vectors(std::string_view key, const Quantity& expected,
+                                      std::size_t least);
   /// 0 or the fallback after a problem. Limits included.
   std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high,
                        std::optional<std::int64_t> fallback = {});

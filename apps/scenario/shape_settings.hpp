@@ -22,15 +22,19 @@ struct BoxShape {
 };
 
 /// What a membrane without a mesh file is made from.
-using ShapeSettings =
-    std::variant<geometry::PlaneSheet, geometry::Tube, SphereShape, BoxShape,
-                 geometry::BiaxialGeogrid, geometry::UniaxialGeogrid, geometry::HexagonalNet>;
+using ShapeSettings = std::variant<geometry::PlaneSheet, geometry::Tube, SphereShape, BoxShape,
+                                   geometry::BiaxialGeogrid, geometry::UniaxialGeogrid,
+                                   geometry::HexagonalNet, geometry::Chain>;
+
+inline bool is_chain(const ShapeSettings& shape) noexcept {
+  return std::holds_alternative<geometry::Chain>(shape);
+}
 
 /// Whether a shape has bars only and no facets.
 inline bool is_net(const ShapeSettings& shape) noexcept {
   return std::holds_alternative<geometry::BiaxialGeogrid>(shape) ||
          std::holds_alternative<geometry::UniaxialGeogrid>(shape) ||
-         std::holds_alternative<geometry::HexagonalNet>(shape);
+         std::holds_alternative<geometry::HexagonalNet>(shape) || is_chain(shape);
 }
 
 /// Whether a shape has no rim.

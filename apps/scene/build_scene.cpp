@@ -78,11 +78,21 @@ std::vector<PlacedGrain> in_order_of_space(const std::vector<PlacedGrain>& grain
   return sorted;
 }
 
+/// Where it is told, in that order; or in the box, clear of all that is there.
+std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, const BuiltScene& built) {
+  if (settings.centres.empty()) {
+    const std::vector<Obstacle> obstacles = obstacles_of(built);
+    return in_order_of_space(generate_grains(settings, {obstacles, built.scene.planes}));
+  }
+  std::vector<PlacedGrain> grains;
+  for (const geometry::Vec3& centre : settings.centres)
+    grains.push_back({centre, 0.5 * settings.sizes.largest_diameter()});
+  return grains;
+}
+
 BuiltGrains add_grains(const GrainSettings& settings, double density, BuiltScene& built) {
   dynamics::Scene& scene = built.scene;
-  const std::vector<Obstacle> obstacles = obstacles_of(built);
-  const std::vector<PlacedGrain> grains =
-      in_order_of_space(generate_grains(settings, {obstacles, scene.planes}));
+  const std::vector<PlacedGrain> grains = placed_grains(settings, built);
   BuiltGrains result{settings.name, grains.size(), 0.0, grains.front().radius,
                      grains.front().radius};
   for (const PlacedGrain& grain : grains) {
@@ -98,6 +108,7 @@ BuiltGrains add_grains(const GrainSettings& settings, double density, BuiltScene
                       settings.name, grain.radius, density));
     }
     scene.state.velocity[index_of(sphere.nodes[0])] = settings.velocity;
+    scene.state.angular_velocity[index_of(sphere.nodes[0])] = settings.angular_velocity;
     result.mass += density * geometry::volume(sphere);
     result.smallest = std::min(result.smallest, grain.radius);
     result.largest = std::max(result.largest, grain.radius);

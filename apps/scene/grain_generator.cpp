@@ -39,8 +39,8 @@ std::vector<PlacedGrain> place_at_random(std::span<const double> diameters, Free
   for (const double diameter : diameters) {
     const double radius = 0.5 * diameter;
     const Vec3 lower = box.lower.array() + radius;
-    const Vec3 upper = box.upper.array() - radius;
-    if ((lower.array() > upper.array()).any()) return grains;
+    const Vec3 upper = lower.cwiseMax(Vec3(box.upper.array() - radius));
+    if ((lower - box.upper).maxCoeff() > (kRounding - 1.0) * radius) return grains;
     int trial = 0;
     Vec3 centre = random.in_box(lower, upper);
     while (!space.has_room(centre, radius)) {

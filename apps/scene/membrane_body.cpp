@@ -139,13 +139,31 @@ Lattice make(const geometry::UniaxialGeogrid& grid) {
 Lattice make(const geometry::HexagonalNet& net) {
   return geometry::hexagonal_net(net);
 }
+Lattice make(const geometry::Chain& chain) {
+  return geometry::chain(chain);
+}
+
+/// Of a chain the ends are the rim, and there is no area.
+void make_ends_the_rim(MembraneBody& body) {
+  std::vector<int> links(body.on_rim.size(), 0);
+  for (const auto& [a, b] : body.membrane.edges) {
+    const std::size_t first = index_of(body.membrane.edges.front()[0]);
+    ++links[index_of(a) - first];
+    ++links[index_of(b) - first];
+  }
+  for (std::size_t i = 0; i < links.size(); ++i) body.on_rim[i] = links[i] == 1;
+  body.area = 0.0;
+}
 
 }  // namespace
 
 MembraneBody make_membrane_body(const MembraneSettings& settings, std::size_t first_node) {
   if (settings.shape) {
-    return std::visit([&](const auto& shape) { return body_of(make(shape), settings, first_node); },
-                      *settings.shape);
+    MembraneBody body =
+        std::visit([&](const auto& shape) { return body_of(make(shape), settings, first_node); },
+                   *settings.shape);
+    if (is_chain(*settings.shape)) make_ends_the_rim(body);
+    return body;
   }
   geometry::ImportedMesh imported = import_unscaled(settings);
   MembraneBody body = body_of(std::move(imported.mesh), settings, first_node);

@@ -14,10 +14,11 @@ namespace plekton::apps {
 /// The geometry of a membrane in its place, before it is in a scene.
 struct MembraneBody {
   geometry::Membrane membrane;  ///< without facets for a net
-  std::vector<bool> on_rim;     ///< by node: on an edge with one facet, or on a side of the
-                                ///< rectangle around a net
+  std::vector<bool> on_rim;     ///< by node: on an edge with one facet, on a side of the
+                                ///< rectangle around a net, or at an end of a chain
   std::vector<bool> is_twist;   ///< by edge: wires wound around each other; empty where none is
-  double area = 0.0;            ///< m², of the facets, or of the rectangle around a net
+  double area = 0.0;            ///< m², of the facets, or of the rectangle around a net; no
+                                ///< area of a chain
   std::optional<geometry::MeshReport> report;  ///< of the import; nothing for a shape
 };
 

@@ -60,6 +60,7 @@ std::size_t add_nodes(const MembraneSettings& settings, const MembraneBody& body
     built.scene.add_node(position, turns_nodes(settings) ? Held::nothing : Held::rotation);
   const std::vector<bool> held = held_nodes(settings.hold, body);
   for (std::size_t i = 0; i < held.size(); ++i) {
+    built.scene.state.velocity[first_node + i] = settings.initial_velocity;
     if (!held[i]) continue;
     built.scene.properties.held[first_node + i] =
         settings.hold.rotation || !turns_nodes(settings) ? Held::everything : Held::translation;
@@ -94,7 +95,8 @@ double beam_modulus(double sheet_stiffness, double area, double section_area, do
 /// @throws InputError
 void require_computable(const BuiltMembrane& built, double shortest_edge) {
   for (const auto& [what, value, unit] :
-       {std::tuple{"area", built.area, "m2"}, std::tuple{"mass", built.mass, "kg"},
+       {std::tuple{"area", built.facets > 0 ? built.area : 1.0, "m2"},
+        std::tuple{"mass", built.mass, "kg"},
         std::tuple{"its Young's modulus", built.young_modulus, "Pa"},
         std::tuple{"length of its shortest edge", shortest_edge, "m"}}) {
     if (std::isnormal(value) && value > 0.0) continue;

@@ -9,18 +9,19 @@
 #include <cstdint>
 #include <vector>
 
-/// Nets and grids: bars over shared nodes, with nothing between them. All lie in the plane z = 0,
-/// centred on the origin; lengths in m. Each generator throws MeshError for a length that is not
-/// positive and finite, for a count below its least, and before anything is made for more nodes
-/// than their numbers count.
+/// Nets, grids and chains: bars over shared nodes, with nothing between them. Nets and grids lie in
+/// the plane z = 0, centred on the origin; lengths in m. Each generator throws MeshError for a
+/// length that is not positive and finite, for a count below its least, and before anything is made
+/// for more nodes than their numbers count.
 namespace plekton::geometry {
 
 /// What a bar of a lattice is, because its parts differ in section and stiffness.
 enum class LatticePart : std::uint8_t {
-  rib,   ///< of a geogrid, along y (machine direction)
-  bar,   ///< of a geogrid, along x (cross-machine direction)
-  wire,  ///< of a net: a single wire
-  twist  ///< of a net: two wires wound around each other
+  rib,    ///< of a geogrid, along y (machine direction)
+  bar,    ///< of a geogrid, along x (cross-machine direction)
+  wire,   ///< of a net: a single wire
+  twist,  ///< of a net: two wires wound around each other
+  link    ///< of a chain
 };
 
 struct LatticeEdge {
@@ -76,6 +77,17 @@ struct HexagonalNet {
 /// (DEM) numerical modeling of double-twisted hexagonal mesh, Canadian Geotechnical Journal (2008),
 /// and in Thoeni et al. (2013).
 Lattice hexagonal_net(const HexagonalNet& net);
+
+struct Chain {
+  std::vector<Vec3> points;  ///< m, at least 2; one that is equal to the first at the end closes it
+  int divisions = 1;         ///< links of equal length between two points, at least 1
+};
+
+/// Links one after the other through points: ropes, cables, roots, beams, rings. It is numbered
+/// along itself.
+/// @throws MeshError also for points that are not finite, two equal ones in a row, and a closed
+///         chain of fewer than 3 links
+Lattice chain(const Chain& chain);
 
 /// The bars of a lattice as cylinders, in the order of its edges.
 /// @param radius      m, of all, because what is joined needs one radius.

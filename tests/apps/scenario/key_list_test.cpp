@@ -2,6 +2,7 @@
 // The list of keys against what the reader takes and what apps/scenario.md says.
 #include "apps/scenario/key_list.hpp"
 
+#include "apps/scenario/key_meanings.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -120,6 +121,30 @@ TEST(KeyList, HasEveryKeyOfTheKindsOfTheDocumentation) {
     }
     EXPECT_GE(rows, 7);
   }
+}
+
+/// "[[membranes]] shape" to "membranes[].shape."
+std::string prefix_of(const std::string& table) {
+  const bool is_list = table.starts_with("[[");
+  const std::size_t end = table.find(']');
+  std::string prefix = table.substr(is_list ? 2 : 1, end - (is_list ? 2 : 1));
+  if (is_list) prefix += "[]";
+  if (const std::size_t part = table.find(' '); part != std::string::npos)
+    prefix += '.' + table.substr(part + 1);
+  return prefix + '.';
+}
+
+TEST(KeyList, HasAMeaningOfEveryKeyAndNoneOfKeysThatAreNotThere) {
+  std::set<std::string> listed;
+  for (const KeyGroup& group : scenario_keys()) {
+    for (const ListedKey& key : group.keys) {
+      EXPECT_FALSE(key.what.empty()) << group.table << ' ' << key.path;
+      listed.insert(prefix_of(group.table) + key.path);
+    }
+  }
+
+  for (const KeyMeaning& meaning : key_meanings())
+    EXPECT_TRUE(listed.contains(std::string(meaning.path))) << meaning.path;
 }
 
 /// A default without code marks and quotes; the same word for all of a limit that is not there.

@@ -88,6 +88,19 @@ TEST(GrainGenerator, FillsABoxOfExactlyOneGrain) {
   expect_apart_and_inside(grains, settings.box);
 }
 
+// 0.01 + 0.05 is above 0.11 - 0.05 by rounding.
+TEST(GrainGenerator, FillsABoxOfOneGrainAsItIsWritten) {
+  GrainSettings settings;
+  settings.sizes = SizeCurve(0.1);
+  settings.amount = std::size_t{1};
+  settings.box = {Vec3(-0.05, -0.05, 0.01), Vec3(0.05, 0.05, 0.11)};
+
+  const auto grains = generate_grains(settings, {});
+
+  ASSERT_EQ(grains.size(), 1u);
+  EXPECT_NEAR(grains[0].centre[2], 0.06, 1e-15);
+}
+
 TEST(GrainGenerator, GivesTheSameGrainsForTheSameSeedOnly) {
   GrainSettings settings = graded(100, {0.1, 0.1, 0.1});
   const auto first = generate_grains(settings, {});

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/key_meanings.hpp"
+
+#include "contact/laws/law_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace plekton::apps {
+namespace {
+
+constexpr std::array kOfSimulation = std::to_array<KeyMeaning>({
+    {"simulation.duration", "simulated time"},
+    {"simulation.time_step", "auto: half of the critical one, and shorter where bodies are fast"},
+    {"simulation.gravity", "acceleration of all that is free"},
+    {"simulation.damping", "numerical: part of a force taken off or added against the motion"},
+    {"simulation.damp_gravity", "false: a free fall is not damped"},
+    {"simulation.self_contact", "whether a membrane touches itself where it folds"},
+    {"simulation.skin", "how far apart pairs are listed; for the speed, not the result"},
+    {"simulation.seed", "of the random numbers that place grains"},
+    {"simulation.threads", "the result is the same for any number"},
+    {"stop.kinetic_energy", "the run ends when the kinetic energy is below"},
+    {"stop.after", "not before; without it once the kinetic energy was above"},
+});
+
+constexpr std::array kOfMaterials = std::to_array<KeyMeaning>({
+    {"materials.NAME.density", "of the grains of this material"},
+    {"materials.NAME.young_modulus", "of contacts, not of a structure"},
+    {"materials.NAME.stiffness_ratio", "tangential over normal stiffness of a contact"},
+    {"materials.NAME.friction_angle", "of contacts; the smaller one of both bodies"},
+    {"materials.NAME.poisson_ratio", "of the solid, for the laws after Hertz"},
+    {"contacts[].between", "a material"},
+    {"contacts[].and", "the other one; the same for bodies of one material"},
+    {"contacts[].law", "what the two do where they touch"},
+});
+
+constexpr std::array kOfMembranes = std::to_array<KeyMeaning>({
+    {"membranes[].name", "what loads and outputs call it"},
+    {"membranes[].mesh", "file of triangles (.off .obj .stl .ply .msh .vtp), or give a shape"},
+    {"membranes[].weld", "points this near become one"},
+    {"membranes[].fill_holes", "holes are filled over the nodes of their rims"},
+    {"membranes[].longest_hole", "largest perimeter of a hole that is filled"},
+    {"membranes[].wrap", "the surface is replaced by a closed one around it"},
+    {"membranes[].wrap_detail", "size of the details that survive the wrap"},
+    {"membranes[].target_edge", "facets are replaced by even ones of about this size"},
+    {"membranes[].refuse_intersections", "a mesh that intersects itself is an error"},
+    {"membranes[].scale", "factor of its size, before it is turned and moved"},
+    {"membranes[].translate", "by which it is moved, at last"},
+    {"membranes[].rotate.axis", "through the origin"},
+    {"membranes[].rotate.angle", "by which it is turned"},
+    {"membranes[].mode", "what resists: beams or bars along the edges, or a thin sheet"},
+    {"membranes[].thickness", "of the facets, and diameter of cylinders and bars"},
+    {"membranes[].material", "of its contacts"},
+    {"membranes[].yield_stress", "of beams, bars: the outermost fibre yields"},
+    {"membranes[].hardening", "stress per plastic strain beyond the yield stress"},
+    {"membranes[].strength", "of beams, bars: stress of the fibre at which it breaks"},
+    {"membranes[].rupture_strain", "plastic strain at which it breaks"},
+    {"membranes[].wire", "force by strain when it is first pulled, instead of a modulus"},
+    {"membranes[].twist_wire", "the same of the twists of a hexagonal net"},
+    {"membranes[].sheet_stiffness", "E t of the sheet that the beams stand for, or of the sheet"},
+    {"membranes[].young_modulus", "of the beams, bars or sheet"},
+    {"membranes[].poisson_ratio", "of a sheet; of beams for their torsion"},
+    {"membranes[].bending_stiffness", "of a continuum; E t^3 / (12 (1 - nu^2)) if not given"},
+    {"membranes[].mass_mode", "mass from the edges, or from the facets"},
+    {"membranes[].areal_mass", "mass over area, or give the density"},
+    {"membranes[].density", "of round beams (edge), of the plate (area)"},
+    {"membranes[].hold", "which nodes are held"},
+    {"membranes[].hold_rotation", "held nodes do not turn either"},
+    {"membranes[].velocity", "of the held nodes"},
+    {"membranes[].initial_velocity", "of the other nodes, at the start"},
+});
+
+constexpr std::array kOfShapes = std::to_array<KeyMeaning>({
+    {"membranes[].shape.width", "along x"},
+    {"membranes[].shape.length", "along y; of a tube along z"},
+    {"membranes[].shape.cells", "along each axis; of a tube around and along it"},
+    {"membranes[].shape.pattern", "how a cell is cut into facets"},
+    {"membranes[].shape.radius", "of the middle surface"},
+    {"membranes[].shape.subdivisions", "20 x 4^n facets"},
+    {"membranes[].shape.size", "from the origin to the opposite corner"},
+    {"membranes[].shape.rib_pitch", "along x from rib to rib, between axes"},
+    {"membranes[].shape.bar_pitch", "along y from bar to bar, between axes"},
+    {"membranes[].shape.apertures", "along x and along y"},
+    {"membranes[].shape.divisions", "elements from one junction or point to the next"},
+    {"membranes[].shape.mesh_size", "from twist to twist, between axes"},
+    {"membranes[].shape.twist_length", "of two wires wound around each other"},
+    {"membranes[].shape.wire_height", "of a single wire, along y"},
+    {"membranes[].shape.meshes", "across, and rows of twists"},
+    {"membranes[].shape.points", "through which it goes; the first one again closes it"},
+});
+
+constexpr std::array kOfGrains = std::to_array<KeyMeaning>({
+    {"grains[].name", "what loads and outputs call them"},
+    {"grains[].material", "with a density"},
+    {"grains[].centres", "a grain at each of these places, instead of count and box"},
+    {"grains[].radius", "of all, or give sieves"},
+    {"grains[].passing_by", "what passing counts"},
+    {"grains[].sieves[].sieve", "diameter, increasing"},
+    {"grains[].sieves[].passing", "part that is smaller, from 0 to 1"},
+    {"grains[].mass", "of all together"},
+    {"grains[].volume", "of the solids of all together"},
+    {"grains[].count", "how many"},
+    {"grains[].box.min", "lower corner of the space that they are placed in"},
+    {"grains[].box.max", "upper corner"},
+    {"grains[].velocity", "at the start"},
+    {"grains[].angular_velocity", "at the start"},
+    {"grains[].seed", "of the random numbers that place them"},
+    {"planes[].name", "what loads and outputs call it"},
+    {"planes[].point", "any point of the plane"},
+    {"planes[].normal", "into the space of the bodies; any length"},
+    {"planes[].velocity", "constant"},
+    {"planes[].material", "of its contacts"},
+});
+
+constexpr std::array kOfLoads = std::to_array<KeyMeaning>({
+    {"loads[].name", "what messages call it"},
+    {"loads[].membrane", "on which it acts, or whose nodes"},
+    {"loads[].grains", "whose nodes, instead of those of a membrane"},
+    {"loads[].plane", "that is moved or driven"},
+    {"loads[].nodes", "which nodes of the body; a side is where a coordinate is least or greatest"},
+    {"loads[].factor", "multiplies the load: numbers at times, straight lines between"},
+    {"loads[].components", "along which the nodes go as told"},
+    {"loads[].displacement", "times the change of factor"},
+    {"loads[].velocity", "times factor"},
+    {"loads[].hold_rotation", "the nodes do not turn, or turn as told"},
+    {"loads[].turn.point", "on the axis"},
+    {"loads[].turn.axis", "about which the nodes go round and turn"},
+    {"loads[].turn.angle", "times the change of factor"},
+    {"loads[].angular_velocity", "with which the nodes turn, times factor"},
+    {"loads[].torque", "on each node"},
+    {"loads[].force", "on each node; of a servo on the bodies, along the normal"},
+    {"loads[].total_force", "shared evenly by the nodes"},
+    {"loads[].pressure", "along the normals of facets; of a servo on the bodies"},
+    {"loads[].by_volume", "pressure by the volume that a closed membrane holds"},
+    {"loads[].gas.outside_pressure", "absolute; with gas the pressure follows the volume"},
+    {"loads[].gas.exponent", "of the volume: 1 isothermal, 1.4 air without exchange of heat"},
+    {"loads[].area", "of the plate, for its pressure"},
+    {"loads[].between", "planes that face each other: their distances make the area"},
+    {"loads[].speed", "at most; without contacts it comes with this"},
+    {"loads[].gain", "of the controller: part of the force error that a step takes away"},
+    {"loads[].stiffness", "along x, y and z, of each node, to where it is at the start"},
+    {"loads[].ratio", "of critical damping, along each beam"},
+    {"loads[].rate", "force over mass and velocity"},
+});
+
+constexpr std::array kOfOutput = std::to_array<KeyMeaning>({
+    {"output.interval", "between frames for ParaView"},
+    {"output.history_interval", "between rows of energy.csv"},
+    {"output.reactions_interval", "between rows of reactions.csv"},
+    {"output.grains", "whether grains.pvd is written"},
+    {"output.membranes", "whether membranes.pvd is written"},
+    {"output.contacts", "whether contacts.pvd is written"},
+    {"output.contact_list", "whether contacts.csv is written: every contact of every frame"},
+    {"output.reactions[].name", "of its columns"},
+    {"output.reactions[].about", "point of the moment; else that of the plane, or the origin"},
+    {"output.reactions[].plane", "what all bodies do to it"},
+    {"output.reactions[].membrane", "whose supports or contacts"},
+    {"output.reactions[].grains", "whose supports or contacts"},
+    {"output.reactions[].nodes", "which of its nodes"},
+});
+
+/// Parameters of laws have their meaning with the law.
+std::string_view meaning_of_parameter(std::string_view name) {
+  const auto parameters = contact::common_law_parameters();
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&](const auto& parameter) { return parameter.name == name; });
+  return found == parameters.end() ? std::string_view() : found->what;
+}
+
+}  // namespace
+
+std::vector<KeyMeaning> key_meanings() {
+  std::vector<KeyMeaning> all;
+  for (const std::span<const KeyMeaning> table :
+       {std::span<const KeyMeaning>(kOfSimulation), std::span<const KeyMeaning>(kOfMaterials),
+        std::span<const KeyMeaning>(kOfMembranes), std::span<const KeyMeaning>(kOfShapes),
+        std::span<const KeyMeaning>(kOfGrains), std::span<const KeyMeaning>(kOfLoads),
+        std::span<const KeyMeaning>(kOfOutput)})
+    all.insert(all.end(), table.begin(), table.end());
+  return all;
+}
+
+std::string_view meaning_of_key(std::string_view path) {
+  constexpr std::string_view kContacts = "contacts[].";
+  for (const KeyMeaning& meaning : key_meanings())
+    if (meaning.path == path) return meaning.what;
+  return path.starts_with(kContacts) ? meaning_of_parameter(path.substr(kContacts.size()))
+                                     : std::string_view();
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies whose place and motion at the start are told one by one: chains, single grains, membranes
+// that fly.
+#include "apps/scenario/scenario_reader.hpp"
+#include "apps/scene/build_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace plekton::apps {
+namespace {
+
+using dynamics::Held;
+using geometry::NodeId;
+using testing::HasSubstr;
+
+constexpr std::string_view kScenario = R"([simulation]
+duration = "1 s"
+[materials.rock]
+density = "2650 kg/m3"
+young_modulus = "20 MPa"
+friction_angle = "35 deg"
+[[membranes]]
+name = "rope"
+shape = { kind = "chain", points = [[0, 0, 1], [1, 0, 1], [1, 2, 1]], divisions = 2 }
+thickness = "2 cm"
+material = "rock"
+young_modulus = "1 GPa"
+density = "1000 kg/m3"
+hold = "rim"
+initial_velocity = [0, 0, "3 m/s"]
+[[grains]]
+name = "pair"
+material = "rock"
+radius = "5 cm"
+centres = [[0, 0, "2 m"], [0.1, 0, 2]]
+velocity = [0, 0, -1]
+angular_velocity = [0, "7 rad/s", 0]
+)";
+
+BuiltScene built(const std::vector<std::string>& overrides = {}) {
+  return build_scene(parse_scenario(kScenario, "case.toml", overrides));
+}
+
+std::string error_of(const std::vector<std::string>& overrides) {
+  try {
+    built(overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PlacedBodies, LinkAChainThroughItsPoints) {
+  const BuiltScene scene = built();
+
+  const BuiltMembrane& rope = scene.membranes.at(0);
+  EXPECT_EQ(rope.nodes, 5u);
+  EXPECT_EQ(rope.beams, 4u);
+  EXPECT_EQ(rope.facets, 0u);
+  // 1000 kg/m3 pi (1 cm)² 3 m
+  EXPECT_NEAR(rope.mass, 0.3 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(scene.scene.state.position[1], Vec3(0.5, 0.0, 1.0));
+  EXPECT_EQ(scene.scene.state.position[4], Vec3(1.0, 2.0, 1.0));
+  EXPECT_EQ(scene.scene.bonds[3].nodes, (std::array{NodeId{3}, NodeId{4}}));
+}
+
+TEST(PlacedBodies, HoldTheEndsOfAChainAsItsRim) {
+  const dynamics::Scene scene = built().scene;
+
+  EXPECT_EQ(scene.properties.held[0], Held::translation);
+  EXPECT_EQ(scene.properties.held[2], Held::nothing);
+  EXPECT_EQ(scene.properties.held[4], Held::translation);
+}
+
+TEST(PlacedBodies, CloseAChainThatEndsWhereItBegins) {
+  const BuiltScene scene =
+      built({"membranes.rope.shape.points=[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0]]",
+             "membranes.rope.shape.divisions=1", "membranes.rope.hold=none"});
+
+  EXPECT_EQ(scene.membranes.at(0).nodes, 3u);
+  EXPECT_EQ(scene.membranes.at(0).beams, 3u);
+}
+
+TEST(PlacedBodies, LetWhatIsNotHeldFlyAtTheStart) {
+  const dynamics::NodeState state = built().scene.state;
+
+  EXPECT_EQ(state.velocity[0], Vec3::Zero());
+  EXPECT_EQ(state.velocity[1], Vec3(0.0, 0.0, 3.0));
+}
+
+TEST(PlacedBodies, PutGrainsWhereTheyAreToldInThatOrder) {
+  const BuiltScene scene = built();
+
+  EXPECT_EQ(scene.grains.at(0).count, 2u);
+  EXPECT_EQ(scene.scene.state.position[5], Vec3(0.0, 0.0, 2.0));
+  EXPECT_EQ(scene.scene.state.position[6], Vec3(0.1, 0.0, 2.0));
+  EXPECT_EQ(scene.scene.state.velocity[6], Vec3(0.0, 0.0, -1.0));
+  EXPECT_EQ(scene.scene.state.angular_velocity[6], Vec3(0.0, 7.0, 0.0));
+  EXPECT_EQ(scene.scene.elements.spheres[1].radius, 0.05);
+}
+
+TEST(PlacedBodies, RefuseWhatDoesNotGoWithAChain) {
+  EXPECT_THAT(error_of({"membranes.rope.shape.points=[[0, 0, 0]]"}),
+              HasSubstr("points: got a list of 1; expected a list of at least 2 vectors"));
+  EXPECT_THAT(error_of({"membranes.rope.shape.points=[[0, 0, 0], [0, 0, 0]]"}),
+              HasSubstr("points 0 and 1 of a chain are equal"));
+  EXPECT_THAT(error_of({"membranes.rope.shape.points=[[0, 0, 0], [1, 0, 0], [0, 0, 0]]",
+                        "membranes.rope.shape.divisions=1"}),
+              HasSubstr("a closed chain has 2 links; expected at least 3"));
+  EXPECT_THAT(error_of({"membranes.rope.areal_mass=1"}), HasSubstr("a chain has no area"));
+  EXPECT_THAT(error_of({"membranes.rope.mode=continuum"}), HasSubstr("a net has no facets"));
+}
+
+TEST(PlacedBodies, RefuseWhatDoesNotGoWithCentres) {
+  EXPECT_THAT(error_of({"grains.pair.count=3"}), HasSubstr("count: centres says where each"));
+  EXPECT_THAT(error_of({"grains.pair.centres=[[0, 0, 1], [0, 0, 1]]"}),
+              HasSubstr("centres: two grains are at (0, 0, 1) m"));
+  EXPECT_THAT(error_of({"grains.pair.centres=[0, 0, 1]"}),
+              HasSubstr("centres[0]: got 0; expected a list of three components"));
+}
+
+}  // namespace
+}  // namespace plekton::apps
