@@ -218,8 +218,9 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
   dissipated_ += with_spheres_.advance(motion, dt, pool, forces);
   dissipated_ += with_surfaces_.advance(motion, dt, pool);
   dissipated_ += between_structures_.advance(motion, dt, pool);
-  dissipated_ += with_planes_.advance(motion, planes, dt, pool);
-  add_surface_forces(forces, pool);
+  with_surfaces_.add_forces(forces, pool);
+  between_structures_.add_forces(forces);
+  dissipated_ += with_planes_.advance(motion, planes, dt, pool, forces);
 }
 
 /// @returns the energy (J) lost with contacts that left the list

@@ -46,11 +46,13 @@ struct PlaneForce {
   Vec3 torque_a;  ///< N m, on a
   std::size_t contact;
 
-  template <class Owns>
-  void add_to(NodeForces& forces, Owns owns) const {
-    if (!owns(a)) return;
+  void add_to(NodeForces& forces) const {
     forces.force[index_of(a)] -= force;
     forces.torque[index_of(a)] += torque_a;
+  }
+  template <class Owns>
+  void add_to(NodeForces& forces, Owns owns) const {
+    if (owns(a)) add_to(forces);
   }
 };
 
@@ -111,6 +113,7 @@ class ForceRecords {
   /// Adds all forces to the nodes. Each thread goes through all records and adds to the nodes it
   /// owns.
   void add_to(NodeForces& forces, geometry::ThreadPool& pool) const {
+    if (size() == 0) return;
     if (pool.thread_count() == 1) {
       for_each([&](const Record& record) { record.add_to(forces, [](NodeId) { return true; }); });
       return;

@@ -27,11 +27,12 @@ class PlaneContacts {
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
                  std::span<const Plane> planes, const MaterialPairs<Law>& materials);
 
-  /// One step of all contacts: forces are written down, not yet added.
+  /// One step of all contacts; adds their forces to the nodes.
   /// @returns the energy (J) dissipated
   double advance(const Motion& motion, std::span<const Plane> planes, double dt,
-                 geometry::ThreadPool& pool);
+                 geometry::ThreadPool& pool, NodeForces& forces);
 
+  /// Adds the forces of the last step once more, to other sums.
   void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
     records_.add_to(forces, pool);
   }
@@ -101,6 +102,9 @@ class PlaneContacts {
   /// dissipated
   double advance_touching(const Touching& touching, const Motion& motion,
                           std::span<const Plane> planes, double dt, Records& records);
+  /// One step of all contacts of some balls.
+  double advance_balls(std::size_t begin, std::size_t end, const Motion& motion,
+                       std::span<const Plane> planes, double dt, Records& records);
   template <class Block>
   void gather(const Touching& touching, const Motion& motion, std::span<const Plane> planes,
               Block& block) const;
@@ -110,6 +114,7 @@ class PlaneContacts {
                      std::span<const Plane> planes, double dt, Records& records);
 
   std::vector<Slot> slots_;
+  std::size_t ball_count_ = 0;
   ForceRecords<PlaneForce> records_;
   Rekey<Slot> rekey_;
   geometry::ParallelSum<double> sum_;
@@ -129,37 +134,52 @@ double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
     return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}, 0};
   };
   rekey_(slots_, keys, make, [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });
+  ball_count_ = slots_.empty() ? 0 : balls.size();
   return lost;
 }
 
+/// Threads share out the balls, not the contacts: those of a ball are all of one thread, which adds
+/// their forces at once, and most balls are of the thread that moves their nodes.
 template <ContactLaw Law>
 double PlaneContacts<Law>::advance(const Motion& motion, std::span<const Plane> planes, double dt,
-                                   geometry::ThreadPool& pool) {
+                                   geometry::ThreadPool& pool, NodeForces& forces) {
   records_.reset(pool.thread_count());
-  return sum_(slots_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {
+  if (slots_.empty()) return 0.0;
+  return sum_(ball_count_, pool, [&](std::size_t begin, std::size_t end, int worker) {
     Records& records = records_.of_worker(worker);
-    double dissipated = 0.0;
-    Touching touching;
-    for (std::size_t i = begin; i < end; ++i) {
-      Slot& slot = slots_[i];
-      const Plane& plane = planes[slot.plane];
-      const double height = (motion.position[index_of(slot.node)] - plane.point).dot(plane.normal);
-      if (height < slot.radius ||
-          goes_on<Law>(slot.parameters, slot.memory.history, height - slot.radius)) {
-        touching.slot[touching.count] = i;
-        touching.height[touching.count++] = height;
-        touching.all_have_images &= height + slot.radius > 0.0;
-      } else if (!slot.memory.is_new()) {
-        dissipated += forget<Law>(slot.parameters, slot.memory);
-        slot.id = 0;
-      }
-      if (touching.count < kBatchLanes && i + 1 < end) continue;
-      dissipated += advance_touching(touching, motion, planes, dt, records);
-      touching.count = 0;
-      touching.all_have_images = true;
-    }
+    const std::size_t old = records.count;
+    const double dissipated = advance_balls(begin, end, motion, planes, dt, records);
+    for (std::size_t i = old; i < records.count; ++i) records.records[i].add_to(forces);
     return dissipated;
   });
+}
+
+template <ContactLaw Law>
+double PlaneContacts<Law>::advance_balls(std::size_t begin, std::size_t end, const Motion& motion,
+                                         std::span<const Plane> planes, double dt,
+                                         Records& records) {
+  double dissipated = 0.0;
+  Touching touching;
+  const std::size_t last = rekey_.first_of(end);
+  for (std::size_t i = rekey_.first_of(begin); i < last; ++i) {
+    Slot& slot = slots_[i];
+    const Plane& plane = planes[slot.plane];
+    const double height = (motion.position[index_of(slot.node)] - plane.point).dot(plane.normal);
+    if (height < slot.radius ||
+        goes_on<Law>(slot.parameters, slot.memory.history, height - slot.radius)) {
+      touching.slot[touching.count] = i;
+      touching.height[touching.count++] = height;
+      touching.all_have_images &= height + slot.radius > 0.0;
+    } else if (!slot.memory.is_new()) {
+      dissipated += forget<Law>(slot.parameters, slot.memory);
+      slot.id = 0;
+    }
+    if (touching.count < kBatchLanes && i + 1 < last) continue;
+    dissipated += advance_touching(touching, motion, planes, dt, records);
+    touching.count = 0;
+    touching.all_have_images = true;
+  }
+  return dissipated;
 }
 
 template <ContactLaw Law>

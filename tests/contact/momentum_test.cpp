@@ -74,9 +74,8 @@ TEST(Momentum, IsHandedFromBallToPlaneAtTheContactPoint) {
     const std::vector<Vec3> v{random.in_cube(1.0)};
     const std::vector<Vec3> w{random.in_cube(5.0)};
     geometry::ThreadPool pool;
-    contacts.advance({x, v, w}, planes, 1e-3, pool);
     NodeForces forces(1);
-    contacts.add_forces(forces, pool);
+    contacts.advance({x, v, w}, planes, 1e-3, pool, forces);
 
     const Vec3 force = contacts.force_on(0);
 
