@@ -5,6 +5,7 @@
 #include "geometry/broad_phase.hpp"
 #include "geometry/thread_pool.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -93,11 +94,17 @@ class BallBlocks {
 
   /// Calls add(node, which one of those borrowed) for every ball that a block owns and another one
   /// borrows, in a fixed order.
-  template <class Add>
-  void for_each_loan(std::size_t block, Add&& add) const {
-    for (std::uint32_t i = first_loans_[block]; i < first_loans_[block + 1]; ++i)
+  /// @param ahead  called with the same some calls before, to ask for what add() will read
+  template <class Add, class Ahead>
+  void for_each_loan(std::size_t block, Add&& add, Ahead&& ahead) const {
+    constexpr std::uint32_t kAhead = 16;
+    const std::uint32_t end = first_loans_[block + 1];
+    for (std::uint32_t i = first_loans_[block]; i < end; ++i) {
+      const Loan& later = loans_[std::min(i + kAhead, end - 1)];
+      ahead(later.node, later.borrowed);
       add(loans_[i].node, loans_[i].borrowed);
   }
+    }
 
  private:
   struct Loan {

@@ -69,6 +69,8 @@ class BallContacts {
   using Parameters = typename Law::Parameters;
   using Pair = BallBlocks::Pair;
   static constexpr std::size_t kLanes = BallBlocks::kLanes;
+  /// A row takes some hundred cycles, as much as memory does to answer.
+  static constexpr std::size_t kRowsAhead = 4;
   using Outcome = BlockOutcome<kLanes>;
   static_assert(Rows::kLanes == kLanes);
 
@@ -78,8 +80,8 @@ class BallContacts {
     bool is_numbered = false;
   };
 
-  /// What one thread works with.
-  struct Work {
+  /// What one thread works with: on lines of its own, since it writes to them with every row.
+  struct alignas(64) Work {
     BallRows balls;
     std::vector<BallSum> sums;  ///< of the block's members
     double dt;
@@ -109,6 +111,13 @@ class BallContacts {
   /// Adds to all nodes what other blocks than their own have of them.
   void return_loans(NodeForces& forces, geometry::ThreadPool& pool) const;
   void advance_block(const BallBlocks::Block& block, const Motion& motion, Work& work);
+  /// Asks for what a step will read of a row of a block.
+  void prefetch(const BallBlocks::Block& block, std::size_t row) const noexcept {
+    __builtin_prefetch(blocks_.row(row));
+    if (row >= block.stretches[1].first_row && !touched_[row].any()) return;
+    const auto* const bytes = reinterpret_cast<const char*>(&rows_[row]);
+    for (std::size_t line = 0; line < sizeof(Rows); line += 64) __builtin_prefetch(bytes + line);
+  }
   template <int W>
   PLEKTON_INLINE void advance_rows(const BallBlocks::Block& block, Work& work);
   /// One step of W pairs from a lane on. @returns whether all of them could be computed side by
@@ -233,7 +242,9 @@ void BallContacts<Law>::advance_block(const BallBlocks::Block& block, const Moti
 template <ContactLaw Law>
 template <int W>
 PLEKTON_INLINE void BallContacts<Law>::advance_rows(const BallBlocks::Block& block, Work& work) {
-  for (std::size_t row = block.first_row; row < block.first_row + block.row_count; ++row) {
+  const std::size_t end = block.first_row + block.row_count;
+  for (std::size_t row = block.first_row; row < end; ++row) {
+    prefetch(block, std::min(row + kRowsAhead, end - 1));
     // Pairs of the second stretch were apart when the list was made: most rows of theirs still are.
     if (row >= block.stretches[1].first_row && !touched_[row].any() &&
         !work.balls.template any_touch<W>(blocks_.row(row)))
@@ -363,10 +374,17 @@ template <ContactLaw Law>
 void BallContacts<Law>::return_loans(NodeForces& forces, geometry::ThreadPool& pool) const {
   pool.for_each_range(blocks_.blocks().size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t k = begin; k < end; ++k) {
-      blocks_.for_each_loan(k, [&](NodeId node, std::size_t borrowed) {
-        forces.force[index_of(node)] += lent_[borrowed].force;
-        forces.torque[index_of(node)] += lent_[borrowed].torque;
-      });
+      blocks_.for_each_loan(
+          k,
+          [&](NodeId node, std::size_t borrowed) {
+            forces.force[index_of(node)] += lent_[borrowed].force;
+            forces.torque[index_of(node)] += lent_[borrowed].torque;
+          },
+          [&](NodeId node, std::size_t borrowed) {
+            __builtin_prefetch(&lent_[borrowed]);
+            __builtin_prefetch(&forces.force[index_of(node)]);
+            __builtin_prefetch(&forces.torque[index_of(node)]);
+          });
     }
   });
 }

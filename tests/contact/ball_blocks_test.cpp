@@ -119,11 +119,13 @@ TEST_P(BallBlocksOf, OwnEveryBallOnceAndLendItToWhoBorrowsIt) {
   std::vector<int> returned(borrowed.size(), 0);
   for (std::size_t k = 0; k < blocks_.blocks().size(); ++k) {
     const auto own = blocks_.owned(blocks_.blocks()[k]);
-    blocks_.for_each_loan(k, [&](NodeId node, std::size_t which) {
+    const auto add = [&](NodeId node, std::size_t which) {
       EXPECT_EQ(node, borrowed[which]);
       EXPECT_TRUE(std::ranges::any_of(own, [&](const auto& ball) { return ball.node == node; }));
       ++returned[which];
-    });
+    };
+    blocks_.for_each_loan(
+        k, add, [&](NodeId node, std::size_t which) { EXPECT_EQ(node, borrowed[which]); });
   }
   EXPECT_EQ(std::ranges::count(returned, 1), static_cast<std::ptrdiff_t>(returned.size()));
 }
