@@ -203,7 +203,7 @@ template <ContactLaw Law>
 void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes, double dt,
                             geometry::ThreadPool& pool, NodeForces& forces) {
   if (neighbours_.update(motion.position, pool, motion.way)) {
-    dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs,
+    dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs, pool,
                                          motion.position);
     dissipated_ += list_on_surfaces();
     plane_neighbours_.expire(neighbours_.skin());

@@ -214,9 +214,9 @@ void find_pairs(const Tree& tree, std::size_t begin, std::size_t end, const Keep
     pairs.reserve(pairs.size() + pairs.size() / 2);
 }
 
-/// Counting sort by a, then each row by b. row_ends is scratch.
-void sort_pairs(std::span<const std::vector<IndexPair>> parts, std::size_t row_count,
-                std::vector<std::size_t>& row_ends, std::vector<IndexPair>& sorted) {
+/// Counting sort by a. @param row_ends  where the pairs of each a end
+void sort_by_a(std::span<const std::vector<IndexPair>> parts, std::size_t row_count,
+               std::vector<std::size_t>& row_ends, std::vector<IndexPair>& sorted) {
   row_ends.assign(row_count + 1, 0);
   for (const std::vector<IndexPair>& part : parts)
     for (const IndexPair& pair : part) ++row_ends[static_cast<std::size_t>(pair.a) + 1];
@@ -224,13 +224,14 @@ void sort_pairs(std::span<const std::vector<IndexPair>> parts, std::size_t row_c
   sorted.resize(row_ends[row_count]);
   for (const std::vector<IndexPair>& part : parts)
     for (const IndexPair& pair : part) sorted[row_ends[static_cast<std::size_t>(pair.a)]++] = pair;
-  // The start of each row has moved to its end.
-  auto begin = sorted.begin();
-  for (std::size_t row = 0; row < row_count; ++row) {
-    const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(row_ends[row]);
-    std::sort(begin, end);
-    begin = end;
-  }
+}
+
+/// After sort_by_a: the pairs of each of some a by b.
+void sort_rows(std::size_t begin, std::size_t end, std::span<const std::size_t> row_ends,
+               std::vector<IndexPair>& sorted) {
+  const auto at = [&](std::size_t k) { return sorted.begin() + static_cast<std::ptrdiff_t>(k); };
+  for (std::size_t row = begin; row < end; ++row)
+    std::sort(at(row == 0 ? 0 : row_ends[row - 1]), at(row_ends[row]));
 }
 
 }  // namespace
@@ -242,6 +243,18 @@ struct BroadPhase::Implementation {
     if (found.size() < count) found.resize(count);
     for (std::vector<IndexPair>& pairs : found) pairs.clear();
     return std::span(found).first(count);
+  }
+
+  void sort(std::span<const std::vector<IndexPair>> parts, std::vector<IndexPair>& sorted) {
+    sort_by_a(parts, tree.box_count(), row_ends, sorted);
+    sort_rows(0, tree.box_count(), row_ends, sorted);
+  }
+  void sort(std::span<const std::vector<IndexPair>> parts, std::vector<IndexPair>& sorted,
+            ThreadPool& pool) {
+    sort_by_a(parts, tree.box_count(), row_ends, sorted);
+    pool.for_each_range(tree.box_count(), [&](std::size_t begin, std::size_t end, int) {
+      sort_rows(begin, end, row_ends, sorted);
+    });
   }
 
   std::vector<std::vector<IndexPair>> found;  ///< by thread
@@ -300,7 +313,7 @@ void BroadPhase::self_pairs(std::vector<IndexPair>& pairs) const {
   const Tree& tree = implementation_->tree;
   const std::span found = implementation_->lists(1);
   find_pairs(tree, 0, tree.bunch_count(), kKeepAll, found[0]);
-  sort_pairs(found, size(), implementation_->row_ends, pairs);
+  implementation_->sort(found, pairs);
 }
 
 void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) const {
@@ -309,7 +322,7 @@ void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) con
   pool.for_each_range(tree.bunch_count(), [&](std::size_t begin, std::size_t end, int worker) {
     find_pairs(tree, begin, end, kKeepAll, found[static_cast<std::size_t>(worker)]);
   });
-  sort_pairs(found, size(), implementation_->row_ends, pairs);
+  implementation_->sort(found, pairs, pool);
 }
 
 void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool,
@@ -323,7 +336,7 @@ void BroadPhase::self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool,
   pool.for_each_range(tree.bunch_count(), [&](std::size_t begin, std::size_t end, int worker) {
     find_pairs(tree, begin, end, keep_wanted, found[static_cast<std::size_t>(worker)]);
   });
-  sort_pairs(found, size(), implementation_->row_ends, pairs);
+  implementation_->sort(found, pairs, pool);
 }
 
 void BroadPhase::pairs_with(const BroadPhase& other, std::vector<IndexPair>& pairs) const {
@@ -336,7 +349,7 @@ void BroadPhase::pairs_with(const BroadPhase& other, std::vector<IndexPair>& pai
           .across(tree.root(), other_tree.root());
     });
   }
-  sort_pairs(found, size(), implementation_->row_ends, pairs);
+  implementation_->sort(found, pairs);
 }
 
 void BroadPhase::query(const Box& box, std::vector<std::int32_t>& indices) const {

@@ -54,8 +54,10 @@ void Neighbours::fit(BroadPhase& tree) {
 
 void Neighbours::rebuild(Positions x, ThreadPool& pool) {
   const double margin = skin_.margin() + 0.5 * reach_;
-  boxes_.clear();
-  for (const Sphere& sphere : spheres_) boxes_.push_back(box(sphere, x, margin));
+  boxes_.resize(spheres_.size());
+  pool.for_each_range(spheres_.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) boxes_[i] = box(spheres_[i], x, margin);
+  });
   fit(sphere_tree_);
   const auto is_near = [&](const IndexPair& pair) { return may_touch(pair, x); };
   sphere_tree_.self_pairs(sphere_pairs_, pool, std::cref(is_near));

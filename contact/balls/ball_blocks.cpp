@@ -34,12 +34,12 @@ void set_all(std::vector<Number>& list, std::size_t count, Number value) {
 }  // namespace
 
 void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
-                        Positions x) {
+                        geometry::ThreadPool& pool, Positions x) {
   std::int32_t last = -1;
   for (const geometry::IndexPair& pair : pairs) last = std::max(last, pair.b);
   order_balls(balls.first(static_cast<std::size_t>(last + 1)), x);
-  sort_pairs(pairs);
-  find_touching(pairs, balls, x);
+  sort_pairs(pairs, pool);
+  find_touching(pairs, balls, x, pool);
 
   const std::size_t count = block_count(order_.size());
   first_places_.clear();
@@ -73,38 +73,42 @@ void BallBlocks::order_balls(std::span<const Ball> balls, Positions x) {
 }
 
 /// By counting, then within the few pairs of each ball.
-void BallBlocks::sort_pairs(std::span<const geometry::IndexPair> pairs) {
+void BallBlocks::sort_pairs(std::span<const geometry::IndexPair> pairs,
+                            geometry::ThreadPool& pool) {
   const auto places = [&](std::uint32_t i) {
     return std::minmax(places_[static_cast<std::size_t>(pairs[i].a)],
                        places_[static_cast<std::size_t>(pairs[i].b)]);
   };
-  set_all(first_of_place_, order_.size() + 1, 0U);
+  std::vector<std::uint32_t>& first = first_of_place_;
+  set_all(first, order_.size() + 1, 0U);
   set_all(sorted_, pairs.size(), 0U);
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) ++first_of_place_[places(i).first];
-  std::exclusive_scan(first_of_place_.begin(), first_of_place_.end(), first_of_place_.begin(), 0U);
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) sorted_[first_of_place_[places(i).first]++] = i;
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) ++first[places(i).first];
+  std::exclusive_scan(first.begin(), first.end(), first.begin(), 0U);
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) sorted_[first[places(i).first]++] = i;
   // Now each entry is where the next one's pairs begin.
-  std::uint32_t begin = 0;
-  for (std::size_t place = 0; place < order_.size(); ++place) {
-    const std::uint32_t end = std::exchange(first_of_place_[place], begin);
-    std::sort(
-        sorted_.begin() + begin, sorted_.begin() + end,
-        [&](std::uint32_t i, std::uint32_t j) { return places(i).second < places(j).second; });
-    begin = end;
-  }
+  std::copy_backward(first.begin(), first.end() - 1, first.end());
+  first[0] = 0;
+  pool.for_each_range(order_.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t place = begin; place < end; ++place)
+      std::sort(
+          sorted_.begin() + first[place], sorted_.begin() + first[place + 1],
+          [&](std::uint32_t i, std::uint32_t j) { return places(i).second < places(j).second; });
+  });
 }
 
 void BallBlocks::find_touching(std::span<const geometry::IndexPair> pairs,
-                               std::span<const Ball> balls, Positions x) {
-  make_room(touches_, pairs.size());
-  touches_.assign(pairs.size(), false);
+                               std::span<const Ball> balls, Positions x,
+                               geometry::ThreadPool& pool) {
+  set_all<std::uint8_t>(touches_, pairs.size(), 0);
   if (x.empty()) return;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Ball& a = balls[static_cast<std::size_t>(pairs[i].a)];
-    const Ball& b = balls[static_cast<std::size_t>(pairs[i].b)];
-    const double range = a.radius + b.radius;
-    touches_[i] = (x[index_of(b.node)] - x[index_of(a.node)]).squaredNorm() < range * range;
-  }
+  pool.for_each_range(pairs.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Ball& a = balls[static_cast<std::size_t>(pairs[i].a)];
+      const Ball& b = balls[static_cast<std::size_t>(pairs[i].b)];
+      const double range = a.radius + b.radius;
+      touches_[i] = (x[index_of(b.node)] - x[index_of(a.node)]).squaredNorm() < range * range;
+    }
+  });
 }
 
 BallBlocks::Stretch BallBlocks::add_stretch(std::size_t pair_count) {
@@ -119,8 +123,8 @@ void BallBlocks::fill_block(std::size_t k, std::span<const geometry::IndexPair> 
                             std::span<const Ball> balls) {
   const std::span<const std::uint32_t> own(sorted_.begin() + first_of_place_[first_places_[k]],
                                            sorted_.begin() + first_of_place_[first_places_[k + 1]]);
-  const auto touching =
-      static_cast<std::size_t>(std::ranges::count_if(own, [&](auto i) { return touches_[i]; }));
+  const auto touching = static_cast<std::size_t>(
+      std::ranges::count_if(own, [&](auto i) { return touches_[i] != 0; }));
   Block block{};
   block.first_member = static_cast<std::uint32_t>(members_.size());
   block.owned = first_places_[k + 1] - first_places_[k];
@@ -133,7 +137,7 @@ void BallBlocks::fill_block(std::size_t k, std::span<const geometry::IndexPair> 
     add_member(order_[place], balls);
   std::array<std::size_t, 2> filled{};
   for (const std::uint32_t i : own) {
-    const std::size_t which = touches_[i] ? 0 : 1;
+    const std::size_t which = touches_[i] != 0 ? 0 : 1;
     slots_[i] = static_cast<std::uint32_t>(block.stretches[which].slot(filled[which]++));
     pairs_[slots_[i]] = {member(block, pairs[i].a, balls), member(block, pairs[i].b, balls)};
   }

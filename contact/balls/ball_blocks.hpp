@@ -69,7 +69,8 @@ class BallBlocks {
   /// Takes a new list. Allocates only for a longer one than ever before.
   /// @param pairs  of balls, a < b, sorted; balls after the last of them are left out
   /// @param x      m, of nodes; empty: the balls are in order already
-  void assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls, Positions x);
+  void assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+              geometry::ThreadPool& pool, Positions x);
 
   std::span<const Block> blocks() const noexcept { return blocks_; }
   /// How many balls there are in blocks.
@@ -103,8 +104,8 @@ class BallBlocks {
       const Loan& later = loans_[std::min(i + kAhead, end - 1)];
       ahead(later.node, later.borrowed);
       add(loans_[i].node, loans_[i].borrowed);
-  }
     }
+  }
 
  private:
   struct Loan {
@@ -113,9 +114,9 @@ class BallBlocks {
   };
 
   void order_balls(std::span<const Ball> balls, Positions x);
-  void sort_pairs(std::span<const geometry::IndexPair> pairs);
+  void sort_pairs(std::span<const geometry::IndexPair> pairs, geometry::ThreadPool& pool);
   void find_touching(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
-                     Positions x);
+                     Positions x, geometry::ThreadPool& pool);
   Stretch add_stretch(std::size_t pair_count);
   void fill_block(std::size_t block, std::span<const geometry::IndexPair> pairs,
                   std::span<const Ball> balls);
@@ -130,7 +131,7 @@ class BallBlocks {
   std::vector<std::uint32_t> first_of_place_;  ///< by place: its first pair in sorted_
   std::vector<std::uint32_t> sorted_;          ///< pairs by place of their first and other ball
   std::vector<std::uint32_t> first_places_;    ///< by block
-  std::vector<bool> touches_;                  ///< by pair, when the list was made
+  std::vector<std::uint8_t> touches_;          ///< by pair, 1 or 0, when the list was made
   std::vector<std::uint32_t> member_of_;  ///< by ball: which member of the last block it was in
   std::vector<Block> blocks_;
   std::vector<Member> members_;

@@ -34,7 +34,7 @@ class BallContacts {
   /// @param x  m, of nodes, to put what is near together; empty: the balls are in order already
   /// @returns the energy (J) lost with contacts that left the list
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
-                 const MaterialPairs<Law>& materials, Positions x = {});
+                 const MaterialPairs<Law>& materials, geometry::ThreadPool& pool, Positions x = {});
 
   /// One step of all contacts; adds their forces to the nodes.
   /// @returns the energy (J) dissipated
@@ -154,7 +154,7 @@ class BallContacts {
 template <ContactLaw Law>
 double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
                                   std::span<const Ball> balls, const MaterialPairs<Law>& materials,
-                                  Positions x) {
+                                  geometry::ThreadPool& pool, Positions x) {
   balls_ = balls;
   make_room(old_slots_, keys.size());
   old_slots_.assign(keys.size(), kNoSlot);
@@ -171,7 +171,7 @@ double BallContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
       });
   make_room(keys_, keys.size());
   keys_.assign(keys.begin(), keys.end());
-  blocks_.assign(keys, balls, x);
+  blocks_.assign(keys, balls, pool, x);
   parameters_.assign(keys_, balls_, blocks_, materials);
   move_memories();
   return lost;

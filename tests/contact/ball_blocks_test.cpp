@@ -39,9 +39,12 @@ struct Crowd {
 
 class BallBlocksOf : public testing::TestWithParam<std::int32_t> {
  protected:
-  BallBlocksOf() : crowd_(GetParam()) { blocks_.assign(crowd_.pairs, crowd_.balls, crowd_.x); }
+  BallBlocksOf() : crowd_(GetParam()) {
+    blocks_.assign(crowd_.pairs, crowd_.balls, pool_, crowd_.x);
+  }
 
   Crowd crowd_;
+  geometry::ThreadPool pool_{2};
   BallBlocks blocks_;
 };
 
@@ -132,9 +135,10 @@ TEST_P(BallBlocksOf, OwnEveryBallOnceAndLendItToWhoBorrowsIt) {
 
 TEST(BallBlocks, BorrowFewBallsWhereNeighboursAreNearInSpace) {
   const Crowd crowd(6000);
+  geometry::ThreadPool pool;
   BallBlocks blocks;
 
-  blocks.assign(crowd.pairs, crowd.balls, crowd.x);
+  blocks.assign(crowd.pairs, crowd.balls, pool, crowd.x);
 
   ASSERT_EQ(blocks.blocks().size(), 16u);
   // A cube of n balls has 6 n^(2/3) at its faces; half of what is beyond them is borrowed, and the
@@ -144,13 +148,14 @@ TEST(BallBlocks, BorrowFewBallsWhereNeighboursAreNearInSpace) {
 
 TEST(BallBlocks, TakeANewListInTheirOldOrder) {
   const Crowd crowd(3000);
+  geometry::ThreadPool pool;
   BallBlocks blocks;
-  blocks.assign(crowd.pairs, crowd.balls, crowd.x);
+  blocks.assign(crowd.pairs, crowd.balls, pool, crowd.x);
   std::vector<IndexPair> fewer;
   for (std::size_t i = 0; i < crowd.pairs.size(); i += 2) fewer.push_back(crowd.pairs[i]);
 
   for (int list = 0; list < 20; ++list) {
-    blocks.assign(list % 2 == 0 ? fewer : crowd.pairs, crowd.balls, crowd.x);
+    blocks.assign(list % 2 == 0 ? fewer : crowd.pairs, crowd.balls, pool, crowd.x);
     const auto& pairs = list % 2 == 0 ? fewer : crowd.pairs;
     std::set<std::uint32_t> slots;
     for (std::size_t i = 0; i < pairs.size(); ++i) slots.insert(blocks.slot(i));
@@ -160,9 +165,10 @@ TEST(BallBlocks, TakeANewListInTheirOldOrder) {
 
 TEST(BallBlocks, OfNoPairsHaveNoRows) {
   const Crowd crowd(10);
+  geometry::ThreadPool pool;
   BallBlocks blocks;
 
-  blocks.assign({}, crowd.balls, crowd.x);
+  blocks.assign({}, crowd.balls, pool, crowd.x);
 
   EXPECT_EQ(blocks.row_count(), 0u);
   EXPECT_EQ(blocks.ball_count(), 0u);

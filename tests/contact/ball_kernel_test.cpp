@@ -167,7 +167,7 @@ std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false) {
   RandomCases random;
   std::vector<Vec3> x(kBalls), v(kBalls), w(kBalls);
   for (Vec3& p : x) p = 3e-3 * random.vector();
-  contacts.rebuild(pairs, balls, MaterialPairs<AnyLaw>({{2e6, 0.3, 0.5}}),
+  contacts.rebuild(pairs, balls, MaterialPairs<AnyLaw>({{2e6, 0.3, 0.5}}), pool,
                    knows_where ? Positions(x) : Positions());
   for (int step = 0; step < 20; ++step) {
     for (std::size_t i = 0; i < kBalls; ++i) {

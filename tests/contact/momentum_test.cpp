@@ -42,10 +42,10 @@ TEST(Momentum, BalancesBetweenBalls) {
     const std::vector<Ball> balls{{NodeId{0}, 0.5, MaterialId{0}}, {NodeId{1}, 0.3, MaterialId{0}}};
     const std::vector<geometry::IndexPair> pairs{{0, 1}};
     BallContacts<Law> contacts;
-    contacts.rebuild(pairs, balls, MaterialPairs<Law>({kMaterial}));
+    geometry::ThreadPool pool;
+    contacts.rebuild(pairs, balls, MaterialPairs<Law>({kMaterial}), pool);
     const Vec3 place = random.in_cube(5.0);
     std::vector<Vec3> x{place, place + random.uniform(0.7, 0.799) * random.direction()};
-    geometry::ThreadPool pool;
     for (int step = 0; step < 5; ++step) {
       const std::vector<Vec3> v{random.in_cube(1.0), random.in_cube(1.0)};
       const std::vector<Vec3> w{random.in_cube(5.0), random.in_cube(5.0)};
