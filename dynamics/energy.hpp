@@ -14,10 +14,11 @@ struct Energy {
   double sheet_elastic = 0.0;
   double gravity = 0.0;          ///< of the nodes that are free, from their places at the start
   double friction = 0.0;         ///< dissipated in contacts
-  double bond_dissipated = 0.0;  ///< by bonds that yielded or broke
+  double bond_dissipated = 0.0;  ///< by bonds that yielded or broke, sheets that tore
   double damping = 0.0;          ///< taken by numerical damping
   double external_work = 0.0;    ///< done on the bodies by what moves as prescribed and by loads
-  double initial = 0.0;          ///< kinetic + elastic at the start
+  double initial = 0.0;          ///< kinetic + elastic at the start; kinetic as the leapfrog has
+                                 ///< it, below the true one by 1/2 m (a dt / 2)²
   double rounding = 0.0;         ///< what rounding alone may add up to in closure_error()
 
   /// What is not accounted for: 0 but for the error of the time integration.

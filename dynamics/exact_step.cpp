@@ -3,7 +3,6 @@
 
 #include "dynamics/largest_eigenvalue.hpp"
 #include "dynamics/rotation_step.hpp"
-#include "dynamics/structure/sheet_facets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,14 +39,14 @@ double shortest_length(const Scene& scene) {
 /// M^(-1/2) K M^(-1/2) of the free motions, by its products.
 class ScaledStiffness {
  public:
-  ScaledStiffness(const Scene& scene, const BeamBonds& bonds, const AppliedLoads& loads,
+  ScaledStiffness(const Scene& scene, const Structures& structures, const AppliedLoads& loads,
                   const ContactSprings& contacts, double time)
       : scene_(scene),
         loads_(loads),
         contacts_(contacts),
         time_(time),
-        bonds_(bonds),
-        sheets_(scene.sheet_facets, scene.state.size()),
+        bonds_(structures.bonds),
+        sheets_(structures.sheets),
         moved_(scene.state),
         shift_(scene.state.size(), Vec3::Zero()),
         turn_(scene.state.size(), Vec3::Zero()),
@@ -133,9 +132,10 @@ class ScaledStiffness {
 
 }  // namespace
 
-ExactStep exact_critical_step(const Scene& scene, const BeamBonds& bonds, const AppliedLoads& loads,
-                              const ContactSprings& contacts, double time) {
-  ScaledStiffness stiffness(scene, bonds, loads, contacts, time);
+ExactStep exact_critical_step(const Scene& scene, const Structures& structures,
+                              const AppliedLoads& loads, const ContactSprings& contacts,
+                              double time) {
+  ScaledStiffness stiffness(scene, structures, loads, contacts, time);
   const LargestEigenvalue largest = largest_eigenvalue(
       {stiffness.size(), [&](const VectorXd& x, VectorXd& y) { stiffness.multiply(x, y); }},
       kTolerance, kMostProducts);

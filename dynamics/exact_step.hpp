@@ -4,6 +4,7 @@
 #include "dynamics/contact_springs.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/scene.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 
 #include <limits>
 
@@ -18,6 +19,12 @@ struct ExactStep {
   std::size_t contacts = 0;  ///< how many contacts count
 };
 
+/// What resists in a scene.
+struct Structures {
+  const BeamBonds& bonds;
+  const SheetFacets& sheets;
+};
+
 /// 2 / omega_max, omega² the largest eigenvalue of K x = omega² M x, by Lanczos' method
 /// (largest_eigenvalue.hpp), and what viscous damping makes of it.
 ///
@@ -28,10 +35,11 @@ struct ExactStep {
 ///
 /// It costs two evaluations of all forces of structures for each product, of which there are some
 /// ten to some hundred, and memory for four motions and a second copy of the structures.
-/// @param bonds     of the scene, as they have yielded and broken
+/// @param structures  of the scene, as they have yielded and broken
 /// @param contacts  as they touch now
 /// @param time      s, at which loads are taken
-ExactStep exact_critical_step(const Scene& scene, const BeamBonds& bonds, const AppliedLoads& loads,
-                              const ContactSprings& contacts, double time);
+ExactStep exact_critical_step(const Scene& scene, const Structures& structures,
+                              const AppliedLoads& loads, const ContactSprings& contacts,
+                              double time);
 
 }  // namespace plekton::dynamics

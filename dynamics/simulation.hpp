@@ -16,10 +16,12 @@
 #include "dynamics/scene.hpp"
 #include "dynamics/step_cause.hpp"
 #include "dynamics/structure/beam_bond.hpp"
+#include "dynamics/structure/broken_elements.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/yielding_bonds.hpp"
 #include "dynamics/time_step.hpp"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -76,6 +78,14 @@ class Simulation {
   /// @param bond  by its place in Scene::bonds; broken already: no effect
   /// @throws std::out_of_range if there is no such bond
   void break_bond(std::size_t bond);
+  /// Breaks a cylinder, with all bonds between its nodes, likewise. Along a side of a facet it
+  /// tears that as a broken bond does.
+  /// @throws std::invalid_argument if there is no cylinder between these nodes
+  void break_cylinder(NodeId a, NodeId b);
+  /// Tears a facet, with the facet of a sheet on the same nodes, likewise. Its sides stay as
+  /// cylinders where bonds hold them.
+  /// @throws std::invalid_argument if there is no facet on these nodes
+  void break_facet(const std::array<NodeId, 3>& nodes);
 
   double time() const noexcept { return time_; }
   std::int64_t steps() const noexcept { return steps_; }
@@ -196,8 +206,8 @@ class Simulation {
   AppliedLoads loads_;
   DrivenPlanes driven_planes_;
   std::vector<PlaneReaction> plane_reactions_;  ///< to drive planes
-  std::vector<std::size_t> asked_to_break_;     ///< bonds, in the next step
-  double broken_energy_ = 0.0;                  ///< J, of those, when they broke
+  BrokenParts broken_;                          ///< asked for, in the next step
+  double broken_energy_ = 0.0;                  ///< J, of bonds that were asked for
   NodeForces forces_;
   Leapfrog leapfrog_;
   std::vector<double> radii_;  ///< m, of the ball around each node; 0 where there is none
@@ -229,10 +239,11 @@ void Simulation<Law>::step() {
   require_time_step();
   forces_.set_zero(pool_);
   yielding_bonds_.advance(bonds_, scene_.state, pool_);
+  sheet_facets_.advance(scene_.state, pool_);
+  sheet_facets_.tear(scene_.state.position, pool_);
   follow_breaks();
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
-  sheet_facets_.advance(scene_.state, pool_);
   sheet_facets_.add_forces(forces_, pool_);
   contacts_.advance(motion(), scene_.planes, last_drift_, pool_, forces_);
   apply_loads();

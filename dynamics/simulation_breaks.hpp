@@ -3,7 +3,11 @@
 
 #include "dynamics/simulation.hpp"
 #include "dynamics/structure/broken_elements.hpp"
+#include "geometry/node_sets.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -19,32 +23,74 @@ void Simulation<Law>::break_bond(std::size_t bond) {
     throw std::out_of_range("bond " + std::to_string(bond) + ": there is no such bond, only " +
                             std::to_string(bonds_.size()) + " bonds");
   }
-  asked_to_break_.push_back(bond);
+  broken_.bonds.push_back(bond);
 }
 
-/// Before the forces of a step: takes out what hangs on the bonds that break in it, because they
-/// yielded or were asked to. Linear in the scene where elements are gone; that step may allocate.
+template <contact::ContactLaw Law>
+void Simulation<Law>::break_cylinder(NodeId a, NodeId b) {
+  const auto nodes = geometry::sorted(std::array{a, b});
+  const auto& all = scene_.elements.cylinders;
+  const bool is_there = std::any_of(all.begin(), all.end(), [&](const auto& cylinder) {
+    return geometry::sorted(cylinder.nodes) == nodes;
+  });
+  if (!is_there) {
+    throw std::invalid_argument("there is no cylinder between nodes " +
+                                std::to_string(static_cast<std::int32_t>(a)) + " and " +
+                                std::to_string(static_cast<std::int32_t>(b)) +
+                                "; elements() are those that are left");
+  }
+  broken_.cylinders.push_back(nodes);
+  for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
+    if (geometry::sorted(scene_.bonds[i].nodes) == nodes) broken_.bonds.push_back(i);
+  }
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::break_facet(const std::array<NodeId, 3>& nodes) {
+  const auto corners = geometry::sorted(nodes);
+  const auto& all = scene_.elements.facets;
+  const bool is_there = std::any_of(all.begin(), all.end(), [&](const auto& facet) {
+    return geometry::sorted(facet.nodes) == corners;
+  });
+  if (!is_there) {
+    std::string text = "there is no facet on nodes";
+    for (const NodeId node : nodes) text += " " + std::to_string(static_cast<std::int32_t>(node));
+    throw std::invalid_argument(text + "; elements() are those that are left");
+  }
+  broken_.facets.push_back(corners);
+}
+
+/// Before the forces of a step: takes out what hangs on the bonds and sheets that break in it,
+/// because they yielded, tore or were asked to. Linear in the scene where elements are gone; that
+/// step may allocate.
 template <contact::ContactLaw Law>
 void Simulation<Law>::follow_breaks() {
   const std::span<const std::size_t> yielded = yielding_bonds_.broken();
-  if (asked_to_break_.empty() && yielded.empty()) return;
+  if (broken_.empty() && yielded.empty() && sheet_facets_.broken().empty()) return;
   break_asked();
   loads_.follow(bonds_);
   if (surface_.cell_count() > 0) {
-    asked_to_break_.insert(asked_to_break_.end(), yielded.begin(), yielded.end());
-    if (take_out_broken(scene_, asked_to_break_, bonds_)) follow_surface();
+    broken_.bonds.insert(broken_.bonds.end(), yielded.begin(), yielded.end());
+    for (const std::size_t facet : sheet_facets_.broken())
+      broken_.facets.push_back(sheet_facets_.nodes(facet));
+    if (take_out_broken(scene_, broken_, bonds_, sheet_facets_)) follow_surface();
   }
-  asked_to_break_.clear();
+  broken_.clear();
 }
 
 /// Half of the work of a bond's last step is still done by its force of before, the other half is
 /// not: the mean of its energies before and after is lost.
 template <contact::ContactLaw Law>
 void Simulation<Law>::break_asked() {
-  for (const std::size_t bond : asked_to_break_) {
+  for (const std::size_t bond : broken_.bonds) {
     if (bonds_.is_broken(bond)) continue;
     const double after = bonds_.energy_of(bond, scene_.state);
     broken_energy_ += 0.5 * (bonds_.break_bond(bond) + after);
+  }
+  for (const auto& nodes : broken_.facets) {
+    for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
+      if (geometry::sorted(sheet_facets_.nodes(i)) == nodes) sheet_facets_.break_facet(i);
+    }
   }
 }
 

@@ -44,7 +44,7 @@ void Simulation<Law>::consider_structures(StiffestPart& parts) const {
     });
   }
   for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
-    if (!holds_it(sheet_facets_.nodes(i))) continue;
+    if (sheet_facets_.is_broken(i) || !holds_it(sheet_facets_.nodes(i))) continue;
     parts.consider({StepPart::Kind::sheet_facet, i}, [&](NodalStiffness& stiffness) {
       sheet_facets_.add_to(stiffness, scene_.state, i);
     });

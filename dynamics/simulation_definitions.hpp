@@ -73,9 +73,11 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   yielding_bonds_.advance(bonds_, scene_.state, pool_);
   yielding_bonds_.forget_dissipated();
+  sheet_facets_.advance(scene_.state, pool_);
+  sheet_facets_.tear(scene_.state.position, pool_);
+  sheet_facets_.forget_dissipated();
   follow_breaks();
   bonds_.advance(scene_.state, pool_);
-  sheet_facets_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
   forces_.set_zero();
   expected_ = expected_contacts<Law>(scene_, surface_, material_pairs_);
@@ -186,7 +188,8 @@ void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) 
   const double later = 0.5 * lengths.drift / lengths.kick;
   const LoadWork left = loads_.work_after({time_, last_drift_, dt_}, scene_.state, pool_);
   pending_ = {0.0, later * step.damped + left.damped, later * step.external + left.external};
-  if (last_drift_ > 0.0) work_.kinetic = step.kinetic;
+  if (last_drift_ == 0.0) initial_energy_ += step.kinetic - work_.kinetic;
+  work_.kinetic = step.kinetic;
   work_.damped += step.damped + left.damped;
   work_.external += step.external + left.external;
   fastest_ = std::sqrt(work.fastest_squared);
@@ -217,7 +220,8 @@ Energy Simulation<Law>::energy() const {
   // positions.
   energy.gravity = -motion_.gravity.dot(free_moment(last_drift_) - initial_moment_);
   energy.friction = contacts_.dissipated();
-  energy.bond_dissipated = broken_energy_ + yielding_bonds_.dissipated();
+  energy.bond_dissipated =
+      broken_energy_ + yielding_bonds_.dissipated() + sheet_facets_.dissipated();
   energy.damping = work_.damped - pending_.damped;
   energy.external_work = work_.external - pending_.external;
   energy.initial = initial_energy_;
@@ -307,7 +311,7 @@ template <contact::ContactLaw Law>
 ExactStep Simulation<Law>::exact_critical_step() const {
   ContactSprings springs;
   add_contacts_to(springs);
-  return dynamics::exact_critical_step(scene_, bonds_, loads_, springs, time_);
+  return dynamics::exact_critical_step(scene_, {bonds_, sheet_facets_}, loads_, springs, time_);
 }
 
 /// Calls look() for all nodes, as many at once as there is space for.

@@ -63,6 +63,7 @@ double Simulation<Law>::unbalanced_force_ratio() const {
     carried.add(std::hypot(forces.tension, forces.shear.norm()));
   }
   for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
+    if (sheet_facets_.is_broken(i)) continue;
     for (std::size_t corner = 0; corner < 3; ++corner)
       carried.add(sheet_facets_.corner_force(i, corner).norm());
   }

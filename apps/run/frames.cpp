@@ -64,7 +64,8 @@ std::vector<dynamics::PrincipalForces> membrane_forces_of(const Simulation& simu
   std::vector<dynamics::PrincipalForces> forces(facets.size());
   std::size_t next = 0;
   for (std::size_t i = 0; i < facets.size() && next < sheets.size(); ++i) {
-    if (facets[i].nodes != sheets.nodes(next)) continue;
+    while (next < sheets.size() && sheets.is_broken(next)) ++next;
+    if (next == sheets.size() || facets[i].nodes != sheets.nodes(next)) continue;
     forces[i] =
         dynamics::principal_forces(sheets.membrane_force(next++, simulation.state().position));
   }

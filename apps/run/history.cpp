@@ -8,7 +8,7 @@
 namespace plekton::apps {
 namespace {
 
-constexpr std::array<dynamics::OutputField, 20> kFields = {{
+constexpr std::array<dynamics::OutputField, 21> kFields = {{
     {"time", "s", "simulated"},
     {"kinetic", "J", "energy of motion of free nodes"},
     {"contact_elastic", "J", "energy stored in contacts"},
@@ -16,7 +16,7 @@ constexpr std::array<dynamics::OutputField, 20> kFields = {{
     {"sheet_elastic", "J", "energy stored in sheets"},
     {"gravity", "J", "energy of weight, from the start"},
     {"friction", "J", "dissipated by contacts"},
-    {"bond_dissipated", "J", "dissipated by bonds that yield or break"},
+    {"bond_dissipated", "J", "dissipated by bonds that yield or break, and by sheets that tear"},
     {"damping", "J", "dissipated by numerical and viscous damping"},
     {"external_work", "J", "done by loads and by what is moved"},
     {"closure_error", "J", "by which these do not add up"},
@@ -25,6 +25,7 @@ constexpr std::array<dynamics::OutputField, 20> kFields = {{
     {"membrane_membrane_contacts", "", "how many"},
     {"plane_contacts", "", "how many"},
     {"broken_bonds", "", "how many so far"},
+    {"torn_facets", "", "of sheets, how many so far"},
     {"largest_overlap_ratio", "", "overlap over the radius of the smaller ball"},
     {"time_step", "s", "chosen or given; the last step of a run may be shorter"},
     {"lost_grains", "", "how many"},
@@ -46,6 +47,13 @@ std::size_t broken_bonds(const Simulation& simulation) {
   const dynamics::BeamBonds& bonds = simulation.bonds();
   std::size_t count = 0;
   for (std::size_t i = 0; i < bonds.size(); ++i) count += bonds.is_broken(i) ? 1U : 0U;
+  return count;
+}
+
+std::size_t torn_facets(const Simulation& simulation) {
+  const dynamics::SheetFacets& sheets = simulation.sheet_facets();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < sheets.size(); ++i) count += sheets.is_broken(i) ? 1U : 0U;
   return count;
 }
 
@@ -75,6 +83,7 @@ void History::add(const Simulation& simulation, const dynamics::Energy& energy,
                static_cast<double>(counts.between_structures),
                static_cast<double>(counts.with_planes),
                static_cast<double>(broken_bonds(simulation)),
+               static_cast<double>(torn_facets(simulation)),
                simulation.present_overlap_ratio(),
                simulation.time_step(),
                static_cast<double>(lost.total()),

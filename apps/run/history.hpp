@@ -13,6 +13,9 @@ namespace plekton::apps {
 /// How many bonds have broken so far. Linear in the number of bonds.
 std::size_t broken_bonds(const Simulation& simulation);
 
+/// How many facets of sheets have torn so far. Linear in their number.
+std::size_t torn_facets(const Simulation& simulation);
+
 /// The columns of energy.csv.
 std::span<const dynamics::OutputField> history_fields();
 

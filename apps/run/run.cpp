@@ -204,6 +204,7 @@ class Run {
     report_.contacts = counts.sphere_sphere + counts.sphere_surface + counts.between_structures +
                        counts.with_planes;
     report_.broken_bonds = broken_bonds(simulation_);
+    report_.torn_facets = torn_facets(simulation_);
     report_.frames = frames_.count();
     report_.simulated_time = simulation_.time();
     report_.steps = simulation_.steps();

@@ -26,6 +26,7 @@ Json counts_of(const RunReport& report) {
           {"bonds", report.bonds},
           {"planes", report.planes},
           {"broken_bonds", report.broken_bonds},
+          {"torn_facets", report.torn_facets},
           {"contacts", report.contacts},
           {"frames", report.frames}};
 }

@@ -39,6 +39,18 @@ std::optional<dynamics::BondStrength> read_strength(Section& section) {
   return strength;
 }
 
+/// Of a sheet (Pa), without what only beams and bars have.
+std::optional<double> read_tear_strength(Section& section) {
+  for (const std::string_view key : {"yield_stress", "hardening", "rupture_strain"}) {
+    if (section.has(key))
+      section.complain(key,
+                       "is of beams and bars; a continuum stays elastic until it tears at its "
+                       "strength; use mode = \"lattice\" or \"truss\"");
+  }
+  if (!section.has("strength")) return std::nullopt;
+  return section.quantity("strength", {kPressure, kPositive});
+}
+
 /// Nothing if there is no such key, or after a problem.
 std::optional<dynamics::WireCurve> read_curve(Section& section, std::string_view key) {
   if (!section.has(key)) return std::nullopt;
@@ -75,7 +87,10 @@ void require_wire_alone(Section& section, const MembraneSettings& membrane) {
 }  // namespace
 
 void read_membrane_strength(Section& section, MembraneSettings& membrane) {
-  membrane.strength = read_strength(section);
+  if (membrane.mode == MembraneMode::continuum)
+    membrane.tear_strength = read_tear_strength(section);
+  else
+    membrane.strength = read_strength(section);
   membrane.wire = read_curve(section, "wire");
   membrane.twist_wire = read_curve(section, "twist_wire");
   if (section.has("wire")) require_wire_alone(section, membrane);
@@ -86,14 +101,6 @@ void read_membrane_strength(Section& section, MembraneSettings& membrane) {
       section.complain("twist_wire", "only a hexagonal_net has twists; use wire alone");
     if (!section.has("wire"))
       section.complain("twist_wire", "goes with wire, the curve of the single wires; give both");
-  }
-  if (membrane.strength && membrane.mode == MembraneMode::continuum) {
-    for (const std::string_view key : kStrengthKeys) {
-      if (section.has(key))
-        section.complain(key,
-                         "is of beams and bars; a continuum stays elastic; use mode = "
-                         "\"lattice\" or \"truss\"");
-    }
   }
 }
 

@@ -105,6 +105,7 @@ struct MembraneSettings {
   double poisson_ratio = 0.3;               ///< of the sheet, or of the beams, for their torsion
   std::optional<double> bending_stiffness;  ///< N m, of a sheet; else that of a solid plate
   std::optional<dynamics::BondStrength> strength;  ///< of the beams or bars, if they yield or break
+  std::optional<double> tear_strength;             ///< Pa, of a sheet, if it tears
   std::optional<dynamics::WireCurve> wire;         ///< of the bars, instead of a modulus
   std::optional<dynamics::WireCurve> twist_wire;   ///< of the twists of a hexagonal net; else wire
   MassMode mass_mode = MassMode::edge;

@@ -156,6 +156,7 @@ void add_sheet(const MembraneSettings& settings, const Membrane& membrane,
   dynamics::SheetSection section =
       dynamics::solid_sheet(settings.thickness, built.young_modulus, settings.poisson_ratio);
   section.bending_stiffness = settings.bending_stiffness.value_or(section.bending_stiffness);
+  section.strength = settings.tear_strength.value_or(section.strength);
   for (const geometry::Facet& facet : membrane.facets)
     scene.add_sheet_facet(facet.nodes, section, 0.0);
   for (const auto& edge : membrane.edges) {

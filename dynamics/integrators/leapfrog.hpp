@@ -45,8 +45,10 @@ struct StepWork {
 /// different lengths is their mean.
 ///
 /// The kinetic energy at time t is 1/2 m v(t - dt/2).v(t + dt/2): with it the energy of a linear
-/// oscillator is exactly constant. Held motions stay as they are and are left out of the energy:
-/// what they do is external work.
+/// oscillator is exactly constant. dt is that of the next drift, and v is taken as straight in time
+/// where the last one was of another length; before the first one v(t - dt/2) is what would have
+/// led to the velocity at the start, so that a load which is there at once leaves nothing. Held
+/// motions stay as they are and are left out of the energy: what they do is external work.
 ///
 /// Numerical damping scales each component of the acceleration by 1 - lambda sgn(a v), v at the
 /// moment of the forces. It is not frame-indifferent and not for tests of momentum. Cundall; see

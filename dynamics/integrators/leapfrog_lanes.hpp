@@ -49,8 +49,8 @@ struct NodeMotion {
   /// Steps the velocity. The acceleration is force over inertia plus two parts of gravity, of which
   /// one is damped.
   PLEKTON_INLINE StepWorkOf<Real> kick(const Vector<Real>& damped_gravity,
-                                       const Vector<Real>& free_gravity, const Real& damping,
-                                       const Real& dt) noexcept;
+                                       const Vector<Real>& free_gravity, double damping,
+                                       const StepLengths& lengths) noexcept;
 };
 
 /// Acceleration that numerical damping takes from a component: lambda |a| against the velocity.
@@ -74,22 +74,29 @@ PLEKTON_INLINE Vector<Real> choose(const Vector<Real>& held, const Vector<Real>&
 template <class Real>
 PLEKTON_INLINE StepWorkOf<Real> NodeMotion<Real>::kick(const Vector<Real>& damped_gravity,
                                                        const Vector<Real>& free_gravity,
-                                                       const Real& damping,
-                                                       const Real& dt) noexcept {
+                                                       double damping,
+                                                       const StepLengths& lengths) noexcept {
   const Real half = 0.5;
+  const Real dt = lengths.kick;
   const Vector<Real> none = Vector<Real>::Zero();
   const Vector<Real> before = velocity;
   const Vector<Real> subject = (Real(1.0) / inertia) * force + damped_gravity;
   const Vector<Real> undamped = subject + free_gravity;
   const Vector<Real> now = before + (half * dt) * undamped;
-  const Vector<Real> removed{damping_of(subject.x, now.x, damping),
-                             damping_of(subject.y, now.y, damping),
-                             damping_of(subject.z, now.z, damping)};
+  const Real lambda = damping;
+  const Vector<Real> removed{damping_of(subject.x, now.x, lambda),
+                             damping_of(subject.y, now.y, lambda),
+                             damping_of(subject.z, now.z, lambda)};
   const Vector<Real> after = before + dt * (undamped - removed);
+
+  // The velocity half of the next drift before the moment of the forces: that before, where both
+  // drifts are of one length.
+  const Vector<Real> mirrored =
+      before + Real(1.0 - lengths.drift / lengths.kick) * (after - before);
 
   // What is held keeps its velocity; it may have no inertia, and no number then for what is freed.
   velocity = choose(held, before, after);
-  return {half * inertia * choose(held, none, before).dot(velocity),
+  return {half * inertia * choose(held, none, mirrored).dot(velocity),
           half * dt * inertia * choose(held, none, removed).dot(before + velocity),
           -dt * force.dot(choose(held, before, none)), Real(0.0)};
 }
@@ -198,8 +205,8 @@ PLEKTON_INLINE StepWorkOf<Pack<W>> step_lanes(const NodeArrays& nodes, const Mot
                          Real::load(nodes.inertia), load_held<W>(nodes.held, holds_about)};
   const auto of_translation =
       moves.kick(options.damps_gravity ? gravity : zero, options.damps_gravity ? zero : gravity,
-                 options.damping, lengths.kick);
-  const auto of_rotation = spins.kick(zero, zero, options.damping, lengths.kick);
+                 options.damping, lengths);
+  const auto of_rotation = spins.kick(zero, zero, options.damping, lengths);
   store_vectors<W>(moves.velocity, nodes.velocity);
   store_vectors<W>(spins.velocity, nodes.angular_velocity);
   if (!turn_side_by_side<W>(spins.velocity, lengths.drift, nodes.orientation))

@@ -3,6 +3,7 @@
 
 #include "dynamics/loads/surface_pressure.hpp"
 #include "dynamics/scene.hpp"
+#include "geometry/node_sets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,11 +24,8 @@ struct Side {
 std::vector<Side> sides_of(std::span<const geometry::Facet> facets) {
   std::vector<Side> sides;
   for (std::size_t i = 0; i < facets.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const NodeId from = facets[i].nodes[k];
-      const NodeId to = facets[i].nodes[(k + 1) % 3];
+    for (const auto& [from, to] : geometry::sides_of(facets[i]))
       sides.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1, i});
-    }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return std::tie(a.low, a.high, a.facet) < std::tie(b.low, b.high, b.facet);

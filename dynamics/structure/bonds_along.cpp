@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/bonds_along.hpp"
 
+#include "geometry/node_sets.hpp"
+
 #include <algorithm>
 #include <array>
 
 namespace plekton::dynamics {
 namespace {
+
+using geometry::sorted;
 
 struct Along {
   std::array<NodeId, 2> nodes;  ///< lower one first
@@ -14,11 +18,6 @@ struct Along {
 
   friend auto operator<=>(const Along&, const Along&) = default;
 };
-
-std::array<NodeId, 2> sorted(std::array<NodeId, 2> nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
-}
 
 }  // namespace
 

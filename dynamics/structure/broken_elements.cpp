@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/broken_elements.hpp"
 
+#include "geometry/node_sets.hpp"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -12,35 +14,10 @@ namespace {
 using geometry::Cylinder;
 using geometry::Facet;
 
-template <std::size_t N>
-using Nodes = std::array<NodeId, N>;
-
-template <std::size_t N>
-Nodes<N> sorted(Nodes<N> nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
-}
-
-/// Sets of nodes, in any order of each.
-template <std::size_t N>
-class NodeSets {
- public:
-  void add(const Nodes<N>& nodes) { sets_.push_back(sorted(nodes)); }
-  /// After the last add.
-  void sort() { std::sort(sets_.begin(), sets_.end()); }
-  bool contains(const Nodes<N>& nodes) const {
-    return std::binary_search(sets_.begin(), sets_.end(), sorted(nodes));
-  }
-  bool empty() const noexcept { return sets_.empty(); }
-
- private:
-  std::vector<Nodes<N>> sets_;
-};
-
-std::array<Nodes<2>, 3> sides_of(const Facet& facet) {
-  const auto& [a, b, c] = facet.nodes;
-  return {{{a, b}, {b, c}, {c, a}}};
-}
+using geometry::NodeSets;
+using geometry::sides_of;
+using geometry::sorted;
+using Edge = std::array<NodeId, 2>;
 
 NodeSets<2> edges_that_hold(const Scene& scene, const BeamBonds& bonds) {
   NodeSets<2> holding;
@@ -72,17 +49,32 @@ struct TornFacet {
   contact::MaterialId material;
 };
 
-std::vector<TornFacet> take_out_facets(Scene& scene, const NodeSets<2>& broken_edges) {
-  NodeSets<3> sheets;
-  for (const SheetFacet& facet : scene.sheet_facets) sheets.add(facet.nodes);
-  sheets.sort();
+NodeSets<3> sheets_that_hold(const SheetFacets& sheets) {
+  NodeSets<3> holding;
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    if (!sheets.is_broken(i)) holding.add(sheets.nodes(i));
+  }
+  holding.sort();
+  return holding;
+}
+
+/// Edges and facets by their nodes.
+struct Sets {
+  NodeSets<2> edges;
+  NodeSets<3> facets;
+};
+
+/// Facets that broke, or have a broken edge and no sheet that carries them without it.
+std::vector<TornFacet> take_out_facets(Scene& scene, const Sets& broken,
+                                       const NodeSets<3>& sheets) {
   std::vector<TornFacet> torn;
-  const auto is_broken = [&](const Nodes<2>& side) { return broken_edges.contains(side); };
+  const auto is_broken = [&](const Edge& side) { return broken.edges.contains(side); };
   erase(scene.elements.facets, scene.facet_materials,
         [&](const Facet& facet, contact::MaterialId material) {
           const auto sides = sides_of(facet);
-          if (sheets.contains(facet.nodes) || std::none_of(sides.begin(), sides.end(), is_broken))
-            return false;
+          const bool is_torn =
+              std::any_of(sides.begin(), sides.end(), is_broken) && !sheets.contains(facet.nodes);
+          if (!is_torn && !broken.facets.contains(facet.nodes)) return false;
           torn.push_back({facet, material});
           return true;
         });
@@ -93,13 +85,13 @@ std::vector<TornFacet> take_out_facets(Scene& scene, const NodeSets<2>& broken_e
 void add_rims(Scene& scene, std::span<const TornFacet> torn, const NodeSets<2>& holding) {
   NodeSets<2> there;
   for (const Facet& facet : scene.elements.facets) {
-    for (const Nodes<2>& side : sides_of(facet)) there.add(side);
+    for (const Edge& side : sides_of(facet)) there.add(side);
   }
   for (const Cylinder& cylinder : scene.elements.cylinders) there.add(cylinder.nodes);
   there.sort();
-  std::vector<std::pair<Nodes<2>, std::size_t>> rims;  // with their facet
+  std::vector<std::pair<Edge, std::size_t>> rims;  // with their facet
   for (std::size_t i = 0; i < torn.size(); ++i) {
-    for (const Nodes<2>& side : sides_of(torn[i].facet)) {
+    for (const Edge& side : sides_of(torn[i].facet)) {
       if (holding.contains(side) && !there.contains(side)) rims.emplace_back(sorted(side), i);
     }
   }
@@ -110,22 +102,33 @@ void add_rims(Scene& scene, std::span<const TornFacet> torn, const NodeSets<2>& 
     scene.add_cylinder(nodes[0], nodes[1], torn[i].facet.radius, torn[i].material);
 }
 
+Sets sets_of(const Scene& scene, const BrokenParts& broken, const Sets& holding) {
+  Sets sets;
+  for (const std::size_t bond : broken.bonds) {
+    if (!holding.edges.contains(scene.bonds[bond].nodes)) sets.edges.add(scene.bonds[bond].nodes);
+  }
+  for (const Edge& cylinder : broken.cylinders) sets.edges.add(cylinder);
+  for (const auto& facet : broken.facets) {
+    if (!holding.facets.contains(facet)) sets.facets.add(facet);
+  }
+  sets.edges.sort();
+  sets.facets.sort();
+  return sets;
+}
+
 }  // namespace
 
-bool take_out_broken(Scene& scene, std::span<const std::size_t> broken, const BeamBonds& bonds) {
-  const NodeSets<2> holding = edges_that_hold(scene, bonds);
-  NodeSets<2> broken_edges;
-  for (const std::size_t bond : broken) {
-    if (!holding.contains(scene.bonds[bond].nodes)) broken_edges.add(scene.bonds[bond].nodes);
-  }
-  broken_edges.sort();
-  if (broken_edges.empty()) return false;
+bool take_out_broken(Scene& scene, const BrokenParts& broken, const BeamBonds& bonds,
+                     const SheetFacets& sheets) {
+  const Sets holding{edges_that_hold(scene, bonds), sheets_that_hold(sheets)};
+  const Sets sets = sets_of(scene, broken, holding);
+  if (sets.edges.empty() && sets.facets.empty()) return false;
   const bool cylinders_are_gone = erase(scene.elements.cylinders, scene.cylinder_materials,
                                         [&](const Cylinder& cylinder, contact::MaterialId) {
-                                          return broken_edges.contains(cylinder.nodes);
+                                          return sets.edges.contains(cylinder.nodes);
                                         });
-  const std::vector<TornFacet> torn = take_out_facets(scene, broken_edges);
-  if (!torn.empty()) add_rims(scene, torn, holding);
+  const std::vector<TornFacet> torn = take_out_facets(scene, sets, holding.facets);
+  if (!torn.empty()) add_rims(scene, torn, holding.edges);
   return cylinders_are_gone || !torn.empty();
 }
 

@@ -3,18 +3,37 @@
 
 #include "dynamics/scene.hpp"
 #include "dynamics/structure/beam_bond.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 
-#include <span>
+#include <array>
+#include <cstddef>
+#include <vector>
 
 namespace plekton::dynamics {
 
-/// Takes the elements out of a scene that are gone with bonds that broke. What is left keeps its
-/// order; nodes keep their masses.
+/// What broke in a step.
+struct BrokenParts {
+  std::vector<std::size_t> bonds;                ///< by their places in the scene
+  std::vector<std::array<NodeId, 2>> cylinders;  ///< by their nodes, where no bond holds
+  std::vector<std::array<NodeId, 3>> facets;     ///< by their nodes
+
+  bool empty() const noexcept { return bonds.empty() && cylinders.empty() && facets.empty(); }
+  void clear() noexcept {
+    bonds.clear();
+    cylinders.clear();
+    facets.clear();
+  }
+};
+
+/// Takes the elements out of a scene that broke or are gone with bonds that broke. What is left
+/// keeps its order; nodes keep their masses.
 ///
-/// An edge is broken when a bond between its nodes broke and none that holds is left between them.
+/// An edge is broken when a bond between its nodes broke and none that holds is left between them,
+/// or a cylinder along it broke.
 /// - The cylinders along a broken edge are gone.
 /// - The facets with a broken edge are torn: they are gone too, but for those of a sheet (a sheet
-///   facet on the same nodes), which carries them without the bond.
+///   facet on the same nodes that holds), which carries them without the bond. Facets that broke
+///   are torn.
 /// - Another side of a torn facet that is no side of a facet that is left stays as a cylinder of
 ///   the facet's radius and material where a bond holds along it; without one it is gone.
 ///   Cylinders that come into being in this way follow those there are.
@@ -34,9 +53,9 @@ namespace plekton::dynamics {
 /// So one cylinder with a minimum makes at most phi(d1) + phi(d2) - phi(d0), but for what holes
 /// beside it that become one share out anew. A ball that overlaps the wires of a net by 30 % of
 /// their radius was seen to go from 31.6 to 44.2 J, when a break made two contacts of one.
-/// @param broken  bonds that have just broken, by their places in the scene
-/// @param bonds   of the scene; tells which hold
+/// @param bonds, sheets  of the scene; tell which hold
 /// @returns whether anything is gone
-bool take_out_broken(Scene& scene, std::span<const std::size_t> broken, const BeamBonds& bonds);
+bool take_out_broken(Scene& scene, const BrokenParts& broken, const BeamBonds& bonds,
+                     const SheetFacets& sheets);
 
 }  // namespace plekton::dynamics

@@ -74,7 +74,9 @@ SheetFacets::Bounds SheetFacets::bounds_of(const SheetFacet& facet, const SheetS
 }
 
 void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state) const {
-  for (std::size_t i = 0; i < springs_.size(); ++i) add_to(stiffness, state, i);
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    if (!is_broken(i)) add_to(stiffness, state, i);
+  }
 }
 
 // Stretching acts on F^T du, which is longer than du by at most the largest stretch s: its matrix

@@ -24,6 +24,9 @@ void list_section(const SheetSection& section, const std::string& where, std::os
   expect(section.bending_stiffness >= 0.0, "bending stiffness (N m)", section.bending_stiffness,
          "zero or positive, and finite");
   expect(section.thickness > 0.0, "thickness (m)", section.thickness, "positive and finite");
+  if (!(section.strength > 0.0))
+    problems << where << ": strength (Pa) is " << section.strength
+             << "; it must be positive, or infinite for a sheet that never tears\n";
 }
 
 bool list_nodes(const std::array<NodeId, 3>& nodes, std::size_t node_count,
@@ -53,7 +56,7 @@ SheetSection solid_sheet(double thickness, double young_modulus, double poisson_
   const double stiffness = young_modulus * thickness;
   return {stiffness, poisson_ratio,
           stiffness * thickness * thickness / (12.0 * (1.0 - poisson_ratio * poisson_ratio)),
-          thickness};
+          thickness, SheetSection::kNever};
 }
 
 double area_of(const SheetFacet& facet) noexcept {

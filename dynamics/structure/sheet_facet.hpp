@@ -7,6 +7,7 @@
 
 #include <array>
 #include <iosfwd>
+#include <limits>
 #include <string_view>
 
 namespace plekton::dynamics {
@@ -17,11 +18,16 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 /// Stiffness of a thin isotropic sheet. Stretching and bending are given apart, so that a textile
 /// may be stiff in its plane and limp across it.
 struct SheetSection {
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
   double tensile_stiffness;  ///< N/m, > 0: E t, force per width and strain in a strip
   double poisson_ratio;      ///< > -1, < 1
   double bending_stiffness;  ///< N m, >= 0: moment per width and curvature of a plate. With 0 the
                              ///< sheet is limp, and nothing turns its nodes: hold their rotations
   double thickness;          ///< m, > 0: of what turns with a node
+  /// Pa, > 0: the facet breaks where its larger principal membrane force over the thickness is
+  /// above.
+  double strength = kNever;
 };
 
 /// A homogeneous plate: E t and E t³ / (12 (1 - nu²)).

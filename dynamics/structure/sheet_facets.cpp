@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/sheet_facets.hpp"
 
+#include "dynamics/structure/membrane_force.hpp"
 #include "dynamics/structure/sheet_bending.hpp"
 #include "geometry/problems.hpp"
 
@@ -24,7 +25,7 @@ SheetSpring spring_of(const SheetFacet& facet) noexcept {
 }
 
 SheetFacets::SheetFacets(std::span<const SheetFacet> facets, std::size_t node_count)
-    : reactions_(facets.size()) {
+    : reactions_(facets.size()), energy_before_(facets.size(), 0.0), broken_(facets.size(), 0) {
   std::ostringstream problems;
   for (std::size_t i = 0; i < facets.size(); ++i)
     list_problems(facets[i], node_count, "sheet facet " + std::to_string(i), problems);
@@ -40,15 +41,46 @@ SheetFacets::SheetFacets(std::span<const SheetFacet> facets, std::size_t node_co
     springs_.push_back(spring_of(facet));
     bounds_.push_back(bounds_of(facet, springs_.back()));
     corners.insert(corners.end(), facet.nodes.begin(), facet.nodes.end());
+    if (facet.section.strength == SheetSection::kNever) continue;
+    limited_.push_back(nodes_.size() - 1);
+    strength_.push_back(facet.section.strength * facet.section.thickness);
   }
+  tears_.assign(limited_.size(), 0);
+  just_broken_.reserve(limited_.size());
   if (!facets.empty()) corners_ = by_node(corners, node_count);
 }
 
 void SheetFacets::advance(const NodeState& state, geometry::ThreadPool& pool) {
   pool.for_each_range(springs_.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = begin; i < end; ++i) {
+      if (is_broken(i)) continue;
+      energy_before_[i] = reactions_[i].energy;
       reactions_[i] = sheet_reaction(springs_[i], pose_of(springs_[i], nodes_[i], state));
+    }
   });
+  just_broken_.clear();
+}
+
+void SheetFacets::tear(geometry::Positions positions, geometry::ThreadPool& pool) {
+  if (limited_.empty()) return;
+  pool.for_each_range(limited_.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Mat3 force = membrane_force(limited_[i], positions);
+      tears_[i] = principal_forces(force).largest > strength_[i];
+    }
+  });
+  for (std::size_t i = 0; i < limited_.size(); ++i) {
+    if (tears_[i] != 0) break_facet(limited_[i]);
+  }
+}
+
+bool SheetFacets::break_facet(std::size_t facet) {
+  if (is_broken(facet)) return false;
+  broken_[facet] = 1;
+  dissipated_ += 0.5 * (energy_before_[facet] + reactions_[facet].energy);
+  reactions_[facet] = SheetReaction{};
+  just_broken_.push_back(facet);
+  return true;
 }
 
 void SheetFacets::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {

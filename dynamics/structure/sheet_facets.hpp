@@ -41,8 +41,9 @@ namespace plekton::dynamics {
 /// theory as facets get smaller (tests/validation: second order for deflections). What it cannot:
 /// shear across the thickness (thick plates), wrinkles smaller than a facet, strains beyond about
 /// 10 percent (this elastic law gets too soft under compression and lets a facet turn inside out
-/// below 0.58 of its length). A normal that is turned by much against its facet (more than 45
-/// degrees) resists less and less: use facets small against the radius of curvature.
+/// below 0.58 of its length). It stays elastic until it tears. A normal that is turned by much
+/// against its facet (more than 45 degrees) resists less and less: use facets small against the
+/// radius of curvature.
 class SheetFacets {
  public:
   /// Linear in the number of facets and nodes.
@@ -53,8 +54,30 @@ class SheetFacets {
 
   const std::array<NodeId, 3>& nodes(std::size_t facet) const noexcept { return nodes_[facet]; }
 
+  /// Whether it broke: it carries and stores nothing any more.
+  bool is_broken(std::size_t facet) const noexcept { return broken_[facet] != 0; }
+
   /// Computes what all facets do to their nodes, facet by facet. No allocation.
   void advance(const NodeState& state, geometry::ThreadPool& pool);
+
+  /// Breaks the facets that the last advance took beyond their strength (SheetSection); the others
+  /// are not touched. To be called after each advance, where the nodes are then. Costs nothing
+  /// where no facet has a strength; no allocation; the same for any number of threads.
+  ///
+  /// A crack is as wide as a facet, and the energy that it takes is the one stored in the facets
+  /// along it: that gets smaller with the facets, so a strength is that of a mesh. Where the stress
+  /// is even everything tears at once; a hole or a weaker facet says where it begins.
+  void tear(geometry::Positions positions, geometry::ThreadPool& pool);
+  /// Breaks one, after an advance. @returns whether it had not yet
+  bool break_facet(std::size_t facet);
+  /// The facets that broke since the last advance, those that tore before, ascending.
+  std::span<const std::size_t> broken() const noexcept { return just_broken_; }
+  /// J, what breaking took in all steps, less what was forgotten: of what a facet stored the mean
+  /// of the last advance and the one before, because the leapfrog lets the forces of before act for
+  /// half of the way to where it breaks, and none for the other half.
+  double dissipated() const noexcept { return dissipated_; }
+  /// Counts from here: what happens before the start of a simulation is in its initial energy.
+  void forget_dissipated() noexcept { dissipated_ = 0.0; }
 
   /// Adds the forces of the last advance to the nodes, at each in the order of the facets: the same
   /// bits for any number of threads.
@@ -94,6 +117,13 @@ class SheetFacets {
   std::vector<SheetSpring> springs_;
   std::vector<Bounds> bounds_;
   std::vector<SheetReaction> reactions_;
+  std::vector<double> energy_before_;     ///< J, of each, at the advance before the last
+  std::vector<std::uint8_t> broken_;      ///< 1 if it broke
+  std::vector<std::size_t> limited_;      ///< those with a strength, ascending
+  std::vector<double> strength_;          ///< N/m, of these
+  std::vector<std::uint8_t> tears_;       ///< of these, 1 if it tears now
+  std::vector<std::size_t> just_broken_;  ///< since the last advance
+  double dissipated_ = 0.0;
   ByNode corners_;  ///< 3 facet + corner
 };
 

@@ -25,7 +25,8 @@ constexpr double kTolerance = 1e-3;
 
 ExactStep exact_step(const Scene& scene, const ContactSprings& contacts = {}) {
   const BeamBonds bonds(scene.bonds, scene.state.size());
-  return dynamics::exact_critical_step(scene, bonds, AppliedLoads(scene), contacts, 0.0);
+  const dynamics::SheetFacets sheets(scene.sheet_facets, scene.state.size());
+  return dynamics::exact_critical_step(scene, {bonds, sheets}, AppliedLoads(scene), contacts, 0.0);
 }
 
 /// dt lies between (1 - error) of the reference and a little above it.

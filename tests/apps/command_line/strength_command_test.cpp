@@ -123,8 +123,9 @@ TEST_F(StrengthCommand, NamesWhatIsWrongWithItsLineAndARemedy) {
        "give yield_stress"},
       {kSheet, "young_modulus = \"2 GPa\"\nrupture_strain = 0.1",
        "membranes.m.rupture_strain: says how a bar goes on beyond its yield stress"},
-      {kSheet, "young_modulus = \"2 GPa\"\nmode = \"continuum\"\nstrength = \"1 MPa\"",
-       "case.toml:15:12: membranes.m.strength: is of beams and bars; a continuum stays elastic"},
+      {kSheet, "young_modulus = \"2 GPa\"\nmode = \"continuum\"\nyield_stress = \"1 MPa\"",
+       "case.toml:15:16: membranes.m.yield_stress: is of beams and bars; a continuum stays elastic "
+       "until it tears at its strength"},
       {kHexagonal, "wire = [[0.01, 1000]]",
        "case.toml:13:8: membranes.m.wire: a wire is pulled and nothing else; use mode = \"truss\""},
       {kHexagonal, "mode = \"truss\"\nwire = [[0.02, 1000], [0.01, 2000]]",

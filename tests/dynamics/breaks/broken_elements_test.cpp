@@ -35,7 +35,8 @@ class TwoFacets : public testing::Test {
     for (const std::size_t bond : broken) bonds.break_bond(bond);
     broken.push_back(bond_between(scene.bonds, NodeId{a}, NodeId{b}));
     bonds.break_bond(broken.back());
-    return take_out_broken(scene, std::span(broken).last(1), bonds);
+    const SheetFacets sheets(scene.sheet_facets, scene.state.size());
+    return take_out_broken(scene, {{broken.back()}, {}, {}}, bonds, sheets);
   }
 
   std::vector<Edge> cylinders() const {
