@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of a scenario, as the user of the program meets them.
 #include "tests/apps/command_line/command_fixture.hpp"
+#include "tests/apps/command_line/sheet_and_ball.hpp"
 
 #include <gmock/gmock.h>
 
@@ -12,29 +13,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// A sheet, a closed ball, a net, grains, and planes around them; loads are added below.
-constexpr std::string_view kBodies = R"([simulation]
-duration = "2 ms"
-[materials.stone]
-density = "2650 kg/m3"
-young_modulus = "20 MPa"
-friction_angle = "35 deg"
-[[membranes]]
-name = "sheet"
-shape = { kind = "sheet", width = "10 cm", length = "10 cm", cells = [4, 4] }
-thickness = "2 mm"
-material = "stone"
-young_modulus = "50 MPa"
-areal_mass = "300 g/m2"
-[[membranes]]
-name = "ball"
-shape = { kind = "sphere", radius = "3 cm", subdivisions = 1 }
-translate = [0, 0, "6 cm"]
-thickness = "2 mm"
-material = "stone"
-young_modulus = "50 MPa"
-areal_mass = "300 g/m2"
-[[membranes]]
+/// A net, grains, and planes around them and around a sheet and a ball.
+constexpr std::string_view kOthers = R"([[membranes]]
 name = "net"
 shape = { kind = "biaxial_geogrid", rib_pitch = "2 cm", bar_pitch = "2 cm", apertures = [3, 3] }
 translate = [0, 0, "-4 cm"]
@@ -54,11 +34,6 @@ name = "floor"
 point = [0, 0, "-5 cm"]
 material = "stone"
 [[planes]]
-name = "lid"
-point = [0, 0, "20 cm"]
-normal = [0, 0, -1]
-material = "stone"
-[[planes]]
 name = "left"
 point = ["-20 cm", 0, 0]
 normal = [1, 0, 0]
@@ -73,10 +48,15 @@ material = "stone"
 
 class Loads : public Command {
  protected:
+  /// The loads are added to them.
+  static std::string bodies() {
+    return std::string(kSheetAndBall) + std::string(kLid) + std::string(kOthers);
+  }
+
   /// `plekton check` of the bodies with these tables [[loads]].
   Outcome check(const std::string& loads) const {
     const std::string file = (folder_ / "loads.toml").string();
-    test::write_bytes(file, std::string(kBodies) + loads);
+    test::write_bytes(file, bodies() + loads);
     return outcome_of({"check", file});
   }
 
@@ -156,7 +136,7 @@ speed = "5 cm/s"
 
 TEST_F(Loads, RunAndKeepTheBooks) {
   const std::string file = (folder_ / "all.toml").string();
-  test::write_bytes(file, std::string(kBodies) + std::string(kAllLoads));
+  test::write_bytes(file, bodies() + std::string(kAllLoads));
 
   const Outcome outcome = outcome_of({"run", file, "--out", out()});
 

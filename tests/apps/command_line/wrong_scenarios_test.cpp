@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scenarios with one mistake each: what `plekton check` says about it.
 #include "tests/apps/command_line/program_fixture.hpp"
+#include "tests/apps/command_line/sheet_and_ball.hpp"
 
 #include <gmock/gmock.h>
 
@@ -17,33 +18,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 /// A sheet, a closed ball and a lid; the mistakes are added below.
-constexpr std::string_view kSound = R"([simulation]
-duration = "2 ms"
-[materials.stone]
-density = "2650 kg/m3"
-young_modulus = "20 MPa"
-friction_angle = "35 deg"
-[[membranes]]
-name = "sheet"
-shape = { kind = "sheet", width = "10 cm", length = "10 cm", cells = [4, 4] }
-thickness = "2 mm"
-material = "stone"
-young_modulus = "50 MPa"
-areal_mass = "300 g/m2"
-[[membranes]]
-name = "ball"
-shape = { kind = "sphere", radius = "3 cm", subdivisions = 1 }
-translate = [0, 0, "6 cm"]
-thickness = "2 mm"
-material = "stone"
-young_modulus = "50 MPa"
-areal_mass = "300 g/m2"
-[[planes]]
-name = "lid"
-point = [0, 0, "20 cm"]
-normal = [0, 0, -1]
-material = "stone"
-)";
+const std::string kSound = std::string(kSheetAndBall) + std::string(kLid);
 
 /// One mistake.
 struct Mistake {
@@ -161,7 +136,7 @@ class WrongScenario : public testing::TestWithParam<Mistake> {
   /// As in "case.toml:31:7".
   std::string place(std::string_view text) const {
     const std::size_t at = kSound.size() + text.find(GetParam().at);
-    const std::string before = (std::string(kSound) + std::string(text)).substr(0, at);
+    const std::string before = (kSound + std::string(text)).substr(0, at);
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
     return file() + ':' + std::to_string(line) + ':' +
            std::to_string(before.size() - before.rfind('\n'));
@@ -173,7 +148,7 @@ class WrongScenario : public testing::TestWithParam<Mistake> {
 TEST_P(WrongScenario, IsRefusedWithPlaceFindingAndRemedy) {
   const Mistake& mistake = GetParam();
   ASSERT_EQ(mistake.text.find(mistake.at), mistake.text.rfind(mistake.at));
-  test::write_bytes(folder_ / "case.toml", std::string(kSound) + std::string(mistake.text));
+  test::write_bytes(folder_ / "case.toml", kSound + std::string(mistake.text));
 
   const Outcome outcome = outcome_of({"check", file()});
 
@@ -191,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(Each, WrongScenario, testing::ValuesIn(mistakes()),
 
 TEST(SoundScenario, OfTheMistakesHasNone) {
   const test::TemporaryFolder folder;
-  test::write_bytes(folder / "case.toml", std::string(kSound));
+  test::write_bytes(folder / "case.toml", kSound);
 
   EXPECT_EQ(outcome_of({"check", (folder / "case.toml").string()}).exit_code, kDone);
 }
