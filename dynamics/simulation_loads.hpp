@@ -17,6 +17,7 @@ double Simulation<Law>::largest_gravity() const noexcept {
 template <contact::ContactLaw Law>
 void Simulation<Law>::apply_loads() {
   follow_gravity();
+  loads_.look_at(yielding_bonds_);
   const LoadWork work = loads_.act({time_, last_drift_, dt_}, scene_.state, forces_, pool_);
   work_.external += work.external;
   work_.damped += work.damped;

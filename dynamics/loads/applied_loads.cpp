@@ -52,6 +52,10 @@ LoadWork AppliedLoads::work_after(const LoadStep& step, const NodeState& state,
       [&](auto& load) { return 0.5 * step.after * load.nodes().power(state, pool); });
 }
 
+void AppliedLoads::look_at(const YieldingBonds& bonds) noexcept {
+  for (DampedBeams& beams : beams_) beams.look_at(bonds);
+}
+
 void AppliedLoads::follow(const BeamBonds& bonds) {
   for (DampedBeams& beams : beams_) beams.follow(bonds);
 }

@@ -20,6 +20,10 @@ class AppliedLoads {
   /// Sets the velocities of prescribed motions at the start.
   void start(NodeState& state) const;
 
+  /// Takes what dashpots have to know of the bonds along them: after each advance of these, before
+  /// act().
+  void look_at(const YieldingBonds& bonds) noexcept;
+
   /// Adds the forces of all loads to those on the nodes, then sets the velocities of prescribed
   /// motions for the drift that begins now. No allocation.
   /// @returns the work of half of the drift before

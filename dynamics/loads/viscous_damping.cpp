@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plekton::dynamics {
 namespace {
@@ -12,6 +13,12 @@ std::vector<std::array<NodeId, 2>> nodes_of(const BeamDamping& damping,
   std::vector<std::array<NodeId, 2>> nodes;
   for (const std::size_t bond : damping.bonds) nodes.push_back(bonds[bond].nodes);
   return nodes;
+}
+
+/// N, of a dashpot along a bond that carries a tension already, positive as that.
+double pull_of(double dashpot, double tension, double elongation_rate) {
+  if (tension == 0.0) return 0.0;
+  return std::max(dashpot * elongation_rate, -tension);
 }
 
 double stretching_stiffness(const BeamBond& bond) {
@@ -35,12 +42,21 @@ DampedBeams::DampedBeams(const BeamDamping& damping, std::span<const BeamBond> b
     : bonds_(damping.bonds),
       members_(nodes_of(damping, bonds)),
       nodes_(members_.nodes()),
+      tensions_(damping.bonds.size(), std::numeric_limits<double>::infinity()),
+      group_of_(bonds.size(), static_cast<std::uint32_t>(damping.bonds.size())),
       forces_(damping.bonds.size(), Vec3::Zero()) {
   for (const std::size_t bond : damping.bonds) {
+    group_of_[bond] = static_cast<std::uint32_t>(dashpots_.size());
     dashpots_.push_back(dashpot_of(bonds[bond], damping.ratio, properties));
     relaxation_time_ =
         std::max(relaxation_time_, dashpots_.back() / stretching_stiffness(bonds[bond]));
   }
+}
+
+void DampedBeams::look_at(const YieldingBonds& bonds) noexcept {
+  bonds.for_each_wire([&](std::size_t bond, double tension) {
+    if (group_of_[bond] < tensions_.size()) tensions_[group_of_[bond]] = tension;
+  });
 }
 
 void DampedBeams::follow(const BeamBonds& bonds) {
@@ -55,9 +71,13 @@ LoadedNodes& DampedBeams::act(const LoadStep&, const NodeState& state, geometry:
       const auto& [a, b] = members_.groups()[i];
       const Vec3 chord = state.position[index_of(b)] - state.position[index_of(a)];
       const Vec3 velocity = state.velocity[index_of(b)] - state.velocity[index_of(a)];
-      const double squared = chord.squaredNorm();
-      forces_[i] = squared > 0.0 ? Vec3(-dashpots_[i] * (velocity.dot(chord) / squared) * chord)
-                                 : Vec3(Vec3::Zero());
+      const double length = chord.norm();
+      if (!(length > 0.0)) {
+        forces_[i].setZero();
+        continue;
+      }
+      const double pull = pull_of(dashpots_[i], tensions_[i], velocity.dot(chord) / length);
+      forces_[i] = (-pull / length) * chord;
     }
   });
   nodes_.set(pool, [&](std::size_t i) {

@@ -6,8 +6,11 @@
 #include "dynamics/loads/loads.hpp"
 #include "dynamics/loads/node_members.hpp"
 #include "dynamics/structure/beam_bond.hpp"
+#include "dynamics/structure/yielding_bonds.hpp"
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 namespace plekton::dynamics {
 
@@ -18,10 +21,16 @@ double dashpot_of(const BeamBond& bond, double ratio, const NodeProperties& prop
 /// Beams with dashpots along them: the force on the second node is -c ((v_b - v_a).n) n, n along
 /// the beam from a to b, minus that on the first. It turns with the beam and leaves both momenta
 /// alone. The velocities are those of the last drift. 0 where the nodes coincide.
+///
+/// A wire (WireCurve) is damped while it is taut, and pulls with its dashpot together, or not at
+/// all: what is slack carries nothing, and nothing pushes.
 class DampedBeams {
  public:
   DampedBeams(const BeamDamping& damping, std::span<const BeamBond> bonds,
               const NodeProperties& properties);
+
+  /// Takes the tensions that wires have now: before each act().
+  void look_at(const YieldingBonds& bonds) noexcept;
 
   LoadedNodes& act(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
   LoadedNodes& nodes() noexcept { return nodes_; }
@@ -37,7 +46,9 @@ class DampedBeams {
   NodeMembers<2> members_;
   LoadedNodes nodes_;
   std::vector<double> dashpots_;  // N s/m, by group of members_
-  std::vector<Vec3> forces_;      // N, on the second node, likewise
+  std::vector<double> tensions_;  // N, of wires, which must not push; else infinite; likewise
+  std::vector<std::uint32_t> group_of_;  // by bond; past the end if it is not damped
+  std::vector<Vec3> forces_;             // N, on the second node, likewise
   double relaxation_time_ = 0.0;
 };
 

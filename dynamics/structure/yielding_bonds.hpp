@@ -26,6 +26,13 @@ class YieldingBonds {
   BondForces forces_of(std::size_t bond, const BeamBonds& bonds,
                        const NodeState& state) const noexcept;
 
+  /// Calls visit(bond, tension (N) at the last advance) for every wire, ascending by bond; the
+  /// tension of one that is slack is 0.
+  template <class Visit>
+  void for_each_wire(const Visit& visit) const {
+    for (const Wire& wire : wires_) visit(wire.bond, wire.memory.force);
+  }
+
   /// The bonds that broke in the last advance, ascending.
   std::span<const std::size_t> broken() const noexcept { return broken_; }
 
