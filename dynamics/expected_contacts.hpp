@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/material_pairs.hpp"
+#include "dynamics/coming_partner.hpp"
 #include "dynamics/scene.hpp"
 #include "dynamics/time_step.hpp"
 #include "geometry/elements.hpp"
@@ -17,12 +18,14 @@ namespace plekton::dynamics {
 /// Those that get stiffer with the overlap are looked at again when they are there.
 inline constexpr double kExpectedOverlap = 0.02;
 
-/// Stiffness of the hardest contact of a kind (N/m).
+/// The hardest contact of a kind.
 struct ExpectedStiffness {
-  double normal = 0.0;
-  double tangential = 0.0;
+  double normal = 0.0;      ///< N/m
+  double tangential = 0.0;  ///< N/m
+  ComingPartner partner;    ///< whose normal stiffness this is
 
-  void take(double other_normal, double other_tangential) noexcept {
+  void take(double other_normal, double other_tangential, const ComingPartner& with) noexcept {
+    if (other_normal > normal) partner = with;
     normal = std::max(normal, other_normal);
     tangential = std::max(tangential, other_tangential);
   }
@@ -56,17 +59,44 @@ class ExpectedContacts {
     return stiffness;
   }
 
+  /// The stiffest contact that a node may come to have. Linear in the number of spheres.
+  ComingPartner partner_of(NodeId node) const {
+    if (surface_.structure_of(node) != geometry::StructureId{-1}) {
+      const auto [grain, plane, other] = touch_of(node);
+      if (2.0 * std::max(grain.normal, other.normal) <= plane.normal) return plane.partner;
+      return grain.normal >= other.normal ? grain.partner : other.partner;
+    }
+    for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
+      const geometry::Sphere& sphere = scene_.elements.spheres[i];
+      if (sphere.nodes[0] == node)
+        return hardest_partner({scene_.sphere_materials[i], sphere.radius}).partner;
+    }
+    return {};
+  }
+
  private:
   struct Kind {
     contact::MaterialId material;
     double radius;
   };
 
-  void take(const Kind& a, const Kind& b, ExpectedStiffness& hardest) const {
+  static ComingPartner balls(const Kind& kind) {
+    return {ComingPartner::Kind::balls, kind.material, kind.radius, 0};
+  }
+  ComingPartner structure(std::size_t id) const {
+    return {ComingPartner::Kind::structure, structures_[id].material, structures_[id].radius, id};
+  }
+  ComingPartner plane(std::size_t id) const {
+    return {ComingPartner::Kind::plane, scene_.planes[id].material, 0.0, id};
+  }
+
+  /// @param with  what b is
+  void take(const Kind& a, const Kind& b, const ComingPartner& with,
+            ExpectedStiffness& hardest) const {
     const auto parameters = pairs_.combine({a.material, a.radius}, {b.material, b.radius});
     const double gap = -kExpectedOverlap * std::min(a.radius, b.radius);
-    hardest.take(Law::normal_stiffness(parameters, gap),
-                 Law::tangential_stiffness(parameters, gap));
+    hardest.take(Law::normal_stiffness(parameters, gap), Law::tangential_stiffness(parameters, gap),
+                 with);
   }
 
   void collect_structures() {
@@ -133,7 +163,8 @@ class ExpectedContacts {
       const auto one = pairs_.combine({own.material, own.radius}, {other.material, other.radius});
       const auto all = Law::multiplied(one, count);
       const double gap = -kExpectedOverlap * std::min(own.radius, other.radius);
-      hardest.take(Law::normal_stiffness(all, gap), Law::tangential_stiffness(all, gap));
+      hardest.take(Law::normal_stiffness(all, gap), Law::tangential_stiffness(all, gap),
+                   structure(i));
     }
     return hardest;
   }
@@ -141,27 +172,41 @@ class ExpectedContacts {
   ExpectedStiffness hardest_partner(const Kind& sphere) const {
     ExpectedStiffness hardest;
     // Of spheres, one as large as itself: in_dense_packing says why this covers other sizes.
-    for (const Kind& other : kinds_) take(sphere, {other.material, sphere.radius}, hardest);
-    for (const Kind& structure : structures_) take(sphere, structure, hardest);
-    for (const contact::Plane& plane : scene_.planes)
-      take(sphere, {plane.material, sphere.radius}, hardest);
+    for (const Kind& other : kinds_) {
+      const Kind equal{other.material, sphere.radius};
+      take(sphere, equal, balls(equal), hardest);
+    }
+    for (std::size_t i = 0; i < structures_.size(); ++i)
+      take(sphere, structures_[i], structure(i), hardest);
+    for (std::size_t i = 0; i < scene_.planes.size(); ++i)
+      take(sphere, {scene_.planes[i].material, sphere.radius}, plane(i), hardest);
     return hardest;
+  }
+
+  /// What may touch a node of a structure.
+  struct Touch {
+    ExpectedStiffness grain;
+    ExpectedStiffness plane;
+    ExpectedStiffness structure;
+  };
+  Touch touch_of(NodeId node) const {
+    const Kind& own = structures_[index_of(surface_.structure_of(node))];
+    Touch touch;
+    for (const Kind& kind : kinds_) take(kind, own, balls(kind), touch.grain);
+    for (std::size_t i = 0; i < scene_.planes.size(); ++i)
+      take(own, {scene_.planes[i].material, own.radius}, plane(i), touch.plane);
+    touch.structure = hardest_structure(node);
+    return touch;
   }
 
   /// The hardest grain, with its full weight, from one side, another structure, and a plane from
   /// the other. More grains on the same node come one after the other: the step is looked at again
   /// before they have arrived.
   IsotropicStiffness of_touch(NodeId node) const {
-    const Kind& structure = structures_[index_of(surface_.structure_of(node))];
-    ExpectedStiffness grain;
-    for (const Kind& kind : kinds_) take(kind, structure, grain);
-    ExpectedStiffness plane;
-    for (const contact::Plane& other : scene_.planes)
-      take(structure, {other.material, structure.radius}, plane);
-    const ExpectedStiffness other = hardest_structure(node);
+    const auto [grain, plane, other] = touch_of(node);
     return from_all_sides(2.0 * (grain.normal + other.normal) + plane.normal,
                           2.0 * (grain.tangential + other.tangential) + plane.tangential,
-                          structure.radius);
+                          structures_[index_of(surface_.structure_of(node))].radius);
   }
 
   const Scene& scene_;

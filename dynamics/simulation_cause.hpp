@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dynamics/expected_contacts.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <algorithm>
@@ -21,7 +22,10 @@ StepCause Simulation<Law>::critical_cause() const {
     if (&shortest == &present) {
       add_contacts_to(parts);
     } else {
-      parts.consider({StepPart::Kind::coming_contacts}, [&](NodalStiffness& stiffness) {
+      StepPart part{StepPart::Kind::coming_contacts};
+      const ExpectedContacts<Law> contacts(scene_, surface_, material_pairs_);
+      part.partner = contacts.partner_of(parts.node());
+      parts.consider(part, [&](NodalStiffness& stiffness) {
         stiffness.add(parts.node(), expected_[index_of(parts.node())]);
       });
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dynamics/coming_partner.hpp"
 #include "dynamics/time_step.hpp"
 
 #include <cstddef>
@@ -23,9 +24,10 @@ struct StepPart {
     pressure
   };
   Kind kind = Kind::nothing;
-  std::size_t id = 0;  ///< of a bond or sheet facet
-  NodeId a{-1};        ///< of a contact: its ball
-  NodeId b{-1};        ///< of a contact: its other ball, or a node of its surface
+  std::size_t id = 0;       ///< of a bond or sheet facet
+  NodeId a{-1};             ///< of a contact: its ball
+  NodeId b{-1};             ///< of a contact: its other ball, or a node of its surface
+  ComingPartner partner{};  ///< of coming_contacts: the stiffest of them
 };
 
 /// What limits a critical time step: a node, its motion, and the stiffest part of what holds it.

@@ -123,7 +123,7 @@ class StepAdvice {
       case StepPart::Kind::plane_contact:
         return "its contact with a plane";
       case StepPart::Kind::coming_contacts:
-        return "contacts that may come";
+        return "contacts that may come" + coming();
       case StepPart::Kind::ground_springs:
         return "its springs to ground";
       case StepPart::Kind::pressure:
@@ -132,6 +132,39 @@ class StepAdvice {
         break;
     }
     return "nothing";
+  }
+
+  /// As in ", the stiffest with grains of rock of 5 mm radius".
+  std::string coming() const {
+    const dynamics::ComingPartner& partner = cause_.part.partner;
+    switch (partner.kind) {
+      case dynamics::ComingPartner::Kind::balls:
+        return fmt::format(", the stiffest with grains of {} of {} radius",
+                           scenario_.materials[static_cast<std::size_t>(partner.material)].name,
+                           length_text(partner.radius));
+      case dynamics::ComingPartner::Kind::structure:
+        return ", the stiffest with membrane " + name_of_structure(partner.id);
+      case dynamics::ComingPartner::Kind::plane: {
+        const std::string& name = scenario_.planes[partner.id].name;
+        return ", the stiffest with plane " + (name.empty() ? std::to_string(partner.id) : name);
+      }
+      case dynamics::ComingPartner::Kind::nothing:
+        break;
+    }
+    return "";
+  }
+
+  /// A membrane may be in several pieces, each a structure.
+  std::string name_of_structure(std::size_t structure) const {
+    const geometry::Surface& surface = prepared_.simulation->surface();
+    for (const BuiltMembrane& membrane : prepared_.built.membranes) {
+      for (std::size_t n = membrane.first_node; n < membrane.first_node + membrane.nodes; ++n) {
+        const auto of_node = surface.structure_of(geometry::id_at<NodeId>(n));
+        if (of_node != geometry::StructureId{-1} && index_of(of_node) == structure)
+          return membrane.name;
+      }
+    }
+    return std::to_string(structure);
   }
 
   std::string advice() const {

@@ -56,6 +56,22 @@ TEST(StepCause, OfAStiffBallOverALightChainIsTheContactThatMayCome) {
 
   EXPECT_EQ(cause.part.kind, Kind::coming_contacts);
   EXPECT_GT(cause.share, 0.9);
+  EXPECT_EQ(cause.part.partner.kind, dynamics::ComingPartner::Kind::balls);
+  EXPECT_EQ(cause.part.partner.radius, 0.02);
+}
+
+TEST(StepCause, OfALightBallNamesThePlaneThatIsStiffest) {
+  Scene scene;
+  scene.materials = {{1e6, 0.3, 0.5}, {1e7, 0.3, 0.5}, {1e8, 0.3, 0.5}};
+  scene.add_sphere(Vec3(0.1, 0.0, 0.1), 0.02, 2500.0, contact::MaterialId{0});
+  scene.planes = {{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), contact::MaterialId{1}},
+                  {Vec3::Zero(), Vec3::UnitX(), Vec3::Zero(), contact::MaterialId{2}}};
+
+  const StepCause cause = cause_of(scene);
+
+  EXPECT_EQ(cause.part.kind, Kind::coming_contacts);
+  EXPECT_EQ(cause.part.partner.kind, dynamics::ComingPartner::Kind::plane);
+  EXPECT_EQ(cause.part.partner.id, 1U);
 }
 
 TEST(StepCause, OfAStiffSpringToGroundIsTheSpring) {
