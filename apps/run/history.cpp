@@ -18,7 +18,9 @@ constexpr std::array<dynamics::OutputField, 21> kFields = {{
     {"friction", "J", "dissipated by contacts"},
     {"bond_dissipated", "J", "dissipated by bonds that yield or break, and by sheets that tear"},
     {"damping", "J", "dissipated by numerical and viscous damping"},
-    {"external_work", "J", "done by loads and by what is moved"},
+    {"external_work", "J",
+     "done by loads and by what is moved, less what springs to ground and an enclosed gas have "
+     "stored"},
     {"closure_error", "J", "by which these do not add up"},
     {"grain_grain_contacts", "", "how many"},
     {"grain_membrane_contacts", "", "how many"},

@@ -11,9 +11,10 @@ namespace {
 using dynamics::ForceAndMoment;
 using geometry::index_of;
 
-constexpr std::array<dynamics::OutputField, 2> kFields = {{
+constexpr std::array<dynamics::OutputField, 3> kFields = {{
     {"force", "N", "what the plane, the supports or the body bear"},
     {"moment", "N m", "about the point of the plane, the origin, or the point `about`"},
+    {"position", "m", "of the point of the plane, or the mean of the nodes, at that time"},
 }};
 
 std::vector<dynamics::CsvColumn> columns_of(const std::vector<BuiltReaction>& reactions) {
@@ -76,6 +77,15 @@ ForceAndMoment on_plane(const BuiltReaction& reaction, const Simulation& simulat
   return moved;
 }
 
+/// m, where it was at the time of the forces.
+Vec3 position_of(const BuiltReaction& reaction, const Simulation& simulation) {
+  if (reaction.kind == ReactionKind::plane) return simulation.force_point(reaction.plane);
+  const std::vector<Vec3> positions = simulation.force_positions();
+  Vec3 sum = Vec3::Zero();
+  for (const geometry::NodeId node : reaction.nodes) sum += positions[index_of(node)];
+  return sum / static_cast<double>(reaction.nodes.size());
+}
+
 }  // namespace
 
 std::span<const dynamics::OutputField> reaction_fields() {
@@ -109,6 +119,8 @@ void Reactions::add(Simulation& simulation) {
       value = of_contacts(reaction, contacts, simulation);
     row.insert(row.end(), value.force.data(), value.force.data() + 3);
     row.insert(row.end(), value.moment.data(), value.moment.data() + 3);
+    const Vec3 position = position_of(reaction, simulation);
+    row.insert(row.end(), position.data(), position.data() + 3);
   }
   writer_->add(row);
 }

@@ -5,6 +5,7 @@
 #include "apps/run/lost_grains.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/reactions.hpp"
+#include "apps/run/refused_self_contact.hpp"
 #include "apps/run/run_warnings.hpp"
 #include "dynamics/output/file.hpp"
 
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -324,7 +326,11 @@ PreparedRun prepare_run(const Scenario& scenario) {
   options.skin = scenario.simulation.skin;
   options.self_contact = scenario.simulation.self_contact;
   options.threads = scenario.simulation.threads;
-  prepared.simulation = simulation_of(scenario, std::move(prepared.built.scene), options);
+  try {
+    prepared.simulation = simulation_of(scenario, std::move(prepared.built.scene), options);
+  } catch (const std::length_error& error) {
+    throw refused_self_contact(scenario, prepared.built.membranes, error.what());
+  }
   prepared.duration = scenario.simulation.duration;
   choose_time_step(scenario.simulation, *prepared.simulation);
   return prepared;

@@ -53,6 +53,7 @@ class Simulation {
   virtual const geometry::Neighbours& neighbours() const = 0;
 
   virtual std::vector<contact::ContactRow> list_contacts() = 0;
+  virtual std::vector<geometry::Vec3> force_positions() const = 0;
   virtual geometry::Vec3 force_point(std::size_t plane) const = 0;
   virtual dynamics::ForceAndMoment plane_reaction(std::size_t plane) const = 0;
   virtual dynamics::ForceAndMoment support_reaction(std::span<const geometry::NodeId> nodes,
@@ -106,6 +107,9 @@ class SimulationUnder final : public Simulation {
   }
 
   std::vector<contact::ContactRow> list_contacts() override { return simulation_.list_contacts(); }
+  std::vector<geometry::Vec3> force_positions() const override {
+    return simulation_.force_positions();
+  }
   geometry::Vec3 force_point(std::size_t plane) const override {
     return simulation_.force_point(plane);
   }

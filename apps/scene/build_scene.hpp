@@ -25,6 +25,7 @@ struct BuiltMembrane {
   std::size_t held_nodes = 0;
   double area = 0.0;           ///< m², of the facets, or of the rectangle around a net
   double mass = 0.0;           ///< kg
+  double mean_edge = 0.0;      ///< m, length
   double young_modulus = 0.0;  ///< Pa, of the beams, or of the sheet
 };
 

@@ -172,6 +172,7 @@ void add_elements(const MembraneSettings& settings, const MembraneBody& body,
   const double radius = 0.5 * settings.thickness;
   const double section_area = std::numbers::pi * radius * radius;
   const auto [length, shortest] = edge_lengths(scene, membrane);
+  result.mean_edge = length / static_cast<double>(membrane.edges.size());
   const bool is_sheet = settings.mode == MembraneMode::continuum;
   result.young_modulus = settings.young_modulus.value_or(
       settings.wire ? settings.wire->first_slope() / section_area

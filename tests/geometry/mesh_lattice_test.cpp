@@ -17,6 +17,46 @@ namespace {
 
 using ::testing::HasSubstr;
 
+TEST(Chain, GoesThroughItsPointsInLinksOfEqualLength) {
+  const Lattice lattice = chain({{Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(3, 0, 1)}, 4});
+
+  ASSERT_EQ(lattice.points.size(), 9u);
+  EXPECT_EQ(lattice.points[1], Vec3(0.75, 0, 0));
+  EXPECT_EQ(lattice.points[4], Vec3(3, 0, 0));
+  EXPECT_EQ(lattice.points[8], Vec3(3, 0, 1));
+  for (std::size_t i = 0; i < lattice.edges.size(); ++i)
+    EXPECT_EQ(lattice.edges[i],
+              (LatticeEdge{{id_at<NodeId>(i), id_at<NodeId>(i + 1)}, LatticePart::link}));
+}
+
+TEST(Chain, ClosesWhereItEndsAtItsBeginning) {
+  const Lattice lattice = chain({{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 0)}, 1});
+  const Surface surface(cylinders_of(lattice, 0.01), {}, lattice.points.size());
+
+  EXPECT_EQ(lattice.points.size(), 3u);
+  EXPECT_EQ(surface.edge_count(), 3u);
+  EXPECT_EQ(surface.euler_characteristic(), 0);
+  EXPECT_TRUE(std::is_sorted(lattice.edges.begin(), lattice.edges.end(),
+                             [](const auto& a, const auto& b) { return a.nodes < b.nodes; }));
+}
+
+TEST(Chain, RefusesPointsThatMakeNoWay) {
+  const auto error_of = [](const Chain& bad) -> std::string {
+    try {
+      chain(bad);
+    } catch (const MeshError& error) {
+      return error.what();
+    }
+    return "";
+  };
+
+  EXPECT_THAT(error_of({{Vec3::Zero()}, 1}), HasSubstr("through 1 points"));
+  EXPECT_THAT(error_of({{Vec3::Zero(), Vec3::Zero()}, 1}), HasSubstr("points 0 and 1 of a chain"));
+  EXPECT_THAT(error_of({{Vec3::Zero(), Vec3::Ones()}, 0}), HasSubstr("expected at least 1"));
+  EXPECT_THAT(error_of({{Vec3::Zero(), Vec3::Ones() / 0.0}, 1}), HasSubstr("is not finite"));
+  EXPECT_THAT(error_of({{Vec3::Zero(), Vec3::Ones(), Vec3::Zero()}, 1}), HasSubstr("has 2 links"));
+}
+
 constexpr HexagonalNet kNet = {
     .mesh_size = 0.08, .twist_length = 0.04, .wire_height = 0.03, .meshes_across = 5, .rows = 4};
 

@@ -93,6 +93,8 @@ TEST_F(Outputs, OfARunHaveReactionsThatObeyNewtonsThirdLaw) {
       EXPECT_NEAR(of("gravel") + of("sheet") + of("floor"), 0.0, 1e-12 * std::abs(size) + 1e-14);
     }
     largest = std::max(largest, std::abs(table.at(row, "rim.force_z (N)")));
+    EXPECT_EQ(table.at(row, "floor.position_z (m)"), -0.05);
+    EXPECT_NEAR(table.at(row, "rim.position_x (m)"), 0.0, 1e-15);
   }
   EXPECT_GT(largest, 0.0);
 }

@@ -95,10 +95,11 @@ TEST_P(BreakEnergy, TheLedgerClosesThroughBreaks) {
 
 TEST_P(BreakEnergy, TheErrorFallsWithTheSquareOfTheStepWithoutFriction) {
   const Outcome coarse = break_in_flight(GetParam(), 0.0, 2e-6);
-  const Outcome fine = break_in_flight(GetParam(), 0.0, 1e-6);
+  const Outcome fine = break_in_flight(GetParam(), 0.0, 5e-7);
 
   EXPECT_GT(coarse.broken, 1e-2 * coarse.turnover);
-  EXPECT_LE(fine.error, 0.26 * coarse.error);
+  // 1/16, times what it makes where in a step breaks and contacts fall; 1/4 in first order.
+  EXPECT_LE(fine.error, 0.12 * coarse.error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, BreakEnergy, testing::Bool(),
