@@ -34,8 +34,8 @@ struct ContactRow {
   Vec3 tangential_force;       ///< N, on b
   Vec3 moment = Vec3::Zero();  ///< N m, on b about the contact point
   double elastic_force = 0.0;  ///< N, magnitude of the elastic normal force
-  bool is_bonded = false;      ///< the bodies stick to each other (HasReach); not between
-                               ///< structures, where bonds do not pull
+  bool is_bonded = false;      ///< the bodies stick to each other (HasReach); between structures
+                               ///< a bond has a row of its own, without the elastic normal force
   bool is_slipping = false;    ///< the tangential force is at its limit (TellsTangentialLimit)
 
   Vec3 force() const noexcept { return normal_force + tangential_force; }

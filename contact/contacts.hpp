@@ -122,6 +122,7 @@ class Contacts {
 
  private:
   double list_on_surfaces();
+  void end_start(std::span<const Plane> planes, Positions x, geometry::ThreadPool& pool);
 
   ContactMaterials<Law> materials_;
   std::vector<Ball> balls_;  ///< the spheres, then the nodes of the surface
@@ -135,6 +136,7 @@ class Contacts {
   const geometry::Surface* surface_;
   double dissipated_ = 0.0;
   std::int64_t last_number_ = 0;
+  enum class Start { ahead, now, over } start_ = Start::ahead;
 };
 
 /// Structures are thinner than grains are wide: with the grains' skin a net would list half of
@@ -202,6 +204,8 @@ Contacts<Law>::Contacts(std::span<const geometry::Sphere> spheres, const geometr
 template <ContactLaw Law>
 void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes, double dt,
                             geometry::ThreadPool& pool, NodeForces& forces) {
+  if (start_ == Start::now) end_start(planes, motion.position, pool);
+  if (start_ == Start::ahead) start_ = Start::now;
   if (neighbours_.update(motion.position, pool, motion.way)) {
     dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs, pool,
                                          motion.position);
@@ -221,6 +225,18 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
   with_surfaces_.add_forces(forces, pool);
   between_structures_.add_forces(forces);
   dissipated_ += with_planes_.advance(motion, planes, dt, pool, forces);
+}
+
+/// The first step is over: the contacts listed go on with the parameters of later ones.
+template <ContactLaw Law>
+void Contacts<Law>::end_start(std::span<const Plane> planes, Positions x,
+                              geometry::ThreadPool& pool) {
+  start_ = Start::over;
+  if (!materials_.pairs.end_start()) return;
+  with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs, pool, x);
+  list_on_surfaces();
+  between_structures_.take_parameters(materials_);
+  with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
 }
 
 /// @returns the energy (J) lost with contacts that left the list

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/bodies.hpp"
+#include "contact/bonds.hpp"
 #include "contact/contact_law.hpp"
 
 #include <algorithm>
@@ -45,6 +46,14 @@ class MaterialPairs {
     return contact::combine<Law>(own == properties_.end() ? PropertiesOf<Law>{} : own->second,
                                  {at(a.material), a.radius, a.mass},
                                  {at(b.material), b.radius, b.mass});
+  }
+
+  /// From now on contacts are not those of the first step (HasStart).
+  /// @returns whether that changed any pair
+  bool end_start() {
+    bool changed = false;
+    for (auto& [pair, properties] : properties_) changed |= contact::end_start<Law>(properties);
+    return changed;
   }
 
   std::size_t size() const noexcept { return materials_.size(); }

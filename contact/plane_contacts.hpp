@@ -126,11 +126,15 @@ double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
                                    const MaterialPairs<Law>& materials) {
   double lost = 0.0;
   const auto make = [&](std::size_t i, const Slot* old) {
-    if (old) return *old;
     const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
     const auto plane = static_cast<std::size_t>(keys[i].b);
     const auto parameters = materials.combine({ball.material, ball.radius, ball.mass},
                                               {planes[plane].material, ball.radius});
+    if (old) {
+      Slot kept = *old;
+      kept.parameters = parameters;
+      return kept;
+    }
     return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}, 0};
   };
   rekey_(slots_, keys, make, [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });

@@ -6,6 +6,7 @@
 #include "contact/material_pairs.hpp"
 #include "contact/structure/mean_node_masses.hpp"
 #include "contact/structure/pair_terms.hpp"
+#include "contact/structure/structure_bond.hpp"
 #include "contact/structure/structure_patch.hpp"
 #include "contact/structure/touching_patches.hpp"
 #include "geometry/cell_neighbours.hpp"
@@ -29,7 +30,8 @@ namespace plekton::contact {
 /// diameter of length or square diameter of area on which bodies run side by side. Everything else
 /// - friction - is decided once per patch, a part of the region that hangs together: its spring is
 /// as stiff as the contacts it counts, it acts where the elastic force acts, and it follows the
-/// patch over the mesh.
+/// patch over the mesh. Under a law that glues, what is glued is held by bonds of its own
+/// (structure_contacts_bonds.hpp).
 template <ContactLaw Law>
 class StructureContacts {
  public:
@@ -49,6 +51,9 @@ class StructureContacts {
                 const ContactMaterials<Law>& materials, const Motion& at,
                 geometry::ThreadPool& pool);
 
+  /// Goes on with other parameters of the same materials.
+  void take_parameters(const ContactMaterials<Law>& materials);
+
   /// One step of all contacts: forces are found, not yet added.
   /// @returns the energy (J) dissipated
   double advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
@@ -66,14 +71,19 @@ class StructureContacts {
         [this](std::uint32_t i) { return terms_[i].is_of_cells && terms_[i].meets; }));
   }
 
-  /// Number of patches in contact.
-  std::size_t touching() const noexcept { return patches_.size(); }
+  /// Number of patches in contact and of bonds.
+  std::size_t touching() const noexcept { return patches_.size() + bonds_.size(); }
+  /// Number of bonds that hold.
+  std::size_t bond_count() const noexcept {
+    return static_cast<std::size_t>(std::count_if(
+        bonds_.begin(), bonds_.end(), [](const Bond& bond) { return !bond.is_broken; }));
+  }
 
   /// Energy (J) stored in all contacts, at the positions of the last step.
   double elastic_energy() const;
 
   /// Calls visit(node, stiffness (N/m), radius (m), tangential over normal stiffness) for what
-  /// every pair in contact adds to the stiffness around its nodes.
+  /// every patch, and every bond over a distance, adds to the stiffness around its nodes.
   template <class Visit>
   void for_each_stiffness(Visit&& visit) const;
 
@@ -82,10 +92,13 @@ class StructureContacts {
     for (Patch& patch : patches_) {
       if (patch.id == 0) patch.id = ++last;
     }
+    for (Bond& bond : bonds_) {
+      if (bond.id == 0) bond.id = ++last;
+    }
   }
 
   /// Calls visit(ContactRow) for every patch that pushed in the last step, in the order of the
-  /// list.
+  /// list, then for every bond.
   template <class Visit>
   void for_each_row(Positions x, Visit&& visit) const;
 
@@ -93,6 +106,7 @@ class StructureContacts {
   using PairTerm = structure::PairTerm;
   using Meeting = structure::Meeting<Law>;
   using Patch = structure::StructurePatch<Law>;
+  using Bond = structure::StructureBond<Law>;
 
   struct PairOfCells {
     geometry::CellPair cells;
@@ -100,6 +114,34 @@ class StructureContacts {
     bool is_turned = false;   ///< its first cell is on the second side of its patch
     std::int32_t old_patch = -1;
     bool was_turned = false;
+    std::int32_t bond = -1;  ///< -1: none
+  };
+  /// What is glued in a patch, and what can be: numbers of contacts.
+  struct Gluing {
+    double bonds = 0.0;
+    double near = 0.0;      ///< of the nearest points of all pairs of cells
+    double positive = 0.0;  ///< of those that count as more than 0
+    double wide = 0.0;      ///< of their extents
+    double wants = 0.0;     ///< that they want together
+    double pressing = 0.0;  ///< N, on the bonds
+
+    /// What a pair of cells is to have. The less the nearest points are beside the extents, the
+    /// more goes with these: on bodies that lie flat the nearest points are anywhere.
+    double count_of(double of_near, double of_wide) const noexcept {
+      const double all = near + wide;
+      if (!(near > 0.0)) return wide > 0.0 ? std::max(0.0, all) / wide * of_wide : 0.0;
+      return (1.0 + near / all) * of_wide + near / all * near / positive * std::max(0.0, of_near);
+    }
+  };
+  /// A pair of cells that presses in a patch that can be glued.
+  struct Pressed {
+    std::uint32_t pair;
+    std::uint32_t patch;
+    std::uint32_t term;
+    bool is_turned;  ///< feature a of the term is on its second cell
+    double near;     ///< contacts
+    double wide;     ///< contacts
+    double wants;    ///< contacts
   };
   /// Where the forces of an acting term go.
   struct Places {
@@ -116,6 +158,7 @@ class StructureContacts {
     double energy;  ///< J, of the history
     std::int64_t id;
     double normal_force;  ///< N
+    bool is_torn;
   };
   /// A patch of the last step that lives on in one of this.
   struct Heir {
@@ -125,6 +168,7 @@ class StructureContacts {
     friend constexpr auto operator<=>(const Heir&, const Heir&) = default;
   };
 
+  std::vector<Meeting> find_meetings(const ContactMaterials<Law>& materials) const;
   void make_meetings(const ContactMaterials<Law>& materials);
   double normal_energy(const geometry::Surface& surface, std::span<const geometry::CellPair> pairs,
                        const Motion& at, geometry::ThreadPool& pool) const;
@@ -138,6 +182,18 @@ class StructureContacts {
   void add_up_patches(Positions x);
   double inherit(const Motion& motion, double dt);
   void hand_on_number(const Legacy& old, std::span<const Heir> heirs);
+  double prepare_bonds(const Motion& motion, geometry::ThreadPool& pool);
+  std::int32_t patch_of(const Bond& bond) const;
+  double form_bonds(Positions x);
+  void list_pressed_pairs();
+  void add_near_push(const PairTerm& term);
+  double glue_pair(const Pressed& pressed, double count, Positions x);
+  double advance_bonds(const Motion& motion, double dt, geometry::ThreadPool& pool);
+  double hand_to_patch(Bond& bond);
+  void drop_broken_bonds();
+  void match_bonds();
+  double keep_bonds(const geometry::SurfaceChange& change);
+  ContactRow row_of(const Bond& bond) const;
   std::vector<std::uint32_t> deepest_places() const;
   ContactRow row_of(const Patch& patch, std::uint32_t deepest, Positions x) const;
   const Meeting& meeting_of(const Patch& patch) const { return meetings_[patch.meeting]; }
@@ -154,6 +210,11 @@ class StructureContacts {
   std::vector<Patch> patches_;
   std::vector<Legacy> previous_;
   std::vector<Heir> heirs_;
+  std::vector<Bond> bonds_;
+  bool glues_ = false;          ///< whether any two structures stick where they come to touch
+  std::vector<Gluing> gluing_;  ///< by patch
+  std::vector<Pressed> pressed_;
+  std::vector<double> near_push_;  ///< N, by pair of cells
   double largest_overlap_ratio_ = 0.0;
 };
 
@@ -170,6 +231,7 @@ double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs
     if (known && old->patch >= 0) lives[static_cast<std::size_t>(old->patch)] = 1;
   }
   pairs_.swap(listed);
+  if (!bonds_.empty()) match_bonds();
   if (meetings_.empty()) make_meetings(materials);
   terms_.rebuild(pairs);
   double lost = 0.0;
@@ -180,7 +242,9 @@ double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs
 }
 
 template <ContactLaw Law>
-void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& materials) {
+std::vector<structure::Meeting<Law>> StructureContacts<Law>::find_meetings(
+    const ContactMaterials<Law>& materials) const {
+  std::vector<Meeting> meetings;
   const std::vector<double> masses = structure::mean_node_masses(*surface_, materials);
   const auto part = [&](std::size_t i) {
     return typename MaterialPairs<Law>::Part{
@@ -190,10 +254,17 @@ void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& material
   for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
     for (std::size_t k = i; k < surface_->structure_count(); ++k) {
       const typename Law::Parameters parameters = materials.pairs.combine(part(i), part(k));
-      meetings_.push_back({without_attraction<Law>(parameters), part(i).radius, part(k).radius,
-                           attraction_of<Law>(parameters)});
+      meetings.push_back({without_attraction<Law>(parameters), part(i).radius, part(k).radius,
+                          attraction_of<Law>(parameters)});
     }
   }
+  return meetings;
+}
+
+template <ContactLaw Law>
+void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& materials) {
+  meetings_ = find_meetings(materials);
+  take_parameters(materials);
   for (const Meeting& meeting : meetings_) {
     springs_.push_back(structure::NormalSpring::of<Law>(
         meeting.parameters, meeting.radius_first + meeting.radius_second, &meeting.attraction));
@@ -203,22 +274,24 @@ void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& material
 template <ContactLaw Law>
 double StructureContacts<Law>::advance(const Motion& motion, double dt,
                                        geometry::ThreadPool& pool) {
-  if (terms_.empty() && patches_.empty()) return 0.0;
+  if (terms_.empty() && patches_.empty() && bonds_.empty()) return 0.0;
   terms_.evaluate(springs_, motion, pool);
   previous_.clear();
   for (const Patch& patch : patches_) {
     previous_.push_back({patch.memory, patch.meeting, patch.count, history_energy(patch), patch.id,
-                         patch.normal_force});
+                         patch.normal_force, patch.is_torn});
   }
+  drop_broken_bonds();
   if (terms_.acting_changed()) {
     find_patches();
     find_places();
   }
   find_heirs();
   add_up_patches(motion.position);
-  double dissipated = inherit(motion, dt);
+  double dissipated = prepare_bonds(motion, pool);
+  dissipated += inherit(motion, dt);
   for (Patch& patch : patches_) dissipated += patch.apply_law(meeting_of(patch), motion, dt);
-  return dissipated;
+  return dissipated + advance_bonds(motion, dt, pool);
 }
 
 /// Pairs of cells hang together where they share a feature that acts.
@@ -289,68 +362,10 @@ void StructureContacts<Law>::find_places() {
   }
 }
 
-template <ContactLaw Law>
-void StructureContacts<Law>::add_up_patches(Positions x) {
-  largest_overlap_ratio_ = 0.0;
-  for (Patch& patch : patches_) patch.reset();
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const PairTerm& term = terms_[terms_.acting()[i]];
-    const Places& places = places_[i];
-    const Meeting& meeting = meetings_[term.spring];
-    const double radius = std::min(meeting.radius_first, meeting.radius_second);
-    largest_overlap_ratio_ = std::max(largest_overlap_ratio_, term.overlap / radius);
-    Patch& patch = patches_[places.patch];
-    patch.energy += term.forces.energy;
-    auto& side_a = places.is_turned ? patch.second : patch.first;
-    auto& side_b = places.is_turned ? patch.first : patch.second;
-    for (std::size_t k = 0; k < term.a.count; ++k)
-      side_a.add_force(places.a[k], term.forces.on_a[k]);
-    for (std::size_t k = 0; k < term.b.count; ++k)
-      side_b.add_force(places.b[k], term.forces.on_b[k]);
-    const structure::PairForces* const attraction = terms_.attraction(terms_.acting()[i]);
-    if (attraction == nullptr) continue;
-    patch.attraction_energy += attraction->energy;
-    for (std::size_t k = 0; k < term.a.count; ++k)
-      side_a.add_attraction(places.a[k], attraction->on_a[k]);
-    for (std::size_t k = 0; k < term.b.count; ++k)
-      side_b.add_attraction(places.b[k], attraction->on_b[k]);
-  }
-  for (Patch& patch : patches_) patch.find_totals(meeting_of(patch), x);
-}
-
-template <ContactLaw Law>
-void StructureContacts<Law>::add_forces(NodeForces& forces) const {
-  for (const Patch& patch : patches_) patch.add_forces(meeting_of(patch), forces);
-}
-
-template <ContactLaw Law>
-double StructureContacts<Law>::elastic_energy() const {
-  double energy = 0.0;
-  for (const Patch& patch : patches_)
-    energy += patch.energy + patch.attraction_energy + history_energy(patch);
-  return energy;
-}
-
-template <ContactLaw Law>
-template <class Visit>
-void StructureContacts<Law>::for_each_stiffness(Visit&& visit) const {
-  for (const Patch& patch : patches_) {
-    if (!(patch.normal_force > 0.0)) continue;
-    const Meeting& meeting = meeting_of(patch);
-    const auto parameters = patch.parameters(meeting);
-    const auto on = [&](double radius) {
-      return [&, radius](NodeId node, double share) {
-        visit(node, std::abs(share) * Law::normal_stiffness(parameters, patch.gap),
-              std::abs(share) * Law::tangential_stiffness(parameters, patch.gap), radius);
-      };
-    };
-    patch.first.for_each_share(on(meeting.radius_first));
-    patch.second.for_each_share(on(meeting.radius_second));
-  }
-}
-
 }  // namespace plekton::contact
 
+#include "contact/structure_contacts_bonds.hpp"
 #include "contact/structure_contacts_change.hpp"
 #include "contact/structure_contacts_heirs.hpp"
 #include "contact/structure_contacts_rows.hpp"
+#include "contact/structure_contacts_sums.hpp"

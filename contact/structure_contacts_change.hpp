@@ -19,6 +19,7 @@ double StructureContacts<Law>::follow(const geometry::SurfaceChange& change,
     lost += normal_energy(change.before(), listed, at, pool);
     renumber(change);
   }
+  if (!bonds_.empty()) lost += keep_bonds(change);
   surface_ = &change.after();
   terms_ = structure::PairTerms(*surface_);
   if (pairs_.empty() && pairs.empty()) return lost;

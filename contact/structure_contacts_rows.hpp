@@ -23,11 +23,37 @@ std::vector<std::uint32_t> StructureContacts<Law>::deepest_places() const {
 template <ContactLaw Law>
 template <class Visit>
 void StructureContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
-  if (patches_.empty()) return;
   const std::vector<std::uint32_t> deepest = deepest_places();
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     if (patches_[i].pushes()) visit(row_of(patches_[i], deepest[i], x));
   }
+  for (const Bond& bond : bonds_) {
+    ContactRow row = row_of(bond);
+    row.point_a = position(bond.a, x);
+    row.point_b = position(bond.b, x);
+    row.point = row.point_b + bond.lever_b(meetings_[bond.meeting]);
+    visit(row);
+  }
+}
+
+/// All but its points.
+template <ContactLaw Law>
+ContactRow StructureContacts<Law>::row_of(const Bond& bond) const {
+  const auto body = [&](const geometry::CorePoint& core) {
+    return ContactBody{BodyKind::structure,
+                       static_cast<std::int32_t>(surface_->structure_of(core.nodes[0])),
+                       core.feature};
+  };
+  ContactRow row;
+  row.id = bond.id;
+  row.a = body(bond.a);
+  row.b = body(bond.b);
+  row.normal = bond.normal;
+  row.gap = bond.gap;
+  set_force(row, bond.other_force);
+  row.moment = bond.moment;
+  set_state<Law>(row, bond.parameters(meetings_[bond.meeting]), bond.memory.history, bond.pressing);
+  return row;
 }
 
 template <ContactLaw Law>
@@ -54,7 +80,6 @@ ContactRow StructureContacts<Law>::row_of(const Patch& patch, std::uint32_t deep
   row.moment = patch.second.moment_about(row.point, x);
   if constexpr (HasMoments<Law>) row.moment += patch.moment;
   set_state<Law>(row, patch.parameters(meeting), patch.memory.history, patch.normal_force);
-  row.is_bonded = false;  // bonds between structures do not pull
   return row;
 }
 

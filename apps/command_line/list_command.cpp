@@ -42,6 +42,13 @@ void list_parameters(std::span<const LawParameter> parameters, std::ostream& out
   }
 }
 
+void list_words(std::span<const contact::LawChoice> choices, std::ostream& out) {
+  for (const contact::LawChoice& choice : choices) {
+    out << fmt::format("    {:<20} {:<5} {:<5} {}\n", choice.name, "name", choice.words.front(),
+                       choice.what);
+  }
+}
+
 void list_keys(const KeyGroup& group, std::ostream& out) {
   out << group.table;
   if (!group.kind.empty()) out << fmt::format(" kind = \"{}\"", group.kind);
@@ -60,6 +67,7 @@ void list_choices(std::ostream& out) {
   for (const contact::LawRow& law : contact::contact_laws()) {
     out << fmt::format("  {:<22} {}\n", law.name, law.what);
     list_parameters(law.parameters, out);
+    list_words(law.choices, out);
   }
   out << "  with every law\n";
   list_parameters(contact::common_law_parameters(), out);

@@ -34,16 +34,29 @@ void read_parameters(std::span<const LawParameter> parameters, Section& section,
   }
 }
 
+void read_choices(std::span<const contact::LawChoice> choices, Section& section,
+                  contact::ContactSettings& settings) {
+  for (const contact::LawChoice& choice : choices)
+    choice.choose(settings, section.choice(choice.name, choice.words, 0));
+}
+
+/// The keys that go with a law, and not with all of them.
+std::vector<std::string_view> keys_of(const contact::LawRow& law) {
+  std::vector<std::string_view> keys;
+  for (const LawParameter& parameter : law.parameters) keys.push_back(parameter.name);
+  for (const contact::LawChoice& choice : law.choices) keys.push_back(choice.name);
+  return keys;
+}
+
 /// Complains about parameters of laws that were not chosen.
 void refuse_others(const contact::LawRow& chosen, Section& section) {
   for (const contact::LawRow& law : contact::contact_laws()) {
     if (law.name == chosen.name) continue;
-    for (const LawParameter& parameter : law.parameters) {
-      if (!section.has(parameter.name)) continue;
-      section.complain(parameter.name,
-                       fmt::format("goes with law = \"{}\", but this pair has \"{}\"; change the "
-                                   "law, or leave {} out",
-                                   law.name, chosen.name, parameter.name));
+    for (const std::string_view key : keys_of(law)) {
+      if (!section.has(key)) continue;
+      section.complain(key, fmt::format("goes with law = \"{}\", but this pair has \"{}\"; change "
+                                        "the law, or leave {} out",
+                                        law.name, chosen.name, key));
     }
   }
 }
@@ -51,7 +64,7 @@ void refuse_others(const contact::LawRow& chosen, Section& section) {
 /// For a law that is not known: any parameter may be one of its.
 void announce_all(Section& section) {
   for (const contact::LawRow& law : contact::contact_laws())
-    for (const LawParameter& parameter : law.parameters) section.has(parameter.name);
+    for (const std::string_view key : keys_of(law)) section.has(key);
 }
 
 std::vector<std::string_view> names_of_laws() {
@@ -72,6 +85,7 @@ PairSettings read_contact(Section section, const Known& known,
   pair.contact.law = chosen.value_or(0);
   const contact::LawRow& law = contact::contact_laws()[pair.contact.law];
   read_parameters(law.parameters, section, pair.contact);
+  read_choices(law.choices, section, pair.contact);
   read_parameters(contact::common_law_parameters(), section, pair.contact);
   if (chosen)
     refuse_others(law, section);

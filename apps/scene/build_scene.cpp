@@ -3,7 +3,6 @@
 
 #include "apps/scene/build_loads.hpp"
 #include "apps/scene/build_reactions.hpp"
-#include "apps/scene/contact_warnings.hpp"
 #include "apps/scene/grain_generator.hpp"
 #include "apps/scene/membrane_builder.hpp"
 #include "geometry/mesh/import.hpp"
@@ -144,8 +143,6 @@ BuiltScene build_scene(const Scenario& scenario) {
     }
   }
   problems.throw_if_any();
-  for (std::string& warning : contact_warnings(scenario))
-    built.warnings.push_back(std::move(warning));
   add_loads(scenario, built);
   add_reactions(scenario, built);
   return built;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/bonds.hpp"
 #include "contact/laws/linear_frictional.hpp"
 #include "contact/laws/tangential_spring.hpp"
 
@@ -19,8 +20,9 @@ namespace plekton::contact {
 /// friction alone, until the bodies have parted: then they may be glued anew. A ductile one yields
 /// instead: u_p follows, and it breaks once it has yielded by the rupture distance.
 ///
-/// On a surface the bond is one for every contact, at its representative point. Between structures
-/// it carries shear, but no tension over a distance.
+/// On a surface a ball has one bond for every contact, at its representative point. Between
+/// structures the bonds of a contact together are as many as the contacts it counts for, each a
+/// spring between two material points (structure/structure_bond.hpp).
 struct CohesiveFrictional {
   static constexpr std::string_view name = "cohesive_frictional";
 
@@ -28,12 +30,14 @@ struct CohesiveFrictional {
     double tensile_strength = 0.0;  ///< Pa, >= 0
     double shear_strength = 0.0;    ///< Pa, >= 0
     double rupture_distance = 0.0;  ///< m, of yield until a bond breaks; 0: fragile
+    Bonds bonds = Bonds::new_contacts;
   };
   struct Parameters {
     LinearFrictional::Parameters elastic;
     double tension;           ///< N, of a bond
     double shear;             ///< N
     double rupture_distance;  ///< m
+    bool glues;               ///< bodies that come to touch
   };
   enum class Bond : std::int64_t { none, holds, broken };
   struct History {
@@ -47,11 +51,12 @@ struct CohesiveFrictional {
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
     const double smaller = std::min(a.radius, b.radius);
     return {LinearFrictional::combine(a, b), properties.tensile_strength * smaller * smaller,
-            properties.shear_strength * smaller * smaller, properties.rupture_distance};
+            properties.shear_strength * smaller * smaller, properties.rupture_distance,
+            properties.bonds != Bonds::none};
   }
   static Parameters multiplied(const Parameters& p, double count) noexcept {
     return {LinearFrictional::multiplied(p.elastic, count), count * p.tension, count * p.shear,
-            p.rupture_distance};
+            p.rupture_distance, p.glues};
   }
 
   static double elastic_normal_force(const Parameters& p, double gap) noexcept {
@@ -68,6 +73,28 @@ struct CohesiveFrictional {
   }
   /// Whether a contact goes on over a distance.
   static bool holds(const History& history) noexcept { return history.bond == Bond::holds; }
+
+  /// See HasStart.
+  static bool end_start(Properties& properties) noexcept {
+    if (properties.bonds != Bonds::at_start) return false;
+    properties.bonds = Bonds::none;
+    return true;
+  }
+
+  /// See HasBonds. A bond without strength is none.
+  static bool glues(const Parameters& p) noexcept {
+    return p.glues && (p.tension > 0.0 || p.shear > 0.0);
+  }
+  static void glue(const Parameters&, History& history) noexcept { history.bond = Bond::holds; }
+  static Parameters of_bond(const Parameters& p) noexcept { return p; }
+  static Parameters beside_bonds(const Parameters& p, double part) noexcept {
+    const LinearFrictional::Parameters& e = p.elastic;
+    return {{e.normal_stiffness, part * e.tangential_stiffness, part * e.friction},
+            0.0,
+            0.0,
+            0.0,
+            false};
+  }
 
   static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
                             double dt) noexcept {
@@ -131,7 +158,7 @@ struct CohesiveFrictional {
                         History& history) noexcept {
     const double k = p.elastic.normal_stiffness;
     history.overlap = overlap_of(p, motion);
-    if (history.bond == Bond::none && history.overlap > 0.0) history.bond = Bond::holds;
+    if (history.bond == Bond::none && history.overlap > 0.0 && p.glues) history.bond = Bond::holds;
     if (history.bond != Bond::holds) return release(history, history.bond);
     if (-k * (history.overlap - history.yielded) > p.tension) {
       if (p.rupture_distance == 0.0) return release(history);
@@ -162,5 +189,6 @@ struct CohesiveFrictional {
 };
 
 static_assert(ContactLaw<CohesiveFrictional>);
+static_assert(HasBonds<CohesiveFrictional> && HasStart<CohesiveFrictional>);
 
 }  // namespace plekton::contact

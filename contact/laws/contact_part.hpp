@@ -33,4 +33,24 @@ concept ContactPart = requires(const typename Part::Properties& properties,
   { Part::add_share(history, other, number) } -> std::same_as<void>;
 };
 
+/// What a bond has of a part, and a contact beside bonds (HasBonds): of one that says nothing about
+/// them all, as the stiffness that comes with the law is divided already.
+template <ContactPart Part>
+typename Part::Parameters part_of_bond(const typename Part::Parameters& parameters) {
+  if constexpr (requires { Part::of_bond(parameters); }) {
+    return Part::of_bond(parameters);
+  } else {
+    return parameters;
+  }
+}
+template <ContactPart Part>
+typename Part::Parameters part_beside_bonds(const typename Part::Parameters& parameters,
+                                            double part) {
+  if constexpr (requires { Part::beside_bonds(parameters, part); }) {
+    return Part::beside_bonds(parameters, part);
+  } else {
+    return parameters;
+  }
+}
+
 }  // namespace plekton::contact

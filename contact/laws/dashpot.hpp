@@ -35,6 +35,9 @@ struct Dashpot {
   /// Springs side by side carry one mass.
   static Parameters multiplied(const Parameters& p, double) noexcept { return p; }
 
+  /// The dashpot is one for a contact as a whole, not for its bonds.
+  static Parameters of_bond(const Parameters& p) noexcept { return {p.damping_ratio, 0.0}; }
+
   static ContactForce force(const Parameters& p, const RelativeMotion& motion,
                             const ContactStiffness& stiffness, History& history,
                             double dt) noexcept {

@@ -48,6 +48,15 @@ constexpr std::array kCohesion{
               "by which a bond yields until it breaks; 0: it breaks at once",
               [](ContactSettings& s) -> double& { return s.cohesion.rupture_distance; })};
 
+constexpr std::array<std::string_view, 2> kBondWords{"new", "start"};
+constexpr std::array kCohesionChoices{
+    LawChoice{"bonds", kBondWords,
+              "which contacts are glued: all when the bodies come to touch (new), or only those of "
+              "the first step (start)",
+              [](ContactSettings& s, std::size_t word) {
+                s.cohesion.bonds = word == 0 ? Bonds::new_contacts : Bonds::at_start;
+              }}};
+
 constexpr std::array kCommon{
     parameter("rolling_stiffness", Kind::number, 0.0,
               "alpha: the stiffness of rolling is alpha R_a R_b k_s",
@@ -73,9 +82,8 @@ constexpr std::array<LawRow, 4> kLaws{
      {DmtAdhesion::name, "hertz_mindlin with adhesion (Derjaguin, Muller & Toporov 1975)",
       kAdhesion},
      {CohesiveFrictional::name,
-      "linear springs glued where they touch first, fragile or ductile (Bourrier et al. 2013); "
-      "between membranes the glue carries shear while they touch, but does not pull",
-      kCohesion}}};
+      "linear springs glued where they touch, fragile or ductile (Bourrier et al. 2013)", kCohesion,
+      kCohesionChoices}}};
 
 PropertiesOf<AnyLaw> with_law(const ContactSettings& settings) {
   PropertiesOf<AnyLaw> properties;

@@ -33,10 +33,19 @@ struct LawParameter {
   double& (*in)(ContactSettings&);
 };
 
+/// A parameter that is a word; the first one if nothing is said.
+struct LawChoice {
+  std::string_view name;
+  std::span<const std::string_view> words;
+  std::string_view what;
+  void (*choose)(ContactSettings&, std::size_t word);
+};
+
 struct LawRow {
   std::string_view name;
   std::string_view what;
   std::span<const LawParameter> parameters;
+  std::span<const LawChoice> choices = {};
 };
 
 /// The first one is that of pairs of which nothing is said.

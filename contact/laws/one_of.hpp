@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/bonds.hpp"
 #include "contact/contact_law.hpp"
 
 #include <limits>
@@ -79,6 +80,33 @@ struct OneOf {
   static Parameters without_attraction(const Parameters& parameters) {
     return of_law(parameters, []<class Law>(const ParametersFor<Law>& p) -> Parameters {
       return ParametersFor<Law>{contact::without_attraction<Law>(p.values)};
+    });
+  }
+
+  /// See HasStart and HasBonds.
+  static bool end_start(Properties& properties) {
+    return std::visit(
+        []<class Law>(Chosen<Law>& chosen) { return contact::end_start<Law>(chosen.properties); },
+        properties);
+  }
+  static bool glues(const Parameters& parameters) {
+    return of_law(parameters, []<class Law>(const ParametersFor<Law>& p) {
+      return contact::glues<Law>(p.values);
+    });
+  }
+  static void glue(const Parameters& parameters, History& history) {
+    of_law(parameters, [&]<class Law>(const ParametersFor<Law>& p) {
+      contact::glue<Law>(p.values, own<Law>(history));
+    });
+  }
+  static Parameters of_bond(const Parameters& parameters) {
+    return of_law(parameters, []<class Law>(const ParametersFor<Law>& p) -> Parameters {
+      return ParametersFor<Law>{contact::of_bond<Law>(p.values)};
+    });
+  }
+  static Parameters beside_bonds(const Parameters& parameters, double part) {
+    return of_law(parameters, [&]<class Law>(const ParametersFor<Law>& p) -> Parameters {
+      return ParametersFor<Law>{contact::beside_bonds<Law>(p.values, part)};
     });
   }
 

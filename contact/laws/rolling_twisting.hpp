@@ -45,6 +45,13 @@ struct RollingTwisting {
   /// The stiffness that comes with the contact is multiplied already.
   static Parameters multiplied(const Parameters& p, double) noexcept { return p; }
 
+  /// Beside bonds that carry all but a part; infinity times 0 is no number.
+  static Parameters beside_bonds(const Parameters& p, double part) noexcept {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const auto limit = [&](double arm) { return arm < kNone ? part * arm : arm; };
+    return {p.rolling_arms, p.twisting_arms, limit(p.rolling_arm), limit(p.twisting_arm), p.radius};
+  }
+
   static ContactForce force(const Parameters& p, const RelativeMotion& motion,
                             const ContactStiffness& stiffness, History& history,
                             double dt) noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/bonds.hpp"
 #include "contact/laws/contact_part.hpp"
 
 namespace plekton::contact {
@@ -45,6 +46,21 @@ struct Sum {
   static double attraction(const Parameters& p) { return attraction_of<Whole>(p.whole); }
   static Parameters without_attraction(const Parameters& p) {
     return {contact::without_attraction<Whole>(p.whole), p.part};
+  }
+
+  /// See HasStart and HasBonds.
+  static bool end_start(Properties& properties) {
+    return contact::end_start<Whole>(properties.whole);
+  }
+  static bool glues(const Parameters& p) { return contact::glues<Whole>(p.whole); }
+  static void glue(const Parameters& p, History& history) {
+    contact::glue<Whole>(p.whole, history.whole);
+  }
+  static Parameters of_bond(const Parameters& p) {
+    return {contact::of_bond<Whole>(p.whole), part_of_bond<Part>(p.part)};
+  }
+  static Parameters beside_bonds(const Parameters& p, double part) {
+    return {contact::beside_bonds<Whole>(p.whole, part), part_beside_bonds<Part>(p.part, part)};
   }
 
   static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,

@@ -42,6 +42,11 @@ class PairTerms {
     return {holders_.data() + term.first_holder, term.holder_count};
   }
 
+  /// The term of both cells of a pair.
+  const PairTerm& of_cells(std::uint32_t pair) const noexcept {
+    return terms_[term_of_pair_[pair]];
+  }
+
   /// What attracts the features of a term in range, besides its forces; null if nothing does.
   const PairForces* attraction(std::size_t term) const noexcept {
     return attracts_.empty() || attracts_[terms_[term].spring] == 0 ? nullptr : &attractions_[term];

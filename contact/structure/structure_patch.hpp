@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/bonds.hpp"
 #include "contact/contact_memory.hpp"
 #include "contact/relative_motion.hpp"
 #include "contact/structure/patch_side.hpp"
@@ -31,6 +32,8 @@ struct StructurePatch {
   double gap = 0.0;                   ///< m, mean over the forces
   PatchSide first;
   PatchSide second;
+  double free_part = 1.0;  ///< of its tangential force, that no bonds carry
+  bool is_torn = false;    ///< a bond has broken in it: it forms no others
   ContactMemory<Law> memory;
   std::int64_t id = 0;    ///< 0: none yet
   double id_from = -1.0;  ///< N, normal force of the patch of the last step that the id is from
@@ -43,6 +46,8 @@ struct StructurePatch {
     second.reset_forces();
     energy = 0.0;
     attraction_energy = 0.0;
+    free_part = 1.0;
+    is_torn = false;
     memory = {};
     id = 0;
     id_from = -1.0;
@@ -50,6 +55,8 @@ struct StructurePatch {
   }
 
   bool pushes() const noexcept { return normal_force > 0.0; }
+  /// Unit, from the first side to the second, of a patch that pushes.
+  Vec3 normal() const { return elastic_force / normal_force; }
 
   /// What the forces on the nodes come to.
   void find_totals(const Meeting<Law>& bodies, Positions x) {
@@ -69,8 +76,13 @@ struct StructurePatch {
     count = one > 0.0 ? normal_force / one : 0.0;
   }
 
-  typename Law::Parameters parameters(const Meeting<Law>& bodies) const {
+  /// Of the contact as a whole.
+  typename Law::Parameters whole_parameters(const Meeting<Law>& bodies) const {
     return Law::multiplied(bodies.parameters, count);
+  }
+  /// Of what it has beside bonds.
+  typename Law::Parameters parameters(const Meeting<Law>& bodies) const {
+    return beside_bonds<Law>(whole_parameters(bodies), free_part);
   }
 
   double history_energy(const Meeting<Law>& bodies) const {
@@ -82,7 +94,7 @@ struct StructurePatch {
     if (!pushes()) return 0.0;
     const Vec3 velocity = second.velocity_at(lever_of_second(bodies), motion) -
                           first.velocity_at(lever_of_first(bodies), motion);
-    memory.normal = elastic_force / normal_force;
+    memory.normal = normal();
     const RelativeMotion relative =
         relative_motion(memory.normal, gap, normal_force, velocity,
                         second.angular_velocity(motion) - first.angular_velocity(motion));

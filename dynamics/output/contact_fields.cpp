@@ -46,7 +46,8 @@ const std::array<ContactField, 17> kFields = {{
     {{"moment", "N m", "on b about the contact point, of rolling and twisting"},
      [](const ContactRow& c) { return c.moment; }},
     {{"is_bonded", "",
-      "1: the bodies stick to each other; 0 between structures, where bonds do not pull"},
+      "1: the bodies stick to each other; between structures every bond has a row of its own, "
+      "with what it carries beside the elastic force of their contact"},
      [](const ContactRow& c) { return std::int64_t{c.is_bonded}; }},
     {{"is_slipping", "", "1: the tangential force is at its limit"},
      [](const ContactRow& c) { return std::int64_t{c.is_slipping}; }},

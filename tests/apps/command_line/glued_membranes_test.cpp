@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The law cohesive_frictional between membranes, where bonds do not pull.
+// The law cohesive_frictional between membranes.
 #include "tests/apps/command_line/program_fixture.hpp"
 
 #include <gmock/gmock.h>
@@ -15,10 +15,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr std::string_view kWarning =
-    "warning: contacts of \"rubber\" and \"rubber\": membranes are not held together by "
-    "tensile_strength";
 
 /// Two sheets that overlap by a tenth of their thickness; the keys of their contact come last.
 constexpr std::string_view kTwoSheets = R"([simulation]
@@ -64,33 +60,44 @@ class GluedMembranes : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(GluedMembranes, AreWarnedOfWhereATensileStrengthIsGiven) {
-  EXPECT_THAT(run("tensile_strength = \"1 MPa\"\n").out, HasSubstr(std::string(kWarning)));
-  EXPECT_THAT(run("shear_strength = \"1 MPa\"\n").out, Not(HasSubstr("warning: contacts of")));
-}
+/// How many rows of contacts.csv have a bond, and how many not.
+struct Rows {
+  int bonded = 0;
+  int others = 0;
+};
 
-TEST_F(GluedMembranes, AreNotListedAsBonded) {
-  run("tensile_strength = \"1 MPa\"\nshear_strength = \"1 MPa\"\n");
-
-  std::istringstream table(test::bytes_of(folder_ / "out/contacts.csv"));
-  std::string line;
-  std::getline(table, line);
+Rows rows_of(const std::filesystem::path& file) {
+  std::istringstream table(test::bytes_of(file));
   const auto parts_of = [](const std::string& row) {
     std::vector<std::string> parts;
     std::istringstream in(row);
     for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
     return parts;
   };
+  std::string line;
+  std::getline(table, line);
   const auto names = parts_of(line);
   const auto column =
       static_cast<std::size_t>(std::find(names.begin(), names.end(), "is_bonded") - names.begin());
-  ASSERT_LT(column, names.size()) << line;
-  int rows = 0;
-  while (std::getline(table, line)) {
-    ++rows;
-    EXPECT_EQ(std::stod(parts_of(line).at(column)), 0.0) << line;
+  Rows rows;
+  while (std::getline(table, line))
+    ++(std::stod(parts_of(line).at(column)) == 1.0 ? rows.bonded : rows.others);
+  return rows;
+}
+
+TEST_F(GluedMembranes, HaveBondsInTheListOfContactsBesideWhatPushes) {
+  for (const char* const bonds : {"", "bonds = \"start\"\n", "bonds = \"new\"\n"}) {
+    const Outcome outcome = run("tensile_strength = \"1 MPa\"\n" + std::string(bonds));
+    EXPECT_THAT(outcome.out, Not(HasSubstr("warning: contacts of")));
+    const Rows rows = rows_of(folder_ / "out/contacts.csv");
+    EXPECT_GT(rows.bonded, 1) << bonds;
+    EXPECT_GT(rows.others, 0) << bonds;
   }
-  EXPECT_GT(rows, 0);
+}
+
+TEST_F(GluedMembranes, HaveNoBondsWithoutStrength) {
+  run("");
+  EXPECT_EQ(rows_of(folder_ / "out/contacts.csv").bonded, 0);
 }
 
 }  // namespace

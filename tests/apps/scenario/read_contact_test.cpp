@@ -48,6 +48,7 @@ and = "soil"
 law = "cohesive_frictional"
 tensile_strength = "20 kPa"
 rupture_distance = "0.1 mm"
+bonds = "start"
 rolling_stiffness = 0.3
 restitution = 0.5
 )");
@@ -60,6 +61,7 @@ restitution = 0.5
   EXPECT_EQ(settings.cohesion.tensile_strength, 2e4);
   EXPECT_DOUBLE_EQ(settings.cohesion.rupture_distance, 1e-4);
   EXPECT_EQ(settings.cohesion.shear_strength, 0.0);
+  EXPECT_EQ(settings.cohesion.bonds, contact::Bonds::at_start);
   EXPECT_EQ(settings.rolling.rolling_stiffness, 0.3);
   EXPECT_EQ(settings.restitution, 0.5);
 }
@@ -72,6 +74,10 @@ TEST(ReadContact, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(complaint(pair + "restitution = 0\n").find("above 0 and at most 1"), std::string::npos);
   EXPECT_NE(complaint(pair + "work_of_adhesion = \"1 J/m2\"\n").find("work_of_adhesion"),
             std::string::npos);  // of another law
+  EXPECT_NE(complaint(pair + "bonds = \"new\"\n").find("goes with law = \"cohesive_frictional\""),
+            std::string::npos);
+  EXPECT_NE(complaint(pair + "law = \"cohesive_frictional\"\nbonds = \"later\"\n").find("start"),
+            std::string::npos);
   EXPECT_NE(complaint("[[contacts]]\nbetween = \"soil\"\nand = \"stel\"\n")
                 .find("did you mean \"steel\"?"),
             std::string::npos);
