@@ -47,6 +47,7 @@ std::span<const double> HollowShares::find(std::uint32_t vertex_count,
   for (std::size_t facet = 0; facet + 1 < first_.size(); ++facet) {
     const auto takers =
         std::span(by_facet_).subspan(first_[facet], first_[facet + 1] - first_[facet]);
+    if (takers.empty()) continue;  // its corners may be above
     double product = 0.0;
     for (const Shells::Entry& i : takers) {
       for (const Shells::Entry& k : takers) product += i.times * inverse(i.at, k.at) * k.times;
@@ -81,6 +82,7 @@ void HollowShares::invert_products(std::size_t hollows, std::span<const double> 
   for (std::uint32_t facet = 0; facet + 1 < first_.size(); ++facet) {
     const auto takers =
         std::span(by_facet_).subspan(first_[facet], first_[facet + 1] - first_[facet]);
+    if (takers.empty()) continue;  // its corners may be above
     const double weight = weight_of(facet, weights);
     for (const Shells::Entry& i : takers) {
       for (const Shells::Entry& k : takers) products(i.at, k.at) += weight * i.times * k.times;
