@@ -112,7 +112,7 @@ class BallContacts {
   void return_loans(NodeForces& forces, geometry::ThreadPool& pool) const;
   void advance_block(const BallBlocks::Block& block, const Motion& motion, Work& work);
   /// Asks for what a step will read of a row of a block.
-  void prefetch(const BallBlocks::Block& block, std::size_t row) const noexcept {
+  PLEKTON_INLINE void prefetch(const BallBlocks::Block& block, std::size_t row) const noexcept {
     __builtin_prefetch(blocks_.row(row));
     if (row >= block.stretches[1].first_row && !touched_[row].any()) return;
     const auto* const bytes = reinterpret_cast<const char*>(&rows_[row]);
