@@ -47,8 +47,8 @@ class Contacts {
   /// (geometry/cell_neighbours.hpp).
   void choose_skin_of_structures() { cell_neighbours_.choose_skin(); }
 
-  /// One step: finds who touches whom, carries histories over, asks the law, and adds forces to the
-  /// nodes.
+  /// One step: finds who touches whom, carries histories over, asks the law, and sets the forces of
+  /// all nodes to those of contacts.
   void advance(const Motion& motion, std::span<const Plane> planes, double dt,
                geometry::ThreadPool& pool, NodeForces& forces);
 

@@ -37,13 +37,7 @@ struct NodeForces {
       : force(node_count, Vec3::Zero()), torque(node_count, Vec3::Zero()) {}
 
   void set_zero() { set_zero(0, force.size()); }
-  /// Each thread its part of the nodes, those that it moves: they are near it.
-  void set_zero(geometry::ThreadPool& pool) {
-    pool.for_each_range(force.size(),
-                        [this](std::size_t begin, std::size_t end, int) { set_zero(begin, end); });
-  }
-
- private:
+  /// Of nodes [begin, end).
   void set_zero(std::size_t begin, std::size_t end) {
     std::fill_n(force.data() + begin, end - begin, Vec3::Zero());
     std::fill_n(torque.data() + begin, end - begin, Vec3::Zero());

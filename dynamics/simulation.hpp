@@ -237,15 +237,14 @@ class Simulation {
 template <contact::ContactLaw Law>
 void Simulation<Law>::step() {
   require_time_step();
-  forces_.set_zero(pool_);
   yielding_bonds_.advance(bonds_, scene_.state, pool_);
   sheet_facets_.advance(scene_.state, pool_);
   sheet_facets_.tear(scene_.state.position, pool_);
   follow_breaks();
+  contacts_.advance(motion(), scene_.planes, last_drift_, pool_, forces_);
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
   sheet_facets_.add_forces(forces_, pool_);
-  contacts_.advance(motion(), scene_.planes, last_drift_, pool_, forces_);
   apply_loads();
   const StepLengths lengths{0.5 * (last_drift_ + dt_), dt_};
   account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_),

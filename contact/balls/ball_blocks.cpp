@@ -55,6 +55,7 @@ void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<co
   largest_member_count_ = 0;
   for (std::size_t k = 0; k < count; ++k) fill_block(k, pairs, balls);
   find_loans();
+  find_other_nodes(x.size());
 }
 
 /// Whoever takes part in no pair of a new list may be in it and did in an older one: only a change
@@ -197,6 +198,19 @@ void BallBlocks::find_loans() {
   });
   std::rotate(first_loans_.begin(), first_loans_.end() - 1, first_loans_.end());
   first_loans_[0] = 0;
+}
+
+/// @param node_count  or fewer, if all after those belong to balls
+void BallBlocks::find_other_nodes(std::size_t node_count) {
+  for (const NodeId node : nodes_) node_count = std::max(node_count, index_of(node) + 1);
+  set_all<std::uint8_t>(is_owned_, node_count, 0);
+  for (const NodeId node : nodes_) is_owned_[index_of(node)] = 1;
+  other_nodes_.clear();
+  for (std::size_t node = 0; node < node_count; ++node) {
+    if (is_owned_[node] != 0) continue;
+    if (node == 0 || is_owned_[node - 1] != 0) other_nodes_.push_back({node, node});
+    other_nodes_.back().end = node + 1;
+  }
 }
 
 }  // namespace plekton::contact

@@ -61,6 +61,12 @@ class BallBlocks {
     double radius;  ///< m
   };
 
+  /// Nodes [begin, end).
+  struct NodeRange {
+    std::size_t begin;
+    std::size_t end;
+  };
+
   /// Which members of its block a pair joins; a is the ball with the lower index in the list.
   struct Pair {
     std::uint32_t a, b;
@@ -68,7 +74,8 @@ class BallBlocks {
 
   /// Takes a new list. Allocates only for a longer one than ever before.
   /// @param pairs  of balls, a < b, sorted; balls after the last of them are left out
-  /// @param x      m, of nodes; empty: the balls are in order already
+  /// @param x      m, of nodes; empty: the balls are in order already, and there are no nodes after
+  ///               those of the balls
   void assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
               geometry::ThreadPool& pool, Positions x);
 
@@ -77,6 +84,8 @@ class BallBlocks {
   std::size_t ball_count() const noexcept { return order_.size(); }
   /// Over all blocks.
   std::size_t member_count() const noexcept { return members_.size(); }
+  /// The nodes, in order, that no block owns.
+  std::span<const NodeRange> other_nodes() const noexcept { return other_nodes_; }
   /// Borrowed ones, over all blocks.
   std::size_t borrowed_count() const noexcept { return loans_.size(); }
   std::size_t row_count() const noexcept { return pairs_.size() / kLanes; }
@@ -124,6 +133,7 @@ class BallBlocks {
   std::uint32_t member(const Block& block, std::int32_t ball, std::span<const Ball> balls);
   void add_member(std::int32_t ball, std::span<const Ball> balls);
   void find_loans();
+  void find_other_nodes(std::size_t node_count);
   std::size_t block_of(std::int32_t ball) const noexcept;
 
   std::vector<std::int32_t> order_;            ///< balls along the curve
@@ -140,7 +150,9 @@ class BallBlocks {
   std::vector<std::uint32_t> slots_;
   std::vector<Loan> loans_;  ///< by block of the owner
   std::vector<std::uint32_t> first_loans_;
-  std::vector<NodeId> nodes_;  ///< by ball
+  std::vector<NodeRange> other_nodes_;
+  std::vector<std::uint8_t> is_owned_;  ///< by node, 1 or 0
+  std::vector<NodeId> nodes_;           ///< by ball
   std::size_t largest_member_count_ = 0;
   int lists_in_order_ = 0;  ///< how many lists were made with this order
 };

@@ -36,7 +36,7 @@ class BallContacts {
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
                  const MaterialPairs<Law>& materials, geometry::ThreadPool& pool, Positions x = {});
 
-  /// One step of all contacts; adds their forces to the nodes.
+  /// One step of all contacts. Sets the forces of all nodes: of those that touch nothing to zero.
   /// @returns the energy (J) dissipated
   double advance(const Motion& motion, double dt, geometry::ThreadPool& pool, NodeForces& forces);
 
@@ -106,8 +106,9 @@ class BallContacts {
   }
   /// From the slots that pairs had in the list before, to those that they have now.
   void move_memories();
-  /// Adds the sums of a block's own balls to their nodes, and keeps those of borrowed ones.
-  void add_sums(const BallBlocks::Block& block, const Work& work, NodeForces& forces);
+  /// Hands the sums of a block's own balls to their nodes, and keeps those of borrowed ones.
+  void hand_over(const BallBlocks::Block& block, const Work& work, NodeForces& forces);
+  void set_others_zero(NodeForces& forces, geometry::ThreadPool& pool) const;
   /// Adds to all nodes what other blocks than their own have of them.
   void return_loans(NodeForces& forces, geometry::ThreadPool& pool) const;
   void advance_block(const BallBlocks::Block& block, const Motion& motion, Work& work);
@@ -221,8 +222,9 @@ double BallContacts<Law>::advance(const Motion& motion, double dt, geometry::Thr
     work.outcome = {};
     advance_block(blocks[k], motion, work);
     outcomes_[k] = work.outcome;
-    add_sums(blocks[k], work, forces);
+    hand_over(blocks[k], work, forces);
   });
+  set_others_zero(forces, pool);
   return_loans(forces, pool);
   double dissipated = 0.0;
   for (const Outcome& outcome : outcomes_) dissipated += outcome.total_dissipated();
@@ -358,37 +360,7 @@ void BallContacts<Law>::advance_one(std::size_t row, std::size_t lane, Work& wor
   }
 }
 
-template <ContactLaw Law>
-void BallContacts<Law>::add_sums(const BallBlocks::Block& block, const Work& work,
-                                 NodeForces& forces) {
-  const BallSum* sum = work.sums.data();
-  for (const BallBlocks::Member& ball : blocks_.owned(block)) {
-    forces.force[index_of(ball.node)] += sum->force;
-    forces.torque[index_of(ball.node)] += sum->torque;
-    ++sum;
-  }
-  std::copy_n(sum, block.borrowed(), lent_.begin() + block.first_borrowed);
-}
-
-template <ContactLaw Law>
-void BallContacts<Law>::return_loans(NodeForces& forces, geometry::ThreadPool& pool) const {
-  pool.for_each_range(blocks_.blocks().size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t k = begin; k < end; ++k) {
-      blocks_.for_each_loan(
-          k,
-          [&](NodeId node, std::size_t borrowed) {
-            forces.force[index_of(node)] += lent_[borrowed].force;
-            forces.torque[index_of(node)] += lent_[borrowed].torque;
-          },
-          [&](NodeId node, std::size_t borrowed) {
-            __builtin_prefetch(&lent_[borrowed]);
-            __builtin_prefetch(&forces.force[index_of(node)]);
-            __builtin_prefetch(&forces.torque[index_of(node)]);
-          });
-    }
-  });
-}
-
 }  // namespace plekton::contact
 
 #include "contact/balls/ball_contact_rows.hpp"
+#include "contact/balls/ball_contact_sums.hpp"

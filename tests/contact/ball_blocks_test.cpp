@@ -133,6 +133,15 @@ TEST_P(BallBlocksOf, OwnEveryBallOnceAndLendItToWhoBorrowsIt) {
   EXPECT_EQ(std::ranges::count(returned, 1), static_cast<std::ptrdiff_t>(returned.size()));
 }
 
+TEST_P(BallBlocksOf, NameTheNodesThatNoneOwns) {
+  std::vector<int> named(crowd_.x.size(), 0);
+  for (const BallBlocks::Block& block : blocks_.blocks())
+    for (const BallBlocks::Member& ball : blocks_.owned(block)) ++named[index_of(ball.node)];
+  for (const BallBlocks::NodeRange& range : blocks_.other_nodes())
+    for (std::size_t node = range.begin; node < range.end; ++node) ++named[node];
+  EXPECT_EQ(named, std::vector<int>(crowd_.x.size(), 1));
+}
+
 TEST(BallBlocks, BorrowFewBallsWhereNeighboursAreNearInSpace) {
   const Crowd crowd(6000);
   geometry::ThreadPool pool;

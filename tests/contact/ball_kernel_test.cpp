@@ -164,6 +164,7 @@ std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false) {
   BallContacts<AnyLaw> contacts;
   geometry::ThreadPool pool(threads);
   NodeForces forces(kBalls);
+  std::vector<Vec3> all;
   RandomCases random;
   std::vector<Vec3> x(kBalls), v(kBalls), w(kBalls);
   for (Vec3& p : x) p = 3e-3 * random.vector();
@@ -179,10 +180,35 @@ std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false) {
     if (step % 5 == 2) std::swap(x[11], x[40]);              // flips where they touch
     if (step % 5 == 3) w[20] = Vec3::Constant(1.0 / kStep);  // a twist beyond any series
     contacts.advance({x, v, w}, kStep, pool, forces);
+    all.insert(all.end(), forces.force.begin(), forces.force.end());
+    all.insert(all.end(), forces.torque.begin(), forces.torque.end());
   }
-  std::vector<Vec3> all = forces.force;
-  all.insert(all.end(), forces.torque.begin(), forces.torque.end());
   return all;
+}
+
+TEST(BallContacts, SetTheForcesOfAllNodes) {
+  const std::vector<Vec3> x{Vec3::Zero(),       Vec3::Zero(),  Vec3::Zero(),
+                            Vec3(1.9e-3, 0, 0), Vec3(1, 0, 0), Vec3::Zero()};
+  const std::vector<Vec3> still(x.size(), Vec3::Zero());
+  const MaterialId stone{0};
+  const std::vector<Ball> balls{
+      {NodeId{1}, 1e-3, stone}, {NodeId{3}, 1e-3, stone}, {NodeId{4}, 1e-3, stone}};
+  const std::vector<geometry::IndexPair> pairs{{0, 1}};
+  for (const int threads : {1, 2}) {
+    geometry::ThreadPool pool(threads);
+    BallContacts<Law> contacts;
+    contacts.rebuild(pairs, balls, MaterialPairs<Law>({{2e6, 0.3, 0.5}}), pool, x);
+    NodeForces forces(x.size());
+    for (std::vector<Vec3>* sums : {&forces.force, &forces.torque})
+      std::fill(sums->begin(), sums->end(), Vec3::Ones());
+
+    contacts.advance({x, still, still}, kStep, pool, forces);
+
+    EXPECT_LT(forces.force[1].x(), 0.0);
+    EXPECT_EQ(forces.force[3], -forces.force[1]);
+    for (const std::size_t node : {0U, 2U, 4U, 5U}) EXPECT_EQ(forces.force[node], Vec3::Zero());
+    EXPECT_EQ(forces.torque, still);
+  }
 }
 
 TEST(BallContacts, HaveTheSameBitsSideBySideAndOneAfterTheOther) {

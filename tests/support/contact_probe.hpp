@@ -92,7 +92,6 @@ class ContactProbe {
 
   /// One step with the positions and velocities as they are.
   Felt feel() {
-    forces_.set_zero();
     contacts_.advance({position_, velocity_, spin_}, {}, 1.0, pool_, forces_);
     Vec3 force = Vec3::Zero();
     Vec3 moment = Vec3::Zero();

@@ -37,7 +37,6 @@ class GluedSphere {
     const Vec3 place = foot_ + (kSphere + kThickness + gap) * Vec3::UnitZ();
     v_.back() = x_.back().isZero(0.0) ? Vec3(Vec3::Zero()) : Vec3((place - x_.back()) / dt);
     x_.back() = place;
-    forces_.set_zero();
     contacts_.advance({x_, v_, w_}, {}, dt, pool_, forces_);
     return forces_;
   }

@@ -49,7 +49,6 @@ class MovingSceneOf {
 
   void step(double dt) {
     for (std::size_t i = 0; i < complex_.x.size(); ++i) complex_.x[i] += dt * velocity_[i];
-    forces_.set_zero();
     contacts_->advance({complex_.x, velocity_, spin_}, planes_, dt, pool_, forces_);
   }
 
