@@ -69,7 +69,8 @@ std::string files_in(const fs::path& folder) {
     if (is_there) files += fmt::format("{}{}", before, name);
     return is_there;
   };
-  for (const std::string_view table : {"reactions.csv", "contacts.csv"}) add(table, ", ");
+  for (const std::string_view table : {"reactions.csv", "pressures.csv", "contacts.csv"})
+    add(table, ", ");
   std::string_view before = ", and for ParaView ";
   for (const std::string_view series : {"grains.pvd", "membranes.pvd", "contacts.pvd"})
     if (add(series, before)) before = ", ";

@@ -81,6 +81,7 @@ std::string summary_of(const RunReport& report) {
       report.lost_grains);
   if (report.broken_bonds > 0)
     text += fmt::format("broken bonds: {} of {}\n", report.broken_bonds, report.bonds);
+  if (report.torn_facets > 0) text += fmt::format("torn facets: {}\n", report.torn_facets);
   for (const std::string& warning : report.warnings) text += "warning: " + warning + '\n';
   return text;
 }

@@ -74,7 +74,7 @@ void History::add(const Simulation& simulation, const dynamics::Energy& energy,
                energy.contact_elastic,
                energy.bond_elastic,
                energy.sheet_elastic,
-               energy.gravity,
+               energy.gravity + 0.0,  // not -0, where there is no gravity
                energy.friction,
                energy.bond_dissipated,
                energy.damping,

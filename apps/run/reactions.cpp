@@ -12,7 +12,7 @@ using dynamics::ForceAndMoment;
 using geometry::index_of;
 
 constexpr std::array<dynamics::OutputField, 3> kFields = {{
-    {"force", "N", "what the plane, the supports or the body bear"},
+    {"force", "N", "what the plane, the supports, the body or the nodes bear"},
     {"moment", "N m", "about the point of the plane, the origin, or the point `about`"},
     {"position", "m", "of the point of the plane, or the mean of the nodes, at that time"},
 }};
@@ -69,6 +69,19 @@ ForceAndMoment of_contacts(const BuiltReaction& reaction,
       about(reaction));
 }
 
+/// Weight included; what is held bears it too.
+ForceAndMoment on_nodes(const BuiltReaction& reaction, const Simulation& simulation) {
+  const std::vector<Vec3> positions = simulation.force_positions();
+  const dynamics::NodeForces& forces = simulation.forces();
+  ForceAndMoment sum;
+  for (const geometry::NodeId node : reaction.nodes) {
+    const std::size_t i = index_of(node);
+    const Vec3 weight = simulation.properties().mass[i] * simulation.gravity();
+    sum.add(positions[i] - about(reaction), forces.force[i] + weight, forces.torque[i]);
+  }
+  return sum;
+}
+
 ForceAndMoment on_plane(const BuiltReaction& reaction, const Simulation& simulation) {
   const ForceAndMoment value = simulation.plane_reaction(reaction.plane);
   if (!reaction.about) return value;
@@ -115,6 +128,7 @@ void Reactions::add(Simulation& simulation) {
     if (reaction.kind == ReactionKind::plane) value = on_plane(reaction, simulation);
     if (reaction.kind == ReactionKind::support)
       value = simulation.support_reaction(reaction.nodes, about(reaction));
+    if (reaction.kind == ReactionKind::nodes) value = on_nodes(reaction, simulation);
     if (reaction.kind == ReactionKind::contacts)
       value = of_contacts(reaction, contacts, simulation);
     row.insert(row.end(), value.force.data(), value.force.data() + 3);

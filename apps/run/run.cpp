@@ -4,6 +4,7 @@
 #include "apps/run/history.hpp"
 #include "apps/run/lost_grains.hpp"
 #include "apps/run/output_folder.hpp"
+#include "apps/run/pressures.hpp"
 #include "apps/run/reactions.hpp"
 #include "apps/run/refused_self_contact.hpp"
 #include "apps/run/run_warnings.hpp"
@@ -56,6 +57,7 @@ class Run {
         frames_(settings.out, scenario.output, simulation_),
         history_(settings.out),
         reactions_(settings.out, prepared.built.reactions),
+        pressures_(settings.out, scenario),
         progress_(settings.progress, settings.style, scenario.simulation.duration) {
     report_.warnings = prepared.built.warnings;
     if (reactions_.empty()) next_reactions_ = std::numeric_limits<double>::infinity();
@@ -133,6 +135,7 @@ class Run {
     const dynamics::Energy energy = simulation_.energy();
     largest_turnover_ = std::max(largest_turnover_, energy.turnover());
     history_.add(simulation_, energy, lost_);
+    pressures_.add(simulation_);
     last_row_step_ = simulation_.steps();
   }
 
@@ -145,6 +148,7 @@ class Run {
     frames_.write(simulation_);
     history_.flush();
     reactions_.flush();
+    pressures_.flush();
     last_frame_step_ = simulation_.steps();
   }
 
@@ -157,6 +161,7 @@ class Run {
     if (last_frame_step_ != simulation_.steps()) write_frame();
     history_.close();
     reactions_.close();
+    pressures_.close();
   }
 
   void watch_time_step() {
@@ -239,6 +244,7 @@ class Run {
   Frames frames_;
   History history_;
   Reactions reactions_;
+  Pressures pressures_;
   Progress progress_;
   RunReport report_;
   Progress::Clock::time_point start_ = Progress::Clock::now();

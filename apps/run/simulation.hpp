@@ -34,6 +34,7 @@ class Simulation {
   virtual const std::vector<contact::Plane>& planes() const = 0;
   virtual const dynamics::BeamBonds& bonds() const = 0;
   virtual const dynamics::SheetFacets& sheet_facets() const = 0;
+  virtual const dynamics::AppliedLoads& loads() const = 0;
   virtual const dynamics::NodeForces& forces() const = 0;
   virtual const geometry::Vec3& gravity() const = 0;
   virtual const geometry::Surface& surface() const = 0;
@@ -83,6 +84,7 @@ class SimulationUnder final : public Simulation {
   const std::vector<contact::Plane>& planes() const override { return simulation_.planes(); }
   const dynamics::BeamBonds& bonds() const override { return simulation_.bonds(); }
   const dynamics::SheetFacets& sheet_facets() const override { return simulation_.sheet_facets(); }
+  const dynamics::AppliedLoads& loads() const override { return simulation_.loads(); }
   const dynamics::NodeForces& forces() const override { return simulation_.forces(); }
   const geometry::Vec3& gravity() const override { return simulation_.gravity(); }
   const geometry::Surface& surface() const override { return simulation_.surface(); }

@@ -10,7 +10,8 @@
 namespace plekton::apps {
 namespace {
 
-constexpr std::array<std::string_view, 3> kReactionKinds = {"plane", "support", "contacts"};
+constexpr std::array<std::string_view, 4> kReactionKinds = {"plane", "support", "contacts",
+                                                            "nodes"};
 
 /// All nodes of the body that the key `membrane` or `grains` names.
 NodeSetSettings read_body(Section& section, const Scenario& scenario) {
@@ -40,7 +41,8 @@ ReactionSettings read_reaction(Section section, const Scenario& scenario,
   reaction.kind = static_cast<ReactionKind>(*kind);
   if (reaction.kind == ReactionKind::plane)
     reaction.plane = read_plane_name(section, scenario).value_or(0);
-  if (reaction.kind == ReactionKind::support) reaction.nodes = read_node_set(section, scenario);
+  if (reaction.kind == ReactionKind::support || reaction.kind == ReactionKind::nodes)
+    reaction.nodes = read_node_set(section, scenario);
   if (reaction.kind == ReactionKind::contacts) reaction.nodes = read_body(section, scenario);
   reaction.name = name.empty() ? name_of_target(section, reaction) : name;
   const bool taken =

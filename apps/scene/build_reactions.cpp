@@ -16,7 +16,7 @@ const std::string& name_of_body(const NodeSetSettings& set, const BuiltScene& bu
   return set.of_grains ? built.grains[set.body].name : built.membranes[set.body].name;
 }
 
-/// Why there is nothing to support; empty if there is.
+/// Why there is nothing to add up; empty if there is.
 std::string problem_of(const ReactionSettings& settings, const BuiltReaction& reaction,
                        const std::vector<Held>& held, const BuiltScene& built) {
   const std::string& name = name_of_body(settings.nodes, built);
@@ -30,6 +30,7 @@ std::string problem_of(const ReactionSettings& settings, const BuiltReaction& re
                      "\"{}\" has no node there; the box counts in the scene, after scale, "
                      "rotate and translate",
                      name);
+  if (settings.kind == ReactionKind::nodes) return {};
   const bool any_is_held = std::any_of(
       reaction.nodes.begin(), reaction.nodes.end(),
       [&](geometry::NodeId node) { return held[geometry::index_of(node)] != Held::nothing; });
@@ -50,7 +51,7 @@ void add_reactions(const Scenario& scenario, BuiltScene& built) {
   for (const ReactionSettings& settings : scenario.output.reactions) {
     BuiltReaction reaction{settings.name, settings.kind, settings.plane, {}, settings.about};
     if (settings.kind != ReactionKind::plane) reaction.nodes = nodes_of(settings.nodes, built);
-    if (settings.kind == ReactionKind::support) {
+    if (settings.kind == ReactionKind::support || settings.kind == ReactionKind::nodes) {
       const std::string problem = problem_of(settings, reaction, held, built);
       if (!problem.empty())
         problems.add(settings.nodes.place, fmt::format("{}.nodes: {}", settings.path, problem));

@@ -5,6 +5,7 @@
 #include "tests/apps/command_line/command_fixture.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -121,6 +122,64 @@ TEST_F(Outputs, ListTheContactsOfEveryFrameWithNumbersThatLast) {
   EXPECT_EQ(reader.count("NumberOfLines"), at_end);
   for (const auto& field : dynamics::contact_fields())
     EXPECT_THAT(frame, HasSubstr("Name=\"" + std::string(field.name) + "\""));
+}
+
+/// A ball full of air, away from all else.
+constexpr std::string_view kAir = R"([[membranes]]
+name = "ball"
+shape = { kind = "sphere", radius = "2 cm", subdivisions = 2 }
+translate = ["30 cm", 0, 0]
+thickness = "1 mm"
+material = "gravel"
+mode = "continuum"
+young_modulus = "5 MPa"
+areal_mass = "500 g/m2"
+[[loads]]
+name = "air"
+kind = "pressure"
+membrane = "ball"
+pressure = "1 kPa"
+gas = {}
+[[output.reactions]]
+name = "all of it"
+kind = "nodes"
+membrane = "ball"
+nodes = "all"
+)";
+
+TEST_F(Outputs, OfPressuresHaveTheVolumeThatTheyFollow) {
+  set_output(std::string(kAir));
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("reactions.csv, pressures.csv"));
+
+  const Table table(test::bytes_of(folder_ / "out/pressures.csv"));
+
+  const double first = table.at(table.rows.front(), "air.volume (m3)");
+  EXPECT_NEAR(first, 4.0 / 3.0 * std::numbers::pi * 8e-6, 0.05 * first);  // of 320 facets
+  EXPECT_EQ(table.at(table.rows.front(), "air.pressure (Pa)"), 1000.0);
+  for (const auto& row : table.rows) {
+    const double pressure = table.at(row, "air.pressure (Pa)") + 101325.0;
+    EXPECT_NEAR(pressure * table.at(row, "air.volume (m3)"), 102325.0 * first, 1e-9 * first * 1e5);
+  }
+}
+
+// Inside the ball, and of the air on it, forces add up to nothing.
+TEST_F(Outputs, OfAllNodesOfAFreeBodyHaveItsWeightAndItsPlace) {
+  set_output(std::string(kAir));
+  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out()}).exit_code, kDone);
+
+  const Table table(test::bytes_of(folder_ / "out/reactions.csv"));
+
+  const double weight = table.at(table.rows[1], "all of it.force_z (N)");
+  for (std::size_t i = 1; i < table.rows.size(); ++i) {
+    const auto& row = table.rows[i];
+    EXPECT_NEAR(table.at(row, "all of it.force_z (N)"), weight, 1e-9 * std::abs(weight));
+    EXPECT_NEAR(table.at(row, "all of it.force_x (N)"), 0.0, 1e-9 * std::abs(weight));
+    EXPECT_NEAR(table.at(row, "all of it.position_x (m)"), 0.3, 1e-4);
+    EXPECT_LE(table.at(row, "all of it.position_z (m)"), 1e-6);
+  }
+  EXPECT_LT(weight, -9.81 * 0.5 * 4.0 * std::numbers::pi * 4e-4 * 0.9);
 }
 
 TEST_F(Outputs, RefuseANameThatWouldBreakTheHeaderOfATable) {

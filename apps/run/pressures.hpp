@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/run/simulation.hpp"
+#include "apps/scenario/scenario.hpp"
+#include "dynamics/output/csv_writer.hpp"
+#include "dynamics/output/output_field.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace plekton::apps {
+
+/// What pressures.csv has of every load of kind pressure, behind its name and a dot.
+std::span<const dynamics::OutputField> pressure_fields();
+
+/// Writes pressures.csv, if there are loads of kind pressure.
+class Pressures {
+ public:
+  /// Removes the file of an earlier run. @throws dynamics::OutputError
+  Pressures(const std::filesystem::path& folder, const Scenario& scenario);
+
+  /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
+  /// dynamics::OutputError
+  void add(const Simulation& simulation);
+  void flush();
+  void close();
+
+ private:
+  std::vector<bool> has_volume_;  ///< by load of kind pressure
+  std::optional<dynamics::CsvWriter> writer_;
+};
+
+}  // namespace plekton::apps
