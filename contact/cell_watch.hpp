@@ -45,9 +45,10 @@ class CellWatch {
   };
 
   /// Whether none of the cells of a pair can be in range.
-  bool is_asleep(const Awake& awake) const noexcept {
-    return awake.count == 0 && !all_awake_ && moved_ < awake.wake;
-  }
+  bool is_asleep(const Awake& awake) const noexcept { return awake.count == 0 && is_known(awake); }
+
+  /// Whether those that were awake in the last step are all that can be in range.
+  bool is_known(const Awake& awake) const noexcept { return !all_awake_ && moved_ < awake.wake; }
 
   /// The cells of a pair that may be nearer than range (m) to its ball, ascending.
   /// @param near   a part of the list; one thread at a time for each

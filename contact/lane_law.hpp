@@ -27,6 +27,7 @@ concept LaneLaw = ContactLaw<Law> && !HasMoments<Law> && !HasReach<Law> &&
   typename Law::History > ;
   { Law::elastic_normal_force(parameters, gap) } -> std::same_as<Pack<2>>;
   { Law::force(parameters, motion, history, 1.0) } -> std::same_as<ContactForceOf<Pack<2>>>;
+  { Law::history_energy(parameters, history) } -> std::same_as<Pack<2>>;
   Law::rotate(history, rotation);
 };
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/contact_memory.hpp"
+#include "contact/facets_beside.hpp"
 #include "contact/lane_law.hpp"
+#include "contact/motion.hpp"
 #include "geometry/face_foot.hpp"
 #include "geometry/feature.hpp"
-#include "geometry/rows.hpp"
+#include "geometry/gather.hpp"
 #include "geometry/vector_width.hpp"
 
 #include <array>
+#include <span>
 
 /// Balls that touch the inside of one facet each, side by side: what lone_contact.hpp and the
 /// general way make of each, to the last bit.
@@ -64,99 +68,167 @@ PLEKTON_INLINE LoneKinematicsOf<Real> lone_kinematics(
           Real(0.5) * twice_mean.dot(at.direction)};
 }
 
-/// Balls in a block: all rows together fit into the first level of a cache.
+/// What does not change about a ball and a surface.
+template <class Real, class Parameters>
+struct LonePairOf {
+  Real radius;  ///< m, of the ball
+  Real range;   ///< m, radius of ball + radius of surface
+  Parameters parameters;
+};
+template <ContactLaw Law>
+using LonePair = LonePairOf<double, typename Law::Parameters>;
+
+/// ContactMemory of Real.
+template <class Real, class History>
+struct LoneMemoryOf {
+  History history;
+  Vec3Of<Real> normal;  ///< unit
+};
+
+/// What a step of a ball and a facet came to.
+template <class Real, class History>
+struct LoneAnswerOf {
+  Vec3Of<Real> weights;   ///< of the corners
+  Vec3Of<Real> force_b;   ///< N, on the facet
+  Vec3Of<Real> torque_a;  ///< N m
+  Vec3Of<Real> torque_b;  ///< N m
+  LoneMemoryOf<Real, History> memory;
+  Vec3Of<Real> foot;  ///< m, from the ball's centre
+  Real gap;           ///< m
+  Real dissipated;    ///< J, by the law, and what of the history's energy was lost in turning it
+  /// Positive if these are the answers; else another feature may be in range, the ball has left, or
+  /// the normal has turned by more than 90 degrees, or the frame twisted too far for lanes.
+  Real is_right;
+};
+
+/// Balls in a block: all that it reads and writes fits into the first level of a cache.
 constexpr std::size_t kLoneLanes = 32;
 
 /// Up to kLoneLanes balls and facets.
 template <LaneLaw Law>
-struct LoneBlock {
-  template <class Thing>
-  using RowsOf = geometry::RowsOf<Thing, kLoneLanes>;
+class LoneBlock {
+ public:
+  using Answer = LoneAnswerOf<double, typename Law::History>;
+  /// How many numbers are read from where those of a pair and of a memory start.
+  static constexpr std::size_t kReadOfPair =
+      geometry::touched_numbers(sizeof(LonePair<Law>) / sizeof(double));
+  static constexpr std::size_t kReadOfMemory =
+      geometry::touched_numbers(sizeof(ContactMemory<Law>) / sizeof(double));
 
-  // Filled in for each:
-  std::array<RowsOf<Vec3>, 4> position;  ///< m, of the ball and the corners
-  std::array<RowsOf<Vec3>, 4> velocity;  ///< m/s
-  std::array<RowsOf<Vec3>, 4> spin;      ///< rad/s
-  RowsOf<double> radius;                 ///< m, of the ball
-  RowsOf<double> range;                  ///< m, radius of ball + radius of facet
-  RowsOf<typename Law::Parameters> parameters;
-  // Filled in, and brought to the end of the step:
-  RowsOf<typename Law::History> history;
-  RowsOf<Vec3> normal;  ///< unit, of the last step
-  // Answers:
-  RowsOf<typename Law::History> carried;  ///< the history before the law has spoken
-  RowsOf<Vec3> weights;                   ///< of the corners
-  RowsOf<double> gap;                     ///< m
-  RowsOf<Vec3> foot;                      ///< m, from the ball's centre
-  RowsOf<Vec3> force_b;                   ///< N, on the facet
-  RowsOf<Vec3> torque_a;                  ///< N m
-  RowsOf<Vec3> torque_b;                  ///< N m
-  RowsOf<double> dissipated;              ///< J, by the law
-  /// 1 if these are the answers; else another feature may be in range, the ball has left, or the
-  /// normal has turned by more than 90 degrees, or the frame twisted too far for lanes.
-  RowsOf<double> is_right;
+  /// One more; not more than kLoneLanes.
+  /// @param nodes   of the ball, and the corners
+  /// @param pair    the numbers of a LonePair, of which kReadOfPair are read
+  /// @param memory  those of a ContactMemory, of the last step; kReadOfMemory are read
+  /// @param sides   that do not keep the facet from being touched alone
+  void add(const std::array<NodeId, 4>& nodes, const double* pair, const double* memory,
+           const SideFlags& sides) noexcept {
+    lanes_[count_++] = {sides, nodes, pair, memory};
+  }
+  void clear() noexcept { count_ = 0; }
+  std::size_t count() const noexcept { return count_; }
 
-  /// One step of the first count ones, W at a time; the lanes up to the next multiple of W hold any
-  /// numbers.
+  const Answer& answer(std::size_t lane) const noexcept { return answers_[lane].answer; }
+  bool is_right(std::size_t lane) const noexcept { return answer(lane).is_right > 0.0; }
+
+  /// One step of all, W at a time.
   template <int W>
-  PLEKTON_INLINE void advance(std::size_t count, double dt) noexcept {
-    for (std::size_t lane = 0; lane < count; lane += std::size_t{W})
-      advance_lanes<Pack<W>>(lane, dt);
+  PLEKTON_INLINE void advance(const Motion& motion, double dt) noexcept {
+    for (std::size_t i = count_; i % std::size_t{W} != 0; ++i) lanes_[i] = lanes_[i - 1];
+    for (std::size_t lane = 0; lane < count_; lane += std::size_t{W})
+      advance_lanes<W>(lane, motion, dt);
   }
 
  private:
-  template <class Real>
-  PLEKTON_INLINE LoneMotionOf<Real> motion(std::size_t lane) const noexcept {
-    using Vector = Vec3Of<Real>;
-    const auto all = [&](const std::array<RowsOf<Vec3>, 4>& rows) __attribute__((always_inline)) {
-      return std::array<Vector, 4>{
-          rows[0].template load<Vector>(lane), rows[1].template load<Vector>(lane),
-          rows[2].template load<Vector>(lane), rows[3].template load<Vector>(lane)};
-    };
-    return {all(position), all(velocity), all(spin), radius.template load<Real>(lane),
-            range.template load<Real>(lane)};
-  }
-  template <class Real>
-  PLEKTON_INLINE void advance_lanes(std::size_t lane, double dt) noexcept;
+  struct Lane {
+    SideFlags sides;
+    std::array<NodeId, 4> nodes;
+    const double* pair;
+    const double* memory;
+  };
+  struct alignas(64) PaddedAnswer {
+    Answer answer;
+  };
+
+  template <int W>
+  PLEKTON_INLINE LoneMotionOf<Pack<W>> motion_of(const Lane* lanes, const Pack<W>& radius,
+                                                 const Pack<W>& range,
+                                                 const Motion& motion) const noexcept;
+  template <int W>
+  PLEKTON_INLINE void advance_lanes(std::size_t lane, const Motion& motion, double dt) noexcept;
+
+  std::array<Lane, kLoneLanes> lanes_;
+  std::array<PaddedAnswer, kLoneLanes> answers_;
+  std::size_t count_ = 0;
 };
 
 template <LaneLaw Law>
-template <class Real>
-PLEKTON_INLINE void LoneBlock<Law>::advance_lanes(std::size_t lane, double dt) noexcept {
+template <int W>
+PLEKTON_INLINE LoneMotionOf<Pack<W>> LoneBlock<Law>::motion_of(
+    const Lane* lanes, const Pack<W>& radius, const Pack<W>& range,
+    const Motion& motion) const noexcept {
+  using Vector = Vec3Of<Pack<W>>;
+  const auto of_node = [&](std::size_t k, std::span<const Vec3> v) __attribute__((always_inline)) {
+    return geometry::gather_vectors<W>([&](std::size_t lane) __attribute__((always_inline))
+                                           ->const Vec3& {
+                                             return v[index_of(lanes[lane].nodes[k])];
+                                           });
+  };
+  const auto all = [&](std::span<const Vec3> v) __attribute__((always_inline)) {
+    return std::array<Vector, 4>{of_node(0, v), of_node(1, v), of_node(2, v), of_node(3, v)};
+  };
+  return {all(motion.position), all(motion.velocity), all(motion.angular_velocity), radius, range};
+}
+
+template <LaneLaw Law>
+template <int W>
+PLEKTON_INLINE void LoneBlock<Law>::advance_lanes(std::size_t first, const Motion& motion,
+                                                  double dt) noexcept {
+  using Real = Pack<W>;
   using Vector = Vec3Of<Real>;
-  const LoneMotionOf<Real> bodies = motion<Real>(lane);
+  using History = typename Law::template HistoryOf<Real>;
+  using Pair = LonePairOf<Real, typename Law::template ParametersOf<Real>>;
+  const Lane* const lanes = &lanes_[first];
+  const auto pair = geometry::gather_numbers<Pair, W>([&](
+      std::size_t lane) __attribute__((always_inline)) { return lanes[lane].pair; });
+  const auto last = geometry::gather_numbers<LoneMemoryOf<Real, History>, W>([&](
+      std::size_t lane) __attribute__((always_inline)) { return lanes[lane].memory; });
+  const LoneMotionOf<Real> bodies = motion_of<W>(lanes, pair.radius, pair.range, motion);
   const auto at = geometry::face_foot<Real>(
       bodies.position[0], {bodies.position[1], bodies.position[2], bodies.position[3]},
-      bodies.range);
+      bodies.range,
+      geometry::gather_vectors<W>([&](std::size_t lane) __attribute__((always_inline))
+                                      ->const SideFlags& { return lanes[lane].sides; }));
   const LoneKinematicsOf<Real> state = lone_kinematics(bodies, at);
-  const auto law = parameters.template load<typename Law::template ParametersOf<Real>>(lane);
-  auto slip = history.template load<typename Law::template HistoryOf<Real>>(lane);
-  const auto last_normal = normal.template load<Vector>(lane);
-  const FrameRotationOf<Real> rotation{last_normal, at.direction, Real(dt) * state.twist_rate};
-  Law::rotate(slip, rotation);
-  carried.store(lane, slip);
+  const FrameRotationOf<Real> rotation{last.normal, at.direction, Real(dt) * state.twist_rate};
+  History history = last.history;
+  Law::rotate(history, rotation);
+  const Real lost = Law::history_energy(pair.parameters, last.history) -
+                    Law::history_energy(pair.parameters, history);
 
-  const Real elastic = Law::elastic_normal_force(law, state.gap);
+  const Real elastic = Law::elastic_normal_force(pair.parameters, state.gap);
   const RelativeMotionOf<Real> relative =
       relative_motion<Real>(at.direction, state.gap, elastic, state.velocity);
-  const ContactForceOf<Real> answer = Law::force(law, relative, slip, dt);
+  const ContactForceOf<Real> answer = Law::force(pair.parameters, relative, history, dt);
   const Vector elastic_force = elastic * at.direction;
   const Vector other = answer.force - elastic_force;
   const Vector turning = state.lever_a.cross(other);
-  history.store(lane, slip);
-  normal.store(lane, at.direction);
-  weights.store(lane, at.weights);
-  gap.store(lane, state.gap);
-  foot.store(lane, state.foot);
-  force_b.store(lane, Vector(elastic_force + other));
-  torque_a.store(lane, Vector{-turning.x, -turning.y, -turning.z});
-  torque_b.store(lane, state.lever_b.cross(other));
-  dissipated.store(lane, answer.dissipated);
-  const Real untwisted =
-      geometry::flag(Real(geometry::kSmallAngleSquared) > rotation.twist * rotation.twist);
-  const Real unturned = geometry::flag(last_normal.dot(at.direction) > Real(0.0));
-  const Real has_lever = geometry::flag(Real(bodies.range + state.gap) > Real(0.0));
-  is_right.store(lane, at.is_alone * untwisted * unturned * has_lever);
+  const Real has_lever = bodies.range + state.gap;
+  const Real unturned = last.normal.dot(at.direction);
+  const Real untwisted = Real(geometry::kSmallAngleSquared) - rotation.twist * rotation.twist;
+  const LoneAnswerOf<Real, History> answers{
+      at.weights,
+      elastic_force + other,
+      {-turning.x, -turning.y, -turning.z},
+      state.lever_b.cross(other),
+      {history, at.direction},
+      state.foot,
+      state.gap,
+      lost + answer.dissipated,
+      geometry::detail::smallest_of(has_lever, unturned, untwisted, at.is_alone)};
+  geometry::scatter_numbers<W>(
+      answers, [&](std::size_t lane) __attribute__((always_inline)) {
+        return reinterpret_cast<double*>(&answers_[first + lane]);
+      });
 }
 
 /// Pairs of a ball with the inside of one facet, as far as one can tell beforehand. Empty for a law
@@ -166,15 +238,14 @@ struct LonePairs {};
 template <LaneLaw Law>
 struct LonePairs<Law> {
   std::array<geometry::FaceId, kLoneLanes> face;
-  std::size_t count = 0;
   LoneBlock<Law> block;
 };
 
 /// LoneBlock::advance with the widest vectors there are.
 template <LaneLaw Law>
-void advance_side_by_side(LoneBlock<Law>& block, std::size_t count, double dt) noexcept {
+void advance_side_by_side(LoneBlock<Law>& block, const Motion& motion, double dt) noexcept {
   geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
-    block.template advance<width>(count, dt);
+    block.template advance<width>(motion, dt);
   });
 }
 

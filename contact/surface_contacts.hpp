@@ -115,16 +115,15 @@ class SurfaceContacts {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
   };
-  struct Pair {
+  struct Pair : LonePair<Law> {
     NodeId node;
-    double radius;  ///< m, of the ball
-    double range;   ///< m, radius of ball + radius of structure
-    double reach;   ///< m, the range and the law's reach
+    double reach;  ///< m, the range and the law's reach
     NearCells near;
-    typename Law::Parameters parameters;
     Range contacts;
+    geometry::FaceId lone_face;  ///< whose inside was the only contact in the last step; or none
     CellWatch::Awake awake;
   };
+  static constexpr geometry::FaceId kNoFace{-1};
   /// A pair that is awake, with the cells that may be in range.
   struct Job {
     std::size_t pair;
@@ -155,10 +154,10 @@ class SurfaceContacts {
   double advance_pairs(std::size_t begin, std::size_t end, const Motion& motion, double dt,
                        int worker);
   std::size_t find_jobs(std::size_t begin, std::size_t end, const Motion& motion, Worker& worker);
-  bool may_be_alone(const Pair& pair, std::span<const geometry::CellId> cells) const noexcept;
-  void gather(const Pair& pair, geometry::FaceId face, const Motion& motion,
-              LonePairs<Law>& lone) const;
+  bool may_be_lone(Pair& pair, const Motion& motion, Job& job, SideFlags& sides, Worker& worker);
+  void add_lane(const Pair& pair, const SideFlags& sides, Worker& worker) const;
   double keep_lone(Pair& pair, std::size_t lane, int worker);
+  geometry::FaceId lone_face_of(const Pair& pair, const std::vector<Lists>& lists) const noexcept;
   double advance_pair(Pair& pair, std::span<const geometry::CellId> cells, const Motion& motion,
                       double dt, int worker);
   double advance_alone(const Pair& pair, const Patch& patch, const Motion& motion, double dt,
@@ -217,13 +216,12 @@ double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
     const auto parameters =
         materials.combine({ball.material, ball.radius, ball.mass}, {material_b, radius_b});
     const double range = ball.radius + radius_b;
-    return Pair{ball.node,
-                ball.radius,
-                range,
+    return Pair{{ball.radius, range, parameters},
+                ball.node,
                 range + reach_of<Law>(parameters),
                 near[i],
-                parameters,
                 old ? old->contacts : Range{},
+                old ? old->lone_face : kNoFace,
                 {}};
   };
   rekey_(pairs_, keys, make, [&](const Pair& old) { lost += drop(old); });

@@ -11,7 +11,8 @@ template <ContactLaw Law>
 double SurfaceContacts<Law>::follow(const geometry::SurfaceChange& change,
                                     std::span<const geometry::CellId> cells, Positions at) {
   double lost = released_by(change, cells, at);
-  for (const Pair& pair : pairs_) {
+  for (Pair& pair : pairs_) {
+    pair.lone_face = kNoFace;
     if (pair.contacts.count > 0) lost += keep_minima(pair, change);
   }
   surface_ = &change.after();

@@ -94,8 +94,10 @@ struct LinearFrictional {
     return p.friction * elastic_force;
   }
 
-  static double history_energy(const Parameters& p, const History& history) noexcept {
-    return 0.5 * p.tangential_stiffness * history.elastic_slip.squaredNorm();
+  template <class Real>
+  PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>& p,
+                                            const HistoryOf<Real>& history) noexcept {
+    return Real(0.5) * p.tangential_stiffness * history.elastic_slip.squaredNorm();
   }
 
   static double normal_stiffness(const Parameters& p, double) noexcept {

@@ -82,8 +82,10 @@ struct WeakeningSlider {
         Real(0.5) * p.tangential_stiffness * twice_mean_slip.dot(slid)};
   }
 
-  static double history_energy(const Parameters& p, const History& history) noexcept {
-    return 0.5 * p.tangential_stiffness * history.elastic_slip.squaredNorm();
+  template <class Real>
+  PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>& p,
+                                            const HistoryOf<Real>& history) noexcept {
+    return Real(0.5) * p.tangential_stiffness * history.elastic_slip.squaredNorm();
   }
 
   static double normal_stiffness(const Parameters& p, double gap) noexcept {
