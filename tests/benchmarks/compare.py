@@ -22,7 +22,7 @@ from comparison.running import last_lines, run
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bench", help="path of plekton-bench")
-    parser.add_argument("--scenes", nargs="+", default=list(cases.SCENES), choices=list(cases.SCENES))
+    parser.add_argument("--scenes", nargs="+", default=cases.SCENE_NAMES, choices=cases.SCENE_NAMES)
     parser.add_argument("--sizes", nargs="+", type=int, default=[5000, 20000, 100000], help="spheres of s1")
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--threads", nargs="+", type=int, default=[1, 2], help="of Plekton")

@@ -40,6 +40,17 @@ SCENES = {
     )
 }
 
+LAYERS = "layers"
+"""Layers of spheres on a ground and lifted off it, from whose difference the cost of a contact follows."""
+
+LAYER_GROUNDS = ("layer_sheet", "layer_spheres")
+"""Scenes with contacts; with _lifted at the end of the name those without."""
+
+LAYER_WARM_UP, LAYER_STEPS = 200, 600
+
+SCENE_NAMES = (*SCENES, LAYERS)
+"""What can be asked for."""
+
 SHEET = "sheet"
 """The membrane of s2 with one sphere far above it: what s2 costs without contacts."""
 
@@ -84,6 +95,10 @@ def cases_of(names, sizes):
     """The cases of some scenes, with those that the promises on contacts and memory need."""
     cases = []
     for name in names:
+        if name == LAYERS:
+            scenes = (ground + end for ground in LAYER_GROUNDS for end in ("", "_lifted"))
+            cases += [Case(scene, 0, "", LAYER_WARM_UP, LAYER_STEPS, for_peers=False) for scene in scenes]
+            continue
         scene = SCENES[name]
         for size in sizes if scene.has_sizes else [scene.size]:
             cases.append(Case(name, size, scene.bed, *window(scene, size), scene.skin))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is derived from Plekton's own runs: the cost of a contact, memory, growth. Each is none where a run is missing."""
 
-from comparison.cases import LONE, SCENES, SHEET, SHEET_CELLS
+from comparison.cases import LAYER_GROUNDS, LONE, SCENES, SHEET, SHEET_CELLS
 from comparison.results import combine, spread
 
 KIB = 1024.0
@@ -11,8 +11,29 @@ KIB = 1024.0
 def facet_over_sphere_contact(results):
     """Cost of a sphere-facet contact over that of a sphere-sphere contact, each end to end.
 
-    End to end: with its share of finding pairs, moving spheres and all else, so that a sphere-sphere contact costs the step
-    of s1 over its contacts, those with walls included. The step of s2 is that of the membrane alone (the same sheet, steps
+    A contact costs what a layer of spheres on a ground takes more than the same spheres lifted off the same ground, over the
+    contacts at the end: with its share of lists, of looks at what is near, of histories and of sums, without motion.
+    """
+    grounds = []
+    for scene, kind in zip(LAYER_GROUNDS, ("sphere_surface", "sphere_sphere")):
+        runs = results.runs("plekton", scene, 0)
+        if not runs:
+            return None
+        grounds.append(kinds_of(next(iter(runs.values())))[kind])
+    if not all(grounds):
+        return None
+
+    def ratio(on_sheet, above_sheet, on_spheres, above_spheres):
+        return (on_sheet - above_sheet) / grounds[0] / ((on_spheres - above_spheres) / grounds[1])
+
+    scenes = (ground + end for ground in LAYER_GROUNDS for end in ("", "_lifted"))
+    return combine(ratio, *(results.times("plekton", scene, 0) for scene in scenes))
+
+
+def facet_contact_with_all_of_s2(results):
+    """The same as it was defined at first: contacts bear all that a step takes.
+
+    A sphere-sphere contact costs the step of s1 over its contacts, those with walls included. The step of s2 is that of the membrane alone (the same sheet, steps
     and program, without grains), plus its contacts between spheres and with walls at the cost of those in s1, plus those
     of spheres with the membrane, at the cost in question.
     """

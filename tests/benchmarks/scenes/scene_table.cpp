@@ -3,6 +3,7 @@
 
 #include "tests/benchmarks/scenes/geogrid_pullout.hpp"
 #include "tests/benchmarks/scenes/hollow_spheres.hpp"
+#include "tests/benchmarks/scenes/layer_of_spheres.hpp"
 #include "tests/benchmarks/scenes/sphere_bed.hpp"
 #include "tests/benchmarks/scenes/spheres_on_membrane.hpp"
 
@@ -30,14 +31,29 @@ BenchmarkScene of_hollow_spheres(const SceneInput&) {
   return colliding_hollow_spheres();
 }
 
+constexpr double kLifted = 3e-3;  // m, further than lists of pairs reach
+
+template <Ground kGround>
+BenchmarkScene of_layer(const SceneInput&) {
+  return layer_of_spheres(kGround, 0.0);
+}
+template <Ground kGround>
+BenchmarkScene of_lifted_layer(const SceneInput&) {
+  return layer_of_spheres(kGround, kLifted);
+}
+
 // clang-format off
-constexpr std::array<SceneEntry, 6> kScenes = {{
+constexpr std::array<SceneEntry, 10> kScenes = {{
     {"s1",     "spheres at rest in a box",                          "spheres",             BedKind::cube, 5000,  200,  2000, of_bed},
     {"s1flow", "spheres collapsing into a box three times as long", "spheres",             BedKind::flow, 20000, 100,  400,  of_bed},
     {"s2",     "spheres on a membrane held at its rim",             "spheres + facets",    BedKind::slab, 5000,  4000, 600,  of_bed_and_sheet},
     {"s3",     "a geogrid pulled through spheres",                  "spheres + cylinders", BedKind::cube, 10000, 5000, 600,  of_bed_and_grid},
     {"s4a",    "a hollow sphere hits a floor",                      "facets",              {},            0,     700,  1200, of_hollow_sphere},
     {"s4b",    "20 hollow spheres collide",                         "facets",              {},            0,     300,  300,  of_hollow_spheres},
+    {"layer_sheet",          "spheres beside each other on a sheet",             "spheres + facets", {}, 0, 200, 600, of_layer<Ground::sheet>},
+    {"layer_sheet_lifted",   "the same, lifted so far that nothing touches",     "spheres + facets", {}, 0, 200, 600, of_lifted_layer<Ground::sheet>},
+    {"layer_spheres",        "spheres beside each other, each on another one",   "spheres",          {}, 0, 200, 600, of_layer<Ground::spheres>},
+    {"layer_spheres_lifted", "the same, lifted so far that nothing touches",     "spheres",          {}, 0, 200, 600, of_lifted_layer<Ground::spheres>},
 }};
 // clang-format on
 
@@ -50,7 +66,7 @@ std::span<const SceneEntry> scene_table() noexcept {
 std::string list_of_scenes() {
   std::ostringstream text;
   for (const SceneEntry& scene : kScenes) {
-    text << std::left << std::setw(8) << scene.name << scene.what << " (" << scene.elements
+    text << std::left << std::setw(22) << scene.name << scene.what << " (" << scene.elements
          << ")\n";
   }
   return text.str();
