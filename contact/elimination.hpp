@@ -11,27 +11,40 @@
 
 namespace plekton::contact {
 
-/// Potentials of a network of links with sources at its vertices, for every part of it below a
-/// vertex.
+/// What is left of drops along the links of a network when potentials at its vertices take off as
+/// much as they can, for every part of it below a vertex: the drops h with the least sum of
+/// conductance * h^2, whose currents have no sources.
 ///
-/// Vertices are eliminated one after the other: what coupled one couples its neighbours instead.
-/// Nothing is ever subtracted (Grassmann, Taksar & Heyman, Operations Research 33 (1985)), so the
-/// couplings are accurate however different the conductances are. Of all vertices left the one with
-/// the fewest neighbours goes first (minimum degree); the order and the places of the couplings are
-/// found once for all parts, as a part couples no vertices that the whole does not.
+/// Vertices are eliminated one after the other. The links of a vertex become links between its
+/// neighbours (from star to mesh), whose drops are those of the way over the vertex; two links side
+/// by side become one, with the mean of their drops, and what they differ by is left over for good.
+/// So the least sum is one of positive numbers, one for every two links that were joined, and going
+/// back finds the drop of every link from differences alone. Conductances may differ by any factor:
+/// links that conduct well and have no drop keep their small ones to the last digit. Of all
+/// vertices left the one with the fewest neighbours goes first (minimum degree); the order and the
+/// places of the couplings are found once for all parts, as a part couples no vertices that the
+/// whole does not.
+/// Source: nothing is ever subtracted from a conductance, Grassmann, Taksar & Heyman, Operations
+/// Research 33 (1985).
 class Elimination {
  public:
   /// Keeps its working space, so that a warm call does not allocate.
   void plan(std::uint32_t vertex_count, std::span<const Link> links);
 
   /// Eliminates the part below a vertex.
-  /// @param conductances  >= 0, of the links of that part, which come first among all links
+  /// @param conductances  > 0, of the links of that part, which come first among all links
   void eliminate(std::uint32_t vertex_count, std::span<const double> conductances);
 
-  /// Potentials of the last part, in place of its sources, which add up to 0 in each piece; 0 at
-  /// the vertex of each piece that is eliminated last.
-  /// @param sources  by vertex of the part
-  void solve(std::span<double> sources) const noexcept;
+  /// How often two links were joined in the last part, and the conductance of each time: of two in
+  /// series.
+  std::size_t join_count() const noexcept { return joins_.size(); }
+  double weight(std::size_t join) const noexcept { return joins_[join].weight; }
+
+  /// What is left of drops in the last part.
+  /// @param drops        by link of the part, from a to b; becomes what is left
+  /// @param differences  by join: of the drops of the two links. The sum of weight * product of two
+  ///                     lists of differences is that of conductance * product of what is left.
+  void relax(std::span<double> drops, std::span<double> differences);
 
   /// Memory and time of a part grow with it; a little more than linear in the links of a surface.
   std::size_t coupling_count() const noexcept { return columns_.size(); }
@@ -47,27 +60,42 @@ class Elimination {
     std::uint32_t first;  ///< in columns_
     std::uint32_t count;
   };
-  struct Coupling {
-    std::uint32_t row;
-    std::uint32_t vertex;
-    double conductance;
+  /// Of a link: in columns_, and 1 if it goes from the row to the column, -1 if back.
+  struct Place {
+    std::uint32_t at;
+    double sign;
   };
-  /// A vertex of the part, and its couplings.
+  struct Coupling {
+    std::uint32_t at;  ///< in columns_
+    double share;      ///< of the conductance of the vertex
+  };
+  /// A vertex of the part, its couplings, and the first of the joins of two of them each.
   struct Eliminated {
-    std::uint32_t vertex;
     std::uint32_t first;
     std::uint32_t end;
-    double pivot;  ///< sum of the couplings; 0 of the last of a piece
+    std::size_t first_join;
   };
-  void couple(std::span<const Coupling> couplings, double pivot);
+  /// A link that comes beside what is at its place.
+  struct Join {
+    std::uint32_t at;  ///< in columns_
+    double old_share;  ///< of the conductance of both, 0 where there was none
+    double new_share;
+    double weight;
+  };
+  void join(std::uint32_t at, double conductance);
+  void make_mesh(std::span<const Coupling> star, double pivot);
+  void put(const Join& join, double drop, double& difference) noexcept;
+  double take(const Join& join, double difference) noexcept;
+  void find_star(const Eliminated& row, std::span<const double> differences) noexcept;
 
-  std::vector<Row> rows_;                  ///< in the order of elimination
-  std::vector<std::uint32_t> row_of_;      ///< by vertex
-  std::vector<std::uint32_t> columns_;     ///< rows; ascending in each row
-  std::vector<std::uint32_t> link_place_;  ///< by link: in columns_
-  std::vector<double> room_;               ///< by place in columns_
-  std::vector<Eliminated> eliminated_;     ///< in order
+  std::vector<Row> rows_;               ///< in the order of elimination
+  std::vector<std::uint32_t> row_of_;   ///< by vertex
+  std::vector<std::uint32_t> columns_;  ///< rows; ascending in each row
+  std::vector<Place> places_;           ///< by link
+  std::vector<double> room_;            ///< by place in columns_: conductances, then drops
+  std::vector<Eliminated> eliminated_;  ///< in order
   std::vector<Coupling> couplings_;
+  std::vector<Join> joins_;  ///< of the links, then of the meshes
   // Working space of plan().
   std::vector<std::vector<std::uint32_t>> neighbours_;  ///< by vertex, of those left, ascending
   std::vector<std::uint32_t> joined_;

@@ -11,7 +11,8 @@ namespace plekton::contact {
 
 /// Whether a patch is one minimum alone, with a normal that is certain.
 inline bool is_lone(std::span<const PatchTerm> terms) noexcept {
-  return terms.size() == 1 && terms[0].weight == 1.0 && terms[0].distance > 0.0;
+  return terms.size() == 1 && terms[0].weight == 1.0 && terms[0].slope == 0.0 &&
+         terms[0].distance > 0.0;
 }
 
 /// patch_state() and set_kinematics() of a patch that is_lone().

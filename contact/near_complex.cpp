@@ -26,7 +26,6 @@ void NearComplex::build(const Surface& surface, const Vec3& point, double range,
   number_vertices();
   list_links(surface);
   list_fillings(surface);
-  list_whole_facets(surface);
 }
 
 /// The cells, their sides and their nodes.
@@ -118,7 +117,7 @@ void NearComplex::list_links(const Surface& surface) {
   links_.clear();
   for (LinkKey& key : keys_) {
     key.link = static_cast<std::uint32_t>(links_.size());
-    links_.push_back({key.upper, key.lower, 0.0});
+    links_.push_back({key.upper, key.lower});
   }
   std::sort(keys_.begin(), keys_.end());
 }
@@ -157,42 +156,6 @@ void NearComplex::list_fillings(const Surface& surface) {
   std::sort(fillings_.begin(), fillings_.end(), [](const Filling& a, const Filling& b) {
     return std::tie(a.upper, a.links) < std::tie(b.upper, b.links);
   });
-}
-
-void NearComplex::list_whole_facets(const Surface& surface) {
-  whole_facets_.clear();
-  for (const Cell& cell : cells_) {
-    if (cell.feature.kind != FeatureKind::face) continue;
-    const FaceId face{cell.feature.id};
-    const auto& nodes = surface.nodes_of(face);
-    const auto& sides = surface.edges_of(face);
-    WholeFacet facet{0, {}, {}, {}};
-    bool is_whole = true;
-    for (std::size_t k = 0; k < 3 && is_whole; ++k) {
-      const Cell* corner = cell_of(Feature(nodes[k]));
-      is_whole = corner != nullptr;
-      if (!is_whole) break;
-      facet.upper = std::max(facet.upper, corner->vertex);
-      facet.corners[k] = corner->vertex;
-      facet.sides[k] = static_cast<std::uint32_t>(sides[k]);
-      facet.signs[k] = nodes[k] == surface.nodes_of(sides[k])[0] ? 1 : -1;
-    }
-    if (is_whole) whole_facets_.push_back(facet);
-  }
-  std::sort(whole_facets_.begin(), whole_facets_.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.upper, a.corners) < std::tie(b.upper, b.corners);
-  });
-}
-
-std::uint32_t NearComplex::set_level(double level) {
-  std::uint32_t vertices = 0;
-  while (vertices < vertices_.size() && vertices_[vertices].distance < level) ++vertices;
-  for (Link& link : links_) {
-    if (link.a >= vertices) break;
-    const double upper = vertices_[link.a].distance;
-    link.resistance = link_resistance(level - upper, upper - vertices_[link.b].distance);
-  }
-  return vertices;
 }
 
 }  // namespace plekton::contact

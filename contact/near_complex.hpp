@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/harmonic_shares.hpp"
 #include "contact/motion.hpp"
-#include "contact/shells.hpp"
+#include "contact/ring_basis.hpp"
 #include "geometry/critical_features.hpp"
 
 #include <cstdint>
@@ -42,17 +41,10 @@ class NearComplex {
   /// Nearest first; of equals the lowest feature first.
   std::span<const Vertex> vertices() const noexcept { return vertices_; }
 
-  /// By upper vertex. Resistances are those of the last set_level().
+  /// By upper vertex; without resistances.
   std::span<const Link> links() const noexcept { return links_; }
   /// By upper vertex.
   std::span<const Filling> fillings() const noexcept { return fillings_; }
-
-  /// The facets in range with all their corners. By upper vertex.
-  std::span<const WholeFacet> whole_facets() const noexcept { return whole_facets_; }
-
-  /// Sets the resistances of the links below a level (m, at most the range; link_resistance).
-  /// @returns  the number of vertices below it
-  std::uint32_t set_level(double level);
 
  private:
   struct Cell {
@@ -67,7 +59,6 @@ class NearComplex {
   void number_vertices();
   void list_links(const geometry::Surface& surface);
   void list_fillings(const geometry::Surface& surface);
-  void list_whole_facets(const geometry::Surface& surface);
   const Cell* cell_of(Feature feature) const noexcept;
   void add_link(const Cell* side, const Cell& cell);
   void add_to(Filling& filling, const Cell& side, const Cell& cell, int sign) const;
@@ -89,7 +80,6 @@ class NearComplex {
   std::vector<Link> links_;    ///< by upper vertex
   std::vector<LinkKey> keys_;  ///< by cells
   std::vector<Filling> fillings_;
-  std::vector<WholeFacet> whole_facets_;
   std::vector<std::uint32_t> order_, place_;  // of the sorting
   std::vector<Vertex> sorted_;
 };

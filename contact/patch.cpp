@@ -18,29 +18,41 @@ bool nearer(const geometry::CriticalFeature* a, const geometry::CriticalFeature*
   return a->distance != b->distance ? a->distance < b->distance : a->core.feature < b->core.feature;
 }
 
+/// Of a minimum or a pass.
+PatchTerm term_of(const geometry::CriticalFeature& feature, double weight) noexcept {
+  return {feature.core, feature.direction, feature.distance, weight, 0.0, feature.is_minimum()};
+}
+
 }  // namespace
 
 PatchFinder::PatchFinder(const geometry::Surface& surface)
-    : surface_(&surface), critical_(surface), has_facets_(surface.structure_count(), 0) {
-  for (std::size_t f = 0; f < surface.face_count(); ++f) {
-    const NodeId corner = surface.nodes_of(geometry::id_at<geometry::FaceId>(f))[0];
-    has_facets_[index_of(surface.structure_of(corner))] = 1;
-  }
-}
+    : surface_(&surface), critical_(surface) {}
 
 std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
                                          std::span<const geometry::CellId> cells, Positions x) {
+  const auto spring = [range](double distance) {
+    return 0.5 * (range - distance) * (range - distance);
+  };
+  return find(centre, range, cells, x, NormalEnergy(spring));
+}
+
+std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
+                                         std::span<const geometry::CellId> cells, Positions x,
+                                         const NormalEnergy& energy) {
   const std::span<const Critical> critical = critical_.find(centre, range, cells, x);
   if (critical.size() <= 1) {
     keep_alone(critical);
     return patches_;
   }
   sort_out(critical);
-  link_passes(centre, range, x);
+  link_passes(centre, x);
   join_parts();
-  ring_terms_.clear();
-  if (!events_.empty()) share_rings(centre, range, cells, x);
-  add_terms();
+  rooted_.clear();
+  if (has_rings_) {
+    add_terms_of_rings(centre, range, cells, x, energy);
+  } else {
+    add_terms();
+  }
   collect_patches();
   return patches_;
 }
@@ -53,7 +65,7 @@ void PatchFinder::keep_alone(std::span<const Critical> critical) {
   for (const Critical& feature : critical) {
     if (!feature.is_minimum()) continue;
     patches_.push_back({feature.core.feature, 0, 1});
-    terms_.push_back({feature.core, feature.direction, feature.distance, 1.0});
+    terms_.push_back(term_of(feature, 1.0));
   }
 }
 
@@ -66,7 +78,7 @@ void PatchFinder::sort_out(std::span<const Critical> critical) {
   std::sort(passes_.begin(), passes_.end(), nearer);
 }
 
-void PatchFinder::link_passes(const Vec3& centre, double range, Positions x) {
+void PatchFinder::link_passes(const Vec3& centre, Positions x) {
   vertices_.clear();
   const auto vertex_count = static_cast<std::uint32_t>(minima_.size() + passes_.size());
   for (std::uint32_t i = 0; i < vertex_count; ++i)
@@ -76,10 +88,10 @@ void PatchFinder::link_passes(const Vec3& centre, double range, Positions x) {
   links_.clear();
   pass_links_.clear();
   for (auto i = static_cast<std::uint32_t>(minima_.size()); i < vertex_count; ++i)
-    add_links(i, centre, range, x);
+    add_links(i, centre, x);
 }
 
-void PatchFinder::add_links(std::uint32_t pass, const Vec3& centre, double range, Positions x) {
+void PatchFinder::add_links(std::uint32_t pass, const Vec3& centre, Positions x) {
   const Critical& upper = critical_of(pass);
   const auto first = static_cast<std::uint32_t>(links_.size());
   for (const Feature branch : critical_.branches(upper.core.feature, centre, x)) {
@@ -88,8 +100,7 @@ void PatchFinder::add_links(std::uint32_t pass, const Vec3& centre, double range
       links_.resize(first);
       return;
     }
-    const double drop = std::max(0.0, upper.distance - critical_of(below).distance);
-    links_.push_back({below, pass, link_resistance(range - upper.distance, drop)});
+    links_.push_back({below, pass});
   }
   pass_links_.push_back({pass, first, static_cast<std::uint32_t>(links_.size()) - first});
 }
@@ -116,57 +127,45 @@ std::uint32_t PatchFinder::root_of(std::uint32_t vertex) const noexcept {
   return vertex;
 }
 
-/// Level by level: which parts hang together, and at which levels rings are born or filled, or
-/// hollows shut.
+/// Level by level: which parts hang together, and whether rings close.
 void PatchFinder::join_parts() {
   root_.resize(vertices_.size());
   std::iota(root_.begin(), root_.end(), 0U);
-  events_.clear();
+  has_rings_ = false;
   weights_.assign(vertices_.size(), 0.0);
   for (std::uint32_t minimum = 0; minimum < minima_.size(); ++minimum) weights_[minimum] = 1.0;
   for (const PassLinks& pass : pass_links_) {
-    const Critical& feature = critical_of(pass.pass);
-    weights_[pass.pass] = feature.coefficient;
-    // Loops of the descending link: rings that the feature fills, or hollows that it shuts.
-    bool is_event = feature.branches + feature.coefficient != 1;
+    weights_[pass.pass] = 1.0 - critical_of(pass.pass).branches;
     for (std::uint32_t i = 0; i < pass.link_count; ++i) {
       const Link& link = links_[pass.first_link + i];
       const auto [low, high] = std::minmax({root_of(link.a), root_of(link.b)});
-      is_event = is_event || low == high;
+      has_rings_ = has_rings_ || low == high;
       root_[high] = low;
     }
-    if (is_event) events_.push_back(feature.distance);
   }
 }
 
-void PatchFinder::share_rings(const Vec3& centre, double range,
-                              std::span<const geometry::CellId> cells, Positions x) {
-  const bool is_filled = has_facets_[index_of(surface_->structure_of(cells.front()))] != 0;
-  for (const RingWeights::Share& share :
-       is_filled ? rings_.find(*surface_, centre, range, cells, x, events_)
-                 : rings_.find_of_wires(*surface_, centre, range, cells, x)) {
-    const NearComplex::Vertex& foot = *share.foot;
-    const std::uint32_t below = vertex_below(foot.core.feature, centre, x);
+void PatchFinder::add_terms_of_rings(const Vec3& centre, double range,
+                                     std::span<const geometry::CellId> cells, Positions x,
+                                     const NormalEnergy& energy) {
+  const auto shares = rings_.find(*surface_, centre, range, cells, x, energy);
+  const auto feet = rings_.complex().vertices();
+  for (const RingWeights::Share& share : shares) {
+    const NearComplex::Vertex& foot = feet[share.vertex];
+    const Feature root = feet[rings_.root_of(share.vertex)].core.feature;
+    const std::uint32_t below = vertex_below(root, centre, x);
     if (below == kOutOfRange) continue;
-    if (critical_of(below).core.feature == foot.core.feature) {
-      weights_[below] += share.weight;
-    } else {
-      ring_terms_.push_back(
-          {root_of(below), {foot.core, foot.normal, foot.distance, share.weight}});
-    }
+    const std::uint32_t own = vertex_of(foot.core.feature);
+    add_term(root_of(below), {foot.core, foot.normal, foot.distance, share.weight, share.slope,
+                              own < minima_.size()});
   }
 }
 
 void PatchFinder::add_terms() {
-  rooted_.clear();
   for (std::uint32_t vertex = 0; vertex < vertices_.size(); ++vertex) {
-    const Critical& feature = critical_of(vertex);
-    if (weights_[vertex] != 0.0) {
-      add_term(root_of(vertex),
-               {feature.core, feature.direction, feature.distance, weights_[vertex]});
-    }
+    if (weights_[vertex] != 0.0)
+      add_term(root_of(vertex), term_of(critical_of(vertex), weights_[vertex]));
   }
-  for (const RingTerm& ring : ring_terms_) add_term(ring.root, ring.term);
 }
 
 void PatchFinder::add_term(std::uint32_t root, const PatchTerm& term) {

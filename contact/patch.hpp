@@ -3,7 +3,6 @@
 
 #include "contact/motion.hpp"
 #include "contact/ring_weights.hpp"
-#include "contact/spanning_weights.hpp"
 #include "geometry/critical_features.hpp"
 
 #include <span>
@@ -12,31 +11,17 @@
 /// Contact of a ball with a surface: features in range that hang together are one patch, and a
 /// patch is one contact.
 ///
-/// The elastic force of a patch is the sum of weight * f(gap) * normal over its terms. Their
-/// weights are the coefficients of the critical features (geometry/critical_features.hpp): 1 of a
-/// minimum, -1 of a pass between two of them, 1 of a top that fills a ring. So a flat or convex
-/// surface pushes exactly once, a sharp corner from both sides, and the force is continuous in
-/// between, with no tolerance: the natural scale is the overlap itself.
+/// The energy of a patch counts pieces: the part of the surface nearer than s has so many pieces,
+/// for every level s, and each of them pushes as one contact. With phi(d) the energy of one contact
+/// at a distance d that is the sum of phi over the minima less that over the passes, as often as
+/// each joins pieces. So a flat or convex surface pushes exactly once, a sharp corner from both
+/// sides, and the force is continuous in between, with no tolerance: the natural scale is the
+/// overlap itself. A pass that closes a ring joins nothing; what it takes too much is given back,
+/// smoothly (ring_weights.hpp). Tops, which fill rings or shut hollows, count for nothing.
 ///
-/// Coefficients count pieces minus holes plus hollows of the part of the surface nearer than s, for
-/// every level s; what shall count is the pieces. So each hollow has its one taken back, at the
-/// levels where it is shut (ring_weights.hpp), and each hole gets its one back, at the levels where
-/// it is open, shared over the ring around it (near_complex.hpp, spanning_weights.hpp): at every
-/// level the shares of the links of all rings add up to the number of holes, and a link pushes as
-/// its upper vertex does. Taken over all levels from the first ring to the range this is continuous
-/// where rings are born (the new pass begins with the whole share, as it must), are filled, join
-/// and part, because each of these is an event in level alone; shares at one level only, or at the
-/// end of the range, jump by up to half a contact. With a linear law the weights are exact: the sum
-/// of weight * overlap is the integral of the number of pieces over the levels. A structure without
-/// facets has no fillings; its rings are shared as at the last level, which depends on the position
-/// continuously already and costs less.
-///
-/// Between two events the shares are taken at the middle. This is no gradient of a potential: the
-/// potential of counted pieces has kinks where two passes of a ring tie, and its force jumps there.
-/// Where no ring closes the force is the gradient of the sum of weight * phi(distance). Where rings
-/// do, the difference of both, in contacts, has medians of 0.01 and 0.14 in shallow and deep dents
-/// of a sheet, 0.07 and 0.31 on coarse and fine nets, 0.1 around a hole and 0.07 at small closed
-/// bodies; it shows as an error of the energy balance that does not fall with the time step.
+/// The energy depends on the places of the ball and of the nodes alone, and the force on each of
+/// them is its gradient, for every law: no energy is gained in any closed cycle, however the
+/// surface deforms.
 namespace plekton::contact {
 
 using geometry::Feature;
@@ -46,8 +31,10 @@ struct PatchTerm {
   geometry::CorePoint core;  ///< on b
   Vec3 normal;               ///< unit, from the ball's centre to the core point
   double distance;           ///< m
-  double weight;  ///< 1 of a minimum, -k of a pass between k + 1 parts where no ring closes; more
-                  ///< of what lies on a ring
+  double weight;             ///< of the energy of one contact at this distance
+  double slope;              ///< N, what the force has beside weight * force of one contact: on
+                             ///< rings, where weights change with the distances
+  bool is_minimum;
 };
 
 /// One contact of a ball with a surface.
@@ -66,7 +53,12 @@ class PatchFinder {
   /// @param centre  m, of the ball
   /// @param range   m, ball's radius + radius of the cells: what counts as in range
   /// @param cells   ascending; every cell nearer than range, all of one radius
+  /// @param energy  of one contact: slopes of rings depend on it, nothing else
   /// @returns       sorted by root; valid until the next call
+  std::span<const Patch> find(const Vec3& centre, double range,
+                              std::span<const geometry::CellId> cells, Positions x,
+                              const NormalEnergy& energy);
+  /// For springs of 1 N/m.
   std::span<const Patch> find(const Vec3& centre, double range,
                               std::span<const geometry::CellId> cells, Positions x);
 
@@ -82,8 +74,8 @@ class PatchFinder {
 
   void keep_alone(std::span<const Critical> critical);
   void sort_out(std::span<const Critical> critical);
-  void link_passes(const Vec3& centre, double range, Positions x);
-  void add_links(std::uint32_t pass, const Vec3& centre, double range, Positions x);
+  void link_passes(const Vec3& centre, Positions x);
+  void add_links(std::uint32_t pass, const Vec3& centre, Positions x);
   std::uint32_t vertex_of(Feature foot) const noexcept;
   std::uint32_t vertex_below(Feature branch, const Vec3& centre, Positions x) const;
   const Critical& critical_of(std::uint32_t vertex) const noexcept {
@@ -91,15 +83,14 @@ class PatchFinder {
   }
   std::uint32_t root_of(std::uint32_t vertex) const noexcept;
   void join_parts();
-  void share_rings(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
-                   Positions x);
+  void add_terms_of_rings(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
+                          Positions x, const NormalEnergy& energy);
   void add_term(std::uint32_t root, const PatchTerm& term);
   void add_terms();
   void collect_patches();
 
   const geometry::Surface* surface_;
   geometry::CriticalFeatureFinder critical_;
-  std::vector<char> has_facets_;  ///< by structure
   RingWeights rings_;
   std::vector<Patch> patches_;
   std::vector<PatchTerm> terms_;
@@ -124,13 +115,7 @@ class PatchFinder {
   std::vector<std::uint32_t> root_;  ///< by vertex: the lowest of those that hang together, or one
                                      ///< on the way to it
   std::vector<double> weights_;      ///< by vertex
-  std::vector<double> events_;       ///< m, levels at which rings or hollows begin or end
-  /// What lies on a ring and is no critical feature.
-  struct RingTerm {
-    std::uint32_t root;
-    PatchTerm term;
-  };
-  std::vector<RingTerm> ring_terms_;
+  bool has_rings_ = false;
   struct RootedTerm {
     std::uint32_t root;
     std::uint32_t order;

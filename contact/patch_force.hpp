@@ -34,7 +34,7 @@ struct PatchTermForce {
 /// centre.
 /// @param elastic_force   gap -> N, of one feature
 /// @param elastic_energy  gap -> J
-/// @param hold            (gap, elastic force) -> how much of all that is not elastic goes to a
+/// @param hold            (term, elastic force) -> how much of all that is not elastic goes to a
 ///                        term, in any unit: its elastic force, if only what pushes is in contact
 /// @param term_forces     of the same length as terms
 template <class Force, class Energy, class Hold>
@@ -49,12 +49,12 @@ PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, dou
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const PatchTerm& term = terms[i];
     const double gap = term.distance - range;
-    const double of_one = elastic_force(gap);
-    const double share = term.weight * hold(gap, of_one);
-    term_forces[i] = {term.weight * of_one, share};
+    const double elastic = term.weight * elastic_force(gap) + term.slope;
+    const double share = hold(term, elastic);
+    term_forces[i] = {elastic, share};
     total += share;
-    total_elastic += term.weight * of_one;
-    force += term.weight * of_one * term.normal;
+    total_elastic += elastic;
+    force += elastic * term.normal;
     holding += share * term.normal;
     state.foot += share * term.distance * term.normal;
     state.elastic_energy += term.weight * elastic_energy(gap);

@@ -13,7 +13,7 @@ std::uint32_t patch_with_minimum(Feature feature, std::span<const Patch> patches
                                  const PatchFinder& finder) {
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     for (const PatchTerm& term : finder.terms(patches[i])) {
-      if (term.weight > 0.0 && term.core.feature == feature) return i;
+      if (term.is_minimum && term.core.feature == feature) return i;
     }
   }
   return static_cast<std::uint32_t>(patches.size());

@@ -2,78 +2,155 @@
 #include "contact/ring_weights.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plekton::contact {
 namespace {
 
-/// Of the level. Shorter intervals are left out: where hundreds of features are equally far, but
-/// for rounding, each would cost as much as all others, and none pushes.
-constexpr double kShortest = 1e-12;
+/// Of the level. Smaller overlaps below it are left out, as rounding makes them.
+constexpr double kLeastOverlap = 1e-12;
+
+/// Two vertices at one distance have a link without resistance; this share of their overlap is as
+/// good as none, and finite.
+constexpr double kLeastDrop = 1e-20;
+
+/// n: the sharper, the less the force jumps where tops tie, and the faster it turns from pass to
+/// pass where two of these do.
+constexpr int kSharpness = 8;
+
+bool is_tied(double distance, double level) noexcept {
+  return std::abs(distance - level) <= kLeastOverlap * level;
+}
+
+constexpr double power(double x, int n) noexcept {
+  double result = 1.0;
+  for (int i = 0; i < n; ++i) result *= x;
+  return result;
+}
+
+/// (x^n - y^n) / (x - y)
+constexpr double power_slope(double x, double y, int n) noexcept {
+  double sum = 1.0;
+  double last = 1.0;
+  for (int i = 1; i < n; ++i) {
+    last *= y;
+    sum = sum * x + last;
+  }
+  return sum;
+}
 
 }  // namespace
 
 std::span<const RingWeights::Share> RingWeights::find(const geometry::Surface& surface,
                                                       const Vec3& point, double range,
                                                       std::span<const geometry::CellId> cells,
-                                                      Positions x, std::span<const double> events) {
+                                                      Positions x, const NormalEnergy& energy) {
   near_.build(surface, point, range, cells, x);
   const auto feet = near_.vertices();
-  shares_of_holes_.build(static_cast<std::uint32_t>(feet.size()), near_.links(), near_.fillings());
-  hollows_.build(near_.whole_facets());
-  sums_.assign(feet.size(), 0.0);
-  list_levels(events);
-  for (std::size_t i = 0; i < levels_.size(); ++i)
-    add_interval(levels_[i], i + 1 < levels_.size() ? levels_[i + 1] : range);
-
+  const auto count = static_cast<std::uint32_t>(feet.size());
+  flows_.build(count, near_.links(), near_.fillings());
+  range_ = range;
+  energies_.clear();
+  for (const NearComplex::Vertex& foot : feet) energies_.push_back(energy(foot.distance));
+  slopes_.assign(count, 0.0);
+  count_pieces();
+  const auto fillers = flows_.basis().fillers();
+  for (std::size_t i = 0; i < fillers.size();) {
+    const std::uint32_t first = fillers[i];
+    const double level = feet[first].distance;
+    while (i < fillers.size() && is_tied(feet[fillers[i]].distance, level)) ++i;
+    end_holes({level, first, fillers[i - 1] + 1, tops_at(level)});
+  }
+  end_holes({range, count, RingBasis::kNone, {}});
   shares_.clear();
-  for (std::size_t i = 0; i < feet.size(); ++i) {
-    if (sums_[i] != 0.0) shares_.push_back({&feet[i], sums_[i] / (range - feet[i].distance)});
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (weights_[i] != 0.0 || slopes_[i] != 0.0) shares_.push_back({i, weights_[i], slopes_[i]});
   }
   return shares_;
 }
 
-std::span<const RingWeights::Share> RingWeights::find_of_wires(
-    const geometry::Surface& surface, const Vec3& point, double range,
-    std::span<const geometry::CellId> cells, Positions x) {
-  near_.build(surface, point, range, cells, x);
-  const std::uint32_t vertices = near_.set_level(range);
-  const auto weights = spanning_.find(vertices, near_.links());
-  sums_.assign(vertices, 0.0);
-  for (std::size_t i = 0; i < weights.size(); ++i) sums_[near_.links()[i].a] += 1.0 - weights[i];
-  shares_.clear();
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    if (sums_[i] != 0.0) shares_.push_back({&near_.vertices()[i], sums_[i]});
-  }
-  return shares_;
+/// As if every pass joined pieces. In the order of the distances as they are rounded, so that what
+/// is taken off here and what the holes give back agree about it.
+void RingWeights::count_pieces() {
+  weights_.clear();
+  for (const std::uint32_t branches : flows_.basis().branches()) weights_.push_back(1.0 - branches);
 }
 
-void RingWeights::list_levels(std::span<const double> events) {
-  levels_.assign(events.begin(), events.end());
-  for (const NearComplex::Vertex& foot : near_.vertices()) {
-    if (foot.core.feature.kind == geometry::FeatureKind::node && foot.distance > events.front())
-      levels_.push_back(foot.distance);
-  }
-  std::sort(levels_.begin(), levels_.end());
+std::span<const std::uint32_t> RingWeights::tops_at(double level) const noexcept {
+  const auto feet = near_.vertices();
+  const auto tops = flows_.basis().tops();
+  const auto first = std::find_if(tops.begin(), tops.end(), [&](std::uint32_t top) {
+    return is_tied(feet[top].distance, level);
+  });
+  const auto last = std::find_if(
+      first, tops.end(), [&](std::uint32_t top) { return !is_tied(feet[top].distance, level); });
+  return {first, last};
 }
 
-void RingWeights::add_interval(double lower, double upper) {
-  if (!(upper - lower > kShortest * upper)) return;
-  const double level = 0.5 * (lower + upper);
-  const std::uint32_t below = near_.set_level(level);
-  const auto shares = shares_of_holes_.find(below, near_.links());
-  for (std::size_t i = 0; i < shares.size(); ++i)
-    sums_[near_.links()[i].a] += (upper - lower) * shares[i];
-  if (hollows_.hollow_count(below) > 0) take_hollows(below, level, upper - lower);
+void RingWeights::end_holes(const End& end) {
+  const RingBasis& basis = flows_.basis();
+  const bool is_top = !end.tops.empty();
+  const std::uint32_t filled = is_top ? end.first : RingBasis::kNone;
+  const ComplexPart part{end.first, filled};
+  const std::size_t holes = is_top ? basis.shut_count(part, end.end) : basis.hole_count(part);
+  if (holes == 0) return;
+  const ComplexPart lower{set_resistances(end), filled};
+  const std::size_t flows = flows_.find(lower, end.end, resistances_);
+  const auto links = near_.links().first(resistances_.size());
+  if (flows != 0) {
+    const auto shares = flows_.shares();
+    values_.clear();
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      weights_[links[i].a] += shares[i];
+      values_.push_back(energies_[links[i].a]);
+    }
+    add_slopes(end, flows_.slopes(values_));
+  }
+  // Holes that end as they begin.
+  for (const std::uint32_t top : end.tops)
+    weights_[top] += static_cast<double>(holes - flows) / static_cast<double>(end.tops.size());
 }
 
-void RingWeights::take_hollows(std::uint32_t below, double level, double length) {
-  corner_weights_.clear();
-  for (std::uint32_t i = 0; i < below; ++i) {
-    const double overlap = level - near_.vertices()[i].distance;
-    corner_weights_.push_back(1.0 / (overlap * overlap));
+/// Of the links whose upper vertex is below the level. @returns how many vertices are
+std::uint32_t RingWeights::set_resistances(const End& end) {
+  const auto feet = near_.vertices();
+  const double unit = range_ - feet.front().distance;
+  top_ = (range_ - end.level) / unit;
+  overlaps_.clear();
+  inverses_.clear();
+  for (const NearComplex::Vertex& foot : feet.first(end.first)) {
+    const double below = end.level - foot.distance;
+    if (!(below > kLeastOverlap * end.level)) break;
+    overlaps_.push_back((range_ - foot.distance) / unit);
+    inverses_.push_back(1.0 / (below / unit * (overlaps_.back() + top_)));
   }
-  const auto shares = hollows_.find(below, corner_weights_);
-  for (std::size_t i = 0; i < shares.size(); ++i) sums_[i] -= length * shares[i];
+  resistances_.clear();
+  for (const Link& link : near_.links()) {
+    if (link.a >= overlaps_.size()) break;
+    const double drop = std::max((feet[link.a].distance - feet[link.b].distance) / unit,
+                                 kLeastDrop * overlaps_[link.a]);
+    const double x = inverses_[link.a];
+    const double y = inverses_[link.b];
+    const double difference = drop * (overlaps_[link.a] + overlaps_[link.b]) * x * y;
+    resistances_.push_back(difference * power_slope(x, y, kSharpness));
+  }
+  return static_cast<std::uint32_t>(overlaps_.size());
+}
+
+void RingWeights::add_slopes(const End& end, std::span<const double> by_resistance) {
+  const double per_metre = 2.0 * kSharpness / (range_ - near_.vertices().front().distance);
+  double of_top = 0.0;
+  for (std::size_t i = 0; i < by_resistance.size(); ++i) {
+    const Link& link = near_.links()[i];
+    const double slope = per_metre * by_resistance[i];
+    const double upper = slope * power(inverses_[link.a], kSharpness + 1);
+    const double lower = slope * power(inverses_[link.b], kSharpness + 1);
+    slopes_[link.a] -= upper * overlaps_[link.a];
+    slopes_[link.b] += lower * overlaps_[link.b];
+    of_top += (upper - lower) * top_;
+  }
+  for (const std::uint32_t top : end.tops)
+    slopes_[top] += of_top / static_cast<double>(end.tops.size());
 }
 
 }  // namespace plekton::contact

@@ -12,7 +12,9 @@ double SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geometry::
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const Vec3& centre = motion.position[index_of(pair.node)];
-  const auto patches = worker.patches.find(centre, pair.reach, cells, motion.position);
+  const auto energy = energy_of(pair);
+  const auto patches =
+      worker.patches.find(centre, pair.reach, cells, motion.position, NormalEnergy(energy));
 
   const std::size_t first = lists.contacts.size();
   double dissipated = 0.0;
@@ -50,7 +52,7 @@ double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const Patch
                                                   state.relative_velocity, state.relative_spin);
   const auto first_minimum = static_cast<std::uint32_t>(lists.minima.size());
   for (const PatchTerm& term : terms) {
-    if (term.weight > 0.0) lists.minima.push_back(term.core.feature);
+    if (term.is_minimum) lists.minima.push_back(term.core.feature);
   }
   typename Law::History next = inherited.history;
   const ContactForce result = Law::force(pair.parameters, relative, next, dt);
@@ -132,8 +134,8 @@ void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> 
         patch, terms, pair.range,
         [&](double gap) { return Law::elastic_normal_force(pair.parameters, gap); },
         [&](double gap) { return Law::elastic_normal_energy(pair.parameters, gap); },
-        [&](double gap, double elastic) {
-          return HasReach<Law> ? std::max(0.0, pair.reach - pair.range - gap) : elastic;
+        [&](const PatchTerm& term, double elastic) {
+          return HasReach<Law> ? term.weight * std::max(0.0, pair.reach - term.distance) : elastic;
         },
         term_forces));
     set_kinematics(worker.states.back(), pair.node, pair.radius, pair.range, terms, term_forces,

@@ -47,9 +47,9 @@ struct BrokenParts {
 ///   nodes are minima themselves, if they were none nor passes. Both parts are then whole contacts
 ///   up to the level where they hang together otherwise, if at all. A ball on the middle of a
 ///   straight wire goes from phi(d0) to 2 phi(d1), up to twice as much where the nodes are as near;
-/// - if it closed a ring, the one that the hole gave back goes with it, wherever its links had it:
-///   a jump by -sum of share * phi(upper vertex), mostly of the passes furthest off, which has the
-///   other sign and is small where the ring closes just inside the range.
+/// - if it closed a ring, what the hole gave back goes with it: a jump by -phi at the distance at
+///   which the hole began (ring_weights.hpp), about that of the furthest pass of the ring. It has
+///   the other sign and is small where the ring closes just inside the range.
 /// So one cylinder with a minimum makes at most phi(d1) + phi(d2) - phi(d0), but for what holes
 /// beside it that become one share out anew. A ball that overlaps the wires of a net by 30 % of
 /// their radius was seen to go from 31.6 to 44.2 J, when a break made two contacts of one.

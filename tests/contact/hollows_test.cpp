@@ -9,6 +9,20 @@
 namespace plekton::test {
 namespace {
 
+/// What passes from one top to another where two tie, in contacts of the depth of the tops: of a
+/// ring of two passes at most t / o times n w (1 - w) (q - 1)^2 / q for each direction, with w = 1
+/// / (1 + q^n) and n = 8, which has its maximum at q = 1.35 (ring_weights.hpp). Inside a closed
+/// shell all tops are about equally far, in all directions.
+constexpr double kHandOverInside = 0.055;
+
+/// Holes begin at a mean over their rings, not where the shallowest pass does: of the energy of a
+/// ring of two passes at most (q - 1) / (1 + q^8), with q = 1.17.
+constexpr double kMeanOfHoles = 0.04;
+
+/// How fast the force changes, by distance: all passes of a shell are nearly on one level, and turn
+/// the force as they tie.
+constexpr double kSteepest = 100.0;
+
 /// Closed shells about the origin, of which no node is farther than 1.
 std::vector<Complex> closed_shells() {
   std::vector<Complex> shells;
@@ -52,7 +66,7 @@ TEST(GrainThatCoversAClosedShell, FeelsAForceThatFollowsItsMotionAcrossTheCentre
     for (const Complex& shell : closed_shells()) {
       SCOPED_TRACE(::testing::Message() << "range " << range << ", nodes " << shell.x.size());
       for (const Vec3& way : {Vec3(0.2, 0.013, 0.007), Vec3(0.1, 0.0, 0.0), Vec3(0.1, 0.1, 0.1)}) {
-        expect_no_jump(shell, range, range, -way, way);
+        expect_no_jump(shell, range, range, -way, way, kHandOverInside);
       }
     }
   }
@@ -74,14 +88,15 @@ TEST(GrainThatCoversAClosedShell, FeelsNoForceInTheMiddleAndLittleBesideIt) {
     EXPECT_LT(middle.norm(), 0.05 * range);
     for (double step = 1e-14; step < 1e-3; step *= 10.0) {
       for (int axis = 0; axis < 3; ++axis) {
-        EXPECT_LT((force_at(step * Vec3::Unit(axis)) - middle).norm(), 20.0 * step + 1e-11)
+        EXPECT_LT((force_at(step * Vec3::Unit(axis)) - middle).norm(),
+                  kSteepest * step + kHandOverInside)
             << shell.x.size() << " nodes, axis " << axis << ", step " << step;
       }
     }
   }
 }
 
-TEST(GrainThatCoversAClosedShell, IsPushedOnceAtEveryLevelForEachPiece) {
+TEST(GrainThatCoversAClosedShell, HasTheEnergyOfOneContactForEachPiece) {
   Random random(1);
   std::vector<Complex> shells = closed_shells();
   shells.push_back(twin_box());
@@ -98,7 +113,7 @@ TEST(GrainThatCoversAClosedShell, IsPushedOnceAtEveryLevelForEachPiece) {
 
       const auto expected =
           reference_contact(centre, range, nodes, shell.x, [](double overlap) { return overlap; });
-      ASSERT_NEAR(total.overlaps, expected.overlaps, 1e-12 * range);
+      ASSERT_NEAR(total.energy, expected.energy, kMeanOfHoles * expected.energy);
     }
   }
 }
@@ -149,7 +164,7 @@ TEST(GrainThatCoversTwoHollowsWithACommonWall, FeelsAForceThatFollowsItsMotion) 
   const Complex box = twin_box();
   for (const double range : {1.7, 1.8, 2.5}) {
     for (const Vec3& way : {Vec3(0.2, 0.013, 0.007), Vec3(0.2, 0.0, 0.0), Vec3(0.0, 0.1, 0.0)})
-      expect_no_jump(box, range, range, -way, way);
+      expect_no_jump(box, range, range, -way, way, kHandOverInside);
   }
 }
 

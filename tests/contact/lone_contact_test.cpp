@@ -20,7 +20,7 @@ PatchState general_state(const Patch& patch, std::span<const PatchTerm> terms, N
   PatchState state = patch_state(
       patch, terms, range, [](double gap) { return Law::elastic_normal_force(kParameters, gap); },
       [](double gap) { return Law::elastic_normal_energy(kParameters, gap); },
-      [](double, double elastic) { return elastic; }, term_forces);
+      [](const PatchTerm&, double elastic) { return elastic; }, term_forces);
   set_kinematics(state, ball, radius, range, terms, term_forces, motion);
   return state;
 }

@@ -90,7 +90,7 @@ void expect_no_jump(PatchFinder& finder, std::span<const CellId> cells, Position
     double weights = 0.0;
     for (const Patch& patch : finder.find(centre, range, cells, x)) {
       for (const PatchTerm& term : finder.terms(patch)) {
-        force -= term.weight * (range - term.distance) * term.normal;
+        force -= (term.weight * (range - term.distance) + term.slope) * term.normal;
         weights += std::abs(term.weight);
       }
     }

@@ -74,6 +74,7 @@ struct ReferenceContact {
   int components = 0;
   double overlaps = 0.0;  ///< m, sum of the overlaps of the cells minus those of the seams taken
                           ///< away: the integral of the number of components over the levels
+  double energy = 0.0;    ///< m^2, the same with half their squares: that of springs
   int cells = 0;          ///< in range
   double nearest = std::numeric_limits<double>::infinity();
 };
@@ -89,6 +90,7 @@ ReferenceContact reference_contact(const Vec3& p, double range,
   const auto add = [&](const ReferenceFoot& foot, double sign) {
     result.force -= sign * f(range - foot.distance) / foot.distance * foot.separation;
     result.overlaps += sign * (range - foot.distance);
+    result.energy += 0.5 * sign * (range - foot.distance) * (range - foot.distance);
   };
   std::vector<ReferenceSimplex> near;
   for (const auto& nodes : cells) {

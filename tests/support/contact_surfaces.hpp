@@ -138,6 +138,7 @@ inline Complex reordered(const Complex& old, Random& random) {
 /// What all patches of a ball add up to, for the force f(overlap) = overlap.
 struct TotalContact {
   Vec3 force = Vec3::Zero();  ///< on the ball
+  double energy = 0.0;        ///< of these
   double overlaps = 0.0;      ///< m, sum of weight * overlap of all terms
   int patches = 0;
   double nearest = std::numeric_limits<double>::infinity();  ///< m, the least distance of a term
@@ -152,8 +153,10 @@ inline TotalContact total_contact(PatchFinder& finder, const Vec3& centre, doubl
   for (const Patch& patch : finder.find(centre, range, cells, x)) {
     ++total.patches;
     for (const PatchTerm& term : finder.terms(patch)) {
-      total.force -= term.weight * (range - term.distance) * term.normal;
-      total.overlaps += term.weight * (range - term.distance);
+      const double overlap = range - term.distance;
+      total.force -= (term.weight * overlap + term.slope) * term.normal;
+      total.energy += 0.5 * term.weight * overlap * overlap;
+      total.overlaps += term.weight * overlap;
       total.nearest = std::min(total.nearest, term.distance);
     }
   }
