@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t kUsualBalls = 640;
 /// So that few threads get equal numbers of blocks.
 constexpr std::size_t kBlocksAtOnce = 8;
+/// To move a ball and add up what acts on it takes about as long as this many pairs.
+constexpr std::size_t kPairsPerBall = 2;
 /// Neighbours stay near each other in the order while many lists are made.
 constexpr int kListsPerOrder = 16;
 
@@ -41,10 +43,8 @@ void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<co
   sort_pairs(pairs, pool);
   find_touching(pairs, balls, x, pool);
 
-  const std::size_t count = block_count(order_.size());
-  first_places_.clear();
-  for (std::size_t k = 0; k <= count; ++k)
-    first_places_.push_back(static_cast<std::uint32_t>(k * order_.size() / count));
+  cut_order();
+  const std::size_t count = first_places_.size() - 1;
   set_all(member_of_, order_.size(), 0U);
   set_all(slots_, pairs.size(), 0U);
   make_room(pairs_, pairs.size() + 2 * kLanes * count);
@@ -71,6 +71,22 @@ void BallBlocks::order_balls(std::span<const Ball> balls, Positions x) {
   set_all(places_, balls.size(), 0U);
   for (std::size_t place = 0; place < order_.size(); ++place)
     places_[static_cast<std::size_t>(order_[place])] = static_cast<std::uint32_t>(place);
+}
+
+/// Into blocks that take equally long. Pairs belong to their first balls, so the first blocks would
+/// have some percent more of them than the last if all had the same number of balls.
+void BallBlocks::cut_order() {
+  const std::size_t balls = order_.size();
+  const auto work_before = [&](std::size_t place) {
+    return kPairsPerBall * place + first_of_place_[place];
+  };
+  const std::size_t count = block_count(balls);
+  first_places_.assign(1, 0);
+  for (std::size_t place = 0; place <= balls; ++place) {
+    while (first_places_.size() <= count &&
+           work_before(place) * count >= first_places_.size() * work_before(balls))
+      first_places_.push_back(static_cast<std::uint32_t>(place));
+  }
 }
 
 /// By counting, then within the few pairs of each ball.

@@ -16,8 +16,8 @@ namespace plekton::contact {
 /// Shares balls and the pairs that they form out into blocks, so that a block is worked on by one
 /// thread, in the cache nearest to it.
 ///
-/// Balls are put in order along a space-filling curve, and the order is cut into blocks of equal
-/// numbers, each a clump in space. A ball is owned by one block. A pair belongs to the block of
+/// Balls are put in order along a space-filling curve, and the order is cut into blocks that
+/// take equally long, each a clump in space. A ball is owned by one block. A pair belongs to the block of
 /// whichever of its balls comes first in the order; the block borrows the other one if it does not
 /// own it, and what the pair adds to a borrowed ball is handed to its owner afterwards. The blocks
 /// depend on the list and on the positions from which it was made, not on the number of threads,
@@ -124,6 +124,7 @@ class BallBlocks {
 
   void order_balls(std::span<const Ball> balls, Positions x);
   void sort_pairs(std::span<const geometry::IndexPair> pairs, geometry::ThreadPool& pool);
+  void cut_order();
   void find_touching(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
                      Positions x, geometry::ThreadPool& pool);
   Stretch add_stretch(std::size_t pair_count);
