@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 /// Structures that are glued to each other: k = 1 N/m for a contact, which a bond stretches by
@@ -91,6 +92,39 @@ TEST(StructureBonds, PullWithTheContactsThatWereGluedUntilTheirStrength) {
     meeting.place(lifted(lying, 0.5 * kLimit));
     EXPECT_EQ(meeting.force_on_b().norm(), 0.0);
     EXPECT_EQ(meeting.patches(), 0u);
+  }
+}
+
+/// Fragile ones break in shear, ductile ones slip at their strength.
+TEST(StructureBonds, ShearWithTheContactsThatWereGluedUntilTheirStrength) {
+  constexpr double kRatio = 0.3;
+  constexpr double kShear = 0.1 * kLimit;  // N, of a bond
+  for (const double rupture_distance : {0.0, kLimit}) {
+    for (const Lying& lying : bodies_that_lie_on_each_other()) {
+      SCOPED_TRACE(lying.name);
+      // Chains that lie along each other would roll off sideways.
+      const bool is_along = lying.turns.isZero();
+      const Vec3 way = is_along ? Vec3::UnitX() : Vec3(std::cos(0.7), std::sin(0.7), 0.0);
+      Meeting meeting(lying.a, lying.b, kRange, {kStrength, 0.1 * kStrength, rupture_distance},
+                      kRatio);
+      meeting.place(lifted(lying, -kOverlap));
+      double slid = 0.0;
+      const auto slide_by = [&](double far) {
+        slid += far;
+        meeting.slide(moved(lifted(lying, -kOverlap), Vec3::Zero(), slid * way));
+        return Vec3(meeting.force_on_b() / lying.contacts);
+      };
+      for (const double far : {0.5 * kShear / kRatio, 0.4999 * kShear / kRatio}) {
+        const Vec3 force = slide_by(far);
+        // The line through the points of a bond turns by the way over its length.
+        const double turn = slid / (kRange - kOverlap);
+        EXPECT_NEAR(force.z(), kOverlap, turn * kShear);
+        EXPECT_NEAR(force.dot(way), -kRatio * slid, turn * turn * kShear);
+        EXPECT_NEAR(force.dot(way.cross(Vec3::UnitZ())), 0.0, turn * turn * kShear);
+      }
+      const Vec3 force = slide_by(0.01 * kShear / kRatio);
+      EXPECT_NEAR(force.dot(way), rupture_distance > 0.0 ? -kShear : 0.0, 1e-3 * kShear);
+    }
   }
 }
 

@@ -86,8 +86,9 @@ template <class Law>
 class MeetingUnder {
  public:
   MeetingUnder(const Body& a, const Body& b, double range,
-               const contact::PropertiesOf<Law>& properties = {})
+               const contact::PropertiesOf<Law>& properties = {}, double stiffness_ratio = 0.0)
       : count_a_(a.x.size()),
+        stiffness_ratio_(stiffness_ratio),
         properties_{{{contact::MaterialId{0}, contact::MaterialId{0}}, properties}} {
     add(a, 0.5 * range);
     add(b, 0.5 * range);
@@ -96,23 +97,10 @@ class MeetingUnder {
     neighbours_ = std::make_unique<geometry::CellNeighbours>(*surface_, x_, 0.0, false);
   }
 
-  /// Moves the second body (its nodes in its own order) and finds the forces.
-  void place(const Body& b) {
-    std::copy(b.x.begin(), b.x.end(), x_.begin() + static_cast<std::ptrdiff_t>(count_a_));
-    if (neighbours_->update(x_, pool_)) {
-      // k = 2 E R E R / (E R + E R) = E R: with E = 1 / R, 1 N/m.
-      const double radius = surface_->radius(geometry::StructureId{0});
-      const contact::MaterialPairs<Law> materials({contact::Material{1.0 / radius, 0.0, 0.0}},
-                                                  properties_);
-      const std::vector<contact::MaterialId> of_structures(surface_->structure_count());
-      contacts_->rebuild(neighbours_->pairs(), {materials, {}, of_structures});
-    }
-    const std::vector<Vec3> still(x_.size(), Vec3::Zero());
-    contacts_->advance({x_, still, still}, 0.0, pool_);
-    forces_ = NodeForces(x_.size());
-    contacts_->add_forces(forces_);
-  }
-
+  /// Puts the second body (its nodes in its own order) elsewhere and finds the forces.
+  void place(const Body& b) { advance_to(b, 0.0); }
+  /// The same, but contacts see how it goes there.
+  void slide(const Body& b) { advance_to(b, 1.0); }
   double energy() const { return contacts_->elastic_energy(); }
   std::size_t patches() const { return contacts_->touching(); }
   Vec3 force_on_a() const { return sum(0, count_a_); }
@@ -143,7 +131,30 @@ class MeetingUnder {
     return total;
   }
 
+  /// @param dt  s, 0: at once
+  void advance_to(const Body& b, double dt) {
+    std::vector<Vec3> velocity(x_.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < b.x.size(); ++i) {
+      Vec3& x = x_[count_a_ + i];
+      if (dt > 0.0) velocity[count_a_ + i] = (b.x[i] - x) / dt;
+      x = b.x[i];
+    }
+    if (neighbours_->update(x_, pool_)) {
+      // k = 2 E R E R / (E R + E R) = E R: with E = 1 / R, 1 N/m.
+      const double radius = surface_->radius(geometry::StructureId{0});
+      const contact::MaterialPairs<Law> materials(
+          {contact::Material{1.0 / radius, stiffness_ratio_, 0.0}}, properties_);
+      const std::vector<contact::MaterialId> of_structures(surface_->structure_count());
+      contacts_->rebuild(neighbours_->pairs(), {materials, {}, of_structures});
+    }
+    const std::vector<Vec3> still(x_.size(), Vec3::Zero());
+    contacts_->advance({x_, velocity, still}, dt, pool_);
+    forces_ = NodeForces(x_.size());
+    contacts_->add_forces(forces_);
+  }
+
   std::size_t count_a_;
+  double stiffness_ratio_;
   contact::PairProperties<Law> properties_;
   std::vector<Vec3> x_;
   std::vector<Facet> facets_;
