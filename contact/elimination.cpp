@@ -99,6 +99,11 @@ void Elimination::eliminate(std::uint32_t vertex_count, std::span<const double> 
 
 void Elimination::join(std::uint32_t at, double conductance) {
   const double old = room_[at];
+  if (!(old > 0.0)) {  // also where what comes there is 0 by underflow
+    room_[at] = conductance;
+    joins_.push_back({at, 0.0, 1.0, 0.0});
+    return;
+  }
   room_[at] += conductance;
   const double new_share = conductance / room_[at];
   joins_.push_back({at, old / room_[at], new_share, old * new_share});

@@ -141,8 +141,12 @@ void NearComplex::list_fillings(const Surface& surface) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Cell* corner = cell_of(Feature(nodes[k]));
       if (corner == nullptr) continue;
-      const Cell& first = *cell_of(Feature(sides[k]));
-      const Cell& last = *cell_of(Feature(sides[(k + 2) % 3]));
+      const Cell* const first_side = cell_of(Feature(sides[k]));
+      const Cell* const last_side = cell_of(Feature(sides[(k + 2) % 3]));
+      // At the range a corner may be in it while rounding leaves out the side.
+      if (first_side == nullptr || last_side == nullptr) continue;
+      const Cell& first = *first_side;
+      const Cell& last = *last_side;
       const std::uint32_t upper =
           std::max({corner->vertex, first.vertex, last.vertex, facet.vertex});
       Filling filling{upper, {}, {}, 0};

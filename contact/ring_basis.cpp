@@ -98,6 +98,14 @@ std::size_t RingBasis::shut_count(const ComplexPart& part, std::uint32_t end) co
                     [&](const Closing& closing) { return closing.is_shut(part, end); }));
 }
 
+std::size_t RingBasis::shut_count(std::uint32_t first, std::uint32_t end) const noexcept {
+  return static_cast<std::size_t>(
+      std::count_if(closings_.begin(), closings_.end(), [&](const Closing& closing) {
+        return closing.filled_at != closing.upper && first <= closing.filled_at &&
+               closing.filled_at < end;
+      }));
+}
+
 void RingBasis::find_drops(const ComplexPart& part, std::uint32_t end, std::span<const Link> links,
                            std::span<double> drops, std::span<double> shut) {
   forest_.grow(part.vertex_count, links);

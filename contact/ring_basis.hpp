@@ -66,6 +66,10 @@ class RingBasis {
   /// end).
   std::size_t shut_count(const ComplexPart& part, std::uint32_t end) const noexcept;
 
+  /// How many holes fillings with an upper vertex in [first, end) shut that were open at lower
+  /// vertices, or at lower ones of these.
+  std::size_t shut_count(std::uint32_t first, std::uint32_t end) const noexcept;
+
   /// As many independent sets of drops along the links of a part as it has holes, row by row: sums
   /// of drops round filled rings are 0. They are small whole numbers, on links that resist at least
   /// half as much as any on the way round them, and 0 on the others. Of each row one of the links

@@ -2,12 +2,13 @@
 #include "contact/ring_weights.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plekton::contact {
 namespace {
 
-/// Of the level. Smaller overlaps below it are left out, as rounding makes them.
+/// Of the range. Smaller overlaps below a level are left out, as rounding makes them.
 constexpr double kLeastOverlap = 1e-12;
 
 /// Two vertices at one distance have a link without resistance; this share of their overlap is as
@@ -15,12 +16,13 @@ constexpr double kLeastOverlap = 1e-12;
 constexpr double kLeastDrop = 1e-20;
 
 /// n: the sharper, the less the force jumps where tops tie, and the faster it turns from pass to
-/// pass where two of these do.
-constexpr int kSharpness = 8;
-
-bool is_tied(double distance, double level) noexcept {
-  return std::abs(distance - level) <= kLeastOverlap * level;
-}
+/// pass where two of these do. What is left over is about in proportion to 1 / n, so twice that of
+/// the sharper one less that of the other has less of it.
+struct Sharpness {
+  int n;
+  double times;
+};
+constexpr std::array<Sharpness, 2> kSharpness{{{12, 2.0}, {6, -1.0}}};
 
 constexpr double power(double x, int n) noexcept {
   double result = 1.0;
@@ -58,7 +60,7 @@ std::span<const RingWeights::Share> RingWeights::find(const geometry::Surface& s
   for (std::size_t i = 0; i < fillers.size();) {
     const std::uint32_t first = fillers[i];
     const double level = feet[first].distance;
-    while (i < fillers.size() && is_tied(feet[fillers[i]].distance, level)) ++i;
+    while (i < fillers.size() && is_at(level, fillers[i])) ++i;
     end_holes({level, first, fillers[i - 1] + 1, tops_at(level)});
   }
   end_holes({range, count, RingBasis::kNone, {}});
@@ -77,42 +79,51 @@ void RingWeights::count_pieces() {
 }
 
 std::span<const std::uint32_t> RingWeights::tops_at(double level) const noexcept {
-  const auto feet = near_.vertices();
   const auto tops = flows_.basis().tops();
-  const auto first = std::find_if(tops.begin(), tops.end(), [&](std::uint32_t top) {
-    return is_tied(feet[top].distance, level);
-  });
-  const auto last = std::find_if(
-      first, tops.end(), [&](std::uint32_t top) { return !is_tied(feet[top].distance, level); });
-  return {first, last};
+  const auto tied = [&](std::uint32_t top) { return is_at(level, top); };
+  const auto first = std::find_if(tops.begin(), tops.end(), tied);
+  return {first, std::find_if_not(first, tops.end(), tied)};
+}
+
+bool RingWeights::is_at(double level, std::uint32_t vertex) const noexcept {
+  return std::abs(near_.vertices()[vertex].distance - level) <= kLeastOverlap * range_;
 }
 
 void RingWeights::end_holes(const End& end) {
   const RingBasis& basis = flows_.basis();
   const bool is_top = !end.tops.empty();
   const std::uint32_t filled = is_top ? end.first : RingBasis::kNone;
-  const ComplexPart part{end.first, filled};
-  const std::size_t holes = is_top ? basis.shut_count(part, end.end) : basis.hole_count(part);
+  const std::size_t holes =
+      is_top ? basis.shut_count(end.first, end.end) : basis.hole_count({end.first, filled});
   if (holes == 0) return;
-  const ComplexPart lower{set_resistances(end), filled};
-  const std::size_t flows = flows_.find(lower, end.end, resistances_);
-  const auto links = near_.links().first(resistances_.size());
-  if (flows != 0) {
-    const auto shares = flows_.shares();
-    values_.clear();
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      weights_[links[i].a] += shares[i];
-      values_.push_back(energies_[links[i].a]);
-    }
-    add_slopes(end, flows_.slopes(values_));
+  set_overlaps(end);
+  // Vertices that tie with the level are left out, and the holes that begin with them.
+  const ComplexPart below{static_cast<std::uint32_t>(overlaps_.size()), filled};
+  std::size_t flows = 0;
+  for (const Sharpness& sharpness : kSharpness) {
+    set_resistances(sharpness.n);
+    flows = flows_.find(below, end.end, resistances_);
+    if (flows == 0) break;
+    share_out(sharpness.times);
+    add_slopes(end, sharpness.n, sharpness.times);
   }
   // Holes that end as they begin.
   for (const std::uint32_t top : end.tops)
     weights_[top] += static_cast<double>(holes - flows) / static_cast<double>(end.tops.size());
 }
 
-/// Of the links whose upper vertex is below the level. @returns how many vertices are
-std::uint32_t RingWeights::set_resistances(const End& end) {
+void RingWeights::share_out(double times) {
+  const auto shares = flows_.shares();
+  values_.clear();
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const std::uint32_t upper = near_.links()[i].a;
+    weights_[upper] += times * shares[i];
+    values_.push_back(energies_[upper]);
+  }
+}
+
+/// Of the vertices below a level.
+void RingWeights::set_overlaps(const End& end) {
   const auto feet = near_.vertices();
   const double unit = range_ - feet.front().distance;
   top_ = (range_ - end.level) / unit;
@@ -120,10 +131,16 @@ std::uint32_t RingWeights::set_resistances(const End& end) {
   inverses_.clear();
   for (const NearComplex::Vertex& foot : feet.first(end.first)) {
     const double below = end.level - foot.distance;
-    if (!(below > kLeastOverlap * end.level)) break;
+    if (!(below > kLeastOverlap * range_)) break;
     overlaps_.push_back((range_ - foot.distance) / unit);
     inverses_.push_back(1.0 / (below / unit * (overlaps_.back() + top_)));
   }
+}
+
+/// Of the links between them.
+void RingWeights::set_resistances(int sharpness) {
+  const auto feet = near_.vertices();
+  const double unit = range_ - feet.front().distance;
   resistances_.clear();
   for (const Link& link : near_.links()) {
     if (link.a >= overlaps_.size()) break;
@@ -132,19 +149,19 @@ std::uint32_t RingWeights::set_resistances(const End& end) {
     const double x = inverses_[link.a];
     const double y = inverses_[link.b];
     const double difference = drop * (overlaps_[link.a] + overlaps_[link.b]) * x * y;
-    resistances_.push_back(difference * power_slope(x, y, kSharpness));
+    resistances_.push_back(difference * power_slope(x, y, sharpness));
   }
-  return static_cast<std::uint32_t>(overlaps_.size());
 }
 
-void RingWeights::add_slopes(const End& end, std::span<const double> by_resistance) {
-  const double per_metre = 2.0 * kSharpness / (range_ - near_.vertices().front().distance);
+void RingWeights::add_slopes(const End& end, int sharpness, double times) {
+  const auto by_resistance = flows_.slopes(values_);
+  const double per_metre = times * 2.0 * sharpness / (range_ - near_.vertices().front().distance);
   double of_top = 0.0;
   for (std::size_t i = 0; i < by_resistance.size(); ++i) {
     const Link& link = near_.links()[i];
     const double slope = per_metre * by_resistance[i];
-    const double upper = slope * power(inverses_[link.a], kSharpness + 1);
-    const double lower = slope * power(inverses_[link.b], kSharpness + 1);
+    const double upper = slope * power(inverses_[link.a], sharpness + 1);
+    const double lower = slope * power(inverses_[link.b], sharpness + 1);
     slopes_[link.a] -= upper * overlaps_[link.a];
     slopes_[link.b] += lower * overlaps_[link.b];
     of_top += (upper - lower) * top_;

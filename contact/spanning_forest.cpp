@@ -49,11 +49,6 @@ void SpanningForest::grow(std::uint32_t vertex_count, std::span<const Link> link
   }
 }
 
-std::uint32_t SpanningForest::root_of(std::uint32_t vertex) const noexcept {
-  while (root_[vertex] != vertex) vertex = root_[vertex];
-  return vertex;
-}
-
 void SpanningForest::hang(std::span<const Link> links) {
   const std::size_t n = root_.size();
   first_.assign(n + 2, 0);
@@ -68,7 +63,7 @@ void SpanningForest::hang(std::span<const Link> links) {
     at_[first_[links[i].b + 1]++] = i;
   }
 
-  parent_.assign(n, Parent{kNone, kNone, 0});
+  parent_.assign(n, Parent{kNone, kNone});
   downwards_.clear();
   for (std::uint32_t vertex = 0; vertex < n; ++vertex) {
     if (root_[vertex] == vertex) downwards_.push_back(vertex);
@@ -79,7 +74,7 @@ void SpanningForest::hang(std::span<const Link> links) {
       const std::uint32_t link = at_[k];
       if (link == parent_[vertex].link) continue;
       const std::uint32_t lower = links[link].a == vertex ? links[link].b : links[link].a;
-      parent_[lower] = {vertex, link, parent_[vertex].depth + 1};
+      parent_[lower] = {vertex, link};
       downwards_.push_back(lower);
     }
   }

@@ -18,11 +18,10 @@ class SpanningForest {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-  /// What a vertex hangs on in its tree; all kNone, but a depth of 0, of a root.
+  /// What a vertex hangs on in its tree; kNone, of a root.
   struct Parent {
     std::uint32_t vertex;
     std::uint32_t link;
-    std::uint32_t depth;
   };
 
   /// Almost linear in the links.
@@ -31,11 +30,8 @@ class SpanningForest {
   /// Finds the parents; of the last grow(), with the same links.
   void hang(std::span<const Link> links);
 
-  std::span<const std::uint32_t> tree_links() const noexcept { return tree_links_; }
-  /// The links left out.
+  /// The links left out, by rising resistance, but for a factor of 2.
   std::span<const std::uint32_t> closing_links() const noexcept { return closing_links_; }
-  /// Vertices that hang together have the same root, the lowest of them.
-  std::uint32_t root_of(std::uint32_t vertex) const noexcept;
 
   const Parent& parent(std::uint32_t vertex) const noexcept { return parent_[vertex]; }
   /// All vertices, parents before what hangs on them.
@@ -45,7 +41,7 @@ class SpanningForest {
   void sort_by_resistance(std::span<const Link> links);
 
   std::vector<std::uint32_t> order_;  ///< links by rising resistance, but for a factor of 2
-  std::vector<std::uint32_t> root_;
+  std::vector<std::uint32_t> root_;   ///< by vertex: the lowest of its tree, or one on the way
   std::vector<std::uint32_t> tree_links_;
   std::vector<std::uint32_t> closing_links_;
   std::vector<Parent> parent_;

@@ -22,14 +22,13 @@ double StructureContacts<Law>::prepare_bonds(const Motion& motion, geometry::Thr
       bonds_[i].locate(meetings_[bonds_[i].meeting], motion.position);
   });
   const double lost = form_bonds(motion.position);
-  std::vector<Gluing>& gluing = gluing_;
-  for (Gluing& of : gluing) of.pressing = 0.0;
+  for (Gluing& of : gluing_) of.pressing = 0.0;
   for (const Bond& bond : bonds_) {
-    if (bond.patch >= 0) gluing[static_cast<std::size_t>(bond.patch)].pressing += bond.pressing;
+    if (bond.patch >= 0) gluing_[static_cast<std::size_t>(bond.patch)].pressing += bond.pressing;
   }
   for (std::size_t i = 0; i < patches_.size(); ++i) {
-    const double share = gluing[i].pressing / patches_[i].normal_force;
-    if (gluing[i].pressing > 0.0) patches_[i].free_part = std::max(0.0, 1.0 - share);
+    const double share = gluing_[i].pressing / patches_[i].normal_force;
+    if (gluing_[i].pressing > 0.0) patches_[i].free_part = std::max(0.0, 1.0 - share);
   }
   return lost;
 }

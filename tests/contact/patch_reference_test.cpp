@@ -95,7 +95,7 @@ struct Comparison {
         has_rings_or_hollows(critical, centre, range, cells, complex.x, total.patches);
     if (is_shared) {
       // Holes begin at a mean over their rings, not where the shallowest pass does: of a ring of
-      // two passes by at most (q - 1) / (1 + q^8) of the energy, with q = 1.17.
+      // two passes by at most 3.3 % of the energy (ring_weights.hpp).
       ASSERT_NEAR(total.energy, expected.energy, 0.04 * expected.energy);
       ++rings;
       return;

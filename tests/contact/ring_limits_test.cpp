@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/contact_rule_reference.hpp"
+#include "tests/support/contact_surfaces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+/// Rings where rounding decides: features at the range, levels that tie, a ball's centre on the
+/// surface; and very many rings.
+namespace plekton::test {
+namespace {
+
+/// A range and its neighbours, from some last digits below it to 1e-9 above.
+std::vector<double> ranges_about(double range) {
+  std::vector<double> ranges;
+  for (int k = -3; k <= 3; ++k)
+    ranges.push_back(range * (1.0 + k * std::numeric_limits<double>::epsilon()));
+  for (double more = 1e-15; more < 1e-8; more *= 10.0) ranges.push_back(range + more);
+  return ranges;
+}
+
+TEST(RingsAtTheRange, FollowIt) {
+  Random random(3);
+  const std::vector<Complex> lattices{centred(net(6), 6, 0.3), centred(sheet(6), 6, 0.3), ball(1),
+                                      plate_with_hole(6, 0.3, 1.0)};
+  for (const Complex& complex : lattices) {
+    const Surface surface = complex.surface();
+    PatchFinder finder(surface);
+    const auto cells = all_cells(surface);
+    for (const double x : {-0.5, -0.25, 0.0, 0.15, 0.3}) {
+      const Vec3 centre(x, x, 0.4881);
+      const Vec3& node = complex.x[random.index(complex.x.size())];
+      const double range = (node - centre).norm();
+      const double beyond = total_contact(finder, centre, range + 1e-8, cells, complex.x).energy;
+      for (const double at : ranges_about(range)) {
+        const TotalContact total = total_contact(finder, centre, at, cells, complex.x);
+        ASSERT_TRUE(total.force.allFinite());
+        ASSERT_NEAR(total.energy, beyond, 1e-6) << at - range;
+      }
+    }
+  }
+}
+
+/// A pass on an edge closes a ring 1.8e-13 below the top that fills it.
+Complex dimple(double scale, bool is_below) {
+  const Vec3 top(0.0, 0.0, 1.0);
+  Complex dimple;
+  dimple.node(top);
+  dimple.node(top + 0.5 * Vec3(1.0, 0.0, -6e-7));
+  dimple.node(Vec3(0.1, 0.4, 0.6));
+  dimple.node(Vec3(-0.3, 0.0, 0.7));
+  dimple.node(Vec3(0.1, -0.4, 0.6));
+  for (int k = 1; k <= 4; ++k) dimple.facet(0, k, k % 4 + 1);
+  for (Vec3& x : dimple.x) {
+    x *= scale;
+    if (is_below) x = Vec3(x.x(), -x.y(), -x.z());
+  }
+  return dimple;
+}
+
+TEST(RingsThatTie, GiveBackWhatTheyDoByThemselves) {
+  constexpr double kRange = 1.2;
+  const auto energy_of = [&](const Complex& complex) {
+    const Surface surface = complex.surface();
+    PatchFinder finder(surface);
+    return total_contact(finder, Vec3::Zero(), kRange, all_cells(surface), complex.x).energy;
+  };
+  for (const double farther : {0.0, 1e-13, 2.5e-13, 5e-13, 9e-13, 3e-12, 1e-9}) {
+    const Complex near = dimple(1.0, false);
+    const Complex far = dimple(1.0 + farther, true);
+    Complex both = near;
+    const int first = static_cast<int>(both.x.size());
+    for (const Vec3& x : far.x) both.node(x);
+    for (int k = 1; k <= 4; ++k) both.facet(first, first + k, first + k % 4 + 1);
+
+    EXPECT_NEAR(energy_of(both), energy_of(near) + energy_of(far), 1e-12) << farther;
+  }
+}
+
+TEST(RingsAroundTheCentre, PushNoMoreThanRingsBesideIt) {
+  Random random(5);
+  double worst = 0.0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Complex complex = random_complex(random, random.coin());
+    if (complex.facets.empty() && complex.cylinders.empty()) continue;
+    const Surface surface = complex.surface();
+    PatchFinder finder(surface);
+    const auto cells = all_cells(surface);
+    const Vec3 way = std::pow(10.0, random.uniform(-18.0, -6.0)) * random.in_cube(1.0);
+    const Vec3 centre = complex.x[random.index(complex.x.size())] + way;
+
+    const TotalContact total = total_contact(finder, centre, 2.0, cells, complex.x);
+
+    ASSERT_TRUE(total.force.allFinite());
+    worst = std::max(worst, total.force.norm() / 2.0);
+  }
+  EXPECT_LT(worst, 20.0);
+}
+
+TEST(RingsOfAFineNet, AddUpToAboutOneContact) {
+  constexpr double kRange = 1.0;
+  for (const int meshes : {8, 16, 24}) {
+    const Complex complex = centred(net(meshes), meshes, 1.2 / meshes);
+    const Surface surface = complex.surface();
+    PatchFinder finder(surface);
+    const auto cells = all_cells(surface);
+    const auto nodes = cell_nodes(surface);
+    for (const double overlap : {0.02, 0.05, 0.1}) {
+      const Vec3 centre(0.013, 0.027, kRange - overlap);
+
+      const TotalContact total = total_contact(finder, centre, kRange, cells, complex.x);
+
+      const auto pieces =
+          reference_contact(centre, kRange, nodes, complex.x, [](double o) { return o; });
+      // Each hole is off by some percent, up or down, and there are up to 400.
+      EXPECT_NEAR(total.energy, pieces.energy, 0.1 * pieces.energy) << meshes << ", " << overlap;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plekton::test
