@@ -160,8 +160,9 @@ void RingWeights::add_slopes(const End& end, int sharpness, double times) {
   for (std::size_t i = 0; i < by_resistance.size(); ++i) {
     const Link& link = near_.links()[i];
     const double slope = per_metre * by_resistance[i];
-    const double upper = slope * power(inverses_[link.a], sharpness + 1);
-    const double lower = slope * power(inverses_[link.b], sharpness + 1);
+    // In this order, as the next power may overflow, and slopes be as small.
+    const double upper = slope * power(inverses_[link.a], sharpness) * inverses_[link.a];
+    const double lower = slope * power(inverses_[link.b], sharpness) * inverses_[link.b];
     slopes_[link.a] -= upper * overlaps_[link.a];
     slopes_[link.b] += lower * overlaps_[link.b];
     of_top += (upper - lower) * top_;
