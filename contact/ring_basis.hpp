@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/elimination.hpp"
+#include "contact/link.hpp"
 #include "contact/spanning_forest.hpp"
 
 #include <array>
@@ -49,8 +49,8 @@ class RingBasis {
   /// ascending.
   std::span<const std::uint32_t> tops() const noexcept { return tops_; }
 
-  /// By vertex: how many links end there from above, but for those that close a ring which is
-  /// filled at once: how often the vertex joins pieces or opens a hole.
+  /// By vertex: how many links go down from it, but for those that close a ring which is filled at
+  /// once; 0 of a minimum. All but one of them join pieces or open holes.
   std::span<const std::uint32_t> branches() const noexcept { return branches_; }
 
   /// The lowest of the vertices that hang together with one.
@@ -75,7 +75,8 @@ class RingBasis {
   /// half as much as any on the way round them, and 0 on the others. Of each row one of the links
   /// that resist least, but for a factor of 2, is in no other row: so rows stay independent however
   /// different the resistances are.
-  /// @param links  those of the part, with resistances (any unit)
+  /// @param links  those of the part, with resistances > 0 (any unit)
+  /// @param drops  row x link; hole_count(part) rows
   /// @param shut   row x shut_count(part, end): the sums of these drops round the rings that are
   ///               filled then
   void find_drops(const ComplexPart& part, std::uint32_t end, std::span<const Link> links,
@@ -112,7 +113,7 @@ class RingBasis {
 
   std::vector<Closing> closings_;     ///< by link, oldest first
   std::vector<std::uint32_t> place_;  ///< by link: its place among the closings, or kNone
-  std::vector<std::uint32_t> root_;
+  std::vector<std::uint32_t> root_;   ///< by vertex: the lowest of its piece, or one on the way
   std::vector<Current> currents_;
   std::vector<double> row_;  ///< by closing
   std::vector<std::uint32_t> fillers_;

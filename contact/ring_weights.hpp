@@ -32,7 +32,7 @@ namespace plekton::contact {
 /// holes to several contacts.
 ///
 /// In between it is off: for springs, of a ring with a deeper pass by -3.3 to 1.5 % of its phi,
-/// with four of them by -10 to 4 %. On nets with up to 400 meshes in range, 0.02 to 0.1 of the
+/// with four of them by -10 to 4 %. On nets with up to 240 meshes in range, 0.02 to 0.1 of the
 /// range deep, the energy was 0.92 to 1.00 of that of pieces.
 ///
 /// The force is continuous but where two tops tie that end holes with common passes: there shares

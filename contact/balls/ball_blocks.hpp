@@ -16,12 +16,12 @@ namespace plekton::contact {
 /// Shares balls and the pairs that they form out into blocks, so that a block is worked on by one
 /// thread, in the cache nearest to it.
 ///
-/// Balls are put in order along a space-filling curve, and the order is cut into blocks that
-/// take equally long, each a clump in space. A ball is owned by one block. A pair belongs to the block of
-/// whichever of its balls comes first in the order; the block borrows the other one if it does not
-/// own it, and what the pair adds to a borrowed ball is handed to its owner afterwards. The blocks
-/// depend on the list and on the positions from which it was made, not on the number of threads,
-/// and sums are taken in an order that follows from the blocks alone.
+/// Balls are put in order along a space-filling curve, and the order is cut into blocks that take
+/// equally long, each a clump in space. A ball is owned by one block. A pair belongs to the block
+/// of whichever of its balls comes first in the order; the block borrows the other one if it does
+/// not own it, and what the pair adds to a borrowed ball is handed to its owner afterwards. The
+/// blocks depend on the list and on the positions from which it was made, not on the number of
+/// threads, and sums are taken in an order that follows from the blocks alone.
 class BallBlocks {
  public:
   /// Pairs side by side in a row; a block has whole rows.

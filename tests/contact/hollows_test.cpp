@@ -19,7 +19,7 @@ constexpr double kHandOverInside = 0.055;
 constexpr double kMeanOfHoles = 0.04;
 
 /// How fast the force changes, by distance: all passes of a shell are nearly on one level, and turn
-/// the force as they tie.
+/// the force as they tie. Seen: 166.
 constexpr double kSteepest = 200.0;
 
 /// Closed shells about the origin, of which no node is farther than 1.

@@ -18,7 +18,7 @@ std::vector<double> resistances_of(std::span<const Link> links) {
   return resistances;
 }
 
-/// Of all flows, without fillings beyond the part.
+/// Of all flows of a complex, by link.
 std::vector<double> shares_of(RingFlows& flows, const std::vector<Link>& links,
                               const std::vector<Filling>& fillings) {
   const std::uint32_t count = links.back().a + 1;

@@ -116,7 +116,7 @@ TEST(RingsOfAFineNet, AddUpToAboutOneContact) {
 
       const auto pieces =
           reference_contact(centre, kRange, nodes, complex.x, [](double o) { return o; });
-      // Each hole is off by some percent, up or down, and there are up to 400.
+      // Each hole is off by some percent, up or down, and there are up to 240.
       EXPECT_NEAR(total.energy, pieces.energy, 0.1 * pieces.energy) << meshes << ", " << overlap;
     }
   }
