@@ -9,10 +9,6 @@
 namespace plekton::contact::structure {
 namespace {
 
-bool is_cylinder(const Simplex& s) {
-  return s.count == 2 && !s.is_seam[0];
-}
-
 /// Above the interior of the facet.
 Real of_edge_above_facet(const Vector& first, const Vector& last,
                          const std::array<Vector, 3>& facet, const NormalSpring& spring) {

@@ -10,8 +10,12 @@ namespace plekton::contact::structure {
 inline constexpr double kCosineOfCrossing = 0.9;
 
 /// What two facets that face each other add by the extent of their overlap: the integral of the
-/// spring's energy over the overlap, as seen along the mean of their normals, as far as it is in
-/// range, times the factor of parallel_share(), over the square of the range.
+/// spring's energy over the overlap, as far as it is in range, times the factor of
+/// parallel_share(), over the square of the range. The overlap is the part of either facet over the
+/// other, seen along the other's normal, with the distance from the other's plane: half of it from
+/// each side. So where the overlap with a facet ends does not depend on which facet of the other
+/// body lies there, and the sum over the facets of two sheets has no corner where their edges
+/// coincide.
 ///
 /// The gradient is found backwards, from the energy to the corners: a few times the cost of the
 /// energy alone, for all 18 coordinates. Source: Griewank & Walther, Evaluating Derivatives (2008),

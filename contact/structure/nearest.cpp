@@ -43,37 +43,6 @@ bool holds(const EdgeOf& edge, unsigned corners) {
   return (corners & ~(1u << edge.first | 1u << edge.last)) == 0;
 }
 
-/// Whether the angle of two planes is certainly beyond kParallelPlanes; cheap.
-bool are_crossing(const Vec3& normal_a, const Vec3& normal_b) {
-  constexpr double kLimit = 1.000001 * kParallelPlanes * kParallelPlanes;
-  return normal_a.cross(normal_b).squaredNorm() >
-         kLimit * normal_a.squaredNorm() * normal_b.squaredNorm();
-}
-
-std::optional<PairForces> parallel_facets(const Simplex& a, const Simplex& b,
-                                          const NormalSpring& spring) {
-  if (normal_of(a).cross(normal_of(b)).norm() > kParallelPlanes) return {};
-  if (face_to_face_now(a, b).region.size() == 0) return {};
-  const FacetOverlap facets = face_to_face(corners(a, Side::a), corners(b, Side::b));
-  const Polygon& region = facets.region;
-  const TiltedSlopes slopes(facets.slope, facets.axis);
-  const auto inward_normal = [&](std::size_t i) {
-    return unit(facets.axis.cross(region.next(i) - region[i]));
-  };
-  // The shares add up to 1, so only what the corners' energies differ by has to be shared. Overlaps
-  // thinner than rounding have shares that change wildly; where they are level, nothing is shared.
-  const double level = spring.energy(facets.distance(region[0])).value;
-  Vector before = inward_normal(region.size() - 1);
-  Real energy(level);
-  for (std::size_t i = 0; i < region.size(); ++i) {
-    const Vector after = inward_normal(i);
-    const Real here = spring.energy(facets.distance(region[i]));
-    energy = energy + slopes.share_between(before, after) * (here - Real(level));
-    before = after;
-  }
-  return forces_of(energy);
-}
-
 /// The flattest edge over a facet, of those that hold the nearest point.
 struct FlatEdge {
   EdgeOf edge;
@@ -157,14 +126,18 @@ std::optional<PairForces> edge_beside_edge(const Simplex& a, const Simplex& b,
 
 }  // namespace
 
-PairForces at_nearest_points(const CoreProximity& nearest, const NormalSpring& spring) {
+PairForces pushing_apart(const CoreProximity& nearest, double force) {
   PairForces pair;
-  pair.energy = spring.energy(nearest.signed_distance);
-  const Vec3 force = spring.force(nearest.signed_distance) * nearest.normal;
   for (std::size_t i = 0; i < 3; ++i) {
-    pair.on_a[i] = -nearest.points.weights_a[static_cast<int>(i)] * force;
-    pair.on_b[i] = nearest.points.weights_b[static_cast<int>(i)] * force;
+    pair.on_a[i] = -nearest.points.weights_a[static_cast<int>(i)] * force * nearest.normal;
+    pair.on_b[i] = nearest.points.weights_b[static_cast<int>(i)] * force * nearest.normal;
   }
+  return pair;
+}
+
+PairForces at_nearest_points(const CoreProximity& nearest, const NormalSpring& spring) {
+  PairForces pair = pushing_apart(nearest, spring.force(nearest.signed_distance));
+  pair.energy = spring.energy(nearest.signed_distance);
   return pair;
 }
 
@@ -183,19 +156,14 @@ bool may_lie_flat(const Simplex& simplex, unsigned corners, const Simplex& facet
 }  // namespace
 
 bool may_be_flat(const Simplex& a, const Simplex& b, const CoreProximity& nearest) {
-  if (a.count == 3 && b.count == 3 && !are_crossing(area_normal_of(a), area_normal_of(b)))
-    return true;
-  return may_lie_flat(a, nearest.points.corners_a, b) ||
-         may_lie_flat(b, nearest.points.corners_b, a);
+  return (is_cylinder(a) && may_lie_flat(a, nearest.points.corners_a, b)) ||
+         (is_cylinder(b) && may_lie_flat(b, nearest.points.corners_b, a));
 }
 
 PairForces nearest_part(const Simplex& a, const Simplex& b, const CoreProximity& nearest,
                         bool may_be_flat, const NormalSpring& spring) {
-  if (a.count > 1 && b.count > 1) {
+  if (a.count > 1 && b.count > 1 && (is_cylinder(a) || is_cylinder(b))) {
     if (may_be_flat) {
-      if (a.count == 3 && b.count == 3) {
-        if (const auto pair = parallel_facets(a, b, spring)) return *pair;
-      }
       if (const auto pair = edge_over_facet(a, b, nearest, spring)) return *pair;
     }
     if (const auto pair = edge_beside_edge(a, b, nearest, spring)) return *pair;

@@ -27,102 +27,6 @@ double height_now(const Point<Number>& point, const Point<Number>& origin,
                                                                                        : height;
 }
 
-/// Keeps the part of a polygon on the inner side of a plane.
-template <class Number>
-void clip(PolygonOf<Number>& polygon, const Point<Number>& origin, const Point<Number>& inward) {
-  std::array<bool, Polygon::kMostCorners> inside{};
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    inside[i] = height_now(polygon[i], origin, inward) >= 0.0;
-    count += inside[i];
-  }
-  if (count == polygon.size()) return;
-  PolygonOf<Number> kept;
-  for (std::size_t i = 0; i < polygon.size() && count > 0; ++i) {
-    const Point<Number>& here = polygon[i];
-    const Point<Number>& there = polygon.next(i);
-    if (inside[i]) kept.add(here);
-    if (inside[i] == inside[i + 1 == polygon.size() ? 0 : i + 1]) continue;
-    const Number height = (here - origin).dot(inward);
-    const Number drop = height - (there - origin).dot(inward);
-    kept.add(here + (height / drop) * (there - here));
-  }
-  polygon = kept;
-}
-
-/// Takes out corners that repeat the one before: they have no direction to the next one.
-template <class Number>
-void drop_repeats(PolygonOf<Number>& polygon) {
-  const auto step = [&](std::size_t i) {
-    return (still(polygon.next(i)) - still(polygon[i])).squaredNorm();
-  };
-  double size = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    size = std::max(size, (still(polygon[i]) - still(polygon[0])).squaredNorm());
-  }
-  const double least = kRoundoff * kRoundoff * size;
-  PolygonOf<Number> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    if (step(i) > least) kept.add(polygon[i]);
-  }
-  if (kept.size() < polygon.size()) polygon = kept;
-}
-
-/// Takes out corners at which the rim does not turn, or turns back, up to round-off: of an overlap
-/// that is a line nothing is left. A corner that turns back would count as a whole turn.
-template <class Number>
-void drop_straight(PolygonOf<Number>& polygon, const Point<Number>& axis) {
-  for (std::size_t before = 0; polygon.size() > 0 && polygon.size() != before;) {
-    before = polygon.size();
-    PolygonOf<Number> kept;
-    for (std::size_t i = 0; i < before; ++i) {
-      const Vec3 here = still(polygon[i]);
-      const Vec3 come = here - still(polygon[i == 0 ? before - 1 : i - 1]);
-      const Vec3 go = still(polygon.next(i)) - here;
-      const double least = kRoundoff * std::sqrt(come.squaredNorm() * go.squaredNorm());
-      if (still(axis).dot(come.cross(go)) > least) kept.add(polygon[i]);
-    }
-    if (kept.size() < before) polygon = kept;
-  }
-}
-
-template <class Number>
-FacetOverlapOf<Number> overlap_of(const std::array<Point<Number>, 3>& a,
-                                  const std::array<Point<Number>, 3>& b) {
-  const Point<Number> normal_a = normal_of(a);
-  const Point<Number> facing_b = normal_of(b);
-  const double sign = still(normal_a.dot(facing_b)) >= 0.0 ? 1.0 : -1.0;
-  FacetOverlapOf<Number> found;
-  found.normal_b = sign * facing_b;
-  found.origin_b = b[0];
-  found.axis = unit(normal_a + found.normal_b);
-  found.cosine = normal_a.dot(found.normal_b);
-  found.half_cosine = found.axis.dot(normal_a);
-  PolygonOf<Number>& region = found.region;
-  for (const Point<Number>& x : a) region.add(x);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Point<Number> side = b[(i + 1) % 3] - b[i];
-    clip(region, b[i], sign * found.axis.cross(side));
-    if (region.size() < 3) break;
-  }
-  drop_repeats(region);
-  drop_straight(region, found.axis);
-  if (region.size() < 3) {
-    region.clear();
-    return found;
-  }
-  double height = 0.0;
-  for (std::size_t i = 0; i < region.size(); ++i) {
-    height += (still(found.origin_b) - still(region[i])).dot(still(found.normal_b));
-  }
-  found.side = height >= 0.0 ? 1.0 : -1.0;
-  // Planes z = -(n - axis (n.axis)).y / (n.axis) over the plane perpendicular to the axis.
-  const Point<Number> across_a = normal_a - found.half_cosine * found.axis;
-  const Point<Number> across_b = found.normal_b - found.axis.dot(found.normal_b) * found.axis;
-  found.slope = Number(found.side) / found.half_cosine * (across_a - across_b);
-  return found;
-}
-
 template <class Number>
 bool lies_in(const Point<Number>& first, const Point<Number>& last, const Point<Number>& origin,
              const Point<Number>& normal) {
@@ -189,19 +93,6 @@ bool cut(Interval& interval, const Real& height_at_0, const Real& height_at_1) {
   return keep_above<Real>(interval, height_at_0, height_at_1);
 }
 
-FacetOverlap face_to_face(const std::array<Vector, 3>& a, const std::array<Vector, 3>& b) {
-  return overlap_of<Real>(a, b);
-}
-
-FacetOverlapOf<double> face_to_face_now(const Simplex& a, const Simplex& b) {
-  const auto now = [](const Simplex& facet) {
-    std::array<Point<double>, 3> x;
-    for (std::size_t i = 0; i < 3; ++i) x[i] = {facet.x[i][0], facet.x[i][1], facet.x[i][2]};
-    return x;
-  };
-  return overlap_of<double>(now(a), now(b));
-}
-
 std::optional<EdgeOverFacet> above(const Vector& first, const Vector& last,
                                    const std::array<Vector, 3>& facet) {
   if (!is_over_now(first, last, facet)) return {};
@@ -210,7 +101,10 @@ std::optional<EdgeOverFacet> above(const Vector& first, const Vector& last,
   keep_over(found.part, first, last, facet, normal);
   const Real height_first = (first - facet[0]).dot(normal);
   const Real height_last = (last - facet[0]).dot(normal);
-  const Real side(height_first.value + height_last.value >= 0.0 ? 1.0 : -1.0);
+  // Beyond the facet the edge may go to the other side of its plane.
+  const double middle = 0.5 * (found.part.from.value + found.part.to.value);
+  const double height = (1.0 - middle) * height_first.value + middle * height_last.value;
+  const Real side(height >= 0.0 ? 1.0 : -1.0);
   found.first = side * height_first;
   found.last = side * height_last;
   found.slope = (found.last - found.first) / found.length;

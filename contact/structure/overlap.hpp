@@ -18,63 +18,6 @@ struct IntervalOf {
 };
 using Interval = IntervalOf<Real>;
 
-/// A convex polygon with room for what three cuts leave of a triangle, also where rounding takes
-/// corners for dents: 4, 6, 9 corners.
-template <class Number>
-class PolygonOf {
- public:
-  using Corner = geometry::PackVec3<Number>;
-  static constexpr std::size_t kMostCorners = 9;
-
-  PolygonOf() = default;
-  PolygonOf(const PolygonOf& other) { *this = other; }
-  /// Copies the corners that there are: each is large.
-  PolygonOf& operator=(const PolygonOf& other) noexcept {
-    size_ = other.size_;
-    for (std::size_t i = 0; i < size_; ++i) corners_[i] = other.corners_[i];
-    return *this;
-  }
-
-  std::size_t size() const noexcept { return size_; }
-  const Corner& operator[](std::size_t i) const noexcept { return corners_[i]; }
-  const Corner& next(std::size_t i) const noexcept { return corners_[i + 1 == size_ ? 0 : i + 1]; }
-  void add(const Corner& corner) { corners_[size_++] = corner; }
-  void clear() noexcept { size_ = 0; }
-
- private:
-  std::array<Corner, kMostCorners> corners_;
-  std::size_t size_ = 0;
-};
-using Polygon = PolygonOf<Real>;
-
-/// Two facets that face each other, seen along the mean of their normals.
-template <class Number>
-struct FacetOverlapOf {
-  using Point = geometry::PackVec3<Number>;
-
-  PolygonOf<Number> region;  ///< on the core of a, counterclockwise about the axis; empty if they
-                             ///< do not
-  Point axis;                ///< unit, mean of both normals, on the side of a's
-  Point slope;               ///< of the distance, over the plane perpendicular to the axis
-  Number cosine;             ///< of the angle between both planes
-  Number half_cosine;        ///< of half of it
-
-  /// Distance (m) of b's plane from a point on a's, of equal facets that of their cores.
-  Number distance(const Point& point) const {
-    const Number height = (origin_b - point).dot(normal_b) / axis.dot(normal_b);
-    return side * height * half_cosine;
-  }
-
-  Point origin_b;
-  Point normal_b;
-  double side;  ///< 1 if b lies on the axis' side of a, -1 on the other
-};
-using FacetOverlap = FacetOverlapOf<Real>;
-FacetOverlap face_to_face(const std::array<Vector, 3>& a, const std::array<Vector, 3>& b);
-
-/// The same as it is now, without derivatives, at a small part of the cost: the same bits.
-FacetOverlapOf<double> face_to_face_now(const Simplex& a, const Simplex& b);
-
 /// An edge above (or below) a facet.
 struct EdgeOverFacet {
   Interval part;  ///< of the edge, that lies above the facet

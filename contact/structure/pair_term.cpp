@@ -91,11 +91,11 @@ bool find_on(const geometry::FeatureNodes& feature, const geometry::FeatureNodes
   return true;
 }
 
-/// Adds forces, as often as the term counts.
-void add(const PairForces& from, const PairTerm& term, PairForces& to) {
-  to.energy += term.weight * from.energy;
-  for (std::size_t i = 0; i < term.a.count; ++i) to.on_a[i] += term.weight * from.on_a[i];
-  for (std::size_t i = 0; i < term.b.count; ++i) to.on_b[i] += term.weight * from.on_b[i];
+/// Adds forces a number of times.
+void add(const PairForces& from, double times, const PairTerm& term, PairForces& to) {
+  to.energy += times * from.energy;
+  for (std::size_t i = 0; i < term.a.count; ++i) to.on_a[i] += times * from.on_a[i];
+  for (std::size_t i = 0; i < term.b.count; ++i) to.on_b[i] += times * from.on_b[i];
 }
 
 }  // namespace
@@ -126,7 +126,11 @@ TermProximity proximity(const PairTerm& term, double range, geometry::Positions 
     found.cores = geometry::core_proximity(core_of(a), core_of(b));
   }
   found.clearance = found.cores.signed_distance - range;
-  if (found.clearance < 0.0) found.may_be_flat = may_be_flat(a, b, found.cores);
+  found.tilt = -1.0;
+  if (found.clearance < 0.0) {
+    found.may_be_flat = may_be_flat(a, b, found.cores);
+    found.tilt = tilt_between(a, b);
+  }
   return found;
 }
 
@@ -153,26 +157,38 @@ bool takes_over(const PairTerm& term, const PairTerm& other, bool is_turned,
   return true;
 }
 
-PairForces pair_forces(const PairTerm& term, const TermProximity& found, const NormalSpring& spring,
-                       geometry::Positions x) {
-  const CoreProximity& nearest = found.cores;
-  PairForces forces;
-  if (nearest.signed_distance < kMeeting * spring.range()) {
-    add(at_nearest_points(nearest, spring), term, forces);
-    return forces;
+namespace {
+
+/// Of the nearest points, as far as they count.
+void add_nearest(const PairTerm& term, const PairForces& nearest, const CoreProximity& points,
+                 const PointShare& share, TermForces& to) {
+  add(nearest, share.share * term.weight, term, to.forces);
+  if (share.share == 1.0) return;
+  to.shared = term.weight * nearest.energy;
+  add(pushing_apart(points, -to.shared * share.by_distance), 1.0, term, to.forces);
+}
+
+}  // namespace
+
+TermForces term_forces(const PairTerm& term, const TermProximity& found, const PointShare& share,
+                       const NormalSpring& spring, geometry::Positions x) {
+  TermForces result;
+  if (found.cores.signed_distance < kMeeting * spring.range()) {
+    add(at_nearest_points(found.cores, spring), term.weight, term, result.forces);
+    return result;
   }
   const Simplex a = simplex_at(term.a, term.is_seam_a, x);
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
-  add(nearest_part(a, b, nearest, found.may_be_flat, spring), term, forces);
-  if (can_extend(a, b)) add(extended_part(a, b, spring), term, forces);
-  return forces;
+  add_nearest(term, nearest_part(a, b, found.cores, found.may_be_flat, spring), found.cores, share,
+              result);
+  if (can_extend(a, b)) add(extended_part(a, b, spring), term.weight, term, result.forces);
+  return result;
 }
 
-void evaluate(PairTerm& term, const TermProximity& found, const NormalSpring& spring,
-              geometry::Positions x) {
-  term.meets = found.cores.points.relation == geometry::Relation::touching_or_crossing;
-  term.overlap = spring.range() - found.cores.signed_distance;
-  term.forces = pair_forces(term, found, spring, x);
+void add_tilting(const PairTerm& facets, double by_tilt, geometry::Positions x, PairForces& to) {
+  const Simplex a = simplex_at(facets.a, facets.is_seam_a, x);
+  const Simplex b = simplex_at(facets.b, facets.is_seam_b, x);
+  add(tilting_forces(a, b, by_tilt), 1.0, facets, to);
 }
 
 }  // namespace plekton::contact::structure

@@ -3,6 +3,7 @@
 
 #include "contact/motion.hpp"
 #include "contact/structure/normal_spring.hpp"
+#include "contact/structure/point_share.hpp"
 #include "contact/structure/simplex.hpp"
 #include "geometry/closest/core_pair.hpp"
 #include "geometry/product_features.hpp"
@@ -36,6 +37,7 @@ struct TermProximity {
   bool may_be_flat;               ///< see nearest.hpp
   double clearance;  ///< m, by how much the cores are at least further apart than the range;
                      ///< negative in range
+  double tilt;       ///< tilt_between() of two facets; of anything else, and out of range, negative
 };
 
 /// @param was_near  whether the term was in range a moment ago, and last says where
@@ -49,13 +51,17 @@ TermProximity proximity(const PairTerm& term, double range, geometry::Positions 
 bool takes_over(const PairTerm& term, const PairTerm& other, bool is_turned,
                 const TermProximity& of_other, TermProximity& found);
 
-/// What a spring of the same range as its own does in a term in range: its weight times what the
-/// spring does at the nearest points, plus what it does over the extent.
-PairForces pair_forces(const PairTerm& term, const TermProximity& found, const NormalSpring& spring,
-                       geometry::Positions x);
+/// What a spring does in a term in range: the point share of its weight times what the spring does
+/// at the nearest points, plus what it does over the extent.
+struct TermForces {
+  PairForces forces;
+  double shared = 0.0;  ///< J, of the nearest points, what the share is of; 0 where that is all
+};
+TermForces term_forces(const PairTerm& term, const TermProximity& found, const PointShare& share,
+                       const NormalSpring& spring, geometry::Positions x);
 
-/// Finds the forces of a term in range.
-void evaluate(PairTerm& term, const TermProximity& found, const NormalSpring& spring,
-              geometry::Positions x);
+/// Adds what an energy does that depends on the tilt of a term's two facets.
+/// @param by_tilt  J
+void add_tilting(const PairTerm& facets, double by_tilt, geometry::Positions x, PairForces& to);
 
 }  // namespace plekton::contact::structure

@@ -71,9 +71,10 @@ void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& mo
   find_near_pairs(springs, motion, pool);
   list_candidates();
   is_acting_.resize(candidates_.size());
-  in_turns(candidates_.size(), pool, [&](std::size_t i) {
-    is_acting_[i] = evaluate_candidate(candidates_[i], springs, motion.position);
-  });
+  shared_.resize(candidates_.size());
+  in_turns(candidates_.size(), pool,
+           [&](std::size_t i) { is_acting_[i] = evaluate_candidate(i, springs, motion.position); });
+  tilt_cells(springs, motion.position);
   acted_.swap(acting_);
   acting_.clear();
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -129,30 +130,74 @@ void PairTerms::list_candidates() {
 }
 
 /// @returns whether it is in range
-bool PairTerms::evaluate_candidate(std::size_t i, std::span<const NormalSpring> springs,
+bool PairTerms::evaluate_candidate(std::size_t candidate, std::span<const NormalSpring> springs,
                                    Positions x) {
-  const PairTerm& term = terms_[i];
+  const PairTerm& term = terms_[candidates_[candidate]];
   const NormalSpring& spring = springs[term.spring];
+  shared_[candidate] = {};
   if (term.is_of_cells) {
-    act(i, proximity_[holders(term).front().pair], spring, x);
+    act(candidate, proximity_[holders(term).front().pair], spring, x);
     return true;
   }
   TermProximity own;
   for (const Holder& holder : holders(term)) {
     const PairTerm& cells = terms_[term_of_pair_[holder.pair]];
     if (!takes_over(term, cells, holder.is_turned, proximity_[holder.pair], own)) continue;
-    act(i, own, spring, x);
+    act(candidate, own, spring, x);
     return true;
   }
   own = proximity(term, spring.range(), x, false, {});
-  if (own.clearance < 0.0) act(i, own, spring, x);
+  if (own.clearance < 0.0) act(candidate, own, spring, x);
   return own.clearance < 0.0;
 }
 
-void PairTerms::act(std::size_t i, const TermProximity& found, const NormalSpring& spring,
+void PairTerms::act(std::size_t candidate, const TermProximity& found, const NormalSpring& spring,
                     Positions x) {
-  structure::evaluate(terms_[i], found, spring, x);
-  if (spring.attracts()) attractions_[i] = pair_forces(terms_[i], found, spring.attraction(), x);
+  const std::uint32_t i = candidates_[candidate];
+  PairTerm& term = terms_[i];
+  term.meets = found.cores.points.relation == geometry::Relation::touching_or_crossing;
+  term.overlap = spring.range() - found.cores.signed_distance;
+  const PointShare share = share_of(term, term.overlap, spring.range());
+  const TermForces pushing = term_forces(term, found, share, spring, x);
+  term.forces = pushing.forces;
+  shared_[candidate][0] = pushing.shared;
+  if (!spring.attracts()) return;
+  const TermForces pulling = term_forces(term, found, share, spring.attraction(), x);
+  attractions_[i] = pulling.forces;
+  shared_[candidate][1] = pulling.shared;
+}
+
+/// Mean of the pairs of cells that have a term. All of them are in range: their tilts are of now.
+PointShare PairTerms::share_of(const PairTerm& term, double overlap, double range) const noexcept {
+  PointShare mean{0.0, 0.0, 0.0};
+  for (const Holder& holder : holders(term)) {
+    const PointShare of = point_share(proximity_[holder.pair].tilt, overlap, range);
+    mean.share += of.share;
+    mean.by_distance += of.by_distance;
+  }
+  const double part = 1.0 / static_cast<double>(term.holder_count);
+  return {part * mean.share, part * mean.by_distance, 0.0};
+}
+
+/// The tilts of pairs of cells turn the nodes of both facets, also those that a term does not have.
+void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x) {
+  by_tilt_.assign(term_of_pair_.size(), {});
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (shared_[i] == std::array{0.0, 0.0}) continue;
+    const PairTerm& term = terms_[candidates_[i]];
+    const double range = springs[term.spring].range();
+    for (const Holder& holder : holders(term)) {
+      const PointShare of = point_share(proximity_[holder.pair].tilt, term.overlap, range);
+      const double by_tilt = of.by_tilt / static_cast<double>(term.holder_count);
+      for (std::size_t k = 0; k < 2; ++k) by_tilt_[holder.pair][k] += by_tilt * shared_[i][k];
+    }
+  }
+  for (std::size_t pair = 0; pair < by_tilt_.size(); ++pair) {
+    const std::uint32_t cells = term_of_pair_[pair];
+    const auto [pushing, pulling] = by_tilt_[pair];
+    if (pushing != 0.0) add_tilting(terms_[cells], pushing, x, terms_[cells].forces);
+    if (pulling != 0.0) add_tilting(terms_[cells], pulling, x, attractions_[cells]);
+  }
 }
 
 }  // namespace plekton::contact::structure

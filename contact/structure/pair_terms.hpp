@@ -66,8 +66,12 @@ class PairTerms {
                        geometry::ThreadPool& pool);
   void list_candidates();
   void prepare_attractions(std::span<const NormalSpring> springs);
-  bool evaluate_candidate(std::size_t i, std::span<const NormalSpring> springs, Positions x);
-  void act(std::size_t i, const TermProximity& found, const NormalSpring& spring, Positions x);
+  bool evaluate_candidate(std::size_t candidate, std::span<const NormalSpring> springs,
+                          Positions x);
+  void act(std::size_t candidate, const TermProximity& found, const NormalSpring& spring,
+           Positions x);
+  PointShare share_of(const PairTerm& term, double overlap, double range) const noexcept;
+  void tilt_cells(std::span<const NormalSpring> springs, Positions x);
 
   const geometry::Surface* surface_;
   std::vector<PairTerm> terms_;
@@ -83,7 +87,10 @@ class PairTerms {
   std::vector<TermProximity> proximity_;  ///< by pair; of those in range, as it is now
   std::vector<char> is_near_;             ///< by pair: in range
   std::vector<std::uint32_t> candidates_;
-  std::vector<char> is_acting_;  ///< by candidate
+  /// J, by candidate: what the share of a term is of; of attraction in the second.
+  std::vector<std::array<double, 2>> shared_;
+  std::vector<std::array<double, 2>> by_tilt_;  ///< J, by pair of cells: of tilt_cells()
+  std::vector<char> is_acting_;                 ///< by candidate
   std::vector<std::uint32_t> acting_;
   std::vector<std::uint32_t> acted_;  ///< in the step before
   bool acting_changed_ = false;

@@ -18,6 +18,11 @@ struct Simplex {
                                   ///< sides of it; of an edge: whether facets lie on it
 };
 
+/// Whether it is an edge without facets.
+inline bool is_cylinder(const Simplex& s) {
+  return s.count == 2 && !s.is_seam[0];
+}
+
 /// By the order of the corners; as long as twice the area.
 inline Vec3 area_normal_of(const Simplex& facet) {
   return (facet.x[1] - facet.x[0]).cross(facet.x[2] - facet.x[0]);

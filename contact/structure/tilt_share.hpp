@@ -7,16 +7,13 @@
 #include <cmath>
 #include <numbers>
 
-/// Where two bodies are nearest when they are parallel: everywhere at once. Whichever corner of
-/// their overlap a rounding error picks, the next one picks another, half a length away. So each
-/// corner gets the share of small tilts that would make it the nearest: one body is imagined tilted
-/// by every slope vector t with |t| <= kLargestTilt, all alike. Exactly parallel bodies share
-/// evenly (each corner by its exterior angle), a tilt moves the shares continuously, and one beyond
-/// kLargestTilt leaves a single nearest corner, as without all this.
-///
-/// The shares of a convex overlap add up to 1, and for every single tilt the weights of
-/// product_features.hpp count its corners once; so do their means: the sum over the pairs of
-/// features of two flat sheets is one contact, in any triangulation.
+/// Where an edge is nearest to a facet or to another edge that it is parallel to: everywhere at
+/// once. Whichever end of the part side by side a rounding error picks, the next one picks the
+/// other, half a length away. So each end gets the share of small tilts that would make it the
+/// nearest: the edge is imagined tilted by every slope t with |t| <= kLargestTilt, as its
+/// projections of a disc of slopes are distributed. A level edge shares evenly, a tilt moves the
+/// shares continuously, and one beyond kLargestTilt leaves a single nearest end. The shares add up
+/// to 1.
 namespace plekton::contact::structure {
 
 /// Derivatives by the coordinates of at most three nodes on either side.
@@ -62,28 +59,5 @@ inline Real strip_area(const Real& x) {
 inline Real share_rising(const Real& slope) {
   return Real(0.5) + (1.0 / std::numbers::pi) * strip_area((1.0 / kLargestTilt) * slope);
 }
-
-/// The slopes of a plane under all tilts: a disc around its own slope. In units of kLargestTilt.
-class TiltedSlopes {
- public:
-  /// @param slope  of the plane, perpendicular to axis
-  /// @param axis   unit
-  TiltedSlopes(const Vector& slope, const Vector& axis);
-
-  /// Share of the tilts whose slope lies in the sector from one direction, counterclockwise about
-  /// the axis by less than half a turn, to another. Both are unit and perpendicular to the axis.
-  Real share_between(const Vector& from, const Vector& to) const;
-
- private:
-  Real swept_to(const Vector& direction) const;
-  double angle_of(const Vector& direction) const;
-  bool passes_the_cut(const Vector& from, const Vector& to) const;
-
-  Vector centre_;
-  Vector axis_;
-  Vector zero_angle_;
-  Vector quarter_turn_;
-  bool holds_origin_;
-};
 
 }  // namespace plekton::contact::structure
