@@ -13,7 +13,8 @@ double StructureContacts<Law>::follow(const geometry::SurfaceChange& change,
                                       const ContactMaterials<Law>& materials, const Motion& at,
                                       geometry::ThreadPool& pool) {
   double lost = 0.0;
-  if (!pairs_.empty()) {
+  const bool had_pairs = !pairs_.empty();
+  if (had_pairs) {
     std::vector<geometry::CellPair> listed;
     for (const PairOfCells& pair : pairs_) listed.push_back(pair.cells);
     lost += normal_energy(change.before(), listed, at, pool);
@@ -22,7 +23,8 @@ double StructureContacts<Law>::follow(const geometry::SurfaceChange& change,
   if (!bonds_.empty()) lost += keep_bonds(change);
   surface_ = &change.after();
   terms_ = structure::PairTerms(*surface_);
-  if (pairs_.empty() && pairs.empty()) return lost;
+  // Where pairs were listed patches may be left of them, which the terms of now know nothing of.
+  if (!had_pairs && pairs.empty()) return lost;
   lost += rebuild(pairs, materials);
   return lost - normal_energy(*surface_, pairs, at, pool);
 }
