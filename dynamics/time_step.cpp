@@ -56,6 +56,12 @@ void NodalStiffness::set_zero() noexcept {
 // with v² <= 2 (v_a² + v_b²), and u² + t² = 2 (u_a² + u_b²) since sum and difference are
 // orthogonal: the larger of their factors holds for both. gamma = 4 rho² / L², with rho² = 2/5 A /
 // pi the square of a node's radius of gyration, makes both parts limit the step alike.
+//
+// That is the bond at rest. Bending does not make it stiffer: by turns of either of two directions
+// half the square of their angle theta has the second derivatives 1 and theta cot theta <= 1
+// (BeamBonds). The shear of a bond that is bent at the same time does, with the square of both
+// angles: its largest stiffness was at most 1.04 times this one in 60 000 random bonds with theta
+// up to 60 degrees, 2 % of the frequency, and 4.2 times where the ends point against the chord.
 void NodalStiffness::add_beam(const BeamBond& bond, const NodeState& state, double rest_length) {
   const BeamSection& section = bond.section;
   const Vec3 chord =

@@ -60,29 +60,35 @@ void list_problems(const BeamBond& bond, std::size_t node_count, std::string_vie
 /// All beams of a scene: their forces and energy.
 ///
 /// Let n be the unit vector from node a to node b, L their distance, and a, b the axes of the beam
-/// as the two nodes carry them: a = b = n at rest. The stored energy is
+/// as the two nodes carry them: a = b = n at rest. Let theta be the angle between a and b, from 0
+/// to pi, q = a + b and m = q / |q| their mean direction. The stored energy is
 ///
-///     U = 1/2 EA/L0 (L - L0)²                                            stretching
-///       + 2 EI/L0 (|a - n|² + (a - n).(b - n) + |b - n|² - 5/48 s²)      bending and shear
-///       + 2 GJ/L0 (x² + 1/3 x⁴)                                          twist
+///     U = 1/2 EA/L0 (L - L0)²                  stretching
+///       + 1/2 EI/L0 theta²                     bending
+///       + 3 EI/L0 |q| (|q| - q.n)              shear: the chord is not the mean direction
+///       + 2 GJ/L0 (x² + 1/3 x⁴)                twist
 ///
-/// with s = 1 - a.b = 1/2 |a - b|², and x the component along the beam of the unit quaternion that
-/// leads from frame a to frame b, sin(angle / 2) for a pure twist. |a - n| = 2 sin(angle / 2) is
-/// the angle between a node's axis and the chord to second order, so for small rotations U is the
-/// energy of the 12 x 12 Euler-Bernoulli stiffness matrix: beams loaded at their nodes are exact
-/// with one element (Przemieniecki, Theory of Matrix Structural Analysis (1968), 5.6). The terms s²
-/// and x⁴ make pure bending and pure twist linear to the fourth order of the angle as well. U > 0
-/// unless the bond is at rest: the bracket is 1/2 s - 5/48 s² + 3/4 |a + b - 2 n|², and s <= 2.
+/// with x the component along the beam of the unit quaternion that leads from frame a to frame b,
+/// sin(angle / 2) for a pure twist. For small rotations alpha, beta of a and b against the chord
+/// the two middle terms are 1/2 EI/L0 ((alpha - beta)² + 3 (alpha + beta)²), the energy of the 12 x
+/// 12 Euler-Bernoulli stiffness matrix: beams loaded at their nodes are exact with one element
+/// (Przemieniecki, Theory of Matrix Structural Analysis (1968), 5.6). In pure bending the chord is
+/// the mean direction, which is the minimum of the shear term: it gives no force, and the moment is
+/// EI/L0 theta at any angle. So elements under the same moment lie on a circle, exactly. The factor
+/// |q| of the shear lets it fade where a and b become opposite and m has no direction. Pure twist
+/// is linear to the fourth order of the angle. U > 0 unless the bond is at rest, as |q| >= q.n.
 ///
-/// Force and torque are the exact derivatives of U, polynomials of n, a, b and the quaternion: no
-/// trigonometry, and nothing to wrap at a half turn.
+/// Force and torque are the exact derivatives of U; theta = |a - b| h with h = (theta / 2) /
+/// sin(theta / 2), a smooth function of |q| = 2 cos(theta / 2) (half_angle_over_sine):
 ///
-///     T_a = EI/L0 (6 a x n - (2 + 5/12 s) a x b) + T_t,   T_b = EI/L0 (6 b x n + ...) - T_t,
-///     F_b = 6 EI/(L0 L) (I - n n)(a + b) - EA/L0 (L - L0) n = -F_a.
+///     T_a = EI/L0 (3 |q| a x (n + (m.n) m - 2 m) + h (a - b) x m) + T_t,
+///     T_b = EI/L0 (3 |q| b x (n + (m.n) m - 2 m) - h (a - b) x m) - T_t,
+///     F_b = 3 EI/(L0 L) |q| (I - n n) q - EA/L0 (L - L0) n = -F_a.
 ///
 /// Hence T_a + T_b + L n x F_b = 0: both momenta balance in any configuration. U is the same after
 /// any rigid motion, so turning makes no energy. The torque of a twist grows up to 103 degrees in
-/// one bond and is gone at half a turn, an unstable balance: use several bonds there.
+/// one bond and is gone at half a turn, an unstable balance. That of bending grows up to half a
+/// turn, where it changes its side: there it has none, m = 0. Use several bonds there.
 class BeamBonds {
  public:
   /// @throws std::invalid_argument listing every problem of every bond

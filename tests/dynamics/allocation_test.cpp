@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace plekton::test {
@@ -144,13 +145,15 @@ Simulation simulation_of(Scene scene, int threads, bool chooses_step) {
 
 /// Warms up, then counts; the lists are made anew at least three times and a chosen step is looked
 /// at again twice while it counts.
-std::size_t allocations_of_steps(Simulation& simulation, int warm_up) {
+/// @param most_touching  grows to the most contacts of grains with surfaces after a counted step
+std::size_t allocations_of_steps(Simulation& simulation, int warm_up, std::size_t& most_touching) {
   for (int i = 0; i < warm_up; ++i) simulation.step();
   const std::int64_t lists = simulation.contacts().neighbours().rebuild_count();
   const std::size_t count = allocations_of([&] {
     while (simulation.contacts().neighbours().rebuild_count() < lists + 3 ||
            simulation.steps() < warm_up + 2 * dynamics::kStepsBetweenLooks) {
       simulation.step();
+      most_touching = std::max(most_touching, simulation.contacts().counts().sphere_surface);
     }
   });
   return count;
@@ -162,8 +165,10 @@ TEST(Allocation, IsNoneInTheStepsOfGrainsOnASheet) {
     add_grains(scene, 0.006, 6, 0.05);
     Simulation simulation = simulation_of(std::move(scene), threads, threads == 2);
 
-    EXPECT_EQ(allocations_of_steps(simulation, 4000), 0u) << threads << " threads";
-    EXPECT_GT(simulation.contacts().counts().sphere_surface, 0u);
+    // They bounce: now and then none touches it.
+    std::size_t most_touching = 0;
+    EXPECT_EQ(allocations_of_steps(simulation, 4000, most_touching), 0u) << threads << " threads";
+    EXPECT_GT(most_touching, 0u);
   }
 }
 
@@ -195,7 +200,8 @@ TEST(Allocation, IsNoneInTheStepsUnderLoads) {
     add_loads(scene);
     Simulation simulation = simulation_of(std::move(scene), threads, threads == 1);
 
-    EXPECT_EQ(allocations_of_steps(simulation, 4000), 0u) << threads << " threads";
+    std::size_t most_touching = 0;
+    EXPECT_EQ(allocations_of_steps(simulation, 4000, most_touching), 0u) << threads << " threads";
   }
 }
 
@@ -205,7 +211,8 @@ TEST(Allocation, IsNoneInTheStepsOfGrainsOnANet) {
     add_grains(scene, 0.003, 3, 0.011);
     Simulation simulation = simulation_of(std::move(scene), threads, threads == 1);
 
-    EXPECT_EQ(allocations_of_steps(simulation, 4000), 0u) << threads << " threads";
+    std::size_t most_touching = 0;
+    EXPECT_EQ(allocations_of_steps(simulation, 4000, most_touching), 0u) << threads << " threads";
 
     std::size_t terms = 0;
     simulation.contacts().with_surfaces().for_each_touching(
