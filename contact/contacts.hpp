@@ -73,8 +73,11 @@ class Contacts {
     return with_spheres_.elastic_energy() + with_surfaces_.elastic_energy() +
            between_structures_.elastic_energy() + with_planes_.elastic_energy();
   }
-  /// Energy (J) dissipated since the beginning.
+  /// Energy (J) dissipated since the beginning, by the law and with contacts that are over.
   double dissipated() const noexcept { return dissipated_; }
+  /// Energy (J) lost since the beginning, or below 0 made, where contacts go on as others: where
+  /// histories are handed from patch to patch, on lists that change, and with elements that break.
+  double tracking_loss() const noexcept { return tracking_loss_; }
 
   /// Largest overlap of the last step over the radius of the smaller ball.
   double largest_overlap_ratio() const noexcept {
@@ -122,6 +125,10 @@ class Contacts {
 
  private:
   double list_on_surfaces();
+  void add(const EnergyLoss& loss) noexcept {
+    dissipated_ += loss.dissipated;
+    tracking_loss_ += loss.tracking;
+  }
   void end_start(std::span<const Plane> planes, Positions x, geometry::ThreadPool& pool);
 
   ContactMaterials<Law> materials_;
@@ -135,6 +142,7 @@ class Contacts {
   PlaneContacts<Law> with_planes_;
   const geometry::Surface* surface_;
   double dissipated_ = 0.0;
+  double tracking_loss_ = 0.0;
   std::int64_t last_number_ = 0;
   enum class Start { ahead, now, over } start_ = Start::ahead;
 };
@@ -207,21 +215,21 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
   if (start_ == Start::now) end_start(planes, motion.position, pool);
   if (start_ == Start::ahead) start_ = Start::now;
   if (neighbours_.update(motion.position, pool, motion.way)) {
-    dissipated_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs, pool,
-                                         motion.position);
-    dissipated_ += list_on_surfaces();
+    tracking_loss_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs,
+                                            pool, motion.position);
+    tracking_loss_ += list_on_surfaces();
     plane_neighbours_.expire(neighbours_.skin());
   }
   if (cell_neighbours_.update(motion.position, pool, motion.way)) {
-    dissipated_ += between_structures_.rebuild(cell_neighbours_.pairs(), materials_);
+    tracking_loss_ += between_structures_.rebuild(cell_neighbours_.pairs(), materials_);
   }
   if (plane_neighbours_.update(balls_, planes, motion.position)) {
-    dissipated_ +=
+    tracking_loss_ +=
         with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
   }
   dissipated_ += with_spheres_.advance(motion, dt, pool, forces);
-  dissipated_ += with_surfaces_.advance(motion, dt, pool);
-  dissipated_ += between_structures_.advance(motion, dt, pool);
+  add(with_surfaces_.advance(motion, dt, pool));
+  add(between_structures_.advance(motion, dt, pool));
   with_surfaces_.add_forces(forces, pool);
   between_structures_.add_forces(forces);
   dissipated_ += with_planes_.advance(motion, planes, dt, pool, forces);
@@ -250,13 +258,13 @@ double Contacts<Law>::list_on_surfaces() {
 template <ContactLaw Law>
 void Contacts<Law>::follow(const geometry::SurfaceChange& change, const Motion& motion,
                            Positions at, geometry::ThreadPool& pool) {
-  dissipated_ += with_surfaces_.follow(change, neighbours_.cells(), at);
+  tracking_loss_ += with_surfaces_.follow(change, neighbours_.cells(), at);
   neighbours_.follow(change);
-  dissipated_ += list_on_surfaces();
+  tracking_loss_ += list_on_surfaces();
   cell_neighbours_.follow(change);
   cell_neighbours_.update(motion.position, pool);
   const Motion then{at, motion.velocity, motion.angular_velocity};
-  dissipated_ +=
+  tracking_loss_ +=
       between_structures_.follow(change, cell_neighbours_.pairs(), materials_, then, pool);
 }
 

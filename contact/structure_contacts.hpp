@@ -3,6 +3,7 @@
 
 #include "contact/bodies.hpp"
 #include "contact/contact_row.hpp"
+#include "contact/energy_loss.hpp"
 #include "contact/material_pairs.hpp"
 #include "contact/structure/mean_node_masses.hpp"
 #include "contact/structure/pair_terms.hpp"
@@ -55,8 +56,7 @@ class StructureContacts {
   void take_parameters(const ContactMaterials<Law>& materials);
 
   /// One step of all contacts: forces are found, not yet added.
-  /// @returns the energy (J) dissipated
-  double advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
+  EnergyLoss advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
 
   void add_forces(NodeForces& forces) const;
 
@@ -180,7 +180,7 @@ class StructureContacts {
   void find_places();
   void find_heirs();
   void add_up_patches(Positions x);
-  double inherit(const Motion& motion, double dt);
+  EnergyLoss inherit(const Motion& motion, double dt);
   void hand_on_number(const Legacy& old, std::span<const Heir> heirs);
   double prepare_bonds(const Motion& motion, geometry::ThreadPool& pool);
   std::int32_t patch_of(const Bond& bond) const;
@@ -236,7 +236,9 @@ double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs
   terms_.rebuild(pairs);
   double lost = 0.0;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
-    if (!lives[i]) lost += history_energy(patches_[i]);
+    if (lives[i]) continue;
+    lost += history_energy(patches_[i]);
+    patches_[i].memory = {};  // so that it is not lost again when nothing follows the patch
   }
   return lost;
 }
@@ -272,9 +274,9 @@ void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& material
 }
 
 template <ContactLaw Law>
-double StructureContacts<Law>::advance(const Motion& motion, double dt,
-                                       geometry::ThreadPool& pool) {
-  if (terms_.empty() && patches_.empty() && bonds_.empty()) return 0.0;
+EnergyLoss StructureContacts<Law>::advance(const Motion& motion, double dt,
+                                           geometry::ThreadPool& pool) {
+  if (terms_.empty() && patches_.empty() && bonds_.empty()) return {};
   terms_.evaluate(springs_, motion, pool);
   previous_.clear();
   for (const Patch& patch : patches_) {
@@ -288,10 +290,12 @@ double StructureContacts<Law>::advance(const Motion& motion, double dt,
   }
   find_heirs();
   add_up_patches(motion.position);
-  double dissipated = prepare_bonds(motion, pool);
-  dissipated += inherit(motion, dt);
-  for (Patch& patch : patches_) dissipated += patch.apply_law(meeting_of(patch), motion, dt);
-  return dissipated + advance_bonds(motion, dt, pool);
+  EnergyLoss loss;
+  loss.tracking = prepare_bonds(motion, pool);
+  loss += inherit(motion, dt);
+  for (Patch& patch : patches_) loss.dissipated += patch.apply_law(meeting_of(patch), motion, dt);
+  loss.dissipated += advance_bonds(motion, dt, pool);
+  return loss;
 }
 
 /// Pairs of cells hang together where they share a feature that acts.

@@ -28,13 +28,15 @@ void StructureContacts<Law>::find_heirs() {
 
 /// Hands the histories of the last step's patches to this step's. A spring that comes to count for
 /// more contacts keeps its force, one that counts for less keeps its stretch: neither gains energy.
-/// @returns the energy (J) that is lost on the way
+/// What a patch stored that nothing follows is dissipated.
 template <ContactLaw Law>
-double StructureContacts<Law>::inherit(const Motion& motion, double dt) {
-  double lost = 0.0;
+EnergyLoss StructureContacts<Law>::inherit(const Motion& motion, double dt) {
+  EnergyLoss loss;
+  for (const Legacy& old : previous_) loss.dissipated += old.energy;
   for (const Heir& heir : heirs_) {
     if (&heir == heirs_.data() || (&heir - 1)->old_patch != heir.old_patch) {
-      lost += previous_[heir.old_patch].energy;
+      loss.dissipated -= previous_[heir.old_patch].energy;
+      loss.tracking += previous_[heir.old_patch].energy;
     }
   }
   for (auto begin = heirs_.begin(); begin != heirs_.end();) {
@@ -57,8 +59,8 @@ double StructureContacts<Law>::inherit(const Motion& motion, double dt) {
     }
     begin = end;
   }
-  for (const Patch& patch : patches_) lost -= history_energy(patch);
-  return lost;
+  for (const Patch& patch : patches_) loss.tracking -= history_energy(patch);
+  return loss;
 }
 
 /// To the heir that pushes most; of patches that merge, the number of the one that pushed most goes

@@ -5,6 +5,7 @@
 #include "contact/cell_watch.hpp"
 #include "contact/contact_memory.hpp"
 #include "contact/contact_row.hpp"
+#include "contact/energy_loss.hpp"
 #include "contact/force_records.hpp"
 #include "contact/last_side.hpp"
 #include "contact/lone_block.hpp"
@@ -56,8 +57,7 @@ class SurfaceContacts {
                 Positions at);
 
   /// One step of all contacts: forces are written down, not yet added.
-  /// @returns the energy (J) dissipated
-  double advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
+  EnergyLoss advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
 
   void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
     records_.add_to(forces, pool);
@@ -151,25 +151,25 @@ class SurfaceContacts {
     LonePairs<Law> lone;
   };
 
-  double advance_pairs(std::size_t begin, std::size_t end, const Motion& motion, double dt,
-                       int worker);
+  EnergyLoss advance_pairs(std::size_t begin, std::size_t end, const Motion& motion, double dt,
+                           int worker);
   std::size_t find_jobs(std::size_t begin, std::size_t end, const Motion& motion, Worker& worker);
   bool may_be_lone(Pair& pair, const Motion& motion, Job& job, SideFlags& sides, Worker& worker);
   void add_lane(const Pair& pair, const SideFlags& sides, Worker& worker) const;
   double keep_lone(Pair& pair, std::size_t lane, int worker);
   geometry::FaceId lone_face_of(const Pair& pair, const std::vector<Lists>& lists) const noexcept;
-  double advance_pair(Pair& pair, std::span<const geometry::CellId> cells, const Motion& motion,
-                      double dt, int worker);
-  double advance_alone(const Pair& pair, const Patch& patch, const Motion& motion, double dt,
-                       int worker);
+  EnergyLoss advance_pair(Pair& pair, std::span<const geometry::CellId> cells, const Motion& motion,
+                          double dt, int worker);
+  EnergyLoss advance_alone(const Pair& pair, const Patch& patch, const Motion& motion, double dt,
+                           int worker);
   double add_contact(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
                      std::span<const PatchTermForce> term_forces, const Inherited& inherited,
                      double dt, int worker);
   void keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x, Worker& worker);
   void find_states(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
                    Worker& worker);
-  double inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion, double dt,
-                 Worker& worker);
+  EnergyLoss inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
+                     double dt, Worker& worker);
   void write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
                     const ContactForce& answer, std::span<const PatchTermForce> term_forces,
                     int worker);
@@ -203,7 +203,7 @@ class SurfaceContacts {
   std::vector<Worker> workers_;
   ForceRecords<SurfaceForce> records_;
   Rekey<Pair> rekey_;
-  geometry::ParallelSum<double> sum_;
+  geometry::ParallelSum<EnergyLoss> sum_;
 };
 
 template <ContactLaw Law>
@@ -246,7 +246,8 @@ double SurfaceContacts<Law>::drop(const Pair& pair) const {
 }
 
 template <ContactLaw Law>
-double SurfaceContacts<Law>::advance(const Motion& motion, double dt, geometry::ThreadPool& pool) {
+EnergyLoss SurfaceContacts<Law>::advance(const Motion& motion, double dt,
+                                         geometry::ThreadPool& pool) {
   const auto worker_count = static_cast<std::size_t>(pool.thread_count());
   while (workers_.size() < worker_count) workers_.emplace_back(*surface_);
   current_.swap(previous_);

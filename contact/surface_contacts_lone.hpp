@@ -9,10 +9,10 @@
 namespace plekton::contact {
 
 template <ContactLaw Law>
-double SurfaceContacts<Law>::advance_pairs(std::size_t begin, std::size_t end, const Motion& motion,
-                                           double dt, int worker_index) {
+EnergyLoss SurfaceContacts<Law>::advance_pairs(std::size_t begin, std::size_t end,
+                                               const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
-  double dissipated = 0.0;
+  EnergyLoss loss;
   while (begin < end) {
     begin = find_jobs(begin, end, motion, worker);
     if constexpr (LaneLaw<Law>) advance_side_by_side(worker.lone.block, motion, dt);
@@ -20,16 +20,16 @@ double SurfaceContacts<Law>::advance_pairs(std::size_t begin, std::size_t end, c
       Pair& pair = pairs_[job.pair];
       if constexpr (LaneLaw<Law>) {
         if (job.lane != kNoLane && worker.lone.block.is_right(job.lane)) {
-          dissipated += keep_lone(pair, job.lane, worker_index);
+          loss.dissipated += keep_lone(pair, job.lane, worker_index);
           continue;
         }
       }
-      dissipated += advance_pair(pair, {worker.cells.data() + job.first_cell, job.cell_count},
-                                 motion, dt, worker_index);
+      loss += advance_pair(pair, {worker.cells.data() + job.first_cell, job.cell_count}, motion, dt,
+                           worker_index);
       if constexpr (LaneLaw<Law>) pair.lone_face = lone_face_of(pair, current_);
     }
   }
-  return dissipated;
+  return loss;
 }
 
 /// Finds the pairs that are awake, as long as there are lanes for those that may go side by side.

@@ -7,8 +7,8 @@
 namespace plekton::contact {
 
 template <ContactLaw Law>
-double SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geometry::CellId> cells,
-                                          const Motion& motion, double dt, int worker_index) {
+EnergyLoss SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geometry::CellId> cells,
+                                              const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const Vec3& centre = motion.position[index_of(pair.node)];
@@ -17,26 +17,27 @@ double SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geometry::
       worker.patches.find(centre, pair.reach, cells, motion.position, NormalEnergy(energy));
 
   const std::size_t first = lists.contacts.size();
-  double dissipated = 0.0;
+  EnergyLoss loss;
   if (patches.size() == 1 && pair.contacts.count <= 1 &&
       is_lone(worker.patches.terms(patches.front()))) {
-    dissipated = advance_alone(pair, patches[0], motion, dt, worker_index);
+    loss = advance_alone(pair, patches[0], motion, dt, worker_index);
   } else {
     keep_sides(pair, patches, motion.position, worker);
     find_states(pair, patches, motion, worker);
-    dissipated = inherit(pair, patches, motion, dt, worker);
+    loss = inherit(pair, patches, motion, dt, worker);
     for (std::size_t j = 0; j < patches.size(); ++j) {
       const auto terms = worker.patches.terms(patches[j]);
-      dissipated += add_contact(pair, terms, worker.states[j],
-                                {worker.term_forces.data() + patches[j].first_term, terms.size()},
-                                worker.inherited[j], dt, worker_index);
+      loss.dissipated +=
+          add_contact(pair, terms, worker.states[j],
+                      {worker.term_forces.data() + patches[j].first_term, terms.size()},
+                      worker.inherited[j], dt, worker_index);
     }
   }
   const std::size_t count = lists.contacts.size() - first;
   pair.contacts = count == 0 ? Range{}
                              : Range{worker_index, static_cast<std::uint32_t>(first),
                                      static_cast<std::uint32_t>(count)};
-  return dissipated;
+  return loss;
 }
 
 /// Asks the law, and keeps the contact and its forces. @returns the energy (J) dissipated
@@ -70,16 +71,16 @@ double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const Patch
 
 /// One patch of one term that follows at most one contact: the same as the general way.
 template <ContactLaw Law>
-double SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& patch,
-                                           const Motion& motion, double dt, int worker_index) {
+EnergyLoss SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& patch,
+                                               const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   const PatchTerm& term = worker.patches.terms(patch)[0];
   const PatchState state =
       lone_state<Law>(term, pair.parameters, pair.node, pair.radius, pair.range, motion);
   Inherited inherited;
-  double lost = 0.0;
+  EnergyLoss loss;
   for (const Contact& old : contacts_of(pair, previous_)) {
-    lost = Law::history_energy(pair.parameters, old.memory.history);
+    const double stored = Law::history_energy(pair.parameters, old.memory.history);
     const Feature* minima =
         previous_[static_cast<std::size_t>(pair.contacts.worker)].minima.data() + old.first_minimum;
     const bool stays = old.minimum_count == 1 && *minima == term.core.feature;
@@ -87,16 +88,20 @@ double SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& patch,
                       .find({minima, old.minimum_count}, motion.position[index_of(pair.node)],
                             motion.position, {&patch, 1}, worker.patches)
                       .empty()) {
+      loss.dissipated = stored;
       continue;
     }
+    loss.tracking = stored;
     worker.pass_throughs += is_turned_over(old.memory.normal, state.normal);
     Law::add_share(inherited.history,
                    carried_history<Law>(old.memory, state.normal, dt * state.twist_rate), 1.0);
     inherited.id = old.id;
   }
-  lost -= Law::history_energy(pair.parameters, inherited.history);
+  loss.tracking -= Law::history_energy(pair.parameters, inherited.history);
   const PatchTermForce term_force{state.elastic_force, 1.0};
-  return lost + add_contact(pair, {&term, 1}, state, {&term_force, 1}, inherited, dt, worker_index);
+  loss.dissipated +=
+      add_contact(pair, {&term, 1}, state, {&term_force, 1}, inherited, dt, worker_index);
+  return loss;
 }
 
 /// Where a ball's centre lies on the surface itself, the contact of the last step says on which
@@ -145,20 +150,21 @@ void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> 
 
 /// Hands the histories of the last step's contacts to this step's patches. A contact that splits
 /// shares its history in proportion to the elastic forces, and its number goes to the patch with
-/// the largest; of contacts that merge the one with the largest hands its number on. @returns the
-/// energy (J) that is lost on the way
+/// the largest; of contacts that merge the one with the largest hands its number on. What a contact
+/// stored that nothing follows is dissipated.
 template <ContactLaw Law>
-double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> patches,
-                                     const Motion& motion, double dt, Worker& worker) {
+EnergyLoss SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> patches,
+                                         const Motion& motion, double dt, Worker& worker) {
   worker.inherited.assign(patches.size(), Inherited{});
-  if (pair.contacts.count == 0) return 0.0;
-  double lost = 0.0;
+  EnergyLoss loss;
+  if (pair.contacts.count == 0) return loss;
   const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
   for (const Contact& old : contacts_of(pair, previous_)) {
-    lost += Law::history_energy(pair.parameters, old.memory.history);
     const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
                                          motion.position[index_of(pair.node)], motion.position,
                                          patches, worker.patches);
+    (heirs.empty() ? loss.dissipated : loss.tracking) +=
+        Law::history_energy(pair.parameters, old.memory.history);
     double total = 0.0;
     for (const std::uint32_t heir : heirs) total += worker.states[heir].elastic_force;
     hand_on_number(old, heirs, worker);
@@ -177,8 +183,8 @@ double SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> pa
     }
   }
   for (const Inherited& inherited : worker.inherited)
-    lost -= Law::history_energy(pair.parameters, inherited.history);
-  return lost;
+    loss.tracking -= Law::history_energy(pair.parameters, inherited.history);
+  return loss;
 }
 
 template <ContactLaw Law>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace plekton::dynamics {
@@ -14,6 +15,8 @@ struct Energy {
   double sheet_elastic = 0.0;
   double gravity = 0.0;          ///< of the nodes that are free, from their places at the start
   double friction = 0.0;         ///< dissipated in contacts
+  double tracking = 0.0;         ///< lost, or below 0 made, where contacts go on as others: handed
+                                 ///< from patch to patch, and with elements that break
   double bond_dissipated = 0.0;  ///< by bonds that yielded or broke, sheets that tore
   double damping = 0.0;          ///< taken by numerical damping
   double external_work = 0.0;    ///< done on the bodies by what moves as prescribed and by loads
@@ -24,15 +27,26 @@ struct Energy {
   /// What is not accounted for: 0 but for the error of the time integration.
   double closure_error() const noexcept {
     return kinetic + contact_elastic + bond_elastic + sheet_elastic + gravity + friction +
-           bond_dissipated + damping - external_work - initial;
+           tracking + bond_dissipated + damping - external_work - initial;
+  }
+  /// What has come from nowhere: not accounted for, or made by tracking or by contact laws. Where
+  /// velocities turn over within a step their energy as the leapfrog has it is negative, and
+  /// balances what it makes of elastic energy: that is no better.
+  double made() const noexcept {
+    return std::max(closure_error() + std::max(0.0, -tracking) + std::max(0.0, -friction),
+                    -kinetic);
+  }
+  /// What there is in bodies, or was, and has not come from nowhere.
+  double accounted() const noexcept {
+    return turnover() - 2.0 * std::max(0.0, -kinetic) - std::max(0.0, made());
   }
   /// What went through: all that is or was something else than energy of position, in magnitude.
   /// What bodies give up to an attraction is negative while they touch, and energy that a step too
   /// long or a law makes shows as negative dissipation: taken off, they would hide an error.
   double turnover() const noexcept {
     return std::abs(kinetic) + std::abs(contact_elastic) + std::abs(bond_elastic) +
-           std::abs(sheet_elastic) + std::abs(friction) + std::abs(bond_dissipated) +
-           std::abs(damping);
+           std::abs(sheet_elastic) + std::abs(friction) + std::abs(tracking) +
+           std::abs(bond_dissipated) + std::abs(damping);
   }
   /// Magnitude of the closure error over turnover, >= 0; 0 where the error is no more than
   /// rounding, as when nothing has happened.

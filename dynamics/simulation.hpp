@@ -69,7 +69,8 @@ class Simulation {
   /// Breaks a bond for good, in the next step: it carries nothing any more, and the elements it
   /// held are gone from elements() and surface() (structure/broken_elements.hpp). Nothing touches
   /// them then; contacts on what is left go on with their histories. Masses stay with the nodes, so
-  /// no momentum is lost; what bond and contacts had stored is counted as dissipated.
+  /// no momentum is lost; what the bond had stored is counted as dissipated, and what contacts had
+  /// as lost in tracking.
   ///
   /// A structure may fall apart: its pieces keep its material, and touch each other as a structure
   /// touches itself, if options said so, and not where they were near along edges at rest. A node

@@ -220,6 +220,7 @@ Energy Simulation<Law>::energy() const {
   // positions.
   energy.gravity = -motion_.gravity.dot(free_moment(last_drift_) - initial_moment_);
   energy.friction = contacts_.dissipated();
+  energy.tracking = contacts_.tracking_loss();
   energy.bond_dissipated =
       broken_energy_ + yielding_bonds_.dissipated() + sheet_facets_.dissipated();
   energy.damping = work_.damped - pending_.damped;

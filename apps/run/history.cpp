@@ -8,7 +8,7 @@
 namespace plekton::apps {
 namespace {
 
-constexpr std::array<dynamics::OutputField, 21> kFields = {{
+constexpr std::array<dynamics::OutputField, 22> kFields = {{
     {"time", "s", "simulated"},
     {"kinetic", "J", "energy of motion of free nodes"},
     {"contact_elastic", "J", "energy stored in contacts"},
@@ -16,6 +16,9 @@ constexpr std::array<dynamics::OutputField, 21> kFields = {{
     {"sheet_elastic", "J", "energy stored in sheets"},
     {"gravity", "J", "energy of weight, from the start"},
     {"friction", "J", "dissipated by contacts"},
+    {"tracking", "J",
+     "lost, or below 0 made, where contacts are handed on: from patch to patch, and with elements "
+     "that break"},
     {"bond_dissipated", "J", "dissipated by bonds that yield or break, and by sheets that tear"},
     {"damping", "J", "dissipated by numerical and viscous damping"},
     {"external_work", "J",
@@ -76,6 +79,7 @@ void History::add(const Simulation& simulation, const dynamics::Energy& energy,
                energy.sheet_elastic,
                energy.gravity + 0.0,  // not -0, where there is no gravity
                energy.friction,
+               energy.tracking,
                energy.bond_dissipated,
                energy.damping,
                energy.external_work,

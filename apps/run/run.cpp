@@ -134,6 +134,7 @@ class Run {
   void add_row() {
     const dynamics::Energy energy = simulation_.energy();
     largest_turnover_ = std::max(largest_turnover_, energy.turnover());
+    largest_tracking_ = std::max(largest_tracking_, std::abs(energy.tracking));
     history_.add(simulation_, energy, lost_);
     pressures_.add(simulation_);
     last_row_step_ = simulation_.steps();
@@ -221,8 +222,10 @@ class Run {
     report_.pass_throughs = simulation_.pass_throughs();
     report_.most_crossings = simulation_.most_crossings();
     report_.energy = simulation_.energy();
-    report_.energy_closure =
-        report_.energy.closure(std::max(largest_turnover_, report_.energy.turnover()));
+    const double turnover = std::max(largest_turnover_, report_.energy.turnover());
+    const double tracking = std::max(largest_tracking_, std::abs(report_.energy.tracking));
+    report_.energy_closure = report_.energy.closure(turnover);
+    report_.tracking_ratio = turnover > 0.0 ? tracking / turnover : 0.0;
     report_.lost_grains = lost_.total();
     report_.lost_through_membranes = lost_.through_membranes();
     report_.lost_out_of_bounds = lost_.out_of_bounds();
@@ -252,6 +255,7 @@ class Run {
   double next_reactions_ = 0.0;    // s; infinite if there are none
   double next_frame_ = 0.0;        // s
   double largest_turnover_ = 0.0;  // J, of all rows
+  double largest_tracking_ = 0.0;  // J, magnitude, of all rows
   std::int64_t last_row_step_ = -1;
   std::int64_t last_reactions_step_ = -1;
   std::int64_t last_frame_step_ = -1;

@@ -43,17 +43,12 @@ Json timing_of(const RunReport& report) {
 }
 
 Json energy_of(const dynamics::Energy& energy) {
-  return {{"kinetic_J", energy.kinetic},
-          {"contact_elastic_J", energy.contact_elastic},
-          {"bond_elastic_J", energy.bond_elastic},
-          {"sheet_elastic_J", energy.sheet_elastic},
-          {"gravity_J", energy.gravity},
-          {"friction_J", energy.friction},
-          {"bond_dissipated_J", energy.bond_dissipated},
-          {"damping_J", energy.damping},
-          {"external_work_J", energy.external_work},
-          {"initial_J", energy.initial},
-          {"closure_error_J", energy.closure_error()},
+  return {{"kinetic_J", energy.kinetic},           {"contact_elastic_J", energy.contact_elastic},
+          {"bond_elastic_J", energy.bond_elastic}, {"sheet_elastic_J", energy.sheet_elastic},
+          {"gravity_J", energy.gravity},           {"friction_J", energy.friction},
+          {"tracking_J", energy.tracking},         {"bond_dissipated_J", energy.bond_dissipated},
+          {"damping_J", energy.damping},           {"external_work_J", energy.external_work},
+          {"initial_J", energy.initial},           {"closure_error_J", energy.closure_error()},
           {"turnover_J", energy.turnover()}};
 }
 
@@ -79,6 +74,7 @@ std::string to_json(const RunReport& report) {
   json["dt_over_critical"] = report.dt_over_critical;
   json["largest_motion_ratio"] = report.largest_motion_ratio;
   json["energy_closure"] = report.energy_closure;
+  json["tracking_ratio"] = report.tracking_ratio;
   json["energy"] = energy_of(report.energy);
   json["lost_grains"] = report.lost_grains;
   json["lost"] = {{"through_membranes", report.lost_through_membranes},

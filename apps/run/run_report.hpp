@@ -59,6 +59,8 @@ struct RunReport {
   dynamics::Energy energy;            ///< at the end
   /// Closure error over the energy that went through; 0 where that is no more than rounding.
   double energy_closure = 0.0;
+  /// Energy lost or made in tracking, in magnitude and at most so far, over the same.
+  double tracking_ratio = 0.0;
   std::size_t lost_grains = 0;
   std::size_t lost_through_membranes = 0;
   std::size_t lost_out_of_bounds = 0;

@@ -40,6 +40,15 @@ std::vector<std::string> warnings_about(const RunReport& report) {
                     "run with a smaller simulation.time_step",
                     100.0 * report.energy_closure, 100.0 * kPoorClosure));
   }
+  if (report.tracking_ratio > kMuchTracking) {
+    warnings.push_back(fmt::format(
+        "{:.2g} % of the energy that went through was {}, above {:.1f} %, where contacts are "
+        "handed "
+        "on from patch to patch or with elements that break (column tracking of energy.csv): look "
+        "there when it happens; finer meshes and smaller overlaps make less of it",
+        100.0 * report.tracking_ratio, report.energy.tracking < 0.0 ? "made" : "lost",
+        100.0 * kMuchTracking));
+  }
   if (report.lost_grains > 0) {
     warnings.push_back(
         fmt::format("{} grains are lost: {} passed through a membrane (smaller time steps or "

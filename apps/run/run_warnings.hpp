@@ -13,12 +13,15 @@ namespace plekton::apps {
 inline constexpr double kDeepOverlap = 0.05;
 /// Closure error over the energy that went through, above which the motion cannot be trusted.
 inline constexpr double kPoorClosure = 0.01;
+/// Energy lost or made where contacts are handed on over the energy that went through, above which
+/// it is worth to know of it: a tenth of what a closure error may be.
+inline constexpr double kMuchTracking = 0.1 * kPoorClosure;
 /// Motion in a step over the smallest radius above which contacts are seen late. A chosen step
 /// comes to kLargestMotion itself but for rounding.
 inline constexpr double kFastMotion = 1.001 * dynamics::kLargestMotion;
 
 /// What in a report makes its results doubtful, each with what to do about it: deep overlaps,
-/// steps too long for the motion, energy that does not add up, lost grains.
+/// steps too long for the motion, energy that does not add up or comes from tracking, lost grains.
 std::vector<std::string> warnings_about(const RunReport& report);
 
 }  // namespace plekton::apps

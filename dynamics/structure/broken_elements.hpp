@@ -38,8 +38,8 @@ struct BrokenParts {
 ///   the facet's radius and material where a bond holds along it; without one it is gone.
 ///   Cylinders that come into being in this way follow those there are.
 ///
-/// What contacts store changes at once, and what it falls by counts as dissipated by friction. It
-/// may grow, and the friction of the ledger falls then: that energy is made. A ball's contact is
+/// What contacts store changes at once, and what it falls by is lost in tracking (Energy). It may
+/// grow, and the tracking of the ledger falls then: that energy is made. A ball's contact is
 /// the part of a surface in its range that hangs together, counted at every level (patch.hpp), with
 /// phi(d) the energy of one contact at a distance. When a cylinder goes that the ball lies on,
 /// - its minimum d0 is gone, with phi(d0), and where the parts on either side stay in range each

@@ -98,7 +98,7 @@ class BallOnSurface {
 
  private:
   Vec3 advance(double dt) {
-    dissipated_ += contacts_.advance({x_, velocity_, spin_}, dt, pool_);
+    dissipated_ += contacts_.advance({x_, velocity_, spin_}, dt, pool_).total();
     forces_.set_zero();
     contacts_.add_forces(forces_, pool_);
     return forces_.force.back();

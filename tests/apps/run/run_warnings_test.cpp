@@ -43,6 +43,20 @@ TEST(RunWarnings, NameDeepOverlapsEnergyThatDoesNotAddUpAndLostGrains) {
                           HasSubstr("20 grains are lost: 4 passed through")));
 }
 
+TEST(RunWarnings, NameEnergyThatTrackingMadeOrLost) {
+  RunReport report;
+  report.tracking_ratio = 0.9e-3;
+  EXPECT_TRUE(warnings_about(report).empty());
+
+  report.tracking_ratio = 0.03;
+  report.energy.tracking = 2.0;
+  EXPECT_THAT(warnings_about(report),
+              ElementsAre(AllOf(HasSubstr("3 % of the energy"), HasSubstr("was lost"))));
+
+  report.energy.tracking = -2.0;
+  EXPECT_THAT(warnings_about(report), ElementsAre(HasSubstr("was made")));
+}
+
 TEST(RunWarnings, NameEnergyThatDoesNotAddUpWhereNegativePartsOutweighTheRest) {
   RunReport report;
   report.energy.kinetic = 1.0;
