@@ -29,16 +29,13 @@ struct Energy {
     return kinetic + contact_elastic + bond_elastic + sheet_elastic + gravity + friction +
            tracking + bond_dissipated + damping - external_work - initial;
   }
-  /// What has come from nowhere: not accounted for, or made by tracking or by contact laws. Where
-  /// velocities turn over within a step their energy as the leapfrog has it is negative, and
-  /// balances what it makes of elastic energy: that is no better.
-  double made() const noexcept {
-    return std::max(closure_error() + std::max(0.0, -tracking) + std::max(0.0, -friction),
-                    -kinetic);
-  }
-  /// What there is in bodies, or was, and has not come from nowhere.
+  /// What has come from nowhere: not accounted for, or made by tracking or by contact laws.
+  double made() const noexcept { return closure_error() + made_in_contacts(); }
+  /// What there is in bodies, or was, and has not come from nowhere. Kinetic energy as the leapfrog
+  /// has it is negative where velocities turn over within a step, and then balances elastic energy
+  /// that the step makes.
   double accounted() const noexcept {
-    return turnover() - 2.0 * std::max(0.0, -kinetic) - std::max(0.0, made());
+    return turnover() - 2.0 * std::max(0.0, -kinetic) - made_in_contacts() - std::max(0.0, made());
   }
   /// What went through: all that is or was something else than energy of position, in magnitude.
   /// What bodies give up to an attraction is negative while they touch, and energy that a step too
@@ -57,6 +54,11 @@ struct Energy {
   double closure(double turnover) const noexcept {
     const double error = std::abs(closure_error());
     return error > rounding ? error / turnover : 0.0;
+  }
+
+ private:
+  double made_in_contacts() const noexcept {
+    return std::max(0.0, -tracking) + std::max(0.0, -friction);
   }
 };
 

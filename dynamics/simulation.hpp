@@ -23,8 +23,10 @@
 
 #include <array>
 #include <cstdint>
+#include <iosfwd>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace plekton::dynamics {
@@ -44,6 +46,8 @@ struct SimulationOptions {
 constexpr double kSafety = 0.5;
 /// A given time step must not be above this part of the critical one.
 constexpr double kLargestStep = 0.8;
+
+class StrongestAction;
 
 /// A scene in motion. The state belongs to the simulation; what is given out are views of it.
 template <contact::ContactLaw Law>
@@ -144,6 +148,10 @@ class Simulation {
   BondStress bond_stress(std::size_t bond) const;
 
   Energy energy() const;
+  /// Looks whether far more energy has come from nowhere than there ever was. step() does so when
+  /// the kinetic energy has doubled, and now and then; at the end of a run it is for the caller.
+  /// @throws Diverged naming the contact or element that acts most where most of it is
+  void check_energy();
   /// Largest overlap of any step so far over the radius of the smaller ball.
   double largest_overlap_ratio() const noexcept { return largest_overlap_ratio_; }
   /// How often so far a sphere's centre went through a facet or a cylinder: its overlap was deeper
@@ -178,7 +186,16 @@ class Simulation {
   Vec3 free_moment(double before) const;
   double largest_gravity() const noexcept;
   void account(const StepWork& work, const StepLengths& lengths);
-  void check_motion() const;
+  void check_motion();
+  void watch_energy();
+  std::string fault(const Divergence& divergence, double drift);
+  double limit_exceeded_before(const Divergence& divergence, double drift) const noexcept;
+  NodeState state_before(double drift) const;
+  double critical_step_at(NodeState& state);
+  std::string strongest_action(const Divergence& divergence, const NodeState& state);
+  void consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action);
+  bool has_node(const contact::ContactBody& body, NodeId node) const;
+  void describe(const contact::ContactRow& row, std::ostream& text) const;
   void set_first_step(double asked, NodalStiffness space);
   void require_time_step() const;
   void choose_time_step();
@@ -221,13 +238,17 @@ class Simulation {
   double time_ = 0.0;
   std::int64_t steps_ = 0;
   double fastest_ = std::numeric_limits<double>::infinity();  ///< m/s, after the last step
+  double fastest_spin_ = 0.0;                                 ///< rad/s, after the last step
   std::vector<double> furthest_;  ///< m, by node, what it may move in a step
   double least_furthest_ = 0.0;   ///< m, of all nodes
   double pace_radius_ = 0.0;      ///< m, against which the motion in a chosen step is measured
   StepWork work_;                 ///< kinetic: of the last step; the rest: of all steps
   StepWork pending_;  ///< what of damped and external comes after the moment of the last forces
   double initial_energy_ = 0.0;
-  Vec3 full_gravity_;                        ///< m/s², of which motion_.gravity is a part
+  double most_kinetic_ = 0.0;    ///< J, at the last looks at the ledger
+  double most_accounted_ = 0.0;  ///< J, largest turnover at those without what came from nowhere
+  std::string suspect_;  ///< what acted where energy came from nowhere, at the last of those
+  Vec3 full_gravity_;    ///< m/s², of which motion_.gravity is a part
   Vec3 initial_moment_ = Vec3::Zero();       ///< kg m, free moment at the start
   NodalStiffness::Total initial_stiffness_;  ///< with the contacts that may come
   double largest_overlap_ratio_ = 0.0;
@@ -254,7 +275,9 @@ void Simulation<Law>::step() {
   check_motion();
   time_ += dt_;
   last_drift_ = dt_;
-  if (++steps_ % kStepsBetweenLooks == 0 && chooses_time_step_) choose_time_step();
+  ++steps_;
+  watch_energy();
+  if (steps_ % kStepsBetweenLooks == 0 && chooses_time_step_) choose_time_step();
 }
 
 template <contact::ContactLaw Law>

@@ -6,6 +6,7 @@
 #include "dynamics/simulation.hpp"
 #include "dynamics/simulation_breaks.hpp"
 #include "dynamics/simulation_cause.hpp"
+#include "dynamics/simulation_diverged.hpp"
 #include "dynamics/simulation_loads.hpp"
 #include "dynamics/simulation_readout.hpp"
 
@@ -94,6 +95,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
   set_first_step(options.time_step, std::move(stiffness));
   initial_moment_ = free_moment(0.0);
   work_.kinetic = kinetic_energy(scene_.state, scene_.properties);
+  most_kinetic_ = work_.kinetic;
   initial_energy_ = work_.kinetic + contacts_.elastic_energy() + bonds_.elastic_energy() +
                     sheet_facets_.elastic_energy();
 }
@@ -168,13 +170,6 @@ contact::Motion Simulation<Law>::motion() const noexcept {
   return motion;
 }
 
-/// Looks at single nodes only if the fastest is fast enough for one of them.
-template <contact::ContactLaw Law>
-void Simulation<Law>::check_motion() const {
-  if (fastest_ * dt_ <= least_furthest_) return;
-  check_finite(scene_.state, furthest_, dt_, steps_, time_);
-}
-
 template <contact::ContactLaw Law>
 void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) {
   StepWork step = work;
@@ -193,6 +188,7 @@ void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) 
   work_.damped += step.damped + left.damped;
   work_.external += step.external + left.external;
   fastest_ = std::sqrt(work.fastest_squared);
+  fastest_spin_ = std::sqrt(work.fastest_spin_squared);
   largest_overlap_ratio_ = std::max(largest_overlap_ratio_, contacts_.largest_overlap_ratio());
   pass_throughs_ += contacts_.with_surfaces().pass_throughs();
   most_crossings_ = std::max(most_crossings_, contacts_.between_structures().crossings());

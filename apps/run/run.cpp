@@ -67,6 +67,7 @@ class Run {
   RunReport execute() {
     try {
       report_.status = loop();
+      if (report_.status != RunStatus::interrupted) simulation_.check_energy();
       write_last();
     } catch (const std::exception& error) {
       report_.status = RunStatus::failed;

@@ -40,6 +40,7 @@ class Simulation {
   virtual const geometry::Surface& surface() const = 0;
 
   virtual dynamics::Energy energy() const = 0;
+  virtual void check_energy() = 0;
   virtual dynamics::CriticalStep critical_step() const = 0;
   virtual dynamics::StepCause critical_cause() const = 0;
   virtual dynamics::ExactStep exact_critical_step() const = 0;
@@ -90,6 +91,7 @@ class SimulationUnder final : public Simulation {
   const geometry::Surface& surface() const override { return simulation_.surface(); }
 
   dynamics::Energy energy() const override { return simulation_.energy(); }
+  void check_energy() override { simulation_.check_energy(); }
   dynamics::CriticalStep critical_step() const override { return simulation_.critical_step(); }
   dynamics::StepCause critical_cause() const override { return simulation_.critical_cause(); }
   dynamics::ExactStep exact_critical_step() const override {

@@ -25,8 +25,8 @@ PLEKTON_INLINE void add(const StepWorkOf<Pack<W>>& work, std::size_t lane,
                         LaneSums& sums) noexcept {
   auto sum = sums.load<StepWorkOf<Pack<W>>>(lane);
   sum = {sum.kinetic + work.kinetic, sum.damped + work.damped, sum.external + work.external,
-         select(work.fastest_squared > sum.fastest_squared, work.fastest_squared,
-                sum.fastest_squared)};
+         geometry::larger_of(work.fastest_squared, sum.fastest_squared),
+         geometry::larger_of(work.fastest_spin_squared, sum.fastest_spin_squared)};
   sums.store(lane, sum);
 }
 
@@ -34,7 +34,8 @@ StepWork total(const LaneSums& sums) noexcept {
   StepWork total;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const auto of_lane = sums.at<StepWorkOf<double>>(lane);
-    total += {of_lane.kinetic, of_lane.damped, of_lane.external, of_lane.fastest_squared};
+    total += {of_lane.kinetic, of_lane.damped, of_lane.external, of_lane.fastest_squared,
+              of_lane.fastest_spin_squared};
   }
   return total;
 }

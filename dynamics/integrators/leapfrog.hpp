@@ -29,12 +29,14 @@ struct StepWork {
   /// m²/s², squared speed of the fastest node after the step; infinite if some motion is not finite
   /// or a spin is beyond 1e150 rad/s.
   double fastest_squared = 0.0;
+  double fastest_spin_squared = 0.0;  ///< rad²/s², of the node that spins fastest after the step
 
   StepWork& operator+=(const StepWork& other) noexcept {
     kinetic += other.kinetic;
     damped += other.damped;
     external += other.external;
     fastest_squared = std::max(fastest_squared, other.fastest_squared);
+    fastest_spin_squared = std::max(fastest_spin_squared, other.fastest_spin_squared);
     return *this;
   }
 };

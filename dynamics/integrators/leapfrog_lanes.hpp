@@ -27,6 +27,7 @@ template <class Real>
 struct StepWorkOf {
   Real kinetic, damped, external;  ///< J, as in StepWork
   Real fastest_squared;            ///< m²/s², as in StepWork
+  Real fastest_spin_squared;       ///< rad²/s², as in StepWork
 };
 
 /// Squared speed, infinite if a motion is not finite. Comparisons with NaN are false.
@@ -98,7 +99,7 @@ PLEKTON_INLINE StepWorkOf<Real> NodeMotion<Real>::kick(const Vector<Real>& dampe
   velocity = choose(held, before, after);
   return {half * inertia * choose(held, none, mirrored).dot(velocity),
           half * dt * inertia * choose(held, none, removed).dot(before + velocity),
-          -dt * force.dot(choose(held, before, none)), Real(0.0)};
+          -dt * force.dot(choose(held, before, none)), Real(0.0), Real(0.0)};
 }
 
 /// Nodes one after the other in memory.
@@ -214,7 +215,7 @@ PLEKTON_INLINE StepWorkOf<Pack<W>> step_lanes(const NodeArrays& nodes, const Mot
   drift<W>(nodes.velocity, lengths.drift, nodes.position);
   return {of_translation.kinetic + of_rotation.kinetic, of_translation.damped + of_rotation.damped,
           of_translation.external + of_rotation.external,
-          squared_speed(moves.velocity, spins.velocity)};
+          squared_speed(moves.velocity, spins.velocity), spins.velocity.squaredNorm()};
 }
 
 }  // namespace plekton::dynamics

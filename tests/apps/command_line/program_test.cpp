@@ -279,6 +279,17 @@ TEST_F(Command, RunThatDivergesNamesStepNodePositionAndAdvice) {
   EXPECT_EQ(outcome.exit_code, kFailed);
   EXPECT_THAT(outcome.err, HasSubstr("step"));
   EXPECT_THAT(outcome.err, HasSubstr("node"));
+  EXPECT_THAT(outcome.err, HasSubstr("given or is prescribed; use a lower speed"));
+  EXPECT_EQ(report()["status"], "failed");
+}
+
+TEST_F(Command, RunInWhichAGrainSpinsFasterThanStepsCanFollowIsNotFinished) {
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out(), "--set",
+                                      "grains.gravel.angular_velocity=[1e8, 0, 0]", "--set",
+                                      "simulation.time_step=2 us"});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("spins at 1e+08 rad/s"));
   EXPECT_EQ(report()["status"], "failed");
 }
 

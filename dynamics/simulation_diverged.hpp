@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/simulation.hpp"
+#include "geometry/product_features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+/// How a simulation finds that it has become meaningless, and who is at fault;
+/// simulation_definitions.hpp includes this.
+namespace plekton::dynamics {
+
+/// The contact or element that acts most on a node, as far as has been looked.
+class StrongestAction {
+ public:
+  /// @param of_spin  whether torques (N m) are compared, or else forces (N)
+  explicit StrongestAction(bool of_spin) : of_spin_(of_spin) {}
+
+  /// @param describe  tells what it is; called if it is the strongest so far
+  template <class Describe>
+  void consider(double force, double torque, const Describe& describe) {
+    const double size = of_spin_ ? torque : force;
+    if (!(size > largest_)) return;
+    largest_ = size;
+    std::ostringstream text;
+    describe(text);
+    text << " acts on it with " << size << (of_spin_ ? " N m" : " N");
+    text_ = text.str();
+  }
+
+  /// Empty if nothing acts.
+  const std::string& text() const noexcept { return text_; }
+
+ private:
+  bool of_spin_;
+  double largest_ = 0.0;
+  std::string text_;
+};
+
+/// Nodes that no element belongs to are not looked at, nor is any node while none is fast enough.
+template <contact::ContactLaw Law>
+void Simulation<Law>::check_motion() {
+  const bool is_slow = fastest_ * dt_ <= least_furthest_ && fastest_spin_ * dt_ < std::numbers::pi;
+  if (is_slow) return;
+  if (const auto runaway = find_runaway(scene_.state, furthest_, dt_))
+    throw Diverged(*runaway, steps_, time_, scene_.state, fault(*runaway, dt_));
+}
+
+/// Energy is made where motion is: the ledger is looked at when the kinetic energy has doubled, and
+/// now and then, for what has gone into friction at once.
+template <contact::ContactLaw Law>
+void Simulation<Law>::watch_energy() {
+  constexpr std::int64_t kStepsBetweenLedgers = 1024;
+  if (std::abs(work_.kinetic) <= 2.0 * most_kinetic_ && steps_ % kStepsBetweenLedgers != 0) return;
+  check_energy();
+}
+
+template <contact::ContactLaw Law>
+void Simulation<Law>::check_energy() {
+  const Energy now = energy();
+  const double made = std::max(now.made(), -now.kinetic);
+  most_kinetic_ = std::max(most_kinetic_, std::abs(now.kinetic));
+  most_accounted_ = std::max(most_accounted_, now.accounted());
+  double plane_speed = driven_planes_.largest_speed();
+  for (const contact::Plane& plane : scene_.planes)
+    plane_speed = std::max(plane_speed, plane.velocity.norm());
+  // What starts from rest under a load has its first kinetic energy, a negative one, as initial.
+  const double there = most_accounted_ + std::abs(now.initial) +
+                       prescribed_energy(scene_.state, scene_.properties, plane_speed);
+  if (made <= std::max(now.rounding, there)) return;
+  const Divergence divergence{Divergence::Sign::energy,
+                              most_energetic(scene_.state, scene_.properties), made, there};
+  // What makes the energy need not act any more when it has become too much.
+  const std::string suspect = strongest_action(divergence, state_before(last_drift_));
+  if (!suspect.empty()) suspect_ = suspect;
+  // A comparison with NaN is false.
+  if (made <= kFarMore * there) return;
+  throw Diverged(divergence, std::max<std::int64_t>(0, steps_ - 1), time_ - last_drift_,
+                 scene_.state, fault(divergence, last_drift_));
+}
+
+/// Who is at fault, and what to do about it.
+/// @param drift  s, that the last step has moved the nodes by
+template <contact::ContactLaw Law>
+std::string Simulation<Law>::fault(const Divergence& divergence, double drift) {
+  std::ostringstream text;
+  if (const double limit = limit_exceeded_before(divergence, drift); limit > 0.0) {
+    text << "it was that fast before the step: that was given or is prescribed; use a lower speed, "
+            "or a time step below "
+         << limit << " s (or \"auto\")";
+    return text.str();
+  }
+  NodeState before = state_before(drift);
+  const std::string who = strongest_action(divergence, before);
+  if (!who.empty())
+    text << who;
+  else if (divergence.sign == Divergence::Sign::energy && !suspect_.empty())
+    text << "nothing acts on it now; before, " << suspect_;
+  else
+    text << "no contact and no element acts on it, but loads may";
+  text << "; the time step of " << drift << " s is ";
+  const double critical = critical_step_at(before);
+  if (drift > kLargestStep * critical) {
+    text << drift / critical << " of the critical one as it is now: use a smaller time step (or "
+         << "\"auto\")";
+  } else {
+    if (std::isfinite(critical)) text << drift / critical << " of the critical one and ";
+    text
+        << "not the cause: look there for bodies that start in each other or are pressed deep into "
+           "each other, and for elements and stiffnesses unlike those around";
+  }
+  return text.str();
+}
+
+/// Where a node moves or spins too fast, and would have without the forces of the last step: the
+/// longest step (s) in which that could be followed; else 0.
+template <contact::ContactLaw Law>
+double Simulation<Law>::limit_exceeded_before(const Divergence& divergence,
+                                              double drift) const noexcept {
+  if (divergence.sign == Divergence::Sign::energy) return 0.0;
+  const std::size_t i = index_of(divergence.node);
+  const NodeProperties& properties = scene_.properties;
+  const bool spins = divergence.sign == Divergence::Sign::spin;
+  const Vec3& now = spins ? scene_.state.angular_velocity[i] : scene_.state.velocity[i];
+  const Vec3 free = spins ? free_turns(properties.held[i]) : free_axes(properties.held[i]);
+  const double inertia = spins ? properties.inertia[i] : properties.mass[i];
+  Vec3 before = now;
+  if (free.maxCoeff() > 0.0) {
+    const Vec3& force = spins ? forces_.torque[i] : forces_.force[i];
+    before -= 0.5 * (last_drift_ + drift) / inertia * free.cwiseProduct(force);
+  }
+  const double most = spins ? std::numbers::pi : furthest_[i];
+  return before.norm() * drift > most ? most / now.norm() : 0.0;
+}
+
+/// Where the forces of the last step were found.
+/// @param drift  s, that the last step has moved the nodes by
+template <contact::ContactLaw Law>
+NodeState Simulation<Law>::state_before(double drift) const {
+  NodeState before = scene_.state;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    before.position[i] -= drift * before.velocity[i];
+    before.orientation[i] = turned(before.orientation[i], before.angular_velocity[i], -drift);
+  }
+  return before;
+}
+
+/// s, of the structures and contacts at a state; with the velocities of now.
+template <contact::ContactLaw Law>
+double Simulation<Law>::critical_step_at(NodeState& state) {
+  std::swap(scene_.state, state);
+  NodalStiffness space(scene_.state.size());
+  const double critical = loads_.critical_step(structural_step(space, false).dt, scene_);
+  std::swap(scene_.state, state);
+  return critical;
+}
+
+/// What acted most on the node, and how.
+/// @param state  where the forces were found
+template <contact::ContactLaw Law>
+std::string Simulation<Law>::strongest_action(const Divergence& divergence,
+                                              const NodeState& state) {
+  const NodeId node = divergence.node;
+  StrongestAction action(divergence.sign == Divergence::Sign::spin);
+  consider_contacts(node, state.position, action);
+  for (std::size_t i = 0; i < bonds_.size(); ++i) {
+    const auto nodes = bonds_.nodes(i);
+    if (bonds_.is_broken(i) || (nodes[0] != node && nodes[1] != node)) continue;
+    const BondForces forces = bonds_.forces_of(i, state);
+    const Vec3& moment = nodes[0] == node ? forces.moment_a : forces.moment_b;
+    action.consider(std::hypot(forces.tension, forces.shear.norm()),
+                    std::hypot(moment.norm(), forces.torque), [&](std::ostream& text) {
+                      text << "bond " << i << " (nodes " << index_of(nodes[0]) << ", "
+                           << index_of(nodes[1]) << ")";
+                    });
+  }
+  for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
+    if (sheet_facets_.is_broken(i)) continue;
+    const auto nodes = sheet_facets_.nodes(i);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (nodes[corner] != node) continue;
+      action.consider(sheet_facets_.corner_force(i, corner).norm(), 0.0, [&](std::ostream& text) {
+        text << "sheet facet " << i << " (nodes " << index_of(nodes[0]) << ", "
+             << index_of(nodes[1]) << ", " << index_of(nodes[2]) << ")";
+      });
+    }
+  }
+  return action.text();
+}
+
+/// Contacts of the node's sphere and those whose deepest feature has the node. Of a patch that has
+/// it elsewhere the force on the node is not known: it is at most that of all contacts together.
+template <contact::ContactLaw Law>
+void Simulation<Law>::consider_contacts(NodeId node, geometry::Positions x,
+                                        StrongestAction& action) {
+  NodeForces all(scene_.state.size());
+  contacts_.with_surfaces().add_forces(all, pool_);
+  contacts_.between_structures().add_forces(all);
+  contacts_.with_planes().add_forces(all, pool_);
+  const double most_force = all.force[index_of(node)].norm();
+  const double most_torque = all.torque[index_of(node)].norm();
+  const geometry::StructureId structure = surface_.structure_of(node);
+  contacts_.for_each_row(x, [&](const contact::ContactRow& row) {
+    for (const contact::ContactBody& body : {row.a, row.b}) {
+      const bool has_it = has_node(body, node);
+      const bool may_have_it = body.kind == contact::BodyKind::structure &&
+                               geometry::StructureId{body.index} == structure;
+      if (!has_it && !may_have_it) continue;
+      const double force = row.force().norm();
+      const double torque =
+          (row.point - x[index_of(node)]).cross(row.force()).norm() + row.moment.norm();
+      action.consider(has_it ? force : std::min(force, most_force),
+                      has_it ? torque : std::min(torque, most_torque),
+                      [&](std::ostream& text) { describe(row, text); });
+    }
+  });
+}
+
+template <contact::ContactLaw Law>
+bool Simulation<Law>::has_node(const contact::ContactBody& body, NodeId node) const {
+  if (body.kind == contact::BodyKind::sphere)
+    return scene_.elements.spheres[static_cast<std::size_t>(body.index)].nodes[0] == node;
+  if (body.kind == contact::BodyKind::plane || body.feature.id < 0) return false;
+  const geometry::FeatureNodes nodes = geometry::nodes_of(surface_, body.feature);
+  return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+}
+
+/// As in "the contact of sphere 3 (node 40) with the edge (nodes 7, 8) of structure 0 at (0 0 1) m,
+/// 0.002 m deep".
+template <contact::ContactLaw Law>
+void Simulation<Law>::describe(const contact::ContactRow& row, std::ostream& text) const {
+  const auto name = [&](const contact::ContactBody& body) {
+    if (body.kind == contact::BodyKind::plane) {
+      text << "plane " << body.index;
+    } else if (body.kind == contact::BodyKind::sphere) {
+      const auto& sphere = scene_.elements.spheres[static_cast<std::size_t>(body.index)];
+      text << "sphere " << body.index << " (node " << index_of(sphere.nodes[0]) << ')';
+    } else {
+      constexpr const char* kKinds[] = {"node ", "the edge (nodes ", "the facet (nodes "};
+      const geometry::FeatureNodes nodes = geometry::nodes_of(surface_, body.feature);
+      text << kKinds[static_cast<std::size_t>(body.feature.kind)];
+      for (const NodeId node : nodes)
+        text << (&node == nodes.begin() ? "" : ", ") << index_of(node);
+      text << (nodes.count > 1 ? ")" : "") << " of structure " << body.index;
+    }
+  };
+  text << "the contact of ";
+  name(row.a);
+  text << " with ";
+  name(row.b);
+  text << " at (" << row.point.transpose() << ") m, " << std::abs(row.gap)
+       << (row.gap < 0.0 ? " m deep," : " m apart,");
+}
+
+}  // namespace plekton::dynamics
