@@ -7,6 +7,7 @@
 #include "contact/material_pairs.hpp"
 #include "contact/structure/mean_node_masses.hpp"
 #include "contact/structure/pair_terms.hpp"
+#include "contact/structure/spread_contact.hpp"
 #include "contact/structure/structure_bond.hpp"
 #include "contact/structure/structure_patch.hpp"
 #include "contact/structure/touching_patches.hpp"
@@ -31,8 +32,9 @@ namespace plekton::contact {
 /// diameter of length or square diameter of area on which bodies run side by side. Everything else
 /// - friction - is decided once per patch, a part of the region that hangs together: its spring is
 /// as stiff as the contacts it counts, it acts where the elastic force acts, and it follows the
-/// patch over the mesh. Under a law that glues, what is glued is held by bonds of its own
-/// (structure_contacts_bonds.hpp).
+/// patch over the mesh. Facets that lie on each other have a spring for every pair of them instead
+/// (structure/spread_contact.hpp), for the part of the elastic force that their overlap has. Under
+/// a law that glues, what is glued is held by bonds of its own (structure_contacts_bonds.hpp).
 template <ContactLaw Law>
 class StructureContacts {
  public:
@@ -107,6 +109,7 @@ class StructureContacts {
   using Meeting = structure::Meeting<Law>;
   using Patch = structure::StructurePatch<Law>;
   using Bond = structure::StructureBond<Law>;
+  using Spread = structure::SpreadContact<Law>;
 
   struct PairOfCells {
     geometry::CellPair cells;
@@ -114,7 +117,8 @@ class StructureContacts {
     bool is_turned = false;   ///< its first cell is on the second side of its patch
     std::int32_t old_patch = -1;
     bool was_turned = false;
-    std::int32_t bond = -1;  ///< -1: none
+    std::int32_t bond = -1;    ///< -1: none
+    std::int32_t spread = -1;  ///< of the last step; -1: none
   };
   /// What is glued in a patch, and what can be: numbers of contacts.
   struct Gluing {
@@ -160,6 +164,12 @@ class StructureContacts {
     double normal_force;  ///< N
     bool is_torn;
   };
+  /// What the spread contacts of a patch do to its second side.
+  struct SpreadSum {
+    Vec3 force = Vec3::Zero();
+    Vec3 moment = Vec3::Zero();
+    bool sticks = false;  ///< one of them at least
+  };
   /// A patch of the last step that lives on in one of this.
   struct Heir {
     std::uint32_t old_patch;
@@ -182,6 +192,10 @@ class StructureContacts {
   void add_up_patches(Positions x);
   EnergyLoss inherit(const Motion& motion, double dt);
   void hand_on_number(const Legacy& old, std::span<const Heir> heirs);
+  void find_spreads(Positions x);
+  EnergyLoss carry_spreads(const Motion& motion, double dt);
+  double advance_spreads(const Motion& motion, double dt, geometry::ThreadPool& pool);
+  std::vector<SpreadSum> sum_spreads() const;
   double prepare_bonds(const Motion& motion, geometry::ThreadPool& pool);
   std::int32_t patch_of(const Bond& bond) const;
   double form_bonds(Positions x);
@@ -190,12 +204,14 @@ class StructureContacts {
   double glue_pair(const Pressed& pressed, double count, Positions x);
   double advance_bonds(const Motion& motion, double dt, geometry::ThreadPool& pool);
   double hand_to_patch(Bond& bond);
+  double hand_to_spread(const Bond& bond, Spread& spread);
   void drop_broken_bonds();
   void match_bonds();
   double keep_bonds(const geometry::SurfaceChange& change);
   ContactRow row_of(const Bond& bond) const;
   std::vector<std::uint32_t> deepest_places() const;
-  ContactRow row_of(const Patch& patch, std::uint32_t deepest, Positions x) const;
+  ContactRow row_of(const Patch& patch, const SpreadSum& spread, std::uint32_t deepest,
+                    Positions x) const;
   const Meeting& meeting_of(const Patch& patch) const { return meetings_[patch.meeting]; }
   double history_energy(const Patch& patch) const {
     return patch.history_energy(meeting_of(patch));
@@ -210,6 +226,8 @@ class StructureContacts {
   std::vector<Patch> patches_;
   std::vector<Legacy> previous_;
   std::vector<Heir> heirs_;
+  std::vector<Spread> spreads_;  ///< by term
+  std::vector<Spread> previous_spreads_;
   std::vector<Bond> bonds_;
   bool glues_ = false;          ///< whether any two structures stick where they come to touch
   std::vector<Gluing> gluing_;  ///< by patch
@@ -280,8 +298,8 @@ EnergyLoss StructureContacts<Law>::advance(const Motion& motion, double dt,
   terms_.evaluate(springs_, motion, pool);
   previous_.clear();
   for (const Patch& patch : patches_) {
-    previous_.push_back({patch.memory, patch.meeting, patch.count, history_energy(patch), patch.id,
-                         patch.normal_force, patch.is_torn});
+    previous_.push_back({patch.memory, patch.meeting, patch.point_count(), history_energy(patch),
+                         patch.id, patch.normal_force, patch.is_torn});
   }
   drop_broken_bonds();
   if (terms_.acting_changed()) {
@@ -290,10 +308,13 @@ EnergyLoss StructureContacts<Law>::advance(const Motion& motion, double dt,
   }
   find_heirs();
   add_up_patches(motion.position);
+  find_spreads(motion.position);
   EnergyLoss loss;
   loss.tracking = prepare_bonds(motion, pool);
   loss += inherit(motion, dt);
+  loss += carry_spreads(motion, dt);
   for (Patch& patch : patches_) loss.dissipated += patch.apply_law(meeting_of(patch), motion, dt);
+  loss.dissipated += advance_spreads(motion, dt, pool);
   loss.dissipated += advance_bonds(motion, dt, pool);
   return loss;
 }
@@ -372,4 +393,5 @@ void StructureContacts<Law>::find_places() {
 #include "contact/structure_contacts_change.hpp"
 #include "contact/structure_contacts_heirs.hpp"
 #include "contact/structure_contacts_rows.hpp"
+#include "contact/structure_contacts_spread.hpp"
 #include "contact/structure_contacts_sums.hpp"

@@ -96,7 +96,7 @@ void StructureContacts<Law>::list_pressed_pairs() {
         meetings_[term.spring].parameters, push > 0.0 ? -2.0 * term.forces.energy / push : 0.0);
     if (!(one > 0.0) || !(deepest > 0.0)) continue;
     const double near = near_push_[holder.pair] / deepest;
-    const double wide = std::max(0.0, push - term.weight * deepest) / one;
+    const double wide = std::max(0.0, push - term.point_share * term.weight * deepest) / one;
     pressed_.push_back({holder.pair, patch, acting, holder.is_turned, near, wide, 0.0});
     gluing_[patch].near += near;
     gluing_[patch].positive += std::max(0.0, near);
@@ -110,7 +110,7 @@ void StructureContacts<Law>::list_pressed_pairs() {
 template <ContactLaw Law>
 void StructureContacts<Law>::add_near_push(const PairTerm& term) {
   const structure::NormalSpring& spring = springs_[term.spring];
-  const double push = term.weight * spring.force(spring.range() - term.overlap);
+  const double push = term.point_share * term.weight * spring.force(spring.range() - term.overlap);
   const auto holders = terms_.holders(term);
   const auto has_them = [&](const structure::Holder& holder) {
     return terms_.of_cells(holder.pair).overlap == term.overlap;
@@ -159,7 +159,7 @@ double StructureContacts<Law>::advance_bonds(const Motion& motion, double dt,
   return dissipated;
 }
 
-/// What a broken bond still holds goes to the patch of its cells, if they touch.
+/// What a broken bond still holds goes to the facets or the patch of its cells, if they touch.
 /// @returns the energy (J) lost
 template <ContactLaw Law>
 double StructureContacts<Law>::hand_to_patch(Bond& bond) {
@@ -168,7 +168,9 @@ double StructureContacts<Law>::hand_to_patch(Bond& bond) {
     Patch& patch = patches_[static_cast<std::size_t>(bond.patch)];
     patch.is_torn = true;
     const auto pair = static_cast<std::size_t>(bond.pair);
-    if (bond.pair >= 0 && pairs_[pair].patch >= 0 && patch.pushes()) {
+    if (bond.pair >= 0 && pairs_[pair].spread >= 0) {
+      lost += hand_to_spread(bond, spreads_[static_cast<std::size_t>(pairs_[pair].spread)]);
+    } else if (bond.pair >= 0 && pairs_[pair].patch >= 0 && patch.pushes()) {
       const double sign = bond.is_turned != pairs_[pair].is_turned ? -1.0 : 1.0;
       lost += history_energy(patch);
       Law::add_share(patch.memory.history,
@@ -178,6 +180,18 @@ double StructureContacts<Law>::hand_to_patch(Bond& bond) {
   }
   bond.memory.history = {};
   return lost;
+}
+
+/// The bond's points a and b are on the facets a and b. @returns the energy (J) lost
+template <ContactLaw Law>
+double StructureContacts<Law>::hand_to_spread(const Bond& bond, Spread& spread) {
+  const double before = spread.energy;
+  const auto carried = carried_history<Law>(bond.memory, spread.memory.normal, 0.0);
+  Law::add_share(spread.memory.history, carried, std::min(1.0, bond.count / spread.count));
+  const auto parameters =
+      spread.parameters(meetings_[spread.meeting], patches_[spread.patch].free_part);
+  spread.energy = Law::history_energy(parameters, spread.memory.history);
+  return before - spread.energy;
 }
 
 /// Takes out those that broke in the last step.

@@ -56,6 +56,7 @@ void StructureContacts<Law>::renumber(const geometry::SurfaceChange& change) {
     const auto b = change.now(pair.cells.b);
     if (a && b) {
       left.push_back({{*a, *b}, pair.patch, pair.is_turned});
+      left.back().spread = pair.spread;
     } else if (pair.patch >= 0) {
       hand_to_sides(pair, terms_.carriers(i), change, left);
     }

@@ -48,13 +48,13 @@ EnergyLoss StructureContacts<Law>::inherit(const Motion& motion, double dt) {
     for (auto heir = begin; heir != end; ++heir) total += patches_[heir->patch].normal_force;
     for (auto heir = begin; heir != end && total > 0.0; ++heir) {
       Patch& patch = patches_[heir->patch];
-      if (!(patch.normal_force > 0.0)) continue;
+      if (!(patch.normal_force > 0.0) || !(patch.point_part > 0.0)) continue;
       const double sign = heir->is_turned ? -1.0 : 1.0;
       const Vec3 normal = sign / patch.normal_force * patch.elastic_force;
       const Vec3 spin =
           0.5 * (patch.first.angular_velocity(motion) + patch.second.angular_velocity(motion));
       const auto carried = carried_history<Law>(old.memory, normal, dt * spin.dot(normal));
-      const double share = patch.normal_force / total * old.count / patch.count;
+      const double share = patch.normal_force / total * old.count / patch.point_count();
       Law::add_share(patch.memory.history, carried, sign * std::min(1.0, share));
     }
     begin = end;

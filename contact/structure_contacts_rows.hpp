@@ -24,8 +24,9 @@ template <ContactLaw Law>
 template <class Visit>
 void StructureContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
   const std::vector<std::uint32_t> deepest = deepest_places();
+  const std::vector<SpreadSum> spreads = sum_spreads();
   for (std::size_t i = 0; i < patches_.size(); ++i) {
-    if (patches_[i].pushes()) visit(row_of(patches_[i], deepest[i], x));
+    if (patches_[i].pushes()) visit(row_of(patches_[i], spreads[i], deepest[i], x));
   }
   for (const Bond& bond : bonds_) {
     ContactRow row = row_of(bond);
@@ -57,8 +58,8 @@ ContactRow StructureContacts<Law>::row_of(const Bond& bond) const {
 }
 
 template <ContactLaw Law>
-ContactRow StructureContacts<Law>::row_of(const Patch& patch, std::uint32_t deepest,
-                                          Positions x) const {
+ContactRow StructureContacts<Law>::row_of(const Patch& patch, const SpreadSum& spread,
+                                          std::uint32_t deepest, Positions x) const {
   const Meeting& meeting = meeting_of(patch);
   const PairTerm& term = terms_[terms_.acting()[deepest]];
   const bool is_turned = places_[deepest].is_turned;
@@ -76,10 +77,15 @@ ContactRow StructureContacts<Law>::row_of(const Patch& patch, std::uint32_t deep
   row.point = row.point_b + patch.lever_of_second(meeting);
   row.normal = patch.memory.normal;
   row.gap = patch.gap;
-  set_force(row, patch.elastic_force + patch.second.total_attraction() + patch.other_force);
-  row.moment = patch.second.moment_about(row.point, x);
+  const double point_force = patch.point_part * patch.normal_force;
+  set_force(row, patch.other_force);
+  set_state<Law>(row, patch.parameters(meeting), patch.memory.history, point_force);
+  row.is_slipping = row.is_slipping && !spread.sticks;
+  row.elastic_force = patch.normal_force;
+  set_force(row, patch.elastic_force + patch.second.total_attraction() + patch.other_force +
+                     spread.force);
+  row.moment = patch.second.moment_about(row.point, x) + spread.moment;
   if constexpr (HasMoments<Law>) row.moment += patch.moment;
-  set_state<Law>(row, patch.parameters(meeting), patch.memory.history, patch.normal_force);
   return row;
 }
 

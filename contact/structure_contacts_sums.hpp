@@ -38,6 +38,7 @@ void StructureContacts<Law>::add_up_patches(Positions x) {
 template <ContactLaw Law>
 void StructureContacts<Law>::add_forces(NodeForces& forces) const {
   for (const Patch& patch : patches_) patch.add_forces(meeting_of(patch), forces);
+  for (const Spread& spread : spreads_) spread.add_forces(meetings_[spread.meeting], forces);
   for (const Bond& bond : bonds_) bond.add_forces(meetings_[bond.meeting], forces);
 }
 
@@ -46,6 +47,7 @@ double StructureContacts<Law>::elastic_energy() const {
   double energy = 0.0;
   for (const Patch& patch : patches_)
     energy += patch.energy + patch.attraction_energy + history_energy(patch);
+  for (const Spread& spread : spreads_) energy += spread.energy;
   for (const Bond& bond : bonds_) energy += bond.history_energy(meetings_[bond.meeting]);
   return energy;
 }

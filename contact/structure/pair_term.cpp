@@ -181,7 +181,10 @@ TermForces term_forces(const PairTerm& term, const TermProximity& found, const P
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
   add_nearest(term, nearest_part(a, b, found.cores, found.may_be_flat, spring), found.cores, share,
               result);
-  if (can_extend(a, b)) add(extended_part(a, b, spring), term.weight, term, result.forces);
+  if (!can_extend(a, b)) return result;
+  const PairForces extended = extended_part(a, b, spring);
+  add(extended, term.weight, term, result.forces);
+  if (a.count == 3 && b.count == 3) result.spread = extended;  // of weight 1
   return result;
 }
 

@@ -22,11 +22,12 @@ struct PairTerm {
   std::int32_t weight;
   std::uint32_t first_holder;
   std::uint32_t holder_count;
-  std::uint32_t spring;  ///< of its two structures
-  bool is_of_cells;      ///< of two facets or cylinders, not of their sides
-  bool meets = false;    ///< the cores touch or cross; exact
-  double overlap = 0.0;  ///< m, of the nearest points
-  PairForces forces;     ///< weight times those of the nearest points, plus those of the extent
+  std::uint32_t spring;      ///< of its two structures
+  bool is_of_cells;          ///< of two facets or cylinders, not of their sides
+  bool meets = false;        ///< the cores touch or cross; exact
+  double overlap = 0.0;      ///< m, of the nearest points
+  double point_share = 1.0;  ///< of the weight, that the nearest points have (point_share.hpp)
+  PairForces forces;         ///< weight times those of the nearest points, plus those of the extent
 };
 
 PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair& pair);
@@ -55,6 +56,7 @@ bool takes_over(const PairTerm& term, const PairTerm& other, bool is_turned,
 /// at the nearest points, plus what it does over the extent.
 struct TermForces {
   PairForces forces;
+  PairForces spread;    ///< the part of them that two facets have by their extent
   double shared = 0.0;  ///< J, of the nearest points, what the share is of; 0 where that is all
 };
 TermForces term_forces(const PairTerm& term, const TermProximity& found, const PointShare& share,

@@ -45,6 +45,7 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   terms_are_new_ = true;
   term_of_pair_.resize(pairs.size());
   proximity_.resize(pairs.size());
+  spreads_.resize(pairs.size());
   is_near_.assign(pairs.size(), 0);
   for (const std::uint32_t pair : features.holders) holders_.push_back({pair, false});
   const std::size_t count = surface_->structure_count();
@@ -159,7 +160,9 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
   term.overlap = spring.range() - found.cores.signed_distance;
   const PointShare share = share_of(term, term.overlap, spring.range());
   const TermForces pushing = term_forces(term, found, share, spring, x);
+  term.point_share = share.share;
   term.forces = pushing.forces;
+  if (term.a.count == 3 && term.b.count == 3) spreads_[holders(term).front().pair] = pushing.spread;
   shared_[candidate][0] = pushing.shared;
   if (!spring.attracts()) return;
   const TermForces pulling = term_forces(term, found, share, spring.attraction(), x);

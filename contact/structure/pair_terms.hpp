@@ -52,6 +52,14 @@ class PairTerms {
     return attracts_.empty() || attracts_[terms_[term].spring] == 0 ? nullptr : &attractions_[term];
   }
 
+  /// What the extent of two facets does that a term in range is of: a part of its forces; null if
+  /// it is of anything else.
+  const PairForces* spread(std::size_t term) const noexcept {
+    const PairTerm& of = terms_[term];
+    if (of.a.count != 3 || of.b.count != 3) return nullptr;
+    return &spreads_[holders(of).front().pair];
+  }
+
   /// Of a pair of cells in range at the last evaluate(): the corners of the features that hold its
   /// nearest points, of its first cell and of its second.
   std::array<geometry::FeatureNodes, 2> carriers(std::uint32_t pair) const noexcept;
@@ -85,6 +93,7 @@ class PairTerms {
   Clearances clearances_;                 ///< of the pairs of cells
   std::vector<std::uint32_t> due_;        ///< pairs of cells that may be in range, ascending
   std::vector<TermProximity> proximity_;  ///< by pair; of those in range, as it is now
+  std::vector<PairForces> spreads_;       ///< by pair; of those of facets in range
   std::vector<char> is_near_;             ///< by pair: in range
   std::vector<std::uint32_t> candidates_;
   /// J, by candidate: what the share of a term is of; of attraction in the second.

@@ -32,8 +32,10 @@ struct StructurePatch {
   double gap = 0.0;                   ///< m, mean over the forces
   PatchSide first;
   PatchSide second;
-  double free_part = 1.0;  ///< of its tangential force, that no bonds carry
-  bool is_torn = false;    ///< a bond has broken in it: it forms no others
+  double free_part = 1.0;   ///< of its tangential force, that no bonds carry
+  double point_part = 1.0;  ///< of its elastic force, that facets lying on each other do not carry:
+                            ///< they have friction of their own (spread_contact.hpp)
+  bool is_torn = false;     ///< a bond has broken in it: it forms no others
   ContactMemory<Law> memory;
   std::int64_t id = 0;    ///< 0: none yet
   double id_from = -1.0;  ///< N, normal force of the patch of the last step that the id is from
@@ -47,6 +49,7 @@ struct StructurePatch {
     energy = 0.0;
     attraction_energy = 0.0;
     free_part = 1.0;
+    point_part = 1.0;
     is_torn = false;
     memory = {};
     id = 0;
@@ -80,9 +83,11 @@ struct StructurePatch {
   typename Law::Parameters whole_parameters(const Meeting<Law>& bodies) const {
     return Law::multiplied(bodies.parameters, count);
   }
-  /// Of what it has beside bonds.
+  /// How many contacts it has a history for.
+  double point_count() const noexcept { return point_part * count; }
+  /// Of those, what they have beside bonds.
   typename Law::Parameters parameters(const Meeting<Law>& bodies) const {
-    return beside_bonds<Law>(whole_parameters(bodies), free_part);
+    return beside_bonds<Law>(Law::multiplied(bodies.parameters, point_count()), free_part);
   }
 
   double history_energy(const Meeting<Law>& bodies) const {
@@ -96,10 +101,10 @@ struct StructurePatch {
                           first.velocity_at(lever_of_first(bodies), motion);
     memory.normal = normal();
     const RelativeMotion relative =
-        relative_motion(memory.normal, gap, normal_force, velocity,
+        relative_motion(memory.normal, gap, point_part * normal_force, velocity,
                         second.angular_velocity(motion) - first.angular_velocity(motion));
     const ContactForce result = Law::force(parameters(bodies), relative, memory.history, dt);
-    other_force = result.force - elastic_force;
+    other_force = result.force - point_part * elastic_force;
     moment = result.moment;
     return result.dissipated;
   }

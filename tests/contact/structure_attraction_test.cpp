@@ -31,7 +31,7 @@ Body laid(const Body& body, const Vec3& turns, const Vec3& shift) {
 
 TEST(StructureAttraction, IsOnePerContactOfASquareThatLiesFlat) {
   const double side = 0.8;
-  const double contacts = 1.0 + side * side / (kRange * kRange);
+  const double contacts = side * side / (kRange * kRange);
   const Body a = sheet(3, 3, 2.0, 2.0, Cut::alternating);
   const Body b = sheet(2, 2, side, side);
   Meeting with(a, b, kRange, {kWork}), without(a, b, kRange, {0.0});

@@ -86,9 +86,11 @@ template <class Law>
 class MeetingUnder {
  public:
   MeetingUnder(const Body& a, const Body& b, double range,
-               const contact::PropertiesOf<Law>& properties = {}, double stiffness_ratio = 0.0)
+               const contact::PropertiesOf<Law>& properties = {}, double stiffness_ratio = 0.0,
+               double friction = 0.0)
       : count_a_(a.x.size()),
         stiffness_ratio_(stiffness_ratio),
+        friction_(friction),
         properties_{{{contact::MaterialId{0}, contact::MaterialId{0}}, properties}} {
     add(a, 0.5 * range);
     add(b, 0.5 * range);
@@ -143,7 +145,7 @@ class MeetingUnder {
       // k = 2 E R E R / (E R + E R) = E R: with E = 1 / R, 1 N/m.
       const double radius = surface_->radius(geometry::StructureId{0});
       const contact::MaterialPairs<Law> materials(
-          {contact::Material{1.0 / radius, stiffness_ratio_, 0.0}}, properties_);
+          {contact::Material{1.0 / radius, stiffness_ratio_, friction_}}, properties_);
       const std::vector<contact::MaterialId> of_structures(surface_->structure_count());
       contacts_->rebuild(neighbours_->pairs(), {materials, {}, of_structures});
     }
@@ -155,6 +157,7 @@ class MeetingUnder {
 
   std::size_t count_a_;
   double stiffness_ratio_;
+  double friction_;
   contact::PairProperties<Law> properties_;
   std::vector<Vec3> x_;
   std::vector<Facet> facets_;
