@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/scene.hpp"
 
-#include "dynamics/structure/lumped_mass.hpp"
-
 namespace plekton::dynamics {
 
 NodeId Scene::add_node(const Vec3& position, Held held) {
@@ -38,16 +36,17 @@ void Scene::add_facet(NodeId a, NodeId b, NodeId c, double radius, contact::Mate
   facet_materials.push_back(material);
 }
 
-std::size_t Scene::add_beam(NodeId a, NodeId b, const BeamSection& section, double density) {
+std::size_t Scene::add_beam(NodeId a, NodeId b, const BeamSection& section, double density,
+                            NodalInertia inertia) {
   bonds.push_back(make_beam(a, b, state, section));
-  add_beam_mass(properties, bonds.back(), density);
+  add_beam_mass(properties, bonds.back(), density, inertia);
   return bonds.size() - 1;
 }
 
 std::size_t Scene::add_sheet_facet(const std::array<NodeId, 3>& nodes, const SheetSection& section,
-                                   double density) {
+                                   double density, NodalInertia inertia) {
   sheet_facets.push_back(make_sheet_facet(nodes, state, section));
-  add_facet_mass(properties, {nodes, 0.5 * section.thickness}, state.position, density);
+  add_facet_mass(properties, {nodes, 0.5 * section.thickness}, state.position, density, inertia);
   return sheet_facets.size() - 1;
 }
 

@@ -6,6 +6,7 @@
 #include "dynamics/node_state.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/bond_law.hpp"
+#include "dynamics/structure/lumped_mass.hpp"
 #include "dynamics/structure/sheet_facet.hpp"
 #include "geometry/elements.hpp"
 
@@ -45,9 +46,11 @@ struct Scene {
   void add_facet(NodeId a, NodeId b, NodeId c, double radius, contact::MaterialId material);
 
   /// Adds a beam between nodes, at rest as they are now, with half of its mass to either: m += 1/2
-  /// rho A L, and inertia += 2/5 of that times r² (edge mode, as in Effeindzourou et al. 2016).
+  /// rho A L, and inertia += 2/5 of that times r² (edge mode, as in Effeindzourou et al. 2016), or
+  /// as the last argument says.
   /// @returns  its place in bonds
-  std::size_t add_beam(NodeId a, NodeId b, const BeamSection& section, double density);
+  std::size_t add_beam(NodeId a, NodeId b, const BeamSection& section, double density,
+                       NodalInertia inertia = NodalInertia::ball);
 
   /// Adds a facet of a thin sheet between nodes, at rest as they are now, with a third of its mass
   /// to each: m += 1/3 rho t A, and inertia += 2/5 of that times (t / 2)² (area mode). It only
@@ -55,7 +58,7 @@ struct Scene {
   /// @param density  kg/m³, >= 0; 0 where the mass is given in another way, as by add_edge_mass
   /// @returns  its place in sheet_facets
   std::size_t add_sheet_facet(const std::array<NodeId, 3>& nodes, const SheetSection& section,
-                              double density);
+                              double density, NodalInertia inertia = NodalInertia::ball);
 
   /// @throws std::invalid_argument listing every problem: arrays of different lengths, ids out of
   /// range, a node

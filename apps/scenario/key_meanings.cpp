@@ -64,6 +64,7 @@ constexpr std::array kOfMembranes = std::to_array<KeyMeaning>({
     {"membranes[].poisson_ratio", "of a sheet; of beams for their torsion"},
     {"membranes[].bending_stiffness", "of a continuum; E t^3 / (12 (1 - nu^2)) if not given"},
     {"membranes[].mass_mode", "mass from the edges, or from the facets"},
+    {"membranes[].nodal_inertia", "of a ball of the wire's radius, or of the length of the edges"},
     {"membranes[].areal_mass", "mass over area, or give the density"},
     {"membranes[].density", "of round beams (edge), of the plate (area)"},
     {"membranes[].hold", "which nodes are held"},

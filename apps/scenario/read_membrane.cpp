@@ -101,6 +101,7 @@ void require_parts(Section& section, const MembraneSettings& membrane) {
 
 MembraneSettings read_membrane(Section section, const Known& known) {
   constexpr std::array<std::string_view, 2> kMassModes = {"edge", "area"};
+  constexpr std::array<std::string_view, 2> kNodalInertias = {"ball", "length"};
   constexpr std::array<std::string_view, 3> kModes = {"lattice", "truss", "continuum"};
   MembraneSettings membrane;
   membrane.name = section.name("name", "membrane");
@@ -124,6 +125,8 @@ MembraneSettings read_membrane(Section section, const Known& known) {
   section.tell_default("mass_mode", "\"edge\"; of a continuum \"area\"");
   membrane.mass_mode =
       static_cast<MassMode>(section.choice("mass_mode", kMassModes, is_sheet ? 1 : 0));
+  membrane.nodal_inertia =
+      static_cast<dynamics::NodalInertia>(section.choice("nodal_inertia", kNodalInertias, 0));
   membrane.density = read_either(section, {"density", {kDensity, kPositive}},
                                  {"areal_mass", {kArealMass, kPositive}}, membrane.areal_mass);
   membrane.hold = read_hold(section);

@@ -7,6 +7,7 @@
 #include "apps/scenario/shape_settings.hpp"
 #include "contact/laws/law_list.hpp"
 #include "dynamics/structure/bond_strength.hpp"
+#include "dynamics/structure/lumped_mass.hpp"
 #include "dynamics/structure/wire_curve.hpp"
 #include "geometry/box.hpp"
 #include "geometry/mesh/repair.hpp"
@@ -109,6 +110,7 @@ struct MembraneSettings {
   std::optional<dynamics::WireCurve> wire;         ///< of the bars, instead of a modulus
   std::optional<dynamics::WireCurve> twist_wire;   ///< of the twists of a hexagonal net; else wire
   MassMode mass_mode = MassMode::edge;
+  dynamics::NodalInertia nodal_inertia = dynamics::NodalInertia::ball;
   std::optional<double>
       density;  ///< kg/m³, of the beams (edge) or the plate (area); else from areal_mass
   double areal_mass = 0.0;  ///< kg/m²

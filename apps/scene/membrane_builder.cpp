@@ -142,7 +142,8 @@ void add_edges(const MembraneSettings& settings, const MembraneBody& body,
     const bool is_twist = settings.twist_wire && body.is_twist[i];
     scene.add_cylinder(a, b, radius, static_cast<contact::MaterialId>(settings.material));
     const std::size_t bond = scene.add_beam(
-        a, b, is_twist ? dynamics::wire_section(radius, *settings.twist_wire) : section, density);
+        a, b, is_twist ? dynamics::wire_section(radius, *settings.twist_wire) : section, density,
+        settings.nodal_inertia);
     (is_twist ? twists : plain).push_back(bond);
   }
   if (settings.strength) scene.bond_laws.push_back({*settings.strength, plain});
@@ -161,7 +162,7 @@ void add_sheet(const MembraneSettings& settings, const Membrane& membrane,
     scene.add_sheet_facet(facet.nodes, section, 0.0);
   for (const auto& edge : membrane.edges) {
     dynamics::add_edge_mass(scene.properties, edge, scene.state.position, 0.5 * settings.thickness,
-                            density);
+                            density, settings.nodal_inertia);
   }
 }
 
@@ -190,7 +191,8 @@ void add_elements(const MembraneSettings& settings, const MembraneBody& body,
   for (const geometry::Facet& facet : membrane.facets) {
     scene.add_facet(facet.nodes[0], facet.nodes[1], facet.nodes[2], radius,
                     static_cast<contact::MaterialId>(settings.material));
-    dynamics::add_facet_mass(scene.properties, facet, scene.state.position, masses.facets);
+    dynamics::add_facet_mass(scene.properties, facet, scene.state.position, masses.facets,
+                             settings.nodal_inertia);
   }
 }
 
