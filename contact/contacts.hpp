@@ -120,6 +120,10 @@ class Contacts {
   const SurfaceContacts<Law>& with_surfaces() const noexcept { return with_surfaces_; }
   const StructureContacts<Law>& between_structures() const noexcept { return between_structures_; }
   const PlaneContacts<Law>& with_planes() const noexcept { return with_planes_; }
+  /// How often a list of pairs that may touch was made: what is not in one cannot touch before the
+  /// next.
+  std::int64_t list_count() const noexcept { return list_count_; }
+
   const geometry::Neighbours& neighbours() const noexcept { return neighbours_; }
   const geometry::CellNeighbours& cell_neighbours() const noexcept { return cell_neighbours_; }
 
@@ -144,6 +148,7 @@ class Contacts {
   double dissipated_ = 0.0;
   double tracking_loss_ = 0.0;
   std::int64_t last_number_ = 0;
+  std::int64_t list_count_ = 0;
   enum class Start { ahead, now, over } start_ = Start::ahead;
 };
 
@@ -219,13 +224,16 @@ void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes,
                                             pool, motion.position);
     tracking_loss_ += list_on_surfaces();
     plane_neighbours_.expire(neighbours_.skin());
+    ++list_count_;
   }
   if (cell_neighbours_.update(motion.position, pool, motion.way)) {
     tracking_loss_ += between_structures_.rebuild(cell_neighbours_.pairs(), materials_);
+    ++list_count_;
   }
   if (plane_neighbours_.update(balls_, planes, motion.position)) {
     tracking_loss_ +=
         with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
+    ++list_count_;
   }
   dissipated_ += with_spheres_.advance(motion, dt, pool, forces);
   add(with_surfaces_.advance(motion, dt, pool));
@@ -241,6 +249,7 @@ void Contacts<Law>::end_start(std::span<const Plane> planes, Positions x,
                               geometry::ThreadPool& pool) {
   start_ = Start::over;
   if (!materials_.pairs.end_start()) return;
+  ++list_count_;
   with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs, pool, x);
   list_on_surfaces();
   between_structures_.take_parameters(materials_);
@@ -258,6 +267,7 @@ double Contacts<Law>::list_on_surfaces() {
 template <ContactLaw Law>
 void Contacts<Law>::follow(const geometry::SurfaceChange& change, const Motion& motion,
                            Positions at, geometry::ThreadPool& pool) {
+  ++list_count_;
   tracking_loss_ += with_surfaces_.follow(change, neighbours_.cells(), at);
   neighbours_.follow(change);
   tracking_loss_ += list_on_surfaces();

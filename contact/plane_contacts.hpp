@@ -55,14 +55,24 @@ class PlaneContacts {
     });
   }
 
-  /// Calls visit(plane, force (N) on it, parameters, gap (m)) for every touching pair of the last
-  /// step, in a fixed order.
+  /// Calls visit(ball's node, plane, parameters, gap) for every listed pair that is nearer than a
+  /// margin (m) with the bodies where they are now.
+  template <class Visit>
+  void for_each_near(double margin, std::span<const Plane> planes, Positions x,
+                     Visit&& visit) const {
+    for (const Slot& slot : slots_) {
+      const Plane& plane = planes[slot.plane];
+      const double gap = (x[index_of(slot.node)] - plane.point).dot(plane.normal) - slot.radius;
+      if (gap < margin + reach_of<Law>(slot.parameters))
+        visit(slot.node, slot.plane, slot.parameters, gap);
+    }
+  }
+
+  /// Calls visit(plane, force (N) on it) for every touching pair of the last step, in a fixed
+  /// order.
   template <class Visit>
   void for_each_force(Visit&& visit) const {
-    records_.for_each([&](const PlaneForce& record) {
-      const Slot& slot = slots_[record.contact];
-      visit(record.plane, record.force, slot.parameters, slot.gap);
-    });
+    records_.for_each([&](const PlaneForce& record) { visit(record.plane, record.force); });
   }
 
   /// Gives a number after the last one to every contact that has none.

@@ -89,6 +89,15 @@ class StructureContacts {
   template <class Visit>
   void for_each_stiffness(Visit&& visit) const;
 
+  /// Calls visit(cells) for the listed pairs of cells that do not touch, but may be as near as a
+  /// margin (m).
+  template <class Visit>
+  void for_each_near(double margin, Visit&& visit) const {
+    for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+      if (pairs_[i].patch < 0 && terms_.may_be_within(i, margin)) visit(pairs_[i].cells);
+    }
+  }
+
   /// Gives a number after the last one to every patch that has none.
   void number(std::int64_t& last) {
     for (Patch& patch : patches_) {

@@ -77,14 +77,30 @@ class SurfaceContacts {
   double elastic_energy() const;
 
   /// Calls visit(ball's node, core point of a term, parameters, range (m): radius of the ball and
-  /// of the surface) for every term of every patch.
+  /// of the surface, elastic force (N) of the term) for every term of every patch.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
     records_.for_each([&](const SurfaceForce& record) {
       const Pair& pair = pairs_[record.pair];
-      visit(record.a, record.core, pair.parameters, pair.range);
+      visit(record.a, record.core, pair.parameters, pair.range, record.elastic);
     });
   }
+
+  /// Calls visit(ball's node, core point, parameters, range (m)) for what is not in contact but may
+  /// be as soon as bodies come nearer by a margin: the nearest point of every cell whose inside
+  /// holds it, and of a surface that the ball does not touch the nearest one of all, since a
+  /// contact begins there.
+  /// @param margin  m, at most the skin of the list
+  /// @param cells   of the present list, as rebuild() took them
+  template <class Visit>
+  void for_each_coming(double margin, std::span<const geometry::CellId> cells, Positions x,
+                       Visit&& visit) const;
+
+  /// Adds the elastic normal forces (N) with the nodes anywhere near where they were in the last
+  /// step: what the contacts' energy gives, without friction and whatever else has a history.
+  /// @param cells  of the present list, as rebuild() took them
+  void add_elastic_forces(std::span<const geometry::CellId> cells, Positions x,
+                          NodeForces& forces) const;
 
   /// Gives a number after the last one to every contact that has none.
   void number(std::int64_t& last);
@@ -299,5 +315,6 @@ double SurfaceContacts<Law>::elastic_energy() const {
 
 #include "contact/surface_contacts_change.hpp"
 #include "contact/surface_contacts_lone.hpp"
+#include "contact/surface_contacts_near.hpp"
 #include "contact/surface_contacts_rows.hpp"
 #include "contact/surface_contacts_step.hpp"

@@ -121,6 +121,7 @@ double SurfaceContacts<Law>::keep_lone(Pair& pair, std::size_t lane, int worker_
   record.force = answer.force_b;
   record.torque_a = answer.torque_a;
   record.torque_b = answer.torque_b;
+  record.elastic = Law::elastic_normal_force(pair.parameters, gap);
   record.pair = static_cast<std::uint32_t>(&pair - pairs_.data());
 
   const std::int64_t id = contacts_of(pair, previous_)[0].id;
@@ -130,7 +131,7 @@ double SurfaceContacts<Law>::keep_lone(Pair& pair, std::size_t lane, int worker_
   lists.contacts.push_back({{answer.memory.history, answer.memory.normal},
                             answer.foot,
                             gap,
-                            Law::elastic_normal_force(pair.parameters, gap),
+                            record.elastic,
                             Law::elastic_normal_energy(pair.parameters, gap),
                             id,
                             static_cast<std::uint32_t>(lists.minima.size()),

@@ -212,11 +212,12 @@ void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchT
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Vec3 other = term_forces[i].share * other_force;
     const Vec3 lever_b = state.lever_a - terms[i].distance * terms[i].normal;
-    records.add({pair.node, terms[i].core, term_forces[i].elastic * terms[i].normal + other,
-                 -state.lever_a.cross(other) - term_forces[i].share * answer.moment,
-                 lever_b.cross(other) + term_forces[i].share * answer.moment,
-                 static_cast<std::uint32_t>(&pair - pairs_.data()), contact},
-                -state.gap / pair.radius);
+    records.add(
+        {pair.node, terms[i].core, term_forces[i].elastic * terms[i].normal + other,
+         -state.lever_a.cross(other) - term_forces[i].share * answer.moment,
+         lever_b.cross(other) + term_forces[i].share * answer.moment, term_forces[i].elastic,
+         static_cast<std::uint32_t>(&pair - pairs_.data()), contact},
+        -state.gap / pair.radius);
   }
 }
 

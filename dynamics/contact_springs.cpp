@@ -16,7 +16,7 @@ void ContactSprings::add_pair(NodeId a, NodeId b, const ContactStiffness& contac
 }
 
 void ContactSprings::add_on_surface(NodeId ball, const geometry::CorePoint& core,
-                                    const ContactStiffness& contact) {
+                                    const ContactStiffness& contact, const SurfaceTurning&) {
   begin(contact);
   add_end({ball, -1.0, contact.arm_a});
   for (std::size_t i = 0; i < core.nodes.size(); ++i)

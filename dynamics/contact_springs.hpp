@@ -16,8 +16,9 @@ class ContactSprings {
   void add_pair(NodeId a, NodeId b, const ContactStiffness& contact);
   /// A contact between a ball and a surface, whose nodes share in it by the weights of the core
   /// point.
-  void add_on_surface(NodeId ball, const geometry::CorePoint& core,
-                      const ContactStiffness& contact);
+  /// @param turning  is left out: who has the forces themselves has it too
+  void add_on_surface(NodeId ball, const geometry::CorePoint& core, const ContactStiffness& contact,
+                      const SurfaceTurning& turning = {});
   /// A contact between a ball and a wall, which does not yield. arm_b has no meaning here.
   void add_to_wall(NodeId ball, const ContactStiffness& contact);
   /// Springs that hold a single node.

@@ -40,10 +40,11 @@ double shortest_length(const Scene& scene) {
 class ScaledStiffness {
  public:
   ScaledStiffness(const Scene& scene, const Structures& structures, const AppliedLoads& loads,
-                  const ContactSprings& contacts, double time)
+                  const ContactSprings& contacts, double time, const ForcesOfPlaces& normal)
       : scene_(scene),
         loads_(loads),
         contacts_(contacts),
+        normal_(normal),
         time_(time),
         bonds_(structures.bonds),
         sheets_(structures.sheets),
@@ -105,6 +106,7 @@ class ScaledStiffness {
     sheets_.advance(moved_, pool_);
     sheets_.add_forces(forces_, pool_);
     loads_.add_elastic_forces(time_, moved_, forces_, pool_);
+    if (normal_) normal_(moved_.position, forces_);
   }
 
   void take_forces(double factor, VectorXd& y) const {
@@ -117,6 +119,7 @@ class ScaledStiffness {
   const Scene& scene_;
   AppliedLoads loads_;
   const ContactSprings& contacts_;
+  const ForcesOfPlaces& normal_;
   double time_;
   BeamBonds bonds_;
   SheetFacets sheets_;
@@ -134,8 +137,8 @@ class ScaledStiffness {
 
 ExactStep exact_critical_step(const Scene& scene, const Structures& structures,
                               const AppliedLoads& loads, const ContactSprings& contacts,
-                              double time) {
-  ScaledStiffness stiffness(scene, structures, loads, contacts, time);
+                              double time, const ForcesOfPlaces& normal) {
+  ScaledStiffness stiffness(scene, structures, loads, contacts, time, normal);
   const LargestEigenvalue largest = largest_eigenvalue(
       {stiffness.size(), [&](const VectorXd& x, VectorXd& y) { stiffness.multiply(x, y); }},
       kTolerance, kMostProducts);

@@ -8,6 +8,8 @@
 #include "geometry/elements.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 /// Contacts that a scene may come to have, for a time step that stays safe when they begin: a light
@@ -39,7 +41,7 @@ class ExpectedContacts {
       : scene_(scene), surface_(surface), pairs_(pairs) {
     collect_structures();
     collect_kinds();
-    if (structures_.size() > 1) collect_extents();
+    collect_extents();
   }
 
   /// By NodeId. Spheres as if packed densely among the hardest they can meet, nodes of surfaces as
@@ -57,6 +59,39 @@ class ExpectedContacts {
       if (surface_.structure_of(node) != geometry::StructureId{-1}) stiffness[n] = of_touch(node);
     }
     return stiffness;
+  }
+
+  /// By NodeId, of structures: with another one, or itself, that lies on all that is around a node.
+  std::vector<IsotropicStiffness> of_structures() const {
+    std::vector<IsotropicStiffness> stiffness(surface_.node_count());
+    for (std::size_t n = 0; n < surface_.node_count(); ++n) {
+      const geometry::StructureId own = surface_.structure_of(geometry::id_at<NodeId>(n));
+      if (own == geometry::StructureId{-1}) continue;
+      ExpectedStiffness hardest;
+      for (std::size_t i = 0; i < structures_.size(); ++i)
+        take_structure(geometry::id_at<NodeId>(n), i, hardest);
+      stiffness[n] = from_all_sides(2.0 * hardest.normal, 2.0 * hardest.tangential,
+                                    structures_[index_of(own)].radius);
+    }
+    return stiffness;
+  }
+
+  /// A step (s) that follows collisions of all spheres that are free: min sqrt(m / (8 k)), k the
+  /// stiffness of the hardest contact with one of its size, a structure or a plane. One of two
+  /// equal spheres takes 6 such steps, one with a wall 9: the energy that a leapfrog is off by as a
+  /// contact begins and ends is (omega dt)² / 4 of that of the collision at most. Infinite without
+  /// free spheres.
+  double collision_step() const {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
+      const geometry::Sphere& sphere = scene_.elements.spheres[i];
+      const std::size_t node = index_of(sphere.nodes[0]);
+      if (holds_translation(scene_.properties.held[node])) continue;
+      const double k = hardest_partner({scene_.sphere_materials[i], sphere.radius}).normal;
+      if (k > 0.0)
+        shortest = std::min(shortest, std::sqrt(scene_.properties.mass[node] / (8.0 * k)));
+    }
+    return shortest;
   }
 
   /// The stiffest contact that a node may come to have. Linear in the number of spheres.
@@ -153,20 +188,23 @@ class ExpectedContacts {
   /// Of another structure that lies on all that is around the node (structure/extended.hpp).
   ExpectedStiffness hardest_structure(NodeId node) const {
     ExpectedStiffness hardest;
-    const Kind& own = structures_[index_of(surface_.structure_of(node))];
-    for (std::size_t i = 0; structures_.size() > 1 && i < structures_.size(); ++i) {
-      if (geometry::id_at<geometry::StructureId>(i) == surface_.structure_of(node)) continue;
-      const Kind& other = structures_[i];
-      const double range = own.radius + other.radius;
-      const double count =
-          1.0 + length_[index_of(node)] / range + area_[index_of(node)] / (range * range);
-      const auto one = pairs_.combine({own.material, own.radius}, {other.material, other.radius});
-      const auto all = Law::multiplied(one, count);
-      const double gap = -kExpectedOverlap * std::min(own.radius, other.radius);
-      hardest.take(Law::normal_stiffness(all, gap), Law::tangential_stiffness(all, gap),
-                   structure(i));
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+      if (geometry::id_at<geometry::StructureId>(i) != surface_.structure_of(node))
+        take_structure(node, i, hardest);
     }
     return hardest;
+  }
+  void take_structure(NodeId node, std::size_t i, ExpectedStiffness& hardest) const {
+    const Kind& own = structures_[index_of(surface_.structure_of(node))];
+    const Kind& other = structures_[i];
+    const double range = own.radius + other.radius;
+    const double count =
+        1.0 + length_[index_of(node)] / range + area_[index_of(node)] / (range * range);
+    const auto one = pairs_.combine({own.material, own.radius}, {other.material, other.radius});
+    const auto all = Law::multiplied(one, count);
+    const double gap = -kExpectedOverlap * std::min(own.radius, other.radius);
+    hardest.take(Law::normal_stiffness(all, gap), Law::tangential_stiffness(all, gap),
+                 structure(i));
   }
 
   ExpectedStiffness hardest_partner(const Kind& sphere) const {
@@ -217,13 +255,5 @@ class ExpectedContacts {
   std::vector<double> length_;  ///< m, of cylinders, by node
   std::vector<double> area_;    ///< m², of facets, by node
 };
-
-/// Stiffness of the contacts that may come, by NodeId.
-template <contact::ContactLaw Law>
-std::vector<IsotropicStiffness> expected_contacts(const Scene& scene,
-                                                  const geometry::Surface& surface,
-                                                  const contact::MaterialPairs<Law>& pairs) {
-  return ExpectedContacts<Law>(scene, surface, pairs).of_nodes();
-}
 
 }  // namespace plekton::dynamics

@@ -37,8 +37,10 @@ class Tridiagonal {
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
     solver.computeFromTridiagonal(VectorXd::Map(diagonal_.data(), size),
                                   VectorXd::Map(beside_.data(), size - 1));
-    const double last = solver.eigenvectors()(size - 1, size - 1);
-    return {solver.eigenvalues()[size - 1], beside_.back() * std::abs(last), this->size()};
+    const auto& values = solver.eigenvalues();  // ascending
+    const Eigen::Index largest = -values[0] > values[size - 1] ? 0 : size - 1;
+    const double last = solver.eigenvectors()(size - 1, largest);
+    return {std::abs(values[largest]), beside_.back() * std::abs(last), this->size()};
   }
 
  private:

@@ -15,14 +15,14 @@ struct SymmetricProduct {
 };
 
 struct LargestEigenvalue {
-  double value = 0.0;     ///< never above the true one but for rounding
+  double value = 0.0;     ///< its magnitude; never above the true one but for rounding
   double residual = 0.0;  ///< an eigenvalue lies no further than this from value
   int products = 0;
 };
 
-/// Largest eigenvalue by Lanczos' method: power iteration that keeps what all its products have
-/// told, so that it needs about the square root of their number. It starts from the same vector of
-/// pseudo-random numbers every time.
+/// Eigenvalue of the largest magnitude by Lanczos' method: power iteration that keeps what all its
+/// products have told, so that it needs about the square root of their number. It starts from the
+/// same vector of pseudo-random numbers every time.
 ///
 /// After k products the relative error is on average below 0.11 (ln(n (k - 1)) / (k - 1))² for a
 /// random start (Kuczynski & Wozniakowski, SIAM J. Matrix Anal. Appl. 13 (1992), theorem 3.2),

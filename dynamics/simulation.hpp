@@ -32,8 +32,9 @@
 namespace plekton::dynamics {
 
 struct SimulationOptions {
-  double time_step = 0.0;  ///< s; 0 chooses one: kSafety times the critical step, shortened where
-                           ///< that falls, and while something is fast (dynamics/motion_step.hpp)
+  double time_step = 0.0;  ///< s; 0 chooses one as it goes: kSafety times the critical step with
+                           ///< the contacts of now and those that are near (simulation_step.hpp),
+                           ///< shorter while something is fast (dynamics/motion_step.hpp)
   MotionOptions motion;
   double skin =
       0.0;  ///< m, how far apart a pair may be when it is listed; 0 begins with a fifth of
@@ -44,6 +45,13 @@ struct SimulationOptions {
 
 /// A chosen time step is this part of the critical one.
 constexpr double kSafety = 0.5;
+/// A chosen step grows by no more than this in kStepsBetweenLooks steps: the leapfrog keeps
+/// energies while its step changes slowly.
+constexpr double kGrowth = 1.1;
+/// The way that nodes may go until a chosen step is looked at again is below this part of the
+/// smallest radius, unless a single step is longer. The longer it is the more contacts count that
+/// are still to come, and the shorter it is the more often they are counted.
+constexpr double kLongestWay = 0.05;
 /// A given time step must not be above this part of the critical one.
 constexpr double kLargestStep = 0.8;
 
@@ -63,7 +71,7 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// One time step. @throws Diverged; std::logic_error if none was given where nothing sets one
-  void step();
+  void step() { advance(std::numeric_limits<double>::infinity()); }
   /// One time step, shorter where it would end after a time; the next step() is as long as chosen
   /// or given again. A rest of a thousandth of a step, as rounding leaves it, is left out.
   /// @param end  s
@@ -163,6 +171,10 @@ class Simulation {
   /// Critical time step: of the structures and contacts as they are now, or with the contacts that
   /// may come (expected_contacts.hpp), whichever is shorter.
   CriticalStep critical_step() const;
+  /// The same of the structures and contacts as they are now alone: what a chosen step keeps to.
+  CriticalStep present_critical_step() const;
+  /// Whether the step is chosen as it goes, and not given.
+  bool chooses_time_step() const noexcept { return chooses_time_step_; }
   /// What limits critical_step().
   StepCause critical_cause() const;
   /// Critical time step of the structures and contacts as they are now, by the frequencies of the
@@ -176,12 +188,16 @@ class Simulation {
   double motion_ratio() const noexcept;
 
  private:
+  using Parameters = typename Law::Parameters;
+
+  void advance(double longest);
   contact::Motion motion() const noexcept;
   void follow_breaks();
   void break_asked();
   void follow_surface();
   void apply_loads();
   void drive_planes();
+  PlanePress plane_press(std::size_t plane, double way) const;
   void follow_gravity();
   Vec3 free_moment(double before) const;
   double largest_gravity() const noexcept;
@@ -204,8 +220,21 @@ class Simulation {
   double rounding_energy() const;
   void add_expected_to(NodalStiffness& stiffness) const;
   void add_structures_to(NodalStiffness& stiffness) const;
+  ContactStiffness stiffness_of(const Vec3& normal, const Parameters& parameters, double gap,
+                                NodeId a, NodeId b) const;
   template <class Springs>
-  void add_contacts_to(Springs& springs) const;
+  void add_on_surface(Springs& springs, NodeId ball, const geometry::CorePoint& core,
+                      const Parameters& parameters, double range, double force,
+                      double further) const;
+  template <class Springs>
+  void add_contacts_to(Springs& springs, double further) const;
+  template <class Springs>
+  void add_surface_contacts_to(Springs& springs, double further) const;
+  void add_near_contacts_to(NodalStiffness& springs, double margin);
+  void add_near_structures_to(NodalStiffness& springs, double margin);
+  CriticalStep near_step(double margin);
+  bool is_look_due() const noexcept;
+  double largest_speed_now() const noexcept;
   template <class Look>
   void for_each_piece(NodalStiffness& space, const Look& look) const;
   CriticalStep critical_step(NodalStiffness& space) const;
@@ -223,17 +252,29 @@ class Simulation {
   SheetFacets sheet_facets_;
   AppliedLoads loads_;
   DrivenPlanes driven_planes_;
-  std::vector<PlaneReaction> plane_reactions_;  ///< to drive planes
-  BrokenParts broken_;                          ///< asked for, in the next step
-  double broken_energy_ = 0.0;                  ///< J, of bonds that were asked for
+  std::vector<Vec3> plane_reactions_;  ///< N, to drive planes
+  BrokenParts broken_;                 ///< asked for, in the next step
+  double broken_energy_ = 0.0;         ///< J, of bonds that were asked for
   NodeForces forces_;
   Leapfrog leapfrog_;
   std::vector<double> radii_;  ///< m, of the ball around each node; 0 where there is none
   std::vector<IsotropicStiffness> expected_;  ///< of the contacts that may come, by node
   NodalStiffness space_{0};  ///< to choose a time step without allocation; empty if one was given
+  std::vector<IsotropicStiffness> of_structures_;  ///< by node, of a contact with another structure
+  std::vector<char> is_counted_;                   ///< by node, working space of a look
+  /// What is known from the last look at the step to the next one.
+  struct LastLook {
+    std::int64_t lists = 0;    ///< of contacts::Contacts::list_count()
+    double way = 0.0;          ///< m, no node or plane has gone further since
+    double longest_way = 0.0;  ///< m, for which it is good
+  };
+  LastLook look_;
+  double way_in_a_step_ = 0.0;  ///< m, of any node or plane, in the last step
   double dt_ = 0.0;
-  double stable_step_ = 0.0;  ///< s, kSafety times the smallest critical step so far
-  double last_drift_ = 0.0;   ///< s, length of the last step; 0 before the first
+  double stable_step_ = std::numeric_limits<double>::infinity();     ///< s, see choose_time_step()
+  double collision_step_ = std::numeric_limits<double>::infinity();  ///< s, ExpectedContacts
+  double drift_ = 0.0;       ///< s, length of the drift under way
+  double last_drift_ = 0.0;  ///< s, length of the last step; 0 before the first
   bool chooses_time_step_ = false;
   double time_ = 0.0;
   std::int64_t steps_ = 0;
@@ -256,28 +297,30 @@ class Simulation {
   std::size_t most_crossings_ = 0;
 };
 
+/// @param longest  s, the step is not longer
 template <contact::ContactLaw Law>
-void Simulation<Law>::step() {
+void Simulation<Law>::advance(double longest) {
   require_time_step();
   yielding_bonds_.advance(bonds_, scene_.state, pool_);
   sheet_facets_.advance(scene_.state, pool_);
   sheet_facets_.tear(scene_.state.position, pool_);
   follow_breaks();
   contacts_.advance(motion(), scene_.planes, last_drift_, pool_, forces_);
+  if (chooses_time_step_ && is_look_due()) choose_time_step();
+  drift_ = std::min(dt_, longest);
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
   sheet_facets_.add_forces(forces_, pool_);
   apply_loads();
-  const StepLengths lengths{0.5 * (last_drift_ + dt_), dt_};
+  const StepLengths lengths{0.5 * (last_drift_ + drift_), drift_};
   account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_),
           lengths);
   move_planes();
   check_motion();
-  time_ += dt_;
-  last_drift_ = dt_;
+  time_ += drift_;
+  last_drift_ = drift_;
   ++steps_;
   watch_energy();
-  if (steps_ % kStepsBetweenLooks == 0 && chooses_time_step_) choose_time_step();
 }
 
 template <contact::ContactLaw Law>
@@ -285,12 +328,9 @@ bool Simulation<Law>::step_until(double end) {
   constexpr double kRest = 1e-3;  // of a step
   require_time_step();
   const double left = end - time_;
-  const double whole = dt_;
-  if (!(left > kRest * whole)) return false;
-  const double part = left < (1.0 - kRest) * whole ? left : whole;
-  dt_ = part;
-  step();
-  if (dt_ == part) dt_ = whole;
+  if (!(left > kRest * dt_)) return false;
+  const bool is_rest = left < (1.0 - kRest) * dt_;
+  advance(is_rest ? left : dt_);
   return true;
 }
 

@@ -11,7 +11,7 @@ namespace plekton::dynamics {
 
 template <contact::ContactLaw Law>
 StepCause Simulation<Law>::critical_cause() const {
-  NodalStiffness space(scene_.state.size());
+  NodalStiffness space(scene_.state.size(), &scene_.properties);
   const CriticalStep coming = structural_step(space, true);
   const CriticalStep present = structural_step(space, false);
   const CriticalStep& shortest = present.dt < coming.dt ? present : coming;
@@ -20,7 +20,7 @@ StepCause Simulation<Law>::critical_cause() const {
     StiffestPart parts(shortest, scene_.properties);
     consider_structures(parts);
     if (&shortest == &present) {
-      add_contacts_to(parts);
+      add_contacts_to(parts, 0.0);
     } else {
       StepPart part{StepPart::Kind::coming_contacts};
       const ExpectedContacts<Law> contacts(scene_, surface_, material_pairs_);

@@ -9,6 +9,7 @@
 #include "dynamics/simulation_diverged.hpp"
 #include "dynamics/simulation_loads.hpp"
 #include "dynamics/simulation_readout.hpp"
+#include "dynamics/simulation_step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,10 +82,16 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
   bonds_.advance(scene_.state, pool_);
   contacts_.advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
   forces_.set_zero();
-  expected_ = expected_contacts<Law>(scene_, surface_, material_pairs_);
+  const ExpectedContacts<Law> expected(scene_, surface_, material_pairs_);
+  expected_ = expected.of_nodes();
   chooses_time_step_ = options.time_step == 0.0;
+  if (chooses_time_step_ && surface_.structure_count() > 0) {
+    of_structures_ = expected.of_structures();
+    is_counted_.resize(scene_.state.size());
+  }
+  collision_step_ = expected.collision_step();
   const std::size_t pieces = chooses_time_step_ ? 1 : kPieces;
-  NodalStiffness stiffness((scene_.state.size() + pieces - 1) / pieces);
+  NodalStiffness stiffness((scene_.state.size() + pieces - 1) / pieces, &scene_.properties);
   for_each_piece(stiffness, [&] {
     add_expected_to(stiffness);
     add_structures_to(stiffness);
@@ -114,12 +121,13 @@ void Simulation<Law>::set_first_step(double asked, NodalStiffness space) {
     throw std::invalid_argument(text.str());
   }
   dt_ = asked;
-  if (chooses_time_step_) {
-    space_ = std::move(space);
-    stable_step_ = kSafety * critical;
-    // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
-    dt_ = std::isfinite(critical) ? std::min(stable_step_, motion_step()) : stable_step_;
-  }
+  if (!chooses_time_step_) return;
+  space_ = std::move(space);
+  dt_ = kSafety * critical;
+  // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
+  if (!std::isfinite(critical)) return;
+  choose_time_step();
+  if (!std::isfinite(dt_)) dt_ = stable_step_ = kSafety * critical;
 }
 
 template <contact::ContactLaw Law>
@@ -154,14 +162,6 @@ double Simulation<Law>::motion_ratio() const noexcept {
   return largest_speed(scene_.state) * dt_ / pace_radius_;
 }
 
-/// Longest step that contacts can follow at the speeds of now (s).
-template <contact::ContactLaw Law>
-double Simulation<Law>::motion_step() const noexcept {
-  const double speed = std::max(
-      {largest_speed(scene_.state), loads_.largest_speed(), driven_planes_.largest_speed()});
-  return longest_step(speed, largest_gravity(), pace_radius_);
-}
-
 /// Nodes have drifted with the velocities after the last kick.
 template <contact::ContactLaw Law>
 contact::Motion Simulation<Law>::motion() const noexcept {
@@ -181,7 +181,7 @@ void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) 
   // The part of the kick that comes after the moment of the forces: all of the first one, half of
   // one between drifts of equal lengths.
   const double later = 0.5 * lengths.drift / lengths.kick;
-  const LoadWork left = loads_.work_after({time_, last_drift_, dt_}, scene_.state, pool_);
+  const LoadWork left = loads_.work_after({time_, last_drift_, drift_}, scene_.state, pool_);
   pending_ = {0.0, later * step.damped + left.damped, later * step.external + left.external};
   if (last_drift_ == 0.0) initial_energy_ += step.kinetic - work_.kinetic;
   work_.kinetic = step.kinetic;
@@ -195,14 +195,14 @@ void Simulation<Law>::account(const StepWork& work, const StepLengths& lengths) 
 }
 
 template <contact::ContactLaw Law>
-void Simulation<Law>::choose_time_step() {
-  stable_step_ = std::min(stable_step_, kSafety * critical_step(space_).dt);
-  dt_ = std::min(stable_step_, motion_step());
-}
-
-template <contact::ContactLaw Law>
 void Simulation<Law>::move_planes() {
-  for (contact::Plane& plane : scene_.planes) plane.point += dt_ * plane.velocity;
+  double squared = fastest_ * fastest_;
+  for (contact::Plane& plane : scene_.planes) {
+    plane.point += drift_ * plane.velocity;
+    squared = std::max(squared, plane.velocity.squaredNorm());
+  }
+  way_in_a_step_ = std::sqrt(squared) * drift_;
+  look_.way += way_in_a_step_;
 }
 
 template <contact::ContactLaw Law>
@@ -248,39 +248,6 @@ double Simulation<Law>::rounding_energy() const {
          kEps * weight * (static_cast<double>(scene_.state.size()) + steps);
 }
 
-/// Every touching pair, as it is now.
-/// @param springs  NodalStiffness, or what else has its functions for contacts
-template <contact::ContactLaw Law>
-template <class Springs>
-void Simulation<Law>::add_contacts_to(Springs& springs) const {
-  const auto& x = scene_.state.position;
-  const auto contact = [&](const Vec3& normal, const typename Law::Parameters& parameters,
-                           double gap, NodeId a, NodeId b) {
-    return ContactStiffness{normal, Law::normal_stiffness(parameters, gap),
-                            Law::tangential_stiffness(parameters, gap), radii_[index_of(a)],
-                            radii_[index_of(b)]};
-  };
-  contacts_.with_spheres().for_each_touching(
-      [&](NodeId a, NodeId b, const auto& parameters, double gap) {
-        const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
-        springs.add_pair(a, b, contact(normal, parameters, gap, a, b));
-      });
-  contacts_.with_surfaces().for_each_touching([&](NodeId ball, const auto& core,
-                                                  const auto& parameters, double range) {
-    const Vec3 way = geometry::position(core, x) - x[index_of(ball)];
-    springs.add_on_surface(
-        ball, core, contact(way.normalized(), parameters, way.norm() - range, ball, core.nodes[0]));
-  });
-  contacts_.between_structures().for_each_stiffness(
-      [&](NodeId node, double normal, double tangential, double radius) {
-        springs.add(node, from_all_sides(2.0 * normal, 2.0 * tangential, radius));
-      });
-  contacts_.with_planes().for_each_touching([&](NodeId ball, std::size_t plane,
-                                                const auto& parameters, double gap) {
-    springs.add_to_wall(ball, contact(scene_.planes[plane].normal, parameters, gap, ball, ball));
-  });
-}
-
 template <contact::ContactLaw Law>
 void Simulation<Law>::add_expected_to(NodalStiffness& stiffness) const {
   for (std::size_t i = 0; i < expected_.size(); ++i)
@@ -300,15 +267,27 @@ void Simulation<Law>::add_structures_to(NodalStiffness& stiffness) const {
 
 template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::critical_step() const {
-  NodalStiffness space(scene_.state.size());
+  NodalStiffness space(scene_.state.size(), &scene_.properties);
   return critical_step(space);
+}
+
+template <contact::ContactLaw Law>
+CriticalStep Simulation<Law>::present_critical_step() const {
+  NodalStiffness space(scene_.state.size(), &scene_.properties);
+  CriticalStep step = structural_step(space, false);
+  step.dt = loads_.critical_step(step.dt, scene_);
+  return step;
 }
 
 template <contact::ContactLaw Law>
 ExactStep Simulation<Law>::exact_critical_step() const {
   ContactSprings springs;
-  add_contacts_to(springs);
-  return dynamics::exact_critical_step(scene_, {bonds_, sheet_facets_}, loads_, springs, time_);
+  add_contacts_to(springs, 0.0);
+  const auto normal = [this](geometry::Positions x, NodeForces& forces) {
+    contacts_.with_surfaces().add_elastic_forces(contacts_.neighbours().cells(), x, forces);
+  };
+  return dynamics::exact_critical_step(scene_, {bonds_, sheet_facets_}, loads_, springs, time_,
+                                       normal);
 }
 
 /// Calls look() for all nodes, as many at once as there is space for.
@@ -339,7 +318,7 @@ CriticalStep Simulation<Law>::structural_step(NodalStiffness& space, bool expect
   for_each_piece(space, [&] {
     if (expected) add_expected_to(space);
     add_structures_to(space);
-    if (!expected) add_contacts_to(space);
+    if (!expected) add_contacts_to(space, 0.0);
     const CriticalStep step = space.critical_step(scene_.properties);
     if (step.dt < shortest.dt) shortest = step;
   });

@@ -44,10 +44,11 @@ class StrongestAction {
 /// Nodes that no element belongs to are not looked at, nor is any node while none is fast enough.
 template <contact::ContactLaw Law>
 void Simulation<Law>::check_motion() {
-  const bool is_slow = fastest_ * dt_ <= least_furthest_ && fastest_spin_ * dt_ < std::numbers::pi;
+  const bool is_slow =
+      fastest_ * drift_ <= least_furthest_ && fastest_spin_ * drift_ < std::numbers::pi;
   if (is_slow) return;
-  if (const auto runaway = find_runaway(scene_.state, furthest_, dt_))
-    throw Diverged(*runaway, steps_, time_, scene_.state, fault(*runaway, dt_));
+  if (const auto runaway = find_runaway(scene_.state, furthest_, drift_))
+    throw Diverged(*runaway, steps_, time_, scene_.state, fault(*runaway, drift_));
 }
 
 /// Energy is made where motion is: the ledger is looked at when the kinetic energy has doubled, and

@@ -18,7 +18,7 @@ template <contact::ContactLaw Law>
 void Simulation<Law>::apply_loads() {
   follow_gravity();
   loads_.look_at(yielding_bonds_);
-  const LoadWork work = loads_.act({time_, last_drift_, dt_}, scene_.state, forces_, pool_);
+  const LoadWork work = loads_.act({time_, last_drift_, drift_}, scene_.state, forces_, pool_);
   work_.external += work.external;
   work_.damped += work.damped;
   if (!driven_planes_.empty()) drive_planes();
@@ -26,14 +26,26 @@ void Simulation<Law>::apply_loads() {
 
 template <contact::ContactLaw Law>
 void Simulation<Law>::drive_planes() {
-  std::fill(plane_reactions_.begin(), plane_reactions_.end(), PlaneReaction{});
-  contacts_.with_planes().for_each_force([&](std::size_t plane, const Vec3& force,
-                                             const typename Law::Parameters& parameters,
-                                             double gap) {
-    plane_reactions_[plane].force += force;
-    plane_reactions_[plane].stiffness += Law::normal_stiffness(parameters, gap);
-  });
-  work_.external += driven_planes_.act({time_, last_drift_, dt_}, plane_reactions_, scene_.planes);
+  std::fill(plane_reactions_.begin(), plane_reactions_.end(), Vec3::Zero());
+  contacts_.with_planes().for_each_force(
+      [&](std::size_t plane, const Vec3& force) { plane_reactions_[plane] += force; });
+  const auto press = [this](std::size_t plane, double way) { return plane_press(plane, way); };
+  work_.external +=
+      driven_planes_.act({time_, last_drift_, drift_}, plane_reactions_, press, scene_.planes);
+}
+
+/// Of all bodies that the plane would touch if it were a way (m) further along its normal.
+template <contact::ContactLaw Law>
+PlanePress Simulation<Law>::plane_press(std::size_t plane, double way) const {
+  PlanePress press;
+  contacts_.with_planes().for_each_near(
+      way, scene_.planes, scene_.state.position,
+      [&](NodeId, std::size_t near, const Parameters& parameters, double gap) {
+        if (near != plane || !(gap < way)) return;
+        press.force += Law::elastic_normal_force(parameters, gap - way);
+        press.stiffness += Law::normal_stiffness(parameters, gap - way);
+      });
+  return press;
 }
 
 /// Gravity that grows does work on what lies still: its energy is that of the gravity of now.

@@ -6,7 +6,7 @@ namespace plekton::dynamics {
 using Kind = StepPart::Kind;
 
 StiffestPart::StiffestPart(const CriticalStep& step, const NodeProperties& properties)
-    : step_(step), properties_(properties), space_(1) {
+    : step_(step), properties_(properties), space_(1, &properties) {
   space_.begin_at(index_of(step.node));
 }
 
@@ -17,9 +17,9 @@ void StiffestPart::add_pair(NodeId a, NodeId b, const ContactStiffness& contact)
 }
 
 void StiffestPart::add_on_surface(NodeId ball, const geometry::CorePoint& core,
-                                  const ContactStiffness& contact) {
+                                  const ContactStiffness& contact, const SurfaceTurning& turning) {
   consider({Kind::surface_contact, 0, ball, core.nodes[0]},
-           [&](NodalStiffness& space) { space.add_on_surface(ball, core, contact); });
+           [&](NodalStiffness& space) { space.add_on_surface(ball, core, contact, turning); });
 }
 
 void StiffestPart::add_to_wall(NodeId ball, const ContactStiffness& contact) {

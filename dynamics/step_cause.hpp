@@ -57,8 +57,8 @@ class StiffestPart {
   }
 
   void add_pair(NodeId a, NodeId b, const ContactStiffness& contact);
-  void add_on_surface(NodeId ball, const geometry::CorePoint& core,
-                      const ContactStiffness& contact);
+  void add_on_surface(NodeId ball, const geometry::CorePoint& core, const ContactStiffness& contact,
+                      const SurfaceTurning& turning);
   void add_to_wall(NodeId ball, const ContactStiffness& contact);
   void add(NodeId node, const IsotropicStiffness& springs);
 

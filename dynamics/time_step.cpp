@@ -24,7 +24,25 @@ Mat3 cross_matrix(const Vec3& c) noexcept {
 
 }  // namespace
 
-NodalStiffness::NodalStiffness(std::size_t node_count) : blocks_(node_count) {}
+SurfaceTurning surface_turning(const geometry::CorePoint& core, double force, double distance,
+                               geometry::Positions x) noexcept {
+  SurfaceTurning turning{force, distance, Vec3::Zero()};
+  const auto corner = [&](std::size_t i) { return x[index_of(core.nodes[i % 3])]; };
+  if (core.feature.kind == geometry::FeatureKind::edge) {
+    const double length = (corner(1) - corner(0)).norm();
+    if (length > 0.0) turning.gradients = Vec3(1.0 / length, 1.0 / length, 0.0);
+  } else if (core.feature.kind == geometry::FeatureKind::face) {
+    const double twice_area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    for (std::size_t i = 0; i < 3 && twice_area > 0.0; ++i) {
+      turning.gradients[static_cast<Eigen::Index>(i)] =
+          (corner(i + 2) - corner(i + 1)).norm() / twice_area;
+    }
+  }
+  return turning;
+}
+
+NodalStiffness::NodalStiffness(std::size_t node_count, const NodeProperties* properties)
+    : properties_(properties), blocks_(node_count) {}
 
 NodalStiffness::SymmetricMat3& NodalStiffness::SymmetricMat3::operator+=(
     const Mat3& matrix) noexcept {
@@ -82,38 +100,82 @@ void NodalStiffness::add_beam(const BeamBond& bond, const NodeState& state, doub
   for (const NodeId node : bond.nodes) add_to_node(node, translation, rotation);
 }
 
+/// What of a spring a node of some weight may move: nothing where it is held.
+NodalStiffness::Shares NodalStiffness::shares_of(NodeId node, double weight) const noexcept {
+  const Held held = properties_ ? properties_->held[index_of(node)] : Held::nothing;
+  const bool moves = !holds_translation(held);
+  return {moves ? weight : 0.0, moves || !holds_rotation(held) ? weight : 0.0};
+}
+
 /// The normal spring has g = (n, 0), the tangential ones (t, lever x t) for both t across n.
 /// @param signed_arm  m, of the lever along the normal, from the node to the contact point
-/// @param factor      of the stiffness: 2 in a pair; times its weight for a node of a surface,
-/// since
-///                    (sum w_i y_i)² <= sum w_i y_i²
+/// @param factors     of the stiffness: S |g| of the class comment, with |g| the node's weight
 void NodalStiffness::add_contact_end(NodeId node, const ContactStiffness& contact,
-                                     double signed_arm, double factor) {
+                                     double signed_arm, const Shares& factors) {
   Block* const block = block_of(node);
   if (!block) return;
-  const double normal = factor * contact.normal_stiffness;
-  const double tangential = factor * contact.tangential_stiffness;
+  const double normal = factors.normal * contact.normal_stiffness;
+  const double tangential = factors.tangential * contact.tangential_stiffness;
   block->translation += along_and_across(contact.normal, normal, tangential);
   block->rotation += along_and_across(contact.normal, 0.0, signed_arm * signed_arm * tangential);
   block->coupling -= (signed_arm * tangential) * contact.normal;
 }
 
 void NodalStiffness::add_pair(NodeId a, NodeId b, const ContactStiffness& contact) {
-  add_contact_end(a, contact, contact.arm_a, 2.0);
-  add_contact_end(b, contact, -contact.arm_b, 2.0);
+  const Shares of_a = shares_of(a, 1.0);
+  const Shares of_b = shares_of(b, 1.0);
+  const Shares both{of_a.normal + of_b.normal, of_a.tangential + of_b.tangential};
+  add_contact_end(a, contact, contact.arm_a, both);
+  add_contact_end(b, contact, -contact.arm_b, both);
 }
 
 void NodalStiffness::add_on_surface(NodeId ball, const geometry::CorePoint& core,
-                                    const ContactStiffness& contact) {
-  add_contact_end(ball, contact, contact.arm_a, 2.0);
+                                    const ContactStiffness& contact,
+                                    const SurfaceTurning& turning) {
+  Shares all = shares_of(ball, 1.0);
+  for (std::size_t i = 0; i < core.nodes.size(); ++i) {
+    const Shares own = shares_of(core.nodes[i], core.weights[static_cast<Eigen::Index>(i)]);
+    all.normal += own.normal;
+    all.tangential += own.tangential;
+  }
+  add_contact_end(ball, contact, contact.arm_a, all);
   for (std::size_t i = 0; i < core.nodes.size(); ++i) {
     const double weight = core.weights[static_cast<Eigen::Index>(i)];
-    if (weight != 0.0) add_contact_end(core.nodes[i], contact, -contact.arm_b, 2.0 * weight);
+    if (weight == 0.0) continue;
+    add_contact_end(core.nodes[i], contact, -contact.arm_b,
+                    {weight * all.normal, weight * all.tangential});
   }
+  add_turning(ball, core, turning);
+}
+
+// As one spring of F / d with ends d grad(w_i) n - w_i T on the nodes, no longer than the root of
+// the sum of both squares, and T on the ball. A pass has weights alone, but either sign of its
+// curvature counts: both.
+void NodalStiffness::add_turning(NodeId ball, const geometry::CorePoint& core,
+                                 const SurfaceTurning& turning) {
+  if (!(turning.distance > 0.0) || turning.force == 0.0) return;
+  const double stiffness = std::abs(turning.force) / turning.distance;
+  const bool is_pass = turning.force < 0.0;
+  if (!is_pass && turning.gradients.isZero(0.0)) return;
+  const double times = is_pass ? 2.0 : 1.0;
+  Vec3 ends;
+  double all = shares_of(ball, 1.0).normal;
+  for (std::size_t i = 0; i < core.nodes.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double length = std::hypot(turning.distance * turning.gradients[k], core.weights[k]);
+    ends[k] = shares_of(core.nodes[i], length).normal;
+    all += ends[k];
+  }
+  const auto add_end = [&](NodeId node, double end) {
+    if (end > 0.0) add(node, {times * stiffness * all * end, 0.0});
+  };
+  add_end(ball, 1.0);
+  for (std::size_t i = 0; i < core.nodes.size(); ++i)
+    add_end(core.nodes[i], ends[static_cast<Eigen::Index>(i)]);
 }
 
 void NodalStiffness::add_to_wall(NodeId ball, const ContactStiffness& contact) {
-  add_contact_end(ball, contact, contact.arm_a, 1.0);
+  add_contact_end(ball, contact, contact.arm_a, {1.0, 1.0});
 }
 
 void NodalStiffness::add(NodeId node, const IsotropicStiffness& springs) noexcept {

@@ -29,6 +29,28 @@ struct ContactStiffness {
   double arm_b;                 ///< m, likewise of b
 };
 
+/// How a normal force F (N) on a surface resists what turns the surface where it acts.
+///
+/// With d the distance from a ball's centre to the nearest point of a bar or facet, u the motion of
+/// the centre less that of that point of the material, and theta = sum grad(w_i) (n . y_i) how the
+/// bar or facet turns as its nodes move by y_i, the second derivative of d is
+///
+///     |P u|² / d - d |theta + T u / d|²,
+///
+/// P the projection across the normal and T that on the bar or facet: the nearest point slides. The
+/// energy has -F times it. What pushes (F > 0) is stiffer by F / d |d theta + T u|², which is as
+/// much as the contact itself on bars that are short beside d; a pass (F < 0) by |F| / d |P u|².
+struct SurfaceTurning {
+  double force = 0.0;             ///< N, F
+  double distance = 0.0;          ///< m, d
+  Vec3 gradients = Vec3::Zero();  ///< 1/m, |grad(w_i)| of the weights of the core point's nodes
+};
+
+/// Of the foot of a ball on a feature of a surface. The gradients are 0 on a node, and of what has
+/// no length or area.
+SurfaceTurning surface_turning(const geometry::CorePoint& core, double force, double distance,
+                               geometry::Positions x) noexcept;
+
 /// Springs around a node that are the same along and about every axis.
 struct IsotropicStiffness {
   double translation = 0.0;  ///< N/m
@@ -56,7 +78,10 @@ IsotropicStiffness from_all_sides(double normal, double tangential, double radiu
 /// Each spring of K is put under springs that each hold a single node: with elongation g_a.x_a +
 /// g_b.x_b, x_a and x_b the motions of two nodes (displacement and rotation), and stiffness k,
 ///
-///     k (g_a.x_a + g_b.x_b)² <= 2 k (g_a.x_a)² + 2 k (g_b.x_b)².
+///     k (g_a.x_a + g_b.x_b)² <= 2 k (g_a.x_a)² + 2 k (g_b.x_b)²,
+///
+/// or for any number of nodes k (sum g_i.x_i)² <= k S sum (g_i.x_i)² / |g_i|, S = sum |g_i|, those
+/// left out that are held: what is held does not limit a step, and its partner has 1 and not 2.
 ///
 /// With D_i the 6 x 6 sum of these around node i, omega² <= max_i largest eigenvalue of D_i, M_i,
 /// and dt = 2 / omega is never above the true limit, whatever the masses, the shapes and the
@@ -67,7 +92,8 @@ IsotropicStiffness from_all_sides(double normal, double tangential, double radiu
 /// nonlinear law, change it. So leave a margin, and ask again as a simulation goes on.
 class NodalStiffness {
  public:
-  explicit NodalStiffness(std::size_t node_count);
+  /// @param properties  of all nodes, to know which are held; must outlive this; null: none is
+  explicit NodalStiffness(std::size_t node_count, const NodeProperties* properties = nullptr);
 
   std::size_t node_count() const noexcept { return blocks_.size(); }
   /// Forgets what was added; from now on for as many nodes from this one on: what is added to
@@ -98,8 +124,8 @@ class NodalStiffness {
 
   /// Adds a contact between a ball and a surface, whose nodes share in it by the weights of the
   /// core point.
-  void add_on_surface(NodeId ball, const geometry::CorePoint& core,
-                      const ContactStiffness& contact);
+  void add_on_surface(NodeId ball, const geometry::CorePoint& core, const ContactStiffness& contact,
+                      const SurfaceTurning& turning = {});
 
   /// Adds a contact between a ball and a wall, which does not yield. arm_b has no meaning here.
   void add_to_wall(NodeId ball, const ContactStiffness& contact);
@@ -151,11 +177,19 @@ class NodalStiffness {
     const std::size_t i = index_of(node) - first_node_;  // wraps round below the first
     return i < blocks_.size() ? &blocks_[i] : nullptr;
   }
+  /// How much of a spring nodes take part in: along the normal, and across it.
+  struct Shares {
+    double normal = 0.0;
+    double tangential = 0.0;
+  };
+  Shares shares_of(NodeId node, double weight) const noexcept;
   void add_contact_end(NodeId node, const ContactStiffness& contact, double signed_arm,
-                       double factor);
+                       const Shares& factors);
+  void add_turning(NodeId ball, const geometry::CorePoint& core, const SurfaceTurning& turning);
   using Mat6 = Eigen::Matrix<double, 6, 6>;
   Mat6 per_mass(std::size_t i, const NodeProperties& properties) const;
 
+  const NodeProperties* properties_;
   std::size_t first_node_ = 0;
   std::vector<Block> blocks_;
 };

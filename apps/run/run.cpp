@@ -167,7 +167,7 @@ class Run {
   }
 
   void watch_time_step() {
-    const double critical = simulation_.critical_step().dt;
+    const double critical = simulation_.limit_of_step().dt;
     const double ratio = simulation_.time_step() / critical;
     if (ratio > dynamics::kLargestStep && report_.dt_over_critical <= dynamics::kLargestStep) {
       report_.warnings.push_back(

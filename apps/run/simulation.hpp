@@ -42,6 +42,8 @@ class Simulation {
   virtual dynamics::Energy energy() const = 0;
   virtual void check_energy() = 0;
   virtual dynamics::CriticalStep critical_step() const = 0;
+  /// What the present step has to keep to: a given one to contacts that may come too.
+  virtual dynamics::CriticalStep limit_of_step() const = 0;
   virtual dynamics::StepCause critical_cause() const = 0;
   virtual dynamics::ExactStep exact_critical_step() const = 0;
   virtual double motion_ratio() const = 0;
@@ -93,6 +95,10 @@ class SimulationUnder final : public Simulation {
   dynamics::Energy energy() const override { return simulation_.energy(); }
   void check_energy() override { simulation_.check_energy(); }
   dynamics::CriticalStep critical_step() const override { return simulation_.critical_step(); }
+  dynamics::CriticalStep limit_of_step() const override {
+    return simulation_.chooses_time_step() ? simulation_.present_critical_step()
+                                           : simulation_.critical_step();
+  }
   dynamics::StepCause critical_cause() const override { return simulation_.critical_cause(); }
   dynamics::ExactStep exact_critical_step() const override {
     return simulation_.exact_critical_step();

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -54,6 +55,20 @@ class BallContacts {
                       const Rows& rows, std::size_t lane) {
       visit(ball(pair.a).node, ball(pair.b).node, parameters, rows.gap.number(lane));
     });
+  }
+
+  /// Calls visit(a, b, parameters, gap) for every listed pair that is nearer than a margin (m) with
+  /// the nodes where they are now.
+  template <class Visit>
+  void for_each_near(double margin, Positions x, Visit&& visit) const {
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      const Ball &a = ball(keys_[i].a), &b = ball(keys_[i].b);
+      const Parameters of_pair = parameters(i);
+      const double touch = a.radius + b.radius;
+      const double range = touch + margin + reach_of<Law>(of_pair);
+      const double squared = (x[index_of(b.node)] - x[index_of(a.node)]).squaredNorm();
+      if (squared < range * range) visit(a.node, b.node, of_pair, std::sqrt(squared) - touch);
+    }
   }
 
   /// Gives a number after the last one to every touching pair that has none. A pair keeps its

@@ -47,6 +47,11 @@ class Clearances {
     }
   }
 
+  /// Whether a pair may be in range, or so much (m) out of it, for all that is known.
+  bool may_be_within(std::size_t pair, double margin) const noexcept {
+    return !(gone_ + 0.5 * margin < due_[pair]);
+  }
+
   /// @param clearance  m, by how much a pair is at least out of range now; less than 0: it is not
   void set(std::size_t pair, double clearance) {
     const double certain = (1.0 - 1e-9) * clearance - 2.0 * kRounding * (furthest_ + gone_);

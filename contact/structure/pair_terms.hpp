@@ -64,6 +64,11 @@ class PairTerms {
   /// nearest points, of its first cell and of its second.
   std::array<geometry::FeatureNodes, 2> carriers(std::uint32_t pair) const noexcept;
 
+  /// Whether a pair of cells may be in range, or so much (m) out of it.
+  bool may_be_within(std::uint32_t pair, double margin) const noexcept {
+    return clearances_.may_be_within(pair, margin);
+  }
+
   /// Terms in range, ascending.
   std::span<const std::uint32_t> acting() const noexcept { return acting_; }
   /// Whether these are others than in the step before, or the terms are new.

@@ -15,10 +15,50 @@ double plate_area(const PlaneServo& servo, std::span<const Plane> planes) {
   return area;
 }
 
-double servo_speed(const PlaneServo& servo, double missing, double stiffness, double dt) {
-  if (!(stiffness > 0.0)) return missing > 0.0 ? servo.largest_speed : 0.0;
-  const double speed = servo.gain * missing / (stiffness * dt);
-  return std::clamp(speed, -servo.largest_speed, servo.largest_speed);
+namespace {
+
+/// The way (m) in (0, longest] by which a force grows by so much (N), or longest if it grows by
+/// less. Newton's method: of contacts that get no softer each tangent lies below, so it comes from
+/// above and ends after as many steps as contacts begin on the way. Where one leaves the interval
+/// known to hold the answer, that is halved.
+/// @param stiffness  N/m, at 0
+double way_to_press(double growth, double longest, const PlanePress& now,
+                    const std::function<PlanePress(double way)>& press) {
+  constexpr int kMostLooks = 30;
+  constexpr double kEnough = 1e-3;  // of the growth
+  double low = 0.0, high = longest;
+  double way = now.stiffness > 0.0 ? std::min(longest, growth / now.stiffness) : longest;
+  for (int i = 0; i < kMostLooks; ++i) {
+    const PlanePress then = press(way);
+    const double excess = then.force - now.force - growth;
+    if (std::abs(excess) <= kEnough * growth) return way;
+    (excess > 0.0 ? high : low) = way;
+    if (!(low < high)) return high;
+    const double next = then.stiffness > 0.0 ? way - excess / then.stiffness : longest;
+    way = next > low && next < high ? next : 0.5 * (low + high);
+    if (high - low <= kEnough * high) return low;
+  }
+  return low;
+}
+
+}  // namespace
+
+double servo_speed(const PlaneServo& servo, double missing,
+                   const std::function<PlanePress(double way)>& press, double dt) {
+  const double longest = servo.largest_speed * dt;
+  const double change = servo.gain * missing;
+  const PlanePress now = press(0.0);
+  if (change > 0.0) {
+    const double way = way_to_press(change, longest, now, press);
+    if (now.stiffness > 0.0) return way / dt;
+    // A force is counted over half of the drift that brings it: over the way to the bodies too,
+    // unless the plate comes to rest on them first.
+    constexpr double kTouch = 1e-3;  // of the force it would press with
+    const double touch = way_to_press(kTouch * change, way, now, press);
+    return (touch > way - touch ? touch : way) / dt;
+  }
+  if (!(now.stiffness > 0.0)) return 0.0;
+  return std::max(change / now.stiffness, -longest) / dt;
 }
 
 DrivenPlanes::DrivenPlanes(const Loads& loads, std::span<const Plane> at_start)
@@ -26,11 +66,11 @@ DrivenPlanes::DrivenPlanes(const Loads& loads, std::span<const Plane> at_start)
   for (const PlaneMotion& motion : motions_) start_.push_back(at_start[motion.plane].point);
 }
 
-double DrivenPlanes::act(const LoadStep& step, std::span<const PlaneReaction> reactions,
-                         std::vector<Plane>& planes) const {
+double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,
+                         const PlanePressAt& press, std::vector<Plane>& planes) const {
   double power = 0.0;  // W, at the new velocities more than at the old ones
   const auto set = [&](std::size_t plane, const Vec3& velocity) {
-    power += reactions[plane].force.dot(velocity - planes[plane].velocity);
+    power += reactions[plane].dot(velocity - planes[plane].velocity);
     planes[plane].velocity = velocity;
   };
   for (std::size_t i = 0; i < motions_.size(); ++i) {
@@ -42,9 +82,9 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const PlaneReaction> re
     const Plane& plane = planes[servo.plane];
     const double wanted =
         servo.factor.at(step.time) * (servo.force + servo.pressure * plate_area(servo, planes));
-    const PlaneReaction& felt = reactions[servo.plane];
-    const double pressing = -felt.force.dot(plane.normal);
-    const double speed = servo_speed(servo, wanted - pressing, felt.stiffness, step.after);
+    const double pressing = -reactions[servo.plane].dot(plane.normal);
+    const auto press_here = [&](double way) { return press(servo.plane, way); };
+    const double speed = servo_speed(servo, wanted - pressing, press_here, step.after);
     const Vec3 across = plane.velocity - plane.velocity.dot(plane.normal) * plane.normal;
     set(servo.plane, across + speed * plane.normal);
   }

@@ -5,35 +5,46 @@
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/loads/loads.hpp"
 
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace plekton::dynamics {
 
-/// What the bodies do to a plane.
-struct PlaneReaction {
-  Vec3 force = Vec3::Zero();  ///< N, on the plane
-  double stiffness = 0.0;     ///< N/m, of all its contacts along the normal
+/// What the bodies do to a plane along its normal by their elasticity.
+struct PlanePress {
+  double force = 0.0;      ///< N
+  double stiffness = 0.0;  ///< N/m
 };
+/// That of a plane if it were a way (m) further in them, and they stayed where they are.
+using PlanePressAt = std::function<PlanePress(std::size_t plane, double way)>;
 
 /// m², the area of a plate under servo control with the planes where they are.
 double plate_area(const PlaneServo& servo, std::span<const contact::Plane> planes);
 
-/// Speed (m/s) along the normal, into the bodies, of a plate under servo control:
+/// Speed (m/s) along the normal, into the bodies, of a plate under servo control: the drift v dt
+/// for which
 ///
-///     v = gain (wanted - felt) / (k dt), at most largest_speed either way,
+///     P(v dt) - P(0) = gain (wanted - felt),  at most largest_speed either way,
 ///
-/// with the forces along the normal and k the stiffness of the plate's contacts. A drift of v dt
-/// changes the force by k v dt = gain (wanted - felt) if the bodies stay: the error shrinks by the
-/// gain in each step, and further as the bodies give way, without an error that stays. Seen by the
-/// bodies that is a plate without mass, pushed by the wanted force through a dashpot of
-/// k dt / gain: for any gain up to 1 it takes energy away from what swings.
+/// P(s) the force of the bodies, those not yet touched among them, on a plate that is s further in
+/// them: the error shrinks by the gain in each step if the bodies stay, and further as they give
+/// way, without an error that stays. Seen by the bodies that is a plate without mass, pushed by the
+/// wanted force through a dashpot of k dt / gain, k = P': for any gain up to 1 it takes energy away
+/// from what swings.
 ///
-/// Without contacts the plate comes on with largest_speed, or stays where no force is wanted.
-/// @param missing    N, wanted - felt
-/// @param stiffness  N/m, k, >= 0
-/// @param dt         s, length of the drift that begins now
-double servo_speed(const PlaneServo& servo, double missing, double stiffness, double dt);
+/// Far from the bodies the plate comes on with largest_speed. Where it would touch them it stops at
+/// a thousandth of that force, and presses from there: work is counted by the mean force over a
+/// drift, so a force f that begins somewhere on a drift of way s, all of which would be counted,
+/// makes energy of up to 1/2 f s. A plate that struck at full speed would be off by up to
+/// 1/8 k (v dt)², whatever that is beside the work of the wanted force. Where no force is wanted, a
+/// plate without contacts stays.
+/// @param missing  N, wanted - felt
+/// @param press    of way (m) -> PlanePress; a force that grows less than in proportion makes the
+///                 plate slower, never faster
+/// @param dt       s, length of the drift that begins now
+double servo_speed(const PlaneServo& servo, double missing,
+                   const std::function<PlanePress(double way)>& press, double dt);
 
 /// Planes that move by a table or under servo control.
 class DrivenPlanes {
@@ -43,10 +54,10 @@ class DrivenPlanes {
   bool empty() const noexcept { return motions_.empty() && servos_.empty(); }
 
   /// Sets the velocities of the drift that begins now. No allocation.
-  /// @param reactions  by plane
+  /// @param reactions  N, by plane, of all forces on it
   /// @returns the work (J) done on the bodies over half of the drift before, as far as the velocity
   ///          there was another one: who counts the whole kick does it with the new velocity
-  double act(const LoadStep& step, std::span<const PlaneReaction> reactions,
+  double act(const LoadStep& step, std::span<const Vec3> reactions, const PlanePressAt& press,
              std::vector<contact::Plane>& planes) const;
 
   /// m/s, of all times.

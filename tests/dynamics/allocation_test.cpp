@@ -216,7 +216,7 @@ TEST(Allocation, IsNoneInTheStepsOfGrainsOnANet) {
 
     std::size_t terms = 0;
     simulation.contacts().with_surfaces().for_each_touching(
-        [&](NodeId, const geometry::CorePoint&, const auto&, double) { ++terms; });
+        [&](NodeId, const geometry::CorePoint&, const auto&, double, double) { ++terms; });
     // Four wires and four crossings close the first ring around a hole.
     EXPECT_GE(terms, 8 * simulation.contacts().counts().sphere_surface);
     EXPECT_GT(terms, 0u);

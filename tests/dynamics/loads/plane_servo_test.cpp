@@ -5,12 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 
 namespace plekton::test {
 namespace {
 
 using dynamics::PlaneMotion;
+using dynamics::PlanePress;
 using dynamics::PlaneServo;
 using dynamics::TimeTable;
 using testing::HasSubstr;
@@ -25,23 +27,55 @@ PlaneServo servo_of(double force) {
   return servo;
 }
 
+/// Springs of 1e4 N/m, one of which the plate presses already and one that is a gap (m) away.
+std::function<PlanePress(double)> springs(double pressed, double gap) {
+  constexpr double kStiffness = 1e4;
+  return [=](double way) {
+    PlanePress press;
+    for (const double overlap : {pressed + way, way - gap}) {
+      if (!(overlap > 0.0)) continue;
+      press.force += kStiffness * overlap;
+      press.stiffness += kStiffness;
+    }
+    return press;
+  };
+}
+
 TEST(ServoSpeed, BringsTheForceNearerByItsGainInAStep) {
   PlaneServo servo = servo_of(10.0);
   servo.gain = 0.2;
-  constexpr double kStiffness = 1e4, kStep = 1e-3;
+  constexpr double kStep = 1e-3;
+  const auto press = springs(1e-3, 1.0);
 
   // 2 N are missing: 0.2 of them are 0.4 N, for which the contacts have to be pressed by 40 um.
-  EXPECT_DOUBLE_EQ(servo_speed(servo, 2.0, kStiffness, kStep), 0.04);
-  EXPECT_DOUBLE_EQ(servo_speed(servo, -2.0, kStiffness, kStep), -0.04);
+  EXPECT_NEAR(servo_speed(servo, 2.0, press, kStep), 0.04, 1e-3 * 0.04);
+  EXPECT_DOUBLE_EQ(servo_speed(servo, -2.0, press, kStep), -0.04);
 }
 
 TEST(ServoSpeed, IsBoundedAndComesOnWithoutContacts) {
   const PlaneServo servo = servo_of(10.0);
+  const auto touching = springs(1e-3, 1.0);
+  const auto apart = springs(-1.0, 1.0);
 
-  EXPECT_EQ(servo_speed(servo, 1e6, 1e4, 1e-3), 0.5);
-  EXPECT_EQ(servo_speed(servo, -1e6, 1e4, 1e-3), -0.5);
-  EXPECT_EQ(servo_speed(servo, 10.0, 0.0, 1e-3), 0.5);
-  EXPECT_EQ(servo_speed(servo, 0.0, 0.0, 1e-3), 0.0);
+  EXPECT_EQ(servo_speed(servo, 1e6, touching, 1e-3), 0.5);
+  EXPECT_EQ(servo_speed(servo, -1e6, touching, 1e-3), -0.5);
+  EXPECT_EQ(servo_speed(servo, 10.0, apart, 1e-3), 0.5);
+  EXPECT_EQ(servo_speed(servo, 0.0, apart, 1e-3), 0.0);
+}
+
+TEST(ServoSpeed, TouchesFirstAndThenPressesWithNoMoreThanItsGain) {
+  PlaneServo servo = servo_of(10.0);
+  servo.gain = 0.2;
+  constexpr double kStep = 1e-3;
+  const auto way = [&](double pressed, double gap) {
+    return servo_speed(servo, 10.0, springs(pressed, gap), kStep) * kStep;
+  };
+
+  // 2 N are 0.2 mm: from 0.3 mm away it goes to the spring, from 0.1 mm away it presses.
+  EXPECT_NEAR(way(-3e-4, 1.0), 3e-4, 2e-3 * 2e-4);
+  EXPECT_NEAR(way(-1e-4, 1.0), 3e-4, 1e-3 * 3e-4);
+  // With a second spring that begins 0.1 mm further on, half of the rest falls to each.
+  EXPECT_NEAR(way(1e-9, 1e-4), 1.5e-4, 1e-3 * 1.5e-4);
 }
 
 TEST(PlateArea, IsWhatTheFacingPlanesLeaveFree) {
@@ -77,6 +111,24 @@ TEST(PlaneServo, PressesAGrainWithItsForceAndStopsThere) {
   EXPECT_NEAR(planes.force_on(0).z(), -3.0, 0.05 * 3.0);  // the grain rings without damping
   EXPECT_GT(simulation.energy().external_work, 0.0);
   EXPECT_LT(error, 0.01);  // of first order: the moment at which the plate strikes
+}
+
+// A plate that struck at 1 m/s would be in the grain by up to 0.4 % of its radius when it is felt.
+TEST(PlaneServo, KeepsTheEnergyBalanceAtWhateverMomentOfAStepItArrives) {
+  constexpr int kPhases = 8;
+  for (int phase = 0; phase < kPhases; ++phase) {
+    Scene scene = grain_under_a_plate();
+    scene.materials[0].young_modulus = 5e7;
+    scene.loads.servos = {servo_of(10.0)};
+    scene.loads.servos[0].plane = 1;
+    scene.loads.servos[0].largest_speed = 1.0;
+    const double step = LoadedSimulation(scene, {}).time_step();
+    scene.planes[1].point.z() = 0.0205 + step * phase / kPhases;
+    auto simulation = simulation_of(scene, 0.0);
+
+    EXPECT_LT(closure_until(simulation, 0.05), 0.005) << "phase " << phase;
+    EXPECT_NEAR(simulation.contacts().with_planes().force_on(1).z(), 10.0, 0.01) << phase;
+  }
 }
 
 TEST(PlaneServo, KeepsItsVelocityAcrossTheNormal) {
