@@ -95,8 +95,9 @@ OutputError::OutputError(const std::filesystem::path& file, std::string_view pro
 
 CheckedFile::CheckedFile(std::filesystem::path path, Mode mode) : path_(std::move(path)) {
   // Appending also in a new file, so that the next write follows the cut after a failed one.
-  const int flags =
-      O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (mode == Mode::replace ? O_TRUNC : 0);
+  int flags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (mode == Mode::replace ? O_TRUNC : 0);
+  // Where bytes go is said by each write_at(), but not heeded in a file that is appended to.
+  if (mode == Mode::replace_bytes) flags = O_WRONLY | O_CLOEXEC;
   constexpr mode_t kReadWriteForAllButUmask = 0666;
   descriptor_ = ::open(path_.c_str(), flags, kReadWriteForAllButUmask);
   if (descriptor_ < 0) throw OutputError(path_, "create", errno);
@@ -125,6 +126,19 @@ void CheckedFile::write(std::string_view bytes) {
   size_ += static_cast<std::int64_t>(bytes.size());
 }
 
+void CheckedFile::write_at(std::size_t position, std::string_view bytes) {
+  assert(descriptor_ >= 0 && "written to after close()");
+  while (!bytes.empty()) {
+    const ssize_t written =
+        ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(position));
+    const int reason = written < 0 ? errno : EIO;
+    if (written < 0 && reason == EINTR) continue;
+    if (written <= 0) throw OutputError(path_, "write", reason);
+    position += static_cast<std::size_t>(written);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
 void CheckedFile::close() {
   if (descriptor_ < 0) return;
   // The descriptor is gone even after an error, also after EINTR.
@@ -148,6 +162,12 @@ void OutputFile::commit() {
   std::filesystem::rename(part_, path_, error);
   if (error) throw OutputError(path_, "give the finished file its name", error.value());
   committed_ = true;
+}
+
+void overwrite(const std::filesystem::path& path, std::span<const PlacedBytes> writes) {
+  CheckedFile file(path, CheckedFile::Mode::replace_bytes);
+  for (const PlacedBytes& write : writes) file.write_at(write.position, write.bytes);
+  file.close();
 }
 
 void ensure_output_folder(const std::filesystem::path& folder) {

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace plekton::dynamics {
@@ -28,7 +30,11 @@ class OutputError : public std::runtime_error {
 /// An open file whose every write is checked. It has no buffer, so hand over whole lines or blocks.
 class CheckedFile {
  public:
-  enum class Mode : std::uint8_t { replace, append };
+  enum class Mode : std::uint8_t {
+    replace,
+    append,
+    replace_bytes  ///< of a file that is there, by write_at() alone
+  };
 
   /// Opens a file, creating it if absent. @throws OutputError
   CheckedFile(std::filesystem::path path, Mode mode);
@@ -42,6 +48,10 @@ class CheckedFile {
   /// cut back to its size before the call, so that the write can be tried again. @throws
   /// OutputError
   void write(std::string_view bytes);
+
+  /// Writes all bytes over those at a position. After an error some may be written. @throws
+  /// OutputError
+  void write_at(std::size_t position, std::string_view bytes);
 
   /// No effect the second time. @throws OutputError
   void close();
@@ -76,6 +86,17 @@ class OutputFile {
   CheckedFile file_;
   bool committed_ = false;
 };
+
+/// Bytes and where they go in a file.
+struct PlacedBytes {
+  std::size_t position;
+  std::string bytes;
+};
+
+/// Overwrites bytes within a file that is there, one after the other; its size stays if they lie
+/// within it. @throws OutputError, and what came before the error is
+/// written
+void overwrite(const std::filesystem::path& path, std::span<const PlacedBytes> writes);
 
 /// Creates a folder if absent (not its parents) and makes sure that it takes files, by writing one
 /// and removing it. A folder created in vain is removed again.

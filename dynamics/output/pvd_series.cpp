@@ -1,22 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/output/pvd_series.hpp"
 
-#include "dynamics/output/file.hpp"
 #include "dynamics/output/text.hpp"
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 namespace plekton::dynamics {
 
+namespace {
+
+constexpr std::string_view kHead =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";
+constexpr std::string_view kTail = "  </Collection>\n</VTKFile>\n";
+constexpr std::size_t kLeastRoom = 4096;  // bytes, some forty entries
+constexpr std::string_view kMarkup = "<&";
+
+}  // namespace
+
 void PvdSeries::add(const std::vector<SeriesEntry>& entries) {
-  const std::size_t length_before = lines_.size();
   const std::size_t parts_before = parts_.size();
   try {
-    for (const SeriesEntry& entry : entries) lines_ += line(entry);
-    write();
+    std::string added;
+    for (const SeriesEntry& entry : entries) added += line(entry);
+    if (added.size() <= room_ && is_as_left()) {
+      write_in_place(added);
+    } else {
+      write_whole(added);
+    }
+    lines_ += added;
   } catch (...) {
-    lines_.resize(length_before);
     parts_.resize(parts_before);
     throw;
   }
@@ -48,13 +62,40 @@ std::size_t PvdSeries::part_number(const std::string& name) {
   return number;
 }
 
-void PvdSeries::write() const {
+/// Whether the file is there and as long as it was left; somebody may have moved it away.
+bool PvdSeries::is_as_left() const {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file_, error);
+  return !error && size == kHead.size() + lines_.size() + room_ + kTail.size();
+}
+
+void PvdSeries::write_in_place(const std::string& added) {
+  // After an error the room is of unknown content, and the next add() replaces the file.
+  const std::size_t room = std::exchange(room_, 0);
+  overwrite(file_, writes_in_place(added, kHead.size() + lines_.size()));
+  room_ = room - added.size();
+}
+
+void PvdSeries::write_whole(const std::string& added) {
+  const std::size_t room = std::max(kLeastRoom, (lines_.size() + added.size()) / 2);
   OutputFile out(file_);
-  out.write(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n");
+  out.write(kHead);
   out.write(lines_);
-  out.write("  </Collection>\n</VTKFile>\n");
+  out.write(added + std::string(room, ' '));
+  out.write(kTail);
   out.commit();
+  room_ = room;
+}
+
+std::vector<PlacedBytes> writes_in_place(std::string_view lines, std::size_t position) {
+  std::string text(lines);
+  for (char& c : text)
+    if (kMarkup.find(c) != std::string_view::npos) c = ' ';
+  std::vector<PlacedBytes> writes = {{position, std::move(text)}};
+  for (std::size_t i = lines.size(); i-- > 0;)
+    if (kMarkup.find(lines[i]) != std::string_view::npos)
+      writes.push_back({position + i, std::string(1, lines[i])});
+  return writes;
 }
 
 }  // namespace plekton::dynamics
