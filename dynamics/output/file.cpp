@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/output/file.hpp"
 
+#include "geometry/new_file.hpp"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -30,6 +32,10 @@ std::string_view advice(int reason) noexcept {
       return "check that its folder exists";
     case ENOTDIR:
       return "a part of the path is a file; choose another output folder";
+    case ELOOP:
+      return "a link has this name; remove it or choose another output folder";
+    case EEXIST:
+      return "something that is no file has this name; remove it or choose another output folder";
     case EISDIR:
       return "a folder has this name; remove it or choose another output folder";
     case ENAMETOOLONG:
@@ -50,12 +56,6 @@ std::string system_message(const std::filesystem::path& file, std::string_view a
   message.append(std::generic_category().message(reason));
   message.append("; ").append(advice(reason));
   return message;
-}
-
-std::filesystem::path part_of(const std::filesystem::path& path) {
-  std::filesystem::path part = path;
-  part += ".part";
-  return part;
 }
 
 void create_folder(const std::filesystem::path& folder) {
@@ -85,6 +85,13 @@ void write_probe(const std::filesystem::path& folder) {
   std::filesystem::remove(probe, ignored);
 }
 
+int opened(const std::filesystem::path& path, CheckedFile::Mode mode) noexcept {
+  if (mode == CheckedFile::Mode::create) return geometry::create_new_file(path);
+  // Where bytes go is said by each write_at(), but not heeded in a file that is appended to.
+  const int at_the_end = mode == CheckedFile::Mode::append ? O_APPEND : 0;
+  return ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC | at_the_end);
+}
+
 }  // namespace
 
 OutputError::OutputError(const std::filesystem::path& file, std::string_view action, int reason)
@@ -93,14 +100,9 @@ OutputError::OutputError(const std::filesystem::path& file, std::string_view act
 OutputError::OutputError(const std::filesystem::path& file, std::string_view problem)
     : std::runtime_error(file.string().append(": ").append(problem)) {}
 
-CheckedFile::CheckedFile(std::filesystem::path path, Mode mode) : path_(std::move(path)) {
-  // Appending also in a new file, so that the next write follows the cut after a failed one.
-  int flags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (mode == Mode::replace ? O_TRUNC : 0);
-  // Where bytes go is said by each write_at(), but not heeded in a file that is appended to.
-  if (mode == Mode::replace_bytes) flags = O_WRONLY | O_CLOEXEC;
-  constexpr mode_t kReadWriteForAllButUmask = 0666;
-  descriptor_ = ::open(path_.c_str(), flags, kReadWriteForAllButUmask);
-  if (descriptor_ < 0) throw OutputError(path_, "create", errno);
+CheckedFile::CheckedFile(std::filesystem::path path, Mode mode)
+    : path_(std::move(path)), descriptor_(opened(path_, mode)) {
+  if (descriptor_ < 0) throw OutputError(path_, mode == Mode::create ? "create" : "open", errno);
   struct stat status {};
   if (::fstat(descriptor_, &status) == 0) size_ = status.st_size;
 }
@@ -148,7 +150,7 @@ void CheckedFile::close() {
 }
 
 OutputFile::OutputFile(const std::filesystem::path& path)
-    : path_(path), part_(part_of(path)), file_(part_, CheckedFile::Mode::replace) {}
+    : path_(path), part_(geometry::part_of(path)), file_(part_, CheckedFile::Mode::create) {}
 
 OutputFile::~OutputFile() {
   if (committed_) return;

@@ -31,12 +31,12 @@ class OutputError : public std::runtime_error {
 class CheckedFile {
  public:
   enum class Mode : std::uint8_t {
-    replace,
-    append,
-    replace_bytes  ///< of a file that is there, by write_at() alone
+    create,        ///< a new file, as geometry::create_new_file() makes it
+    append,        ///< to a file that is there; a link is not followed
+    replace_bytes  ///< of a file that is there, by write_at() alone; likewise
   };
 
-  /// Opens a file, creating it if absent. @throws OutputError
+  /// @throws OutputError
   CheckedFile(std::filesystem::path path, Mode mode);
   CheckedFile(const CheckedFile&) = delete;
   CheckedFile& operator=(const CheckedFile&) = delete;
@@ -94,7 +94,7 @@ struct PlacedBytes {
 };
 
 /// Overwrites bytes within a file that is there, one after the other; its size stays if they lie
-/// within it. @throws OutputError, and what came before the error is
+/// within it. A link is not followed. @throws OutputError, and what came before the error is
 /// written
 void overwrite(const std::filesystem::path& path, std::span<const PlacedBytes> writes);
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/byte_order.hpp"
 #include "geometry/mesh/mesh_file.hpp"
+#include "geometry/new_file.hpp"
+
+#include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cstdint>
-#include <fstream>
+#include <cstdio>
 #include <limits>
 #include <system_error>
 
@@ -146,6 +150,17 @@ std::string format_stl_binary(const Mesh& mesh) {
   return bytes;
 }
 
+/// @returns whether all bytes are in the file
+bool write_and_close(int descriptor, const std::string& bytes) {
+  std::FILE* file = ::fdopen(descriptor, "w");
+  if (file == nullptr) {
+    ::close(descriptor);
+    return false;
+  }
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  return std::fclose(file) == 0 && written;
+}
+
 }  // namespace
 
 std::string format_mesh(const Mesh& mesh, MeshFormat format) {
@@ -170,19 +185,20 @@ std::string format_mesh(const Mesh& mesh, MeshFormat format) {
 
 void write_mesh_file(const fs::path& path, const Mesh& mesh, MeshFormat format) {
   const std::string bytes = format_mesh(mesh, format);
-  fs::path temporary = path;
-  temporary += ".part";
-  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(temporary, path, error);
-  if (!file || error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
+  const fs::path part = part_of(path);
+  const int descriptor = create_new_file(part);
+  if (descriptor < 0)
     throw MeshError(
-        path.string() + ": cannot be written (" + std::to_string(bytes.size()) +
-        " bytes); check that the folder exists, that it is writable and that the disk has room");
+        part.string() + ": cannot be created: " + std::generic_category().message(errno) +
+        "; check that the folder exists and is writable, and remove what has this name");
+  const bool complete = write_and_close(descriptor, bytes);
+  std::error_code error;
+  if (complete) fs::rename(part, path, error);
+  if (!complete || error) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw MeshError(path.string() + ": cannot be written (" + std::to_string(bytes.size()) +
+                    " bytes); check that the disk has room and that no folder has this name");
   }
 }
 

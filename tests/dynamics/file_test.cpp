@@ -72,20 +72,42 @@ TEST(OutputFile, ForgetsThePartFileOfAnInterruptedRun) {
   EXPECT_EQ(bytes_of(folder / "a.txt"), "new");
 }
 
-TEST(OutputFile, SaysThatTheDiskIsFullAndLeavesNoFile) {
+TEST(OutputFile, FollowsNoLinkInThePlaceOfItsPartFile) {
   const TemporaryFolder folder;
-  test::fill_disk_at(folder / "a.txt.part");
+  write_bytes(folder / "victim", "precious");
+  std::filesystem::create_symlink(folder / "victim", folder / "a.txt.part");
+  std::filesystem::create_symlink(folder / "nowhere", folder / "b.txt.part");
 
-  const auto write = [&] {
-    OutputFile file(folder / "a.txt");
-    file.write("text");
-    file.commit();
-  };
+  for (const std::string name : {"a.txt", "b.txt"}) {
+    EXPECT_THAT([&] { OutputFile file(folder / name); },
+                ThrowsMessage<OutputError>(AllOf(HasSubstr(name + ".part: cannot create: "),
+                                                 HasSubstr("a link has this name; remove it"))));
+  }
+  EXPECT_EQ(bytes_of(folder / "victim"), "precious");
+  EXPECT_THAT(folder.names(), ElementsAre("a.txt.part", "b.txt.part", "victim"));
+}
 
-  EXPECT_THAT(write, ThrowsMessage<OutputError>(AllOf(HasSubstr("a.txt.part"),
-                                                      HasSubstr("No space left on device"),
-                                                      HasSubstr("free some space"))));
-  EXPECT_THAT(folder.names(), IsEmpty());
+TEST(OutputFile, WritesIntoNoOtherFileThatSharesThePartFile) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "victim", "precious");
+  std::filesystem::create_hard_link(folder / "victim", folder / "a.txt.part");
+
+  OutputFile file(folder / "a.txt");
+  file.write("new");
+  file.commit();
+
+  EXPECT_EQ(bytes_of(folder / "victim"), "precious");
+  EXPECT_EQ(bytes_of(folder / "a.txt"), "new");
+}
+
+TEST(CheckedFile, SaysThatTheDiskIsFull) {
+  // A device that takes no byte.
+  CheckedFile file("/dev/full", CheckedFile::Mode::append);
+
+  EXPECT_THAT([&] { file.write("text"); },
+              ThrowsMessage<OutputError>(AllOf(HasSubstr("/dev/full: cannot write"),
+                                               HasSubstr("No space left on device"),
+                                               HasSubstr("free some space"))));
 }
 
 TEST(OutputFile, LeavesNoFileWhenTheDiskFillsUpWithinAWrite) {
@@ -128,7 +150,7 @@ TEST(OutputFile, LeavesNoPartFileWhenAFolderHasItsName) {
 
 TEST(CheckedFile, IsCutBackToTheLastWholeWriteAndCanGoOn) {
   const TemporaryFolder folder;
-  CheckedFile file(folder / "a.txt", CheckedFile::Mode::replace);
+  CheckedFile file(folder / "a.txt", CheckedFile::Mode::create);
   file.write("123\n");
   bool failed = false;
 

@@ -109,6 +109,20 @@ TEST(MeshFile, KeepsTheOldFileWhenTheDiskFillsUp) {
   EXPECT_THAT(folder.names(), ElementsAre("a.off"));
 }
 
+TEST(MeshFile, FollowsNoLinkInThePlaceOfItsTemporaryFile) {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "victim", "precious");
+  std::filesystem::create_symlink(folder / "victim", folder / "a.off.part");
+
+  EXPECT_THAT(
+      [&] {
+        write_mesh_file(folder / "a.off", box_shell({1.0, 1.0, 1.0}));
+      },
+      testing::ThrowsMessage<MeshError>(testing::HasSubstr("a.off.part")));
+  EXPECT_EQ(test::bytes_of(folder / "victim"), "precious");
+  EXPECT_THAT(folder.names(), ElementsAre("a.off.part", "victim"));
+}
+
 TEST(MeshFile, TellsTheFormatByItsFirstWordsAndOnlyThenByItsEnding) {
   const Mesh mesh = box_shell({1.0, 2.0, 4.0});
   for (const MeshFormat format : {MeshFormat::off, MeshFormat::ply, MeshFormat::stl_ascii,

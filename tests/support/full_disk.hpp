@@ -4,15 +4,8 @@
 #include <sys/resource.h>
 
 #include <csignal>
-#include <filesystem>
 
 namespace plekton::test {
-
-/// Makes the file that is written under a name fail with "no space left on device": the name
-/// becomes a link to /dev/full, which takes no byte.
-inline void fill_disk_at(const std::filesystem::path& file) {
-  std::filesystem::create_symlink("/dev/full", file);
-}
 
 /// No file grows beyond a size (bytes) within the scope: a write across it is cut short, as on a
 /// disk that fills up in the middle of it, and the next one fails. Do not print inside.
