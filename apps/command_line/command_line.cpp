@@ -22,6 +22,7 @@
 #include <array>
 #include <cerrno>
 #include <exception>
+#include <csignal>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -265,4 +266,7 @@ int run_program(int argc, const char* const* argv) {
   return kFailed;
 }
 
+  // A write beyond the limit of file sizes (ulimit -f) is to fail with its message, not to end the
+  // program within a line.
+  std::signal(SIGXFSZ, SIG_IGN);
 }  // namespace plekton::apps

@@ -272,6 +272,16 @@ TEST_F(Command, RunOnADiskThatFillsUpAltogetherStillGivesTheMessage) {
 
 }
 
+TEST_F(Command, RunAtALimitOfFileSizesEndsWithTheMessageAndWholeRows) {
+  // As a shell starts it with ulimit -f: the signal at the limit ends a program that does nothing
+  // about it.
+  const auto limited = [] {
+    static const test::FileSizeLimit limit(50'000);
+    ::signal(SIGXFSZ, SIG_DFL);
+  };
+
+}
+
 TEST_F(Command, RunThatDivergesNamesStepNodePositionAndAdvice) {
   const Outcome outcome = outcome_of({"run", scenario(), "--out", out(), "--set",
                                       "grains.gravel.velocity=[0, 0, \"-1000000 m/s\"]", "--set",
