@@ -23,7 +23,8 @@ if is_done; then
   say "The run of apps/examples/catch/catch.toml is done; remove out/catch to do it again"
 else
   say "Running apps/examples/catch/catch.toml"
-  build/release/apps/plekton run apps/examples/catch/catch.toml --out out/catch --threads 2
+  # What is there is of another program or scenario, or was not finished.
+  build/release/apps/plekton run apps/examples/catch/catch.toml --out out/catch --overwrite --threads 2
 fi
 
 say "Summary, from out/catch/run.json"

@@ -6,6 +6,7 @@
 #include "apps/command_line/list_command.hpp"
 #include "apps/command_line/step_advice.hpp"
 #include "apps/command_line/summary.hpp"
+#include "apps/run/output_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/scenario_reader.hpp"
@@ -21,14 +22,15 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <exception>
 #include <csignal>
+#include <exception>
 #include <iostream>
 #include <new>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace plekton::apps {
@@ -51,6 +53,7 @@ struct CommandLine {
   std::optional<std::string> target_edge;
   bool refuse_intersections = false;
   std::optional<std::string> thickness;
+  bool overwrite = false;
   bool json = false;
   bool power_iteration = false;
 };
@@ -63,18 +66,17 @@ Scenario scenario_of(const CommandLine& line) {
 
 /// What a run has written to its folder.
 std::string files_in(const fs::path& folder) {
-  std::string files = "run.json, energy.csv";
-  const auto add = [&](std::string_view name, std::string_view before) {
-    std::error_code ignored;
-    const bool is_there = fs::exists(folder / name, ignored);
-    if (is_there) files += fmt::format("{}{}", before, name);
-    return is_there;
-  };
-  for (const std::string_view table : {"reactions.csv", "pressures.csv", "contacts.csv"})
-    add(table, ", ");
-  std::string_view before = ", and for ParaView ";
-  for (const std::string_view series : {"grains.pvd", "membranes.pvd", "contacts.pvd"})
-    if (add(series, before)) before = ", ";
+  std::string files;
+  std::string_view before_series = ", and for ParaView ";
+  for (const std::string_view name : kResultFiles) {
+    if (std::error_code ignored; !fs::exists(folder / name, ignored)) continue;
+    if (name.ends_with(".pvd")) {
+      files += std::exchange(before_series, ", ");
+    } else if (!files.empty()) {
+      files += ", ";
+    }
+    files += name;
+  }
   return files;
 }
 
@@ -90,8 +92,10 @@ void flush_output() {
 int run_command(const CommandLine& line) {
   const auto began = Progress::Clock::now();
   const Scenario scenario = scenario_of(line);
-  PreparedRun prepared = prepare_run(scenario);
   const fs::path out = line.out.empty() ? fs::path("out") / line.scenario.stem() : line.out;
+  // Before the scene is built, which may take long.
+  check_output_folder(out, line.overwrite);
+  PreparedRun prepared = prepare_run(scenario);
   std::cout << summary_of(prepared) << std::flush;
 
   const InterruptGuard guard;
@@ -101,7 +105,8 @@ int run_command(const CommandLine& line) {
                              std::cout,
                              terminal ? ProgressStyle::one_line : ProgressStyle::lines,
                              [&] { return guard.interrupted(); },
-                             began};
+                             began,
+                             line.overwrite};
   const RunReport report = run(scenario, prepared, settings);
   std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n';
   return report.status == RunStatus::interrupted ? kInterrupted : kDone;
@@ -158,6 +163,7 @@ int import_command(const CommandLine& line) {
   if (line.thickness)
     arguments.thickness = length_option("--thickness", *line.thickness, kPositive);
   if (!line.out.empty()) arguments.out = line.out;
+  arguments.overwrite = line.overwrite;
   arguments.json = line.json;
   import_mesh_file(arguments, std::cout);
   flush_output();
@@ -216,6 +222,8 @@ int dispatch(int argc, const char* const* argv) {
   add_scenario_options(*run, line);
   run->add_option("--out", line.out,
                   "Folder for the results; out/<name of the scenario> if not given");
+  run->add_flag("--overwrite", line.overwrite,
+                "Replace the results of an earlier run in that folder");
   CLI::App* check = app.add_subcommand(
       "check", "Read a scenario, build its scene, and say what it is or what is wrong with it");
   add_scenario_options(*check, line);
@@ -239,6 +247,8 @@ int dispatch(int argc, const char* const* argv) {
   import->add_option("--thickness", line.thickness,
                      "Say whether a membrane of this thickness goes with the mesh");
   import->add_option("--out", line.out, "Folder for the repaired mesh and report.json");
+  import->add_flag("--overwrite", line.overwrite,
+                   "Replace the files of an earlier import in that folder");
   import->add_flag("--json", line.json, "Print the report as JSON");
   CLI::App* list =
       app.add_subcommand("list", "Say what a scenario can name, with parameters and defaults");
@@ -256,6 +266,9 @@ int dispatch(int argc, const char* const* argv) {
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
+  // A write beyond the limit of file sizes (ulimit -f) is to fail with its message, not to end the
+  // program within a line.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return dispatch(argc, argv);
   } catch (const std::bad_alloc&) {
@@ -266,7 +279,4 @@ int run_program(int argc, const char* const* argv) {
   return kFailed;
 }
 
-  // A write beyond the limit of file sizes (ulimit -f) is to fail with its message, not to end the
-  // program within a line.
-  std::signal(SIGXFSZ, SIG_IGN);
 }  // namespace plekton::apps

@@ -6,6 +6,8 @@
 #include "geometry/mesh/import.hpp"
 #include "geometry/mesh/mesh_file.hpp"
 
+#include <array>
+
 namespace plekton::apps {
 namespace {
 
@@ -25,6 +27,10 @@ void write_import(const fs::path& folder, const fs::path& mesh_name,
 }  // namespace
 
 void import_mesh_file(const ImportArguments& arguments, std::ostream& out) {
+  const std::string mesh_name = arguments.mesh.stem().string() + "-repaired.off";
+  if (arguments.out && !arguments.overwrite)
+    refuse_results(*arguments.out, "import",
+                   std::array<std::string_view, 2>{mesh_name, "report.json"});
   geometry::ImportOptions options;
   options.repair = arguments.repair;
   const geometry::ImportedMesh imported = [&]() -> geometry::ImportedMesh {
@@ -33,7 +39,6 @@ void import_mesh_file(const ImportArguments& arguments, std::ostream& out) {
         geometry::import_membrane(arguments.mesh, {*arguments.thickness}, options);
     return {std::move(with_thickness.mesh), std::move(with_thickness.report)};
   }();
-  const fs::path mesh_name = arguments.mesh.stem().string() + "-repaired.off";
   if (arguments.out) write_import(*arguments.out, mesh_name, imported);
 
   out << (arguments.json ? geometry::to_json(imported.report) : geometry::to_text(imported.report));

@@ -15,13 +15,14 @@ struct ImportArguments {
   geometry::RepairOptions repair;
   std::optional<double> thickness;           ///< m, to hear whether it goes with the mesh
   std::optional<std::filesystem::path> out;  ///< folder for the repaired mesh and report.json
-  bool json = false;                         ///< print the report as JSON
+  bool overwrite = false;  ///< replace these where they are from an earlier import
+  bool json = false;       ///< print the report as JSON
 };
 
 /// Imports a mesh, prints the report, and writes the repaired mesh (<name>-repaired.off) and
 /// report.json if a folder is named.
 /// @throws geometry::MeshError if the mesh cannot be used, dynamics::OutputError if the folder
-/// cannot be written.
+/// cannot be written or holds files of these names that are not to be replaced.
 void import_mesh_file(const ImportArguments& arguments, std::ostream& out);
 
 }  // namespace plekton::apps

@@ -4,6 +4,7 @@
 #include "dynamics/output/file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -12,18 +13,36 @@
 
 namespace plekton::apps {
 
-void make_output_folder(const std::filesystem::path& folder) {
-  const std::filesystem::path parent =
-      (folder.has_filename() ? folder : folder.parent_path()).parent_path();
+namespace fs = std::filesystem;
+
+void make_output_folder(const fs::path& folder) {
+  const fs::path parent = (folder.has_filename() ? folder : folder.parent_path()).parent_path();
   if (!parent.empty()) {
     std::error_code error;
-    std::filesystem::create_directories(parent, error);
+    fs::create_directories(parent, error);
     if (error) throw dynamics::OutputError(parent, "create the folder", error.value());
   }
   dynamics::ensure_output_folder(folder);
 }
 
-OutputFolderLock::OutputFolderLock(const std::filesystem::path& folder)
+void refuse_results(const fs::path& folder, std::string_view maker,
+                    std::span<const std::string_view> files) {
+  for (const std::string_view file : files) {
+    // Also a link to nowhere is somebody's.
+    if (std::error_code ignored; !fs::exists(fs::symlink_status(folder / file, ignored))) continue;
+    throw dynamics::OutputError(
+        folder, fmt::format("holds results of an earlier {} ({}); choose another folder with "
+                            "--out, or replace them with --overwrite",
+                            maker, file));
+  }
+}
+
+void check_output_folder(const fs::path& folder, bool overwrite) {
+  const OutputFolderLock lock(folder);
+  if (!overwrite) refuse_results(folder, "run", kResultFiles);
+}
+
+OutputFolderLock::OutputFolderLock(const fs::path& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
     return;

@@ -1,12 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <span>
+#include <string_view>
 
 namespace plekton::apps {
 
 /// Makes a folder that takes files, with the folders above it. @throws dynamics::OutputError
 void make_output_folder(const std::filesystem::path& folder);
+
+/// What a run may write into its folder, beside its frames.
+inline constexpr std::array<std::string_view, 8> kResultFiles = {
+    "run.json",     "energy.csv", "reactions.csv", "pressures.csv",
+    "contacts.csv", "grains.pvd", "membranes.pvd", "contacts.pvd"};
+
+/// Refuses a folder that holds a file of these names.
+/// @param maker  What made them, for the message: "run" or "import".
+/// @throws dynamics::OutputError naming the first that is there
+void refuse_results(const std::filesystem::path& folder, std::string_view maker,
+                    std::span<const std::string_view> files);
+
+/// Refuses a folder that another run writes to, and, unless it is to be overwritten, one that holds
+/// results of an earlier run. Nothing is created.
+/// @throws dynamics::OutputError
+void check_output_folder(const std::filesystem::path& folder, bool overwrite);
 
 /// Keeps a folder for one run: a second run into it would mix its files with those of the first.
 /// The lock ends with the process, however that ends. File systems without locks are not guarded.

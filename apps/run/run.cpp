@@ -350,6 +350,7 @@ PreparedRun prepare_run(const Scenario& scenario) {
 RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings) {
   make_output_folder(settings.out);
   const OutputFolderLock lock(settings.out);
+  if (!settings.overwrite) refuse_results(settings.out, "run", kResultFiles);
   std::error_code ignored;
   std::filesystem::remove(settings.out / "run.json", ignored);
   return Run(scenario, prepared, settings).execute();

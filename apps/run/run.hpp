@@ -37,6 +37,7 @@ struct RunSettings {
   std::function<bool()> is_interrupted;  ///< asked after every step
   /// When the work on the scenario began, for the start-up time of the report.
   Progress::Clock::time_point began = Progress::Clock::now();
+  bool overwrite = false;  ///< replace the results of an earlier run
 };
 
 /// Runs a prepared simulation to its end, or until it is at rest or interrupted, and writes frames,
@@ -46,7 +47,8 @@ struct RunSettings {
 /// written; before the run an old one is removed. All other files are complete at any moment. With
 /// an automatic time step the critical step is looked at again and again and the step made shorter
 /// where it has fallen.
-/// @throws dynamics::OutputError if something cannot be written, dynamics::Diverged
+/// @throws dynamics::OutputError if something cannot be written or the folder holds results that
+/// are not to be replaced, dynamics::Diverged
 RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings);
 
 }  // namespace plekton::apps

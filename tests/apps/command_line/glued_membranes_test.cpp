@@ -51,8 +51,8 @@ class GluedMembranes : public testing::Test {
  protected:
   Outcome run(const std::string& keys) const {
     test::write_bytes(folder_ / "case.toml", std::string(kTwoSheets) + keys);
-    Outcome outcome =
-        outcome_of({"run", (folder_ / "case.toml").string(), "--out", (folder_ / "out").string()});
+    Outcome outcome = outcome_of({"run", (folder_ / "case.toml").string(), "--out",
+                                  (folder_ / "out").string(), "--overwrite"});
     EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
     return outcome;
   }

@@ -34,6 +34,24 @@ TEST(ImportCommand, WritesTheRepairedMeshAndItsReport) {
 }
 
 TEST(ImportCommand, PrintsTheReportAsJson) {
+TEST(ImportCommand, ReplacesAnEarlierImportOnlyWhenTold) {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> command = {"import", kHammock, "--out", (folder / "a").string()};
+  ASSERT_EQ(outcome_of(command).exit_code, kDone);
+  test::write_bytes(folder / "a/report.json", "mine");
+
+  const Outcome refused = outcome_of(command);
+  auto telling = command;
+  telling.push_back("--overwrite");
+
+  EXPECT_EQ(refused.exit_code, kFailed);
+  EXPECT_THAT(refused.err, HasSubstr("hammock-repaired.off"));
+  EXPECT_THAT(refused.err, HasSubstr("--overwrite"));
+  EXPECT_EQ(test::bytes_of(folder / "a/report.json"), "mine");
+  EXPECT_EQ(outcome_of(telling).exit_code, kDone);
+  EXPECT_NE(test::bytes_of(folder / "a/report.json"), "mine");
+}
+
   const Outcome outcome = outcome_of({"import", kHammock, "--json"});
 
   EXPECT_EQ(outcome.exit_code, kDone);

@@ -13,8 +13,8 @@ class MembraneModes : public Command {};
 TEST_F(MembraneModes, CatchGrainsWithTheirEnergyAccountedFor) {
   for (const std::string mode : {"lattice", "truss", "continuum"}) {
     const Outcome outcome =
-        outcome_of({"run", scenario(), "--out", out(), "--set", "membranes.sheet.mode=" + mode,
-                    "--set", "membranes.sheet.hold_rotation=true"});
+        outcome_of({"run", scenario(), "--out", out(), "--overwrite", "--set",
+                    "membranes.sheet.mode=" + mode, "--set", "membranes.sheet.hold_rotation=true"});
 
     EXPECT_EQ(outcome.exit_code, kDone) << mode << ": " << outcome.err;
     EXPECT_THAT(outcome.out,

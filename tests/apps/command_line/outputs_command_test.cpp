@@ -196,7 +196,7 @@ TEST_F(Outputs, LeaveNoListsOfAnEarlierRunBehind) {
   ASSERT_EQ(outcome_of({"run", scenario(), "--out", out()}).exit_code, kDone);
   set_output("");
 
-  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out()}).exit_code, kDone);
+  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out(), "--overwrite"}).exit_code, kDone);
 
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out/reactions.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out/contacts.csv"));

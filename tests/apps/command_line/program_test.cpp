@@ -162,11 +162,31 @@ TEST_F(Command, RunGoesOnWhenNobodyReadsItsProgress) {
   EXPECT_EQ(report()["status"], "finished");
 }
 
+TEST_F(Command, RunRefusesAFolderThatHoldsResults) {
+  outcome_of({"run", scenario(), "--out", out()});
+  const std::string energies = test::bytes_of(folder_ / "out/energy.csv");
+  const std::string series = test::bytes_of(folder_ / "out/grains.pvd");
+
+  for (const std::string left : {"run.json", "energy.csv", "grains.pvd"}) {
+    const Outcome outcome =
+        outcome_of({"run", scenario(), "--out", out(), "--set", "grains.gravel.count=10"});
+
+    EXPECT_EQ(outcome.exit_code, kFailed) << left;
+    EXPECT_THAT(outcome.err, HasSubstr("out: holds results of an earlier run (" + left + ")"));
+    EXPECT_THAT(outcome.err, HasSubstr("--overwrite"));
+    if (left == "run.json") {
+      EXPECT_EQ(test::bytes_of(folder_ / "out/energy.csv"), energies);
+    }
+    EXPECT_EQ(test::bytes_of(folder_ / "out/grains.pvd"), series);
+    std::filesystem::remove(folder_ / "out" / left);
+  }
+}
+
 TEST_F(Command, RunReplacesWhatAnEarlierRunLeft) {
   outcome_of({"run", scenario(), "--out", out()});
   test::write_bytes(folder_ / "out/frames/notes.txt", "mine");
 
-  outcome_of({"run", scenario(), "--out", out(), "--set", "output.interval=1 s"});
+  outcome_of({"run", scenario(), "--out", out(), "--overwrite", "--set", "output.interval=1 s"});
 
   EXPECT_EQ(report()["counts"]["frames"], 2);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out/frames/grains_00002.vtp"));
@@ -250,6 +270,8 @@ TEST_F(Command, RunThatCannotWriteAFrameStopsWithWhatIsCompleteInPlace) {
 
   const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
 
+  std::filesystem::remove(folder_ / "out/frames/contacts_00003.vtp.part");
+
   EXPECT_EQ(outcome.exit_code, kFailed);
   EXPECT_THAT(outcome.err, HasSubstr("contacts_00003.vtp.part: cannot create: Is a directory"));
   EXPECT_THAT(outcome.err, HasSubstr("a folder has this name"));
@@ -268,8 +290,6 @@ TEST_F(Command, RunOnADiskThatFillsUpAltogetherStillGivesTheMessage) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(out())) {
     EXPECT_NE(entry.path().extension(), ".part") << entry.path();
   }
-  std::filesystem::remove(folder_ / "out/frames/contacts_00003.vtp.part");
-
 }
 
 TEST_F(Command, RunAtALimitOfFileSizesEndsWithTheMessageAndWholeRows) {
@@ -280,6 +300,15 @@ TEST_F(Command, RunAtALimitOfFileSizesEndsWithTheMessageAndWholeRows) {
     ::signal(SIGXFSZ, SIG_DFL);
   };
 
+  const Outcome outcome = outcome_of(
+      {"run", scenario(), "--out", out(), "--set", "output.history_interval=1 us"}, limited);
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("energy.csv: cannot write: File too large; raise the limit"));
+  const std::string history = test::bytes_of(folder_ / "out/energy.csv");
+  ASSERT_FALSE(history.empty());
+  EXPECT_EQ(history.back(), '\n');
+  EXPECT_EQ(report()["status"], "failed");
 }
 
 TEST_F(Command, RunThatDivergesNamesStepNodePositionAndAdvice) {
