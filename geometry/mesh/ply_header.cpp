@@ -80,7 +80,7 @@ std::optional<PlyProperty> property_of(const Words& words) {
 template <class Value>
 Value required(std::optional<Value> value, const TextScanner& text, const char* expected,
                std::string_view line) {
-  if (!value) text.fail(expected, "'" + std::string(line.substr(0, 60)) + "'");
+  if (!value) text.fail(expected, quoted(line));
   return *std::move(value);
 }
 
@@ -94,8 +94,7 @@ std::size_t size_of(PlyType type) noexcept {
 PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
   constexpr const char* kLine = "a header line (format, element, property, comment, end_header)";
   TextScanner text(bytes, name);
-  if (text.rest_of_line() != "ply")
-    text.fail("the word ply alone on the first line", "something else");
+  if (text.rest_of_line() != "ply") text.fail("the word ply alone on the first line", kAnotherKind);
 
   PlyHeader header{};
   std::optional<PlyEncoding> encoding;
@@ -114,7 +113,7 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
       header.elements.back().properties.push_back(
           required(property_of(words), text, "property [list TYPE] TYPE NAME", line));
     } else if (keyword != "comment" && keyword != "obj_info") {
-      text.fail(kLine, "'" + std::string(line.substr(0, 60)) + "'");
+      text.fail(kLine, quoted(keyword));
     }
   }
   header.encoding = required(encoding, text, "a format line before end_header", "none");

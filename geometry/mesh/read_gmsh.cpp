@@ -24,10 +24,6 @@ ElementUse use_of(std::int64_t type) noexcept {
   return second_order || higher_order ? ElementUse::curved_surface : ElementUse::skip;
 }
 
-std::string quoted(std::string_view word) {
-  return "'" + std::string(word.substr(0, 40)) + "'";
-}
-
 class GmshReader {
  public:
   GmshReader(std::string_view text, const std::string& name)
@@ -36,7 +32,10 @@ class GmshReader {
   PolygonSoup read() && {
     while (!text_.at_end()) {
       const std::string section(text_.word("a section such as $Nodes"));
-      if (!section.starts_with('$')) text_.fail("a section such as $Nodes", quoted(section));
+      const bool is_gmsh = version_ != Version::unknown;
+      if (!section.starts_with('$'))
+        text_.fail("a section such as $Nodes", quoted(section, is_gmsh));
+      require(is_gmsh || section == "$MeshFormat" || section == "$Comments", "$MeshFormat");
       if (section == "$MeshFormat")
         read_format();
       else if (section == "$Nodes")
@@ -107,7 +106,6 @@ class GmshReader {
   }
 
   void read_nodes() {
-    require(version_ != Version::unknown, "$MeshFormat");
     if (std::exchange(has_nodes_, true)) text_.fail("one section $Nodes", "a second one");
     if (version_ == Version::v2_2) {
       const std::size_t nodes = count("the number of nodes");

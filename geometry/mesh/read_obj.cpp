@@ -48,9 +48,9 @@ class ObjLines {
 
   /// Line number of the end of the logical line.
   std::size_t line() const noexcept { return line_; }
-  [[noreturn]] void fail(std::string_view expected, std::string_view got) const {
-    scanner_.fail(expected,
-                  got.empty() ? "the end of the line" : "'" + std::string(got.substr(0, 40)) + "'");
+  /// @param is_obj  Whether the file has shown that it is one.
+  [[noreturn]] void fail(std::string_view expected, std::string_view got, bool is_obj) const {
+    scanner_.fail(expected, got.empty() ? "the end of the line" : quoted(got, is_obj));
   }
 
  private:
@@ -68,12 +68,13 @@ std::size_t count_points(std::string_view text, const std::string& name) {
   return count;
 }
 
-Vec3 point_of(const ObjLines& lines, std::size_t position) {
+/// @param points_so_far  Points read before; any of them shows that the file is one of OBJ.
+Vec3 point_of(const ObjLines& lines, std::size_t position, std::size_t points_so_far) {
   Vec3 point;
   for (double& coordinate : point) {
     const std::string_view word = lines.next_word(position);
     const auto value = parse_number(word);
-    if (!value) lines.fail("three coordinates of a point", word);
+    if (!value) lines.fail("three coordinates of a point", word, points_so_far > 0);
     coordinate = *value;
   }
   return point;
@@ -86,7 +87,8 @@ void read_corners(const ObjLines& lines, std::size_t position, std::size_t point
   for (auto word = lines.next_word(position); !word.empty(); word = lines.next_word(position)) {
     const auto number = parse_integer(word.substr(0, word.find('/')));
     if (!number)
-      lines.fail("corners of a facet (point, point/texture or point/texture/normal)", word);
+      lines.fail("corners of a facet (point, point/texture or point/texture/normal)", word,
+                 points_so_far > 0);
     corners.push_back(*number < 0 ? static_cast<std::int64_t>(points_so_far) + *number
                                   : *number - 1);
   }
@@ -103,7 +105,7 @@ PolygonSoup read_obj(std::string_view text, const std::string& name) {
     std::size_t position = 0;
     const std::string_view keyword = lines.next_word(position);
     if (keyword == "v") {
-      soup.add_point(point_of(lines, position), lines.line());
+      soup.add_point(point_of(lines, position, soup.point_count()), lines.line());
     } else if (keyword == "f" || keyword == "fo") {
       read_corners(lines, position, soup.point_count(), corners);
       soup.add_polygon(corners, lines.line());

@@ -21,7 +21,7 @@ void read_header(TextScanner& text) {
   const std::string_view word = text.word(kExpected);
   const bool known = word.ends_with("OFF") &&
                      word.find_first_not_of("STCN") == word.size() - std::string_view("OFF").size();
-  if (!known) text.fail(kExpected, "'" + std::string(word.substr(0, 40)) + "'");
+  if (!known) text.fail(kExpected, kAnotherKind);
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ PolygonSoup read_off(std::string_view bytes, const std::string& name) {
   }
   if (!text.at_end())
     text.fail("the end of the file after " + std::to_string(polygon_count) + " facets",
-              "'" + std::string(text.word("").substr(0, 40)) + "'");
+              quoted(text.word("")));
   return std::move(soup).finish();
 }
 

@@ -70,10 +70,6 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
   });
 }
 
-std::string quoted(std::string_view word) {
-  return "'" + std::string(word.substr(0, 40)) + "'";
-}
-
 void expect_keyword(TextScanner& text, std::string_view keyword) {
   const std::string_view word = text.word(keyword);
   if (!is_keyword(word, keyword)) text.fail(keyword, quoted(word));
@@ -106,8 +102,8 @@ PolygonSoup read_ascii(std::string_view bytes, const std::string& name) {
   TextScanner text(bytes, name);
   SoupBuilder soup(name, 0);
   std::vector<std::int64_t> corners;
-  do {
-    expect_keyword(text, "solid");
+  if (!is_keyword(text.word("solid"), "solid")) text.fail("solid", kAnotherKind);
+  while (true) {
     text.rest_of_line();  // The name, in any words.
     for (auto word = text.word(kInSolid); !is_keyword(word, "endsolid");
          word = text.word(kInSolid)) {
@@ -115,8 +111,9 @@ PolygonSoup read_ascii(std::string_view bytes, const std::string& name) {
       read_facet(text, soup, corners);
     }
     text.rest_of_line();
-  } while (!text.at_end());
-  return std::move(soup).finish();
+    if (text.at_end()) return std::move(soup).finish();
+    expect_keyword(text, "solid");
+  }
 }
 
 }  // namespace

@@ -13,18 +13,12 @@
 namespace plekton::geometry {
 namespace {
 
-std::string quoted(std::string_view text) {
-  return "'" + std::string(text.substr(0, 40)) + "'";
-}
-
 class VtpReader {
  public:
   VtpReader(std::string_view bytes, const std::string& name)
-      : name_(name), elements_(read_xml(bytes, name)), soup_(name, 0) {}
+      : name_(name), elements_(read_xml(bytes, name, "VTKFile")), soup_(name, 0) {}
 
   PolygonSoup read() && {
-    if (elements_.empty() || elements_[0].name != "VTKFile")
-      fail(0, "expected the root VTKFile; this is another kind of file");
     if (elements_[0].attribute("type") != "PolyData")
       fail(
           0,
@@ -44,8 +38,7 @@ class VtpReader {
 
  private:
   [[noreturn]] void fail(std::size_t element, const std::string& what) const {
-    const std::size_t line = elements_.empty() ? 1 : elements_[element].line;
-    throw MeshError(name_ + ": line " + std::to_string(line) + ": " + what);
+    throw MeshError(name_ + ": line " + std::to_string(elements_[element].line) + ": " + what);
   }
   [[noreturn]] void damaged(std::size_t element, const std::string& what) const {
     fail(element, what + "; the file is damaged; save the mesh again");

@@ -26,13 +26,14 @@ double out_of_range_value(std::string_view digits, bool negative) {
   return negative ? -infinity : infinity;
 }
 
-std::string quoted(std::string_view word) {
-  constexpr std::size_t kLongestQuote = 40;
+}  // namespace
+
+std::string quoted(std::string_view word, bool is_mesh) {
+  if (!is_mesh) return std::string(kAnotherKind);
+  constexpr std::size_t kLongestQuote = 20;  // more than any keyword of the formats
   const std::string text = "'" + std::string(word.substr(0, kLongestQuote));
   return text + (word.size() > kLongestQuote ? "...'" : "'");
 }
-
-}  // namespace
 
 std::optional<double> parse_number(std::string_view word) noexcept {
   const bool negative = word.starts_with('-');

@@ -16,6 +16,13 @@ namespace plekton::geometry {
 std::optional<double> parse_number(std::string_view word) noexcept;
 std::optional<std::int64_t> parse_integer(std::string_view word) noexcept;
 
+inline constexpr std::string_view kAnotherKind = "another kind of file";
+
+/// A word of a file as messages show it: its beginning in quotes. A file may be any that somebody
+/// names, also one that is not for everybody to see, so a message shows no more of it than the word
+/// at fault, and kAnotherKind instead where the file has not shown that it is a mesh.
+std::string quoted(std::string_view word, bool is_mesh = true);
+
 /// Words of a text, separated by white space, with the line each stands in. Line ends may be LF, CR
 /// LF or CR.
 class TextScanner {

@@ -2,6 +2,7 @@
 #include "geometry/mesh/xml_elements.hpp"
 
 #include "geometry/mesh/mesh.hpp"
+#include "geometry/mesh/text_scanner.hpp"
 
 #include <algorithm>
 
@@ -9,11 +10,13 @@ namespace plekton::geometry {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kEndsOfAName = " \t\r\n/>";
 constexpr std::size_t kMostLevels = 64;
 
 class XmlReader {
  public:
-  XmlReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+  XmlReader(std::string_view bytes, const std::string& name, std::string_view root)
+      : bytes_(bytes), name_(name), root_(root) {}
 
   std::vector<XmlElement> read() && {
     while (pass_to('<')) {
@@ -23,6 +26,8 @@ class XmlReader {
         pass_behind("-->");
       } else if (starts("<!")) {
         pass_behind(">");
+      } else if (elements_.empty() && !starts_root()) {
+        break;
       } else if (starts("</")) {
         read_end_tag();
       } else {
@@ -30,22 +35,26 @@ class XmlReader {
         if (elements_.back().name == "AppendedData") return std::move(elements_);
       }
     }
+    if (elements_.empty())
+      throw MeshError(name_ + ": line " + std::to_string(line_) + ": expected the root " +
+                      std::string(root_) + "; this is " + std::string(kAnotherKind));
     if (!open_.empty())
       fail("the end tag of " + quoted(elements_[open_.back()].name), "the end of the file");
     return std::move(elements_);
   }
 
  private:
-  static std::string quoted(std::string_view text) {
-    return "'" + std::string(text.substr(0, 40)) + "'";
-  }
-
   [[noreturn]] void fail(const std::string& expected, const std::string& got) const {
     throw MeshError(name_ + ": line " + std::to_string(line_) + ": expected " + expected +
                     ", got " + got + "; the file is cut off or damaged; save the mesh again");
   }
 
   bool starts(std::string_view text) const { return bytes_.substr(at_).starts_with(text); }
+
+  bool starts_root() const {
+    const std::string_view tag = bytes_.substr(at_ + 1);
+    return tag.substr(0, tag.find_first_of(kEndsOfAName)) == root_;
+  }
 
   void pass(std::size_t end) {
     line_ += static_cast<std::size_t>(std::count(bytes_.begin() + static_cast<std::ptrdiff_t>(at_),
@@ -89,7 +98,7 @@ class XmlReader {
     element.line = line_;
     element.depth = open_.size();
     pass(at_ + 1);
-    element.name = word(" \t\r\n/>");
+    element.name = word(kEndsOfAName);
     for (pass_blanks(); !starts(">") && !starts("/>"); pass_blanks())
       element.attributes.push_back(read_attribute());
     const bool is_empty = starts("/>");
@@ -123,6 +132,7 @@ class XmlReader {
 
   std::string_view bytes_;
   std::string name_;
+  std::string_view root_;
   std::size_t at_ = 0;
   std::size_t line_ = 1;
   std::vector<XmlElement> elements_;
@@ -137,8 +147,9 @@ std::string_view XmlElement::attribute(std::string_view key) const noexcept {
   return {};
 }
 
-std::vector<XmlElement> read_xml(std::string_view bytes, const std::string& name) {
-  return XmlReader(bytes, name).read();
+std::vector<XmlElement> read_xml(std::string_view bytes, const std::string& name,
+                                 std::string_view root) {
+  return XmlReader(bytes, name, root).read();
 }
 
 std::vector<std::size_t> children_of(const std::vector<XmlElement>& elements, std::size_t parent,

@@ -26,8 +26,11 @@ struct XmlElement {
 /// follows it at greater depth. Declarations and comments are passed over. Reading stops at an
 /// element AppendedData, whose text is then the rest of the bytes: it holds anything. Linear in the
 /// size.
-/// @throws MeshError for tags that do not close or match, and for more than 64 levels.
-std::vector<XmlElement> read_xml(std::string_view bytes, const std::string& name);
+/// @param root  Name of the outermost element.
+/// @throws MeshError for another root or none, for tags that do not close or match, and for more
+/// than 64 levels.
+std::vector<XmlElement> read_xml(std::string_view bytes, const std::string& name,
+                                 std::string_view root);
 
 /// Positions of the children of an element.
 /// @param name  Only children of this name.

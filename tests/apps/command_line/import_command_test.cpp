@@ -33,7 +33,6 @@ TEST(ImportCommand, WritesTheRepairedMeshAndItsReport) {
   EXPECT_EQ(soup.polygons.size(), 2U * 21U * 21U);
 }
 
-TEST(ImportCommand, PrintsTheReportAsJson) {
 TEST(ImportCommand, ReplacesAnEarlierImportOnlyWhenTold) {
   const test::TemporaryFolder folder;
   const std::vector<std::string> command = {"import", kHammock, "--out", (folder / "a").string()};
@@ -52,6 +51,7 @@ TEST(ImportCommand, ReplacesAnEarlierImportOnlyWhenTold) {
   EXPECT_NE(test::bytes_of(folder / "a/report.json"), "mine");
 }
 
+TEST(ImportCommand, PrintsTheReportAsJson) {
   const Outcome outcome = outcome_of({"import", kHammock, "--json"});
 
   EXPECT_EQ(outcome.exit_code, kDone);
@@ -96,6 +96,33 @@ TEST(ImportCommand, RefusesBadMeshesWithOneMessageAndWritesNothing) {
     EXPECT_THAT(outcome.err, HasSubstr(name)) << name;
     EXPECT_FALSE(std::filesystem::exists(folder / "out")) << name;
   }
+}
+
+TEST(ImportCommand, QuotesNothingOfAFileThatIsNoMesh) {
+  const test::TemporaryFolder folder;
+  for (const std::string text : {"root:secret:1\nuser:secret:2\n", "v root:secret\n",
+                                 "f root:secret\n", "<root:secret></root>", "$root:secret\n"}) {
+    for (const std::string ending : {"off", "obj", "stl", "ply", "msh", "vtp"}) {
+      const std::string name = "a." + ending;
+      test::write_bytes(folder / name, text);
+
+      const Outcome outcome = outcome_of({"import", (folder / name).string()});
+
+      EXPECT_EQ(outcome.exit_code, kFailed) << name << ": " << text;
+      EXPECT_THAT(outcome.err, HasSubstr(name));
+      EXPECT_THAT(outcome.err, testing::Not(HasSubstr("secret"))) << text;
+    }
+  }
+}
+
+TEST(ImportCommand, QuotesNoMoreThanTheBeginningOfAWord) {
+  const test::TemporaryFolder folder;
+  const std::string word(200, 'x');
+  test::write_bytes(folder / "a.off", "OFF\n3 1 0\n0 0 " + word + "\n");
+
+  const Outcome outcome = outcome_of({"import", (folder / "a.off").string()});
+
+  EXPECT_THAT(outcome.err, HasSubstr("got '" + word.substr(0, 20) + "...'"));
 }
 
 TEST(ImportCommand, RefusesAMissingMeshAndABadLength) {
