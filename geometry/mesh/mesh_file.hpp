@@ -22,8 +22,8 @@ enum class MeshFormat { off, obj, stl_ascii, stl_binary, ply, gmsh, vtp };
 ///         name no point, all of them in one message.
 PolygonSoup read_mesh_file(const std::filesystem::path& path);
 
-/// The same from memory. Time and memory are linear in the size of the text (of a .vtp file: of
-/// its arrays once unpacked, as often as its pieces name them), whatever counts it claims.
+/// The same from memory. Time and memory are linear in the size of the text, whatever counts it
+/// claims (a .vtp file that unpacks to more than kNumbersPerByte of vtk_array.hpp is refused).
 /// @param name  What messages call it.
 PolygonSoup parse_mesh(std::string_view bytes, MeshFormat format, const std::string& name);
 

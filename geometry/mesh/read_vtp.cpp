@@ -16,7 +16,9 @@ namespace {
 class VtpReader {
  public:
   VtpReader(std::string_view bytes, const std::string& name)
-      : name_(name), elements_(read_xml(bytes, name, "VTKFile")), soup_(name, 0) {}
+      : name_(name), elements_(read_xml(bytes, name, "VTKFile")), soup_(name, 0) {
+    encoding_.file_size = bytes.size();
+  }
 
   PolygonSoup read() && {
     if (elements_[0].attribute("type") != "PolyData")
@@ -79,6 +81,7 @@ class VtpReader {
     if (points == 0) return;
     const std::size_t array = array_of(piece, "Points", "");
     const auto x = vtk_numbers(elements_[array], encoding_, name_);
+    encoding_.numbers_read += x.size();
     if (x.size() % 3 != 0 || x.size() / 3 != points)
       damaged(array, "expected 3 coordinates of " + std::to_string(points) + " points, got " +
                          std::to_string(x.size()) + " numbers");
@@ -106,6 +109,12 @@ class VtpReader {
     }
   }
 
+  std::vector<std::int64_t> integers(std::size_t array) {
+    auto numbers = vtk_integers(elements_[array], encoding_, name_);
+    encoding_.numbers_read += numbers.size();
+    return numbers;
+  }
+
   /// Cell i has the corners connectivity[offsets[i - 1]] to connectivity[offsets[i]].
   template <class AddCell>
   void read_section(std::size_t piece, std::string_view section, std::string_view key,
@@ -113,9 +122,8 @@ class VtpReader {
     const std::size_t cells = count(piece, key);
     if (cells == 0) return;
     const std::size_t array = array_of(piece, section, "offsets");
-    auto corners =
-        vtk_integers(elements_[array_of(piece, section, "connectivity")], encoding_, name_);
-    const auto offsets = vtk_integers(elements_[array], encoding_, name_);
+    auto corners = integers(array_of(piece, section, "connectivity"));
+    const auto offsets = integers(array);
     if (offsets.size() != cells)
       damaged(array, "expected " + std::to_string(cells) + " offsets of " + std::string(section) +
                          ", got " + std::to_string(offsets.size()));

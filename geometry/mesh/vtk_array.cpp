@@ -5,6 +5,7 @@
 #include "geometry/mesh/text_scanner.hpp"
 #include "geometry/mesh/vtk_bytes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -12,28 +13,47 @@ namespace plekton::geometry {
 namespace {
 
 [[noreturn]] void fail(const XmlElement& array, const std::string& name, const std::string& what) {
-  throw MeshError(name + ": line " + std::to_string(array.line) + ": the array '" +
-                  std::string(array.attribute("Name").substr(0, 40)) + "' " + what +
+  throw MeshError(name + ": line " + std::to_string(array.line) + ": the array " +
+                  quoted(array.attribute("Name")) + " " + what +
                   "; the file is damaged or of another kind; save the mesh again");
 }
 
 /// The bytes of an array that is stored in place or appended.
 class ArrayBytes {
  public:
-  ArrayBytes(const XmlElement& array, const VtkEncoding& encoding, const std::string& name)
-      : array_(array), encoding_(encoding), name_(name), bytes_(source()) {}
+  /// @param number_size  Bytes of each number of the array.
+  ArrayBytes(const XmlElement& array, const VtkEncoding& encoding, const std::string& name,
+             std::size_t number_size)
+      : array_(array),
+        encoding_(encoding),
+        name_(name),
+        most_bytes_(numbers_left(encoding) * number_size),
+        bytes_(source()) {}
 
   std::string read() {
-    if (encoding_.compressor.empty()) return take(length());
+    if (encoding_.compressor.empty()) return take(checked(length()));
     if (encoding_.compressor != "vtkZLibDataCompressor")
-      throw MeshError(name_ + ": the arrays are packed by '" +
-                      std::string(encoding_.compressor.substr(0, 40)) +
-                      "'; expected vtkZLibDataCompressor or none; save the mesh again with one of "
+      throw MeshError(name_ + ": the arrays are packed by " + quoted(encoding_.compressor) +
+                      "; expected vtkZLibDataCompressor or none; save the mesh again with one of "
                       "them");
     return read_compressed();
   }
 
  private:
+  static std::size_t numbers_left(const VtkEncoding& encoding) {
+    const std::size_t most = kNumbersPerByte * encoding.file_size;
+    return most - std::min(most, encoding.numbers_read);
+  }
+
+  /// The size of an array that is not too large. @throws MeshError
+  std::size_t checked(std::size_t size) const {
+    if (size <= most_bytes_) return size;
+    fail(array_, name_,
+         "unpacks to more numbers than a mesh of this file has (" +
+             std::to_string(kNumbersPerByte) + " for each of its " +
+             std::to_string(encoding_.file_size) + " bytes)");
+  }
+
   VtkBytes source() const {
     if (array_.attribute("format") == "binary") return {array_.text, true};
     const auto offset = parse_integer(array_.attribute("offset"));
@@ -66,7 +86,9 @@ class ArrayBytes {
     std::string all;
     for (std::size_t block = 0; block < blocks; ++block) {
       const bool is_partial = block + 1 == blocks && partial > 0;
-      const auto bytes = inflated(take(sizes[block]), is_partial ? partial : full);
+      const std::size_t size = checked(is_partial ? partial : full);
+      checked(all.size() + size);
+      const auto bytes = inflated(take(sizes[block]), size);
       if (!bytes) fail(array_, name_, "has a block that zlib cannot unpack");
       all += *bytes;
     }
@@ -76,6 +98,7 @@ class ArrayBytes {
   const XmlElement& array_;
   const VtkEncoding& encoding_;
   const std::string& name_;
+  std::size_t most_bytes_;
   VtkBytes bytes_;
 };
 
@@ -93,8 +116,9 @@ Value converted(Stored number, const XmlElement& array, const std::string& name)
 }
 
 template <class Value, class Stored>
-std::vector<Value> unpacked(const std::string& bytes, const XmlElement& array,
-                            const VtkEncoding& encoding, const std::string& name) {
+std::vector<Value> unpacked(const XmlElement& array, const VtkEncoding& encoding,
+                            const std::string& name) {
+  const std::string bytes = ArrayBytes(array, encoding, name, sizeof(Stored)).read();
   if (bytes.size() % sizeof(Stored) != 0) fail(array, name, "is no whole number of values");
   std::vector<Value> values;
   values.reserve(bytes.size() / sizeof(Stored));
@@ -106,19 +130,18 @@ std::vector<Value> unpacked(const std::string& bytes, const XmlElement& array,
 template <class Value>
 std::vector<Value> from_bytes(const XmlElement& array, const VtkEncoding& encoding,
                               const std::string& name) {
-  const std::string bytes = ArrayBytes(array, encoding, name).read();
   const std::string_view type = array.attribute("type");
-  if (type == "Float32") return unpacked<Value, float>(bytes, array, encoding, name);
-  if (type == "Float64") return unpacked<Value, double>(bytes, array, encoding, name);
-  if (type == "Int8") return unpacked<Value, std::int8_t>(bytes, array, encoding, name);
-  if (type == "UInt8") return unpacked<Value, std::uint8_t>(bytes, array, encoding, name);
-  if (type == "Int16") return unpacked<Value, std::int16_t>(bytes, array, encoding, name);
-  if (type == "UInt16") return unpacked<Value, std::uint16_t>(bytes, array, encoding, name);
-  if (type == "Int32") return unpacked<Value, std::int32_t>(bytes, array, encoding, name);
-  if (type == "UInt32") return unpacked<Value, std::uint32_t>(bytes, array, encoding, name);
-  if (type == "Int64") return unpacked<Value, std::int64_t>(bytes, array, encoding, name);
-  if (type == "UInt64") return unpacked<Value, std::uint64_t>(bytes, array, encoding, name);
-  fail(array, name, "has the unknown type '" + std::string(type.substr(0, 40)) + "'");
+  if (type == "Float32") return unpacked<Value, float>(array, encoding, name);
+  if (type == "Float64") return unpacked<Value, double>(array, encoding, name);
+  if (type == "Int8") return unpacked<Value, std::int8_t>(array, encoding, name);
+  if (type == "UInt8") return unpacked<Value, std::uint8_t>(array, encoding, name);
+  if (type == "Int16") return unpacked<Value, std::int16_t>(array, encoding, name);
+  if (type == "UInt16") return unpacked<Value, std::uint16_t>(array, encoding, name);
+  if (type == "Int32") return unpacked<Value, std::int32_t>(array, encoding, name);
+  if (type == "UInt32") return unpacked<Value, std::uint32_t>(array, encoding, name);
+  if (type == "Int64") return unpacked<Value, std::int64_t>(array, encoding, name);
+  if (type == "UInt64") return unpacked<Value, std::uint64_t>(array, encoding, name);
+  fail(array, name, "has the unknown type " + quoted(type));
 }
 
 template <class Value>
@@ -140,7 +163,7 @@ std::vector<Value> values_of(const XmlElement& array, const VtkEncoding& encodin
   const std::string_view format = array.attribute("format");
   if (format == "ascii" || format.empty()) return from_text<Value>(array, name);
   if (format == "binary" || format == "appended") return from_bytes<Value>(array, encoding, name);
-  fail(array, name, "has the unknown format '" + std::string(format.substr(0, 40)) + "'");
+  fail(array, name, "has the unknown format " + quoted(format));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <string>
 #include <utility>
@@ -140,8 +141,57 @@ TEST(VtpReader, BelievesNoLengthOfAnArray) {
     append_little(huge_block, number);
   append_little(many_blocks, ~std::uint64_t{0});
 
-  EXPECT_THAT(message_of(start + huge_block + "abcd"), HasSubstr("zlib cannot unpack"));
+  EXPECT_THAT(message_of(start + huge_block + "abcd"), HasSubstr("unpacks to more numbers"));
   EXPECT_THAT(message_of(start + many_blocks + std::string(64, 'x')), HasSubstr("ends before"));
+}
+
+/// Zeros, packed as VTK does it, in one block.
+std::string packed_zeros(std::size_t count) {
+  const std::string zeros(count, '\0');
+  uLongf size = compressBound(count);
+  std::string packed(size, '\0');
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+           reinterpret_cast<const Bytef*>(zeros.data()), count);
+  std::string bytes;
+  for (const std::uint64_t number :
+       {std::uint64_t{1}, std::uint64_t{count}, std::uint64_t{0}, std::uint64_t{size}})
+    append_little(bytes, number);
+  return bytes + packed.substr(0, size);
+}
+
+TEST(VtpReader, UnpacksNoMoreThanAMeshOfTheFileCanHold) {
+  // Ten kilobytes that would become ten million polygons without a corner.
+  const std::size_t cells = 10'000'000;
+  const std::string array = packed_zeros(cells);
+  const std::string offset = "offset=\"0\"/>";
+  const std::string file =
+      "<VTKFile type=\"PolyData\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">"
+      "<PolyData><Piece NumberOfPoints=\"1\" NumberOfPolys=\"" +
+      std::to_string(cells) +
+      "\">"
+      "<Points><DataArray type=\"Float64\" format=\"ascii\">0 0 0</DataArray></Points><Polys>"
+      "<DataArray Name=\"connectivity\" type=\"UInt8\" format=\"appended\" " +
+      offset + "<DataArray Name=\"offsets\" type=\"UInt8\" format=\"appended\" " + offset +
+      "</Polys></Piece></PolyData><AppendedData encoding=\"raw\">_" + array;
+
+  EXPECT_LT(file.size(), 12'000u);
+  EXPECT_THAT(message_of(file),
+              AllOf(HasSubstr("the array 'connectivity' unpacks to more numbers"),
+                    HasSubstr("16 for each of its " + std::to_string(file.size()) + " bytes")));
+}
+
+TEST(VtpReader, UnpacksAnArrayThatManyPiecesNameNoMoreOftenThanTheFileAllows) {
+  const std::string array = packed_zeros(3 * 8 * 1000);
+  std::string file =
+      "<VTKFile type=\"PolyData\" header_type=\"UInt64\" "
+      "compressor=\"vtkZLibDataCompressor\"><PolyData>";
+  for (int piece = 0; piece < 1000; ++piece)
+    file +=
+        "<Piece NumberOfPoints=\"1000\"><Points><DataArray Name=\"x\" type=\"Float64\" "
+        "format=\"appended\" offset=\"0\"/></Points></Piece>";
+  file += "</PolyData><AppendedData encoding=\"raw\">_" + array;
+
+  EXPECT_THAT(message_of(file), HasSubstr("the array 'x' unpacks to more numbers"));
 }
 
 TEST(VtpReader, NeverCrashesOnACutOffOrDamagedFileInAnyEncoding) {
