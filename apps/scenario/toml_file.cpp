@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/toml_file.hpp"
 
+#include "geometry/regular_file.hpp"
+
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
-#include <system_error>
 #include <tuple>
 
 namespace plekton::apps {
@@ -84,19 +83,13 @@ Table parse_toml(std::string_view text, const std::string& source) {
 }
 
 Table read_toml_file(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::exists(path, ignored)) {
-    throw InputError(path.string() +
-                     ": no such file; check the path (it counts from the current folder)");
+  std::string text;
+  try {
+    text = geometry::read_regular_file(path, "a scenario (.toml)");
+  } catch (const geometry::UnreadableFile& error) {
+    throw InputError(error.what());
   }
-  if (!fs::is_regular_file(path, ignored))
-    throw InputError(path.string() + ": not a file; expected a scenario (.toml)");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  if (file.peek() != std::ifstream::traits_type::eof()) bytes << file.rdbuf();
-  if (!file.is_open() || file.bad() || bytes.bad())
-    throw InputError(path.string() + ": cannot be read; check its permissions");
-  return parse_toml(bytes.view(), path.string());
+  return parse_toml(text, path.string());
 }
 
 Value parse_toml_value(std::string_view text, const Place& place) {

@@ -2,11 +2,9 @@
 #include "geometry/mesh/mesh_file.hpp"
 
 #include "geometry/mesh/readers.hpp"
+#include "geometry/regular_file.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
-#include <system_error>
 
 namespace plekton::geometry {
 namespace {
@@ -14,24 +12,16 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string contents(const fs::path& path) {
-  const std::string name = path.filename().string();
-  std::error_code ignored;
-  if (!fs::exists(path, ignored))
-    throw MeshError(path.string() +
-                    ": no such file; check the path (it counts from the current folder)");
-  if (!fs::is_regular_file(path, ignored))
-    throw MeshError(path.string() +
-                    ": not a file; expected a mesh (.off, .obj, .stl, .ply, .msh, .vtp)");
-
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  if (file.peek() != std::ifstream::traits_type::eof()) bytes << file.rdbuf();
-  if (!file.is_open() || file.bad() || bytes.bad())
-    throw MeshError(path.string() + ": cannot be read; check its permissions");
-  if (bytes.view().empty())
-    throw MeshError(name +
+  std::string bytes;
+  try {
+    bytes = read_regular_file(path, "a mesh (.off, .obj, .stl, .ply, .msh, .vtp)");
+  } catch (const UnreadableFile& error) {
+    throw MeshError(error.what());
+  }
+  if (bytes.empty())
+    throw MeshError(path.filename().string() +
                     ": the file is empty; expected points and facets; export the mesh again");
-  return std::move(bytes).str();
+  return bytes;
 }
 
 std::string_view without_byte_order_mark(std::string_view text) {

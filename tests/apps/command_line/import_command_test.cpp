@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include <sstream>
 
@@ -123,6 +124,20 @@ TEST(ImportCommand, QuotesNoMoreThanTheBeginningOfAWord) {
   const Outcome outcome = outcome_of({"import", (folder / "a.off").string()});
 
   EXPECT_THAT(outcome.err, HasSubstr("got '" + word.substr(0, 20) + "...'"));
+}
+
+TEST(ImportCommand, ReadsNoFilesButThoseOfADisk) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_symlink("/proc/self/maps", folder / "kernel.off");
+  ASSERT_EQ(::mkfifo((folder / "pipe.off").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder / "device.off");
+
+  for (const std::string name : {"kernel.off", "pipe.off", "device.off"}) {
+    const Outcome outcome = outcome_of({"import", (folder / name).string()});
+
+    EXPECT_EQ(outcome.exit_code, kFailed) << name;
+    EXPECT_THAT(outcome.err, HasSubstr(name + ": not a file on a disk")) << name;
+  }
 }
 
 TEST(ImportCommand, RefusesAMissingMeshAndABadLength) {

@@ -171,5 +171,15 @@ TEST(SoundScenario, OfTheMistakesHasNone) {
   EXPECT_EQ(outcome_of({"check", (folder / "case.toml").string()}).exit_code, kDone);
 }
 
+TEST(WrongScenarios, ThatAreNoFilesOfADiskAreRefused) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_symlink("/proc/self/maps", folder / "case.toml");
+
+  const Outcome outcome = outcome_of({"check", (folder / "case.toml").string()});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, testing::HasSubstr("case.toml: not a file on a disk"));
+}
+
 }  // namespace
 }  // namespace plekton::apps
