@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/toml_file.hpp"
 
+#include "apps/scenario/toml_depth.hpp"
 #include "geometry/regular_file.hpp"
 
 #include <fmt/format.h>
@@ -16,6 +17,18 @@ namespace fs = std::filesystem;
 
 Place place_of(const toml::source_region& region, const std::string& source) {
   return {source, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+[[noreturn]] void refuse_depth(const Place& place) {
+  throw InputError(fmt::format("{}: tables or lists are nested more than {} deep; no key is",
+                               to_string(place), kDeepest));
+}
+
+/// @throws toml::parse_error, InputError for a key that is deeper than any
+toml::table parsed(std::string_view text, const std::string& source) {
+  if (const auto place = key_of_more_parts(text, kDeepest))
+    refuse_depth({source, place->line, place->column});
+  return toml::parse(text);
 }
 
 Value converted(const toml::node& node, const std::string& source, int depth);
@@ -41,10 +54,7 @@ Array converted_array(const toml::array& array, const std::string& source, int d
 /// @param depth  Levels above this value. @throws InputError beyond kDeepest
 Value converted(const toml::node& node, const std::string& source, int depth) {
   Value value{place_of(node.source(), source), OtherKind{"a date or time of day"}};
-  if (depth > kDeepest) {
-    throw InputError(fmt::format("{}: tables or lists are nested more than {} deep; no key is",
-                                 to_string(value.place), kDeepest));
-  }
+  if (depth > kDeepest) refuse_depth(value.place);
   if (const auto* text = node.as_string()) value.data = text->get();
   if (const auto* integer = node.as_integer()) value.data = integer->get();
   if (const auto* number = node.as_floating_point()) value.data = number->get();
@@ -72,7 +82,7 @@ void set_place(Value& value, const Place& place) {
 
 Table parse_toml(std::string_view text, const std::string& source) {
   try {
-    return converted_table(toml::parse(text), source, 0);
+    return converted_table(parsed(text, source), source, 0);
   } catch (const toml::parse_error& error) {
     Problems problems;
     problems.add(place_of(error.source(), source),
@@ -95,7 +105,7 @@ Table read_toml_file(const fs::path& path) {
 Value parse_toml_value(std::string_view text, const Place& place) {
   Value value{place, std::string(text)};
   try {
-    const toml::table table = toml::parse("value = " + std::string(text));
+    const toml::table table = parsed("value = " + std::string(text), place.source);
     // A line break in the text could add keys; then it is no single value.
     if (table.size() == 1) value = converted(table.begin()->second, place.source, 0);
   } catch (const toml::parse_error&) {

@@ -171,6 +171,38 @@ TEST(SoundScenario, OfTheMistakesHasNone) {
   EXPECT_EQ(outcome_of({"check", (folder / "case.toml").string()}).exit_code, kDone);
 }
 
+TEST(WrongScenarios, OfKeysWithoutEndAreRefusedByTheirLine) {
+  const test::TemporaryFolder folder;
+  std::string key = "a";
+  for (int i = 0; i < 200'000; ++i) key += ".a";
+  const std::vector<std::string> texts = {"\n\n" + key + " = 1\n", "\n\n[" + key + "]\n",
+                                          "\n\n[[" + key + "]]\n",
+                                          "text = \"\"\"\n\"\"\"\nx = { " + key + " = 1 }\n",
+                                          "# [a\ntext = '[\"'\nx = [ { " + key + " = 1 } ]\n"};
+  for (const std::string& text : texts) {
+    test::write_bytes(folder / "case.toml", text);
+
+    const Outcome outcome = outcome_of({"check", (folder / "case.toml").string()});
+
+    EXPECT_EQ(outcome.exit_code, kFailed) << text.substr(0, 40);
+    EXPECT_THAT(outcome.err, testing::HasSubstr("case.toml:3:")) << text.substr(0, 40);
+    EXPECT_THAT(outcome.err, testing::HasSubstr("more than 32 deep"));
+  }
+}
+
+TEST(WrongScenarios, WithAnOverrideOfKeysWithoutEndAreRefused) {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "case.toml", "");
+  std::string key = "a";
+  for (int i = 0; i < 50'000; ++i) key += ".a";
+
+  const Outcome outcome =
+      outcome_of({"check", (folder / "case.toml").string(), "--set", "x={" + key + "=1}"});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, testing::HasSubstr("more than 32 deep"));
+}
+
 TEST(WrongScenarios, ThatAreNoFilesOfADiskAreRefused) {
   const test::TemporaryFolder folder;
   std::filesystem::create_symlink("/proc/self/maps", folder / "case.toml");
