@@ -47,8 +47,15 @@ std::string Section::name(std::string_view key, const std::optional<std::string>
   const bool is_one_line = std::none_of(name.begin(), name.end(), [](char c) {
     return static_cast<unsigned char>(c) < ' ' || c == 127;
   });
-  if (is_one_line) return name;
-  complain(key, "has a line break or another control character; expected a name on one line");
+  if (!is_one_line) {
+    complain(key, "has a line break or another control character; expected a name on one line");
+    return "";
+  }
+  // Names become heads of columns, and a spreadsheet would carry out what stands there.
+  if (name.find_first_of("=+-@") != 0) return name;
+  complain(key, fmt::format("got \"{}\"; expected a name that does not begin with = + - or @, "
+                            "which a spreadsheet takes for a formula",
+                            name));
   return "";
 }
 

@@ -266,6 +266,15 @@ TEST(ScenarioReader, TakesGrainsByMass) {
   EXPECT_DOUBLE_EQ(std::get<double>(scenario.grains[0].amount), 0.002);  // m³ of solids
 }
 
+TEST(ScenarioReader, RefusesNamesThatASpreadsheetTakesForFormulas) {
+  for (const std::string name : {"=1+1", "+1", "-1", "@sum"}) {
+    const std::string error = error_of(edited("name = \"floor\"", "name = \"" + name + "\""));
+    EXPECT_THAT(error, HasSubstr("planes." + name + ".name: got \"" + name + "\"")) << error;
+    EXPECT_THAT(error, HasSubstr("formula"));
+  }
+  EXPECT_EQ(error_of(edited("name = \"floor\"", "name = \"floor=1-1\"")), "");
+}
+
 TEST(ScenarioReader, GivesGrainsWithoutSeedDifferentOnes) {
   const std::string text = std::string(kGood) + R"([[grains]]
 material = "gravel"
