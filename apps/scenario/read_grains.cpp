@@ -73,8 +73,18 @@ SizeCurve read_sizes(Section& section) {
   return sieves.empty() ? SizeCurve(1.0) : SizeCurve(sieves, by);
 }
 
+/// Complains about a volume of solids (m3) that makes more grains than may be.
+void require_few_enough(Section& section, std::string_view key, double volume,
+                        const SizeCurve& sizes) {
+  const double count = volume / sizes.mean_volume();
+  if (!(count > static_cast<double>(kMostGrains))) return;
+  section.complain(key, fmt::format("makes about {:.3g} grains of these sizes; expected at most {}",
+                                    count, kMostGrains));
+}
+
 /// From one of the keys count, mass and volume.
-std::variant<std::size_t, double> read_amount(Section& section, std::optional<double> density) {
+std::variant<std::size_t, double> read_amount(Section& section, std::optional<double> density,
+                                              const SizeCurve& sizes) {
   constexpr std::array<std::string_view, 3> kKeys = {"count", "mass", "volume"};
   const auto given = std::count_if(kKeys.begin(), kKeys.end(),
                                    [&](std::string_view key) { return section.has(key); });
@@ -82,9 +92,16 @@ std::variant<std::size_t, double> read_amount(Section& section, std::optional<do
     section.complain(
         "count", fmt::format("got {} of {}; expected exactly one of them", given, listed(kKeys)));
   std::variant<std::size_t, double> amount{std::size_t{1}};
-  if (section.has("mass"))
-    amount = section.quantity("mass", {kMass, kPositive}) / density.value_or(1.0);
-  if (section.has("volume")) amount = section.quantity("volume", {kVolume, kPositive});
+  if (section.has("mass")) {
+    const double mass = section.quantity("mass", {kMass, kPositive});
+    amount = mass / density.value_or(1.0);
+    if (density) require_few_enough(section, "mass", mass / *density, sizes);
+  }
+  if (section.has("volume")) {
+    const double volume = section.quantity("volume", {kVolume, kPositive});
+    amount = volume;
+    require_few_enough(section, "volume", volume, sizes);
+  }
   if (section.has("count"))
     amount = static_cast<std::size_t>(section.integer("count", 1, kMostGrains));
   return amount;
@@ -150,7 +167,7 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
   if (section.has("centres")) {
     grains.centres = read_centres(section);
   } else {
-    grains.amount = read_amount(section, density);
+    grains.amount = read_amount(section, density, grains.sizes);
     grains.box = read_space(section);
     grains.seed = read_seed(section, known, number);
   }

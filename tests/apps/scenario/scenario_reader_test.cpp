@@ -266,6 +266,17 @@ TEST(ScenarioReader, TakesGrainsByMass) {
   EXPECT_DOUBLE_EQ(std::get<double>(scenario.grains[0].amount), 0.002);  // m³ of solids
 }
 
+TEST(ScenarioReader, LimitsTheNumberOfGrainsHoweverItIsGiven) {
+  // Grains of at most 8 mm and at least 3 mm radius; 1e8 of them are between 1e1 and 3e2 m3.
+  EXPECT_THAT(error_of(edited("count = 10", "count = 100000001")),
+              HasSubstr("expected a whole number from 1 to 100000000"));
+  EXPECT_THAT(error_of(edited("count = 10", "volume = \"300 m3\"")),
+              HasSubstr("case.toml:13:10: grains.gravel.volume: makes about"));
+  EXPECT_THAT(error_of(edited("count = 10", "mass = \"800 t\"")),
+              HasSubstr("grains of these sizes; expected at most 100000000"));
+  EXPECT_EQ(error_of(edited("count = 10", "volume = \"10 m3\"")), "");
+}
+
 TEST(ScenarioReader, RefusesNamesThatASpreadsheetTakesForFormulas) {
   for (const std::string name : {"=1+1", "+1", "-1", "@sum"}) {
     const std::string error = error_of(edited("name = \"floor\"", "name = \"" + name + "\""));
