@@ -59,6 +59,18 @@ TEST(ImportCommand, PrintsTheReportAsJson) {
   EXPECT_TRUE(nlohmann::json::parse(outcome.out).contains("verdict"));
 }
 
+TEST(ImportCommand, PrintsJsonOfAFileWhoseNameIsNotUtf8) {
+  const test::TemporaryFolder folder;
+  const std::string name = "Sieb \xfc\"\n.off";
+  test::write_bytes(folder / name, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+
+  const Outcome outcome = outcome_of({"import", (folder / name).string(), "--json"});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  ASSERT_TRUE(nlohmann::json::accept(outcome.out)) << outcome.out;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["source"], "Sieb \xef\xbf\xbd\"\n.off");
+}
+
 TEST(ImportCommand, RemeshesAndFillsHolesWhenAsked) {
   const Outcome remeshed =
       outcome_of({"import", kHammock, "--weld", "1 um", "--target-edge", "10 cm", "--json"});
