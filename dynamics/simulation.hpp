@@ -58,6 +58,9 @@ constexpr double kLargestStep = 0.8;
 class StrongestAction;
 
 /// A scene in motion. The state belongs to the simulation; what is given out are views of it.
+///
+/// Every call that takes a node, bond or plane checks its id before anything else, and throws
+/// std::out_of_range with the call, the id and how many there are.
 template <contact::ContactLaw Law>
 class Simulation {
  public:
@@ -89,7 +92,6 @@ class Simulation {
   /// that has lost its last element goes on moving with its mass; it touches nothing but planes, as
   /// a ball of the radius it had.
   /// @param bond  by its place in Scene::bonds; broken already: no effect
-  /// @throws std::out_of_range if there is no such bond
   void break_bond(std::size_t bond);
   /// Breaks a cylinder, with all bonds between its nodes, likewise. Along a side of a facet it
   /// tears that as a broken bond does.
@@ -122,9 +124,7 @@ class Simulation {
   /// The bonds that yield or break, and which of them broke in the last step.
   const YieldingBonds& yielding_bonds() const noexcept { return yielding_bonds_; }
   /// What a bond carries where its nodes are now.
-  BondForces bond_forces(std::size_t bond) const noexcept {
-    return yielding_bonds_.forces_of(bond, bonds_, scene_.state);
-  }
+  BondForces bond_forces(std::size_t bond) const;
   const SheetFacets& sheet_facets() const noexcept { return sheet_facets_; }
   const AppliedLoads& loads() const noexcept { return loads_; }
   const contact::Contacts<Law>& contacts() const noexcept { return contacts_; }

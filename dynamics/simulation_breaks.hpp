@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dynamics/require_index.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/structure/broken_elements.hpp"
 #include "geometry/node_sets.hpp"
@@ -19,15 +20,13 @@ namespace plekton::dynamics {
 
 template <contact::ContactLaw Law>
 void Simulation<Law>::break_bond(std::size_t bond) {
-  if (bond >= bonds_.size()) {
-    throw std::out_of_range("bond " + std::to_string(bond) + ": there is no such bond, only " +
-                            std::to_string(bonds_.size()) + " bonds");
-  }
+  require_index("break_bond", "bond", bond, bonds_.size());
   broken_.bonds.push_back(bond);
 }
 
 template <contact::ContactLaw Law>
 void Simulation<Law>::break_cylinder(NodeId a, NodeId b) {
+  for (const NodeId node : {a, b}) require_node("break_cylinder", node, scene_.state.size());
   const auto nodes = geometry::sorted(std::array{a, b});
   const auto& all = scene_.elements.cylinders;
   const bool is_there = std::any_of(all.begin(), all.end(), [&](const auto& cylinder) {
@@ -47,6 +46,7 @@ void Simulation<Law>::break_cylinder(NodeId a, NodeId b) {
 
 template <contact::ContactLaw Law>
 void Simulation<Law>::break_facet(const std::array<NodeId, 3>& nodes) {
+  for (const NodeId node : nodes) require_node("break_facet", node, scene_.state.size());
   const auto corners = geometry::sorted(nodes);
   const auto& all = scene_.elements.facets;
   const bool is_there = std::any_of(all.begin(), all.end(), [&](const auto& facet) {

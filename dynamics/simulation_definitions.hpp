@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/expected_contacts.hpp"
+#include "dynamics/require_index.hpp"
 #include "dynamics/scene_figures.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/simulation_breaks.hpp"
@@ -151,6 +152,7 @@ void Simulation<Law>::require_time_step() const {
 template <contact::ContactLaw Law>
 void Simulation<Law>::set_velocity(NodeId node, const Vec3& velocity,
                                    const Vec3& angular_velocity) {
+  require_node("set_velocity", node, scene_.state.size());
   scene_.state.velocity[index_of(node)] = velocity;
   scene_.state.angular_velocity[index_of(node)] = angular_velocity;
   if (!chooses_time_step_ || !std::isfinite(dt_)) return;

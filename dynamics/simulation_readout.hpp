@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/readout/unbalanced_force.hpp"
+#include "dynamics/require_index.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <cmath>
@@ -19,6 +20,7 @@ std::vector<Vec3> Simulation<Law>::force_positions() const {
 
 template <contact::ContactLaw Law>
 Vec3 Simulation<Law>::force_point(std::size_t plane) const {
+  require_index("force_point", "plane", plane, scene_.planes.size());
   return scene_.planes[plane].point - last_drift_ * scene_.planes[plane].velocity;
 }
 
@@ -33,6 +35,7 @@ std::vector<contact::ContactRow> Simulation<Law>::list_contacts() {
 
 template <contact::ContactLaw Law>
 ForceAndMoment Simulation<Law>::plane_reaction(std::size_t plane) const {
+  require_index("plane_reaction", "plane", plane, scene_.planes.size());
   const Vec3 about = force_point(plane);
   ForceAndMoment sum;
   contacts_.with_planes().for_each_row(force_positions(), surface_,
@@ -46,6 +49,7 @@ ForceAndMoment Simulation<Law>::plane_reaction(std::size_t plane) const {
 template <contact::ContactLaw Law>
 ForceAndMoment Simulation<Law>::support_reaction(std::span<const NodeId> nodes,
                                                  const Vec3& about) const {
+  for (const NodeId node : nodes) require_node("support_reaction", node, scene_.state.size());
   const std::vector<Vec3> positions = force_positions();
   return dynamics::support_reaction(nodes, {positions, forces_, scene_.properties, motion_.gravity},
                                     about);
@@ -79,7 +83,14 @@ std::vector<FacetTraction> Simulation<Law>::facet_tractions() {
 }
 
 template <contact::ContactLaw Law>
+BondForces Simulation<Law>::bond_forces(std::size_t bond) const {
+  require_index("bond_forces", "bond", bond, bonds_.size());
+  return yielding_bonds_.forces_of(bond, bonds_, scene_.state);
+}
+
+template <contact::ContactLaw Law>
 BondStress Simulation<Law>::bond_stress(std::size_t bond) const {
+  require_index("bond_stress", "bond", bond, bonds_.size());
   return dynamics::bond_stress(bond_forces(bond), scene_.bonds[bond].section);
 }
 
