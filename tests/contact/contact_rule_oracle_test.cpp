@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -77,7 +78,10 @@ bool can_run_oracle() {
 }
 
 TEST(ContactRuleReference, AgreesWithTheReferenceInPython) {
-  if (!can_run_oracle()) GTEST_SKIP() << "needs " << kOracle << " and numpy for " << kPython;
+  if (!can_run_oracle()) {
+    GTEST_SKIP() << "needs " << kOracle << " and numpy for " << kPython
+                 << "; a valley is worked out by hand in its place";
+  }
   const TemporaryFolder folder;
   const auto script = folder.path() / "cases.py";
   const auto answers = folder.path() / "answers.txt";
@@ -101,6 +105,40 @@ TEST(ContactRuleReference, AgreesWithTheReferenceInPython) {
     EXPECT_NEAR((result.force - force).norm(), 0.0, 1e-12 * item.range * result.cells)
         << "case " << i;
   }
+}
+
+/// A ball over the floor of a valley of two facets, each at 45 degrees, with their common edge
+/// along y: over a height of 1 m the facets are sqrt(1/2) m away, each with a normal that is up by
+/// that part, and the edge is 1 m away. Out of reach of the edge the ball has two contacts; within
+/// it they hang together, and the edge is taken away once.
+TEST(ContactRuleReference, GivesTheForcesOfAValleyAsTheyAreWorkedOutByHand) {
+  const std::vector<Vec3> x = {Vec3(0, -5, 0), Vec3(0, 5, 0), Vec3(-5, 0, 5), Vec3(5, 0, 5)};
+  const std::vector<std::vector<int>> cells = {{0, 1, 2}, {0, 1, 3}};
+  const auto over = [&](double range) {
+    return reference_contact(Vec3(0, 0, 1), range, cells, x, [](double u) { return u; });
+  };
+  const double away = std::sqrt(0.5);
+
+  EXPECT_EQ(over(0.7).components, 0);
+  EXPECT_EQ(over(0.9).components, 2);
+  EXPECT_EQ(over(1.1).components, 1);
+
+  const double two = 2.0 * (0.9 - away) * away;
+  const double one = 2.0 * (1.1 - away) * away - (1.1 - 1.0);
+  EXPECT_NEAR((over(0.9).force - Vec3(0, 0, two)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((over(1.1).force - Vec3(0, 0, one)).norm(), 0.0, 1e-15);
+}
+
+/// Over the edge of a ridge, or of a flat sheet, both facets and their seam are the edge: one
+/// contact.
+TEST(ContactRuleReference, CountsOneContactOnAnEdgeOfAFlatSheet) {
+  const std::vector<Vec3> x = {Vec3(0, -5, 0), Vec3(0, 5, 0), Vec3(-5, 0, 0), Vec3(5, 0, 0)};
+  const auto result = reference_contact(Vec3(0, 0, 0.8), 1.0, {{0, 1, 2}, {0, 1, 3}}, x,
+                                        [](double u) { return u; });
+
+  EXPECT_EQ(result.cells, 2);
+  EXPECT_EQ(result.components, 1);
+  EXPECT_NEAR((result.force - Vec3(0, 0, 0.2)).norm(), 0.0, 1e-15);
 }
 
 }  // namespace
