@@ -105,6 +105,7 @@ constexpr std::array kOfGrains = std::to_array<KeyMeaning>({
     {"grains[].count", "how many"},
     {"grains[].box.min", "lower corner of the space that they are placed in"},
     {"grains[].box.max", "upper corner"},
+    {"grains[].placement", "one after the other at random, or on a face-centred cubic lattice"},
     {"grains[].velocity", "at the start"},
     {"grains[].angular_velocity", "at the start"},
     {"grains[].seed", "of the random numbers that place them"},

@@ -117,6 +117,11 @@ geometry::Box read_space(Section& section) {
   return {Vec3::Zero(), Vec3::Zero()};
 }
 
+GrainPlacement read_placement(Section& section) {
+  constexpr std::array<std::string_view, 2> kWords = {"random", "lattice"};
+  return static_cast<GrainPlacement>(section.choice("placement", kWords, 0));
+}
+
 std::uint64_t read_seed(Section& section, const Known& known, std::size_t number) {
   section.tell_default("seed", "that of [simulation] + N");
   const auto seed = section.integer("seed", 0, std::numeric_limits<std::int64_t>::max(),
@@ -127,7 +132,7 @@ std::uint64_t read_seed(Section& section, const Known& known, std::size_t number
 /// The places of all grains, without what says how they would be placed.
 std::vector<Vec3> read_centres(Section& section) {
   for (const std::string_view key :
-       {"count", "mass", "volume", "box", "seed", "sieves", "passing_by"}) {
+       {"count", "mass", "volume", "box", "placement", "seed", "sieves", "passing_by"}) {
     if (section.has(key))
       section.complain(key,
                        "centres says where each grain is, and how many there are; leave one "
@@ -169,6 +174,7 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
   } else {
     grains.amount = read_amount(section, density, grains.sizes);
     grains.box = read_space(section);
+    grains.placement = read_placement(section);
     grains.seed = read_seed(section, known, number);
   }
   grains.velocity = section.vector("velocity", {kVelocity}, grains.velocity);

@@ -118,6 +118,10 @@ struct MembraneSettings {
   Vec3 initial_velocity = Vec3::Zero();  ///< m/s, of the nodes that are not held
 };
 
+/// How grains are placed in their box: one after the other at random, or on a face-centred cubic
+/// lattice.
+enum class GrainPlacement : std::uint8_t { random, lattice };
+
 struct GrainSettings {
   std::string name;
   Place place;
@@ -127,8 +131,9 @@ struct GrainSettings {
       std::size_t{0}};                            ///< count, or volume of the solids (m³)
   std::vector<Vec3> centres;                      ///< m, of all grains; empty: placed in the box
   geometry::Box box{Vec3::Zero(), Vec3::Zero()};  ///< m, holds the grains wholly
-  Vec3 velocity = Vec3::Zero();                   ///< m/s
-  Vec3 angular_velocity = Vec3::Zero();           ///< rad/s
+  GrainPlacement placement = GrainPlacement::random;
+  Vec3 velocity = Vec3::Zero();          ///< m/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
   std::uint64_t seed = 0;
 };
 

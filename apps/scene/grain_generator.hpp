@@ -31,12 +31,12 @@ struct DoesNotFit : std::runtime_error {
 
 /// Draws grains from the size curve and places them in the box without overlap, the largest first.
 ///
-/// Each is tried at random positions, with a bounded number of trials. Where that ends before all
-/// are placed, which is at about 0.38 of the box for equal grains, they are put on a face-centred
-/// cubic lattice of the largest diameter instead, each moved by a random part of the room it has
-/// there; that goes up to 0.74 less what the edges of the box take. The result depends on the
-/// settings and the surroundings alone, not on the standard library.
-/// @throws DoesNotFit
+/// Placed at random, each is tried at random positions, with a bounded number of trials; for equal
+/// grains that ends at about 0.38 of the box. On a lattice, face-centred cubic with the spacing of
+/// the largest diameter, each is moved by a random part of the room it has there; that goes up to
+/// 0.74 less what the edges of the box take. Neither stands in for the other. The result depends on
+/// the settings and the surroundings alone, not on the standard library.
+/// @throws DoesNotFit  with how many found room
 std::vector<PlacedGrain> generate_grains(const GrainSettings& settings,
                                          const Surroundings& surroundings);
 

@@ -246,6 +246,13 @@ TEST_F(Command, RunRefusesBadScenariosWithNothingWritten) {
               HasSubstr("there is no material \"steel\""));
   EXPECT_THAT(failure_of({"membranes.sheet.mesh=none.stl"}).err, HasSubstr("does not exist"));
   EXPECT_THAT(failure_of({"grains.gravel.count=5000"}).err, HasSubstr("do not fit the box"));
+  // 41 % of the box: more than chance can place, less than a lattice holds.
+  EXPECT_THAT(failure_of({"grains.gravel.count=190"}).err,
+              testing::ContainsRegex("placed at random, largest first, [0-9]+ of 190 found room"));
+  EXPECT_EQ(outcome_of({"check", scenario(), "--set", "grains.gravel.count=190", "--set",
+                        "grains.gravel.placement=lattice"})
+                .exit_code,
+            kDone);
 }
 
 TEST_F(Command, RunRefusesBadMeshesWithNothingWritten) {

@@ -321,6 +321,21 @@ hold = { min = [0, 0, -1], max = [1, 0, 1] }
   EXPECT_EQ(scenario.membranes[0].sheet_stiffness, 20e3);
 }
 
+TEST(ScenarioReader, ReadsHowGrainsArePlaced) {
+  const auto placement_of = [](const std::string& line) {
+    return parse_scenario(edited("count = 10\n", "count = 10\n" + line), "case.toml")
+        .grains.at(0)
+        .placement;
+  };
+
+  EXPECT_EQ(placement_of(""), GrainPlacement::random);
+  EXPECT_EQ(placement_of("placement = \"random\"\n"), GrainPlacement::random);
+  EXPECT_EQ(placement_of("placement = \"lattice\"\n"), GrainPlacement::lattice);
+  EXPECT_THAT(error_of(edited("count = 10\n", "count = 10\nplacement = \"latice\"\n")),
+              HasSubstr("case.toml:15:13: grains.gravel.placement: got \"latice\"; expected one of "
+                        "\"random\", \"lattice\"; did you mean \"lattice\"?"));
+}
+
 TEST(ScenarioReader, RefusesAMissingFileAndAFolder) {
   const test::TemporaryFolder folder;
   EXPECT_THROW(read_scenario(folder / "none.toml"), InputError);

@@ -67,11 +67,13 @@ TEST(GrainGenerator, PlacesGradedGrainsApartAndInside) {
   expect_apart_and_inside(grains, settings.box);
 }
 
-TEST(GrainGenerator, PlacesEqualGrainsDenserThanChanceAllows) {
-  // Random sequential placement of equal balls jams at 0.384 of the volume (Zhang and Torquato
-  // 2013).
-  const GrainSettings settings = equal(900, 0.005, {0.1, 0.1, 0.1});
+// Random sequential placement of equal balls jams at 0.384 of the volume (Zhang and Torquato
+// 2013).
+TEST(GrainGenerator, PlacesEqualGrainsDenserThanChanceAllowsOnALatticeOnly) {
+  GrainSettings settings = equal(900, 0.005, {0.1, 0.1, 0.1});
   ASSERT_GT(900.0 * settings.sizes.mean_volume(), 0.45 * 1e-3);
+  ASSERT_THAT(error_of(settings), HasSubstr("do not fit"));
+  settings.placement = GrainPlacement::lattice;
 
   const std::vector<PlacedGrain> grains = generate_grains(settings, {});
 
@@ -148,6 +150,38 @@ TEST(GrainGenerator, KeepsClearOfFacetsBallsAndPlanes) {
   }
 }
 
+// Twelve neighbours at the distance of a diameter around each ball of a face-centred cubic lattice;
+// none in a random packing has any.
+TEST(GrainGenerator, MakesTheLatticeThatIsAskedForAlsoWhereChanceWouldDo) {
+  const double radius = 0.005;
+  GrainSettings settings = equal(100, radius, {0.1, 0.1, 0.1});
+  const auto contacts = [&](GrainPlacement placement) {
+    settings.placement = placement;
+    const auto grains = generate_grains(settings, {});
+    EXPECT_EQ(grains.size(), 100U);
+    int count = 0;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if ((grains[i].centre - grains[j].centre).norm() < 2.0 * radius * (1.0 + 1e-6)) ++count;
+      }
+    }
+    return count;
+  };
+
+  EXPECT_EQ(contacts(GrainPlacement::random), 0);
+  EXPECT_GT(contacts(GrainPlacement::lattice), 0);
+}
+
+TEST(GrainGenerator, SaysHowFarALatticeWentWhenGrainsDoNotFit) {
+  GrainSettings settings = equal(1300, 0.005, {0.1, 0.1, 0.1});
+  settings.placement = GrainPlacement::lattice;
+
+  const std::string error = error_of(settings);
+
+  EXPECT_THAT(error, testing::ContainsRegex("on a lattice, [0-9]+ of 1300 found room"));
+  EXPECT_THAT(error, testing::Not(HasSubstr("placement")));
+}
+
 TEST(GrainGenerator, SaysHowFarItWentWhenGrainsDoNotFit) {
   const std::string error = error_of(equal(1200, 0.005, {0.1, 0.1, 0.1}));
 
@@ -156,12 +190,13 @@ TEST(GrainGenerator, SaysHowFarItWentWhenGrainsDoNotFit) {
       error,
       HasSubstr(
           "do not fit the box of 0.1 m x 0.1 m x 0.1 m, 0.001 m3, 63 % of which they would fill"));
-  EXPECT_THAT(error, testing::ContainsRegex("[0-9]+ of them found room, filling [0-9]+ %"));
+  EXPECT_THAT(error, testing::ContainsRegex("[0-9]+ of 1200 found room, filling 3[0-9] %"));
   EXPECT_THAT(error, HasSubstr("make the box larger"));
+  EXPECT_THAT(error, HasSubstr("placement = \"lattice\""));
 }
 
 TEST(GrainGenerator, RefusesAGrainLargerThanTheBox) {
-  EXPECT_THAT(error_of(equal(1, 0.06, {0.1, 0.2, 0.2})), HasSubstr("0 of them found room"));
+  EXPECT_THAT(error_of(equal(1, 0.06, {0.1, 0.2, 0.2})), HasSubstr("0 of 1 found room"));
 }
 
 TEST(GrainGenerator, RefusesMoreGrainsThanMemoryHoldsWithoutDrawingThem) {

@@ -116,6 +116,8 @@ TEST(PlacedBodies, RefuseWhatDoesNotGoWithAChain) {
 
 TEST(PlacedBodies, RefuseWhatDoesNotGoWithCentres) {
   EXPECT_THAT(error_of({"grains.pair.count=3"}), HasSubstr("count: centres says where each"));
+  EXPECT_THAT(error_of({"grains.pair.placement=lattice"}),
+              HasSubstr("placement: centres says where each"));
   EXPECT_THAT(error_of({"grains.pair.centres=[[0, 0, 1], [0, 0, 1]]"}),
               HasSubstr("centres: two grains are at (0, 0, 1) m"));
   EXPECT_THAT(error_of({"grains.pair.centres=[0, 0, 1]"}),
