@@ -6,52 +6,47 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <sstream>
-#include <stdexcept>
+#include <numeric>
 
 namespace plekton::geometry {
 namespace {
 
 constexpr std::int64_t kListsPerTree = 64;
 
-/// In radii. Half a turn takes pi of them; what is nearer than a diameter across a flat sheet is at
-/// most 2 sqrt(2) away along the edges of a square grid.
-constexpr double kSharpestFold = 4.0;
-
-/// Lists with as many near nodes take 0.4 GB, and the pairs of cells that go with them ten times
-/// that. Edges as long as thick make about 20 for each node.
-constexpr double kMostNearNodes = 1e8;
-
-/// @throws std::length_error for more near nodes than memory should be spent on
-void require_few_near_nodes(double count, double longest_reach) {
-  if (count <= kMostNearNodes) return;
-  std::ostringstream text;
-  text << "self-contact: about " << count << " pairs of nodes are within two thicknesses ("
-       << longest_reach << " m) of each other along edges; expected at most " << kMostNearNodes
-       << "; edges are far shorter than thick: use longer edges, a thinner membrane, or no "
-          "self-contact";
-  throw std::length_error(text.str());
+/// m, of two cells: both radii and the skin.
+double reach_of(const Surface& surface, CellId a, CellId b, double margin) {
+  const double radii =
+      surface.radius(surface.structure_of(a)) + surface.radius(surface.structure_of(b));
+  return (1.0 + 1e-12) * (radii + 2.0 * margin);
 }
 
-/// Nodes at most a length away along edges (Dijkstra), the start among them; sorted.
-std::vector<NodeId> within_reach(const Surface& surface, NodeId start, double reach, Positions x) {
-  std::map<NodeId, double> settled;
-  std::multimap<double, NodeId> open{{0.0, start}};
-  while (!open.empty()) {
-    const auto [length, node] = *open.begin();
-    open.erase(open.begin());
-    if (!settled.try_emplace(node, length).second) continue;
-    for (const EdgeId edge : surface.edges_of(node)) {
-      const auto& ends = surface.nodes_of(edge);
-      const NodeId next = ends[0] == node ? ends[1] : ends[0];
-      const double further = length + (x[index_of(next)] - x[index_of(node)]).norm();
-      if (further <= reach) open.emplace(further, next);
+/// Whether the cores in two boxes may be within reach. Boxes that overlap at their corners only may
+/// hold none.
+/// @param a, b  m, grown by a radius and the margin each
+bool are_close(const Box& a, const Box& b, double reach) {
+  constexpr double kRounding = 1.0 + 1e-11;
+  const Vec3 apart = (a.lower - b.upper).cwiseMax(b.lower - a.upper);
+  return (apart.array() + reach).max(0.0).matrix().norm() <= kRounding * reach;
+}
+
+/// Cells of a group of near nodes.
+struct Part {
+  std::span<const CellId> cells;
+  const Box& box;  ///< m, around all of them
+};
+
+/// Calls visit(cell, cell) for cells of two parts whose boxes are close.
+template <class Visit>
+void for_each_close_pair(const Surface& surface, const Part& a, const Part& b, Positions x,
+                         double margin, const Visit& visit) {
+  const double reach = reach_of(surface, a.cells.front(), b.cells.front(), margin);
+  for (const CellId one : a.cells) {
+    const Box box_of_one = box(surface, one, x, margin);
+    if (!are_close(box_of_one, b.box, reach)) continue;
+    for (const CellId other : b.cells) {
+      if (are_close(box_of_one, box(surface, other, x, margin), reach)) visit(one, other);
     }
   }
-  std::vector<NodeId> nodes;
-  for (const auto& entry : settled) nodes.push_back(entry.first);
-  return nodes;
 }
 
 }  // namespace
@@ -68,7 +63,8 @@ CellNeighbours::CellNeighbours(const Surface& surface, Positions rest, double sk
                                bool self_contact)
     : surface_(&surface), skin_(skin), self_contact_(self_contact) {
   find_own_nodes();
-  if (self_contact) collect_near_nodes(rest);
+  if (self_contact) near_nodes_ = NearNodes(surface, rest);
+  collect_parts();
 }
 
 void CellNeighbours::find_own_nodes() {
@@ -82,17 +78,21 @@ void CellNeighbours::find_own_nodes() {
 void CellNeighbours::follow(const SurfaceChange& change) {
   surface_ = &change.after();
   find_own_nodes();
+  collect_parts();
   pairs_.clear();
   tree_ = BroadPhase();
   skin_.set(2.0 * skin_.margin());
 }
 
 void CellNeighbours::choose_skin() {
-  constexpr double kInRadii = 1.0;
+  // Of cells far shorter than thick very many are a little further apart than what is near along
+  // edges: a quarter keeps those of a flat sheet out of the list.
+  const bool has_groups = part_group_.size() < surface_->cell_count();
+  const double in_radii = has_groups ? 0.25 : 1.0;
   double thinnest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < surface_->structure_count(); ++i)
     thinnest = std::min(thinnest, surface_->radius(id_at<StructureId>(i)));
-  if (std::isfinite(thinnest)) skin_.set(kInRadii * thinnest);
+  if (std::isfinite(thinnest)) skin_.set(in_radii * thinnest);
 }
 
 /// Grains that fly past do not make a list of cells old.
@@ -101,30 +101,60 @@ void CellNeighbours::gather_own_nodes(Positions x) {
   for (const NodeId node : own_nodes_) own_x_.push_back(x[index_of(node)]);
 }
 
-std::vector<NodeId> CellNeighbours::nodes_near(NodeId node, Positions rest) const {
-  const double reach = kSharpestFold * surface_->radius(surface_->structure_of(node));
-  return within_reach(*surface_, node, reach, rest);
-}
-
-/// A hundred nodes tell at once what all of them will take.
-void CellNeighbours::require_room(Positions rest) const {
-  const std::size_t stride = std::max<std::size_t>(1, own_nodes_.size() / 100);
-  double sampled = 0.0, near = 0.0, longest_reach = 0.0;
-  for (std::size_t i = 0; i < own_nodes_.size(); i += stride) {
-    const double radius = surface_->radius(surface_->structure_of(own_nodes_[i]));
-    near += static_cast<double>(nodes_near(own_nodes_[i], rest).size());
-    longest_reach = std::max(longest_reach, kSharpestFold * radius);
-    sampled += 1.0;
+/// In the order of their first cells, so that cells by themselves keep theirs.
+void CellNeighbours::collect_parts() {
+  std::vector<std::int32_t> sizes(near_nodes_.group_count(), 0);
+  for (const NodeId node : own_nodes_) {
+    if (self_contact_) ++sizes[static_cast<std::size_t>(near_nodes_.group_of(node))];
   }
-  if (sampled > 0.0)
-    require_few_near_nodes(near / sampled * static_cast<double>(own_nodes_.size()), longest_reach);
+  std::vector<std::int32_t> part_of_group(sizes.size(), -1);
+  std::vector<std::int32_t> part_of_cell(surface_->cell_count());
+  part_group_.clear();
+  part_begins_.assign(1, 0);
+  for (std::size_t c = 0; c < part_of_cell.size(); ++c) {
+    const NodeId first = surface_->nodes_of(id_at<CellId>(c)).front();
+    const std::int32_t group = self_contact_ ? near_nodes_.group_of(first) : -1;
+    const bool is_single = group < 0 || sizes[static_cast<std::size_t>(group)] == 1;
+    std::int32_t part = is_single ? -1 : part_of_group[static_cast<std::size_t>(group)];
+    if (part < 0) {
+      part = static_cast<std::int32_t>(part_group_.size());
+      part_group_.push_back(is_single ? -1 : group);
+      part_begins_.push_back(0);
+      if (!is_single) part_of_group[static_cast<std::size_t>(group)] = part;
+    }
+    part_of_cell[c] = part;
+    ++part_begins_[static_cast<std::size_t>(part) + 1];
+  }
+  std::partial_sum(part_begins_.begin(), part_begins_.end(), part_begins_.begin());
+  part_cells_.resize(part_of_cell.size());
+  std::vector<std::size_t> next(part_begins_.begin(), part_begins_.end());
+  for (std::size_t c = 0; c < part_of_cell.size(); ++c)
+    part_cells_[next[static_cast<std::size_t>(part_of_cell[c])]++] = id_at<CellId>(c);
 }
 
-void CellNeighbours::collect_near_nodes(Positions rest) {
-  require_room(rest);
-  if (own_nodes_.empty()) return;
-  near_nodes_.resize(surface_->node_count());
-  for (const NodeId node : own_nodes_) near_nodes_[index_of(node)] = nodes_near(node, rest);
+std::span<const CellId> CellNeighbours::cells_of_part(std::int32_t part) const noexcept {
+  const auto p = static_cast<std::size_t>(part);
+  return std::span(part_cells_).subspan(part_begins_[p], part_begins_[p + 1] - part_begins_[p]);
+}
+
+/// Each cell of a group has a node in it, so cells of near groups hang together.
+bool CellNeighbours::may_parts_touch(std::int32_t a, std::int32_t b) const {
+  const std::int32_t group_a = part_group_[static_cast<std::size_t>(a)];
+  const std::int32_t group_b = part_group_[static_cast<std::size_t>(b)];
+  return group_a < 0 || group_b < 0 || !near_nodes_.are_groups_near(group_a, group_b);
+}
+
+void CellNeighbours::make_boxes(Positions x) {
+  boxes_.clear();
+  for (std::size_t part = 0; part < part_group_.size(); ++part) {
+    const auto cells = cells_of_part(static_cast<std::int32_t>(part));
+    Box all = box(*surface_, cells.front(), x, skin_.margin());
+    for (const CellId cell : cells.subspan(1)) {
+      const Box more = box(*surface_, cell, x, skin_.margin());
+      all = {all.lower.cwiseMin(more.lower), all.upper.cwiseMax(more.upper)};
+    }
+    boxes_.push_back(all);
+  }
 }
 
 bool CellNeighbours::may_touch(CellId a, CellId b) const {
@@ -132,9 +162,8 @@ bool CellNeighbours::may_touch(CellId a, CellId b) const {
   if (!self_contact_) return false;
   const auto nodes_b = surface_->nodes_of(b);
   for (const NodeId node : surface_->nodes_of(a)) {
-    const auto& near = near_nodes_[index_of(node)];
     for (const NodeId other : nodes_b) {
-      if (std::binary_search(near.begin(), near.end(), other)) return false;
+      if (near_nodes_.are_near(node, other)) return false;
     }
   }
   return true;
@@ -148,10 +177,7 @@ bool CellNeighbours::are_distant(CellId a, CellId b, Positions x) const {
     for (const NodeId node : surface_->nodes_of(cell)) found.x[found.count++] = x[index_of(node)];
     return found;
   };
-  const double radii =
-      surface_->radius(surface_->structure_of(a)) + surface_->radius(surface_->structure_of(b));
-  const double reach = (1.0 + 1e-12) * (radii + 2.0 * skin_.margin());
-  return closest_points(core(a), core(b)).distance > reach;
+  return closest_points(core(a), core(b)).distance > reach_of(*surface_, a, b, skin_.margin());
 }
 
 bool CellNeighbours::update(Positions x, ThreadPool& pool, double way) {
@@ -161,10 +187,7 @@ bool CellNeighbours::update(Positions x, ThreadPool& pool, double way) {
   gather_own_nodes(x);
   if (!skin_.needs_rebuild(own_x_, pool)) return false;
   ++rebuild_count_;
-  boxes_.clear();
-  for (std::size_t c = 0; c < surface_->cell_count(); ++c) {
-    boxes_.push_back(box(*surface_, id_at<CellId>(c), x, skin_.margin()));
-  }
+  make_boxes(x);
   // Cells keep their neighbours in the structure: the tree stays a good one for long.
   if (tree_.size() == boxes_.size() && rebuild_count_ % kListsPerTree != 0) {
     tree_.refit(boxes_);
@@ -174,12 +197,19 @@ bool CellNeighbours::update(Positions x, ThreadPool& pool, double way) {
   tree_.self_pairs(overlaps_, pool);
   previous_.swap(pairs_);
   pairs_.clear();
-  for (const IndexPair& pair : overlaps_) {
-    const CellId a{pair.a};
-    const CellId b{pair.b};
-    if (!may_touch(a, b) || are_distant(a, b, x)) continue;
+  const auto list_if_near = [&](CellId first, CellId second) {
+    const auto [a, b] = std::minmax(first, second);
+    if (!may_touch(a, b) || are_distant(a, b, x)) return;
     const bool keeps = surface_->structure_of(a) <= surface_->structure_of(b);
     pairs_.push_back(keeps ? CellPair{a, b} : CellPair{b, a});
+  };
+  for (const IndexPair& parts : overlaps_) {
+    const Part a{cells_of_part(parts.a), boxes_[static_cast<std::size_t>(parts.a)]};
+    const Part b{cells_of_part(parts.b), boxes_[static_cast<std::size_t>(parts.b)]};
+    if (a.cells.size() == 1 && b.cells.size() == 1)
+      list_if_near(a.cells.front(), b.cells.front());
+    else if (may_parts_touch(parts.a, parts.b))
+      for_each_close_pair(*surface_, a, b, x, skin_.margin(), list_if_near);
   }
   std::sort(pairs_.begin(), pairs_.end());
   skin_.mark_built(own_x_);

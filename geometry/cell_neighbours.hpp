@@ -3,6 +3,7 @@
 
 #include "geometry/broad_phase.hpp"
 #include "geometry/elements.hpp"
+#include "geometry/near_nodes.hpp"
 #include "geometry/product_features.hpp"
 #include "geometry/skin.hpp"
 #include "geometry/surface_change.hpp"
@@ -20,22 +21,20 @@ namespace plekton::geometry {
 ///
 /// The list is a superset, made anew only when some node has moved by more than half the skin
 /// (skin.hpp). Cells of one structure that hang together are not in it: those that share a node,
-/// and those with nodes at most two diameters apart along edges at rest, because a thick body
-/// cannot fold more sharply than that. That holds for the pieces of a structure that has fallen
-/// apart too: what was near at rest does not touch, so nothing is pushed apart by a break alone.
+/// and those with nodes near each other along edges at rest (near_nodes.hpp); likewise of pieces of
+/// a structure that has fallen apart, so that nothing is pushed apart by a break alone.
 class CellNeighbours {
  public:
   /// @param surface       must outlive this
   /// @param rest          m, where the nodes are when the structures are at rest
   /// @param skin          m, >= 0; 0 makes the list anew whenever anything moved
   /// @param self_contact  whether cells of one structure are listed
-  /// @throws std::length_error if, by a sample, more than 1e8 pairs of nodes are so near along
-  ///         edges: of cells far shorter than thick the lists would take many GB
+  /// @throws std::length_error where the lists of near nodes would take GB (near_nodes.hpp)
   CellNeighbours(const Surface& surface, Positions rest, double skin, bool self_contact);
 
-  /// From the next list on, a skin of half the radius of the thinnest structure: a longer list
-  /// costs little, because contacts leave pairs alone that are far from touching
-  /// (contact/structure/clearances.hpp), and making it costs much.
+  /// From the next list on, a skin of the radius of the thinnest structure (a quarter of it where
+  /// edges are far shorter than thick): a longer list costs little, because contacts leave far
+  /// pairs alone (contact/structure/clearances.hpp), and making it costs much.
   void choose_skin();
 
   /// Makes the list anew if it has to be. @returns whether it has changed
@@ -54,10 +53,11 @@ class CellNeighbours {
   bool may_touch(CellId a, CellId b) const;
   bool are_distant(CellId a, CellId b, Positions x) const;
   void find_own_nodes();
+  void collect_parts();
   void gather_own_nodes(Positions x);
-  std::vector<NodeId> nodes_near(NodeId node, Positions rest) const;
-  void require_room(Positions rest) const;
-  void collect_near_nodes(Positions rest);
+  void make_boxes(Positions x);
+  std::span<const CellId> cells_of_part(std::int32_t part) const noexcept;
+  bool may_parts_touch(std::int32_t a, std::int32_t b) const;
 
   const Surface* surface_;
   Skin skin_;
@@ -66,12 +66,17 @@ class CellNeighbours {
   std::vector<NodeId> own_nodes_;  ///< those of cells
   std::vector<Vec3> own_x_;
   BroadPhase tree_;
-  std::vector<Box> boxes_;
+  /// Cells of a group of near nodes go into the tree as one part; where each node is a group of
+  /// its own, so does each cell. Parts whose groups are near each other need no look at their
+  /// cells, of which there are very many where edges are far shorter than thick.
+  std::vector<CellId> part_cells_;        ///< part by part
+  std::vector<std::size_t> part_begins_;  ///< by part, where its cells begin; and their end
+  std::vector<std::int32_t> part_group_;  ///< by part; -1 of a cell by itself
+  std::vector<Box> boxes_;                ///< by part
   std::vector<IndexPair> overlaps_;
   std::vector<CellPair> pairs_;
   std::vector<CellPair> previous_;
-  std::vector<std::vector<NodeId>>
-      near_nodes_;  ///< of each node: itself and what is near along edges; sorted
+  NearNodes near_nodes_;
 };
 
 /// Box (m) of a cell, grown by its radius and a margin.
