@@ -199,9 +199,12 @@ class StepAdvice {
   }
 
   std::string contact_advice() const {
+    constexpr std::size_t kMostNames = 8;
+    const std::size_t count = scenario_.materials.size();
     std::string names;
-    for (const MaterialSettings& material : scenario_.materials)
-      names += fmt::format("{}{}", names.empty() ? "" : ", ", material.name);
+    for (std::size_t i = 0; i < std::min(count, kMostNames); ++i)
+      names += fmt::format("{}{}", i == 0 ? "" : ", ", scenario_.materials[i].name);
+    if (count > kMostNames) names += fmt::format(" and {} others", count - kMostNames);
     return fmt::format("a lower young_modulus of the materials that touch ({}), or {}", names,
                        membrane_
                            ? "more mass in each node of " + scenario_.membranes[*membrane_].name +

@@ -75,8 +75,7 @@ std::vector<std::string_view> names_of_laws() {
 
 }  // namespace
 
-PairSettings read_contact(Section section, const Known& known,
-                          std::span<const PairSettings> earlier) {
+PairSettings read_contact(Section section, const Known& known, MaterialPairSet& taken) {
   PairSettings pair;
   const auto first = read_material_of(section, known, "between");
   const auto second = read_material_of(section, known, "and");
@@ -94,10 +93,7 @@ PairSettings read_contact(Section section, const Known& known,
   section.finish();
   if (!first || !second) return pair;
   std::tie(pair.first, pair.second) = std::minmax(*first, *second);
-  const bool is_known = std::any_of(earlier.begin(), earlier.end(), [&](const PairSettings& other) {
-    return other.first == pair.first && other.second == pair.second;
-  });
-  if (is_known) {
+  if (!taken.emplace(pair.first, pair.second).second) {
     section.complain(
         "and", fmt::format("\"{}\" and \"{}\" have a table [[contacts]] already; "
                            "expected one for each pair of materials",

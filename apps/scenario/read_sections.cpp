@@ -20,6 +20,13 @@ constexpr int kMostThreads = 1024;
 
 }  // namespace
 
+Known::Known(const Scenario& scenario)
+    : materials(scenario.materials),
+      folder(scenario.file.parent_path()),
+      seed(scenario.simulation.seed) {
+  for (std::size_t i = 0; i < materials.size(); ++i) material_places.emplace(materials[i].name, i);
+}
+
 SimulationSettings read_simulation(Section section) {
   SimulationSettings settings;
   settings.duration = section.quantity("duration", {kTime, kPositive});
@@ -54,11 +61,10 @@ std::optional<std::size_t> read_material_of(Section& section, const Known& known
                                             std::string_view key) {
   const std::string name = section.text(key);
   if (name.empty()) return std::nullopt;
+  const auto found = known.material_places.find(name);
+  if (found != known.material_places.end()) return found->second;
   std::vector<std::string_view> names;
-  for (const MaterialSettings& material : known.materials) {
-    if (material.name == name) return names.size();
-    names.push_back(material.name);
-  }
+  for (const MaterialSettings& material : known.materials) names.push_back(material.name);
   const std::string closest = closest_word(name, names);
   const std::string hint = !closest.empty() ? fmt::format("did you mean \"{}\"?", closest)
                            : names.empty()

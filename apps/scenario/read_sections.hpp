@@ -4,8 +4,11 @@
 #include "apps/scenario/scenario.hpp"
 #include "apps/scenario/section.hpp"
 
-#include <span>
+#include <set>
 #include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 
 /// One function for each kind of table of a scenario. Each reads all its keys and finishes the
 /// section.
@@ -13,15 +16,22 @@ namespace plekton::apps {
 
 /// What tables refer to.
 struct Known {
+  /// @param scenario  with its materials; must outlive this
+  explicit Known(const Scenario& scenario);
+
   const std::vector<MaterialSettings>& materials;
-  std::filesystem::path folder;  ///< of the scenario
-  std::uint64_t seed;            ///< of the scenario
+  std::unordered_map<std::string_view, std::size_t> material_places;  ///< by name
+  std::filesystem::path folder;                                       ///< of the scenario
+  std::uint64_t seed;                                                 ///< of the scenario
 };
+
+/// Pairs of materials, the lower one first.
+using MaterialPairSet = std::set<std::pair<std::size_t, std::size_t>>;
 
 SimulationSettings read_simulation(Section section);
 MaterialSettings read_material(const std::string& name, Section section);
-PairSettings read_contact(Section section, const Known& known,
-                          std::span<const PairSettings> earlier);
+/// @param taken  the pairs of earlier tables; takes up this one
+PairSettings read_contact(Section section, const Known& known, MaterialPairSet& taken);
 MembraneSettings read_membrane(Section section, const Known& known);
 /// @param number  Position among the tables: grains without a seed of their own differ by it.
 GrainSettings read_grains(Section section, const Known& known, std::size_t number);

@@ -7,49 +7,45 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
 
 namespace plekton::apps {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Complains about a name that an earlier table of the same kind has.
-template <class Settings>
-void require_new_name(const std::vector<Settings>& earlier, const Settings& added,
-                      Section& section) {
-  const bool taken = std::any_of(earlier.begin(), earlier.end(),
-                                 [&](const Settings& s) { return s.name == added.name; });
-  if (taken && !added.name.empty())
-    section.complain("name",
-                     fmt::format("\"{}\" has this name already; names must differ", added.name));
+/// Reads the tables of a kind, and complains about a name that an earlier one of them has.
+/// @param read  (section), the settings of a table
+template <class Settings, class Read>
+void read_tables(Section& root, std::string_view key, std::vector<Settings>& all, Read&& read) {
+  std::unordered_set<std::string> names;
+  for (Section& section : root.tables(key)) {
+    all.push_back(read(section));
+    const std::string& name = all.back().name;
+    if (!name.empty() && !names.insert(name).second)
+      section.complain("name",
+                       fmt::format("\"{}\" has this name already; names must differ", name));
+  }
 }
 
 void read_bodies(Section& root, Scenario& scenario) {
-  const Known known{scenario.materials, scenario.file.parent_path(), scenario.simulation.seed};
+  const Known known(scenario);
+  MaterialPairSet taken;
   for (Section& section : root.tables("contacts"))
-    scenario.contacts.push_back(read_contact(section, known, scenario.contacts));
-  for (Section& section : root.tables("membranes")) {
-    MembraneSettings membrane = read_membrane(section, known);
-    require_new_name(scenario.membranes, membrane, section);
-    scenario.membranes.push_back(std::move(membrane));
-  }
-  for (Section& section : root.tables("grains")) {
-    GrainSettings grains = read_grains(section, known, scenario.grains.size());
-    require_new_name(scenario.grains, grains, section);
-    scenario.grains.push_back(std::move(grains));
-  }
-  for (Section& section : root.tables("planes")) {
-    PlaneSettings plane = read_plane(section, known);
-    require_new_name(scenario.planes, plane, section);
-    scenario.planes.push_back(std::move(plane));
-  }
-  for (Section& section : root.tables("loads")) {
-    LoadSettings load = read_load(section, scenario, scenario.loads.size());
-    require_new_name(scenario.loads, load, section);
-    scenario.loads.push_back(std::move(load));
-  }
+    scenario.contacts.push_back(read_contact(section, known, taken));
+  read_tables(root, "membranes", scenario.membranes,
+              [&](Section& section) { return read_membrane(section, known); });
+  read_tables(root, "grains", scenario.grains, [&](Section& section) {
+    return read_grains(section, known, scenario.grains.size());
+  });
+  read_tables(root, "planes", scenario.planes,
+              [&](Section& section) { return read_plane(section, known); });
+  read_tables(root, "loads", scenario.loads, [&](Section& section) {
+    return read_load(section, scenario, scenario.loads.size());
+  });
 }
 
 /// All sections, whether the root has a table or a recorder of keys.

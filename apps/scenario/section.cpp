@@ -120,7 +120,13 @@ std::vector<std::pair<std::string, Section>> Section::all_tables() {
   if (recorder_) return {{"NAME", within(*table_, place_, path_of("NAME"))}};
   std::vector<std::pair<std::string, Section>> sections;
   for (const Entry& entry : table_->entries) {
-    if (auto section = table(entry.key)) sections.emplace_back(entry.key, *section);
+    const std::string path = path_of(entry.key);
+    if (const auto* table = std::get_if<Table>(&entry.value.data)) {
+      sections.emplace_back(entry.key, within(*table, entry.value.place, path));
+    } else {
+      problems_->add(entry.value.place,
+                     fmt::format("{}: got {}; expected a table", path, shown(entry.value)));
+    }
   }
   return sections;
 }

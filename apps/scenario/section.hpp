@@ -113,7 +113,8 @@ class Section {
   std::optional<Section> optional_table(std::string_view key);
   /// The tables [[key]], each called by its key `name` or its number.
   std::vector<Section> tables(std::string_view key);
-  /// All keys with the tables they hold, such as [materials.sand].
+  /// All keys with the tables they hold, such as [materials.sand]; of a table of which finish() is
+  /// not asked.
   std::vector<std::pair<std::string, Section>> all_tables();
 
   /// Adds a problem of a key: "path: what".

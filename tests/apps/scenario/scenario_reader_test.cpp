@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ctime>
+#include <limits>
 #include <numbers>
 
 namespace plekton::apps {
@@ -334,6 +336,36 @@ TEST(ScenarioReader, ReadsHowGrainsArePlaced) {
   EXPECT_THAT(error_of(edited("count = 10\n", "count = 10\nplacement = \"latice\"\n")),
               HasSubstr("case.toml:15:13: grains.gravel.placement: got \"latice\"; expected one of "
                         "\"random\", \"lattice\"; did you mean \"lattice\"?"));
+}
+
+/// Materials, each with a pair of its own, and as many planes.
+std::string scenario_of(int count) {
+  std::string text(kGood);
+  for (int i = 0; i < count; ++i) {
+    const std::string name = "m" + std::to_string(i);
+    text += "[materials." + name + "]\nyoung_modulus = 1e7\nfriction_angle = 0.5\n[[contacts]]\n" +
+            "between = \"" + name + "\"\nand = \"gravel\"\n[[planes]]\nname = \"" + name +
+            "\"\npoint = [0, 0, 0]\nmaterial = \"" + name + "\"\n";
+  }
+  return text;
+}
+
+/// s of processor time, the least of three.
+double time_to_read(int count) {
+  const std::string text = scenario_of(count);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const std::clock_t start = std::clock();
+    parse_scenario(text, "case.toml");
+    least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  return least;
+}
+
+/// Eight times as many tables: a bit more than eight times the time, and 64 times if every table
+/// looked at all others.
+TEST(ScenarioReader, TakesTimeAboutInProportionToTheNumberOfTables) {
+  EXPECT_LT(time_to_read(8000), 20.0 * time_to_read(1000));
 }
 
 TEST(ScenarioReader, RefusesAMissingFileAndAFolder) {
