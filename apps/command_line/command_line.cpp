@@ -89,13 +89,21 @@ void flush_output() {
                   std::generic_category().message(errno)));
 }
 
+/// Says on standard error what is being set up, so that results stay alone on standard output.
+PreparedRun prepared_aloud(const Scenario& scenario) {
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  SetUpProgress progress(std::cerr, terminal ? ProgressStyle::one_line : ProgressStyle::lines);
+  return prepare_run(scenario,
+                     [&](const std::string& what, double share) { progress.update(what, share); });
+}
+
 int run_command(const CommandLine& line) {
   const auto began = Progress::Clock::now();
   const Scenario scenario = scenario_of(line);
   const fs::path out = line.out.empty() ? fs::path("out") / line.scenario.stem() : line.out;
   // Before the scene is built, which may take long.
   check_output_folder(out, line.overwrite);
-  PreparedRun prepared = prepare_run(scenario);
+  PreparedRun prepared = prepared_aloud(scenario);
   std::cout << summary_of(prepared) << std::flush;
 
   const InterruptGuard guard;
@@ -114,7 +122,7 @@ int run_command(const CommandLine& line) {
 
 int check_command(const CommandLine& line) {
   const Scenario scenario = scenario_of(line);
-  const PreparedRun prepared = prepare_run(scenario);
+  const PreparedRun prepared = prepared_aloud(scenario);
   std::cout << summary_of(prepared) << step_advice(scenario, prepared);
   if (line.power_iteration) std::cout << summary_of(prepared.simulation->exact_critical_step());
   std::cout << line.scenario.string() << ": no problems\n";

@@ -10,9 +10,18 @@ namespace plekton::apps {
 namespace {
 
 constexpr std::chrono::milliseconds kPause{200};
+constexpr std::chrono::seconds kQuietStart{1};  // of a setting up that is told in lines
+constexpr std::chrono::seconds kPauseOfLines{5};
 
 double seconds(Progress::Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
+}
+
+/// Writes a line over another one. @returns its width
+std::size_t write_over(std::ostream& out, const std::string& line, std::size_t width) {
+  out << '\r' << line << std::string(width > line.size() ? width - line.size() : 0, ' ')
+      << std::flush;
+  return line.size();
 }
 
 }  // namespace
@@ -22,6 +31,31 @@ std::string duration_text(double seconds) {
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+SetUpProgress::SetUpProgress(std::ostream& out, ProgressStyle style, Clock::time_point start)
+    : out_(out), style_(style), start_(start), last_(start) {}
+
+SetUpProgress::~SetUpProgress() {
+  if (width_ > 0) write_over(out_, "", width_);
+  if (width_ > 0) out_ << '\r' << std::flush;
+}
+
+bool SetUpProgress::is_due(bool begins, Clock::time_point now) const {
+  if (style_ == ProgressStyle::one_line) return begins || now - last_ >= kPause;
+  return now - start_ >= kQuietStart && (begins || now - last_ >= kPauseOfLines);
+}
+
+void SetUpProgress::update(const std::string& what, double share, Clock::time_point now) {
+  if (style_ == ProgressStyle::none || !is_due(what != what_, now)) return;
+  what_ = what;
+  last_ = now;
+  std::string line = "setting up: " + what;
+  if (share > 0.0) line += fmt::format(", {:.0f} %", 100.0 * share);
+  if (style_ == ProgressStyle::one_line)
+    width_ = write_over(out_, line, width_);
+  else
+    out_ << line << std::endl;
 }
 
 Progress::Progress(std::ostream& out, ProgressStyle style, double duration)
@@ -55,9 +89,7 @@ void Progress::update(double time, std::int64_t steps, Clock::time_point now) {
   if (!is_due(time, now)) return;
   const std::string line = text(time, steps, now);
   if (style_ == ProgressStyle::one_line) {
-    out_ << '\r' << line << std::string(width_ > line.size() ? width_ - line.size() : 0, ' ')
-         << std::flush;
-    width_ = line.size();
+    width_ = write_over(out_, line, width_);
   } else {
     out_ << line << std::endl;
   }

@@ -18,6 +18,34 @@ enum class ProgressStyle : std::uint8_t {
 /// "1 h 02 min", "3 min 05 s" or "12 s".
 std::string duration_text(double seconds);
 
+/// Tells what is being set up before a run, where that takes longer than a second.
+class SetUpProgress {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  SetUpProgress(std::ostream& out, ProgressStyle style, Clock::time_point start = Clock::now());
+  SetUpProgress(const SetUpProgress&) = delete;
+  SetUpProgress& operator=(const SetUpProgress&) = delete;
+  /// Leaves an empty line, so that other output can follow.
+  ~SetUpProgress();
+
+  /// Call it as often as convenient. On a terminal it writes at once where something else begins,
+  /// and several times a second; in lines once the first second is over, and every few seconds.
+  /// @param what   as in "placing grains sand"
+  /// @param share  of it that is done, 0 to 1
+  void update(const std::string& what, double share, Clock::time_point now = Clock::now());
+
+ private:
+  bool is_due(bool begins, Clock::time_point now) const;
+
+  std::ostream& out_;
+  ProgressStyle style_;
+  Clock::time_point start_;
+  Clock::time_point last_;  // of the last text
+  std::string what_;
+  std::size_t width_ = 0;  // of the line that is written over
+};
+
 /// Tells how far a run is: percent, simulated time, steps per second, time left.
 class Progress {
  public:

@@ -328,9 +328,10 @@ std::unique_ptr<Simulation> simulation_of(const Scenario& scenario, dynamics::Sc
 
 }  // namespace
 
-PreparedRun prepare_run(const Scenario& scenario) {
+PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   PreparedRun prepared;
-  prepared.built = build_scene(scenario);
+  prepared.built = build_scene(scenario, hear);
+  if (hear) hear("looking for contacts", 0.0);
   dynamics::SimulationOptions options;
   options.motion = {scenario.simulation.gravity, scenario.simulation.damping,
                     scenario.simulation.damp_gravity};

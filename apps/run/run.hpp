@@ -26,7 +26,8 @@ struct PreparedRun {
 /// An automatic time step is not longer than the duration.
 /// @throws InputError also for a time step that is not below kLargestStep of the critical one,
 /// which it names, or longer than the duration, and for more steps than a run can take.
-PreparedRun prepare_run(const Scenario& scenario);
+/// @param hear  told what is being set up, if given
+PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear = {});
 
 /// How and where to run.
 struct RunSettings {

@@ -78,10 +78,14 @@ std::vector<PlacedGrain> in_order_of_space(const std::vector<PlacedGrain>& grain
 }
 
 /// Where it is told, in that order; or in the box, clear of all that is there.
-std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, const BuiltScene& built) {
+std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, const BuiltScene& built,
+                                       const HearSetUp& hear) {
   if (settings.centres.empty()) {
     const std::vector<Obstacle> obstacles = obstacles_of(built);
-    return in_order_of_space(generate_grains(settings, {obstacles, built.scene.planes}));
+    const auto tell = [&](double share) {
+      if (hear) hear("placing grains " + settings.name, share);
+    };
+    return in_order_of_space(generate_grains(settings, {obstacles, built.scene.planes}, tell));
   }
   std::vector<PlacedGrain> grains;
   for (const geometry::Vec3& centre : settings.centres)
@@ -89,9 +93,10 @@ std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, const Buil
   return grains;
 }
 
-BuiltGrains add_grains(const GrainSettings& settings, double density, BuiltScene& built) {
+BuiltGrains add_grains(const GrainSettings& settings, double density, BuiltScene& built,
+                       const HearSetUp& hear) {
   dynamics::Scene& scene = built.scene;
-  const std::vector<PlacedGrain> grains = placed_grains(settings, built);
+  const std::vector<PlacedGrain> grains = placed_grains(settings, built, hear);
   BuiltGrains result{settings.name, grains.size(), 0.0, grains.front().radius,
                      grains.front().radius};
   for (const PlacedGrain& grain : grains) {
@@ -117,11 +122,12 @@ BuiltGrains add_grains(const GrainSettings& settings, double density, BuiltScene
 
 }  // namespace
 
-BuiltScene build_scene(const Scenario& scenario) {
+BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear) {
   BuiltScene built;
   Problems problems;
   add_materials_and_planes(scenario, built.scene);
   for (const MembraneSettings& membrane : scenario.membranes) {
+    if (hear) hear("making membrane " + membrane.name, 0.0);
     try {
       built.membranes.push_back(add_membrane(membrane, built));
     } catch (const geometry::RefusedMesh& error) {
@@ -135,7 +141,7 @@ BuiltScene build_scene(const Scenario& scenario) {
   for (const GrainSettings& grains : scenario.grains) {
     try {
       built.grains.push_back(
-          add_grains(grains, scenario.materials[grains.material].density.value(), built));
+          add_grains(grains, scenario.materials[grains.material].density.value(), built, hear));
     } catch (const DoesNotFit& error) {
       problems.add(grains.place, fmt::format("grains.{}", error.what()));
     } catch (const InputError& error) {

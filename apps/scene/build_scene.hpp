@@ -6,6 +6,7 @@
 #include "geometry/mesh/report.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,9 @@ struct BuiltScene {
   std::vector<std::string> warnings;
 };
 
+/// Hears what is being set up, as in "placing grains sand", and which part of it is done, 0 to 1.
+using HearSetUp = std::function<void(const std::string& what, double share)>;
+
 /// Builds the scene of a scenario: membranes, then grains clear of them and of the planes.
 ///
 /// Every edge of a membrane's mesh, and every bar of a net, becomes a beam or bar of full circular
@@ -64,6 +68,6 @@ struct BuiltScene {
 /// @throws InputError listing every problem that only the files and the geometry show: meshes that
 /// cannot be used, nothing to hold,
 ///         grains that do not fit.
-BuiltScene build_scene(const Scenario& scenario);
+BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear = {});
 
 }  // namespace plekton::apps

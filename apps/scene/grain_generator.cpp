@@ -35,9 +35,13 @@ FreeSpace make_space(const GrainSettings& settings, double largest,
 
 /// Places the grains one after the other at random; fewer than asked for if one finds no room.
 std::vector<PlacedGrain> place_at_random(std::span<const double> diameters, FreeSpace space,
-                                         const Box& box, Random& random) {
+                                         const Box& box, Random& random,
+                                         const std::function<void(double)>& tell) {
+  constexpr std::size_t kGrainsBetweenCalls = 64;
   std::vector<PlacedGrain> grains;
   for (const double diameter : diameters) {
+    if (tell && grains.size() % kGrainsBetweenCalls == 0)
+      tell(static_cast<double>(grains.size()) / static_cast<double>(diameters.size()));
     const double radius = 0.5 * diameter;
     const Vec3 lower = box.lower.array() + radius;
     const Vec3 upper = lower.cwiseMax(Vec3(box.upper.array() - radius));
@@ -135,7 +139,8 @@ std::size_t count_of(const GrainSettings& settings) {
 }  // namespace
 
 std::vector<PlacedGrain> generate_grains(const GrainSettings& settings,
-                                         const Surroundings& surroundings) {
+                                         const Surroundings& surroundings,
+                                         const std::function<void(double)>& tell) {
   const double room = (settings.box.upper - settings.box.lower).prod();
   const auto* solids = std::get_if<double>(&settings.amount);
   const double expected = solids ? *solids
@@ -154,7 +159,7 @@ std::vector<PlacedGrain> generate_grains(const GrainSettings& settings,
 
   std::vector<PlacedGrain> grains =
       settings.placement == GrainPlacement::random
-          ? place_at_random(diameters, std::move(space), settings.box, random)
+          ? place_at_random(diameters, std::move(space), settings.box, random, tell)
           : place_on_lattice(diameters, space, settings.box, random);
   if (grains.size() < diameters.size()) {
     fail(settings, diameters.size(), volume_of(diameters),

@@ -4,6 +4,7 @@
 #include "apps/grains/free_space.hpp"
 #include "apps/scenario/scenario.hpp"
 
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -36,8 +37,10 @@ struct DoesNotFit : std::runtime_error {
 /// the largest diameter, each is moved by a random part of the room it has there; that goes up to
 /// 0.74 less what the edges of the box take. Neither stands in for the other. The result depends on
 /// the settings and the surroundings alone, not on the standard library.
+/// @param tell  called now and then with the part of the grains that are placed, if given
 /// @throws DoesNotFit  with how many found room
 std::vector<PlacedGrain> generate_grains(const GrainSettings& settings,
-                                         const Surroundings& surroundings);
+                                         const Surroundings& surroundings,
+                                         const std::function<void(double)>& tell = {});
 
 }  // namespace plekton::apps

@@ -55,6 +55,35 @@ TEST(Progress, CanBeSilent) {
   EXPECT_EQ(shown(ProgressStyle::none), "");
 }
 
+/// What a setting up shows that takes half a second for a membrane and 12 s for grains.
+std::string shown_of_setting_up(ProgressStyle style) {
+  std::ostringstream out;
+  const SetUpProgress::Clock::time_point start{};
+  SetUpProgress progress(out, style, start);
+  progress.update("making membrane m", 0.0, start);
+  for (int i = 0; i < 120; ++i)
+    progress.update("placing grains g", i / 120.0, start + milliseconds(500 + 100 * i));
+  return out.str();
+}
+
+TEST(SetUpProgress, SpeaksInLinesWhenTheFirstSecondIsOver) {
+  EXPECT_EQ(shown_of_setting_up(ProgressStyle::lines),
+            "setting up: placing grains g, 4 %\n"
+            "setting up: placing grains g, 46 %\n"
+            "setting up: placing grains g, 88 %\n");
+}
+
+TEST(SetUpProgress, SpeaksAtOnceOnATerminalAndLeavesAnEmptyLine) {
+  const std::string text = shown_of_setting_up(ProgressStyle::one_line);
+
+  EXPECT_EQ(text.find("\rsetting up: making membrane m\rsetting up: placing grains g"), 0U);
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+  EXPECT_THAT(text, HasSubstr("placing grains g, 98 %\r"));
+  const std::string last = text.substr(text.rfind("98 %") + 5);
+  EXPECT_EQ(last,
+            std::string(std::string("setting up: placing grains g, 98 %").size(), ' ') + '\r');
+}
+
 TEST(DurationText, ShowsTwoUnits) {
   EXPECT_EQ(duration_text(0.0), "0 s");
   EXPECT_EQ(duration_text(11.2), "12 s");
