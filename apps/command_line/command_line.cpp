@@ -4,6 +4,7 @@
 #include "apps/command_line/import_command.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/list_command.hpp"
+#include "apps/command_line/start_listing.hpp"
 #include "apps/command_line/step_advice.hpp"
 #include "apps/command_line/summary.hpp"
 #include "apps/run/output_folder.hpp"
@@ -123,7 +124,9 @@ int run_command(const CommandLine& line) {
 int check_command(const CommandLine& line) {
   const Scenario scenario = scenario_of(line);
   const PreparedRun prepared = prepared_aloud(scenario);
-  std::cout << summary_of(prepared) << step_advice(scenario, prepared);
+  std::cout << summary_of(prepared) << listing_of_start(scenario, prepared) << std::flush;
+  require_possible_start(prepared.start, scenario);
+  std::cout << step_advice(scenario, prepared);
   if (line.power_iteration) std::cout << summary_of(prepared.simulation->exact_critical_step());
   std::cout << line.scenario.string() << ": no problems\n";
   flush_output();

@@ -345,10 +345,14 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   }
   prepared.duration = scenario.simulation.duration;
   choose_time_step(scenario.simulation, *prepared.simulation);
+  prepared.start = initial_contacts(scenario, prepared.built, *prepared.simulation);
+  for (std::string& warning : warnings_about(prepared.start, scenario))
+    prepared.built.warnings.push_back(std::move(warning));
   return prepared;
 }
 
 RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings) {
+  require_possible_start(prepared.start, scenario);
   make_output_folder(settings.out);
   const OutputFolderLock lock(settings.out);
   if (!settings.overwrite) refuse_results(settings.out, "run", kResultFiles);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/run/frames.hpp"
+#include "apps/run/initial_contacts.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/run/run_report.hpp"
 #include "apps/scenario/scenario.hpp"
@@ -20,6 +21,7 @@ struct PreparedRun {
   BuiltScene built;  ///< its scene has moved into the simulation
   std::unique_ptr<Simulation> simulation;
   double duration = 0.0;  ///< s
+  InitialContacts start;
 };
 
 /// Builds the scene of a scenario and a simulation of it.
@@ -48,8 +50,9 @@ struct RunSettings {
 /// written; before the run an old one is removed. All other files are complete at any moment. With
 /// an automatic time step the critical step is looked at again and again and the step made shorter
 /// where it has fallen.
-/// @throws dynamics::OutputError if something cannot be written or the folder holds results that
-/// are not to be replaced, dynamics::Diverged
+/// @throws InputError with nothing written if bodies begin where they cannot be
+/// (require_possible_start), dynamics::OutputError if something cannot be written or the folder
+/// holds results that are not to be replaced, dynamics::Diverged
 RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings);
 
 }  // namespace plekton::apps

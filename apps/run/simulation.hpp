@@ -57,6 +57,8 @@ class Simulation {
   virtual const geometry::Neighbours& neighbours() const = 0;
 
   virtual std::vector<contact::ContactRow> list_contacts() = 0;
+  /// The same without giving numbers.
+  virtual std::vector<contact::ContactRow> contacts_as_they_are() const = 0;
   virtual std::vector<geometry::Vec3> force_positions() const = 0;
   virtual geometry::Vec3 force_point(std::size_t plane) const = 0;
   virtual dynamics::ForceAndMoment plane_reaction(std::size_t plane) const = 0;
@@ -117,6 +119,13 @@ class SimulationUnder final : public Simulation {
   }
 
   std::vector<contact::ContactRow> list_contacts() override { return simulation_.list_contacts(); }
+  std::vector<contact::ContactRow> contacts_as_they_are() const override {
+    std::vector<contact::ContactRow> rows;
+    simulation_.contacts().for_each_row(
+        simulation_.force_positions(),
+        [&](const contact::ContactRow& row) { rows.push_back(row); });
+    return rows;
+  }
   std::vector<geometry::Vec3> force_positions() const override {
     return simulation_.force_positions();
   }

@@ -77,6 +77,7 @@ std::vector<std::string_view> names_of_laws() {
 
 PairSettings read_contact(Section section, const Known& known, MaterialPairSet& taken) {
   PairSettings pair;
+  pair.place = section.place();
   const auto first = read_material_of(section, known, "between");
   const auto second = read_material_of(section, known, "and");
   const std::vector<std::string_view> names = names_of_laws();

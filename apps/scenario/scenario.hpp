@@ -52,6 +52,7 @@ struct MaterialSettings {
 
 /// What two materials do where they touch.
 struct PairSettings {
+  Place place;
   std::size_t first = 0;   ///< material
   std::size_t second = 0;  ///< material
   contact::ContactSettings contact;

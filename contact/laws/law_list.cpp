@@ -116,4 +116,11 @@ PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings) {
   return properties;
 }
 
+std::optional<Bonds> bonds_of(const ContactSettings& settings) noexcept {
+  if (contact_laws()[settings.law].name != CohesiveFrictional::name) return std::nullopt;
+  const CohesiveFrictional::Properties& cohesion = settings.cohesion;
+  const bool has_strength = cohesion.tensile_strength > 0.0 || cohesion.shear_strength > 0.0;
+  return has_strength ? cohesion.bonds : Bonds::none;
+}
+
 }  // namespace plekton::contact

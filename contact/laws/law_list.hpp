@@ -3,6 +3,7 @@
 
 #include "contact/laws/any_law.hpp"
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -55,5 +56,8 @@ std::span<const LawRow> contact_laws() noexcept;
 std::span<const LawParameter> common_law_parameters() noexcept;
 
 PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings);
+
+/// Which contacts are glued; nothing for a law without bonds. Bonds without any strength are none.
+std::optional<Bonds> bonds_of(const ContactSettings& settings) noexcept;
 
 }  // namespace plekton::contact

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/start_listing.hpp"
+
+#include "apps/scenario/section.hpp"
+#include "geometry/box.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <vector>
+
+namespace plekton::apps {
+namespace {
+
+using geometry::Box;
+using geometry::index_of;
+
+constexpr std::size_t kMostPlaces = 5;  // of two bodies that overlap, that are listed
+
+/// m, around nothing yet.
+Box no_box() {
+  const Vec3 infinite = Vec3::Constant(kInfinity);
+  return {infinite, -infinite};
+}
+
+void include(Box& box, const Vec3& centre, double radius) {
+  box.lower = box.lower.cwiseMin((centre.array() - radius).matrix());
+  box.upper = box.upper.cwiseMax((centre.array() + radius).matrix());
+}
+
+std::string line_of(const std::string& name, const Box& box) {
+  const Vec3& l = box.lower;
+  const Vec3& u = box.upper;
+  return fmt::format("box of {}: ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m\n", name,
+                     l[0], l[1], l[2], u[0], u[1], u[2]);
+}
+
+/// Around membranes with their thickness, around grains, and around all of them. Planes have none.
+std::string boxes(const Scenario& scenario, const PreparedRun& prepared) {
+  const dynamics::Scene& scene = prepared.simulation->scene();
+  const auto& x = scene.state.position;
+  std::string text;
+  Box all = no_box();
+  const auto add = [&](const std::string& name, const Box& box) {
+    text += line_of(name, box);
+    all = {all.lower.cwiseMin(box.lower), all.upper.cwiseMax(box.upper)};
+  };
+  for (std::size_t m = 0; m < prepared.built.membranes.size(); ++m) {
+    const BuiltMembrane& membrane = prepared.built.membranes[m];
+    Box box = no_box();
+    for (std::size_t n = membrane.first_node; n < membrane.first_node + membrane.nodes; ++n)
+      include(box, x[n], 0.5 * scenario.membranes[m].thickness);
+    add("membranes." + membrane.name, box);
+  }
+  std::size_t first = 0;
+  for (const BuiltGrains& grains : prepared.built.grains) {
+    Box box = no_box();
+    for (std::size_t i = first; i < first + grains.count; ++i) {
+      const geometry::Sphere& sphere = scene.elements.spheres[i];
+      include(box, x[index_of(sphere.nodes[0])], sphere.radius);
+    }
+    first += grains.count;
+    add("grains." + grains.name, box);
+  }
+  return text + line_of("everything", all);
+}
+
+std::string bonds(const Scenario& scenario, const InitialContacts& start) {
+  std::string text;
+  for (std::size_t i = 0; i < scenario.contacts.size(); ++i) {
+    const PairSettings& pair = scenario.contacts[i];
+    if (!contact::bonds_of(pair.contact)) continue;
+    text +=
+        fmt::format("bonds of {} with {}: {} at the start\n", scenario.materials[pair.first].name,
+                    scenario.materials[pair.second].name, start.bonds[i]);
+  }
+  return text;
+}
+
+std::string overlaps(const Scenario& scenario, const InitialContacts& start) {
+  std::map<std::array<BodyTable, 2>, std::vector<const InitialOverlap*>> by_tables;
+  for (const InitialOverlap& overlap : start.overlaps) by_tables[overlap.of].push_back(&overlap);
+  std::string text;
+  for (const auto& [tables, all] : by_tables) {
+    text += fmt::format("overlaps at the start of {} with {}: {}{}\n", path_of(tables[0], scenario),
+                        path_of(tables[1], scenario), all.size(),
+                        all.size() > kMostPlaces ? ", the deepest" : "");
+    for (std::size_t i = 0; i < std::min(all.size(), kMostPlaces); ++i)
+      text += fmt::format("  {}\n", text_of(*all[i]));
+  }
+  return text.empty() ? "overlaps at the start: none\n" : text;
+}
+
+}  // namespace
+
+std::string listing_of_start(const Scenario& scenario, const PreparedRun& prepared) {
+  return boxes(scenario, prepared) + bonds(scenario, prepared.start) +
+         overlaps(scenario, prepared.start);
+}
+
+}  // namespace plekton::apps
