@@ -114,7 +114,7 @@ std::vector<PlacedGrain> place_on_lattice(std::span<const double> diameters, con
       "{:.4g} m3, {:.0f} % of which they would fill; {}; make the box larger ({} filled is easy), "
       "ask for fewer grains, move the box away from membranes and planes{}",
       settings.name, count, volume, settings.sizes.largest_diameter(), size[0], size[1], size[2],
-      size.prod(), 100.0 * volume / size.prod(), attained, is_random ? "a third" : "half",
+      size.prod(), 100.0 * volume / size.prod(), attained, is_random ? "a quarter" : "half",
       is_random ? ", or take a crystal, placement = \"lattice\", which is denser" : ""));
 }
 

@@ -33,10 +33,11 @@ struct DoesNotFit : std::runtime_error {
 /// Draws grains from the size curve and places them in the box without overlap, the largest first.
 ///
 /// Placed at random, each is tried at random positions, with a bounded number of trials; for equal
-/// grains that ends at about 0.38 of the box. On a lattice, face-centred cubic with the spacing of
-/// the largest diameter, each is moved by a random part of the room it has there; that goes up to
-/// 0.74 less what the edges of the box take. Neither stands in for the other. The result depends on
-/// the settings and the surroundings alone, not on the standard library.
+/// grains that ends at about 0.38 of a box that is far larger than they are. On a lattice,
+/// face-centred cubic with the spacing of the largest diameter, each is moved by a random part of
+/// the room it has there; that goes up to 0.74 less what the edges of the box take. Neither stands
+/// in for the other. The result depends on the settings and the surroundings alone, not on the
+/// standard library.
 /// @param tell  called now and then with the part of the grains that are placed, if given
 /// @throws DoesNotFit  with how many found room
 std::vector<PlacedGrain> generate_grains(const GrainSettings& settings,
