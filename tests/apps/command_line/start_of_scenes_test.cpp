@@ -132,7 +132,7 @@ TEST_F(StartOfScenes, ListTheDeepestFewOfManyOverlaps) {
 TEST_F(StartOfScenes, AreRefusedWhereGrainsAreInEachOtherByMoreThanTheirRadii) {
   const std::string error = refusal_of(grains("b", "[0.3, 0, 0.01], [0.305, 0, 0.01]"));
 
-  EXPECT_THAT(error, HasSubstr("case.toml:10:1: grains.b: begins in grains.b at 1 place, deeper "
+  EXPECT_THAT(error, HasSubstr("case.toml:11:1: grains.b: begins in grains.b at 1 place, deeper "
                                "than both radii, by 15 mm (150 % of the radius) of grain 0 and "
                                "grain 1 at (0.3025, 0, 0.01) m; move them apart"));
 }
@@ -141,7 +141,7 @@ TEST_F(StartOfScenes, AreRefusedWhereGrainsBeginBehindAPlane) {
   const std::string error =
       refusal_of(grains("g", "[0, 0, -0.05], [1, 0, -0.001], [2, 0, 0.001]") + kFloor);
 
-  EXPECT_THAT(error, HasSubstr("case.toml:10:1: grains.g: 2 of its grains begin behind "
+  EXPECT_THAT(error, HasSubstr("case.toml:11:1: grains.g: 2 of its grains begin behind "
                                "planes.floor, the deepest by 60 mm (600 % of the radius) of grain "
                                "0 at (0, 0, "));
   EXPECT_THAT(error, HasSubstr("move them to the side that the normal of the plane points to"));
@@ -164,8 +164,10 @@ TEST_F(StartOfScenes, MayHaveHeldNodesBehindAPlane) {
 
 /// Two sheets that cross at a right angle along y.
 TEST_F(StartOfScenes, AreRefusedWhereMembranesCross) {
-  const std::string error = refusal_of(
-      sheet("flat", "") + sheet("upright", "rotate = { axis = [0, 1, 0], angle = \"90 deg\" }"));
+  const std::string error =
+      refusal_of(sheet("flat", "") + sheet("upright",
+                                           "rotate = { axis = [0, 1, 0], angle = \"90 deg\" }\n"
+                                           "translate = [0.01, 0.007, 0]"));
 
   EXPECT_THAT(error, HasSubstr("membranes.flat: begins in membranes.upright at "));
   EXPECT_THAT(error, HasSubstr("deeper than both radii"));
@@ -230,7 +232,7 @@ TEST_F(StartOfScenes, WarnOfABondRuleThatGluesNothing) {
   const Outcome later = check(glue("tensile_strength = \"1 MPa\"") + apart);
 
   EXPECT_THAT(none.out, HasSubstr("bonds of stone with stone: 0 at the start\n"));
-  EXPECT_THAT(none.out, HasSubstr("case.toml:10:1: contacts[0], stone with stone: bonds = "
+  EXPECT_THAT(none.out, HasSubstr("case.toml:11:1: contacts[0], stone with stone: bonds = "
                                   "\"start\" glues nothing: no such bodies touch at the start"));
   EXPECT_THAT(weak.out, HasSubstr("its bonds have no strength and glue nothing"));
   EXPECT_THAT(later.out, Not(HasSubstr("warning")));

@@ -334,7 +334,7 @@ TEST(ScenarioReader, ReadsHowGrainsArePlaced) {
   EXPECT_EQ(placement_of("placement = \"random\"\n"), GrainPlacement::random);
   EXPECT_EQ(placement_of("placement = \"lattice\"\n"), GrainPlacement::lattice);
   EXPECT_THAT(error_of(edited("count = 10\n", "count = 10\nplacement = \"latice\"\n")),
-              HasSubstr("case.toml:15:13: grains.gravel.placement: got \"latice\"; expected one of "
+              HasSubstr("case.toml:14:13: grains.gravel.placement: got \"latice\"; expected one of "
                         "\"random\", \"lattice\"; did you mean \"lattice\"?"));
 }
 
