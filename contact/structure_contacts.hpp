@@ -113,6 +113,11 @@ class StructureContacts {
   template <class Visit>
   void for_each_row(Positions x, Visit&& visit) const;
 
+  /// Calls visit(ContactRow, force (N), torque (N m)) for the same rows, with what each did to one
+  /// node: exactly, wherever in the patch that is. Linear in the nodes of the scene.
+  template <class Visit>
+  void for_each_row_on(NodeId node, Positions x, Visit&& visit) const;
+
  private:
   using PairTerm = structure::PairTerm;
   using Meeting = structure::Meeting<Law>;

@@ -37,6 +37,28 @@ void StructureContacts<Law>::for_each_row(Positions x, Visit&& visit) const {
   }
 }
 
+template <ContactLaw Law>
+template <class Visit>
+void StructureContacts<Law>::for_each_row_on(NodeId node, Positions x, Visit&& visit) const {
+  NodeForces forces(x.size());
+  Vec3& force = forces.force[index_of(node)];
+  Vec3& torque = forces.torque[index_of(node)];
+  auto patch = patches_.begin();
+  auto bond = bonds_.begin();
+  for_each_row(x, [&](const ContactRow& row) {
+    force = torque = Vec3::Zero();
+    while (patch != patches_.end() && !patch->pushes()) ++patch;
+    if (patch != patches_.end()) {
+      patch->add_forces(meeting_of(*patch), forces);
+      ++patch;
+    } else {
+      bond->add_forces(meetings_[bond->meeting], forces);
+      ++bond;
+    }
+    visit(row, force, torque);
+  });
+}
+
 /// All but its points.
 template <ContactLaw Law>
 ContactRow StructureContacts<Law>::row_of(const Bond& bond) const {

@@ -207,10 +207,11 @@ class Simulation {
   std::string fault(const Divergence& divergence, double drift);
   double limit_exceeded_before(const Divergence& divergence, double drift) const noexcept;
   NodeState state_before(double drift) const;
-  double critical_step_at(NodeState& state);
+  double critical_step_at(NodeState& state, bool expected);
   std::string strongest_action(const Divergence& divergence, const NodeState& state);
   void consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action);
   bool has_node(const contact::ContactBody& body, NodeId node) const;
+  bool is_of_structure(const contact::ContactBody& body, NodeId node) const;
   void describe(const contact::ContactRow& row, std::ostream& text) const;
   void set_first_step(double asked, NodalStiffness space);
   void require_time_step() const;

@@ -104,16 +104,19 @@ std::string Simulation<Law>::fault(const Divergence& divergence, double drift) {
   else
     text << "no contact and no element acts on it, but loads may";
   text << "; the time step of " << drift << " s is ";
-  const double critical = critical_step_at(before);
-  if (drift > kLargestStep * critical) {
-    text << drift / critical << " of the critical one as it is now: use a smaller time step (or "
-         << "\"auto\")";
-  } else {
-    if (std::isfinite(critical)) text << drift / critical << " of the critical one and ";
-    text
-        << "not the cause: look there for bodies that start in each other or are pressed deep into "
-           "each other, and for elements and stiffnesses unlike those around";
+  const double usual = critical_step_at(before, true);
+  const double critical = critical_step_at(before, false);
+  if (drift > kLargestStep * usual) {
+    text << drift / usual << " of the critical one: use a smaller time step (or \"auto\")";
+    return text.str();
   }
+  if (std::isfinite(usual)) text << drift / usual << " of the critical one and ";
+  text << "not the cause: ";
+  if (drift > kLargestStep * critical)
+    text << "with the contacts of now that is " << critical
+         << " s, so that something there is far stiffer than contacts of these bodies are; ";
+  text << "look there for bodies that start in each other or are pressed deep into each other, and "
+          "for elements and stiffnesses unlike those around";
   return text.str();
 }
 
@@ -151,11 +154,12 @@ NodeState Simulation<Law>::state_before(double drift) const {
 }
 
 /// s, of the structures and contacts at a state; with the velocities of now.
+/// @param expected  with the contacts that may come, or else with those of now
 template <contact::ContactLaw Law>
-double Simulation<Law>::critical_step_at(NodeState& state) {
+double Simulation<Law>::critical_step_at(NodeState& state, bool expected) {
   std::swap(scene_.state, state);
   NodalStiffness space(scene_.state.size());
-  const double critical = loads_.critical_step(structural_step(space, false).dt, scene_);
+  const double critical = loads_.critical_step(structural_step(space, expected).dt, scene_);
   std::swap(scene_.state, state);
   return critical;
 }
@@ -193,32 +197,41 @@ std::string Simulation<Law>::strongest_action(const Divergence& divergence,
   return action.text();
 }
 
-/// Contacts of the node's sphere and those whose deepest feature has the node. Of a patch that has
-/// it elsewhere the force on the node is not known: it is at most that of all contacts together.
+/// Of a patch of a sphere on a surface that has the node elsewhere than where it is deepest, what
+/// it does to the node is not known: it is at most that of all of these together.
 template <contact::ContactLaw Law>
 void Simulation<Law>::consider_contacts(NodeId node, geometry::Positions x,
                                         StrongestAction& action) {
+  const auto describe_row = [this](const contact::ContactRow& row) {
+    return [this, &row](std::ostream& text) { describe(row, text); };
+  };
+  contacts_.between_structures().for_each_row_on(
+      node, x, [&](const contact::ContactRow& row, const Vec3& force, const Vec3& torque) {
+        action.consider(force.norm(), torque.norm(), describe_row(row));
+      });
   NodeForces all(scene_.state.size());
   contacts_.with_surfaces().add_forces(all, pool_);
-  contacts_.between_structures().add_forces(all);
-  contacts_.with_planes().add_forces(all, pool_);
   const double most_force = all.force[index_of(node)].norm();
   const double most_torque = all.torque[index_of(node)].norm();
-  const geometry::StructureId structure = surface_.structure_of(node);
-  contacts_.for_each_row(x, [&](const contact::ContactRow& row) {
-    for (const contact::ContactBody& body : {row.a, row.b}) {
-      const bool has_it = has_node(body, node);
-      const bool may_have_it = body.kind == contact::BodyKind::structure &&
-                               geometry::StructureId{body.index} == structure;
-      if (!has_it && !may_have_it) continue;
-      const double force = row.force().norm();
-      const double torque =
-          (row.point - x[index_of(node)]).cross(row.force()).norm() + row.moment.norm();
-      action.consider(has_it ? force : std::min(force, most_force),
-                      has_it ? torque : std::min(torque, most_torque),
-                      [&](std::ostream& text) { describe(row, text); });
-    }
-  });
+  const auto consider = [&](const contact::ContactRow& row) {
+    const double force = row.force().norm();
+    const double torque =
+        (row.point - x[index_of(node)]).cross(row.force()).norm() + row.moment.norm();
+    if (has_node(row.a, node) || has_node(row.b, node))
+      action.consider(force, torque, describe_row(row));
+    else if (is_of_structure(row.b, node))
+      action.consider(std::min(force, most_force), std::min(torque, most_torque),
+                      describe_row(row));
+  };
+  contacts_.with_spheres().for_each_row(x, consider);
+  contacts_.with_surfaces().for_each_row(x, consider);
+  contacts_.with_planes().for_each_row(x, surface_, consider);
+}
+
+template <contact::ContactLaw Law>
+bool Simulation<Law>::is_of_structure(const contact::ContactBody& body, NodeId node) const {
+  return body.kind == contact::BodyKind::structure &&
+         geometry::StructureId{body.index} == surface_.structure_of(node);
 }
 
 template <contact::ContactLaw Law>
@@ -244,7 +257,7 @@ void Simulation<Law>::describe(const contact::ContactRow& row, std::ostream& tex
       constexpr const char* kKinds[] = {"node ", "the edge (nodes ", "the facet (nodes "};
       const geometry::FeatureNodes nodes = geometry::nodes_of(surface_, body.feature);
       text << kKinds[static_cast<std::size_t>(body.feature.kind)];
-      for (const NodeId node : nodes)
+      for (const NodeId& node : nodes)
         text << (&node == nodes.begin() ? "" : ", ") << index_of(node);
       text << (nodes.count > 1 ? ")" : "") << " of structure " << body.index;
     }

@@ -31,7 +31,9 @@ struct SpreadContact {
 
     void find_shares(const std::array<Vec3, 3>& forces, const Vec3& per_force, Positions x) {
       double sum = 0.0;
-      for (std::size_t i = 0; i < 3; ++i) sum += shares[i] = per_force.dot(forces[i]);
+      // Of an overlap that is a sliver the corners may be pushed either way; its place is on the facet.
+      for (std::size_t i = 0; i < 3; ++i)
+        sum += shares[i] = std::max(0.0, per_force.dot(forces[i]));
       const Vec3& origin = x[index_of(nodes[0])];
       point = origin;
       for (std::size_t i = 0; i < 3; ++i) {
