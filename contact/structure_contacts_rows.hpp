@@ -50,6 +50,10 @@ void StructureContacts<Law>::for_each_row_on(NodeId node, Positions x, Visit&& v
     while (patch != patches_.end() && !patch->pushes()) ++patch;
     if (patch != patches_.end()) {
       patch->add_forces(meeting_of(*patch), forces);
+      const auto place = static_cast<std::uint32_t>(patch - patches_.begin());
+      for (const Spread& spread : spreads_) {
+        if (spread.patch == place) spread.add_forces(meetings_[spread.meeting], forces);
+      }
       ++patch;
     } else {
       bond->add_forces(meetings_[bond->meeting], forces);
