@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-/// Sheets that lie flat on each other, their meshes registered or nearly so. k = 1 N/m: a force over
-/// the overlap is a number of contacts, and a square of one range (sum of both radii) counts for one.
+/// Sheets that lie flat on each other, their meshes registered or nearly so. k = 1 N/m: a force
+/// over the overlap is a number of contacts, and a square of one range (sum of both radii) counts
+/// for one.
 namespace plekton::test {
 namespace {
 
@@ -130,10 +131,11 @@ TEST(FlatSheets, PushAgainstTheGradientOfTheirEnergyAlsoOntoTheirMirrorImage) {
 }
 
 /// N. Where a rim of one sheet passes over an edge of the other, the other's resistance to a fold
-/// there begins or ends: with the area that parts of it, seen along their normals from one range
-/// above, have in common or miss. That is energy * range * length / range^2 of slope, for each of the
-/// two facets of the edge and three edges of 0.2 m in a node.
-constexpr double kFoldChange = 3 * 2 * (0.5 * kOverlap * kOverlap) * 0.2 / kRange;
+/// there begins or ends: a fold by an angle t makes its facets, seen along their normals from one
+/// range above, share or miss a strip of range * t, with energy / range^2 on it. A node of cells of
+/// 0.2 m is the end of two edges in line with one facet on either side of each, and folds them by 4
+/// / 0.2 m together at most.
+constexpr double kFoldChange = 0.5 * kOverlap * kOverlap * 0.2 / kRange * 4.0 / 0.2;
 
 TEST(FlatSheets, ChangeTheirForcesInProportionToTheStep) {
   Random random(6);

@@ -193,7 +193,7 @@ TEST(StructureBonds, AreNotMoreWhereContactsSlideOverJointsAndFacets) {
        sheet(3, 3, length, length, Cut::one_way, 3),
        {0, 0, 0.3},
        {-0.01, 0.1, 0},
-       1.0 + length * length / (kRange * kRange)}};
+       length * length / (kRange * kRange)}};
   for (const Lying& lying : all) {
     SCOPED_TRACE(lying.name);
     Meeting meeting(lying.a, lying.b, kRange, strong);

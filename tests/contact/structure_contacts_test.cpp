@@ -219,6 +219,22 @@ TEST(StructureContacts, CountACylinderAlongASeamOnce) {
   }
 }
 
+// Most of the bar is below the plane of the facet that its short end lies over, beyond the ridge.
+TEST(StructureContacts, CountABarAcrossARidgeOnceWhicheverSideMostOfItIsOn) {
+  Body ridge = sheet(2, 2, 1.0, 1.0);
+  for (Vec3& x : ridge.x) x.z() = -0.2 * std::abs(x.y());
+  for (const double overlap : {1e-5, 1e-4, 1e-3}) {
+    Body bar;
+    bar.x = {{0.1, -1.5, kRange - overlap}, {0.1, 0.3, kRange - overlap}};
+    bar.cylinders = {{0, 1}};
+    Meeting meeting(ridge, bar, kRange);
+    meeting.place(bar);
+    // In range is what is nearer to the ridge than overlap / 0.2 on either side: 0.1 of a range.
+    EXPECT_GE(meeting.energy(), 0.5 * overlap * overlap) << overlap;
+    EXPECT_LT(meeting.energy(), 1.1 * 0.5 * overlap * overlap) << overlap;
+  }
+}
+
 TEST(StructureContacts, AnswerCoresThatMeetWithFiniteForces) {
   const Pose poses[] = {{{0, 0, 0}, {0, 0, 0}},
                         {{0, 0, 0.3}, {0.1, 0.05, 0}},

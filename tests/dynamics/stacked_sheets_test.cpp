@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/simulation.hpp"
+#include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/membrane.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+/// A sheet that falls by 1 mm onto an equal one that is held: all their edges coincide.
+namespace plekton::test {
+namespace {
+
+using dynamics::Held;
+using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+
+constexpr double kThickness = 0.01;  // m
+
+void add_sheet(dynamics::Scene& scene, double height, Held held) {
+  const auto mesh = geometry::plane_sheet({0.4, 0.4, 4, 4});
+  const auto sheet = geometry::make_membrane(mesh, {.thickness = kThickness});
+  const auto fibre = dynamics::circular_section(0.5 * kThickness, 1e7, 0.3);
+  std::vector<geometry::NodeId> ids;
+  for (const geometry::Vec3& x : sheet.nodes)
+    ids.push_back(scene.add_node(x + geometry::Vec3(0.0, 0.0, height), held));
+  const auto id = [&](geometry::NodeId node) { return ids[index_of(node)]; };
+  for (const auto& [n, r] : sheet.facets)
+    scene.add_facet(id(n[0]), id(n[1]), id(n[2]), r, contact::MaterialId{0});
+  for (const auto& [a, b] : sheet.edges) scene.add_beam(id(a), id(b), fibre, 1000.0);
+}
+
+dynamics::Scene stacked_sheets() {
+  dynamics::Scene scene;
+  scene.materials = {{.young_modulus = 2e6, .stiffness_ratio = 0.5, .friction = 0.5}};
+  add_sheet(scene, 0.0, Held::everything);
+  add_sheet(scene, kThickness + 1e-3, Held::nothing);
+  return scene;
+}
+
+struct Fall {
+  double closure;          ///< of the ledger, at any step
+  double lowest, highest;  ///< m, of a node of the upper sheet at any step
+};
+
+/// @param part  of the step that is chosen
+Fall fall(double part) {
+  dynamics::SimulationOptions options;
+  options.motion.gravity = {0.0, 0.0, -9.81};
+  options.time_step = part * Simulation(stacked_sheets(), options).time_step();
+  Simulation simulation(stacked_sheets(), options);
+  const std::size_t nodes = simulation.state().position.size();
+  double error = 0.0, turnover = 0.0;
+  Fall found{0.0, 1.0, 0.0};
+  while (simulation.time() < 0.1) {
+    simulation.step();
+    const dynamics::Energy energy = simulation.energy();
+    error = std::max(error, std::abs(energy.closure_error()));
+    turnover = std::max(turnover, energy.turnover());
+    for (std::size_t i = nodes / 2; i < nodes; ++i) {
+      const double height = simulation.state().position[i].z();
+      found.lowest = std::min(found.lowest, height);
+      found.highest = std::max(found.highest, height);
+    }
+  }
+  found.closure = error / turnover;
+  return found;
+}
+
+// It stays above the lower sheet and never gets higher than it began but for what waves bring.
+TEST(StackedSheets, BounceWithoutEnergyFromNothing) {
+  const Fall found = fall(1.0);
+  EXPECT_LT(found.closure, 1e-2);
+  EXPECT_GT(found.lowest, 0.9 * kThickness);
+  EXPECT_LT(found.highest, kThickness + 2e-3);
+}
+
+TEST(StackedSheets, KeepTheirEnergyBetterWithASmallerStep) {
+  EXPECT_LT(fall(0.25).closure, 1e-3);
+}
+
+}  // namespace
+}  // namespace plekton::test
