@@ -115,10 +115,6 @@ TEST(SphereOnNetStep, IsNeverAboveWhatDifferencesOfForcesGive) {
       EXPECT_LE(simulation.exact_critical_step().dt, limit * (1.0 + 2e-3)) << "net " << i;
       EXPECT_GE(simulation.exact_critical_step().dt, limit * (1.0 - 2e-2)) << "net " << i;
       EXPECT_LE(simulation.time_step(), dynamics::kLargestStep * limit) << "net " << i;
-      if (std::getenv("SHOW"))
-        std::printf("net %zu limit %g critical %.3f exact %.3f step %.3f\n", i, limit,
-                    simulation.critical_step().dt / limit,
-                    simulation.exact_critical_step().dt / limit, simulation.time_step() / limit);
     }
   }
 }
