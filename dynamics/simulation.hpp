@@ -225,12 +225,12 @@ class Simulation {
                                 NodeId a, NodeId b) const;
   template <class Springs>
   void add_on_surface(Springs& springs, NodeId ball, const geometry::CorePoint& core,
-                      const Parameters& parameters, double range, double force,
-                      double further) const;
+                      const Parameters& parameters, double range, double force, double further,
+                      geometry::Positions x) const;
   template <class Springs>
-  void add_contacts_to(Springs& springs, double further) const;
+  void add_contacts_to(Springs& springs, double further, geometry::Positions x) const;
   template <class Springs>
-  void add_surface_contacts_to(Springs& springs, double further) const;
+  void add_surface_contacts_to(Springs& springs, double further, geometry::Positions x) const;
   void add_near_contacts_to(NodalStiffness& springs, double margin);
   void add_near_structures_to(NodalStiffness& springs, double margin);
   CriticalStep near_step(double margin);

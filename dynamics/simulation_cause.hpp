@@ -20,7 +20,7 @@ StepCause Simulation<Law>::critical_cause() const {
     StiffestPart parts(shortest, scene_.properties);
     consider_structures(parts);
     if (&shortest == &present) {
-      add_contacts_to(parts, 0.0);
+      add_contacts_to(parts, 0.0, force_positions());
     } else {
       StepPart part{StepPart::Kind::coming_contacts};
       const ExpectedContacts<Law> contacts(scene_, surface_, material_pairs_);

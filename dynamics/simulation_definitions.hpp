@@ -284,7 +284,7 @@ CriticalStep Simulation<Law>::present_critical_step() const {
 template <contact::ContactLaw Law>
 ExactStep Simulation<Law>::exact_critical_step() const {
   ContactSprings springs;
-  add_contacts_to(springs, 0.0);
+  add_contacts_to(springs, 0.0, force_positions());
   const auto normal = [this](geometry::Positions x, NodeForces& forces) {
     contacts_.with_surfaces().add_elastic_forces(contacts_.neighbours().cells(), x, forces);
   };
@@ -317,10 +317,11 @@ CriticalStep Simulation<Law>::critical_step(NodalStiffness& space) const {
 template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::structural_step(NodalStiffness& space, bool expected) const {
   CriticalStep shortest;
+  const std::vector<Vec3> x = force_positions();
   for_each_piece(space, [&] {
     if (expected) add_expected_to(space);
     add_structures_to(space);
-    if (!expected) add_contacts_to(space, 0.0);
+    if (!expected) add_contacts_to(space, 0.0, x);
     const CriticalStep step = space.critical_step(scene_.properties);
     if (step.dt < shortest.dt) shortest = step;
   });

@@ -36,12 +36,13 @@ ContactStiffness Simulation<Law>::stiffness_of(const Vec3& normal,
 /// @param range    m, radius of the ball and of the surface
 /// @param force    N, elastic, of the term; of rings it may be more than one contact has
 /// @param further  m, by how much it may get deeper
+/// @param x        m, where the nodes were when the force was found: a contact that is about to end
+///                 has little of it left a drift later, and would look like many
 template <contact::ContactLaw Law>
 template <class Springs>
 void Simulation<Law>::add_on_surface(Springs& springs, NodeId ball, const geometry::CorePoint& core,
                                      const typename Law::Parameters& parameters, double range,
-                                     double force, double further) const {
-  const auto& x = scene_.state.position;
+                                     double force, double further, geometry::Positions x) const {
   const Vec3 way = geometry::position(core, x) - x[index_of(ball)];
   const double distance = way.norm();
   const Vec3 normal = distance > 0.0 ? Vec3(way / distance) : Vec3(Vec3::UnitZ());
@@ -57,16 +58,17 @@ void Simulation<Law>::add_on_surface(Springs& springs, NodeId ball, const geomet
 /// Every touching pair, as it is now.
 /// @param springs  NodalStiffness, or what else has its functions for contacts
 /// @param further  m, by how much contacts may get deeper
+/// @param x        m, where the nodes were when the forces were found
 template <contact::ContactLaw Law>
 template <class Springs>
-void Simulation<Law>::add_contacts_to(Springs& springs, double further) const {
-  const auto& x = scene_.state.position;
+void Simulation<Law>::add_contacts_to(Springs& springs, double further,
+                                      geometry::Positions x) const {
   contacts_.with_spheres().for_each_touching(
       [&](NodeId a, NodeId b, const auto& parameters, double gap) {
         const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
         springs.add_pair(a, b, stiffness_of(normal, parameters, gap - further, a, b));
       });
-  add_surface_contacts_to(springs, further);
+  add_surface_contacts_to(springs, further, x);
   contacts_.with_planes().for_each_touching(
       [&](NodeId ball, std::size_t plane, const auto& parameters, double gap) {
         springs.add_to_wall(
@@ -77,10 +79,11 @@ void Simulation<Law>::add_contacts_to(Springs& springs, double further) const {
 /// Those with surfaces and between structures.
 template <contact::ContactLaw Law>
 template <class Springs>
-void Simulation<Law>::add_surface_contacts_to(Springs& springs, double further) const {
+void Simulation<Law>::add_surface_contacts_to(Springs& springs, double further,
+                                              geometry::Positions x) const {
   contacts_.with_surfaces().for_each_touching(
       [&](NodeId ball, const auto& core, const auto& parameters, double range, double force) {
-        add_on_surface(springs, ball, core, parameters, range, force, further);
+        add_on_surface(springs, ball, core, parameters, range, force, further, x);
       });
   contacts_.between_structures().for_each_stiffness(
       [&](NodeId node, double normal, double tangential, double radius) {
@@ -97,11 +100,11 @@ void Simulation<Law>::add_near_contacts_to(NodalStiffness& springs, double margi
         const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
         springs.add_pair(a, b, stiffness_of(normal, parameters, gap - margin, a, b));
       });
-  add_surface_contacts_to(springs, margin);
+  add_surface_contacts_to(springs, margin, x);
   contacts_.with_surfaces().for_each_coming(
       margin, contacts_.neighbours().cells(), x,
       [&](NodeId ball, const auto& core, const auto& parameters, double range) {
-        add_on_surface(springs, ball, core, parameters, range, 0.0, margin);
+        add_on_surface(springs, ball, core, parameters, range, 0.0, margin, x);
       });
   contacts_.with_planes().for_each_near(
       margin, scene_.planes, x,
