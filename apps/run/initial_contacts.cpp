@@ -2,6 +2,8 @@
 #include "apps/run/initial_contacts.hpp"
 
 #include "apps/run/run_warnings.hpp"
+#include "geometry/closest/core_pair.hpp"
+#include "geometry/product_features.hpp"
 
 #include <fmt/format.h>
 
@@ -62,6 +64,14 @@ class Bodies {
     return simulation_.surface().radius(geometry::id_at<geometry::StructureId>(i));
   }
 
+  /// m. Where structures touch over an area the gap of their contact stands for all of it; how far
+  /// they are in each other is seen where they are deepest.
+  double depth_of(const ContactRow& row) const {
+    if (row.a.kind != BodyKind::structure || row.b.kind != BodyKind::structure) return -row.gap;
+    const double distance = closest_points(core_of(row.a), core_of(row.b)).distance;
+    return radius_of(row.a).value() + radius_of(row.b).value() - distance;
+  }
+
   std::size_t material_of(const ContactBody& body) const {
     const auto [kind, number] = table_of(body);
     switch (kind) {
@@ -76,6 +86,14 @@ class Bodies {
   }
 
  private:
+  geometry::Core core_of(const ContactBody& body) const {
+    const geometry::FeatureNodes nodes = nodes_of(simulation_.surface(), body.feature);
+    geometry::Core core;
+    for (std::size_t i = 0; i < nodes.count; ++i)
+      core.x[core.count++] = simulation_.state().position[index_of(nodes.ids[i])];
+    return core;
+  }
+
   const Scenario& scenario_;
   const Simulation& simulation_;
   std::vector<std::size_t> first_grain_{0};  ///< by table, and their end
@@ -96,7 +114,7 @@ double rounding_of(const ContactRow& row) {
 }
 
 std::optional<InitialOverlap> overlap_of(const ContactRow& row, const Bodies& bodies) {
-  const double depth = -row.gap;
+  const double depth = bodies.depth_of(row);
   if (is_bond_alone(row) || !(depth > rounding_of(row))) return std::nullopt;
   const double radius_a = bodies.radius_of(row.a).value();  // Only b may be a plane.
   const double radius_b = bodies.radius_of(row.b).value_or(radius_a);

@@ -170,7 +170,8 @@ TEST_F(StartOfScenes, AreRefusedWhereMembranesCross) {
                                            "translate = [0.01, 0.007, 0]"));
 
   EXPECT_THAT(error, HasSubstr("membranes.flat: begins in membranes.upright at "));
-  EXPECT_THAT(error, HasSubstr("deeper than both radii"));
+  EXPECT_THAT(error, HasSubstr("deeper than both radii, "));
+  EXPECT_THAT(error, HasSubstr("by 4 mm (200 % of the radius) at (0.01, "));
 }
 
 TEST_F(StartOfScenes, MayHaveMembranesThatOverlapByLessWithAWarning) {
