@@ -276,6 +276,7 @@ name = "large"
 material = "stone"
 count = 2
 radius = "25 mm"
+placement = "lattice"  # beside each other: the first one at random may leave no room
 velocity = [0, 0, "-1 m/s"]
 box = { min = ["-7 cm", "-3 cm", "3 mm"], max = ["7 cm", "3 cm", "6 cm"] }
 [[grains]]

@@ -58,11 +58,13 @@ TEST(Progress, CanBeSilent) {
 /// What a setting up shows that takes half a second for a membrane and 12 s for grains.
 std::string shown_of_setting_up(ProgressStyle style) {
   std::ostringstream out;
-  const SetUpProgress::Clock::time_point start{};
-  SetUpProgress progress(out, style, start);
-  progress.update("making membrane m", 0.0, start);
-  for (int i = 0; i < 120; ++i)
-    progress.update("placing grains g", i / 120.0, start + milliseconds(500 + 100 * i));
+  {
+    const SetUpProgress::Clock::time_point start{};
+    SetUpProgress progress(out, style, start);
+    progress.update("making membrane m", 0.0, start);
+    for (int i = 0; i < 120; ++i)
+      progress.update("placing grains g", i / 120.0, start + milliseconds(500 + 100 * i));
+  }
   return out.str();
 }
 
