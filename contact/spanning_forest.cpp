@@ -21,6 +21,8 @@ void SpanningForest::sort_by_resistance(std::span<const Link> links) {
   }
   order_.resize(links.size());
   if (links.empty()) return;
+  constexpr std::size_t kExponents = 2048;  // of doubles: no call needs more room than the first
+  first_.reserve(kExponents + 2);
   first_.assign(largest - least + 2, 0);
   for (const Link& link : links) ++first_[key_of(link) - least + 1];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());

@@ -80,6 +80,12 @@ void Simulation<Law>::check_energy() {
   if (!suspect.empty()) suspect_ = suspect;
   // A comparison with NaN is false.
   if (made <= kFarMore * there) return;
+  // Where next to nothing moves yet, as in the first steps under a load, what steps cut off is many
+  // times the energy there is. All of it in one node would not take that further between two looks
+  // than anything may go in a step: nobody could see it.
+  const std::size_t i = index_of(divergence.node);
+  const double speed = std::sqrt(2.0 * made / scene_.properties.mass[i]);
+  if (static_cast<double>(kStepsBetweenLooks) * speed * last_drift_ <= furthest_[i]) return;
   throw Diverged(divergence, std::max<std::int64_t>(0, steps_ - 1), time_ - last_drift_,
                  scene_.state, fault(divergence, last_drift_));
 }

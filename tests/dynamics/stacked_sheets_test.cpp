@@ -43,11 +43,12 @@ struct Fall {
   double lowest, highest;  ///< m, of a node of the upper sheet at any step
 };
 
-/// @param part  of the step that is chosen
+/// @param part  of half of the critical step with all contacts that may come
 Fall fall(double part) {
   dynamics::SimulationOptions options;
   options.motion.gravity = {0.0, 0.0, -9.81};
-  options.time_step = part * Simulation(stacked_sheets(), options).time_step();
+  options.time_step =
+      part * dynamics::kSafety * Simulation(stacked_sheets(), options).critical_step().dt;
   Simulation simulation(stacked_sheets(), options);
   const std::size_t nodes = simulation.state().position.size();
   double error = 0.0, turnover = 0.0;
