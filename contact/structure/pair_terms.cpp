@@ -26,6 +26,16 @@ geometry::FeatureNodes some_of(const geometry::FeatureNodes& nodes, unsigned cor
   return some;
 }
 
+PairForces scaled(const PairForces& forces, double by) {
+  PairForces result;
+  result.energy = by * forces.energy;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.on_a[i] = by * forces.on_a[i];
+    result.on_b[i] = by * forces.on_b[i];
+  }
+  return result;
+}
+
 }  // namespace
 
 std::array<geometry::FeatureNodes, 2> PairTerms::carriers(std::uint32_t pair) const noexcept {
@@ -162,7 +172,8 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
   const TermForces pushing = term_forces(term, found, share, spring, x);
   term.point_share = share.share;
   term.forces = pushing.forces;
-  if (term.a.count == 3 && term.b.count == 3) spreads_[holders(term).front().pair] = pushing.spread;
+  if (term.a.count == 3 && term.b.count == 3)
+    spreads_[holders(term).front().pair] = scaled(pushing.spread, 1.0 - share.share);
   shared_[candidate][0] = pushing.shared;
   if (!spring.attracts()) return;
   const TermForces pulling = term_forces(term, found, share, spring.attraction(), x);
