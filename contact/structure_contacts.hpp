@@ -276,36 +276,6 @@ double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs
 }
 
 template <ContactLaw Law>
-std::vector<structure::Meeting<Law>> StructureContacts<Law>::find_meetings(
-    const ContactMaterials<Law>& materials) const {
-  std::vector<Meeting> meetings;
-  const std::vector<double> masses = structure::mean_node_masses(*surface_, materials);
-  const auto part = [&](std::size_t i) {
-    return typename MaterialPairs<Law>::Part{
-        materials.of_structures[i], surface_->radius(geometry::id_at<geometry::StructureId>(i)),
-        masses[i]};
-  };
-  for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
-    for (std::size_t k = i; k < surface_->structure_count(); ++k) {
-      const typename Law::Parameters parameters = materials.pairs.combine(part(i), part(k));
-      meetings.push_back({without_attraction<Law>(parameters), part(i).radius, part(k).radius,
-                          attraction_of<Law>(parameters)});
-    }
-  }
-  return meetings;
-}
-
-template <ContactLaw Law>
-void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& materials) {
-  meetings_ = find_meetings(materials);
-  take_parameters(materials);
-  for (const Meeting& meeting : meetings_) {
-    springs_.push_back(structure::NormalSpring::of<Law>(
-        meeting.parameters, meeting.radius_first + meeting.radius_second, &meeting.attraction));
-  }
-}
-
-template <ContactLaw Law>
 EnergyLoss StructureContacts<Law>::advance(const Motion& motion, double dt,
                                            geometry::ThreadPool& pool) {
   if (terms_.empty() && patches_.empty() && bonds_.empty()) return {};
@@ -406,6 +376,7 @@ void StructureContacts<Law>::find_places() {
 #include "contact/structure_contacts_bonds.hpp"
 #include "contact/structure_contacts_change.hpp"
 #include "contact/structure_contacts_heirs.hpp"
+#include "contact/structure_contacts_meetings.hpp"
 #include "contact/structure_contacts_rows.hpp"
 #include "contact/structure_contacts_spread.hpp"
 #include "contact/structure_contacts_sums.hpp"

@@ -236,14 +236,4 @@ double StructureContacts<Law>::keep_bonds(const geometry::SurfaceChange& change)
   return lost;
 }
 
-template <ContactLaw Law>
-void StructureContacts<Law>::take_parameters(const ContactMaterials<Law>& materials) {
-  if (meetings_.empty()) return;
-  std::vector<Meeting> meetings = find_meetings(materials);
-  for (std::size_t i = 0; i < meetings.size(); ++i)
-    meetings_[i] = meetings[i];  // springs point there
-  glues_ = std::any_of(meetings_.begin(), meetings_.end(),
-                       [](const Meeting& of) { return glues<Law>(of.parameters); });
-}
-
 }  // namespace plekton::contact

