@@ -52,8 +52,8 @@ class PairTerms {
     return attracts_.empty() || attracts_[terms_[term].spring] == 0 ? nullptr : &attractions_[term];
   }
 
-  /// What the extent of two facets does that a term in range is of: a part of its forces; null if
-  /// it is of anything else.
+  /// What the extent of two facets does that a term in range is of, as far as their nearest points do
+  /// not count (1 - their share): a part of its forces; null if it is of anything else.
   const PairForces* spread(std::size_t term) const noexcept {
     const PairTerm& of = terms_[term];
     if (of.a.count != 3 || of.b.count != 3) return nullptr;
