@@ -2,10 +2,14 @@
 #include "contact/elimination.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 
 namespace plekton::contact {
+namespace {
+
+constexpr std::uint32_t kLeft = 0xffffffffU;  ///< of a vertex without a row
+
+}  // namespace
 
 void Elimination::plan(std::uint32_t vertex_count, std::span<const Link> links) {
   if (neighbours_.size() < vertex_count) neighbours_.resize(vertex_count);
@@ -24,33 +28,53 @@ void Elimination::plan(std::uint32_t vertex_count, std::span<const Link> links) 
 }
 
 void Elimination::order_vertices(std::uint32_t vertex_count) {
-  constexpr std::uint32_t kLeft = 0xffffffffU;
   row_of_.assign(vertex_count, kLeft);
   rows_.clear();
   columns_.clear();
-  queue_.clear();
-  const auto push = [&](std::uint32_t vertex) {
-    queue_.emplace_back(static_cast<std::uint32_t>(neighbours_[vertex].size()), vertex);
-    std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
-  };
-  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) push(vertex);
-  while (!queue_.empty()) {
-    std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
-    const auto [count, vertex] = queue_.back();
-    queue_.pop_back();
-    const auto& list = neighbours_[vertex];
-    if (row_of_[vertex] != kLeft || count != list.size()) continue;  // an older entry
-    row_of_[vertex] = static_cast<std::uint32_t>(rows_.size());
-    rows_.push_back({vertex, static_cast<std::uint32_t>(columns_.size()), count});
-    columns_.insert(columns_.end(), list.begin(), list.end());
-    join_neighbours(vertex);
-    for (const std::uint32_t other : list) push(other);
+  for (auto& list : by_count_) list.clear();
+  // Most vertices have two neighbours; these need no queue.
+  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
+    if (neighbours_[vertex].size() <= 2) add_row(vertex);
+  }
+  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
+    if (row_of_[vertex] == kLeft) queue(vertex);
+  }
+  for (std::size_t count = 0; count < by_count_.size();) {
+    auto& list = by_count_[count];
+    if (list.empty()) {
+      ++count;
+      continue;
+    }
+    const std::uint32_t vertex = list.back();
+    list.pop_back();
+    if (row_of_[vertex] != kLeft || neighbours_[vertex].size() != count)
+      continue;  // an older entry
+    add_row(vertex);
+    for (const std::uint32_t other : neighbours_[vertex]) {
+      queue(other);
+      count = std::min(count, neighbours_[other].size());
+    }
   }
   for (const Row& row : rows_) {
     const auto columns = std::span(columns_).subspan(row.first, row.count);
     for (std::uint32_t& column : columns) column = row_of_[column];
     std::sort(columns.begin(), columns.end());
   }
+}
+
+void Elimination::queue(std::uint32_t vertex) {
+  const std::size_t count = neighbours_[vertex].size();
+  if (by_count_.size() <= count) by_count_.resize(count + 1);
+  by_count_[count].push_back(vertex);
+}
+
+void Elimination::add_row(std::uint32_t vertex) {
+  const auto& list = neighbours_[vertex];
+  row_of_[vertex] = static_cast<std::uint32_t>(rows_.size());
+  rows_.push_back({vertex, static_cast<std::uint32_t>(columns_.size()),
+                   static_cast<std::uint32_t>(list.size())});
+  columns_.insert(columns_.end(), list.begin(), list.end());
+  join_neighbours(vertex);
 }
 
 void Elimination::join_neighbours(std::uint32_t vertex) {
@@ -101,7 +125,7 @@ void Elimination::join(std::uint32_t at, double conductance) {
   const double old = room_[at];
   if (!(old > 0.0)) {  // also where what comes there is 0 by underflow
     room_[at] = conductance;
-    joins_.push_back({at, 0.0, 1.0, 0.0});
+    joins_.push_back({at, 0.0, conductance > 0.0 ? 1.0 : 0.0, 0.0});
     return;
   }
   room_[at] += conductance;
@@ -163,6 +187,111 @@ void Elimination::find_star(const Eliminated& row, std::span<const double> diffe
       room_[star[i].at] -= star[k].share * left;
       room_[star[k].at] += star[i].share * left;
     }
+  }
+}
+
+void Elimination::leave_out(std::span<const double> values, std::span<double> chances,
+                            std::span<double> rates) {
+  rate_places(values);
+  chances_.assign(columns_.size(), Chance{{0.0, 0.0}, {1.0, 0.0}});
+  for (auto row = eliminated_.rbegin(); row != eliminated_.rend(); ++row) find_star_chances(*row);
+  for (std::size_t i = values.size(); i-- > 0;) {
+    const Rated out = take_out(joins_[i], differences_[i]).out;
+    chances[i] = std::max(0.0, out.value);  // sums that cancel may round below
+    rates[i] = out.rate;
+  }
+}
+
+/// Forward: the rates of what comes side by side, and of what each star becomes.
+void Elimination::rate_places(std::span<const double> values) {
+  rates_.assign(columns_.size(), 0.0);
+  differences_.resize(joins_.size());
+  star_rates_.resize(couplings_.size());
+  const auto put_rate = [this](std::size_t join, double rate) {
+    const Join& here = joins_[join];
+    double& place = rates_[here.at];
+    differences_[join] = here.old_share > 0.0 ? rate - place : 0.0;
+    place = here.old_share > 0.0 ? place + here.new_share * differences_[join] : rate;
+  };
+  for (std::size_t i = 0; i < values.size(); ++i) put_rate(i, values[i]);
+  for (const Eliminated& row : eliminated_) {
+    double pivot = 0.0;
+    for (std::uint32_t i = row.first; i < row.end; ++i) {
+      star_rates_[i] = rates_[couplings_[i].at];
+      pivot += couplings_[i].share * star_rates_[i];
+    }
+    std::size_t join = row.first_join;
+    for (std::uint32_t i = row.first; i < row.end; ++i) {
+      for (std::uint32_t k = i + 1; k < row.end; ++k, ++join)
+        put_rate(join, star_rates_[i] + star_rates_[k] - pivot);
+    }
+  }
+}
+
+/// Takes the last link off its place again. Of two links side by side a forest holds one at most.
+Elimination::Chance Elimination::take_out(const Join& join, double difference) noexcept {
+  Chance& place = chances_[join.at];
+  if (!(join.old_share > 0.0)) return join.new_share > 0.0 ? place : Chance{{}, {1.0, 0.0}};
+  const double rate = join.old_share * join.new_share * difference;
+  const Rated share{join.new_share, rate};
+  const Rated other{join.old_share, -rate};
+  const Chance taken{share * place.in, other + share * place.out};
+  place = {other * place.in, share + other * place.out};
+  return taken;
+}
+
+/// The shares of the links of a star, and what all others have.
+void Elimination::rate_star(std::span<const Coupling> star) {
+  const auto first = static_cast<std::size_t>(star.data() - couplings_.data());
+  const auto rates = std::span(star_rates_).subspan(first, star.size());
+  star_.assign(star.size(), {});
+  others_.assign(star.size(), {});
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    double rate = 0.0;
+    for (std::size_t k = 0; k < star.size(); ++k) rate += star[k].share * (rates[i] - rates[k]);
+    star_[i] = {star[i].share, star[i].share * rate};
+  }
+  Rated before, after;
+  for (std::size_t i = 0, k = star.size(); i < star.size(); ++i) {
+    others_[i] = others_[i] + before;
+    before = before + star_[i];
+    --k;
+    others_[k] = others_[k] + after;
+    after = after + star_[k];
+  }
+}
+
+/// A forest holds one link of a star more than of its mesh: a link of the mesh stands for two of
+/// the star, and one more is in it by its share. What is likely for the links of the mesh beside
+/// one of the star is added up from those on either side of it in the order, and across it.
+void Elimination::find_star_chances(const Eliminated& row) {
+  const auto star = std::span(couplings_).subspan(row.first, row.end - row.first);
+  const std::size_t n = star.size();
+  rate_star(star);
+  with_.assign(n, {});
+  below_.assign(n + 1, {});
+  across_.assign(n, {});
+  Rated above;  // of the pairs that lie above a link
+  std::size_t join = row.first_join + n * (n - (n == 0 ? 0 : 1)) / 2;
+  for (std::size_t i = n; i-- > 0;) {
+    Rated after;  // of the pairs of i with links after k
+    across_[i] = across_[i] + above;
+    for (std::size_t k = n; k-- > i + 1;) {
+      --join;
+      const Rated in = take_out(joins_[join], differences_[join]).in;
+      with_[i] = with_[i] + in;
+      with_[k] = with_[k] + in;
+      below_[k] = below_[k] + in;
+      across_[k] = across_[k] + after;
+      after = after + in;
+    }
+    above = above + after;
+  }
+  const Rated alone{1.0 - above.value, -above.rate};
+  Rated below;  // of the pairs that lie below a link
+  for (std::size_t i = 0; i < n; ++i) {
+    chances_[star[i].at] = {star_[i] * alone + with_[i], others_[i] * alone + across_[i] + below};
+    below = below + below_[i];
   }
 }
 

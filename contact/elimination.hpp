@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace plekton::contact {
@@ -21,7 +20,7 @@ namespace plekton::contact {
 /// So the least sum is one of positive numbers, one for every two links that were joined, and going
 /// back finds the drop of every link from differences alone. Conductances may differ by any factor:
 /// links that conduct well and have no drop keep their small ones to the last digit. Of all
-/// vertices left the one with the fewest neighbours goes first (minimum degree); the order and the
+/// vertices left one with the fewest neighbours goes first (minimum degree); the order and the
 /// places of the couplings are found once for all parts, as a part couples no vertices that the
 /// whole does not.
 /// Source: nothing is ever subtracted from a conductance, Grassmann, Taksar & Heyman, Operations
@@ -46,11 +45,25 @@ class Elimination {
   ///                     lists of differences is that of conductance * product of what is left.
   void relax(std::span<double> drops, std::span<double> differences);
 
+  /// How likely a random spanning forest of the last part leaves each link out, when forests are as
+  /// likely as the products of their conductances: 0 of a bridge, and the sum is the number of
+  /// independent rings. Each is found to its last digits, however small it is: going back from mesh
+  /// to star, what a star leaves out is a sum of what its mesh does.
+  /// Source: Kirchhoff, Annalen der Physik 148 (1847); Burton & Pemantle, Annals of Probability 21
+  /// (1993).
+  /// @param values   by link: every conductance grows at the rate conductance * value
+  /// @param chances  by link of the part
+  /// @param rates    by link of the part: of the chances
+  void leave_out(std::span<const double> values, std::span<double> chances,
+                 std::span<double> rates);
+
   /// Memory and time of a part grow with it; a little more than linear in the links of a surface.
   std::size_t coupling_count() const noexcept { return columns_.size(); }
 
  private:
   void order_vertices(std::uint32_t vertex_count);
+  void queue(std::uint32_t vertex);
+  void add_row(std::uint32_t vertex);
   void join_neighbours(std::uint32_t vertex);
   void place_links(std::span<const Link> links);
 
@@ -87,6 +100,25 @@ class Elimination {
   void put(const Join& join, double drop, double& difference) noexcept;
   double take(const Join& join, double difference) noexcept;
   void find_star(const Eliminated& row, std::span<const double> differences) noexcept;
+  /// A number with its rate.
+  struct Rated {
+    double value = 0.0;
+    double rate = 0.0;
+    friend Rated operator+(const Rated& a, const Rated& b) noexcept {
+      return {a.value + b.value, a.rate + b.rate};
+    }
+    friend Rated operator*(const Rated& a, const Rated& b) noexcept {
+      return {a.value * b.value, a.rate * b.value + a.value * b.rate};
+    }
+  };
+  /// How likely a link is in the forest, and how likely it is not.
+  struct Chance {
+    Rated in, out;
+  };
+  void rate_places(std::span<const double> values);
+  Chance take_out(const Join& join, double difference) noexcept;
+  void rate_star(std::span<const Coupling> star);
+  void find_star_chances(const Eliminated& row);
 
   std::vector<Row> rows_;               ///< in the order of elimination
   std::vector<std::uint32_t> row_of_;   ///< by vertex
@@ -96,10 +128,16 @@ class Elimination {
   std::vector<Eliminated> eliminated_;  ///< in order
   std::vector<Coupling> couplings_;
   std::vector<Join> joins_;  ///< of the links, then of the meshes
+  // Of leave_out().
+  std::vector<double> rates_;        ///< by place in columns_: of the logarithm of conductances
+  std::vector<double> differences_;  ///< by join: of those of the two links
+  std::vector<Chance> chances_;      ///< by place in columns_
+  std::vector<double> star_rates_;   ///< by coupling: as it was when its vertex was eliminated
+  std::vector<Rated> star_, others_, with_, below_, across_;  ///< by link of a star
   // Working space of plan().
   std::vector<std::vector<std::uint32_t>> neighbours_;  ///< by vertex, of those left, ascending
   std::vector<std::uint32_t> joined_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> queue_;  ///< neighbour count and vertex
+  std::vector<std::vector<std::uint32_t>> by_count_;  ///< of neighbours: vertices, some no more
 };
 
 }  // namespace plekton::contact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/patch.hpp"
 
+#include "contact/ring_weights.hpp"
 #include "geometry/descent.hpp"
 
 #include <algorithm>
@@ -20,25 +21,33 @@ bool nearer(const geometry::CriticalFeature* a, const geometry::CriticalFeature*
 
 /// Of a minimum or a pass.
 PatchTerm term_of(const geometry::CriticalFeature& feature, double weight) noexcept {
-  return {feature.core, feature.direction, feature.distance, weight, 0.0, feature.is_minimum()};
+  return {feature.core, feature.direction,   feature.distance, weight, 0.0,
+          0.0,          feature.is_minimum()};
 }
 
 }  // namespace
 
 PatchFinder::PatchFinder(const geometry::Surface& surface)
-    : surface_(&surface), critical_(surface) {}
+    : surface_(&surface), critical_(surface), rings_(std::make_unique<RingWeights>()) {}
+
+PatchFinder::PatchFinder(PatchFinder&&) noexcept = default;
+PatchFinder& PatchFinder::operator=(PatchFinder&&) noexcept = default;
+PatchFinder::~PatchFinder() = default;
 
 std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
                                          std::span<const geometry::CellId> cells, Positions x) {
-  const auto spring = [range](double distance) {
-    return 0.5 * (range - distance) * (range - distance);
+  struct Spring {
+    double range;
+    double energy(double distance) const { return 0.5 * force(distance) * force(distance); }
+    double force(double distance) const { return range - distance; }
   };
-  return find(centre, range, cells, x, NormalEnergy(spring));
+  const Spring spring{range};
+  return find(centre, range, cells, x, NormalLaw(spring));
 }
 
 std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
                                          std::span<const geometry::CellId> cells, Positions x,
-                                         const NormalEnergy& energy) {
+                                         const NormalLaw& law) {
   const std::span<const Critical> critical = critical_.find(centre, range, cells, x);
   if (critical.size() <= 1) {
     keep_alone(critical);
@@ -49,10 +58,11 @@ std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
   join_parts();
   rooted_.clear();
   if (has_rings_) {
-    add_terms_of_rings(centre, range, cells, x, energy);
+    add_terms_of_rings(centre, range, cells, x, law);
   } else {
     add_terms();
   }
+  add_terms_of_wraps(centre, range, x, law);
   collect_patches();
   return patches_;
 }
@@ -147,17 +157,28 @@ void PatchFinder::join_parts() {
 
 void PatchFinder::add_terms_of_rings(const Vec3& centre, double range,
                                      std::span<const geometry::CellId> cells, Positions x,
-                                     const NormalEnergy& energy) {
-  const auto shares = rings_.find(*surface_, centre, range, cells, x, energy);
-  const auto feet = rings_.complex().vertices();
+                                     const NormalLaw& law) {
+  const auto shares = rings_->find(*surface_, centre, range, cells, x, law);
+  const auto feet = rings_->complex().vertices();
   for (const RingWeights::Share& share : shares) {
     const NearComplex::Vertex& foot = feet[share.vertex];
-    const Feature root = feet[rings_.root_of(share.vertex)].core.feature;
+    const Feature root = feet[rings_->root_of(share.vertex)].core.feature;
     const std::uint32_t below = vertex_below(root, centre, x);
     if (below == kOutOfRange) continue;
     const std::uint32_t own = vertex_of(foot.core.feature);
-    add_term(root_of(below), {foot.core, foot.normal, foot.distance, share.weight, share.slope,
+    add_term(root_of(below), {foot.core, foot.normal, foot.distance, share.weight, share.slope, 0.0,
                               own < minima_.size()});
+  }
+}
+
+void PatchFinder::add_terms_of_wraps(const Vec3& centre, double range, Positions x,
+                                     const NormalLaw& law) {
+  for (const PassLinks& pass : pass_links_) {
+    const Critical& node = critical_of(pass.pass);
+    if (!Wrap::turns_at(*surface_, node.core.feature, node.branches)) continue;
+    wrap_terms_.clear();
+    wrap_.add_terms(*surface_, node.core.nodes[0], centre, range, x, law, wrap_terms_);
+    for (const PatchTerm& term : wrap_terms_) add_term(root_of(pass.pass), term);
   }
 }
 
@@ -179,9 +200,11 @@ void PatchFinder::collect_patches() {
   const auto root_feature = [this](const RootedTerm& rooted) {
     return minima_[rooted.root]->core.feature;
   };
-  std::sort(rooted_.begin(), rooted_.end(), [&](const RootedTerm& a, const RootedTerm& b) {
+  const auto comes_before = [&](const RootedTerm& a, const RootedTerm& b) {
     return a.root != b.root ? root_feature(a) < root_feature(b) : a.order < b.order;
-  });
+  };
+  if (!std::is_sorted(rooted_.begin(), rooted_.end(), comes_before))
+    std::sort(rooted_.begin(), rooted_.end(), comes_before);
   patches_.clear();
   terms_.clear();
   for (const RootedTerm& rooted : rooted_) {

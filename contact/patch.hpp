@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/link.hpp"
 #include "contact/motion.hpp"
-#include "contact/ring_weights.hpp"
+#include "contact/normal_law.hpp"
+#include "contact/wrap.hpp"
 #include "geometry/critical_features.hpp"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,14 +20,16 @@
 /// each joins pieces. So a flat or convex surface pushes exactly once, a sharp corner from both
 /// sides, and the force is continuous in between, with no tolerance: the natural scale is the
 /// overlap itself. A pass that closes a ring joins nothing; what it takes too much is given back,
-/// smoothly (ring_weights.hpp). Tops, which fill rings or shut hollows, count for nothing.
+/// smoothly (ring_weights.hpp). Tops, which fill rings or shut hollows, count for nothing. What a
+/// wire or a net that wraps the ball loses as its bars hang together is given back as far as it
+/// turns around it (wrap.hpp).
 ///
 /// The energy depends on the places of the ball and of the nodes alone, and the force on each of
 /// them is its gradient, for every law: no energy is gained in any closed cycle, however the
 /// surface deforms.
 namespace plekton::contact {
 
-using geometry::Feature;
+class RingWeights;
 
 /// What one critical feature adds to a patch. Side a is the ball, side b the surface.
 struct PatchTerm {
@@ -33,7 +38,8 @@ struct PatchTerm {
   double distance;           ///< m
   double weight;             ///< of the energy of one contact at this distance
   double slope;              ///< N, what the force has beside weight * force of one contact: on
-                             ///< rings, where weights change with the distances
+                             ///< rings and wraps, where weights change with the distances
+  double energy;             ///< J, what the energy has beside weight * energy of one contact
   bool is_minimum;
 };
 
@@ -48,16 +54,19 @@ struct Patch {
 class PatchFinder {
  public:
   explicit PatchFinder(const geometry::Surface& surface);
+  PatchFinder(PatchFinder&&) noexcept;
+  PatchFinder& operator=(PatchFinder&&) noexcept;
+  ~PatchFinder();
 
   /// Patches of a ball on the surface's cells.
   /// @param centre  m, of the ball
   /// @param range   m, ball's radius + radius of the cells: what counts as in range
   /// @param cells   ascending; every cell nearer than range, all of one radius
-  /// @param energy  of one contact: slopes of rings depend on it, nothing else
+  /// @param law     of one contact: slopes of rings depend on it, and wraps, nothing else
   /// @returns       sorted by root; valid until the next call
   std::span<const Patch> find(const Vec3& centre, double range,
                               std::span<const geometry::CellId> cells, Positions x,
-                              const NormalEnergy& energy);
+                              const NormalLaw& law);
   /// For springs of 1 N/m.
   std::span<const Patch> find(const Vec3& centre, double range,
                               std::span<const geometry::CellId> cells, Positions x);
@@ -84,14 +93,17 @@ class PatchFinder {
   std::uint32_t root_of(std::uint32_t vertex) const noexcept;
   void join_parts();
   void add_terms_of_rings(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
-                          Positions x, const NormalEnergy& energy);
+                          Positions x, const NormalLaw& law);
+  void add_terms_of_wraps(const Vec3& centre, double range, Positions x, const NormalLaw& law);
   void add_term(std::uint32_t root, const PatchTerm& term);
   void add_terms();
   void collect_patches();
 
   const geometry::Surface* surface_;
   geometry::CriticalFeatureFinder critical_;
-  RingWeights rings_;
+  std::unique_ptr<RingWeights> rings_;
+  Wrap wrap_;
+  std::vector<PatchTerm> wrap_terms_;
   std::vector<Patch> patches_;
   std::vector<PatchTerm> terms_;
 

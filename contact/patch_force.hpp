@@ -57,7 +57,7 @@ PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, dou
     force += elastic * term.normal;
     holding += share * term.normal;
     state.foot += share * term.distance * term.normal;
-    state.elastic_energy += term.weight * elastic_energy(gap);
+    state.elastic_energy += term.weight * elastic_energy(gap) + term.energy;
   }
   if (terms.size() == 1 || !(total > 0.0)) {
     // One term, or no force yet: the deepest minimum stands for all.

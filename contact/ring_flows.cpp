@@ -32,6 +32,7 @@ void RingFlows::build(std::uint32_t vertex_count, std::span<const Link> links,
   vertex_count_ = vertex_count;
   all_links_.assign(links.begin(), links.end());
   is_planned_ = false;
+  has_fillings_ = !fillings.empty();
   basis_.build(vertex_count, links, fillings);
 }
 
@@ -47,6 +48,11 @@ std::size_t RingFlows::find(const ComplexPart& part, std::uint32_t end,
   for (std::size_t i = 0; i < resistances.size(); ++i) {
     links_.push_back({all_links_[i].a, all_links_[i].b, resistances[i]});
     conductances_.push_back(1.0 / resistances[i]);
+  }
+  is_graph_ = !has_fillings_ && end == RingBasis::kNone;
+  if (is_graph_) {
+    elimination_.eliminate(part.vertex_count, conductances_);
+    return flow_count_;
   }
   find_currents(part, end);
   factor_products();
@@ -152,8 +158,14 @@ void RingFlows::add_currents(std::span<const double> coefficients,
   }
 }
 
-std::span<const double> RingFlows::shares() {
+std::span<const double> RingFlows::shares(std::span<const double> values) {
   shares_.assign(links_.size(), 0.0);
+  if (is_graph_) {
+    slopes_.resize(links_.size());
+    elimination_.leave_out(values, shares_, slopes_);
+    for (std::size_t i = 0; i < links_.size(); ++i) slopes_[i] *= -conductances_[i];
+    return shares_;
+  }
   for (std::size_t f = 0; f < flow_count_; ++f) {
     const auto mine = flow(f);
     for (std::size_t i = 0; i < links_.size(); ++i)
@@ -191,6 +203,7 @@ void RingFlows::take_off_other_flows(std::span<const double> values, std::span<c
 /// where b is what of v i goes round filled rings, as the flows give way by what goes round these;
 /// and by that of -dR i i times the sums themselves, as their lengths stay 1.
 std::span<const double> RingFlows::slopes(std::span<const double> values) {
+  if (is_graph_) return slopes_;
   slopes_.assign(links_.size(), 0.0);
   for (std::size_t f = 0; f < flow_count_; ++f) {
     const auto mine = flow(f);

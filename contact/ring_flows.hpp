@@ -23,7 +23,9 @@ namespace plekton::contact {
 /// rings stand for the holes.
 /// Source: Eckmann, Harmonische Funktionen und Randwertaufgaben in einem Komplex, Comment. Math.
 /// Helv. 17 (1945); without fillings the shares are those of the transfer-current theorem, Burton &
-/// Pemantle, Annals of Probability 21 (1993).
+/// Pemantle, Annals of Probability 21 (1993): how likely a random spanning forest leaves a link
+/// out. So nets take a time that is almost linear in their links (elimination.hpp); where rings are
+/// filled it grows with the third power of the holes.
 class RingFlows {
  public:
   /// Keeps its working space, so that a warm call does not allocate.
@@ -41,7 +43,8 @@ class RingFlows {
   std::size_t find(const ComplexPart& part, std::uint32_t end, std::span<const double> resistances);
 
   /// By link of the last part.
-  std::span<const double> shares();
+  /// @param values  those that slopes() will be asked with
+  std::span<const double> shares(std::span<const double> values);
 
   /// How much the sum of share * value grows with the resistance of each link, if the values stay.
   /// @param values  by link of the last part
@@ -69,7 +72,9 @@ class RingFlows {
   RingBasis basis_;
   Elimination elimination_;
   bool is_planned_ = false;  ///< elimination_, for the links of the last build()
+  bool has_fillings_ = false;
   // Of the last find().
+  bool is_graph_ = false;    ///< all flows of links alone: no set of them has to be found
   std::vector<Link> links_;  ///< of the part, with resistances
   std::size_t hole_count_ = 0;
   std::size_t flow_count_ = 0;

@@ -2,7 +2,6 @@
 #include "contact/ring_weights.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace plekton::contact {
@@ -15,14 +14,9 @@ constexpr double kLeastOverlap = 1e-12;
 /// good as none, and finite.
 constexpr double kLeastDrop = 1e-20;
 
-/// n: the sharper, the less the force jumps where tops tie, and the faster it turns from pass to
-/// pass where two of these do. What is left over is about in proportion to 1 / n, so twice that of
-/// the sharper one less that of the other has less of it.
-struct Sharpness {
-  int n;
-  double times;
-};
-constexpr std::array<Sharpness, 2> kSharpness{{{12, 2.0}, {6, -1.0}}};
+/// n: the sharper, the less is given back beyond pieces and the less the force jumps where tops
+/// tie, and the faster it turns from pass to pass where two of these do.
+constexpr int kSharpness = 12;
 
 constexpr double power(double x, int n) noexcept {
   double result = 1.0;
@@ -46,14 +40,14 @@ constexpr double power_slope(double x, double y, int n) noexcept {
 std::span<const RingWeights::Share> RingWeights::find(const geometry::Surface& surface,
                                                       const Vec3& point, double range,
                                                       std::span<const geometry::CellId> cells,
-                                                      Positions x, const NormalEnergy& energy) {
+                                                      Positions x, const NormalLaw& law) {
   near_.build(surface, point, range, cells, x);
   const auto feet = near_.vertices();
   const auto count = static_cast<std::uint32_t>(feet.size());
   flows_.build(count, near_.links(), near_.fillings());
   range_ = range;
   energies_.clear();
-  for (const NearComplex::Vertex& foot : feet) energies_.push_back(energy(foot.distance));
+  for (const NearComplex::Vertex& foot : feet) energies_.push_back(law.energy(foot.distance));
   slopes_.assign(count, 0.0);
   count_pieces();
   const auto fillers = flows_.basis().fillers();
@@ -99,27 +93,23 @@ void RingWeights::end_holes(const End& end) {
   set_overlaps(end);
   // Vertices that tie with the level are left out, and the holes that begin with them.
   const ComplexPart below{static_cast<std::uint32_t>(overlaps_.size()), filled};
-  std::size_t flows = 0;
-  for (const Sharpness& sharpness : kSharpness) {
-    set_resistances(sharpness.n);
-    flows = flows_.find(below, end.end, resistances_);
-    if (flows == 0) break;
-    share_out(sharpness.times);
-    add_slopes(end, sharpness.n, sharpness.times);
+  set_resistances();
+  const std::size_t flows = flows_.find(below, end.end, resistances_);
+  if (flows > 0) {
+    share_out();
+    add_slopes(end);
   }
   // Holes that end as they begin.
   for (const std::uint32_t top : end.tops)
     weights_[top] += static_cast<double>(holes - flows) / static_cast<double>(end.tops.size());
 }
 
-void RingWeights::share_out(double times) {
-  const auto shares = flows_.shares();
+void RingWeights::share_out() {
   values_.clear();
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const std::uint32_t upper = near_.links()[i].a;
-    weights_[upper] += times * shares[i];
-    values_.push_back(energies_[upper]);
-  }
+  for (std::size_t i = 0; i < resistances_.size(); ++i)
+    values_.push_back(energies_[near_.links()[i].a]);
+  const auto shares = flows_.shares(values_);
+  for (std::size_t i = 0; i < shares.size(); ++i) weights_[near_.links()[i].a] += shares[i];
 }
 
 /// Of the vertices below a level.
@@ -138,7 +128,7 @@ void RingWeights::set_overlaps(const End& end) {
 }
 
 /// Of the links between them.
-void RingWeights::set_resistances(int sharpness) {
+void RingWeights::set_resistances() {
   const auto feet = near_.vertices();
   const double unit = range_ - feet.front().distance;
   resistances_.clear();
@@ -149,20 +139,20 @@ void RingWeights::set_resistances(int sharpness) {
     const double x = inverses_[link.a];
     const double y = inverses_[link.b];
     const double difference = drop * (overlaps_[link.a] + overlaps_[link.b]) * x * y;
-    resistances_.push_back(difference * power_slope(x, y, sharpness));
+    resistances_.push_back(difference * power_slope(x, y, kSharpness));
   }
 }
 
-void RingWeights::add_slopes(const End& end, int sharpness, double times) {
+void RingWeights::add_slopes(const End& end) {
   const auto by_resistance = flows_.slopes(values_);
-  const double per_metre = times * 2.0 * sharpness / (range_ - near_.vertices().front().distance);
+  const double per_metre = 2.0 * kSharpness / (range_ - near_.vertices().front().distance);
   double of_top = 0.0;
   for (std::size_t i = 0; i < by_resistance.size(); ++i) {
     const Link& link = near_.links()[i];
     const double slope = per_metre * by_resistance[i];
     // In this order, as the next power may overflow, and slopes be as small.
-    const double upper = slope * power(inverses_[link.a], sharpness) * inverses_[link.a];
-    const double lower = slope * power(inverses_[link.b], sharpness) * inverses_[link.b];
+    const double upper = slope * power(inverses_[link.a], kSharpness) * inverses_[link.a];
+    const double lower = slope * power(inverses_[link.b], kSharpness) * inverses_[link.b];
     slopes_[link.a] -= upper * overlaps_[link.a];
     slopes_[link.b] += lower * overlaps_[link.b];
     of_top += (upper - lower) * top_;

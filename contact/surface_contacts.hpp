@@ -197,11 +197,15 @@ class SurfaceContacts {
   double released_by(const geometry::SurfaceChange& change, std::span<const geometry::CellId> cells,
                      Positions at) const;
   /// Of one contact of a pair, by distance (m).
-  static auto energy_of(const Pair& pair) noexcept {
-    return [&pair](double distance) {
-      return Law::elastic_normal_energy(pair.parameters, distance - pair.range);
-    };
-  }
+  struct NormalPart {
+    const Pair* pair;
+    double energy(double distance) const {
+      return Law::elastic_normal_energy(pair->parameters, distance - pair->range);
+    }
+    double force(double distance) const {
+      return Law::elastic_normal_force(pair->parameters, distance - pair->range);
+    }
+  };
   static double normal_energy(const Pair& pair, PatchFinder& finder,
                               std::span<const geometry::CellId> cells, Positions x);
   double keep_minima(const Pair& pair, const geometry::SurfaceChange& change);

@@ -53,11 +53,12 @@ template <ContactLaw Law>
 double SurfaceContacts<Law>::normal_energy(const Pair& pair, PatchFinder& finder,
                                            std::span<const geometry::CellId> cells, Positions x) {
   if (cells.empty()) return 0.0;
-  const auto of_one = energy_of(pair);
+  const NormalPart one{&pair};
   const Vec3& centre = x[index_of(pair.node)];
   double energy = 0.0;
-  for (const Patch& patch : finder.find(centre, pair.reach, cells, x, NormalEnergy(of_one))) {
-    for (const PatchTerm& term : finder.terms(patch)) energy += term.weight * of_one(term.distance);
+  for (const Patch& patch : finder.find(centre, pair.reach, cells, x, NormalLaw(one))) {
+    for (const PatchTerm& term : finder.terms(patch))
+      energy += term.weight * one.energy(term.distance) + term.energy;
   }
   return energy;
 }

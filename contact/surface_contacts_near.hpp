@@ -43,14 +43,12 @@ void SurfaceContacts<Law>::add_elastic_forces(std::span<const geometry::CellId> 
   PatchFinder finder(*surface_);
   for (const Pair& pair : pairs_) {
     if (pair.contacts.count == 0) continue;
-    const auto of_one = energy_of(pair);
+    const NormalPart one{&pair};
     for (const Patch& patch :
          finder.find(x[index_of(pair.node)], pair.reach,
-                     cells.subspan(pair.near.first, pair.near.count), x, NormalEnergy(of_one))) {
+                     cells.subspan(pair.near.first, pair.near.count), x, NormalLaw(one))) {
       for (const PatchTerm& term : finder.terms(patch)) {
-        const double force =
-            term.weight * Law::elastic_normal_force(pair.parameters, term.distance - pair.range) +
-            term.slope;
+        const double force = term.weight * one.force(term.distance) + term.slope;
         const SurfaceForce record{
             pair.node, term.core, force * term.normal, Vec3::Zero(), Vec3::Zero(), force, 0, 0};
         record.add_to(forces, [](NodeId) { return true; });

@@ -12,9 +12,9 @@ EnergyLoss SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geomet
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const Vec3& centre = motion.position[index_of(pair.node)];
-  const auto energy = energy_of(pair);
+  const NormalPart one{&pair};
   const auto patches =
-      worker.patches.find(centre, pair.reach, cells, motion.position, NormalEnergy(energy));
+      worker.patches.find(centre, pair.reach, cells, motion.position, NormalLaw(one));
 
   const std::size_t first = lists.contacts.size();
   EnergyLoss loss;

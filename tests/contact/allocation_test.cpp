@@ -80,7 +80,9 @@ TEST(Allocation, DoesNotHappenWhenWarmRingsShareWhatTheyGiveBack) {
     rings.build(count, links, {});
     rings.find({count, RingBasis::kNone}, RingBasis::kNone,
                std::span(resistances).first(links.size()));
-    rings.slopes(rings.shares());
+    const auto values = std::span(resistances).first(links.size());
+    rings.shares(values);
+    rings.slopes(values);
   };
   find(ladders.back());
 

@@ -36,12 +36,13 @@ class Meeting {
   /// After all have gone some of their ways.
   double energy(const std::vector<Vec3>& ways, const Vec3& way, double part) {
     std::vector<Vec3> x = x_;
-    const auto energy = of_one();
+    const OneContact one = of_one();
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += part * ways[i];
     double sum = 0.0;
     for (const Patch& patch :
-         finder_.find(centre_ + part * way, range_, cells_, x, contact::NormalEnergy(energy))) {
-      for (const PatchTerm& term : finder_.terms(patch)) sum += term.weight * energy(term.distance);
+         finder_.find(centre_ + part * way, range_, cells_, x, contact::NormalLaw(one))) {
+      for (const PatchTerm& term : finder_.terms(patch))
+        sum += term.weight * one.energy(term.distance) + term.energy;
     }
     return sum;
   }
@@ -49,14 +50,14 @@ class Meeting {
   /// Work of the forces per part of the ways.
   double power(const std::vector<Vec3>& ways, const Vec3& way) {
     double sum = 0.0;
-    const auto energy = of_one();
+    const OneContact one = of_one();
     for (const Patch& patch :
-         finder_.find(centre_, range_, cells_, x_, contact::NormalEnergy(energy))) {
+         finder_.find(centre_, range_, cells_, x_, contact::NormalLaw(one))) {
       for (const PatchTerm& term : finder_.terms(patch)) {
         Vec3 relative = -way;
         for (std::size_t k = 0; k < 3; ++k)
           relative += term.core.weights[static_cast<int>(k)] * ways[index_of(term.core.nodes[k])];
-        sum += (term.weight * law_.force(std::max(0.0, range_ - term.distance)) + term.slope) *
+        sum += (term.weight * one.force(term.distance) + term.slope) *
                term.normal.dot(relative);
       }
     }
@@ -82,9 +83,13 @@ class Meeting {
   }
 
   /// By distance.
-  std::function<double(double)> of_one() const {
-    return [this](double distance) { return law_.energy(std::max(0.0, range_ - distance)); };
-  }
+  struct OneContact {
+    double range;
+    Law law;
+    double energy(double distance) const { return law.energy(std::max(0.0, range - distance)); }
+    double force(double distance) const { return law.force(std::max(0.0, range - distance)); }
+  };
+  OneContact of_one() const { return {range_, law_}; }
 
   static constexpr double kMargin = 0.01;
 

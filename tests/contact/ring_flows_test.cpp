@@ -25,7 +25,7 @@ std::vector<double> shares_of(RingFlows& flows, const std::vector<Link>& links,
   flows.build(count, links, fillings);
   if (flows.find({count, RingBasis::kNone}, RingBasis::kNone, resistances_of(links)) == 0)
     return std::vector<double>(links.size(), 0.0);
-  const auto shares = flows.shares();
+  const auto shares = flows.shares(std::vector<double>(links.size(), 0.0));
   return {shares.begin(), shares.end()};
 }
 
@@ -73,7 +73,7 @@ TEST(RingFlows, HaveTheSharesOfTheProjectionOnTheFlowsThatAStepTakesAway) {
         const Eigen::MatrixXd all = flows_of(top, part, before);
         const Eigen::MatrixXd left = flows_of(top, part, inside);
         if (static_cast<std::size_t>(all.cols() - left.cols()) != gone) return;
-        const auto shares = flows.shares();
+        const auto shares = flows.shares(std::vector<double>(part.size(), 0.0));
         ASSERT_EQ(shares.size(), part.size());
         for (std::size_t i = 0; i < shares.size(); ++i) {
           const auto row = static_cast<Eigen::Index>(i);
@@ -160,7 +160,7 @@ TEST(RingFlows, GrowWithTheResistancesByTheirSlopes) {
                   const auto sum = [&](const std::vector<double>& resistances) {
                     flows.find({top, top}, top + 1, resistances);
                     double total = 0.0;
-                    const auto shares = flows.shares();
+                    const auto shares = flows.shares(values);
                     for (std::size_t i = 0; i < shares.size(); ++i) total += shares[i] * values[i];
                     return total;
                   };
@@ -179,6 +179,69 @@ TEST(RingFlows, GrowWithTheResistancesByTheirSlopes) {
                   seen += gone > 0;
                 });
   EXPECT_GT(seen, 100);
+}
+
+/// A net, or any graph.
+std::vector<Link> random_graph(Random& random, bool is_net, double power) {
+  const auto n = static_cast<std::uint32_t>(random.integer(3, is_net ? 7 : 20));
+  if (!is_net) return random_links(random, n, random.integer(2, 40), power);
+  std::vector<Link> links;
+  const auto resistance = [&] { return std::pow(10.0, power * random.uniform(-1.0, 1.0)); };
+  for (std::uint32_t i = 1; i < n * n; ++i) {
+    if (i % n != 0) links.push_back({i, i - 1, resistance()});
+    if (i >= n) links.push_back({i, i - n, resistance()});
+  }
+  return links;
+}
+
+TEST(RingFlows, AreTheSameOnGraphsAsBesideAFilledRing) {
+  Random random(5);
+  RingFlows flows;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Link> links = random_graph(random, trial % 2 == 0, 4.0);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < links.size(); ++i) values.push_back(random.uniform(0.0, 1.0));
+    const std::uint32_t n = links.back().a + 1;
+    flows.build(n, links, {});
+    if (flows.find({n, RingBasis::kNone}, RingBasis::kNone, resistances_of(links)) == 0) continue;
+    const auto found = flows.shares(values);
+    const std::vector<double> shares(found.begin(), found.end());
+    const auto found_slopes = flows.slopes(values);
+    const std::vector<double> slopes(found_slopes.begin(), found_slopes.end());
+
+    const auto first = static_cast<std::uint32_t>(links.size());
+    links.insert(links.end(), {{n + 1, n, 1.0}, {n + 2, n, 1.0}, {n + 2, n + 1, 1.0}});
+    values.insert(values.end(), 3, 0.5);
+    const std::vector<Filling> fillings{{n + 2, {first, first + 2, first + 1}, {1, 1, -1}, 3}};
+    flows.build(n + 3, links, fillings);
+    flows.find({n + 3, RingBasis::kNone}, RingBasis::kNone, resistances_of(links));
+
+    const auto others = flows.shares(values);
+    const auto other_slopes = flows.slopes(values);
+    for (std::size_t i = 0; i < first; ++i) {
+      ASSERT_NEAR(shares[i], others[i], 1e-11);
+      ASSERT_NEAR(slopes[i] * links[i].resistance, other_slopes[i] * links[i].resistance, 1e-11);
+    }
+  }
+}
+
+TEST(RingFlows, LeaveEveryBridgeAndKeepSmallSharesToTheirLastDigits) {
+  // Two rings of three links with a bridge between them; of the second one link resists little.
+  RingFlows flows;
+  for (const double little : {1e-200, 1e-20, 1e-3}) {
+    const std::vector<Link> links{{1, 0, 1.0}, {2, 0, 1.0}, {2, 1, 1.0},   {3, 2, 5.0},
+                                  {4, 3, 1.0}, {5, 3, 2.0}, {5, 4, little}};
+    const std::vector<double> values{1.0, 2.0, 4.0, 3.0, 1.0, 2.0, 4.0};
+    flows.build(6, links, {});
+    flows.find({6, RingBasis::kNone}, RingBasis::kNone, resistances_of(links));
+    const auto shares = flows.shares(values);
+    EXPECT_EQ(shares[3], 0.0);
+    EXPECT_DOUBLE_EQ(shares[6], little / (3.0 + little));
+    // d/dr of (1 * r4 + 2 * r5 + 4 * r6) / (r4 + r5 + r6), by the last.
+    EXPECT_NEAR(flows.slopes(values)[6],
+                (4.0 * (3.0 + little) - (5.0 + 4.0 * little)) / ((3.0 + little) * (3.0 + little)),
+                1e-14);
+  }
 }
 
 }  // namespace

@@ -101,7 +101,18 @@ TEST(RingsAroundTheCentre, PushNoMoreThanRingsBesideIt) {
   EXPECT_LT(worst, 20.0);
 }
 
-TEST(RingsOfAFineNet, AddUpToAboutOneContact) {
+/// Rings of a net that hang together below the range: edges less nodes in range, and one.
+int meshes_in(const Complex& net, const Vec3& centre, double range) {
+  const auto is_in = [&](geometry::NodeId node) {
+    return (net.x[index_of(node)] - centre).norm() < range;
+  };
+  int rings = 1;
+  for (std::size_t i = 0; i < net.x.size(); ++i) rings -= is_in(id_at<geometry::NodeId>(i));
+  for (const Cylinder& bar : net.cylinders) rings += is_in(bar.nodes[0]) && is_in(bar.nodes[1]);
+  return rings;
+}
+
+TEST(RingsOfAFineNet, AreOneContactAtLeastAndLittleMoreForEachRing) {
   constexpr double kRange = 1.0;
   for (const int meshes : {8, 16, 24}) {
     const Complex complex = centred(net(meshes), meshes, 1.2 / meshes);
@@ -116,8 +127,12 @@ TEST(RingsOfAFineNet, AddUpToAboutOneContact) {
 
       const auto pieces =
           reference_contact(centre, kRange, nodes, complex.x, [](double o) { return o; });
-      // Each hole is off by some percent, up or down, and there are up to 240.
-      EXPECT_NEAR(total.energy, pieces.energy, 0.1 * pieces.energy) << meshes << ", " << overlap;
+      // Each of up to 240 rings is 6.4 % of a contact at its shallowest pass too much at most, as
+      // one of four equal passes is (ring_weights.hpp).
+      const double most = 0.064 * static_cast<double>(meshes_in(complex, centre, kRange));
+      EXPECT_GE(total.energy, pieces.energy * (1.0 - 1e-12)) << meshes << ", " << overlap;
+      EXPECT_LE(total.energy, pieces.energy + most * 0.5 * overlap * overlap)
+          << meshes << ", " << overlap;
     }
   }
 }

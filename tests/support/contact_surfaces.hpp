@@ -155,7 +155,7 @@ inline TotalContact total_contact(PatchFinder& finder, const Vec3& centre, doubl
     for (const PatchTerm& term : finder.terms(patch)) {
       const double overlap = range - term.distance;
       total.force -= (term.weight * overlap + term.slope) * term.normal;
-      total.energy += 0.5 * term.weight * overlap * overlap;
+      total.energy += 0.5 * term.weight * overlap * overlap + term.energy;
       total.overlaps += term.weight * overlap;
       total.nearest = std::min(total.nearest, term.distance);
     }
