@@ -4,6 +4,7 @@
 #include "geometry/critical_features.hpp"
 #include "tests/geometry_check/any_surface.hpp"
 #include "tests/geometry_check/force_check.hpp"
+#include "tests/geometry_check/spread_check.hpp"
 #include "tests/support/contact_surfaces.hpp"
 
 #include <algorithm>
@@ -24,6 +25,10 @@ constexpr std::string_view kEuler = "sum of coefficients = Euler number";
 constexpr std::string_view kNumbering = "same features in any numbering";
 constexpr std::string_view kLattice = "same features after a lattice motion";
 constexpr std::string_view kForce = "force changes no faster than the ball";
+constexpr std::string_view kGradient = "spread: force = -gradient of energy";
+constexpr std::string_view kOne = "spread: one contact at least";
+constexpr std::string_view kAway = "spread: pushed away from what is in front";
+constexpr std::string_view kFollows = "spread: force in proportion to the step";
 
 bool has_euler_number(const Complex& complex, Random& random, int& trials) {
   const Surface surface = complex.surface();
@@ -148,13 +153,20 @@ bool holds(std::string_view name, Random& random, int& trials) {
     trials += tally.trials;
     return tally.violations == 0;
   }
+  ++trials;
+  const SpreadTouch touch = any_spread_touch(random);
+  if (name == kGradient) return has_gradient(touch, random);
+  if (name == kOne) return counts_one(touch);
+  if (name == kAway) return is_pushed_away(touch);
+  if (name == kFollows) return follows(touch, random);
   throw std::logic_error("an invariant without a check");
 }
 
 }  // namespace
 
 std::vector<InvariantTally> invariant_rows() {
-  return {{kEuler.data()}, {kNumbering.data()}, {kLattice.data()}, {kForce.data()}};
+  return {{kEuler.data()},    {kNumbering.data()}, {kLattice.data()}, {kForce.data()},
+          {kGradient.data()}, {kOne.data()},       {kAway.data()},    {kFollows.data()}};
 }
 
 void check_invariant(InvariantTally& row, std::uint64_t trials, std::uint64_t seed,
