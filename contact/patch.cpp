@@ -49,10 +49,18 @@ std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
                                          std::span<const geometry::CellId> cells, Positions x,
                                          const NormalLaw& law) {
   const std::span<const Critical> critical = critical_.find(centre, range, cells, x);
-  if (critical.size() <= 1) {
+  find_wraps(centre, range, cells, x, law);
+  if (critical.size() <= 1 && wrap_nodes_.empty()) {
     keep_alone(critical);
-    return patches_;
+  } else {
+    find_several(critical, centre, range, cells, x, law);
   }
+  return patches_;
+}
+
+void PatchFinder::find_several(std::span<const Critical> critical, const Vec3& centre, double range,
+                               std::span<const geometry::CellId> cells, Positions x,
+                               const NormalLaw& law) {
   sort_out(critical);
   link_passes(centre, x);
   join_parts();
@@ -62,9 +70,8 @@ std::span<const Patch> PatchFinder::find(const Vec3& centre, double range,
   } else {
     add_terms();
   }
-  add_terms_of_wraps(centre, range, x, law);
+  add_terms_of_wraps(centre, x);
   collect_patches();
-  return patches_;
 }
 
 /// Most often there is nothing else in range: what the steps below make of that. A pass alone, as
@@ -171,14 +178,28 @@ void PatchFinder::add_terms_of_rings(const Vec3& centre, double range,
   }
 }
 
-void PatchFinder::add_terms_of_wraps(const Vec3& centre, double range, Positions x,
-                                     const NormalLaw& law) {
-  for (const PassLinks& pass : pass_links_) {
-    const Critical& node = critical_of(pass.pass);
-    if (!Wrap::turns_at(*surface_, node.core.feature, node.branches)) continue;
-    wrap_terms_.clear();
-    wrap_.add_terms(*surface_, node.core.nodes[0], centre, range, x, law, wrap_terms_);
-    for (const PatchTerm& term : wrap_terms_) add_term(root_of(pass.pass), term);
+/// Of the nodes that are owned by cells in range: each once.
+void PatchFinder::find_wraps(const Vec3& centre, double range,
+                             std::span<const geometry::CellId> cells, Positions x,
+                             const NormalLaw& law) {
+  wrap_terms_.clear();
+  wrap_nodes_.clear();
+  for (const geometry::CellId cell : cells) {
+    if (index_of(cell) < surface_->face_count()) continue;
+    for (const geometry::NodeId node : surface_->nodes_of(cell)) {
+      if (surface_->owner_of(node) != cell || !surface_->faces_of(node).empty()) continue;
+      const std::size_t first = wrap_terms_.size();
+      wrap_.add_terms(*surface_, node, centre, range, x, law, wrap_terms_);
+      if (wrap_terms_.size() > first) wrap_nodes_.push_back({node, first, wrap_terms_.size()});
+    }
+  }
+}
+
+void PatchFinder::add_terms_of_wraps(const Vec3& centre, Positions x) {
+  for (const NodeTerms& node : wrap_nodes_) {
+    const std::uint32_t below = vertex_below(Feature(node.node), centre, x);
+    if (below == kOutOfRange) continue;
+    for (std::size_t i = node.first; i < node.end; ++i) add_term(root_of(below), wrap_terms_[i]);
   }
 }
 

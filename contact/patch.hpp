@@ -41,6 +41,9 @@ struct PatchTerm {
                              ///< rings and wraps, where weights change with the distances
   double energy;             ///< J, what the energy has beside weight * energy of one contact
   bool is_minimum;
+  bool is_inner = false;  ///< a force between nodes of the surface, along any direction: those of a
+                          ///< patch cancel on the ball or go with the push of a node, and hold
+                          ///< nothing else (wrap.hpp)
 };
 
 /// One contact of a ball with a surface.
@@ -82,6 +85,8 @@ class PatchFinder {
   using Critical = geometry::CriticalFeature;
 
   void keep_alone(std::span<const Critical> critical);
+  void find_several(std::span<const Critical> critical, const Vec3& centre, double range,
+                    std::span<const geometry::CellId> cells, Positions x, const NormalLaw& law);
   void sort_out(std::span<const Critical> critical);
   void link_passes(const Vec3& centre, Positions x);
   void add_links(std::uint32_t pass, const Vec3& centre, Positions x);
@@ -94,7 +99,9 @@ class PatchFinder {
   void join_parts();
   void add_terms_of_rings(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
                           Positions x, const NormalLaw& law);
-  void add_terms_of_wraps(const Vec3& centre, double range, Positions x, const NormalLaw& law);
+  void find_wraps(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
+                  Positions x, const NormalLaw& law);
+  void add_terms_of_wraps(const Vec3& centre, Positions x);
   void add_term(std::uint32_t root, const PatchTerm& term);
   void add_terms();
   void collect_patches();
@@ -104,6 +111,11 @@ class PatchFinder {
   std::unique_ptr<RingWeights> rings_;
   Wrap wrap_;
   std::vector<PatchTerm> wrap_terms_;
+  struct NodeTerms {
+    geometry::NodeId node;
+    std::size_t first, end;  ///< in wrap_terms_
+  };
+  std::vector<NodeTerms> wrap_nodes_;
   std::vector<Patch> patches_;
   std::vector<PatchTerm> terms_;
 

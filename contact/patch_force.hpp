@@ -50,7 +50,7 @@ PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, dou
     const PatchTerm& term = terms[i];
     const double gap = term.distance - range;
     const double elastic = term.weight * elastic_force(gap) + term.slope;
-    const double share = hold(term, elastic);
+    const double share = term.is_inner ? 0.0 : hold(term, elastic);
     term_forces[i] = {elastic, share};
     total += share;
     total_elastic += elastic;

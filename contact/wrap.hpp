@@ -21,22 +21,24 @@ struct PatchTerm;
 /// (patch.hpp): as soon as all its bars hang together in range they would be one contact, and a
 /// wrap would give way.
 ///
-/// A node from which every bar goes down to the ball is where a wrap turns. Of a bar that runs past
-/// the ball's centre at its foot, a length y from the node, half the circle of radius s about the
-/// centre that lies over the bar sees the part up to the node under an angle of atan(y / tau),
-/// where tau^2 = s^2 - d^2 and d is the distance of the node: with X = 2 / pi of it, 1 at the level
-/// of the node and falling as the ball sinks in, a bar between two such nodes counts X of a contact
-/// at the level s, whatever the mesh: the additive rule (Abel's kernel, which counts any straight
-/// line as one). So the node gives back, of k / 2 contacts,
+/// A node is where a wire turns around the ball. Of a bar whose line is nearest to the ball's
+/// centre a length y from the node (less than 0, if that is beyond the node), half the circle of
+/// radius s about the centre that lies over the bar sees the part up to the node under an angle of
+/// atan(y / tau), where tau^2 = s^2 - d^2 and d is the distance of the node. Two bars that go on in
+/// each other turn by what X = 2 / pi of that angle adds up to, H = (X + X') / 2: nothing where the
+/// wire is straight, less than nothing where it bends away from the ball, and 1 at the level of a
+/// node from which both bars go down. It falls as the ball sinks in, and a bar between two such
+/// nodes counts H of a contact at the level s, whatever the mesh: the additive rule (Abel's kernel,
+/// which counts any straight line as one). So a node gives back
 ///
-///     W = k / 2 * integral of f(H) (-dphi), from d to the range,
+///     W = sum over pairs of its bars of w * integral of f(H) (-dphi), from d to the range, H > 0
 ///
-/// where H is the harmonic mean of X over its k bars and f(H) = (1 + c^2) H^3 / (H^2 + c^2) with
-/// c = kTurn: f(1) = 1, so the force stays as it is where bars begin to hang together, and f is
-/// about H where a wrap has sunk in. It starts as H^3, so that forces on nodes are Lipschitz where
-/// wires pass through straight: a straight wire, a bend away from the ball, a knot beside the ball
-/// and a flat net have nothing to get back. The energy is a function of positions alone and the
-/// force is its gradient; the cost is that of the nodes.
+/// with w = 1 - sin^4 of the angle between the bars where it is obtuse, else 0: how far they are
+/// one wire, so that a knot of straight wires, a corner or a junction beside the ball have nothing
+/// to get back. f(H) = (1 + c^2) H^3 / (H^2 + c^2) with c = kTurn: f(1) = 1, so the force stays as
+/// it is where bars begin to hang together, and f is about H where a wrap has sunk in; it starts as
+/// H^3, so that forces on nodes are Lipschitz where wires pass through straight. The energy is a
+/// function of positions alone and the force is its gradient; the cost is that of the nodes.
 ///
 /// Nodes of facets give nothing back.
 class Wrap {
@@ -46,29 +48,47 @@ class Wrap {
   /// 2 / (pi c) (width / bar)^2 contacts, with the width tau at the range.
   static constexpr double kTurn = 0.1;
 
-  /// Whether all that meets at a node are bars that go down from it.
-  /// @param branches  of its descending link
-  static bool turns_at(const geometry::Surface& surface, Feature feature, int branches) noexcept;
-
-  /// Adds the terms of a node: it and the feet of its bars push.
+  /// Finds what a node gives back: it pushes along its own normal, and beside that there are forces
+  /// between it and the ends of its bars.
   /// @param range  m, where the law's energy ends
+  /// @param terms  get what is found
   void add_terms(const geometry::Surface& surface, NodeId node, const Vec3& centre, double range,
                  Positions x, const NormalLaw& law, std::vector<PatchTerm>& terms);
 
  private:
   /// A bar, as seen from the node where it ends.
   struct Arm {
-    geometry::CorePoint foot;  ///< of the centre on the bar's line
-    Vec3 normal;               ///< unit, from the centre to the foot
-    double height;             ///< m, of the centre over the line
-    double along;              ///< m, from the node to the foot
+    NodeId end;
+    Vec3 direction;            ///< unit, from the node
+    double length;             ///< m
+    double along;              ///< m, from the node to the foot of the centre on the bar's line: y
+    double seen;               ///< X at a level
     double energy_by_along;    ///< J / m
+    Vec3 energy_by_direction;  ///< J
   };
-  bool find_arms(const geometry::Surface& surface, NodeId node, const Vec3& centre, Positions x);
-  double part_at(double tau, double& by_tau);
+  /// Two bars that turn towards the ball where they meet.
+  struct Turn {
+    std::size_t a, b;
+    double cosine;  ///< less that 0, of the angle between the bars
+    double energy;  ///< J, for w = 1
+    double weight() const noexcept { return cosine * cosine * (2.0 - cosine * cosine); }
+    double weight_by_cosine() const noexcept { return 4.0 * cosine * (1.0 - cosine * cosine); }
+  };
+  bool find_turns(const geometry::Surface& surface, NodeId node, const Vec3& to_centre,
+                  Positions x);
+  double least_along() const noexcept;
+  void integrate(double distance, double range, const NormalLaw& law);
+  void add_level(double distance, double tau, double force, double spring);
+  void look_from(double tau) noexcept;
+  double part_of_turns(double tau) noexcept;
+  void add_slopes_of_angles() noexcept;
 
   std::vector<Arm> arms_;
-  std::vector<double> slopes_;  ///< by arm: of what is given back at a level, 1 / m
+  std::vector<Turn> turns_;
+  // Of the node.
+  double energy_ = 0.0;              ///< J
+  double energy_of_spring_ = 0.0;    ///< m^2, for a spring of 1 N/m
+  double energy_by_distance_ = 0.0;  ///< N
 };
 
 }  // namespace plekton::contact

@@ -13,43 +13,38 @@
 /// Simpson's rule.
 namespace plekton::test {
 
-/// What one node gives back at a level.
-/// @param to_ends  from the node along its bars, any length
-inline double reference_turn(const std::vector<geometry::Vec3>& to_ends,
-                             const geometry::Vec3& to_centre, double level, double turn) {
-  double sum = 0.0;
-  for (const geometry::Vec3& bar : to_ends) {
-    const double along = to_centre.dot(bar) / bar.norm();
-    const double height = (to_centre - along / bar.norm() * bar).norm();
-    const double half_chord = std::sqrt(level * level - height * height);
-    const double seen = 2.0 / std::numbers::pi * std::asin(std::min(1.0, along / half_chord));
-    sum += 1.0 / seen;
-  }
-  const auto count = static_cast<double>(to_ends.size());
-  const double mean = count / sum;
-  return 0.5 * count * (1.0 + turn * turn) * mean * mean * mean / (mean * mean + turn * turn);
+/// X of a bar at a level, less than 0 if its foot is beyond the node.
+inline double reference_seen(const geometry::Vec3& bar, const geometry::Vec3& to_centre,
+                             double level) {
+  const double along = to_centre.dot(bar) / bar.norm();
+  const double height = (to_centre - along / bar.norm() * bar).norm();
+  const double half_chord = std::sqrt(level * level - height * height);
+  return 2.0 / std::numbers::pi * std::asin(std::clamp(along / half_chord, -1.0, 1.0));
 }
 
-/// J, of one node.
-inline double reference_node_energy(const std::vector<geometry::Vec3>& to_ends,
+/// J, of two bars of a node.
+/// @param to_ends  from the node along the bars, any length
+inline double reference_turn_energy(const geometry::Vec3& a, const geometry::Vec3& b,
                                     const geometry::Vec3& to_centre, double range, double turn) {
   const double from = to_centre.norm();
-  if (!(from < range) || to_ends.size() < 2) return 0.0;
-  for (const geometry::Vec3& bar : to_ends) {
-    if (!(to_centre.dot(bar) > 0.0)) return 0.0;
-  }
-  // By the root of the depth below the node, as angles change with it.
+  const double cosine = a.dot(b) / (a.norm() * b.norm());
+  const double along = to_centre.dot(a) / a.norm() + to_centre.dot(b) / b.norm();
+  if (!(from < range && cosine < 0.0 && along > 0.0)) return 0.0;
+  // By the fourth root of the depth below the node, as angles change with its square root.
   constexpr int kSteps = 4000;
   double sum = 0.0;
   for (int i = 0; i <= kSteps; ++i) {
     const double part = static_cast<double>(i) / kSteps;
-    const double level = from + (range - from) * part * part * part * part;
-    const double value =
-        reference_turn(to_ends, to_centre, std::max(level, from * (1.0 + 1e-15)), turn) *
-        (range - level) * 4.0 * part * part * part * (range - from);
+    const double level =
+        std::max(from + (range - from) * part * part * part * part, from * (1.0 + 1e-15));
+    const double mean =
+        0.5 * (reference_seen(a, to_centre, level) + reference_seen(b, to_centre, level));
+    const double value = (1.0 + turn * turn) * mean * mean * mean / (mean * mean + turn * turn) *
+                         (range - level) * 4.0 * part * part * part * (range - from);
     sum += value * (i == 0 || i == kSteps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0);
   }
-  return sum / (3.0 * kSteps);
+  const double sine = a.cross(b).norm() / (a.norm() * b.norm());
+  return (1.0 - std::pow(sine, 4)) * sum / (3.0 * kSteps);
 }
 
 /// J, of all nodes of bars alone.
@@ -65,7 +60,10 @@ inline double reference_wrap_energy(const geometry::Surface& surface,
       const auto& ends = surface.nodes_of(edge);
       to_ends.push_back(x[index_of(ends[0] == node ? ends[1] : ends[0])] - x[i]);
     }
-    energy += reference_node_energy(to_ends, centre - x[i], range, turn);
+    for (std::size_t a = 0; a < to_ends.size(); ++a) {
+      for (std::size_t b = a + 1; b < to_ends.size(); ++b)
+        energy += reference_turn_energy(to_ends[a], to_ends[b], centre - x[i], range, turn);
+    }
   }
   return energy;
 }
