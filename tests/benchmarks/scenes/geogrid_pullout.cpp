@@ -52,17 +52,6 @@ geometry::Lattice grid_in_box(double side, double height) {
   return grid;
 }
 
-std::size_t add_grid(const geometry::Lattice& grid, dynamics::Scene& scene) {
-  const std::size_t first_node = scene.state.size();
-  for (const Vec3& point : grid.points) scene.add_node(point);
-  const auto section = beam_section(kBarRadius);
-  for (const auto& bar : geometry::cylinders_of(grid, kBarRadius, first_node)) {
-    scene.add_cylinder(bar.nodes[0], bar.nodes[1], bar.radius, kCommonMaterial);
-    scene.add_beam(bar.nodes[0], bar.nodes[1], section, kBeamDensity);
-  }
-  return first_node;
-}
-
 /// Pulls at the nodes with the largest x.
 void pull(const geometry::Lattice& grid, std::size_t first_node, dynamics::Scene& scene) {
   double far = grid.points.front().x();
@@ -84,7 +73,8 @@ BenchmarkScene geogrid_pullout(const Bed& bed) {
   add_walls({bed.side, bed.side}, result.scene);
   add_floor(kCommonMaterial, result.scene);
   const auto grid = grid_in_box(bed.side, height);
-  pull(grid, add_grid(grid, result.scene), result.scene);
+  pull(grid, add_lattice(grid, kBarRadius, beam_section(kBarRadius), kBeamDensity, result.scene),
+       result.scene);
   result.element_count = bed.grains.size() + grid.edges.size();
   return result;
 }

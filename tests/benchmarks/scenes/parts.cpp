@@ -46,6 +46,18 @@ dynamics::BeamSection beam_section(double radius) {
   return dynamics::circular_section(radius, kBeamYoungModulus, kBeamPoissonRatio);
 }
 
+std::size_t add_lattice(const geometry::Lattice& lattice, double radius,
+                        const dynamics::BeamSection& section, double density,
+                        dynamics::Scene& scene) {
+  const std::size_t first_node = scene.state.size();
+  for (const Vec3& point : lattice.points) scene.add_node(point);
+  for (const auto& bar : geometry::cylinders_of(lattice, radius, first_node)) {
+    scene.add_cylinder(bar.nodes[0], bar.nodes[1], bar.radius, kCommonMaterial);
+    scene.add_beam(bar.nodes[0], bar.nodes[1], section, density);
+  }
+  return first_node;
+}
+
 std::size_t add_membrane(const geometry::Mesh& mesh, dynamics::Scene& scene) {
   const std::size_t first_node = scene.state.size();
   const auto membrane = geometry::make_membrane(mesh, {2.0 * kMembraneRadius, first_node});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/mesh/lattice.hpp"
 #include "geometry/mesh/mesh.hpp"
 #include "tests/benchmarks/bed.hpp"
 #include "tests/benchmarks/scenes/benchmark_scene.hpp"
@@ -51,6 +52,15 @@ void add_floor(MaterialId material, dynamics::Scene& scene);
 /// The section of a bar of a membrane or a grid.
 /// @param radius  m
 dynamics::BeamSection beam_section(double radius);
+
+/// A lattice of beams of one section, with a cylinder along every one; its nodes are free and at
+/// rest.
+/// @param radius   m, of the cylinders
+/// @param density  kg/m³
+/// @returns  the number of its first node; the others follow in the order of the points
+std::size_t add_lattice(const geometry::Lattice& lattice, double radius,
+                        const dynamics::BeamSection& section, double density,
+                        dynamics::Scene& scene);
 
 /// A mesh as a membrane: thick facets, a beam along every edge; its nodes are free and at rest.
 /// @returns  the number of its first node; the others follow in the order of the points
