@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace plekton::contact {
@@ -33,7 +34,8 @@ namespace plekton::contact {
 /// - friction - is decided once per patch, a part of the region that hangs together: its spring is
 /// as stiff as the contacts it counts, it acts where the elastic force acts, and it follows the
 /// patch over the mesh. Facets that lie on each other have a spring for every pair of them instead
-/// (structure/spread_contact.hpp), for the part of the elastic force that their overlap has. Under
+/// (structure/spread_contact.hpp), for the part of the elastic force that their overlap has, and so
+/// have bars on anything, for their shares of it. Under
 /// a law that glues, what is glued is held by bonds of its own (structure_contacts_bonds.hpp).
 template <ContactLaw Law>
 class StructureContacts {
@@ -184,6 +186,28 @@ class StructureContacts {
     Vec3 moment = Vec3::Zero();
     bool sticks = false;  ///< one of them at least
   };
+  /// How hard a patch presses, added up along the normals of its terms.
+  struct Pressing {
+    double all = 0.0;       ///< N
+    double bars = 0.0;      ///< N, of pairs of cells with a bar in them
+    double positive = 0.0;  ///< N, of those of these that push
+    double energy = 0.0;    ///< J, of the pairs with a bar
+    bool wraps = false;     ///< around a bend of a chain
+  };
+  /// Of a history, between spread contacts.
+  struct Transfer {
+    std::uint32_t from;  ///< of the last step
+    std::uint32_t to;
+    double less;            ///< contacts, that the one counts for less
+    double more;            ///< contacts, that the other counts for more
+    double contacts = 0.0;  ///< handed over
+    friend auto operator<=>(const Transfer& p, const Transfer& q) {
+      return std::pair{p.from, p.to} <=> std::pair{q.from, q.to};
+    }
+    friend bool operator==(const Transfer& p, const Transfer& q) {
+      return p.from == q.from && p.to == q.to;
+    }
+  };
   /// A patch of the last step that lives on in one of this.
   struct Heir {
     std::uint32_t old_patch;
@@ -206,7 +230,10 @@ class StructureContacts {
   void add_up_patches(Positions x);
   EnergyLoss inherit(const Motion& motion, double dt);
   void hand_on_number(const Legacy& old, std::span<const Heir> heirs);
+  void share_pushes();
   void find_spreads(Positions x);
+  bool locate_bar(const PairTerm& term, Spread& spread, Positions x) const;
+  void find_transfers();
   EnergyLoss carry_spreads(const Motion& motion, double dt);
   double advance_spreads(const Motion& motion, double dt, geometry::ThreadPool& pool);
   std::vector<SpreadSum> sum_spreads() const;
@@ -242,6 +269,11 @@ class StructureContacts {
   std::vector<Heir> heirs_;
   std::vector<Spread> spreads_;  ///< by term
   std::vector<Spread> previous_spreads_;
+  std::vector<double> bar_push_;         ///< N, by pair of cells
+  std::vector<Pressing> pressing_;       ///< by patch
+  std::vector<std::int32_t> spread_at_;  ///< by pair of cells; -1: none
+  std::vector<Transfer> transfers_;
+  std::vector<double> asked_;  ///< contacts, by spread contact: what others would hand to it
   std::vector<Bond> bonds_;
   bool glues_ = false;          ///< whether any two structures stick where they come to touch
   std::vector<Gluing> gluing_;  ///< by patch

@@ -6,50 +6,160 @@
 
 #include <algorithm>
 
-/// Friction of facets that lie on each other (structure/spread_contact.hpp).
+/// Friction of facets that lie on each other, and of bars (structure/spread_contact.hpp).
 namespace plekton::contact {
 
-/// Finds what presses by its extent, with the histories of the last step.
+/// How hard every pair of cells with a bar in it presses: its part of what all terms do that it
+/// has, of each as much as every other pair has that has it. That is the rule of inclusion and
+/// exclusion again: the joints of a chain take from the bars beside them what these have together.
+template <ContactLaw Law>
+void StructureContacts<Law>::share_pushes() {
+  bar_push_.assign(pairs_.size(), 0.0);
+  pressing_.assign(patches_.size(), {});
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const PairTerm& term = terms_[terms_.acting()[i]];
+    const auto holders = terms_.holders(term);
+    const double part = 1.0 / static_cast<double>(holders.size());
+    std::size_t bars = 0;
+    for (const structure::Holder& holder : holders) {
+      const PairTerm& cells = terms_.of_cells(holder.pair);
+      if (cells.a.count == 3 && cells.b.count == 3) continue;
+      bar_push_[holder.pair] += part * term.push;
+      ++bars;
+    }
+    const double of_bars = bars == holders.size() ? 1.0 : part * static_cast<double>(bars);
+    Pressing& pressing = pressing_[places_[i].patch];
+    pressing.all += term.push;
+    pressing.bars += of_bars * term.push;
+    pressing.energy += of_bars * term.forces.energy;
+    pressing.wraps = pressing.wraps || terms_.wraps(terms_.acting()[i]);
+  }
+  for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
+    if (bar_push_[pair] > 0.0)
+      pressing_[static_cast<std::size_t>(pairs_[pair].patch)].positive += bar_push_[pair];
+  }
+}
+
+/// Finds what presses by its extent or has a bar in it.
 template <ContactLaw Law>
 void StructureContacts<Law>::find_spreads(Positions x) {
+  share_pushes();
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    const Pressing& of = pressing_[i];
+    if (of.bars > 0.0 && of.energy > 0.0 && of.positive > 0.0)
+      patches_[i].bar_part = std::clamp(of.bars / of.all, 0.0, 1.0);
+    patches_[i].point_part -= patches_[i].bar_part;
+  }
   previous_spreads_.swap(spreads_);
   spreads_.clear();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const std::uint32_t acting = terms_.acting()[i];
     const PairTerm& term = terms_[acting];
-    const structure::PairForces* const forces = terms_.spread(acting);
-    if (forces == nullptr) continue;
+    if (!term.is_of_cells) continue;
     Spread spread;
-    if (!spread.locate(term, *forces, meetings_[term.spring], x)) continue;
     spread.pair = terms_.holders(term).front().pair;
     spread.patch = places_[i].patch;
     spread.is_turned = places_[i].is_turned;
     spread.meeting = term.spring;
     Patch& patch = patches_[spread.patch];
-    if (patch.pushes()) patch.point_part -= spread.normal_force / patch.normal_force;
+    if (const structure::PairForces* const extent = terms_.spread(acting)) {
+      if (!spread.locate(term, *extent, meetings_[term.spring], x)) continue;
+      if (patch.pushes()) patch.point_part -= spread.normal_force / patch.normal_force;
+    } else if (!locate_bar(term, spread, x)) {
+      continue;
+    }
     spreads_.push_back(spread);
   }
   for (Patch& patch : patches_) patch.point_part = std::clamp(patch.point_part, 0.0, 1.0);
 }
 
-/// Hands the histories of the last step over. What stood on pairs that press no more is dissipated.
+/// What pairs push less than nothing is taken from the others of their patch.
+/// @returns whether it presses
+template <ContactLaw Law>
+bool StructureContacts<Law>::locate_bar(const PairTerm& term, Spread& spread, Positions x) const {
+  const Pressing& of = pressing_[spread.patch];
+  const double push = bar_push_[spread.pair];
+  if (!(push > 0.0) || !(patches_[spread.patch].bar_part > 0.0)) return false;
+  spread.is_wrapped = of.wraps;
+  return spread.locate_bar(term, push * std::min(1.0, of.bars / of.positive),
+                           2.0 * of.energy / of.bars, meetings_[term.spring], x);
+}
+
+/// Hands the histories of the last step over: to the same pairs, and, of bars, what these count for
+/// less to those beside them that come to count for more, so that a contact that moves over a joint
+/// keeps its force. What nothing takes over is dissipated.
 template <ContactLaw Law>
 EnergyLoss StructureContacts<Law>::carry_spreads(const Motion& motion, double dt) {
   EnergyLoss loss;
-  for (const Spread& old : previous_spreads_) loss.dissipated += old.energy;
-  for (std::size_t i = 0; i < spreads_.size(); ++i) {
-    Spread& spread = spreads_[i];
+  spread_at_.assign(pairs_.size(), -1);
+  for (std::size_t i = 0; i < spreads_.size(); ++i)
+    spread_at_[spreads_[i].pair] = static_cast<std::int32_t>(i);
+  find_transfers();
+  const auto follow = [&](std::uint32_t old, Spread& spread, double contacts) {
+    Spread& from = previous_spreads_[old];
+    spread.take_over(from, contacts, motion, dt);
+    loss.tracking += from.energy;
+    from.energy = 0.0;
+  };
+  for (Spread& spread : spreads_) {
     const std::int32_t before = pairs_[spread.pair].spread;
     if (before < 0) continue;
-    const Spread& old = previous_spreads_[static_cast<std::size_t>(before)];
-    spread.take_over(old, meetings_[spread.meeting], patches_[spread.patch].free_part, motion, dt);
-    loss.dissipated -= old.energy;
-    loss.tracking += old.energy - spread.energy;
+    const auto old = static_cast<std::uint32_t>(before);
+    follow(old, spread, std::min(previous_spreads_[old].count, spread.count));
   }
-  for (PairOfCells& pair : pairs_) pair.spread = -1;
-  for (std::size_t i = 0; i < spreads_.size(); ++i)
-    pairs_[spreads_[i].pair].spread = static_cast<std::int32_t>(i);
+  for (const Transfer& of : transfers_) follow(of.from, spreads_[of.to], of.contacts);
+  for (const Spread& old : previous_spreads_) loss.dissipated += old.energy;
+  for (Spread& spread : spreads_) {
+    spread.memory.normal = spread.normal();
+    spread.find_energy(meetings_[spread.meeting], patches_[spread.patch].free_part);
+    loss.tracking -= spread.energy;
+  }
+  for (std::size_t i = 0; i < pairs_.size(); ++i) pairs_[i].spread = spread_at_[i];
   return loss;
+}
+
+/// From pairs that count for less than in the last step to those that share a term with them and
+/// count for more: what is given is no more than either has less or more.
+template <ContactLaw Law>
+void StructureContacts<Law>::find_transfers() {
+  transfers_.clear();
+  const auto before = [&](std::uint32_t pair) {
+    const std::int32_t at = pairs_[pair].spread;
+    const bool is_bar = at >= 0 && previous_spreads_[static_cast<std::size_t>(at)].is_of_bar;
+    return is_bar ? previous_spreads_[static_cast<std::size_t>(at)].count : 0.0;
+  };
+  const auto now = [&](std::uint32_t pair) {
+    const std::int32_t at = spread_at_[pair];
+    const bool is_bar = at >= 0 && spreads_[static_cast<std::size_t>(at)].is_of_bar;
+    return is_bar ? spreads_[static_cast<std::size_t>(at)].count : 0.0;
+  };
+  for (const std::uint32_t acting : terms_.acting()) {
+    const auto holders = terms_.holders(terms_[acting]);
+    if (holders.size() < 2) continue;
+    for (const structure::Holder& from : holders) {
+      const double less = before(from.pair) - now(from.pair);
+      if (!(less > 0.0)) continue;
+      for (const structure::Holder& to : holders) {
+        const double more = now(to.pair) - before(to.pair);
+        if (more > 0.0)
+          transfers_.push_back({static_cast<std::uint32_t>(pairs_[from.pair].spread),
+                                static_cast<std::uint32_t>(spread_at_[to.pair]), less, more});
+      }
+    }
+  }
+  std::sort(transfers_.begin(), transfers_.end());
+  transfers_.erase(std::unique(transfers_.begin(), transfers_.end()), transfers_.end());
+  asked_.assign(spreads_.size(), 0.0);
+  for (auto begin = transfers_.begin(); begin != transfers_.end();) {
+    auto end = begin;
+    double more = 0.0;
+    for (; end != transfers_.end() && end->from == begin->from; ++end) more += end->more;
+    for (; begin != end; ++begin) {
+      begin->contacts = begin->less * (begin->more / more);
+      asked_[begin->to] += begin->contacts;
+    }
+  }
+  for (Transfer& of : transfers_) of.contacts *= std::min(1.0, of.more / asked_[of.to]);
 }
 
 /// @returns the energy (J) dissipated

@@ -24,13 +24,20 @@ void StructureContacts<Law>::add_up_patches(Positions x) {
       side_a.add_force(places.a[k], term.forces.on_a[k]);
     for (std::size_t k = 0; k < term.b.count; ++k)
       side_b.add_force(places.b[k], term.forces.on_b[k]);
-    const structure::PairForces* const attraction = terms_.attraction(terms_.acting()[i]);
-    if (attraction == nullptr) continue;
-    patch.attraction_energy += attraction->energy;
-    for (std::size_t k = 0; k < term.a.count; ++k)
-      side_a.add_attraction(places.a[k], attraction->on_a[k]);
-    for (std::size_t k = 0; k < term.b.count; ++k)
-      side_b.add_attraction(places.b[k], attraction->on_b[k]);
+    if (const structure::PairForces* const ends = terms_.at_ends(terms_.acting()[i])) {
+      for (std::size_t k = 0; k < term.a.count; ++k) side_a.add_force(places.a[k], ends->on_a[k]);
+      for (std::size_t k = 0; k < term.b.count; ++k) side_b.add_force(places.b[k], ends->on_b[k]);
+    }
+    const auto attract = [&](const structure::PairForces* by) {
+      if (by == nullptr) return;
+      patch.attraction_energy += by->energy;
+      for (std::size_t k = 0; k < term.a.count; ++k)
+        side_a.add_attraction(places.a[k], by->on_a[k]);
+      for (std::size_t k = 0; k < term.b.count; ++k)
+        side_b.add_attraction(places.b[k], by->on_b[k]);
+    };
+    attract(terms_.attraction(terms_.acting()[i]));
+    attract(terms_.attraction_at_ends(terms_.acting()[i]));
   }
   for (Patch& patch : patches_) patch.find_totals(meeting_of(patch), x);
 }
@@ -61,12 +68,28 @@ void StructureContacts<Law>::for_each_stiffness(Visit&& visit) const {
     const auto parameters = patch.whole_parameters(meeting);
     const auto on = [&](double radius) {
       return [&, radius](NodeId node, double share) {
-        visit(node, std::abs(share) * Law::normal_stiffness(parameters, patch.gap),
-              std::abs(share) * Law::tangential_stiffness(parameters, patch.gap), radius);
+        const double part = (1.0 - patch.bar_part) * std::abs(share);
+        visit(node, part * Law::normal_stiffness(parameters, patch.gap),
+              part * Law::tangential_stiffness(parameters, patch.gap), radius);
       };
     };
+    if (patch.bar_part == 1.0) continue;
     patch.first.for_each_share(on(meeting.radius_first));
     patch.second.for_each_share(on(meeting.radius_second));
+  }
+  for (const Spread& spread : spreads_) {
+    if (!spread.is_of_bar) continue;  // the patch tells that of facets
+    const Meeting& meeting = meetings_[spread.meeting];
+    // Joints in a wrap move one by one, against the whole spring of a bar.
+    const double contacts = spread.is_wrapped ? std::max(1.0, spread.count) : spread.count;
+    const auto parameters = Law::multiplied(meeting.parameters, contacts);
+    const auto on = [&](const typename Spread::Side& side, double radius) {
+      for (std::size_t i = 0; i < 3; ++i)
+        visit(side.nodes[i], side.shares[i] * Law::normal_stiffness(parameters, spread.gap),
+              side.shares[i] * Law::tangential_stiffness(parameters, spread.gap), radius);
+    };
+    on(spread.a, meeting.radius_first);
+    on(spread.b, meeting.radius_second);
   }
   for (const Bond& bond : bonds_) {
     if (bond.gap < 0.0 || bond.is_broken) continue;  // the patch tells that of what touches

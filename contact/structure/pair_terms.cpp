@@ -26,6 +26,13 @@ geometry::FeatureNodes some_of(const geometry::FeatureNodes& nodes, unsigned cor
   return some;
 }
 
+/// N, how hard the forces of a term push its features apart.
+double push_of(const PairTerm& term, const Vec3& normal) {
+  double push = 0.0;
+  for (std::size_t i = 0; i < term.b.count; ++i) push += term.forces.on_b[i].dot(normal);
+  return push;
+}
+
 PairForces scaled(const PairForces& forces, double by) {
   PairForces result;
   result.energy = by * forces.energy;
@@ -57,6 +64,7 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   proximity_.resize(pairs.size());
   spreads_.resize(pairs.size());
   is_near_.assign(pairs.size(), 0);
+  joints_.clear(pairs.size());
   for (const std::uint32_t pair : features.holders) holders_.push_back({pair, false});
   const std::size_t count = surface_->structure_count();
   for (const geometry::FeaturePair& pair : features.pairs) {
@@ -71,8 +79,10 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
       if (term.is_of_cells) term_of_pair_[holder.pair] = static_cast<std::uint32_t>(terms_.size());
     }
     first_holders_.push_back(term.first_holder);
+    joints_.add(term, {holders_.data() + term.first_holder, term.holder_count}, pairs, *surface_);
     terms_.push_back(term);
   }
+  joints_.finish(terms_, term_of_pair_);
   first_holders_.push_back(static_cast<std::uint32_t>(holders_.size()));
 }
 
@@ -91,6 +101,7 @@ void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& mo
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (is_acting_[i] != 0) acting_.push_back(candidates_[i]);
   }
+  joints_.gather(acting_);
   acting_changed_ = terms_are_new_ || acting_ != acted_;
   terms_are_new_ = false;
 }
@@ -175,9 +186,12 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
   if (term.a.count == 3 && term.b.count == 3)
     spreads_[holders(term).front().pair] = scaled(pushing.spread, 1.0 - share.share);
   shared_[candidate][0] = pushing.shared;
+  joints_.evaluate(i, term, found, spring, x, false, term.forces);
+  term.push = push_of(term, found.cores.normal);
   if (!spring.attracts()) return;
   const TermForces pulling = term_forces(term, found, share, spring.attraction(), x);
   attractions_[i] = pulling.forces;
+  joints_.evaluate(i, term, found, spring.attraction(), x, true, attractions_[i]);
   shared_[candidate][1] = pulling.shared;
 }
 

@@ -3,6 +3,7 @@
 
 #include "contact/structure/clearances.hpp"
 #include "contact/structure/pair_term.hpp"
+#include "contact/structure/wrapped_joints.hpp"
 #include "geometry/thread_pool.hpp"
 
 #include <array>
@@ -11,12 +12,6 @@
 #include <vector>
 
 namespace plekton::contact::structure {
-
-/// A pair of cells that has the features of a term.
-struct Holder {
-  std::uint32_t pair;
-  bool is_turned;  ///< feature a belongs to its second cell
-};
 
 /// All pairs of features of the listed pairs of cells, and what they do in the present step.
 ///
@@ -52,12 +47,26 @@ class PairTerms {
     return attracts_.empty() || attracts_[terms_[term].spring] == 0 ? nullptr : &attractions_[term];
   }
 
-  /// What the extent of two facets does that a term in range is of, as far as their nearest points do
-  /// not count (1 - their share): a part of its forces; null if it is of anything else.
+  /// What the extent of two facets does that a term in range is of, as far as their nearest points
+  /// do not count (1 - their share): a part of its forces; null if it is of anything else.
   const PairForces* spread(std::size_t term) const noexcept {
     const PairTerm& of = terms_[term];
     if (of.a.count != 3 || of.b.count != 3) return nullptr;
     return &spreads_[holders(of).front().pair];
+  }
+
+  /// Whether a joint of a chain that wraps around something is in a term in range.
+  bool wraps(std::size_t term) const noexcept { return joints_.acts(term); }
+  /// What joints of bars do to the other ends of these, besides the forces of a term of two cells
+  /// in range; null if nothing does anything.
+  const PairForces* at_ends(std::size_t term) const noexcept {
+    const PairTerm& of = terms_[term];
+    return of.is_of_cells ? joints_.on_pair(holders(of).front().pair) : nullptr;
+  }
+  /// The same of the attraction.
+  const PairForces* attraction_at_ends(std::size_t term) const noexcept {
+    const PairTerm& of = terms_[term];
+    return of.is_of_cells ? joints_.attraction_on_pair(holders(of).front().pair) : nullptr;
   }
 
   /// Of a pair of cells in range at the last evaluate(): the corners of the features that hold its
@@ -89,6 +98,7 @@ class PairTerms {
   const geometry::Surface* surface_;
   std::vector<PairTerm> terms_;
   std::vector<Holder> holders_;
+  WrappedJoints joints_;
   std::vector<char> attracts_;  ///< by spring; empty if none does
   std::vector<PairForces>
       attractions_;  ///< by term, of those in range; empty if no spring attracts

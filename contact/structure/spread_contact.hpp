@@ -12,15 +12,17 @@
 
 namespace plekton::contact::structure {
 
-/// What two facets that lie on each other have of everything but the elastic normal force: friction
-/// of bodies that lie flat is a field, with a spring and a limit of its own for every pair of
-/// facets, at the point on which their part of the pressure acts. So a sheet that is turned on
-/// another one resists, and a strip that is pulled slips from the pulled end on.
+/// What two cells that lie on each other have of everything but the elastic normal force: friction
+/// is a field, with a spring and a limit of its own for every pair of facets that lie flat on each
+/// other, and for every pair with a bar in it, at the point on which its part of the pressure acts.
+/// So a sheet that is turned on another one resists, a strip that is pulled slips from the pulled
+/// end on, and the pull in a belt grows around its drum.
 ///
-/// A pair comes into being and ends with an overlap that goes to 0, and so do the force it is
-/// pressed with, the limit of its friction and what its spring can hold: nothing has to be handed
-/// on from pair to pair. A spring that comes to count for more contacts keeps its force, one that
-/// counts for less keeps its stretch: neither gains energy.
+/// A pair comes into being and ends with an overlap or a share that goes to 0, and so do the force
+/// it is pressed with, the limit of its friction and what its spring can hold. A spring that comes
+/// to count for more contacts keeps its force, one that counts for less keeps its stretch: neither
+/// gains energy. Of bars, what a spring counts for less is handed to those beside it that come to
+/// count for more (structure_contacts_spread.hpp).
 template <ContactLaw Law>
 struct SpreadContact {
   /// One facet: its corners, and their shares of the elastic force.
@@ -31,7 +33,8 @@ struct SpreadContact {
 
     void find_shares(const std::array<Vec3, 3>& forces, const Vec3& per_force, Positions x) {
       double sum = 0.0;
-      // Of an overlap that is a sliver the corners may be pushed either way; its place is on the facet.
+      // Of an overlap that is a sliver the corners may be pushed either way; its place is on the
+      // facet.
       for (std::size_t i = 0; i < 3; ++i)
         sum += shares[i] = std::max(0.0, per_force.dot(forces[i]));
       const Vec3& origin = x[index_of(nodes[0])];
@@ -70,6 +73,8 @@ struct SpreadContact {
   std::uint32_t pair = 0;   ///< of cells
   std::uint32_t patch = 0;  ///< of which it is a part
   bool is_turned = false;   ///< side a is on the patch's second side
+  bool is_of_bar = false;   ///< one of its cells at least is a cylinder
+  bool is_wrapped = false;  ///< in a patch that wraps around something
   std::uint32_t meeting = 0;
   Side a;
   Side b;
@@ -102,20 +107,44 @@ struct SpreadContact {
     return true;
   }
 
+  /// Sets where a term with a bar in it presses, and how hard.
+  /// @param pressing      N
+  /// @param mean_overlap  m
+  /// @returns whether it does
+  bool locate_bar(const PairTerm& term, double pressing, double mean_overlap,
+                  const Meeting<Law>& bodies, Positions x) {
+    const Vec3 force = term.forces.on_b[0] + term.forces.on_b[1] + term.forces.on_b[2];
+    const double size = force.norm();
+    const double one = Law::elastic_normal_force(bodies.parameters, -mean_overlap);
+    if (!(size > 0.0) || !(one > 0.0)) return false;
+    is_of_bar = true;
+    gap = -mean_overlap;
+    normal_force = pressing;
+    elastic_force = pressing / size * force;
+    count = pressing / one;
+    a.nodes = term.a.ids;
+    b.nodes = term.b.ids;
+    const Vec3 per_force = force / (size * size);
+    a.find_shares(term.forces.on_a, -per_force, x);
+    b.find_shares(term.forces.on_b, per_force, x);
+    return true;
+  }
+
   Vec3 normal() const { return elastic_force / normal_force; }
   /// @param free_part  of the tangential force, that no bonds carry
   typename Law::Parameters parameters(const Meeting<Law>& bodies, double free_part) const {
     return beside_bonds<Law>(Law::multiplied(bodies.parameters, count), free_part);
   }
 
-  /// Takes the history of the same pair of the last step over.
-  void take_over(const SpreadContact& old, const Meeting<Law>& bodies, double free_part,
-                 const Motion& motion, double dt) {
+  /// Adds the history of a spread contact of the last step.
+  /// @param contacts  that it counts for, of both
+  void take_over(const SpreadContact& old, double contacts, const Motion& motion, double dt) {
+    // Pairs within one structure may have their cells the other way round.
+    const double sign = old.memory.normal.dot(normal()) < 0.0 && old.pair != pair ? -1.0 : 1.0;
+    const Vec3 onto = sign * normal();
     const Vec3 spin = 0.5 * (a.angular_velocity(motion) + b.angular_velocity(motion));
-    const auto carried = carried_history<Law>(old.memory, normal(), dt * spin.dot(normal()));
-    Law::add_share(memory.history, carried, std::min(1.0, old.count / count));
-    memory.normal = normal();
-    energy = Law::history_energy(parameters(bodies, free_part), memory.history);
+    const auto carried = carried_history<Law>(old.memory, onto, dt * spin.dot(onto));
+    Law::add_share(memory.history, carried, sign * contacts / count);
   }
 
   /// One step of the law.
@@ -131,7 +160,10 @@ struct SpreadContact {
     other_force = result.force - elastic_force;
     moment = result.moment;
     dissipated = result.dissipated;
-    energy = Law::history_energy(of_all, memory.history);
+    find_energy(bodies, free_part);
+  }
+  void find_energy(const Meeting<Law>& bodies, double free_part) {
+    energy = Law::history_energy(parameters(bodies, free_part), memory.history);
   }
 
   void add_forces(const Meeting<Law>& bodies, NodeForces& forces) const {

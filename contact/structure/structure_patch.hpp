@@ -35,6 +35,7 @@ struct StructurePatch {
   double free_part = 1.0;   ///< of its tangential force, that no bonds carry
   double point_part = 1.0;  ///< of its elastic force, that facets lying on each other do not carry:
                             ///< they have friction of their own (spread_contact.hpp)
+  double bar_part = 0.0;    ///< of its elastic force, that pairs with a bar carry: likewise
   bool is_torn = false;     ///< a bond has broken in it: it forms no others
   ContactMemory<Law> memory;
   std::int64_t id = 0;    ///< 0: none yet
@@ -50,11 +51,13 @@ struct StructurePatch {
     attraction_energy = 0.0;
     free_part = 1.0;
     point_part = 1.0;
+    bar_part = 0.0;
     is_torn = false;
     memory = {};
     id = 0;
     id_from = -1.0;
     other_force = Vec3::Zero();
+    moment = Vec3::Zero();
   }
 
   bool pushes() const noexcept { return normal_force > 0.0; }
@@ -97,9 +100,10 @@ struct StructurePatch {
   /// @returns the energy (J) dissipated
   double apply_law(const Meeting<Law>& bodies, const Motion& motion, double dt) {
     if (!pushes()) return 0.0;
+    memory.normal = normal();
+    if (!(point_part > 0.0)) return 0.0;
     const Vec3 velocity = second.velocity_at(lever_of_second(bodies), motion) -
                           first.velocity_at(lever_of_first(bodies), motion);
-    memory.normal = normal();
     const RelativeMotion relative =
         relative_motion(memory.normal, gap, point_part * normal_force, velocity,
                         second.angular_velocity(motion) - first.angular_velocity(motion));
