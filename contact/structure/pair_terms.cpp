@@ -186,8 +186,8 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
   if (term.a.count == 3 && term.b.count == 3)
     spreads_[holders(term).front().pair] = scaled(pushing.spread, 1.0 - share.share);
   shared_[candidate][0] = pushing.shared;
-  joints_.evaluate(i, term, found, spring, x, false, term.forces);
   term.push = push_of(term, found.cores.normal);
+  term.push += joints_.evaluate(i, term, found, spring, x, false, term.forces);
   if (!spring.attracts()) return;
   const TermForces pulling = term_forces(term, found, share, spring.attraction(), x);
   attractions_[i] = pulling.forces;

@@ -95,8 +95,10 @@ void WrappedJoints::finish(std::span<const PairTerm> terms,
   pulled_ends_.resize(ends_.size());
 }
 
-void WrappedJoints::evaluate(std::size_t term, const PairTerm& features, const TermProximity& found,
-                             const NormalSpring& spring, Positions x, bool pulls, PairForces& to) {
+double WrappedJoints::evaluate(std::size_t term, const PairTerm& features,
+                               const TermProximity& found, const NormalSpring& spring, Positions x,
+                               bool pulls, PairForces& to) {
+  double push = 0.0;
   for (std::uint32_t j = first_joints_[term]; j < first_joints_[term + 1]; ++j) {
     Joint& joint = joints_[j];
     const geometry::ClosestPoints& points = found.cores.points;
@@ -114,6 +116,7 @@ void WrappedJoints::evaluate(std::size_t term, const PairTerm& features, const T
     const Simplex other = simplex_at(joint.is_a ? features.b : features.a, x);
     std::array<Vec3, 3> on_other{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     Vec3 on_node = separating_forces(wrap.by_separation, other, foot, on_other);
+    push += (joint.is_a ? -joint.weight : joint.weight) * on_node.dot(found.cores.normal);
     for (std::uint32_t m = 0; m < joint.count; ++m) {
       Arm& arm = arms_[joint.first + m];
       on_node += by_arms[m];
@@ -124,6 +127,7 @@ void WrappedJoints::evaluate(std::size_t term, const PairTerm& features, const T
     for (std::size_t k = 0; k < other.count; ++k)
       (joint.is_a ? to.on_b : to.on_a)[k] += joint.weight * on_other[k];
   }
+  return push;
 }
 
 void WrappedJoints::gather(std::span<const std::uint32_t> acting) {

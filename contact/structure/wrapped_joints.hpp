@@ -38,8 +38,9 @@ class WrappedJoints {
   /// Adds what a term in range gets back to its forces, and keeps what its bars' other ends do. For
   /// any term once a step, from any thread.
   /// @param pulls  of the attraction; of the pushing spring otherwise
-  void evaluate(std::size_t term, const PairTerm& features, const TermProximity& found,
-                const NormalSpring& spring, Positions x, bool pulls, PairForces& to);
+  /// @returns  N, how much harder the features push each other apart; what turns bars is not in it
+  double evaluate(std::size_t term, const PairTerm& features, const TermProximity& found,
+                  const NormalSpring& spring, Positions x, bool pulls, PairForces& to);
   /// Then gathers what these ends do.
   /// @param acting  terms in range
   void gather(std::span<const std::uint32_t> acting);

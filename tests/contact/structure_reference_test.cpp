@@ -8,7 +8,8 @@
 #include <numbers>
 
 /// Structure against structure where they touch at points, against the reference "cells minus
-/// seams": chains, folded sheets, corners of shells.
+/// seams": chains, folded sheets, corners of shells. Chains that bend around the other body keep
+/// more of their contacts than that (structure/wrap_test.cpp).
 namespace plekton::test {
 namespace {
 
@@ -76,11 +77,11 @@ struct Seen {
 
 /// Lowers b on a at random places in random attitudes.
 Seen compare(const Body& a, const Body& b, double reach, double largest_turn, bool is_upside_down,
-             unsigned seed) {
+             unsigned seed, int trials = 600) {
   Random random(seed);
   Meeting meeting(a, b, kRange);
   Seen seen;
-  for (int trial = 0; trial < 600; ++trial) {
+  for (int trial = 0; trial < trials; ++trial) {
     const Vec3 turns(
         random.uniform(-largest_turn, largest_turn) + (is_upside_down ? std::numbers::pi : 0.0),
         random.uniform(-largest_turn, largest_turn), random.uniform(0.0, 2.0 * std::numbers::pi));
@@ -88,7 +89,7 @@ Seen compare(const Body& a, const Body& b, double reach, double largest_turn, bo
                      random.uniform(-0.1, 0.12));
     const Body placed = moved(b, turns, shift);
     const ReferenceMeeting expected = reference_meeting(a, placed, kRange);
-    if (expected.pairs == 0 || expected.has_rings) continue;
+    if (expected.pairs == 0 || expected.has_rings || expected.has_wraps) continue;
     if (expected.most_parallel > kLargestCosine || cores_meet(a, placed)) continue;
 
     meeting.place(placed);
@@ -138,11 +139,12 @@ TEST(StructureContactsAgainstReference, AgreeOnCornersOfShellsOnSheets) {
 
 TEST(StructureContactsAgainstReference, AgreeOnChainsOverFoldsAndCorners) {
   Random random(4);
-  const Seen on_fold = compare(folded_sheet(1.2), bent_chain(3, 0.4, random), 0.4, 0.3, false, 5);
+  const Seen on_fold =
+      compare(folded_sheet(1.2), bent_chain(3, 0.4, random), 0.4, 0.3, false, 5, 1200);
   EXPECT_GT(on_fold.compared, 50);
   const Seen on_corner =
       compare(moved(shell_corner(4, 1.0), {std::numbers::pi, 0, 0}, Vec3::Zero()),
-              bent_chain(3, 0.4, random), 0.4, 0.2, false, 6);
+              bent_chain(3, 0.4, random), 0.4, 0.2, false, 6, 1200);
   EXPECT_GT(on_corner.compared, 10);
 }
 

@@ -80,6 +80,7 @@ struct ReferenceMeeting {
   int pairs = 0;             ///< of cells, in range
   double most_parallel = 0;  ///< largest |cosine| between the planes or lines of two cells in range
   bool has_rings = false;    ///< or hollows: at some level, what is nearer is more than pieces
+  bool has_wraps = false;    ///< a joint of cylinders in range that bends around the other body
 };
 
 /// Of two cells the cosine of the angle between them: of normals or axes, 0 if parallel to each
@@ -93,6 +94,35 @@ inline double alignment(const NodeList& a, const std::vector<Vec3>& xa, const No
   };
   const double cosine = std::abs(direction(a, xa).dot(direction(b, xb)));
   return a.size() == b.size() ? cosine : std::sqrt(1.0 - std::min(1.0, cosine * cosine));
+}
+
+/// Whether the cylinders at a node that only cylinders have bend around another body in range, seen
+/// along the separations from its simplices that are nearest where they are (the others take each
+/// other off).
+inline bool bends_around(const Body& chain, int node, const Body& other, double range) {
+  const Vec3& at = chain.x[static_cast<std::size_t>(node)];
+  Vec3 arms = Vec3::Zero();
+  int count = 0;
+  for (const NodeList& cell : cells_of(chain)) {
+    if (std::find(cell.begin(), cell.end(), node) == cell.end()) continue;
+    if (cell.size() != 2) return false;
+    const int end = cell[0] == node ? cell[1] : cell[0];
+    arms += (chain.x[static_cast<std::size_t>(end)] - at).normalized();
+    ++count;
+  }
+  const auto all = weighted_simplices(other);
+  for (const auto& [simplex, weight] : all) {
+    const ReferenceFoot foot = reference_separation(simplex, other.x, {node}, chain.x);
+    if (count < 2 || !(foot.distance < range) || !(foot.separation.dot(arms) < 0.0)) continue;
+    const bool is_beaten = std::any_of(all.begin(), all.end(), [&](const auto& larger) {
+      return std::includes(larger.first.begin(), larger.first.end(), simplex.begin(),
+                           simplex.end()) &&
+             reference_separation(larger.first, other.x, {node}, chain.x).distance <
+                 (1.0 - 1e-12) * foot.distance;
+    });
+    if (!is_beaten) return true;
+  }
+  return false;
 }
 
 inline ReferenceMeeting reference_meeting(const Body& a, const Body& b, double range) {
@@ -152,6 +182,12 @@ inline ReferenceMeeting reference_meeting(const Body& a, const Body& b, double r
     --result.components;
   }
   if (pairs.empty()) return result;
+  const auto wraps = [range](const Body& chain, const Body& other) {
+    for (std::size_t node = 0; node < chain.x.size(); ++node)
+      if (bends_around(chain, static_cast<int>(node), other, range)) return true;
+    return false;
+  };
+  result.has_wraps = wraps(a, b) || wraps(b, a);
   double euler_number = 0.0;  // m, likewise
   const auto of_a = weighted_simplices(a), of_b = weighted_simplices(b);
   for (const auto& [simplex_a, weight_a] : of_a) {

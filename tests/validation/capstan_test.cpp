@@ -116,8 +116,8 @@ Pulled pull(const Case& of) {
   add_drum(scene, of.drum);
   Belt belt = add_belt(scene, of.links);
   // The free end is held by a weight, the other one goes down, slowly at first.
-  constexpr double kEnd = 0.6;      // s
-  constexpr double kSpeed = 0.04;   // m/s
+  constexpr double kEnd = 0.6;     // s
+  constexpr double kSpeed = 0.04;  // m/s
   dynamics::NodalForce weight;
   weight.nodes = {belt.nodes.front()};
   weight.force = Vec3(0.0, 0.0, -kHolding);
@@ -149,10 +149,10 @@ Pulled pull(const Case& of) {
 void expect_euler(const Case& of) {
   const Pulled found = pull(of);
   const double expected = std::exp(of.friction * pi);
-  std::printf("E %.0e Pa, %3d links, friction %.1f, %s: T2/T1 %.4f, %+.2f %%; overlap %.3f; closure %.1e\n",
-              of.young_modulus, of.links, of.friction,
-              of.drum == Drum::cylinder ? "cylinder" : "facets", found.ratio,
-              100.0 * (found.ratio / expected - 1.0), found.overlap, found.closure);
+  std::printf(
+      "E %.0e Pa, %3d links, friction %.1f, %s: T2/T1 %.4f, %+.2f %%; overlap %.3f; closure %.1e\n",
+      of.young_modulus, of.links, of.friction, of.drum == Drum::cylinder ? "cylinder" : "facets",
+      found.ratio, 100.0 * (found.ratio / expected - 1.0), found.overlap, found.closure);
   EXPECT_NEAR(found.ratio, expected, 0.05 * expected);
 }
 
@@ -163,7 +163,8 @@ TEST(Capstan, PullsByEulersFormula) {
     for (const double young_modulus : {1e5, 1e6, 1e7})
       for (const int links : {30, 60, 120})
         for (const double friction : {0.1, 0.3, 0.5})
-          if (is_whole || (links == 30 && friction == 0.3)) expect_euler({young_modulus, links, friction, drum});
+          if (is_whole || (links == 30 && friction == 0.3))
+            expect_euler({young_modulus, links, friction, drum});
 }
 
 }  // namespace
