@@ -16,7 +16,7 @@ constexpr std::size_t kPlaces = 16;
 struct Rule {
   std::array<double, kPlaces> place;
   std::array<double, kPlaces> weight;
-  std::array<std::array<double, kPlaces>, kPlaces> slope;  ///< by place, then by value
+  std::array<std::array<double, kPlaces>, kPlaces> slope;  ///< by value, then by place
 
   Rule() {
     for (std::size_t i = 0; i < kPlaces; ++i) find_place(i);
@@ -30,8 +30,8 @@ struct Rule {
       slope[i][i] = 0.0;
       for (std::size_t k = 0; k < kPlaces; ++k) {
         if (k == i) continue;
-        slope[i][k] = barycentric[k] / barycentric[i] / (place[i] - place[k]);
-        slope[i][i] -= slope[i][k];
+        slope[k][i] = barycentric[k] / barycentric[i] / (place[i] - place[k]);
+        slope[i][i] -= slope[k][i];
       }
     }
   }
@@ -75,65 +75,96 @@ Returned returned(double x) {
 
 }  // namespace
 
+namespace {
+
+/// The sum of atan(y / t) over all arms, t > 0. Of two, which is what most joints have, by one
+/// call: it is the argument of (t + i y1) (t + i y2).
+double sum_of_angles(std::span<const double> feet, double t) {
+  if (feet.size() == 2) return std::atan2(t * (feet[0] + feet[1]), t * t - feet[0] * feet[1]);
+  double sum = 0.0;
+  for (const double y : feet) sum += std::atan2(y, t);
+  return sum;
+}
+
+using Values = std::array<double, kPlaces>;
+
+/// The sum that stands for W, and its derivatives.
+struct Sum {
+  double energy = 0.0;      ///< J
+  double by_squared = 0.0;  ///< N/m, by d^2
+};
+
 /// With t = T g^2, T^2 = range^2 - d^2, the integral is that of f(x) (-dphi/dg) over g from 0 to 1.
 /// phi stands for the polynomial through its values at the places of the rule: so the derivative of
-/// the sum, which is what is stored here, needs that of phi alone, whatever the law.
-WrapEnergy wrap_energy(const Vec3& separation, std::span<const Vec3> arms,
-                       const NormalSpring& spring, std::span<Vec3> by_arms) {
-  for (Vec3& by_arm : by_arms) by_arm.setZero();
-  WrapEnergy wrap;
-  double turn = 0.0;  // m, sum of all y
-  for (const Vec3& arm : arms) turn -= separation.dot(arm) / arm.norm();
-  // x falls with the level where it begins above 0; of two arms it never rises above 0 again.
-  if (arms.size() == 2 && !(turn > 0.0)) return wrap;
-  const double squared = separation.squaredNorm();
+/// the sum, which is what is stored, needs that of phi alone, whatever the law.
+/// @param feet  m, y of all arms
+/// @param by_feet  gets the derivatives (N) by them
+Sum integrate(double squared, std::span<const double> feet, const NormalSpring& spring,
+              std::span<double> by_feet) {
   const double longest_squared = spring.range() * spring.range() - squared;
-  if (!(longest_squared > 0.0)) return wrap;
   const double longest = std::sqrt(longest_squared);
   const Rule& of = rule();
-
-  std::array<double, kPlaces> share{}, by_x{}, tangent{};
+  Values share{}, by_x{}, tangent{};
   for (std::size_t i = 0; i < kPlaces; ++i) {
     tangent[i] = longest * of.place[i] * of.place[i];
-    double x = 0.0;
-    for (const Vec3& arm : arms) x -= std::atan2(separation.dot(arm), arm.norm() * tangent[i]);
-    x /= std::numbers::pi;
+    const double x = sum_of_angles(feet, tangent[i]) / std::numbers::pi;
     if (!(x > 0.0)) continue;
     const Returned back = returned(x);
     share[i] = of.weight[i] * back.share;
     by_x[i] = of.weight[i] * back.slope;
   }
-  double by_squared = 0.0;              // N/m, derivative by d^2
-  std::array<double, kPlaces> falls{};  // J, -dphi/dg
+  Sum sum;
+  Values falls{};  // J, -dphi/dg
   for (std::size_t k = 0; k < kPlaces; ++k) {
     const double level = std::sqrt(squared + tangent[k] * tangent[k]);
     const double energy = spring.energy(level);
-    double sum = 0.0;
+    double factor = 0.0;
     for (std::size_t i = 0; i < kPlaces; ++i) {
-      falls[i] -= of.slope[i][k] * energy;
-      sum -= share[i] * of.slope[i][k];
+      falls[i] -= of.slope[k][i] * energy;
+      factor -= share[i] * of.slope[k][i];
     }
-    wrap.energy += sum * energy;
+    sum.energy += factor * energy;
     // s^2 = d^2 + (range^2 - d^2) g^4.
     const double g2 = of.place[k] * of.place[k];
-    if (level > 0.0) by_squared -= sum * spring.force(level) * (1.0 - g2 * g2) / (2.0 * level);
+    sum.by_squared -= factor * spring.force(level) * (1.0 - g2 * g2) / (2.0 * level);
   }
-  for (std::size_t m = 0; m < arms.size(); ++m) {
-    const double length = arms[m].norm();
-    const Vec3 along = arms[m] / length;
-    const double y = -separation.dot(along);
-    double by_y = 0.0;  // N
+  for (std::size_t m = 0; m < feet.size(); ++m) {
+    const double y = feet[m];
+    double by_y = 0.0;
     for (std::size_t i = 0; i < kPlaces; ++i) {
       const double t = tangent[i];
-      const double by_angle = by_x[i] * falls[i] / (std::numbers::pi * (t * t + y * y));
-      by_y += by_angle * t;
-      // dt/d(d^2) = -t / (2 T^2).
-      by_squared += by_angle * y * t / (2.0 * longest_squared);
+      by_y += t * by_x[i] * falls[i] / (t * t + y * y);
     }
-    wrap.by_separation -= by_y * along;
-    by_arms[m] = -by_y / length * (separation + y * along);
+    by_feet[m] = by_y / std::numbers::pi;
+    sum.by_squared += by_feet[m] * y / (2.0 * longest_squared);  // dt/d(d^2) = -t / (2 T^2)
   }
-  wrap.by_separation += 2.0 * by_squared * separation;
+  return sum;
+}
+
+}  // namespace
+
+WrapEnergy wrap_energy(const Vec3& separation, std::span<const Vec3> arms,
+                       const NormalSpring& spring, std::span<Vec3> by_arms) {
+  for (Vec3& by_arm : by_arms) by_arm.setZero();
+  std::array<double, kMostArms> feet, by_feet, length;
+  double sum_of_feet = 0.0;
+  for (std::size_t m = 0; m < arms.size(); ++m) {
+    length[m] = arms[m].norm();
+    feet[m] = -separation.dot(arms[m]) / length[m];
+    sum_of_feet += feet[m];
+  }
+  const double squared = separation.squaredNorm();
+  // Of two arms the sign of x is that of the sum at all levels.
+  if ((arms.size() == 2 && !(sum_of_feet > 0.0)) || !(squared < spring.range() * spring.range()))
+    return {};
+  const Sum sum =
+      integrate(squared, {feet.data(), arms.size()}, spring, {by_feet.data(), arms.size()});
+  WrapEnergy wrap{sum.energy, 2.0 * sum.by_squared * separation};
+  for (std::size_t m = 0; m < arms.size(); ++m) {
+    const Vec3 along = arms[m] / length[m];
+    wrap.by_separation -= by_feet[m] * along;
+    by_arms[m] = -by_feet[m] / length[m] * (separation + feet[m] * along);
+  }
   return wrap;
 }
 

@@ -42,13 +42,17 @@ namespace plekton::contact::structure {
 /// Of the angle, see above.
 constexpr double kBend = 0.005;
 
+/// More bars than that at a joint get nothing back.
+constexpr std::size_t kMostArms = 16;
+
 /// W of one joint, and its derivatives (N).
 struct WrapEnergy {
   double energy = 0.0;  ///< J
   Vec3 by_separation = Vec3::Zero();
 };
 /// @param separation  m, to the joint from the nearest point of the other body
-/// @param arms        m, from the joint to the other ends of its bars; two or more
+/// @param arms        m, from the joint to the other ends of its bars; two or more, kMostArms at
+/// most
 /// @param by_arms     gets the derivatives by the arms
 WrapEnergy wrap_energy(const Vec3& separation, std::span<const Vec3> arms,
                        const NormalSpring& spring, std::span<Vec3> by_arms);

@@ -9,9 +9,6 @@
 namespace plekton::contact::structure {
 namespace {
 
-/// More bars than that meet at no joint of use; those beyond are left out.
-constexpr std::size_t kMostArms = 16;
-
 Simplex simplex_at(const geometry::FeatureNodes& nodes, Positions x) {
   Simplex simplex;
   simplex.count = nodes.count;

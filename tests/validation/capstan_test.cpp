@@ -5,10 +5,12 @@
 // of the links, and all links and the drum are one region of contact.
 //
 // The belt is a chain of bars without bending stiffness, which would add EI / (2 R²) to the pull.
-// What swings is damped in the bars: numerical damping would drag on what chatters.
+// What swings is damped in the bars and a little by drag, which adds m 300/s 0.01 m/s < 0.04 N to a
+// pull of 2.7 to 9.6 N, and by the least numerical damping: bars that chatter press and slip by
+// turns, and are dragged along with less than mu times what they press with in the mean.
 //
-// PLEKTON_CAPSTAN=all runs the whole grid: E of 1e5, 1e6, 1e7 and 1e8 Pa, 20 to 160 links, friction
-// 0.1, 0.3 and 0.5, on a cylinder and on facets.
+// PLEKTON_CAPSTAN=all runs the whole grid: E of 1e5, 1e6 and 1e7 Pa, 30 to 120 links, friction 0.1,
+// 0.3 and 0.5, on a cylinder; facets: the same on a drum of facets.
 #include "dynamics/simulation.hpp"
 
 #include <gtest/gtest.h>
@@ -96,7 +98,7 @@ Belt add_belt(dynamics::Scene& scene, int links) {
         scene.add_node(x, is_pulled ? Held::rotation : Held::rotation | Held::along_y));
     if (belt.nodes.size() < 2) continue;
     const NodeId last = belt.nodes[belt.nodes.size() - 2];
-    belt.bonds.push_back(scene.add_beam(last, belt.nodes.back(), section, 1000.0));
+    belt.bonds.push_back(scene.add_beam(last, belt.nodes.back(), section, 400.0));
     scene.add_cylinder(last, belt.nodes.back(), kBeltRadius, contact::MaterialId{0});
   }
   return belt;
@@ -117,7 +119,7 @@ Pulled pull(const Case& of) {
   Belt belt = add_belt(scene, of.links);
   // The free end is held by a weight, the other one goes down, slowly at first.
   constexpr double kEnd = 0.6;     // s
-  constexpr double kSpeed = 0.04;  // m/s
+  constexpr double kSpeed = 0.01;  // m/s
   dynamics::NodalForce weight;
   weight.nodes = {belt.nodes.front()};
   weight.force = Vec3(0.0, 0.0, -kHolding);
@@ -126,14 +128,19 @@ Pulled pull(const Case& of) {
   dynamics::PrescribedMotion down;
   down.nodes = {belt.nodes.back()};
   down.velocity = Vec3(0.0, 0.0, -kSpeed);
-  down.factor = dynamics::TimeTable({{0.1, 0.0}, {0.2, 1.0}});
+  // Faster at first, until the belt is stretched and all of it slips.
+  down.factor = dynamics::TimeTable({{0.1, 0.0}, {0.12, 4.0}, {0.25, 4.0}, {0.28, 1.0}});
   scene.loads.motions.push_back(down);
   dynamics::BeamDamping damping;
   damping.bonds = belt.bonds;
   damping.ratio = 0.5;
   scene.loads.beam_damping.push_back(damping);
+  scene.loads.mass_damping.push_back(
+      {std::vector<NodeId>(belt.nodes.begin(), belt.nodes.end() - 1), 300.0});
+  dynamics::SimulationOptions options;
+  options.motion.damping = 0.02;
 
-  dynamics::Simulation<contact::LinearFrictional> simulation(scene, {});
+  dynamics::Simulation<contact::LinearFrictional> simulation(scene, options);
   double held = 0.0, pulled = 0.0, deepest = 0.0;
   while (simulation.time() < kEnd) {
     simulation.step();
@@ -156,15 +163,24 @@ void expect_euler(const Case& of) {
   EXPECT_NEAR(found.ratio, expected, 0.05 * expected);
 }
 
-TEST(Capstan, PullsByEulersFormula) {
+/// Of the grid, or those that a run of all tests has time for.
+std::vector<Case> cases() {
   const char* const grid = std::getenv("PLEKTON_CAPSTAN");
-  const bool is_whole = grid != nullptr && std::string(grid) == "all";
-  for (const Drum drum : {Drum::cylinder, Drum::facets})
+  if (grid == nullptr)
+    return {{1e5, 30, 0.3, Drum::cylinder},
+            {1e7, 30, 0.5, Drum::cylinder},
+            {1e5, 30, 0.3, Drum::facets}};
+  const Drum drum = std::string(grid) == "facets" ? Drum::facets : Drum::cylinder;
+  std::vector<Case> all;
+  for (const int links : {30, 60, 120})
     for (const double young_modulus : {1e5, 1e6, 1e7})
-      for (const int links : {30, 60, 120})
-        for (const double friction : {0.1, 0.3, 0.5})
-          if (is_whole || (links == 30 && friction == 0.3))
-            expect_euler({young_modulus, links, friction, drum});
+      for (const double friction : {0.1, 0.3, 0.5})
+        all.push_back({young_modulus, links, friction, drum});
+  return all;
+}
+
+TEST(Capstan, PullsByEulersFormula) {
+  for (const Case& of : cases()) expect_euler(of);
 }
 
 }  // namespace
