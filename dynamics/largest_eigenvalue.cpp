@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -34,13 +35,19 @@ class Tridiagonal {
   /// The last entry of an eigenvector times the last entry beside the diagonal is the residual.
   LargestEigenvalue largest() const {
     const auto size = static_cast<Eigen::Index>(diagonal_.size());
+    const VectorXd diagonal = VectorXd::Map(diagonal_.data(), size);
+    const VectorXd beside = VectorXd::Map(beside_.data(), size - 1);
+    // The solver takes what is beside the diagonal for zero by the square root of the diagonal: of
+    // entries far from 1 it would never end, and what it then has is no eigenvalue.
+    const double largest_entry =
+        std::max(diagonal.cwiseAbs().maxCoeff(), size > 1 ? beside.maxCoeff() : 0.0);
+    const double scale = largest_entry > 0.0 ? largest_entry : 1.0;
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-    solver.computeFromTridiagonal(VectorXd::Map(diagonal_.data(), size),
-                                  VectorXd::Map(beside_.data(), size - 1));
+    solver.computeFromTridiagonal(diagonal / scale, beside / scale);
     const auto& values = solver.eigenvalues();  // ascending
     const Eigen::Index largest = -values[0] > values[size - 1] ? 0 : size - 1;
     const double last = solver.eigenvectors()(size - 1, largest);
-    return {std::abs(values[largest]), beside_.back() * std::abs(last), this->size()};
+    return {scale * std::abs(values[largest]), beside_.back() * std::abs(last), this->size()};
   }
 
  private:
