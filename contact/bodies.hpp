@@ -3,6 +3,7 @@
 
 #include "contact/material.hpp"
 #include "contact/motion.hpp"
+#include "geometry/elements.hpp"
 
 #include <limits>
 #include <vector>
@@ -25,5 +26,10 @@ struct Plane {
   Vec3 velocity = Vec3::Zero();  ///< m/s
   MaterialId material{};
 };
+
+/// Of a structure.
+inline Shape shape_of(const geometry::Surface& surface, geometry::StructureId structure) noexcept {
+  return surface.is_sheet(structure) ? Shape::flat : Shape::cylinder;
+}
 
 }  // namespace plekton::contact

@@ -12,7 +12,9 @@ namespace plekton::contact {
 
 namespace detail {
 
-struct NoProperties {};
+struct NoProperties {
+  friend bool operator==(const NoProperties&, const NoProperties&) = default;
+};
 template <class Law>
 struct PropertiesOf {
   using Type = NoProperties;

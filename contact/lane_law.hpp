@@ -31,8 +31,8 @@ concept LaneLaw = ContactLaw<Law> && !HasMoments<Law> && !HasReach<Law> &&
   Law::rotate(history, rotation);
 };
 
-/// A law whose parameters follow from materials and radii (m) alone, for many contacts side by side
-/// as well.
+/// A law whose parameters follow from materials and radii (m) alone, of spheres whose materials
+/// have no properties as a pair; for many contacts side by side as well.
 template <class Law>
 concept CombinesRadii = LaneLaw<Law> && requires(const Material& material, const Pack<2>& radius) {
   {

@@ -19,21 +19,27 @@ struct Material {
   double poisson_ratio = 0.3;    ///< of elastic solids in contact (Hertz), in (-1, 0.5]
 };
 
+/// What a body is where it touches others, before it is deformed. A contact keeps it all over a
+/// structure: at a node, a bar's end or the rim of a sheet too, so that its energy is one function
+/// of the positions.
+enum class Shape : std::uint8_t {
+  sphere,    ///< also a node of a structure where it meets a plane
+  cylinder,  ///< a structure of cylinders alone
+  flat       ///< a plane, or a structure with facets
+};
+
 /// One side of a pair, as a contact law sees it.
 struct Body {
   Material material;
-  double radius;  ///< m
+  double radius;  ///< m; of a facet half its thickness, of a plane that of what meets it
   /// kg; infinite for what is held, for planes, and for a surface that a ball meets.
   double mass = std::numeric_limits<double>::infinity();
+  Shape shape = Shape::sphere;
 };
 
 /// Mass (kg) with which two bodies move against each other; infinite if both masses are.
 inline double reduced_mass(const Body& a, const Body& b) noexcept {
   return 1.0 / (1.0 / a.mass + 1.0 / b.mass);
-}
-/// Radius (m) of the curvature of one body against the other.
-inline double reduced_radius(const Body& a, const Body& b) noexcept {
-  return a.radius * b.radius / (a.radius + b.radius);
 }
 
 }  // namespace plekton::contact

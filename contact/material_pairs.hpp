@@ -29,6 +29,7 @@ class MaterialPairs {
     MaterialId material;
     double radius;                                          ///< m
     double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
+    Shape shape = Shape::sphere;
   };
 
   explicit MaterialPairs(std::vector<Material> materials = {},
@@ -44,8 +45,14 @@ class MaterialPairs {
   Parameters combine(const Part& a, const Part& b) const {
     const auto own = properties_.find(std::minmax(a.material, b.material));
     return contact::combine<Law>(own == properties_.end() ? PropertiesOf<Law>{} : own->second,
-                                 {at(a.material), a.radius, a.mass},
-                                 {at(b.material), b.radius, b.mass});
+                                 {at(a.material), a.radius, a.mass, a.shape},
+                                 {at(b.material), b.radius, b.mass, b.shape});
+  }
+
+  /// Whether a pair has other properties than one of which nothing is said.
+  bool has_properties(MaterialId a, MaterialId b) const {
+    const auto own = properties_.find(std::minmax(a, b));
+    return own != properties_.end() && !(own->second == PropertiesOf<Law>{});
   }
 
   /// From now on contacts are not those of the first step (HasStart).

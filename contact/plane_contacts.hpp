@@ -138,8 +138,9 @@ double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
   const auto make = [&](std::size_t i, const Slot* old) {
     const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
     const auto plane = static_cast<std::size_t>(keys[i].b);
-    const auto parameters = materials.combine({ball.material, ball.radius, ball.mass},
-                                              {planes[plane].material, ball.radius});
+    const auto parameters = materials.combine(
+        {ball.material, ball.radius, ball.mass},
+        {.material = planes[plane].material, .radius = ball.radius, .shape = Shape::flat});
     if (old) {
       Slot kept = *old;
       kept.parameters = parameters;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/bodies.hpp"
 #include "contact/structure_contacts.hpp"
 
 /// Which structures may touch, and with which parameters.
@@ -12,9 +13,9 @@ std::vector<structure::Meeting<Law>> StructureContacts<Law>::find_meetings(
   std::vector<Meeting> meetings;
   const std::vector<double> masses = structure::mean_node_masses(*surface_, materials);
   const auto part = [&](std::size_t i) {
-    return typename MaterialPairs<Law>::Part{
-        materials.of_structures[i], surface_->radius(geometry::id_at<geometry::StructureId>(i)),
-        masses[i]};
+    const auto id = geometry::id_at<geometry::StructureId>(i);
+    return typename MaterialPairs<Law>::Part{materials.of_structures[i], surface_->radius(id),
+                                             masses[i], shape_of(*surface_, id)};
   };
   for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
     for (std::size_t k = i; k < surface_->structure_count(); ++k) {

@@ -239,8 +239,9 @@ double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
     const geometry::StructureId structure{keys[i].b};
     const double radius_b = surface_->radius(structure);
     const MaterialId material_b = materials_of_structures[index_of(structure)];
-    const auto parameters =
-        materials.combine({ball.material, ball.radius, ball.mass}, {material_b, radius_b});
+    const auto parameters = materials.combine(
+        {ball.material, ball.radius, ball.mass},
+        {.material = material_b, .radius = radius_b, .shape = shape_of(*surface_, structure)});
     const double range = ball.radius + radius_b;
     return Pair{{ball.radius, range, parameters},
                 ball.node,

@@ -113,7 +113,16 @@ class ExpectedContacts {
   struct Kind {
     contact::MaterialId material;
     double radius;
+    contact::Shape shape = contact::Shape::sphere;
   };
+  typename Law::Parameters combine(const Kind& a, const Kind& b) const {
+    return pairs_.combine({.material = a.material, .radius = a.radius, .shape = a.shape},
+                          {.material = b.material, .radius = b.radius, .shape = b.shape});
+  }
+  /// To a contact a plane has the radius of what meets it.
+  Kind plane_under(std::size_t id, double radius) const {
+    return {scene_.planes[id].material, radius, contact::Shape::flat};
+  }
 
   static ComingPartner balls(const Kind& kind) {
     return {ComingPartner::Kind::balls, kind.material, kind.radius, 0};
@@ -128,7 +137,7 @@ class ExpectedContacts {
   /// @param with  what b is
   void take(const Kind& a, const Kind& b, const ComingPartner& with,
             ExpectedStiffness& hardest) const {
-    const auto parameters = pairs_.combine({a.material, a.radius}, {b.material, b.radius});
+    const auto parameters = combine(a, b);
     const double gap = -kExpectedOverlap * std::min(a.radius, b.radius);
     hardest.take(Law::normal_stiffness(parameters, gap), Law::tangential_stiffness(parameters, gap),
                  with);
@@ -137,7 +146,8 @@ class ExpectedContacts {
   void collect_structures() {
     structures_.resize(surface_.structure_count());
     const auto set = [&](NodeId node, contact::MaterialId material, double radius) {
-      structures_[index_of(surface_.structure_of(node))] = {material, radius};
+      const geometry::StructureId structure = surface_.structure_of(node);
+      structures_[index_of(structure)] = {material, radius, contact::shape_of(surface_, structure)};
     };
     for (std::size_t i = 0; i < scene_.elements.facets.size(); ++i) {
       const auto& facet = scene_.elements.facets[i];
@@ -200,7 +210,7 @@ class ExpectedContacts {
     const double range = own.radius + other.radius;
     const double count =
         1.0 + length_[index_of(node)] / range + area_[index_of(node)] / (range * range);
-    const auto one = pairs_.combine({own.material, own.radius}, {other.material, other.radius});
+    const auto one = combine(own, other);
     const auto all = Law::multiplied(one, count);
     const double gap = -kExpectedOverlap * std::min(own.radius, other.radius);
     hardest.take(Law::normal_stiffness(all, gap), Law::tangential_stiffness(all, gap),
@@ -217,7 +227,7 @@ class ExpectedContacts {
     for (std::size_t i = 0; i < structures_.size(); ++i)
       take(sphere, structures_[i], structure(i), hardest);
     for (std::size_t i = 0; i < scene_.planes.size(); ++i)
-      take(sphere, {scene_.planes[i].material, sphere.radius}, plane(i), hardest);
+      take(sphere, plane_under(i, sphere.radius), plane(i), hardest);
     return hardest;
   }
 
@@ -232,7 +242,7 @@ class ExpectedContacts {
     Touch touch;
     for (const Kind& kind : kinds_) take(kind, own, balls(kind), touch.grain);
     for (std::size_t i = 0; i < scene_.planes.size(); ++i)
-      take(own, {scene_.planes[i].material, own.radius}, plane(i), touch.plane);
+      take({own.material, own.radius}, plane_under(i, own.radius), plane(i), touch.plane);
     touch.structure = hardest_structure(node);
     return touch;
   }

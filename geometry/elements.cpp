@@ -160,6 +160,7 @@ Surface Surface::left_with(std::span<const Cylinder> cylinders,
   require_part(left);
   left.node_structure_ = node_structure_;
   left.structure_radius_ = structure_radius_;
+  left.structure_is_sheet_ = structure_is_sheet_;
   left.build_incidence();
   for (std::size_t n = 0; n < node_count(); ++n) {
     if (left.node_edges_[n].empty()) left.node_structure_[n] = StructureId{-1};
@@ -263,8 +264,12 @@ void Surface::build_structures(std::span<const Cylinder> cylinders, std::span<co
   }
 
   // Of any of its elements: check_elements found them equal.
-  for (const Facet& facet : facets)
-    structure_radius_[index_of(structure_of(facet.nodes[0]))] = facet.radius;
+  structure_is_sheet_.assign(structure_radius_.size(), false);
+  for (const Facet& facet : facets) {
+    const std::size_t structure = index_of(structure_of(facet.nodes[0]));
+    structure_radius_[structure] = facet.radius;
+    structure_is_sheet_[structure] = true;
+  }
   for (const Cylinder& cylinder : cylinders) {
     structure_radius_[index_of(structure_of(cylinder.nodes[0]))] = cylinder.radius;
   }

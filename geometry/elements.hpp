@@ -38,8 +38,8 @@ class Surface {
           std::size_t node_count);
 
   /// The surface of those elements that are left when others have broken away: as if built anew,
-  /// but structures keep their numbers and radii. So a structure is what was connected at first; it
-  /// may fall apart, and one without elements is left as a number.
+  /// but structures keep their numbers, radii and what they were. So a structure is what was
+  /// connected at first; it may fall apart, and one without elements is left as a number.
   ///
   /// A side of a facet that is gone stays only as the side of another facet or with a cylinder
   /// along it. Linear in the number of elements, times log for sorting the edges.
@@ -97,6 +97,10 @@ class Surface {
   double radius(StructureId structure) const noexcept {
     return structure_radius_[index_of(structure)];
   }
+  /// Whether a structure has facets, or had some before they broke away.
+  bool is_sheet(StructureId structure) const noexcept {
+    return structure_is_sheet_[index_of(structure)];
+  }
 
   /// Nodes in use - edges + faces.
   int euler_characteristic() const noexcept;
@@ -128,6 +132,7 @@ class Surface {
   std::vector<CellId> node_owner_;
   std::vector<StructureId> node_structure_;
   std::vector<double> structure_radius_;
+  std::vector<bool> structure_is_sheet_;
 };
 
 }  // namespace plekton::geometry

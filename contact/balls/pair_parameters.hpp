@@ -16,9 +16,9 @@
 
 namespace plekton::contact {
 
-/// The parameters of the law for each pair of a list. If all balls are of one material and the law
-/// asks for no more than radii, computing them anew takes less time than reading them would;
-/// otherwise they are kept.
+/// The parameters of the law for each pair of a list. If all balls are of one material, with no
+/// properties of its own, and the law asks for no more than radii, computing them anew takes less
+/// time than reading them would; otherwise they are kept.
 template <ContactLaw Law>
 class PairParameters {
  public:
@@ -77,7 +77,8 @@ void PairParameters<Law>::assign(std::span<const geometry::IndexPair> keys,
   if constexpr (CombinesRadii<Law>) {
     const MaterialId first = balls.front().material;
     const std::span<const Ball> in_list = balls.first(blocks.ball_count());
-    if (std::all_of(in_list.begin(), in_list.end(),
+    if (!materials.has_properties(first, first) &&
+        std::all_of(in_list.begin(), in_list.end(),
                     [&](const Ball& ball) { return ball.material == first; })) {
       common_ = materials.at(first);
       return;

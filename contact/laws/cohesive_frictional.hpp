@@ -31,6 +31,7 @@ struct CohesiveFrictional {
     double shear_strength = 0.0;    ///< Pa, >= 0
     double rupture_distance = 0.0;  ///< m, of yield until a bond breaks; 0: fragile
     Bonds bonds = Bonds::new_contacts;
+    LinearFrictional::Properties elastic = {};
   };
   struct Parameters {
     LinearFrictional::Parameters elastic;
@@ -50,7 +51,8 @@ struct CohesiveFrictional {
 
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
     const double smaller = std::min(a.radius, b.radius);
-    return {LinearFrictional::combine(a, b), properties.tensile_strength * smaller * smaller,
+    return {LinearFrictional::combine(properties.elastic, a, b),
+            properties.tensile_strength * smaller * smaller,
             properties.shear_strength * smaller * smaller, properties.rupture_distance,
             properties.bonds != Bonds::none};
   }

@@ -7,10 +7,12 @@
 
 namespace plekton::contact {
 
-/// Elastic spheres that stick together: Hertz and Mindlin, and an attraction 2 pi w R as long as
-/// they touch. Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53 (1975) 314-326: for small,
-/// stiff bodies. Friction is limited by tan(phi) times the elastic force, what presses the surfaces
-/// together: it is there at zero load too (Derjaguin, 1934).
+/// Elastic bodies that stick together: Hertz and Mindlin, and an attraction 2 pi w R as long as
+/// they touch, with R = sqrt(R' R'') of the radii of their curvature against each other
+/// (curvature.hpp; Derjaguin, Kolloid-Z. 69 (1934) 155-164). Derjaguin, Muller & Toporov, J.
+/// Colloid Interface Sci. 53 (1975) 314-326: for small, stiff bodies. Friction is limited by
+/// tan(phi) times the elastic force, what presses the surfaces together: it is there at zero load
+/// too (Derjaguin, 1934).
 ///
 /// The attraction acts once on every contact, as it counts: a ball on a flat sheet has one, however
 /// many facets there are. Between structures, whose contacts count for more the longer they lie
@@ -36,8 +38,8 @@ struct DmtAdhesion {
   };
 
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
-    const HertzMindlin::Parameters elastic = HertzMindlin::combine(a, b);
-    return {elastic, 2.0 * std::numbers::pi * properties.work_of_adhesion * elastic.radius};
+    return {HertzMindlin::combine(a, b), 2.0 * std::numbers::pi * properties.work_of_adhesion *
+                                             relative_radii(a, b).equivalent()};
   }
   static Parameters multiplied(const Parameters& p, double count) noexcept {
     return {HertzMindlin::multiplied(p.elastic, count), count * p.attraction};

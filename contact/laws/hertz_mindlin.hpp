@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/contact_law.hpp"
+#include "contact/curvature.hpp"
 #include "contact/laws/tangential_spring.hpp"
 
 #include <algorithm>
@@ -9,21 +10,21 @@
 
 namespace plekton::contact {
 
-/// Elastic spheres. With the overlap d, the radius R = R_a R_b / (R_a + R_b) and the moduli
-/// 1/E* = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b, 1/G* = (2 - nu_a)/G_a + (2 - nu_b)/G_b:
-/// normal force 4/3 E* sqrt(R) d^(3/2), tangential stiffness 8 G* sqrt(R d) without slip inside the
-/// contact area, limited to tan(phi) times the normal force.
-/// Johnson, Contact Mechanics (1985), sections 4.2 and 7.2.
+/// Elastic bodies. With the overlap d, the radius R of their curvature against each other
+/// (curvature.hpp) and the moduli 1/E* = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b,
+/// 1/G* = (2 - nu_a)/G_a + (2 - nu_b)/G_b: normal force 4/3 E* sqrt(R) d^(3/2), tangential
+/// stiffness 8 G* sqrt(R d) without slip inside the contact area, limited to tan(phi) times the
+/// normal force. Johnson, Contact Mechanics (1985), sections 4.2 and 7.2.
 ///
-/// The radius is that of the pair of bodies, a ball's and that of a structure's tubes or half its
-/// thickness: it does not change from one facet to the next.
+/// Of an ellipse the ratio of both stiffnesses is taken as that of a circle: it depends on the
+/// direction of the slip, little unless the ellipse is long (Johnson, section 7.2).
 struct HertzMindlin {
   static constexpr std::string_view name = "hertz_mindlin";
 
   struct Parameters {
     double modulus;        ///< Pa, E*
     double shear_modulus;  ///< Pa, G*
-    double radius;         ///< m, R
+    double radius;         ///< m, R: hertz_radius()
     double friction;       ///< tan(phi), of the smoother body
   };
   struct History {
@@ -40,7 +41,7 @@ struct HertzMindlin {
       return 0.5 * of.young_modulus / ((1.0 + of.poisson_ratio) * (2.0 - of.poisson_ratio));
     };
     return {in_series(plane_modulus(m), plane_modulus(n)),
-            in_series(slip_modulus(m), slip_modulus(n)), reduced_radius(a, b),
+            in_series(slip_modulus(m), slip_modulus(n)), hertz_radius(relative_radii(a, b)),
             std::min(m.friction, n.friction)};
   }
 

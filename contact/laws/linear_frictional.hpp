@@ -4,6 +4,7 @@
 #include "contact/contact_law.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <type_traits>
 
 namespace plekton::contact {
@@ -13,9 +14,26 @@ namespace plekton::contact {
 /// Normal force k_n * overlap; tangential force k_s * elastic slip, limited to tan(phi) times the
 /// normal force. Stiffness of a pair: springs E R of both bodies in series, k_n = 2 E_a R_a E_b R_b
 /// / (E_a R_a + E_b R_b), and likewise k_s with E R times the stiffness ratio. Effeindzourou et
-/// al., Geotextiles and Geomembranes 44 (2016), 2.
+/// al., Geotextiles and Geomembranes 44 (2016), 2. R of a facet is half its thickness: a wall of
+/// half thickness 1 mm is as soft as a grain of 1 mm, whatever touches it. Properties of a pair of
+/// materials say otherwise.
 struct LinearFrictional {
   static constexpr std::string_view name = "linear_frictional";
+
+  /// With what radius a sheet stands in E R.
+  enum class StiffnessRadius : std::uint8_t {
+    half_thickness,
+    /// As flat as it is: with that of the sphere or cylinder that it meets, as a plane. On a sheet
+    /// it stays half the thickness, that of the rims.
+    curvature
+  };
+  struct Properties {
+    double normal_stiffness = 0.0;      ///< N/m, of one contact; 0: from E R
+    double tangential_stiffness = 0.0;  ///< N/m; 0: in the ratio to the normal one that E R gives
+    StiffnessRadius radius = StiffnessRadius::half_thickness;
+
+    friend bool operator==(const Properties&, const Properties&) = default;
+  };
 
   template <class Real>
   struct ParametersOf {
@@ -43,9 +61,20 @@ struct LinearFrictional {
             std::min(a.friction, b.friction)};
   }
 
-  static Parameters combine(const Body& a, const Body& b) noexcept {
-    return combine<double>(a.material, a.radius, b.material, b.radius);
+  static Parameters combine(const Properties& given, const Body& a, const Body& b) noexcept {
+    Parameters p = combine<double>(a.material, spring_radius(given, a, b), b.material,
+                                   spring_radius(given, b, a));
+    if (given.normal_stiffness > 0.0) {
+      const double ratio =
+          p.normal_stiffness > 0.0 ? p.tangential_stiffness / p.normal_stiffness : 0.0;
+      p.normal_stiffness = given.normal_stiffness;
+      p.tangential_stiffness = ratio * given.normal_stiffness;
+    }
+    if (given.tangential_stiffness > 0.0) p.tangential_stiffness = given.tangential_stiffness;
+    return p;
   }
+  /// Of materials that say no more.
+  static Parameters combine(const Body& a, const Body& b) noexcept { return combine({}, a, b); }
 
   static Parameters multiplied(const Parameters& p, double count) noexcept {
     return {count * p.normal_stiffness, count * p.tangential_stiffness, p.friction};
@@ -118,6 +147,12 @@ struct LinearFrictional {
   }
 
  private:
+  static double spring_radius(const Properties& given, const Body& of, const Body& with) noexcept {
+    const bool is_as_flat = given.radius == StiffnessRadius::curvature && of.shape == Shape::flat &&
+                            with.shape != Shape::flat;
+    return is_as_flat ? with.radius : of.radius;
+  }
+
   /// Twice the series stiffness, so that equal bodies give their own stiffness; 0 if one of them is
   /// 0.
   template <class Real>

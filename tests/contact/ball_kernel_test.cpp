@@ -152,7 +152,8 @@ static_assert(CombinesRadii<Law> && !CombinesRadii<PlainLaw>);
 /// A crowd of balls and all their pairs, thrown about anew before every step.
 /// @param knows_where  whether the list tells who touches at first
 template <class AnyLaw>
-std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false) {
+std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false,
+                                    const PropertiesOf<AnyLaw>& properties = {}) {
   constexpr std::size_t kBalls = 60;
   std::vector<Ball> balls;
   std::vector<geometry::IndexPair> pairs;
@@ -168,8 +169,9 @@ std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false) {
   RandomCases random;
   std::vector<Vec3> x(kBalls), v(kBalls), w(kBalls);
   for (Vec3& p : x) p = 3e-3 * random.vector();
-  contacts.rebuild(pairs, balls, MaterialPairs<AnyLaw>({{2e6, 0.3, 0.5}}), pool,
-                   knows_where ? Positions(x) : Positions());
+  const MaterialPairs<AnyLaw> materials({{2e6, 0.3, 0.5}},
+                                        {{{MaterialId{0}, MaterialId{0}}, properties}});
+  contacts.rebuild(pairs, balls, materials, pool, knows_where ? Positions(x) : Positions());
   for (int step = 0; step < 20; ++step) {
     for (std::size_t i = 0; i < kBalls; ++i) {
       x[i] += 5e-5 * random.vector();
@@ -213,6 +215,18 @@ TEST(BallContacts, SetTheForcesOfAllNodes) {
 
 TEST(BallContacts, HaveTheSameBitsSideBySideAndOneAfterTheOther) {
   EXPECT_EQ(forces_of_a_crowd<Law>(1), forces_of_a_crowd<PlainLaw>(1));
+}
+
+/// One says what the others come to, so that parameters are kept instead of made anew.
+TEST(BallContacts, HaveTheSameBitsUnderAStiffnessThatIsGiven) {
+  const Law::Properties same{.normal_stiffness = 2e6 * 1e-3,
+                             .tangential_stiffness = 2e6 * 1e-3 * 0.3};
+  const Law::Properties other{.normal_stiffness = 3e3, .tangential_stiffness = 1e3};
+
+  EXPECT_EQ(forces_of_a_crowd<Law>(1, false, same), forces_of_a_crowd<Law>(1));
+  const std::vector<Vec3> with_other = forces_of_a_crowd<Law>(1, false, other);
+  EXPECT_NE(with_other, forces_of_a_crowd<Law>(1));
+  EXPECT_EQ(with_other, forces_of_a_crowd<Law>(4, false, other));
 }
 
 TEST(BallContacts, HaveTheSameBitsForAnyNumberOfThreads) {

@@ -24,7 +24,8 @@ class LawProperties : public ::testing::Test {
     return {{std::pow(10.0, random_.uniform(5.0, 8.0)), random_.uniform(0.1, 1.0),
              random_.uniform(0.0, 1.0), random_.uniform(0.0, 0.45)},
             random_.uniform(0.01, 0.1),
-            random_.uniform(0.1, 1.0)};
+            random_.uniform(0.1, 1.0),
+            static_cast<Shape>(random_.uniform(0.0, 3.0))};
   }
 
   /// A pair of bodies, and the scale of their overlap.

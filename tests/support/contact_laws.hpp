@@ -37,6 +37,14 @@ struct RandomProperties {
   static PropertiesOf<Law> from(Random&) { return {}; }
 };
 template <>
+struct RandomProperties<LinearFrictional> {
+  static LinearFrictional::Properties from(Random& random) {
+    using Radius = LinearFrictional::StiffnessRadius;
+    const auto given = [&] { return random.unit() < 0.3 ? random.uniform(1e4, 1e6) : 0.0; };
+    return {given(), given(), random.unit() < 0.5 ? Radius::half_thickness : Radius::curvature};
+  }
+};
+template <>
 struct RandomProperties<DmtAdhesion> {
   static DmtAdhesion::Properties from(Random& random) { return {random.uniform(0.0, 1e-4)}; }
 };
