@@ -23,6 +23,8 @@ std::string_view unit_of(LawParameter::Kind kind) {
       return "Pa";
     case LawParameter::Kind::length:
       return "m";
+    case LawParameter::Kind::stiffness:
+      return "N/m";
     case LawParameter::Kind::energy_per_area:
       return "J/m2";
     case LawParameter::Kind::number:
@@ -32,7 +34,10 @@ std::string_view unit_of(LawParameter::Kind kind) {
 }
 
 std::string default_of(const LawParameter& parameter) {
-  return std::isinf(parameter.standard) ? "none" : fmt::format("{:g}", parameter.standard);
+  const bool is_in_range = parameter.standard > parameter.low ||
+                           (parameter.with_low && parameter.standard == parameter.low);
+  return is_in_range && std::isfinite(parameter.standard) ? fmt::format("{:g}", parameter.standard)
+                                                          : "none";
 }
 
 void list_parameters(std::span<const LawParameter> parameters, std::ostream& out) {

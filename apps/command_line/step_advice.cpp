@@ -205,7 +205,13 @@ class StepAdvice {
     for (std::size_t i = 0; i < std::min(count, kMostNames); ++i)
       names += fmt::format("{}{}", i == 0 ? "" : ", ", scenario_.materials[i].name);
     if (count > kMostNames) names += fmt::format(" and {} others", count - kMostNames);
-    return fmt::format("a lower young_modulus of the materials that touch ({}), or {}", names,
+    const auto& pairs = scenario_.contacts;
+    const bool is_given = std::any_of(pairs.begin(), pairs.end(), [](const PairSettings& pair) {
+      return pair.contact.springs.normal_stiffness > 0.0 ||
+             pair.contact.springs.tangential_stiffness > 0.0;
+    });
+    return fmt::format("a lower young_modulus of the materials that touch ({}){}, or {}", names,
+                       is_given ? " or the stiffness that [[contacts]] give" : "",
                        membrane_
                            ? "more mass in each node of " + scenario_.membranes[*membrane_].name +
                                  " (a coarser mesh, a larger density or areal_mass)"

@@ -308,22 +308,33 @@ void choose_time_step(const SimulationSettings& settings, Simulation& simulation
   if (chosen != simulation.time_step()) simulation.set_time_step(chosen);
 }
 
-/// Under linear_frictional alone, which is the fastest, unless a pair has a law of its own.
+/// By pair of materials.
+template <class Law, class Properties>
+contact::PairProperties<Law> properties_of_pairs(const std::vector<PairSettings>& pairs,
+                                                 const Properties& properties) {
+  contact::PairProperties<Law> all;
+  for (const PairSettings& pair : pairs) {
+    all[{geometry::id_at<contact::MaterialId>(pair.first),
+         geometry::id_at<contact::MaterialId>(pair.second)}] = properties(pair.contact);
+  }
+  return all;
+}
+
+/// Under linear_frictional alone, which is the fastest, unless a pair has another law or more.
 std::unique_ptr<Simulation> simulation_of(const Scenario& scenario, dynamics::Scene scene,
                                           const dynamics::SimulationOptions& options) {
   using contact::AnyLaw;
   using contact::LinearFrictional;
-  if (scenario.contacts.empty()) {
+  const auto& pairs = scenario.contacts;
+  if (std::all_of(pairs.begin(), pairs.end(), [](const PairSettings& pair) {
+        return contact::linear_alone(pair.contact).has_value();
+      })) {
+    const auto linear = [](const auto& settings) { return *contact::linear_alone(settings); };
     return std::make_unique<SimulationUnder<LinearFrictional>>(
-        std::move(scene), options, contact::PairProperties<LinearFrictional>{});
+        std::move(scene), options, properties_of_pairs<LinearFrictional>(pairs, linear));
   }
-  contact::PairProperties<AnyLaw> properties;
-  for (const PairSettings& pair : scenario.contacts) {
-    properties[{geometry::id_at<contact::MaterialId>(pair.first),
-                geometry::id_at<contact::MaterialId>(pair.second)}] =
-        contact::properties_of(pair.contact);
-  }
-  return std::make_unique<SimulationUnder<AnyLaw>>(std::move(scene), options, properties);
+  return std::make_unique<SimulationUnder<AnyLaw>>(
+      std::move(scene), options, properties_of_pairs<AnyLaw>(pairs, contact::properties_of));
 }
 
 }  // namespace

@@ -165,10 +165,18 @@ constexpr std::array kOfOutput = std::to_array<KeyMeaning>({
 
 /// Parameters of laws have their meaning with the law.
 std::string_view meaning_of_parameter(std::string_view name) {
-  const auto parameters = contact::common_law_parameters();
-  const auto found = std::find_if(parameters.begin(), parameters.end(),
-                                  [&](const auto& parameter) { return parameter.name == name; });
-  return found == parameters.end() ? std::string_view() : found->what;
+  std::string_view meaning;
+  const auto look = [&](const auto& parameters) {
+    const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                    [&](const auto& parameter) { return parameter.name == name; });
+    if (found != parameters.end()) meaning = found->what;
+  };
+  look(contact::common_law_parameters());
+  for (const contact::LawRow& law : contact::contact_laws()) {
+    look(law.parameters);
+    look(law.choices);
+  }
+  return meaning;
 }
 
 }  // namespace

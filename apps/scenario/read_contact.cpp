@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 namespace plekton::apps {
@@ -17,6 +18,8 @@ const Dimension& dimension_of(LawParameter::Kind kind) {
       return kPressure;
     case LawParameter::Kind::length:
       return kLength;
+    case LawParameter::Kind::stiffness:
+      return kStiffness;
     case LawParameter::Kind::energy_per_area:
       return kEnergyPerArea;
     case LawParameter::Kind::number:
@@ -48,17 +51,40 @@ std::vector<std::string_view> keys_of(const contact::LawRow& law) {
   return keys;
 }
 
+bool has_key(const contact::LawRow& law, std::string_view key) {
+  const std::vector<std::string_view> keys = keys_of(law);
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// As in "\"this\" or \"that\"".
+std::string laws_with(std::string_view key) {
+  std::string names;
+  for (const contact::LawRow& law : contact::contact_laws()) {
+    if (has_key(law, key)) names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", law.name);
+  }
+  return names;
+}
+
 /// Complains about parameters of laws that were not chosen.
 void refuse_others(const contact::LawRow& chosen, Section& section) {
+  std::set<std::string_view> refused;
   for (const contact::LawRow& law : contact::contact_laws()) {
-    if (law.name == chosen.name) continue;
     for (const std::string_view key : keys_of(law)) {
-      if (!section.has(key)) continue;
-      section.complain(key, fmt::format("goes with law = \"{}\", but this pair has \"{}\"; change "
-                                        "the law, or leave {} out",
-                                        law.name, chosen.name, key));
+      if (has_key(chosen, key) || !section.has(key) || !refused.insert(key).second) continue;
+      section.complain(key, fmt::format("goes with law = {}, but this pair has \"{}\"; change the "
+                                        "law, or leave {} out",
+                                        laws_with(key), chosen.name, key));
     }
   }
+}
+
+/// Complains about a radius for a stiffness that does not follow from one.
+void refuse_two_stiffnesses(const contact::LinearFrictional::Properties& springs,
+                            Section& section) {
+  if (!(springs.normal_stiffness > 0.0) || !section.has("stiffness_radius")) return;
+  section.complain("stiffness_radius",
+                   "says how the stiffness follows from the materials, but normal_stiffness gives "
+                   "it; leave one of them out");
 }
 
 /// For a law that is not known: any parameter may be one of its.
@@ -87,10 +113,12 @@ PairSettings read_contact(Section section, const Known& known, MaterialPairSet& 
   read_parameters(law.parameters, section, pair.contact);
   read_choices(law.choices, section, pair.contact);
   read_parameters(contact::common_law_parameters(), section, pair.contact);
-  if (chosen)
+  if (chosen) {
     refuse_others(law, section);
-  else
+    refuse_two_stiffnesses(pair.contact.springs, section);
+  } else {
     announce_all(section);
+  }
   section.finish();
   if (!first || !second) return pair;
   std::tie(pair.first, pair.second) = std::minmax(*first, *second);

@@ -58,7 +58,8 @@ double Section::quantity(std::string_view key, const Quantity& expected) {
 }
 
 double Section::quantity(std::string_view key, const Quantity& expected, double fallback) {
-  if (records(key, kind_text(expected), standard_text(fallback))) return fallback;
+  const std::string standard = expected.range.holds(fallback) ? standard_text(fallback) : "none";
+  if (records(key, kind_text(expected), standard)) return fallback;
   const Value* value = find(key);
   return value ? read_quantity(*value, path_of(key), expected) : fallback;
 }

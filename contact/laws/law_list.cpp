@@ -33,12 +33,46 @@ constexpr LawParameter limit(std::string_view name, std::string_view what,
           in};
 }
 
-constexpr std::array kAdhesion{
-    parameter("work_of_adhesion", Kind::energy_per_area, 0.0,
-              "w; the bodies attract each other with 2 pi w R while they touch",
-              [](ContactSettings& s) -> double& { return s.adhesion.work_of_adhesion; })};
+/// A stiffness that does not follow from the materials.
+constexpr LawParameter given_stiffness(std::string_view name, std::string_view what,
+                                       double& (*in)(ContactSettings&)) {
+  return {name,
+          Kind::stiffness,
+          0.0,
+          0.0,
+          kInfinity,
+          false,
+          " above 0, or no such key for that of the materials",
+          what,
+          in};
+}
+
+constexpr LawParameter kNormalStiffness = given_stiffness(
+    "normal_stiffness", "k_n of every contact of the pair, whatever its bodies' size",
+    [](ContactSettings& s) -> double& { return s.springs.normal_stiffness; });
+constexpr LawParameter kTangentialStiffness = given_stiffness(
+    "tangential_stiffness", "k_s; if not given, in the ratio to k_n that the materials have",
+    [](ContactSettings& s) -> double& { return s.springs.tangential_stiffness; });
+constexpr std::array kSprings{kNormalStiffness, kTangentialStiffness};
+
+constexpr std::array<std::string_view, 2> kRadiusWords{"half_thickness", "curvature"};
+constexpr LawChoice kStiffnessRadius{
+    "stiffness_radius", kRadiusWords,
+    "R of a membrane of facets in E R: half its thickness, or, as it is flat, that of the grain or "
+    "bar that it meets",
+    [](ContactSettings& s, std::size_t word) {
+      using Radius = LinearFrictional::StiffnessRadius;
+      s.springs.radius = word == 0 ? Radius::half_thickness : Radius::curvature;
+    }};
+constexpr std::array kSpringChoices{kStiffnessRadius};
+
+constexpr std::array kAdhesion{parameter(
+    "work_of_adhesion", Kind::energy_per_area, 0.0,
+    "w; the bodies attract each other with 2 pi w R while they touch, R of their curvature",
+    [](ContactSettings& s) -> double& { return s.adhesion.work_of_adhesion; })};
 
 constexpr std::array kCohesion{
+    kNormalStiffness, kTangentialStiffness,
     parameter("tensile_strength", Kind::pressure, 0.0,
               "a bond carries this times the square of the smaller radius (no pi)",
               [](ContactSettings& s) -> double& { return s.cohesion.tensile_strength; }),
@@ -50,6 +84,7 @@ constexpr std::array kCohesion{
 
 constexpr std::array<std::string_view, 2> kBondWords{"new", "start"};
 constexpr std::array kCohesionChoices{
+    kStiffnessRadius,
     LawChoice{"bonds", kBondWords,
               "which contacts are glued: all when the bodies come to touch (new), or only those of "
               "the first step (start)",
@@ -75,9 +110,11 @@ constexpr std::array kCommon{
                  [](ContactSettings& s) -> double& { return s.restitution; }}};
 
 constexpr std::array<LawRow, 4> kLaws{
-    {{LinearFrictional::name, "linear springs, Coulomb friction (Cundall & Strack 1979)", {}},
+    {{LinearFrictional::name, "linear springs, Coulomb friction (Cundall & Strack 1979)", kSprings,
+      kSpringChoices},
      {HertzMindlin::name,
-      "elastic spheres, no slip inside the contact, Coulomb friction (Johnson 1985)",
+      "elastic bodies by their curvature, no slip inside the contact, Coulomb friction (Johnson "
+      "1985)",
       {}},
      {DmtAdhesion::name, "hertz_mindlin with adhesion (Derjaguin, Muller & Toporov 1975)",
       kAdhesion},
@@ -89,10 +126,14 @@ PropertiesOf<AnyLaw> with_law(const ContactSettings& settings) {
   PropertiesOf<AnyLaw> properties;
   AnyBaseLaw::Properties& law = properties.whole.whole;
   const std::string_view name = kLaws[settings.law].name;
+  if (name == LinearFrictional::name) law = AnyBaseLaw::Chosen<LinearFrictional>{settings.springs};
   if (name == HertzMindlin::name) law = AnyBaseLaw::Chosen<HertzMindlin>{};
   if (name == DmtAdhesion::name) law = AnyBaseLaw::Chosen<DmtAdhesion>{settings.adhesion};
-  if (name == CohesiveFrictional::name)
-    law = AnyBaseLaw::Chosen<CohesiveFrictional>{settings.cohesion};
+  if (name == CohesiveFrictional::name) {
+    AnyBaseLaw::Chosen<CohesiveFrictional> cohesive{settings.cohesion};
+    cohesive.properties.elastic = settings.springs;
+    law = cohesive;
+  }
   return properties;
 }
 
@@ -114,6 +155,14 @@ PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings) {
   properties.part.damping_ratio =
       damping_ratio(is_hertz ? SpringKind::hertz : SpringKind::linear, settings.restitution);
   return properties;
+}
+
+std::optional<LinearFrictional::Properties> linear_alone(const ContactSettings& settings) noexcept {
+  const RollingTwisting::Properties& rolling = settings.rolling;
+  const bool is_alone = kLaws[settings.law].name == LinearFrictional::name &&
+                        rolling.rolling_stiffness == 0.0 && rolling.twisting_stiffness == 0.0 &&
+                        settings.restitution == 1.0;
+  return is_alone ? std::optional(settings.springs) : std::nullopt;
 }
 
 std::optional<Bonds> bonds_of(const ContactSettings& settings) noexcept {

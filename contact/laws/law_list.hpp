@@ -13,19 +13,20 @@ namespace plekton::contact {
 
 /// What a scenario says about a pair of materials.
 struct ContactSettings {
-  std::size_t law = 0;  ///< place in contact_laws()
+  std::size_t law = 0;                   ///< place in contact_laws()
+  LinearFrictional::Properties springs;  ///< also of cohesion
   DmtAdhesion::Properties adhesion;
-  CohesiveFrictional::Properties cohesion;
+  CohesiveFrictional::Properties cohesion;  ///< but for its springs
   RollingTwisting::Properties rolling;
   double restitution = 1.0;  ///< of an impact along the normal, in (0, 1]
 };
 
 struct LawParameter {
-  enum class Kind { number, pressure, length, energy_per_area };
+  enum class Kind { number, pressure, length, stiffness, energy_per_area };
 
   std::string_view name;
   Kind kind;
-  double standard;  ///< SI, if nothing is said
+  double standard;  ///< SI, if nothing is said; outside of the range: there is none
   double low;       ///< SI, the least that is allowed
   double high;
   bool with_low;          ///< whether low itself is
@@ -56,6 +57,10 @@ std::span<const LawRow> contact_laws() noexcept;
 std::span<const LawParameter> common_law_parameters() noexcept;
 
 PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings);
+
+/// Those of a pair that has linear_frictional and nothing beside it; scenes in which all pairs have
+/// are faster under that law. Nothing for any other pair.
+std::optional<LinearFrictional::Properties> linear_alone(const ContactSettings& settings) noexcept;
 
 /// Which contacts are glued; nothing for a law without bonds. Bonds without any strength are none.
 std::optional<Bonds> bonds_of(const ContactSettings& settings) noexcept;

@@ -66,6 +66,45 @@ restitution = 0.5
   EXPECT_EQ(settings.restitution, 0.5);
 }
 
+TEST(ReadContact, HasTheStiffnessThatAPairIsGiven) {
+  const auto pairs = read(R"([[contacts]]
+between = "steel"
+and = "soil"
+normal_stiffness = "20 kN/m"
+tangential_stiffness = "5 N/mm"
+[[contacts]]
+between = "soil"
+and = "soil"
+law = "cohesive_frictional"
+stiffness_radius = "curvature"
+)");
+
+  ASSERT_EQ(pairs.size(), 2u);
+  using Radius = contact::LinearFrictional::StiffnessRadius;
+  EXPECT_DOUBLE_EQ(pairs[0].contact.springs.normal_stiffness, 2e4);
+  EXPECT_DOUBLE_EQ(pairs[0].contact.springs.tangential_stiffness, 5e3);
+  EXPECT_EQ(pairs[0].contact.springs.radius, Radius::half_thickness);
+  EXPECT_EQ(pairs[1].contact.springs.normal_stiffness, 0.0);
+  EXPECT_EQ(pairs[1].contact.springs.radius, Radius::curvature);
+}
+
+TEST(ReadContact, RefusesAStiffnessThatIsNoneOrGoesWithAnotherLaw) {
+  const std::string pair = "[[contacts]]\nbetween = \"soil\"\nand = \"soil\"\n";
+
+  EXPECT_NE(complaint(pair + "normal_stiffness = 0\n")
+                .find("above 0, or no such key for that of the materials"),
+            std::string::npos);
+  const std::string other =
+      complaint(pair + "law = \"hertz_mindlin\"\nnormal_stiffness = \"1 kN/m\"\n");
+  EXPECT_NE(other.find("goes with law = \"linear_frictional\" or \"cohesive_frictional\", but"),
+            std::string::npos)
+      << other;
+  EXPECT_EQ(other.find('\n'), std::string::npos) << other;
+  const std::string twice =
+      complaint(pair + "normal_stiffness = \"1 kN/m\"\nstiffness_radius = \"curvature\"\n");
+  EXPECT_NE(twice.find("leave one of them out"), std::string::npos) << twice;
+}
+
 TEST(ReadContact, SaysWhatIsWrongAndWhere) {
   const std::string pair = "[[contacts]]\nbetween = \"soil\"\nand = \"soil\"\n";
 

@@ -4,24 +4,31 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
 namespace plekton::contact {
 namespace {
 
+/// A parameter of several laws, as those of linear springs, is one and the same.
 TEST(LawList, NamesEveryLawAndParameterOnceAndSaysWhatItIs) {
-  std::set<std::string_view> names;
-  const auto take = [&](const LawParameter& parameter) {
+  ContactSettings settings;
+  std::set<std::string_view> laws;
+  std::map<std::string_view, const double*> places;
+  const auto take = [&](const LawParameter& parameter, std::set<std::string_view>& names) {
     EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
     EXPECT_FALSE(parameter.what.empty()) << parameter.name;
+    const double* const place = &parameter.in(settings);
+    EXPECT_EQ(places.try_emplace(parameter.name, place).first->second, place) << parameter.name;
   };
   for (const LawRow& law : contact_laws()) {
-    EXPECT_TRUE(names.insert(law.name).second) << law.name;
+    EXPECT_TRUE(laws.insert(law.name).second) << law.name;
     EXPECT_FALSE(law.what.empty()) << law.name;
-    for (const LawParameter& parameter : law.parameters) take(parameter);
+    std::set<std::string_view> names;
+    for (const LawParameter& parameter : law.parameters) take(parameter, names);
+    for (const LawParameter& parameter : common_law_parameters()) take(parameter, names);
   }
-  for (const LawParameter& parameter : common_law_parameters()) take(parameter);
 }
 
 TEST(LawList, HasTheDefaultsThatSettingsHave) {
@@ -32,6 +39,39 @@ TEST(LawList, HasTheDefaultsThatSettingsHave) {
   }
   for (const LawParameter& parameter : common_law_parameters())
     EXPECT_EQ(parameter.in(settings), parameter.standard) << parameter.name;
+}
+
+TEST(LawList, GivesLinearSpringsTheStiffnessOfThePair) {
+  const Body body{{1e7, 0.3, 0.5, 0.25}, 0.01, 1.0};
+  for (const std::string_view name : {"linear_frictional", "cohesive_frictional"}) {
+    ContactSettings settings;
+    while (contact_laws()[settings.law].name != name) ++settings.law;
+    for (const LawParameter& parameter : contact_laws()[settings.law].parameters)
+      if (parameter.name == "normal_stiffness") parameter.in(settings) = 3e4;
+
+    const auto p = AnyLaw::combine(properties_of(settings), body, body);
+
+    EXPECT_DOUBLE_EQ(AnyLaw::normal_stiffness(p, -1e-5), 3e4) << name;
+    EXPECT_DOUBLE_EQ(AnyLaw::tangential_stiffness(p, -1e-5), 0.9e4) << name;
+  }
+}
+
+TEST(LawList, KnowsWhichPairsHaveLinearSpringsAlone) {
+  ContactSettings settings;
+  settings.springs.normal_stiffness = 3e4;
+  ASSERT_TRUE(linear_alone(settings));
+  EXPECT_EQ(linear_alone(settings)->normal_stiffness, 3e4);
+
+  ContactSettings damped = settings;
+  damped.restitution = 0.9;
+  ContactSettings rolling = settings;
+  rolling.rolling.rolling_stiffness = 0.1;
+  ContactSettings twisting = settings;
+  twisting.rolling.twisting_stiffness = 0.1;
+  ContactSettings other = settings;
+  other.law = 1;
+  for (const ContactSettings& more : {damped, rolling, twisting, other})
+    EXPECT_FALSE(linear_alone(more));
 }
 
 TEST(LawList, GivesEachNameItsLaw) {
