@@ -98,9 +98,12 @@ class SurfaceContacts {
 
   /// Adds the elastic normal forces (N) with the nodes anywhere near where they were in the last
   /// step: what the contacts' energy gives, without friction and whatever else has a history.
-  /// @param cells  of the present list, as rebuild() took them
-  void add_elastic_forces(std::span<const geometry::CellId> cells, Positions x,
-                          NodeForces& forces) const;
+  /// @param cells   of the present list, as rebuild() took them
+  /// @param finder  working space, of this surface
+  /// @param wants   (ball's node) -> whether its contacts count
+  template <class Wants>
+  void add_elastic_forces(std::span<const geometry::CellId> cells, Positions x, NodeForces& forces,
+                          PatchFinder& finder, Wants&& wants) const;
 
   /// Gives a number after the last one to every contact that has none.
   void number(std::int64_t& last);

@@ -38,11 +38,12 @@ void SurfaceContacts<Law>::for_each_coming(double margin, std::span<const geomet
 }
 
 template <ContactLaw Law>
+template <class Wants>
 void SurfaceContacts<Law>::add_elastic_forces(std::span<const geometry::CellId> cells, Positions x,
-                                              NodeForces& forces) const {
-  PatchFinder finder(*surface_);
+                                              NodeForces& forces, PatchFinder& finder,
+                                              Wants&& wants) const {
   for (const Pair& pair : pairs_) {
-    if (pair.contacts.count == 0) continue;
+    if (pair.contacts.count == 0 || !wants(pair.node)) continue;
     const NormalPart one{&pair};
     for (const Patch& patch :
          finder.find(x[index_of(pair.node)], pair.reach,

@@ -14,6 +14,8 @@
 #include "dynamics/readout/facet_traction.hpp"
 #include "dynamics/readout/reactions.hpp"
 #include "dynamics/scene.hpp"
+#include "dynamics/spread_stiffness.hpp"
+#include "dynamics/spring_shares.hpp"
 #include "dynamics/step_cause.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/broken_elements.hpp"
@@ -44,7 +46,7 @@ struct SimulationOptions {
 };
 
 /// A chosen time step is this part of the critical one.
-constexpr double kSafety = 0.5;
+constexpr double kSafety = 0.65;
 /// A chosen step grows by no more than this in kStepsBetweenLooks steps: the leapfrog keeps
 /// energies while its step changes slowly.
 constexpr double kGrowth = 1.1;
@@ -231,8 +233,10 @@ class Simulation {
   void add_contacts_to(Springs& springs, double further, geometry::Positions x) const;
   template <class Springs>
   void add_surface_contacts_to(Springs& springs, double further, geometry::Positions x) const;
-  void add_near_contacts_to(NodalStiffness& springs, double margin);
-  void add_near_structures_to(NodalStiffness& springs, double margin);
+  void add_near_contacts_to(ContactSprings& springs, double margin);
+  void add_near_structures_to(ContactSprings& springs, double margin);
+  void add_spread_to(NodalStiffness& stiffness, ContactSprings& springs, SpreadStiffness& spread,
+                     geometry::Positions x) const;
   CriticalStep near_step(double margin);
   bool is_look_due() const noexcept;
   double largest_speed_now() const noexcept;
@@ -240,6 +244,7 @@ class Simulation {
   void for_each_piece(NodalStiffness& space, const Look& look) const;
   CriticalStep critical_step(NodalStiffness& space) const;
   CriticalStep structural_step(NodalStiffness& space, bool expected) const;
+  CriticalStep present_step(NodalStiffness& space) const;
   void consider_structures(StiffestPart& parts) const;
 
   Scene scene_;
@@ -261,6 +266,9 @@ class Simulation {
   std::vector<double> radii_;  ///< m, of the ball around each node; 0 where there is none
   std::vector<IsotropicStiffness> expected_;  ///< of the contacts that may come, by node
   NodalStiffness space_{0};  ///< to choose a time step without allocation; empty if one was given
+  ContactSprings springs_;   ///< of the last look at the step
+  SpringShares shares_;      ///< working space of a look
+  SpreadStiffness spread_;   ///< likewise; goes on from look to look
   std::vector<IsotropicStiffness> of_structures_;  ///< by node, of a contact with another structure
   std::vector<char> is_counted_;                   ///< by node, working space of a look
   /// What is known from the last look at the step to the next one.

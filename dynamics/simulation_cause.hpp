@@ -13,7 +13,7 @@ template <contact::ContactLaw Law>
 StepCause Simulation<Law>::critical_cause() const {
   NodalStiffness space(scene_.state.size(), &scene_.properties);
   const CriticalStep coming = structural_step(space, true);
-  const CriticalStep present = structural_step(space, false);
+  const CriticalStep present = present_step(space);
   const CriticalStep& shortest = present.dt < coming.dt ? present : coming;
   StepCause cause{shortest, {}, 0.0, shortest.dt};
   if (std::isfinite(shortest.dt)) {

@@ -65,6 +65,7 @@ Simulation<Law>::Simulation(Scene scene, const SimulationOptions& options,
       plane_reactions_(driven_planes_.empty() ? 0 : scene_.planes.size()),
       forces_(scene_.state.size()),
       radii_(node_radii(scene_, surface_)),
+      spread_(surface_),
       furthest_(furthest_in_a_step(scene_)),
       pace_radius_(pace_radius(scene_.elements)),
       full_gravity_(options.motion.gravity) {
@@ -276,17 +277,39 @@ CriticalStep Simulation<Law>::critical_step() const {
 template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::present_critical_step() const {
   NodalStiffness space(scene_.state.size(), &scene_.properties);
-  CriticalStep step = structural_step(space, false);
+  CriticalStep step = present_step(space);
   step.dt = loads_.critical_step(step.dt, scene_);
   return step;
 }
 
+/// Leaves out the springs along the normals of contacts with surfaces: the forces of the contacts'
+/// energy have them, and what turns with them.
+struct SlipOnSurfaces {
+  ContactSprings& springs;
+
+  void add_pair(NodeId a, NodeId b, const ContactStiffness& contact) {
+    springs.add_pair(a, b, contact);
+  }
+  void add_on_surface(NodeId ball, const geometry::CorePoint& core, ContactStiffness contact,
+                      const SurfaceTurning&) {
+    contact.normal_stiffness = 0.0;
+    springs.add_on_surface(ball, core, contact);
+  }
+  void add_to_wall(NodeId ball, const ContactStiffness& contact) {
+    springs.add_to_wall(ball, contact);
+  }
+  void add(NodeId node, const IsotropicStiffness& single) { springs.add(node, single); }
+};
+
 template <contact::ContactLaw Law>
 ExactStep Simulation<Law>::exact_critical_step() const {
   ContactSprings springs;
-  add_contacts_to(springs, 0.0, force_positions());
-  const auto normal = [this](geometry::Positions x, NodeForces& forces) {
-    contacts_.with_surfaces().add_elastic_forces(contacts_.neighbours().cells(), x, forces);
+  SlipOnSurfaces slip{springs};
+  add_contacts_to(slip, 0.0, force_positions());
+  contact::PatchFinder finder(surface_);
+  const auto normal = [&](geometry::Positions x, NodeForces& forces) {
+    contacts_.with_surfaces().add_elastic_forces(contacts_.neighbours().cells(), x, forces, finder,
+                                                 [](NodeId) { return true; });
   };
   return dynamics::exact_critical_step(scene_, {bonds_, sheet_facets_}, loads_, springs, time_,
                                        normal);
@@ -306,10 +329,26 @@ void Simulation<Law>::for_each_piece(NodalStiffness& space, const Look& look) co
 template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::critical_step(NodalStiffness& space) const {
   CriticalStep shortest = structural_step(space, true);
-  const CriticalStep present = structural_step(space, false);
+  const CriticalStep present = present_step(space);
   if (present.dt < shortest.dt) shortest = present;
   shortest.dt = loads_.critical_step(shortest.dt, scene_);
   return shortest;
+}
+
+/// Of the contacts of now, without gases and viscous damping.
+/// @param space  where there are no surfaces it is all the space that is needed
+template <contact::ContactLaw Law>
+CriticalStep Simulation<Law>::present_step(NodalStiffness& space) const {
+  if (surface_.structure_count() == 0) return structural_step(space, false);
+  const std::vector<Vec3> x = force_positions();
+  NodalStiffness whole(scene_.state.size(), &scene_.properties);
+  ContactSprings springs;
+  SpreadStiffness spread(surface_);
+  add_structures_to(whole);
+  add_contacts_to(springs, 0.0, x);
+  add_spread_to(whole, springs, spread, x);
+  SpringShares().add(springs, scene_.properties, whole);
+  return whole.critical_step(scene_.properties);
 }
 
 /// Without gases and viscous damping.

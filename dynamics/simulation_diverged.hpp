@@ -164,8 +164,9 @@ NodeState Simulation<Law>::state_before(double drift) const {
 template <contact::ContactLaw Law>
 double Simulation<Law>::critical_step_at(NodeState& state, bool expected) {
   std::swap(scene_.state, state);
-  NodalStiffness space(scene_.state.size());
-  const double critical = loads_.critical_step(structural_step(space, expected).dt, scene_);
+  NodalStiffness space(scene_.state.size(), &scene_.properties);
+  const CriticalStep step = expected ? structural_step(space, true) : present_step(space);
+  const double critical = loads_.critical_step(step.dt, scene_);
   std::swap(scene_.state, state);
   return critical;
 }

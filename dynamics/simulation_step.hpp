@@ -32,12 +32,6 @@ ContactStiffness Simulation<Law>::stiffness_of(const Vec3& normal,
           Law::tangential_stiffness(parameters, gap), radii_[index_of(a)], radii_[index_of(b)]};
 }
 
-/// A collision with a surface lasts pi / omega, with omega that of the contact and the nodes under it.
-/// At half of the critical step omega dt = 1: what is lost or made in touching and leaving at moments
-/// within a step, in proportion to (omega dt)², was seen to be 9 % of the energy of a sphere on a light
-/// facet. With twice the stiffness it is below 5 %.
-constexpr double kCollisionStiffness = 2.0;
-
 /// Adds a contact of a ball with a surface.
 /// @param range    m, radius of the ball and of the surface
 /// @param force    N, elastic, of the term; of rings it may be more than one contact has
@@ -56,8 +50,9 @@ void Simulation<Law>::add_on_surface(Springs& springs, NodeId ball, const geomet
   ContactStiffness contact = stiffness_of(normal, parameters, gap - further, ball, core.nodes[0]);
   const double of_one = Law::elastic_normal_force(parameters, gap);
   const double weight = of_one > 0.0 ? force / of_one : 1.0;
+  contact.weight = weight;
   contact.normal_stiffness *= std::max(1.0, std::abs(weight));
-  if (further > 0.0) contact.normal_stiffness *= kCollisionStiffness;
+  contact.overlap = std::max(0.0, -gap);
   const double deeper = weight * Law::elastic_normal_force(parameters, gap - further);
   springs.add_on_surface(ball, core, contact, surface_turning(core, deeper, distance, x));
 }
@@ -100,7 +95,7 @@ void Simulation<Law>::add_surface_contacts_to(Springs& springs, double further,
 
 /// What touches, and what may touch once bodies are nearer by a margin (m).
 template <contact::ContactLaw Law>
-void Simulation<Law>::add_near_contacts_to(NodalStiffness& springs, double margin) {
+void Simulation<Law>::add_near_contacts_to(ContactSprings& springs, double margin) {
   const auto& x = scene_.state.position;
   contacts_.with_spheres().for_each_near(
       margin, x, [&](NodeId a, NodeId b, const auto& parameters, double gap) {
@@ -125,7 +120,7 @@ void Simulation<Law>::add_near_contacts_to(NodalStiffness& springs, double margi
 /// Nodes of structures that another one may come to lie on, and that nothing of the kind touches
 /// yet: with what expected_contacts.hpp says of that.
 template <contact::ContactLaw Law>
-void Simulation<Law>::add_near_structures_to(NodalStiffness& springs, double margin) {
+void Simulation<Law>::add_near_structures_to(ContactSprings& springs, double margin) {
   if (of_structures_.empty()) return;
   std::fill(is_counted_.begin(), is_counted_.end(), char{0});
   contacts_.between_structures().for_each_stiffness(
@@ -172,18 +167,38 @@ void Simulation<Law>::choose_time_step() {
   const double usual = steps * step * (speed + steps * step * largest_gravity());
   look_ = {contacts_.list_count(), 0.0,
            std::max(std::min(usual, kLongestWay * pace_radius_), speed * step)};
-  const double stable = kSafety * near_step(2.0 * look_.longest_way).dt;
+  const double critical = near_step(2.0 * look_.longest_way).dt;
+  const double stable =
+      std::min(kSafety * critical, springs_.collision_step(scene_.state, scene_.properties));
   const bool may_grow = steps_ % kStepsBetweenLooks == 0;
   stable_step_ = std::min({stable, collision_step_, (may_grow ? kGrowth : 1.0) * stable_step_});
   dt_ = std::min(stable_step_, motion_step());
+}
+
+/// What contacts that are more or less than one resist beside their springs (spread_stiffness.hpp).
+/// @param x  m, where the nodes were when the forces were found
+template <contact::ContactLaw Law>
+void Simulation<Law>::add_spread_to(NodalStiffness& stiffness, ContactSprings& springs,
+                                    SpreadStiffness& spread, geometry::Positions x) const {
+  constexpr double kDifference = 1e-6;  // of the smallest radius
+  if (!spread.begin(springs, scene_.state.size())) return;
+  spread.add_to(stiffness, springs, scene_.properties, {x, kDifference * pace_radius_},
+                [&](geometry::Positions places, NodeForces& forces, contact::PatchFinder& finder) {
+                  contacts_.with_surfaces().add_elastic_forces(
+                      contacts_.neighbours().cells(), places, forces, finder,
+                      [&](NodeId ball) { return spread.is_spread(ball); });
+                });
 }
 
 /// Critical step with the contacts of now and those that are nearer than a margin (m).
 template <contact::ContactLaw Law>
 CriticalStep Simulation<Law>::near_step(double margin) {
   space_.begin_at(0);
+  springs_.clear();
   add_structures_to(space_);
-  add_near_contacts_to(space_, margin);
+  add_near_contacts_to(springs_, margin);
+  add_spread_to(space_, springs_, spread_, scene_.state.position);
+  shares_.add(springs_, scene_.properties, space_);
   CriticalStep step = space_.critical_step(scene_.properties);
   step.dt = loads_.critical_step(step.dt, scene_);
   return step;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/time_step.hpp"
 
+#include "dynamics/spring_shares.hpp"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -39,6 +41,30 @@ SurfaceTurning surface_turning(const geometry::CorePoint& core, double force, do
     }
   }
   return turning;
+}
+
+std::array<SpringEnd, 4> surface_ends(NodeId ball, const geometry::CorePoint& core,
+                                      const ContactStiffness& contact) noexcept {
+  const auto end = [&](std::size_t i) {
+    return SpringEnd{core.nodes[i], core.weights[static_cast<Eigen::Index>(i)], -contact.arm_b};
+  };
+  return {SpringEnd{ball, -1.0, contact.arm_a}, end(0), end(1), end(2)};
+}
+
+TurningSpring turning_spring(NodeId ball, const geometry::CorePoint& core, const Vec3& normal,
+                             const SurfaceTurning& turning) noexcept {
+  const bool is_pass = turning.force < 0.0;
+  const bool turns =
+      turning.distance > 0.0 && turning.force != 0.0 && (is_pass || !turning.gradients.isZero(0.0));
+  if (!turns) return {};
+  const double stiffness = (is_pass ? 2.0 : 1.0) * std::abs(turning.force) / turning.distance;
+  TurningSpring spring{{normal, stiffness, stiffness, 0.0, 0.0},
+                       surface_ends(ball, core, {normal, 0.0, 0.0, 0.0, 0.0})};
+  for (std::size_t i = 0; i < 3; ++i) {
+    double& weight = spring.ends[i + 1].weight;
+    weight = std::hypot(turning.distance * turning.gradients[static_cast<Eigen::Index>(i)], weight);
+  }
+  return spring;
 }
 
 NodalStiffness::NodalStiffness(std::size_t node_count, const NodeProperties* properties)
@@ -100,82 +126,54 @@ void NodalStiffness::add_beam(const BeamBond& bond, const NodeState& state, doub
   for (const NodeId node : bond.nodes) add_to_node(node, translation, rotation);
 }
 
-/// What of a spring a node of some weight may move: nothing where it is held.
-NodalStiffness::Shares NodalStiffness::shares_of(NodeId node, double weight) const noexcept {
-  const Held held = properties_ ? properties_->held[index_of(node)] : Held::nothing;
-  const bool moves = !holds_translation(held);
-  return {moves ? weight : 0.0, moves || !holds_rotation(held) ? weight : 0.0};
+NodalStiffness::Shares NodalStiffness::mobility_of(const SpringEnd& end) const noexcept {
+  const double weight = std::abs(end.weight);
+  if (!properties_) return {weight, weight};
+  const std::size_t i = index_of(end.node);
+  const Held held = properties_->held[i];
+  const double shift = holds_translation(held) ? 0.0 : 1.0 / properties_->mass[i];
+  const double turn = holds_rotation(held) ? 0.0 : end.arm * end.arm / properties_->inertia[i];
+  return {weight * std::sqrt(shift), weight * std::sqrt(shift + turn)};
+}
+
+double NodalStiffness::measure_of(NodeId node) const noexcept {
+  const double mass = properties_ ? properties_->mass[index_of(node)] : 1.0;
+  return mass > 0.0 ? 1.0 / std::sqrt(mass) : 1.0;
 }
 
 /// The normal spring has g = (n, 0), the tangential ones (t, lever x t) for both t across n.
-/// @param signed_arm  m, of the lever along the normal, from the node to the contact point
-/// @param factors     of the stiffness: S |g| of the class comment, with |g| the node's weight
-void NodalStiffness::add_contact_end(NodeId node, const ContactStiffness& contact,
-                                     double signed_arm, const Shares& factors) {
-  Block* const block = block_of(node);
+void NodalStiffness::add_end(const SpringEnd& end, const ContactStiffness& contact,
+                             const Shares& shares) {
+  Block* const block = block_of(end.node);
   if (!block) return;
-  const double normal = factors.normal * contact.normal_stiffness;
-  const double tangential = factors.tangential * contact.tangential_stiffness;
+  const double normal = shares.normal * contact.normal_stiffness;
+  const double tangential = shares.tangential * contact.tangential_stiffness;
   block->translation += along_and_across(contact.normal, normal, tangential);
-  block->rotation += along_and_across(contact.normal, 0.0, signed_arm * signed_arm * tangential);
-  block->coupling -= (signed_arm * tangential) * contact.normal;
+  block->rotation += along_and_across(contact.normal, 0.0, end.arm * end.arm * tangential);
+  block->coupling -= (end.arm * tangential) * contact.normal;
+}
+
+void NodalStiffness::add_spring(const ContactStiffness& contact, std::span<const SpringEnd> ends) {
+  share_spring(
+      *this, contact, ends, [&](std::size_t i) { return mobility_of(ends[i]); },
+      [&](NodeId node) { return measure_of(node); });
 }
 
 void NodalStiffness::add_pair(NodeId a, NodeId b, const ContactStiffness& contact) {
-  const Shares of_a = shares_of(a, 1.0);
-  const Shares of_b = shares_of(b, 1.0);
-  const Shares both{of_a.normal + of_b.normal, of_a.tangential + of_b.tangential};
-  add_contact_end(a, contact, contact.arm_a, both);
-  add_contact_end(b, contact, -contact.arm_b, both);
+  add_spring(contact,
+             std::array{SpringEnd{a, -1.0, contact.arm_a}, SpringEnd{b, 1.0, -contact.arm_b}});
 }
 
 void NodalStiffness::add_on_surface(NodeId ball, const geometry::CorePoint& core,
                                     const ContactStiffness& contact,
                                     const SurfaceTurning& turning) {
-  Shares all = shares_of(ball, 1.0);
-  for (std::size_t i = 0; i < core.nodes.size(); ++i) {
-    const Shares own = shares_of(core.nodes[i], core.weights[static_cast<Eigen::Index>(i)]);
-    all.normal += own.normal;
-    all.tangential += own.tangential;
-  }
-  add_contact_end(ball, contact, contact.arm_a, all);
-  for (std::size_t i = 0; i < core.nodes.size(); ++i) {
-    const double weight = core.weights[static_cast<Eigen::Index>(i)];
-    if (weight == 0.0) continue;
-    add_contact_end(core.nodes[i], contact, -contact.arm_b,
-                    {weight * all.normal, weight * all.tangential});
-  }
-  add_turning(ball, core, turning);
-}
-
-// As one spring of F / d with ends d grad(w_i) n - w_i T on the nodes, no longer than the root of
-// the sum of both squares, and T on the ball. A pass has weights alone, but either sign of its
-// curvature counts: both.
-void NodalStiffness::add_turning(NodeId ball, const geometry::CorePoint& core,
-                                 const SurfaceTurning& turning) {
-  if (!(turning.distance > 0.0) || turning.force == 0.0) return;
-  const double stiffness = std::abs(turning.force) / turning.distance;
-  const bool is_pass = turning.force < 0.0;
-  if (!is_pass && turning.gradients.isZero(0.0)) return;
-  const double times = is_pass ? 2.0 : 1.0;
-  Vec3 ends;
-  double all = shares_of(ball, 1.0).normal;
-  for (std::size_t i = 0; i < core.nodes.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const double length = std::hypot(turning.distance * turning.gradients[k], core.weights[k]);
-    ends[k] = shares_of(core.nodes[i], length).normal;
-    all += ends[k];
-  }
-  const auto add_end = [&](NodeId node, double end) {
-    if (end > 0.0) add(node, {times * stiffness * all * end, 0.0});
-  };
-  add_end(ball, 1.0);
-  for (std::size_t i = 0; i < core.nodes.size(); ++i)
-    add_end(core.nodes[i], ends[static_cast<Eigen::Index>(i)]);
+  add_spring(contact, surface_ends(ball, core, contact));
+  const TurningSpring spring = turning_spring(ball, core, contact.normal, turning);
+  if (spring.contact.normal_stiffness > 0.0) add_spring(spring.contact, spring.ends);
 }
 
 void NodalStiffness::add_to_wall(NodeId ball, const ContactStiffness& contact) {
-  add_contact_end(ball, contact, contact.arm_a, {1.0, 1.0});
+  add_spring(contact, std::array{SpringEnd{ball, -1.0, contact.arm_a}});
 }
 
 void NodalStiffness::add(NodeId node, const IsotropicStiffness& springs) noexcept {
@@ -226,6 +224,10 @@ NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t i,
 
 double NodalStiffness::along(const CriticalStep& step, const NodeProperties& properties) const {
   return step.mode.dot(per_mass(index_of(step.node) - first_node_, properties) * step.mode);
+}
+
+double NodalStiffness::rate_of(NodeId node, const NodeProperties& properties) const {
+  return per_mass(index_of(node) - first_node_, properties).cwiseAbs().rowwise().sum().maxCoeff();
 }
 
 CriticalStep NodalStiffness::critical_step(const NodeProperties& properties) const {

@@ -5,7 +5,9 @@
 #include "dynamics/structure/beam_bond.hpp"
 #include "geometry/proximity.hpp"
 
+#include <array>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace plekton::dynamics {
@@ -27,6 +29,17 @@ struct ContactStiffness {
   double tangential_stiffness;  ///< N/m
   double arm_a;                 ///< m, from the core point of a to the contact point
   double arm_b;                 ///< m, likewise of b
+  double overlap = 0.0;         ///< m, of now
+  double weight = 1.0;  ///< of the force of one contact; the stiffness has its magnitude, at
+                        ///< least 1
+};
+
+/// How a node takes part in the spring of a contact: the contact point on b moves by weight (shift
+/// + turn x arm n), that on a by as much with a weight below 0.
+struct SpringEnd {
+  NodeId node;
+  double weight;
+  double arm;  ///< m, along the normal
 };
 
 /// How a normal force F (N) on a surface resists what turns the surface where it acts.
@@ -50,6 +63,21 @@ struct SurfaceTurning {
 /// no length or area.
 SurfaceTurning surface_turning(const geometry::CorePoint& core, double force, double distance,
                                geometry::Positions x) noexcept;
+
+/// Ends of a contact of a ball with a surface: the ball first, then the nodes of the core point.
+std::array<SpringEnd, 4> surface_ends(NodeId ball, const geometry::CorePoint& core,
+                                      const ContactStiffness& contact) noexcept;
+
+/// What resists the turning of a surface, as one spring that is as stiff in any direction as it can
+/// be in one: F / d with ends d grad(w_i) n - w_i T on the nodes, no longer than the root of the
+/// sum of both squares, and T on the ball. A pass has the weights alone, but either sign of its
+/// curvature counts, so that its stiffness is twice |F| / d.
+struct TurningSpring {
+  ContactStiffness contact;  ///< its stiffness is 0 if nothing turns
+  std::array<SpringEnd, 4> ends;
+};
+TurningSpring turning_spring(NodeId ball, const geometry::CorePoint& core, const Vec3& normal,
+                             const SurfaceTurning& turning) noexcept;
 
 /// Springs around a node that are the same along and about every axis.
 struct IsotropicStiffness {
@@ -80,8 +108,11 @@ IsotropicStiffness from_all_sides(double normal, double tangential, double radiu
 ///
 ///     k (g_a.x_a + g_b.x_b)² <= 2 k (g_a.x_a)² + 2 k (g_b.x_b)²,
 ///
-/// or for any number of nodes k (sum g_i.x_i)² <= k S sum (g_i.x_i)² / |g_i|, S = sum |g_i|, those
-/// left out that are held: what is held does not limit a step, and its partner has 1 and not 2.
+/// or for any number of nodes k (sum g_i.x_i)² <= k S sum (g_i.x_i)² / a_i, S = sum a_i, with any
+/// a_i > 0 (Cauchy-Schwarz). Those that are held are left out: what is held does not limit a step.
+/// With a_i = h_i d_i, h_i = |M_i^(-1/2) g_i|, a light node has less of a spring that it shares
+/// with a heavy one the larger its d_i is; the functions for contacts take d_i = m_i^(-1/2), with
+/// which the bound of a single contact between two balls is exact. SpringShares finds better ones.
 ///
 /// With D_i the 6 x 6 sum of these around node i, omega² <= max_i largest eigenvalue of D_i, M_i,
 /// and dt = 2 / omega is never above the true limit, whatever the masses, the shapes and the
@@ -130,6 +161,24 @@ class NodalStiffness {
   /// Adds a contact between a ball and a wall, which does not yield. arm_b has no meaning here.
   void add_to_wall(NodeId ball, const ContactStiffness& contact);
 
+  /// How much of a contact's springs a node takes part in, or takes upon itself: along the normal,
+  /// and across it.
+  struct Shares {
+    double normal = 0.0;
+    double tangential = 0.0;
+  };
+  /// h of the class comment (1/sqrt(kg)); 0 where the node is held. The weight where no properties
+  /// are known.
+  Shares mobility_of(const SpringEnd& end) const noexcept;
+  /// d of the class comment that the functions for contacts take, 1/sqrt(kg).
+  double measure_of(NodeId node) const noexcept;
+  /// Adds an end of a contact.
+  /// @param shares  S / a of the class comment, times the squared weight
+  void add_end(const SpringEnd& end, const ContactStiffness& contact, const Shares& shares);
+  /// Largest sum of magnitudes in a row of what was added to a node over its mass and inertia,
+  /// 1/s²: not below its largest eigenvalue.
+  double rate_of(NodeId node, const NodeProperties& properties) const;
+
   /// Adds stiffness that is already that of springs which each hold a single node: matrices such
   /// that the energy of a structure is at most 1/2 sum (v . T v + r . R r) over its nodes.
   /// @param translation  N/m, symmetric, T
@@ -177,15 +226,7 @@ class NodalStiffness {
     const std::size_t i = index_of(node) - first_node_;  // wraps round below the first
     return i < blocks_.size() ? &blocks_[i] : nullptr;
   }
-  /// How much of a spring nodes take part in: along the normal, and across it.
-  struct Shares {
-    double normal = 0.0;
-    double tangential = 0.0;
-  };
-  Shares shares_of(NodeId node, double weight) const noexcept;
-  void add_contact_end(NodeId node, const ContactStiffness& contact, double signed_arm,
-                       const Shares& factors);
-  void add_turning(NodeId ball, const geometry::CorePoint& core, const SurfaceTurning& turning);
+  void add_spring(const ContactStiffness& contact, std::span<const SpringEnd> ends);
   using Mat6 = Eigen::Matrix<double, 6, 6>;
   Mat6 per_mass(std::size_t i, const NodeProperties& properties) const;
 
