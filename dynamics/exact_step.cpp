@@ -18,7 +18,7 @@ constexpr int kMostProducts = 1000;
 /// over it.
 constexpr double kDifference = 1e-6;
 
-/// m, of bonds and sides of sheets at rest, and of facets as they are.
+/// m, of bonds and sides of sheets at rest, and of cylinders and facets as they are.
 double shortest_length(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const BeamBond& bond : scene.bonds) shortest = std::min(shortest, bond.length);
@@ -26,12 +26,14 @@ double shortest_length(const Scene& scene) {
     for (std::size_t i = 0; i < 3; ++i)
       shortest = std::min(shortest, (facet.corners[(i + 1) % 3] - facet.corners[i]).norm());
   }
+  const auto consider = [&](NodeId a, NodeId b) {
+    const Vec3 side = scene.state.position[index_of(b)] - scene.state.position[index_of(a)];
+    if (side.norm() > 0.0) shortest = std::min(shortest, side.norm());
+  };
+  for (const geometry::Cylinder& cylinder : scene.elements.cylinders)
+    consider(cylinder.nodes[0], cylinder.nodes[1]);
   for (const geometry::Facet& facet : scene.elements.facets) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 side = scene.state.position[index_of(facet.nodes[(i + 1) % 3])] -
-                        scene.state.position[index_of(facet.nodes[i])];
-      if (side.norm() > 0.0) shortest = std::min(shortest, side.norm());
-    }
+    for (std::size_t i = 0; i < 3; ++i) consider(facet.nodes[i], facet.nodes[(i + 1) % 3]);
   }
   return std::isfinite(shortest) ? shortest : 1.0;
 }

@@ -3,6 +3,7 @@
 
 #include "dynamics/spring_shares.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -235,8 +236,11 @@ CriticalStep NodalStiffness::critical_step(const NodeProperties& properties) con
   double largest = 0.0;  // omega², 1/s²
   for (std::size_t i = 0; i < blocks_.size() && first_node_ + i < properties.size(); ++i) {
     const Mat6 matrix = per_mass(i, properties);
-    // The row sums are above the eigenvalues: most nodes need no eigenvalues.
+    // Most nodes need no eigenvalues: the row sums are above them, and they are all below the
+    // largest so far where that less the matrix is positive definite.
     if (matrix.cwiseAbs().rowwise().sum().maxCoeff() <= largest) continue;
+    const Mat6 rest = largest * Mat6::Identity() - matrix;
+    if (largest > 0.0 && Eigen::LLT<Mat6>(rest).info() == Eigen::Success) continue;
     const Eigen::SelfAdjointEigenSolver<Mat6> solver(matrix);
     if (solver.eigenvalues()[5] <= largest) continue;
     largest = solver.eigenvalues()[5];

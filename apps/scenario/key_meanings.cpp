@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array kOfSimulation = std::to_array<KeyMeaning>({
     {"simulation.duration", "simulated time"},
-    {"simulation.time_step", "auto: half of the critical one, and shorter where bodies are fast"},
+    {"simulation.time_step", "auto: 0.65 of the critical one, and shorter where bodies are fast"},
     {"simulation.gravity", "acceleration of all that is free"},
     {"simulation.damping", "numerical: part of a force taken off or added against the motion"},
     {"simulation.damp_gravity", "false: a free fall is not damped"},

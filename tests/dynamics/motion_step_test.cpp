@@ -97,6 +97,19 @@ TEST(ChosenStep, LetsNoFastSphereThroughASheetThatIsHeld) {
   EXPECT_NEAR(simulation.state().velocity[0].z(), 20.0, 0.2);  // 1 %, of the moments of contact
 }
 
+// Half a turn in a step would end the run.
+TEST(ChosenStep, TurnsNoNodeByMoreThanARadian) {
+  Scene scene = soft_sphere(0.01, Vec3::Zero());
+  scene.state.angular_velocity[0] = Vec3(0.0, 0.0, 1e5);
+  Simulation simulation(scene, {});
+  simulation.step();
+
+  simulation.step();
+
+  EXPECT_LE(1e5 * simulation.time_step(), 1.0);
+  EXPECT_GE(1e5 * simulation.time_step(), 0.5 * (1.0 - 1e-12));
+}
+
 TEST(GivenStep, StaysAsGivenHoweverFastASphereIs) {
   const Scene scene = soft_sphere(0.01, Vec3(50.0, 0.0, 0.0));
   Simulation simulation(scene, {.time_step = 1e-4, .motion = {.gravity = kGravity}});

@@ -166,6 +166,16 @@ TEST(TimeStep, OfOneContactBetweenEqualBallsIsExact) {
   EXPECT_EQ(wall.critical_step(properties).node, NodeId{1});
 }
 
+TEST(TimeStep, OfOneContactBetweenAHeavyAndALightBallIsExactWhereMassesAreKnown) {
+  const NodeProperties properties{{2.0, 0.01}, {0.1, 0.1}, {Held::nothing, Held::nothing}};
+  NodalStiffness pair(2, &properties);
+
+  pair.add_pair(NodeId{0}, NodeId{1}, {Vec3(0.6, 0.8, 0.0), 10.0, 0.0, 0.5, 0.5});
+
+  const double exact = 2.0 / std::sqrt(10.0 * (1.0 / 2.0 + 1.0 / 0.01));
+  EXPECT_NEAR(pair.critical_step(properties).dt, exact, 1e-12 * exact);
+}
+
 TEST(TimeStep, DoesNotDependOnWhichBallOfAPairIsNamedFirst) {
   const NodeProperties properties{
       {1.0, 9.0, 9.0}, {0.1, 9.0, 9.0}, std::vector<Held>(3, Held::nothing)};
