@@ -189,10 +189,17 @@ class StructureContacts {
   /// How hard a patch presses, added up along the normals of its terms.
   struct Pressing {
     double all = 0.0;       ///< N
+    double deepest = 0.0;   ///< N, of one contact where it is deepest
     double bars = 0.0;      ///< N, of pairs of cells with a bar in them
     double positive = 0.0;  ///< N, of those of these that push
     double energy = 0.0;    ///< J, of the pairs with a bar
     bool wraps = false;     ///< around a bend of a chain
+
+    /// How much its bars press in directions of their own: 0 where they are one contact, as at a
+    /// joint that passes over another cylinder, 1 from two contacts on.
+    double spread() const noexcept {
+      return deepest > 0.0 ? std::clamp(all / deepest - 1.0, 0.0, 1.0) : 0.0;
+    }
   };
   /// Of a history, between spread contacts.
   struct Transfer {
@@ -234,6 +241,8 @@ class StructureContacts {
   void find_spreads(Positions x);
   bool locate_bar(const PairTerm& term, Spread& spread, Positions x) const;
   void find_transfers();
+  template <class Now, class Before>
+  void find_transfers_of_gone(Now now, Before before);
   EnergyLoss carry_spreads(const Motion& motion, double dt);
   double advance_spreads(const Motion& motion, double dt, geometry::ThreadPool& pool);
   std::vector<SpreadSum> sum_spreads() const;
@@ -273,6 +282,9 @@ class StructureContacts {
   std::vector<Pressing> pressing_;       ///< by patch
   std::vector<std::int32_t> spread_at_;  ///< by pair of cells; -1: none
   std::vector<Transfer> transfers_;
+  std::vector<char> goes_on_;  ///< by spread contact of the last step: its pair presses still
+  /// Of bars: patch and place of spread contacts.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_patch_;
   std::vector<double> asked_;  ///< contacts, by spread contact: what others would hand to it
   std::vector<Bond> bonds_;
   bool glues_ = false;          ///< whether any two structures stick where they come to touch

@@ -30,6 +30,8 @@ void StructureContacts<Law>::share_pushes() {
     const double of_bars = bars == holders.size() ? 1.0 : part * static_cast<double>(bars);
     Pressing& pressing = pressing_[places_[i].patch];
     pressing.all += term.push;
+    const structure::NormalSpring& spring = springs_[term.spring];
+    pressing.deepest = std::max(pressing.deepest, spring.force(spring.range() - term.overlap));
     pressing.bars += of_bars * term.push;
     pressing.energy += of_bars * term.forces.energy;
     pressing.wraps = pressing.wraps || terms_.wraps(terms_.acting()[i]);
@@ -73,16 +75,22 @@ void StructureContacts<Law>::find_spreads(Positions x) {
   for (Patch& patch : patches_) patch.point_part = std::clamp(patch.point_part, 0.0, 1.0);
 }
 
-/// What pairs push less than nothing is taken from the others of their patch.
+/// What pairs push less than nothing is taken from the others of their patch. Pairs of a patch that
+/// is one contact have its normal, so that their springs add up to one.
 /// @returns whether it presses
 template <ContactLaw Law>
 bool StructureContacts<Law>::locate_bar(const PairTerm& term, Spread& spread, Positions x) const {
   const Pressing& of = pressing_[spread.patch];
+  const Patch& patch = patches_[spread.patch];
   const double push = bar_push_[spread.pair];
-  if (!(push > 0.0) || !(patches_[spread.patch].bar_part > 0.0)) return false;
+  if (!(push > 0.0) || !(patch.bar_part > 0.0)) return false;
   spread.is_wrapped = of.wraps;
-  return spread.locate_bar(term, push * std::min(1.0, of.bars / of.positive),
-                           2.0 * of.energy / of.bars, meetings_[term.spring], x);
+  const double own = of.spread();
+  Vec3 towards = (spread.is_turned ? -1.0 : 1.0) * (1.0 - own) * patch.elastic_force;
+  if (patch.pushes()) towards /= patch.normal_force;
+  return spread.locate_bar(
+      term, {push * std::min(1.0, of.bars / of.positive), 2.0 * of.energy / of.bars, towards, own},
+      meetings_[term.spring], x);
 }
 
 /// Hands the histories of the last step over: to the same pairs, and, of bars, what these count for
@@ -147,6 +155,7 @@ void StructureContacts<Law>::find_transfers() {
       }
     }
   }
+  find_transfers_of_gone(now, before);
   std::sort(transfers_.begin(), transfers_.end());
   transfers_.erase(std::unique(transfers_.begin(), transfers_.end()), transfers_.end());
   asked_.assign(spreads_.size(), 0.0);
@@ -160,6 +169,40 @@ void StructureContacts<Law>::find_transfers() {
     }
   }
   for (Transfer& of : transfers_) of.contacts *= std::min(1.0, of.more / asked_[of.to]);
+}
+
+/// From pairs that press no more, and so have no term with others either: to those beside them in
+/// the patches that follow theirs.
+template <ContactLaw Law>
+template <class Now, class Before>
+void StructureContacts<Law>::find_transfers_of_gone(Now now, Before before) {
+  goes_on_.assign(previous_spreads_.size(), 0);
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    if (pairs_[i].spread >= 0 && spread_at_[i] >= 0)
+      goes_on_[static_cast<std::size_t>(pairs_[i].spread)] = 1;
+  by_patch_.clear();
+  for (std::uint32_t from = 0; from < previous_spreads_.size(); ++from) {
+    const Spread& old = previous_spreads_[from];
+    if (goes_on_[from] != 0 || !old.is_of_bar) continue;
+    if (by_patch_.empty()) {
+      for (std::uint32_t i = 0; i < spreads_.size(); ++i)
+        if (spreads_[i].is_of_bar) by_patch_.push_back({spreads_[i].patch, i});
+      std::sort(by_patch_.begin(), by_patch_.end());
+    }
+    auto heir =
+        std::lower_bound(heirs_.begin(), heirs_.end(), old.patch,
+                         [](const Heir& of, std::uint32_t patch) { return of.old_patch < patch; });
+    for (; heir != heirs_.end() && heir->old_patch == old.patch; ++heir) {
+      auto at = std::lower_bound(by_patch_.begin(), by_patch_.end(),
+                                 std::pair{heir->patch, std::uint32_t{0}});
+      for (; at != by_patch_.end() && at->first == heir->patch; ++at) {
+        const Spread& to = spreads_[at->second];
+        const double more = now(to.pair) - before(to.pair);
+        if (more > 0.0 && to.is_beside(old))
+          transfers_.push_back({from, at->second, old.count, more});
+      }
+    }
+  }
 }
 
 /// @returns the energy (J) dissipated

@@ -107,27 +107,44 @@ struct SpreadContact {
     return true;
   }
 
-  /// Sets where a term with a bar in it presses, and how hard.
-  /// @param pressing      N
-  /// @param mean_overlap  m
+  /// How a pair of cells with a bar in it presses.
+  struct Pressed {
+    double force;         ///< N
+    double mean_overlap;  ///< m
+    Vec3 towards;         ///< from a to b: direction of the patch, as far as it is the pair's too
+    double own;           ///< as far as its own direction is, from 0 to 1
+  };
+  /// Sets where a term with a bar in it presses.
   /// @returns whether it does
-  bool locate_bar(const PairTerm& term, double pressing, double mean_overlap,
-                  const Meeting<Law>& bodies, Positions x) {
+  bool locate_bar(const PairTerm& term, const Pressed& pressed, const Meeting<Law>& bodies,
+                  Positions x) {
     const Vec3 force = term.forces.on_b[0] + term.forces.on_b[1] + term.forces.on_b[2];
     const double size = force.norm();
-    const double one = Law::elastic_normal_force(bodies.parameters, -mean_overlap);
+    const double one = Law::elastic_normal_force(bodies.parameters, -pressed.mean_overlap);
     if (!(size > 0.0) || !(one > 0.0)) return false;
+    const Vec3 direction = pressed.towards + pressed.own / size * force;
+    if (!(direction.norm() > 0.0)) return false;
     is_of_bar = true;
-    gap = -mean_overlap;
-    normal_force = pressing;
-    elastic_force = pressing / size * force;
-    count = pressing / one;
+    gap = -pressed.mean_overlap;
+    normal_force = pressed.force;
+    elastic_force = normal_force * direction.normalized();
+    count = normal_force / one;
     a.nodes = term.a.ids;
     b.nodes = term.b.ids;
     const Vec3 per_force = force / (size * size);
     a.find_shares(term.forces.on_a, -per_force, x);
     b.find_shares(term.forces.on_b, per_force, x);
     return true;
+  }
+
+  /// Whether its cells hang together with those of another.
+  bool is_beside(const SpreadContact& other) const {
+    const auto meet = [](const Side& p, const Side& q) {
+      return std::any_of(p.nodes.begin(), p.nodes.end(), [&](NodeId node) {
+        return std::find(q.nodes.begin(), q.nodes.end(), node) != q.nodes.end();
+      });
+    };
+    return (meet(a, other.a) && meet(b, other.b)) || (meet(a, other.b) && meet(b, other.a));
   }
 
   Vec3 normal() const { return elastic_force / normal_force; }

@@ -128,10 +128,7 @@ double WrappedJoints::evaluate(std::size_t term, const PairTerm& features,
 }
 
 void WrappedJoints::gather(std::span<const std::uint32_t> acting) {
-  for (const std::uint32_t pair : touched_) {
-    has_ends_[pair] = 0;
-    ends_[pair] = pulled_ends_[pair] = {};
-  }
+  for (const std::uint32_t pair : touched_) has_ends_[pair] = 0;
   touched_.clear();
   if (joints_.empty()) return;
   for (const std::uint32_t term : acting) {
@@ -139,8 +136,11 @@ void WrappedJoints::gather(std::span<const std::uint32_t> acting) {
       if (!joints_[j].acts) continue;
       for (std::uint32_t m = 0; m < joints_[j].count; ++m) {
         const Arm& arm = arms_[joints_[j].first + m];
-        if (has_ends_[arm.pair] == 0) touched_.push_back(arm.pair);
-        has_ends_[arm.pair] = 1;
+        if (has_ends_[arm.pair] == 0) {
+          has_ends_[arm.pair] = 1;
+          touched_.push_back(arm.pair);
+          ends_[arm.pair] = pulled_ends_[arm.pair] = {};
+        }
         add_on(ends_[arm.pair], arm.place, arm.push);
         add_on(pulled_ends_[arm.pair], arm.place, arm.pull);
       }
