@@ -183,7 +183,10 @@ void Simulation<Law>::choose_time_step() {
   const bool may_grow = steps_ % kStepsBetweenLooks == 0;
   stable_step_ = std::min({stable, collision_step_, (may_grow ? kGrowth : 1.0) * stable_step_});
   dt_ = std::min(stable_step_, motion_step());
-  if (fastest_spin_ > 0.0) dt_ = std::min(dt_, 0.5 * kLargestTurn / fastest_spin_);
+  double spin = 0.0;  // rad²/s²
+  for (const Vec3& turning : scene_.state.angular_velocity)
+    spin = std::max(spin, turning.squaredNorm());
+  if (spin > 0.0) dt_ = std::min(dt_, 0.5 * kLargestTurn / std::sqrt(spin));
 }
 
 /// What contacts that are more or less than one resist beside their springs (spread_stiffness.hpp).
