@@ -114,7 +114,9 @@ TEST(HertzRadius, IsThatOfASphereWhereTheRadiiAreEqualAndGoesThereSteadily) {
     ASSERT_GE(radius, before * (1.0 - 1e-14)) << more;
     ASSERT_LE(radius, radii.larger);
     // R = sqrt(R' R'') to first order.
-    if (more < 1e-7) ASSERT_NEAR(radius / radii.equivalent(), 1.0, 1e-14);
+    if (more < 1e-7) {
+      ASSERT_NEAR(radius / radii.equivalent(), 1.0, 1e-14);
+    }
     before = radius;
   }
 }

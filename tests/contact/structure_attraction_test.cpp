@@ -16,9 +16,10 @@ using Meeting = MeetingUnder<DmtAdhesion>;
 
 constexpr double kRange = 0.1;
 constexpr double kOverlap = 0.006;
-/// J/m²: an attraction of 2 pi w R = 3e-4 N, a third of what a contact pushes at kOverlap.
-constexpr double kWork = 2e-3;
-constexpr double kAttraction = 2.0 * std::numbers::pi * kWork * 0.25 * kRange;
+/// J/m²: an attraction of 2 pi w R = 3e-4 N, a fifth of what a contact pushes at kOverlap. R is
+/// the radius of both, as of crossed rims.
+constexpr double kWork = 1e-3;
+constexpr double kAttraction = 2.0 * std::numbers::pi * kWork * 0.5 * kRange;
 
 /// The body at a turn (rad) about all axes, its lowest node kOverlap deep in the plane z = 0.
 Body laid(const Body& body, const Vec3& turns, const Vec3& shift) {

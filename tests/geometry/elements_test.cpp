@@ -189,6 +189,23 @@ TEST(Surface, HasARadiusForEachStructure) {
   EXPECT_EQ(surface.structure_of(NodeId{3}), StructureId{-1});
 }
 
+TEST(Surface, KnowsWhichStructuresHaveFacetsOrHadSome) {
+  Complex two;
+  for (int k = 0; k < 6; ++k) two.node(Vec3::Zero());
+  two.cylinder(4, 5);
+  two.facet(0, 1, 2);
+  two.cylinder(2, 3);
+
+  const Surface surface = two.surface();
+  const std::vector<Cylinder> bars{two.cylinders[0], two.cylinders[1]};
+  const Surface left = surface.left_with(bars, {});
+
+  for (const Surface& of : {surface, left}) {
+    EXPECT_TRUE(of.is_sheet(surface.structure_of(NodeId{3})));
+    EXPECT_FALSE(of.is_sheet(surface.structure_of(NodeId{4})));
+  }
+}
+
 TEST(Surface, TakesACylinderOnASideOfAFacetAsTheRimOfTheFacet) {
   Complex rimmed;
   for (int k = 0; k < 4; ++k) rimmed.node(Vec3::Zero());
