@@ -32,13 +32,7 @@ void Elimination::order_vertices(std::uint32_t vertex_count) {
   rows_.clear();
   columns_.clear();
   for (auto& list : by_count_) list.clear();
-  // Most vertices have two neighbours; these need no queue.
-  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
-    if (neighbours_[vertex].size() <= 2) add_row(vertex);
-  }
-  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
-    if (row_of_[vertex] == kLeft) queue(vertex);
-  }
+  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) queue(vertex);
   for (std::size_t count = 0; count < by_count_.size();) {
     auto& list = by_count_[count];
     if (list.empty()) {

@@ -24,8 +24,8 @@ using LastRule = boost::math::quadrature::gauss<double, 16>;
 constexpr double kStretch = 3.0;
 constexpr double kFirstStretch = 2.0 * std::numbers::pi * Wrap::kTurn;
 
-/// Of the width of the contact: stretches begin no lower. What lies below weighs as its square.
-constexpr double kLeastStretch = 1e-9;
+/// Of the width of the contact: a foot nearer to the node is at it. Its part weighs as the square.
+constexpr double kLeastLength = 1e-9;
 
 template <class Points, class Visit>
 void for_each_point(double from, double to, Visit visit) {
@@ -84,17 +84,20 @@ bool Wrap::find_turns(const geometry::Surface& surface, NodeId node, const Vec3&
   for (std::size_t a = 0; a < arms_.size(); ++a) {
     for (std::size_t b = a + 1; b < arms_.size(); ++b) {
       const double cosine = arms_[a].direction.dot(arms_[b].direction);
-      if (cosine < 0.0 && arms_[a].along + arms_[b].along > 0.0)
+      if (cosine < kJunction && arms_[a].along + arms_[b].along > 0.0)
         turns_.push_back({a, b, cosine, 0.0});
     }
   }
   return !turns_.empty();
 }
 
+/// The least length y of a bar that turns, but for those with their feet at the node.
 double Wrap::least_along() const noexcept {
   double least = std::numeric_limits<double>::infinity();
   for (const Turn& turn : turns_) {
-    for (const std::size_t i : {turn.a, turn.b}) least = std::min(least, std::abs(arms_[i].along));
+    for (const std::size_t i : {turn.a, turn.b}) {
+      if (arms_[i].along != 0.0) least = std::min(least, std::abs(arms_[i].along));
+    }
   }
   return least;
 }
@@ -130,8 +133,10 @@ void Wrap::add_level(double distance, double tau, double force, double spring) {
 void Wrap::integrate(double distance, double range, const NormalLaw& law) {
   energy_ = energy_of_spring_ = energy_by_distance_ = 0.0;
   const double width = std::sqrt((range - distance) * (range + distance));
-  const double least = std::max(least_along(), kLeastStretch * width);
-  for_each_level(kFirstStretch * least, width, [&](double tau, double part) {
+  for (Arm& arm : arms_) {
+    if (std::abs(arm.along) < kLeastLength * width) arm.along = 0.0;
+  }
+  for_each_level(kFirstStretch * least_along(), width, [&](double tau, double part) {
     const double level = std::sqrt(distance * distance + tau * tau);
     add_level(distance, tau, part * law.force(level) / level, part * (range - level) / level);
   });

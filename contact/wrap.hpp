@@ -33,12 +33,13 @@ struct PatchTerm;
 ///
 ///     W = sum over pairs of its bars of w * integral of f(H) (-dphi), from d to the range, H > 0
 ///
-/// with w = 1 - sin^4 of the angle between the bars where it is obtuse, else 0: how far they are
-/// one wire, so that a knot of straight wires, a corner or a junction beside the ball have nothing
-/// to get back. f(H) = (1 + c^2) H^3 / (H^2 + c^2) with c = kTurn: f(1) = 1, so the force stays as
-/// it is where bars begin to hang together, and f is about H where a wrap has sunk in; it starts as
-/// H^3, so that forces on nodes are Lipschitz where wires pass through straight. The energy is a
-/// function of positions alone and the force is its gradient; the cost is that of the nodes.
+/// with w = u^2 (3 - 2 u), u = -1 - 2 cos of the angle between the bars where that is above 120
+/// degrees, else 0: how far they are one wire. So a knot of straight wires, a corner and a junction
+/// of three even wires have nothing to get back beside the ball. f(H) = (1 + c^2) H^3 / (H^2 + c^2)
+/// with c = kTurn: f(1) = 1, so the force stays as it is where bars begin to hang together, and f
+/// is about H where a wrap has sunk in; it starts as H^3, so that forces on nodes are Lipschitz
+/// where wires pass through straight. The energy is a function of positions alone and the force is
+/// its gradient; the cost is that of the nodes.
 ///
 /// Nodes of facets give nothing back.
 class Wrap {
@@ -47,6 +48,10 @@ class Wrap {
   /// depends on its mesh, and the stiffer nodes are where wires pass through straight: by up to
   /// 2 / (pi c) (width / bar)^2 contacts, with the width tau at the range.
   static constexpr double kTurn = 0.1;
+
+  /// Cosine of the angle between the wires of a junction of three: bars at a smaller angle are no
+  /// wire that goes on.
+  static constexpr double kJunction = -0.5;
 
   /// Finds what a node gives back: it pushes along its own normal, and beside that there are forces
   /// between it and the ends of its bars.
@@ -69,10 +74,13 @@ class Wrap {
   /// Two bars that turn towards the ball where they meet.
   struct Turn {
     std::size_t a, b;
-    double cosine;  ///< less that 0, of the angle between the bars
+    double cosine;  ///< below kJunction, of the angle between the bars
     double energy;  ///< J, for w = 1
-    double weight() const noexcept { return cosine * cosine * (2.0 - cosine * cosine); }
-    double weight_by_cosine() const noexcept { return 4.0 * cosine * (1.0 - cosine * cosine); }
+    double weight() const noexcept { return straight() * straight() * (3.0 - 2.0 * straight()); }
+    double weight_by_cosine() const noexcept { return -12.0 * straight() * (1.0 - straight()); }
+
+   private:
+    double straight() const noexcept { return -2.0 * cosine - 1.0; }
   };
   bool find_turns(const geometry::Surface& surface, NodeId node, const Vec3& to_centre,
                   Positions x);

@@ -111,7 +111,8 @@ TEST(BallInAHoop, IsPushedByWhatLevelsOfTheAdditiveRuleSay) {
   const double foot = 1.0 - kOverlap;
   const double half_bar = foot * std::tan(0.5 * std::numbers::pi / kBars);
   const double node = std::hypot(foot, half_bar);
-  const double weight = 1.0 - std::pow(std::sin(std::numbers::pi / kBars), 4);
+  const double straight = 2.0 * std::cos(std::numbers::pi / kBars) - 1.0;
+  const double weight = straight * straight * (3.0 - 2.0 * straight);
   double inner = 0.0;
   constexpr int kSteps = 200000;
   for (int i = 0; i < kSteps; ++i) {

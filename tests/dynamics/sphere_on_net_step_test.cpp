@@ -115,7 +115,7 @@ TEST(SphereOnNetStep, IsNeverEstimatedAboveWhatDifferencesOfForcesGive) {
 
       EXPECT_LE(simulation.critical_step().dt, limit * (1.0 + 1e-3)) << "net " << i;
       EXPECT_LE(simulation.present_critical_step().dt, limit * (1.0 + 1e-3)) << "net " << i;
-      EXPECT_GE(simulation.present_critical_step().dt, 0.5 * limit) << "net " << i;
+      EXPECT_GE(simulation.present_critical_step().dt, 0.25 * limit) << "net " << i;
       EXPECT_LE(simulation.exact_critical_step().dt, limit * (1.0 + 2e-3)) << "net " << i;
       EXPECT_GE(simulation.exact_critical_step().dt, limit * 0.98) << "net " << i;
     }

@@ -29,7 +29,7 @@ inline double reference_turn_energy(const geometry::Vec3& a, const geometry::Vec
   const double from = to_centre.norm();
   const double cosine = a.dot(b) / (a.norm() * b.norm());
   const double along = to_centre.dot(a) / a.norm() + to_centre.dot(b) / b.norm();
-  if (!(from < range && cosine < 0.0 && along > 0.0)) return 0.0;
+  if (!(from < range && cosine < -0.5 && along > 0.0)) return 0.0;
   // By the fourth root of the depth below the node, as angles change with its square root.
   constexpr int kSteps = 4000;
   double sum = 0.0;
@@ -43,8 +43,8 @@ inline double reference_turn_energy(const geometry::Vec3& a, const geometry::Vec
                          (range - level) * 4.0 * part * part * part * (range - from);
     sum += value * (i == 0 || i == kSteps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0);
   }
-  const double sine = a.cross(b).norm() / (a.norm() * b.norm());
-  return (1.0 - std::pow(sine, 4)) * sum / (3.0 * kSteps);
+  const double straight = -1.0 - 2.0 * cosine;
+  return straight * straight * (3.0 - 2.0 * straight) * sum / (3.0 * kSteps);
 }
 
 /// J, of all nodes of bars alone.
