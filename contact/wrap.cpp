@@ -107,8 +107,9 @@ void Wrap::look_from(double tau) noexcept {
 }
 
 /// Adds what a level gives back.
-/// @param force   N m^-1 m, of the law at the level over it, times the part of tau
-/// @param spring  the same for a spring
+/// @param distance  m, of the node
+/// @param force     N, of the law at the level, over the level and times the part of tau
+/// @param spring    m, the same for a spring of 1 N/m
 void Wrap::add_level(double distance, double tau, double force, double spring) {
   look_from(tau);
   for (Turn& turn : turns_) {

@@ -55,8 +55,12 @@ class Wrap {
 
   /// Finds what a node gives back: it pushes along its own normal, and beside that there are forces
   /// between it and the ends of its bars.
+  ///
+  /// Nothing is found out of range, where the ball's centre is the node, and of bars without
+  /// length.
+  /// @param node   that no facet has
   /// @param range  m, where the law's energy ends
-  /// @param terms  get what is found
+  /// @param terms  get what is found: nothing, or those of the ends of bars, then those of the node
   void add_terms(const geometry::Surface& surface, NodeId node, const Vec3& centre, double range,
                  Positions x, const NormalLaw& law, std::vector<PatchTerm>& terms);
 
