@@ -118,7 +118,8 @@ void SurfaceContacts<Law>::keep_sides(const Pair& pair, std::span<const Patch> p
                                            x[index_of(pair.node)], x, patches, worker.patches);
       if (std::find(heirs.begin(), heirs.end(), j) == heirs.end()) continue;
       for (PatchTerm& term : terms) {
-        if (term.distance == 0.0) term.normal = normal_on_last_side(term, old.memory.normal, x);
+        const bool is_on_the_surface = term.distance == 0.0 && !term.is_inner;
+        if (is_on_the_surface) term.normal = normal_on_last_side(term, old.memory.normal, x);
       }
       break;
     }

@@ -128,7 +128,9 @@ struct SpreadContact {
     gap = -pressed.mean_overlap;
     normal_force = pressed.force;
     elastic_force = normal_force * direction.normalized();
-    count = normal_force / one;
+    // Bars of a wrap have a whole spring each, whatever the share of their push: a short bar beside
+    // a long one slips no earlier for it.
+    count = (1.0 - pressed.own) * normal_force / one + pressed.own;
     a.nodes = term.a.ids;
     b.nodes = term.b.ids;
     const Vec3 per_force = force / (size * size);
