@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/balls/ball_contacts.hpp"
-#include "contact/plane_contacts.hpp"
-#include "contact/plane_neighbours.hpp"
-#include "contact/structure_contacts.hpp"
-#include "contact/surface_contacts.hpp"
+#include "contact/bodies.hpp"
+#include "contact/contact_row.hpp"
+#include "contact/motion.hpp"
+#include "contact/pair_springs.hpp"
 #include "geometry/cell_neighbours.hpp"
+#include "geometry/function_ref.hpp"
 #include "geometry/neighbours.hpp"
+#include "geometry/proximity.hpp"
+#include "geometry/surface_change.hpp"
+#include "geometry/thread_pool.hpp"
 
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <span>
-#include <utility>
-#include <vector>
 
 namespace plekton::contact {
+
+class PatchFinder;
 
 /// How many contacts of each kind there are.
 struct ContactCounts {
@@ -25,32 +28,40 @@ struct ContactCounts {
   std::size_t with_planes = 0;
 };
 
-/// All contacts of a scene: spheres with spheres, spheres with surfaces, structures with each other
-/// and with themselves, spheres and nodes of
-/// surfaces with planes.
-template <ContactLaw Law>
+/// N/m.
+struct PairStiffness {
+  double normal;
+  double tangential;
+};
+
+/// All contacts of a scene, whatever their law: spheres with spheres, spheres with surfaces,
+/// structures with each other and with themselves, spheres and nodes of surfaces with planes. A
+/// ContactModel makes them (contact_model.hpp).
+///
+/// Calls of many functions a step would be slow; these are a few, and what is inside knows the law
+/// as a type.
 class Contacts {
  public:
-  /// @param spheres, surface  must outlive this
-  /// @param skin  m, how far a pair may be apart when it is listed as a candidate
-  /// @param meets_planes  by NodeId: which nodes of the surface touch planes; empty: all of them
-  /// @param rest  m, of all nodes, for structures that may touch themselves; empty: they do not
-  Contacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
-           ContactMaterials<Law> materials, double skin, const std::vector<bool>& meets_planes = {},
-           Positions rest = {});
+  template <class... Arguments>
+  using Visit = geometry::FunctionRef<void(Arguments...)>;
+
+  Contacts() = default;
+  Contacts(const Contacts&) = delete;
+  Contacts& operator=(const Contacts&) = delete;
+  virtual ~Contacts() = default;
 
   /// From now on the spheres' lists choose their skin by themselves (geometry/neighbours.hpp).
   /// @param radius  m, > 0, of a usual sphere
-  void tune_skin(double radius) noexcept { neighbours_.tune_skin(radius); }
+  virtual void tune_skin(double radius) noexcept = 0;
 
   /// From now on the lists of structures choose their skin by themselves
   /// (geometry/cell_neighbours.hpp).
-  void choose_skin_of_structures() { cell_neighbours_.choose_skin(); }
+  virtual void choose_skin_of_structures() = 0;
 
   /// One step: finds who touches whom, carries histories over, asks the law, and sets the forces of
   /// all nodes to those of contacts.
-  void advance(const Motion& motion, std::span<const Plane> planes, double dt,
-               geometry::ThreadPool& pool, NodeForces& forces);
+  virtual void advance(const Motion& motion, std::span<const Plane> planes, double dt,
+                       geometry::ThreadPool& pool, NodeForces& forces) = 0;
 
   /// Goes on with what is left of the surface after some of its elements have broken away
   /// (geometry::Surface::left_with). Contacts go on where a feature they touch is left, those far
@@ -60,222 +71,107 @@ class Contacts {
   /// @param motion  of this step
   /// @param at      m, where the nodes were half a drift ago: to compare elastic energies there
   ///                loses nothing to second order (trapezoidal rule)
-  void follow(const geometry::SurfaceChange& change, const Motion& motion, Positions at,
-              geometry::ThreadPool& pool);
+  virtual void follow(const geometry::SurfaceChange& change, const Motion& motion, Positions at,
+                      geometry::ThreadPool& pool) = 0;
 
-  ContactCounts counts() const noexcept {
-    return {with_spheres_.touching(), with_surfaces_.touching(), between_structures_.touching(),
-            with_planes_.touching()};
-  }
+  virtual ContactCounts counts() const noexcept = 0;
 
   /// Energy (J) stored at the positions of the last step.
-  double elastic_energy() const {
-    return with_spheres_.elastic_energy() + with_surfaces_.elastic_energy() +
-           between_structures_.elastic_energy() + with_planes_.elastic_energy();
-  }
+  virtual double elastic_energy() const = 0;
   /// Energy (J) dissipated since the beginning, by the law and with contacts that are over.
-  double dissipated() const noexcept { return dissipated_; }
+  virtual double dissipated() const noexcept = 0;
   /// Energy (J) lost since the beginning, or below 0 made, where contacts go on as others: where
   /// histories are handed from patch to patch, on lists that change, and with elements that break.
-  double tracking_loss() const noexcept { return tracking_loss_; }
+  virtual double tracking_loss() const noexcept = 0;
 
   /// Largest overlap of the last step over the radius of the smaller ball.
-  double largest_overlap_ratio() const noexcept {
-    return std::max({with_spheres_.largest_overlap_ratio(), with_surfaces_.largest_overlap_ratio(),
-                     between_structures_.largest_overlap_ratio(),
-                     with_planes_.largest_overlap_ratio()});
-  }
+  virtual double largest_overlap_ratio() const noexcept = 0;
+  /// How many spheres' centres went through a facet or a cylinder in the last step.
+  virtual std::int64_t pass_throughs() const noexcept = 0;
+  /// Pairs of facets and cylinders whose cores cross.
+  virtual std::size_t crossings() const noexcept = 0;
 
   /// Numbers the contacts of the last step that have no number yet, from 1 on, in a fixed order:
   /// the same numbers for any number of threads, and none given twice. A contact keeps its number
   /// as long as it lasts, from element to element, whoever asks for it in between. Where a patch
   /// splits, the part that pushes most keeps it; where some merge, the one that pushed most.
-  void number() {
-    with_spheres_.number(last_number_);
-    with_surfaces_.number(last_number_);
-    between_structures_.number(last_number_);
-    with_planes_.number(last_number_);
-  }
+  virtual void number() = 0;
 
-  /// Calls visit(ContactRow) for every contact of the last step, in a fixed order. Together the
-  /// rows hold all that contacts did to the nodes.
+  /// Calls visit for every contact of the last step, in a fixed order. Together the rows hold all
+  /// that contacts did to the nodes.
   /// @param x  m, where the nodes were in that step
-  template <class Visit>
-  void for_each_row(Positions x, Visit&& visit) const {
-    with_spheres_.for_each_row(x, visit);
-    with_surfaces_.for_each_row(x, visit);
-    between_structures_.for_each_row(x, visit);
-    with_planes_.for_each_row(x, *surface_, visit);
-  }
+  virtual void for_each_row(Positions x, Visit<const ContactRow&> visit) const = 0;
+  /// The same of contacts with planes alone.
+  virtual void for_each_plane_row(Positions x, Visit<const ContactRow&> visit) const = 0;
+  /// Calls visit(row, force (N), torque (N m)) for contacts between structures, with what each did
+  /// to one node.
+  virtual void for_each_structure_row_on(
+      NodeId node, Positions x, Visit<const ContactRow&, const Vec3&, const Vec3&> visit) const = 0;
 
   /// Adds what contacts did in the last step to the nodes of surfaces: forces of spheres on each
   /// other are left out.
-  void add_surface_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
-    with_surfaces_.add_forces(forces, pool);
-    between_structures_.add_forces(forces);
-    with_planes_.add_forces(forces, pool);
-  }
+  virtual void add_surface_forces(NodeForces& forces, geometry::ThreadPool& pool) const = 0;
+  /// Adds what contacts of spheres with surfaces did.
+  virtual void add_sphere_surface_forces(NodeForces& forces, geometry::ThreadPool& pool) const = 0;
 
-  const BallContacts<Law>& with_spheres() const noexcept { return with_spheres_; }
-  const SurfaceContacts<Law>& with_surfaces() const noexcept { return with_surfaces_; }
-  const StructureContacts<Law>& between_structures() const noexcept { return between_structures_; }
-  const PlaneContacts<Law>& with_planes() const noexcept { return with_planes_; }
+  /// Force (N) of all bodies on a plane in the last step.
+  virtual Vec3 force_on_plane(std::size_t plane) const = 0;
+  /// Calls visit(plane, force (N) on it) for every contact of the last step with a plane, in a
+  /// fixed order.
+  virtual void for_each_plane_force(Visit<std::size_t, const Vec3&> visit) const = 0;
+
+  /// Bonds between structures that hold.
+  virtual std::size_t structure_bond_count() const = 0;
+
+  // What the time step depends on. Gaps are in m, negative where bodies overlap.
+
+  using VisitSpheres = Visit<NodeId, NodeId, const PairSprings&, double>;
+  using VisitSphereOnSurface =
+      Visit<NodeId, const geometry::CorePoint&, const PairSprings&, double, double>;
+  using VisitPlane = Visit<NodeId, std::size_t, const PairSprings&, double>;
+
+  /// Calls visit(a, b, springs, gap) for every touching pair of spheres, in the order of the list.
+  virtual void for_each_sphere_pair(VisitSpheres visit) const = 0;
+  /// The same for every listed pair that is nearer than a margin (m) with the nodes where they are
+  /// now.
+  virtual void for_each_near_sphere_pair(double margin, Positions x, VisitSpheres visit) const = 0;
+
+  /// Calls visit(sphere's node, core point, springs, range (m): radius of the sphere and of the
+  /// surface, elastic force (N)) for every part of a contact of a sphere with a surface.
+  virtual void for_each_surface_term(VisitSphereOnSurface visit) const = 0;
+  /// The same, without force, for what is not in contact but may be once bodies are nearer by a
+  /// margin (m).
+  virtual void for_each_coming_surface_term(double margin, Positions x,
+                                            VisitSphereOnSurface visit) const = 0;
+  /// Adds the elastic normal forces on spheres and surfaces with the nodes at x.
+  /// @param of  which spheres, by their nodes
+  virtual void add_elastic_forces(Positions x, NodeForces& forces, PatchFinder& finder,
+                                  geometry::FunctionRef<bool(NodeId)> of) const = 0;
+
+  /// Calls visit(node, normal and tangential stiffness (N/m), radius (m)) for what contacts between
+  /// structures are to their nodes.
+  virtual void for_each_structure_stiffness(Visit<NodeId, double, double, double> visit) const = 0;
+  /// Calls visit(cells) for the listed pairs of cells of structures that do not touch, but may be
+  /// as near as a margin (m).
+  virtual void for_each_near_cell_pair(double margin,
+                                       Visit<const geometry::CellPair&> visit) const = 0;
+
+  /// Calls visit(node, plane, springs, gap) for every ball that touches a plane.
+  virtual void for_each_plane_pair(VisitPlane visit) const = 0;
+  /// The same for every listed pair that is nearer than a margin (m) with the bodies where they are
+  /// now.
+  virtual void for_each_near_plane_pair(double margin, std::span<const Plane> planes, Positions x,
+                                        VisitPlane visit) const = 0;
+
+  /// Stiffness of so many equal contacts side by side of two bodies, at a gap (m).
+  virtual PairStiffness stiffness(const BodyPart& a, const BodyPart& b, double gap,
+                                  double count = 1.0) const = 0;
+
   /// How often a list of pairs that may touch was made: what is not in one cannot touch before the
   /// next.
-  std::int64_t list_count() const noexcept { return list_count_; }
-
-  const geometry::Neighbours& neighbours() const noexcept { return neighbours_; }
-  const geometry::CellNeighbours& cell_neighbours() const noexcept { return cell_neighbours_; }
-
- private:
-  double list_on_surfaces();
-  void add(const EnergyLoss& loss) noexcept {
-    dissipated_ += loss.dissipated;
-    tracking_loss_ += loss.tracking;
-  }
-  void end_start(std::span<const Plane> planes, Positions x, geometry::ThreadPool& pool);
-
-  ContactMaterials<Law> materials_;
-  std::vector<Ball> balls_;  ///< the spheres, then the nodes of the surface
-  geometry::Neighbours neighbours_;
-  geometry::CellNeighbours cell_neighbours_;
-  PlaneNeighbours plane_neighbours_;
-  BallContacts<Law> with_spheres_;
-  SurfaceContacts<Law> with_surfaces_;
-  StructureContacts<Law> between_structures_;
-  PlaneContacts<Law> with_planes_;
-  const geometry::Surface* surface_;
-  double dissipated_ = 0.0;
-  double tracking_loss_ = 0.0;
-  std::int64_t last_number_ = 0;
-  std::int64_t list_count_ = 0;
-  enum class Start { ahead, now, over } start_ = Start::ahead;
+  virtual std::int64_t list_count() const noexcept = 0;
+  virtual const geometry::Neighbours& neighbours() const noexcept = 0;
+  virtual const geometry::CellNeighbours& cell_neighbours() const noexcept = 0;
 };
-
-/// Structures are thinner than grains are wide: with the grains' skin a net would list half of
-/// itself.
-inline double skin_of_structures(const geometry::Surface& surface, double skin) {
-  for (std::size_t i = 0; i < surface.structure_count(); ++i) {
-    skin = std::min(skin, 0.5 * surface.radius(geometry::id_at<geometry::StructureId>(i)));
-  }
-  return skin;
-}
-
-/// m, over which bodies of a scene may stick to each other; of laws whose reach grows with the
-/// radii of both bodies, or with the smaller one's.
-template <ContactLaw Law>
-double largest_reach(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
-                     const ContactMaterials<Law>& materials) {
-  if constexpr (!HasReach<Law>) return 0.0;
-  std::map<MaterialId, double> largest;  // m, radius of the bodies of a material
-  const auto add = [&](MaterialId material, double radius) {
-    largest[material] = std::max(largest[material], radius);
-  };
-  for (std::size_t i = 0; i < spheres.size(); ++i) add(materials.of_spheres[i], spheres[i].radius);
-  for (std::size_t i = 0; i < surface.structure_count(); ++i)
-    add(materials.of_structures[i], surface.radius(geometry::id_at<geometry::StructureId>(i)));
-  double reach = 0.0;
-  for (const auto& [material_a, radius_a] : largest) {
-    for (std::size_t b = 0; b < materials.pairs.size(); ++b) {
-      const auto material_b = geometry::id_at<MaterialId>(b);
-      const auto other = largest.find(material_b);
-      const double radius_b = other == largest.end() ? radius_a : other->second;
-      for (const double radius : {radius_a, radius_b}) {
-        reach = std::max(reach, reach_of<Law>(materials.pairs.combine({material_a, radius_a},
-                                                                      {material_b, radius})));
-      }
-    }
-  }
-  return reach;
-}
-
-template <ContactLaw Law>
-Contacts<Law>::Contacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
-                        ContactMaterials<Law> materials, double skin,
-                        const std::vector<bool>& meets_planes, Positions rest)
-    : materials_(std::move(materials)),
-      neighbours_(spheres, surface, skin, largest_reach(spheres, surface, materials_)),
-      cell_neighbours_(surface, rest, skin_of_structures(surface, skin), !rest.empty()),
-      plane_neighbours_(skin, largest_reach(spheres, surface, materials_)),
-      with_surfaces_(surface),
-      between_structures_(surface),
-      surface_(&surface) {
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    const NodeId node = spheres[i].nodes[0];
-    balls_.push_back({node, spheres[i].radius, materials_.of_spheres[i], materials_.mass_of(node)});
-  }
-  for (std::size_t n = 0; n < surface.node_count(); ++n) {
-    const auto structure = surface.structure_of(geometry::id_at<NodeId>(n));
-    if (structure == geometry::StructureId{-1} || (!meets_planes.empty() && !meets_planes[n]))
-      continue;
-    const NodeId node = geometry::id_at<NodeId>(n);
-    balls_.push_back({node, surface.radius(structure),
-                      materials_.of_structures[index_of(structure)], materials_.mass_of(node)});
-  }
-}
-
-template <ContactLaw Law>
-void Contacts<Law>::advance(const Motion& motion, std::span<const Plane> planes, double dt,
-                            geometry::ThreadPool& pool, NodeForces& forces) {
-  if (start_ == Start::now) end_start(planes, motion.position, pool);
-  if (start_ == Start::ahead) start_ = Start::now;
-  if (neighbours_.update(motion.position, pool, motion.way)) {
-    tracking_loss_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs,
-                                            pool, motion.position);
-    tracking_loss_ += list_on_surfaces();
-    plane_neighbours_.expire(neighbours_.skin());
-    ++list_count_;
-  }
-  if (cell_neighbours_.update(motion.position, pool, motion.way)) {
-    tracking_loss_ += between_structures_.rebuild(cell_neighbours_.pairs(), materials_);
-    ++list_count_;
-  }
-  if (plane_neighbours_.update(balls_, planes, motion.position)) {
-    tracking_loss_ +=
-        with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
-    ++list_count_;
-  }
-  dissipated_ += with_spheres_.advance(motion, dt, pool, forces);
-  add(with_surfaces_.advance(motion, dt, pool));
-  add(between_structures_.advance(motion, dt, pool));
-  with_surfaces_.add_forces(forces, pool);
-  between_structures_.add_forces(forces);
-  dissipated_ += with_planes_.advance(motion, planes, dt, pool, forces);
-}
-
-/// The first step is over: the contacts listed go on with the parameters of later ones.
-template <ContactLaw Law>
-void Contacts<Law>::end_start(std::span<const Plane> planes, Positions x,
-                              geometry::ThreadPool& pool) {
-  start_ = Start::over;
-  if (!materials_.pairs.end_start()) return;
-  ++list_count_;
-  with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs, pool, x);
-  list_on_surfaces();
-  between_structures_.take_parameters(materials_);
-  with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
-}
-
-/// @returns the energy (J) lost with contacts that left the list
-template <ContactLaw Law>
-double Contacts<Law>::list_on_surfaces() {
-  return with_surfaces_.rebuild(neighbours_.sphere_structures(), neighbours_.near_cells(),
-                                neighbours_.cells(), balls_, materials_.of_structures,
-                                materials_.pairs);
-}
-
-template <ContactLaw Law>
-void Contacts<Law>::follow(const geometry::SurfaceChange& change, const Motion& motion,
-                           Positions at, geometry::ThreadPool& pool) {
-  ++list_count_;
-  tracking_loss_ += with_surfaces_.follow(change, neighbours_.cells(), at);
-  neighbours_.follow(change);
-  tracking_loss_ += list_on_surfaces();
-  cell_neighbours_.follow(change);
-  cell_neighbours_.update(motion.position, pool);
-  const Motion then{at, motion.velocity, motion.angular_velocity};
-  tracking_loss_ +=
-      between_structures_.follow(change, cell_neighbours_.pairs(), materials_, then, pool);
-}
 
 }  // namespace plekton::contact

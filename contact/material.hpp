@@ -37,6 +37,14 @@ struct Body {
   Shape shape = Shape::sphere;
 };
 
+/// A body of a material of a scene.
+struct BodyPart {
+  MaterialId material;
+  double radius;                                          ///< m
+  double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
+  Shape shape = Shape::sphere;
+};
+
 /// Mass (kg) with which two bodies move against each other; infinite if both masses are.
 inline double reduced_mass(const Body& a, const Body& b) noexcept {
   return 1.0 / (1.0 / a.mass + 1.0 / b.mass);

@@ -24,14 +24,6 @@ class MaterialPairs {
  public:
   using Parameters = typename Law::Parameters;
 
-  /// A body of a material of this table.
-  struct Part {
-    MaterialId material;
-    double radius;                                          ///< m
-    double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
-    Shape shape = Shape::sphere;
-  };
-
   explicit MaterialPairs(std::vector<Material> materials = {},
                          const PairProperties<Law>& properties = {})
       : materials_(std::move(materials)) {
@@ -40,9 +32,9 @@ class MaterialPairs {
   }
 
   Parameters combine(const Ball& a, const Ball& b) const {
-    return combine(Part{a.material, a.radius, a.mass}, Part{b.material, b.radius, b.mass});
+    return combine(BodyPart{a.material, a.radius, a.mass}, BodyPart{b.material, b.radius, b.mass});
   }
-  Parameters combine(const Part& a, const Part& b) const {
+  Parameters combine(const BodyPart& a, const BodyPart& b) const {
     const auto own = properties_.find(std::minmax(a.material, b.material));
     return contact::combine<Law>(own == properties_.end() ? PropertiesOf<Law>{} : own->second,
                                  {at(a.material), a.radius, a.mass, a.shape},

@@ -14,8 +14,8 @@ std::vector<structure::Meeting<Law>> StructureContacts<Law>::find_meetings(
   const std::vector<double> masses = structure::mean_node_masses(*surface_, materials);
   const auto part = [&](std::size_t i) {
     const auto id = geometry::id_at<geometry::StructureId>(i);
-    return typename MaterialPairs<Law>::Part{materials.of_structures[i], surface_->radius(id),
-                                             masses[i], shape_of(*surface_, id)};
+    return BodyPart{materials.of_structures[i], surface_->radius(id), masses[i],
+                    shape_of(*surface_, id)};
   };
   for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
     for (std::size_t k = i; k < surface_->structure_count(); ++k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/material_pairs.hpp"
+#include "contact/contacts.hpp"
 #include "dynamics/coming_partner.hpp"
 #include "dynamics/scene.hpp"
 #include "dynamics/time_step.hpp"
@@ -33,12 +33,11 @@ struct ExpectedStiffness {
   }
 };
 
-template <contact::ContactLaw Law>
 class ExpectedContacts {
  public:
   ExpectedContacts(const Scene& scene, const geometry::Surface& surface,
-                   const contact::MaterialPairs<Law>& pairs)
-      : scene_(scene), surface_(surface), pairs_(pairs) {
+                   const contact::Contacts& contacts)
+      : scene_(scene), surface_(surface), contacts_(contacts) {
     collect_structures();
     collect_kinds();
     collect_extents();
@@ -115,9 +114,12 @@ class ExpectedContacts {
     double radius;
     contact::Shape shape = contact::Shape::sphere;
   };
-  typename Law::Parameters combine(const Kind& a, const Kind& b) const {
-    return pairs_.combine({.material = a.material, .radius = a.radius, .shape = a.shape},
-                          {.material = b.material, .radius = b.radius, .shape = b.shape});
+  /// Of so many contacts of two kinds side by side.
+  contact::PairStiffness stiffness(const Kind& a, const Kind& b, double count = 1.0) const {
+    const double gap = -kExpectedOverlap * std::min(a.radius, b.radius);
+    return contacts_.stiffness({.material = a.material, .radius = a.radius, .shape = a.shape},
+                               {.material = b.material, .radius = b.radius, .shape = b.shape}, gap,
+                               count);
   }
   /// To a contact a plane has the radius of what meets it.
   Kind plane_under(std::size_t id, double radius) const {
@@ -137,10 +139,8 @@ class ExpectedContacts {
   /// @param with  what b is
   void take(const Kind& a, const Kind& b, const ComingPartner& with,
             ExpectedStiffness& hardest) const {
-    const auto parameters = combine(a, b);
-    const double gap = -kExpectedOverlap * std::min(a.radius, b.radius);
-    hardest.take(Law::normal_stiffness(parameters, gap), Law::tangential_stiffness(parameters, gap),
-                 with);
+    const auto [normal, tangential] = stiffness(a, b);
+    hardest.take(normal, tangential, with);
   }
 
   void collect_structures() {
@@ -210,11 +210,8 @@ class ExpectedContacts {
     const double range = own.radius + other.radius;
     const double count =
         1.0 + length_[index_of(node)] / range + area_[index_of(node)] / (range * range);
-    const auto one = combine(own, other);
-    const auto all = Law::multiplied(one, count);
-    const double gap = -kExpectedOverlap * std::min(own.radius, other.radius);
-    hardest.take(Law::normal_stiffness(all, gap), Law::tangential_stiffness(all, gap),
-                 structure(i));
+    const auto [normal, tangential] = stiffness(own, other, count);
+    hardest.take(normal, tangential, structure(i));
   }
 
   ExpectedStiffness hardest_partner(const Kind& sphere) const {
@@ -259,7 +256,7 @@ class ExpectedContacts {
 
   const Scene& scene_;
   const geometry::Surface& surface_;
-  const contact::MaterialPairs<Law>& pairs_;
+  const contact::Contacts& contacts_;
   std::vector<Kind> structures_;
   std::vector<Kind> kinds_;
   std::vector<double> length_;  ///< m, of cylinders, by node

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/contacts.hpp"
-#include "contact/laws/any_law.hpp"
+#include "contact/laws/models.hpp"
 #include "dynamics/diverged.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/exact_step.hpp"
@@ -27,6 +26,7 @@
 #include <cstdint>
 #include <iosfwd>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,7 +35,7 @@ namespace plekton::dynamics {
 
 struct SimulationOptions {
   double time_step = 0.0;  ///< s; 0 chooses one as it goes: kSafety times the critical step with
-                           ///< the contacts of now and those that are near (simulation_step.hpp),
+                           ///< the contacts of now and those that are near (simulation_step.cpp),
                            ///< shorter while something is fast (dynamics/motion_step.hpp)
   MotionOptions motion;
   double skin =
@@ -58,20 +58,20 @@ constexpr double kLongestWay = 0.05;
 constexpr double kLargestStep = 0.8;
 
 class StrongestAction;
+struct PresentContacts;
 
 /// A scene in motion. The state belongs to the simulation; what is given out are views of it.
 ///
 /// Every call that takes a node, bond or plane checks its id before anything else, and throws
 /// std::out_of_range with the call, the id and how many there are.
-template <contact::ContactLaw Law>
 class Simulation {
  public:
   /// @throws std::invalid_argument listing every problem of the scene or the options, among them a
   /// time step above
   ///         kLargestStep of the critical one
-  /// @param properties  of pairs of materials, for laws that have any
+  /// @param model  which contact law there is
   Simulation(Scene scene, const SimulationOptions& options,
-             const contact::PairProperties<Law>& properties = {});
+             const contact::ContactModel& model = contact::linear_frictional());
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -129,7 +129,7 @@ class Simulation {
   BondForces bond_forces(std::size_t bond) const;
   const SheetFacets& sheet_facets() const noexcept { return sheet_facets_; }
   const AppliedLoads& loads() const noexcept { return loads_; }
-  const contact::Contacts<Law>& contacts() const noexcept { return contacts_; }
+  const contact::Contacts& contacts() const noexcept { return *contacts_; }
   /// Forces of contacts, bonds, sheets and loads in the last step, gravity not included.
   const NodeForces& forces() const noexcept { return forces_; }
 
@@ -143,6 +143,8 @@ class Simulation {
   /// All contacts of the last step with all that they did to the nodes. Those that have no number
   /// get one (contact::Contacts::number).
   std::vector<contact::ContactRow> list_contacts();
+  /// The same without giving numbers.
+  std::vector<contact::ContactRow> contact_rows() const;
   /// What bodies do to a plane, about force_point(plane).
   ForceAndMoment plane_reaction(std::size_t plane) const;
   /// What the supports of nodes bear: readout/reactions.hpp. Of grains, membranes and any other
@@ -175,6 +177,10 @@ class Simulation {
   CriticalStep critical_step() const;
   /// The same of the structures and contacts as they are now alone: what a chosen step keeps to.
   CriticalStep present_critical_step() const;
+  /// What the present step has to keep to: a given one to contacts that may come too.
+  CriticalStep limit_of_step() const {
+    return chooses_time_step_ ? present_critical_step() : critical_step();
+  }
   /// Whether the step is chosen as it goes, and not given.
   bool chooses_time_step() const noexcept { return chooses_time_step_; }
   /// What limits critical_step().
@@ -190,8 +196,6 @@ class Simulation {
   double motion_ratio() const noexcept;
 
  private:
-  using Parameters = typename Law::Parameters;
-
   void advance(double longest);
   contact::Motion motion() const noexcept;
   void follow_breaks();
@@ -223,16 +227,7 @@ class Simulation {
   double rounding_energy() const;
   void add_expected_to(NodalStiffness& stiffness) const;
   void add_structures_to(NodalStiffness& stiffness) const;
-  ContactStiffness stiffness_of(const Vec3& normal, const Parameters& parameters, double gap,
-                                NodeId a, NodeId b) const;
-  template <class Springs>
-  void add_on_surface(Springs& springs, NodeId ball, const geometry::CorePoint& core,
-                      const Parameters& parameters, double range, double force, double further,
-                      geometry::Positions x) const;
-  template <class Springs>
-  void add_contacts_to(Springs& springs, double further, geometry::Positions x) const;
-  template <class Springs>
-  void add_surface_contacts_to(Springs& springs, double further, geometry::Positions x) const;
+  PresentContacts present_contacts() const noexcept;
   void add_near_contacts_to(ContactSprings& springs, double margin);
   void add_near_structures_to(ContactSprings& springs, double margin);
   void add_spread_to(NodalStiffness& stiffness, ContactSprings& springs, SpreadStiffness& spread,
@@ -248,11 +243,10 @@ class Simulation {
   void consider_structures(StiffestPart& parts) const;
 
   Scene scene_;
-  contact::MaterialPairs<Law> material_pairs_;
   MotionOptions motion_;
   geometry::ThreadPool pool_;
   geometry::Surface surface_;
-  contact::Contacts<Law> contacts_;
+  std::unique_ptr<contact::Contacts> contacts_;
   BeamBonds bonds_;
   YieldingBonds yielding_bonds_;
   SheetFacets sheet_facets_;
@@ -305,46 +299,5 @@ class Simulation {
   std::int64_t pass_throughs_ = 0;
   std::size_t most_crossings_ = 0;
 };
-
-/// @param longest  s, the step is not longer
-template <contact::ContactLaw Law>
-void Simulation<Law>::advance(double longest) {
-  require_time_step();
-  yielding_bonds_.advance(bonds_, scene_.state, pool_);
-  sheet_facets_.advance(scene_.state, pool_);
-  sheet_facets_.tear(scene_.state.position, pool_);
-  follow_breaks();
-  contacts_.advance(motion(), scene_.planes, last_drift_, pool_, forces_);
-  if (chooses_time_step_ && is_look_due()) choose_time_step();
-  drift_ = std::min(dt_, longest);
-  bonds_.advance(scene_.state, pool_);
-  bonds_.add_forces(forces_, pool_);
-  sheet_facets_.add_forces(forces_, pool_);
-  apply_loads();
-  const StepLengths lengths{0.5 * (last_drift_ + drift_), drift_};
-  account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_),
-          lengths);
-  move_planes();
-  check_motion();
-  time_ += drift_;
-  last_drift_ = drift_;
-  ++steps_;
-  watch_energy();
-}
-
-template <contact::ContactLaw Law>
-bool Simulation<Law>::step_until(double end) {
-  constexpr double kRest = 1e-3;  // of a step
-  require_time_step();
-  const double left = end - time_;
-  if (!(left > kRest * dt_)) return false;
-  const bool is_rest = left < (1.0 - kRest) * dt_;
-  advance(is_rest ? left : dt_);
-  return true;
-}
-
-/// Of another law: simulation_definitions.hpp.
-extern template class Simulation<contact::LinearFrictional>;
-extern template class Simulation<contact::AnyLaw>;
 
 }  // namespace plekton::dynamics

@@ -28,7 +28,7 @@ std::string line_of(const BuiltGrains& g) {
 /// The time step at the start, the critical one with all contacts that may come, and what limits
 /// the step where that is not what is stiff. A chosen step follows what touches.
 std::string line_of_step(const PreparedRun& prepared) {
-  const Simulation& simulation = *prepared.simulation;
+  const dynamics::Simulation& simulation = *prepared.simulation;
   const double dt = simulation.time_step();
   const double ratio = simulation.motion_ratio();
   return fmt::format(

@@ -21,8 +21,7 @@ int main() {
   for (const auto& [a, b] : sheet.edges) scene.add_beam(a, b, fibre, 300.0);  // density
   scene.add_sphere({0.01, 0.02, 0.06}, 0.03, 2650.0, cloth);  // centre, radius, density
 
-  dynamics::Simulation<contact::LinearFrictional> run(scene,
-                                                      {.motion = {.gravity = {0, 0, -9.81}}});
+  dynamics::Simulation run(scene, {.motion = {.gravity = {0, 0, -9.81}}});
   const auto ball = index_of(run.elements().spheres[0].nodes[0]);
   for (int i = 0; i <= 10; ++i) {
     while (run.time() < 0.03 * i) run.step();

@@ -47,7 +47,7 @@ void remove_earlier(const fs::path& folder) {
 }
 
 /// Of every cylinder that is left; 0 where no bond is along it.
-std::vector<double> tensions_of(const Simulation& simulation) {
+std::vector<double> tensions_of(const dynamics::Simulation& simulation) {
   const dynamics::BeamBonds& bonds = simulation.bonds();
   std::vector<double> tensions;
   for (const std::size_t bond : dynamics::bonds_along(simulation.elements().cylinders, bonds))
@@ -57,7 +57,7 @@ std::vector<double> tensions_of(const Simulation& simulation) {
 
 /// Of every facet, 0 where it is none of a sheet; empty if there is no sheet. The facets of sheets
 /// come in the order of all facets (build_scene.hpp).
-std::vector<dynamics::PrincipalForces> membrane_forces_of(const Simulation& simulation) {
+std::vector<dynamics::PrincipalForces> membrane_forces_of(const dynamics::Simulation& simulation) {
   const dynamics::SheetFacets& sheets = simulation.sheet_facets();
   if (sheets.size() == 0) return {};
   const auto& facets = simulation.elements().facets;
@@ -73,7 +73,7 @@ std::vector<dynamics::PrincipalForces> membrane_forces_of(const Simulation& simu
 }
 
 /// Likewise, and of bonds that broke.
-std::vector<dynamics::BondStress> stresses_of(const Simulation& simulation) {
+std::vector<dynamics::BondStress> stresses_of(const dynamics::Simulation& simulation) {
   std::vector<dynamics::BondStress> stresses;
   for (const std::size_t bond :
        dynamics::bonds_along(simulation.elements().cylinders, simulation.bonds()))
@@ -85,7 +85,8 @@ std::vector<dynamics::BondStress> stresses_of(const Simulation& simulation) {
 
 }  // namespace
 
-Frames::Frames(const fs::path& folder, const OutputSettings& settings, const Simulation& simulation)
+Frames::Frames(const fs::path& folder, const OutputSettings& settings,
+               const dynamics::Simulation& simulation)
     : folder_(folder),
       settings_(settings),
       sphere_ids_(simulation.elements().spheres.size()),
@@ -104,7 +105,7 @@ Frames::Frames(const fs::path& folder, const OutputSettings& settings, const Sim
   }
 }
 
-std::vector<Vec3> Frames::node_forces(const Simulation& simulation) const {
+std::vector<Vec3> Frames::node_forces(const dynamics::Simulation& simulation) const {
   std::vector<Vec3> forces = simulation.forces().force;
   for (std::size_t i = 0; i < forces.size(); ++i)
     forces[i] += simulation.properties().mass[i] * simulation.gravity();
@@ -118,7 +119,7 @@ void Frames::write_part(const std::string& name, dynamics::PvdSeries& series,
   series.add({{data.time, name, file}});
 }
 
-void Frames::write_membranes(Simulation& simulation, const dynamics::NodesView& nodes) {
+void Frames::write_membranes(dynamics::Simulation& simulation, const dynamics::NodesView& nodes) {
   const std::vector<double> tensions = tensions_of(simulation);
   const auto membrane_forces = membrane_forces_of(simulation);
   const auto stresses = stresses_of(simulation);
@@ -130,7 +131,7 @@ void Frames::write_membranes(Simulation& simulation, const dynamics::NodesView& 
                                      simulation.time()));
 }
 
-void Frames::write_contacts(Simulation& simulation) {
+void Frames::write_contacts(dynamics::Simulation& simulation) {
   const std::vector<contact::ContactRow> contacts = simulation.list_contacts();
   const double time = simulation.time();
   if (settings_.contacts)
@@ -144,7 +145,7 @@ void Frames::write_contacts(Simulation& simulation) {
   contact_list_->flush();
 }
 
-void Frames::write(Simulation& simulation) {
+void Frames::write(dynamics::Simulation& simulation) {
   const dynamics::NodeState& state = simulation.state();
   const std::vector<Vec3> forces = node_forces(simulation);
   const dynamics::NodesView nodes{state.position, state.velocity, state.angular_velocity, forces};

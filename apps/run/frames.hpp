@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/run/simulation.hpp"
 #include "apps/scenario/scenario.hpp"
 #include "dynamics/output/csv_writer.hpp"
 #include "dynamics/output/pvd_series.hpp"
 #include "dynamics/output/scene_frame.hpp"
 #include "dynamics/output/vtk_writer.hpp"
+#include "dynamics/simulation.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -24,10 +24,10 @@ class Frames {
   /// Removes the series and frames that an earlier run left under the same names. @throws
   /// dynamics::OutputError
   Frames(const std::filesystem::path& folder, const OutputSettings& settings,
-         const Simulation& simulation);
+         const dynamics::Simulation& simulation);
 
   /// Writes the state of now. @throws dynamics::OutputError
-  void write(Simulation& simulation);
+  void write(dynamics::Simulation& simulation);
 
   std::size_t count() const noexcept { return count_; }
 
@@ -35,9 +35,9 @@ class Frames {
   void write_part(const std::string& name, dynamics::PvdSeries& series,
                   const dynamics::PolyData& data);
   /// Sum of contacts, bonds, loads and gravity on each node (N).
-  std::vector<Vec3> node_forces(const Simulation& simulation) const;
-  void write_membranes(Simulation& simulation, const dynamics::NodesView& nodes);
-  void write_contacts(Simulation& simulation);
+  std::vector<Vec3> node_forces(const dynamics::Simulation& simulation) const;
+  void write_membranes(dynamics::Simulation& simulation, const dynamics::NodesView& nodes);
+  void write_contacts(dynamics::Simulation& simulation);
 
   std::filesystem::path folder_;
   OutputSettings settings_;

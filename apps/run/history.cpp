@@ -48,14 +48,14 @@ std::vector<dynamics::CsvColumn> columns() {
 
 }  // namespace
 
-std::size_t broken_bonds(const Simulation& simulation) {
+std::size_t broken_bonds(const dynamics::Simulation& simulation) {
   const dynamics::BeamBonds& bonds = simulation.bonds();
   std::size_t count = 0;
   for (std::size_t i = 0; i < bonds.size(); ++i) count += bonds.is_broken(i) ? 1U : 0U;
   return count;
 }
 
-std::size_t torn_facets(const Simulation& simulation) {
+std::size_t torn_facets(const dynamics::Simulation& simulation) {
   const dynamics::SheetFacets& sheets = simulation.sheet_facets();
   std::size_t count = 0;
   for (std::size_t i = 0; i < sheets.size(); ++i) count += sheets.is_broken(i) ? 1U : 0U;
@@ -69,9 +69,9 @@ std::span<const dynamics::OutputField> history_fields() {
 History::History(const std::filesystem::path& folder)
     : writer_(folder / "energy.csv", columns(), dynamics::CsvWriter::Flush::on_request) {}
 
-void History::add(const Simulation& simulation, const dynamics::Energy& energy,
+void History::add(const dynamics::Simulation& simulation, const dynamics::Energy& energy,
                   const LostGrains& lost) {
-  const contact::ContactCounts counts = simulation.contact_counts();
+  const contact::ContactCounts counts = simulation.contacts().counts();
   writer_.add({simulation.time(),
                energy.kinetic,
                energy.contact_elastic,
@@ -90,7 +90,7 @@ void History::add(const Simulation& simulation, const dynamics::Energy& energy,
                static_cast<double>(counts.with_planes),
                static_cast<double>(broken_bonds(simulation)),
                static_cast<double>(torn_facets(simulation)),
-               simulation.present_overlap_ratio(),
+               simulation.contacts().largest_overlap_ratio(),
                simulation.time_step(),
                static_cast<double>(lost.total()),
                simulation.unbalanced_force_ratio()});

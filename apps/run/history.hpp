@@ -11,10 +11,10 @@
 namespace plekton::apps {
 
 /// How many bonds have broken so far. Linear in the number of bonds.
-std::size_t broken_bonds(const Simulation& simulation);
+std::size_t broken_bonds(const dynamics::Simulation& simulation);
 
 /// How many facets of sheets have torn so far. Linear in their number.
-std::size_t torn_facets(const Simulation& simulation);
+std::size_t torn_facets(const dynamics::Simulation& simulation);
 
 /// The columns of energy.csv.
 std::span<const dynamics::OutputField> history_fields();
@@ -27,7 +27,8 @@ class History {
 
   /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
   /// dynamics::OutputError
-  void add(const Simulation& simulation, const dynamics::Energy& energy, const LostGrains& lost);
+  void add(const dynamics::Simulation& simulation, const dynamics::Energy& energy,
+           const LostGrains& lost);
   void flush() { writer_.flush(); }
   void close() { writer_.close(); }
 

@@ -26,7 +26,7 @@ using geometry::index_of;
 /// Says of the bodies of contacts which tables they are from, and what they are.
 class Bodies {
  public:
-  Bodies(const Scenario& scenario, const BuiltScene& built, const Simulation& simulation)
+  Bodies(const Scenario& scenario, const BuiltScene& built, const dynamics::Simulation& simulation)
       : scenario_(scenario), simulation_(simulation) {
     for (const BuiltGrains& grains : built.grains)
       first_grain_.push_back(first_grain_.back() + grains.count);
@@ -95,7 +95,7 @@ class Bodies {
   }
 
   const Scenario& scenario_;
-  const Simulation& simulation_;
+  const dynamics::Simulation& simulation_;
   std::vector<std::size_t> first_grain_{0};  ///< by table, and their end
   std::vector<std::size_t> membrane_of_;     ///< by StructureId
 };
@@ -196,10 +196,10 @@ std::string warning_about_bonds(const Scenario& scenario, std::size_t table, std
 }  // namespace
 
 InitialContacts initial_contacts(const Scenario& scenario, const BuiltScene& built,
-                                 const Simulation& simulation) {
+                                 const dynamics::Simulation& simulation) {
   const Bodies bodies(scenario, built, simulation);
   InitialContacts contacts;
-  const std::vector<ContactRow> rows = simulation.contacts_as_they_are();
+  const std::vector<ContactRow> rows = simulation.contact_rows();
   contacts.bonds = count_bonds(rows, bodies, scenario.contacts);
   for (const ContactRow& row : rows) {
     if (const auto overlap = overlap_of(row, bodies)) contacts.overlaps.push_back(*overlap);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/run/simulation.hpp"
 #include "apps/scenario/scenario.hpp"
 #include "apps/scene/build_scene.hpp"
+#include "dynamics/simulation.hpp"
 
 #include <array>
 #include <compare>
@@ -44,7 +44,7 @@ struct InitialContacts {
 /// Looks at the contacts of a simulation that has not made a step. Overlaps that may be rounding of
 /// coordinates do not count.
 InitialContacts initial_contacts(const Scenario& scenario, const BuiltScene& built,
-                                 const Simulation& simulation);
+                                 const dynamics::Simulation& simulation);
 
 /// Bonds that were asked for and of which there are none, and overlaps that are deep.
 std::vector<std::string> warnings_about(const InitialContacts& contacts, const Scenario& scenario);

@@ -39,7 +39,7 @@ Pressures::Pressures(const std::filesystem::path& folder, const Scenario& scenar
     writer_.emplace(folder / "pressures.csv", columns, dynamics::CsvWriter::Flush::on_request);
 }
 
-void Pressures::add(const Simulation& simulation) {
+void Pressures::add(const dynamics::Simulation& simulation) {
   if (!writer_) return;
   std::vector<double> row{simulation.time()};
   for (std::size_t i = 0; i < has_volume_.size(); ++i) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/run/simulation.hpp"
 #include "apps/scenario/scenario.hpp"
 #include "dynamics/output/csv_writer.hpp"
 #include "dynamics/output/output_field.hpp"
+#include "dynamics/simulation.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -24,7 +24,7 @@ class Pressures {
 
   /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
   /// dynamics::OutputError
-  void add(const Simulation& simulation);
+  void add(const dynamics::Simulation& simulation);
   void flush();
   void close();
 

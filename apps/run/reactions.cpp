@@ -42,7 +42,7 @@ struct BodySet {
 };
 
 /// Those of the nodes, as they are now: structures come apart where bonds break.
-BodySet bodies_of(const BuiltReaction& reaction, const Simulation& simulation) {
+BodySet bodies_of(const BuiltReaction& reaction, const dynamics::Simulation& simulation) {
   std::vector<bool> is_node(simulation.state().size());
   for (const geometry::NodeId node : reaction.nodes) is_node[index_of(node)] = true;
   BodySet bodies;
@@ -62,7 +62,7 @@ Vec3 about(const BuiltReaction& reaction) {
 
 ForceAndMoment of_contacts(const BuiltReaction& reaction,
                            std::span<const contact::ContactRow> contacts,
-                           const Simulation& simulation) {
+                           const dynamics::Simulation& simulation) {
   const BodySet bodies = bodies_of(reaction, simulation);
   return dynamics::contact_force_on(
       contacts, [&](const contact::ContactBody& body) { return bodies.has(body); },
@@ -70,7 +70,7 @@ ForceAndMoment of_contacts(const BuiltReaction& reaction,
 }
 
 /// Weight included; what is held bears it too.
-ForceAndMoment on_nodes(const BuiltReaction& reaction, const Simulation& simulation) {
+ForceAndMoment on_nodes(const BuiltReaction& reaction, const dynamics::Simulation& simulation) {
   const std::vector<Vec3> positions = simulation.force_positions();
   const dynamics::NodeForces& forces = simulation.forces();
   ForceAndMoment sum;
@@ -82,7 +82,7 @@ ForceAndMoment on_nodes(const BuiltReaction& reaction, const Simulation& simulat
   return sum;
 }
 
-ForceAndMoment on_plane(const BuiltReaction& reaction, const Simulation& simulation) {
+ForceAndMoment on_plane(const BuiltReaction& reaction, const dynamics::Simulation& simulation) {
   const ForceAndMoment value = simulation.plane_reaction(reaction.plane);
   if (!reaction.about) return value;
   ForceAndMoment moved;
@@ -91,7 +91,7 @@ ForceAndMoment on_plane(const BuiltReaction& reaction, const Simulation& simulat
 }
 
 /// m, where it was at the time of the forces.
-Vec3 position_of(const BuiltReaction& reaction, const Simulation& simulation) {
+Vec3 position_of(const BuiltReaction& reaction, const dynamics::Simulation& simulation) {
   if (reaction.kind == ReactionKind::plane) return simulation.force_point(reaction.plane);
   const std::vector<Vec3> positions = simulation.force_positions();
   Vec3 sum = Vec3::Zero();
@@ -119,7 +119,7 @@ Reactions::Reactions(const std::filesystem::path& folder,
   }
 }
 
-void Reactions::add(Simulation& simulation) {
+void Reactions::add(dynamics::Simulation& simulation) {
   std::vector<contact::ContactRow> contacts;
   if (lists_contacts_) contacts = simulation.list_contacts();
   std::vector<double> row{simulation.time()};

@@ -105,7 +105,7 @@ class Run {
   }
 
   void look_at_grains() {
-    lost_.look(simulation_.state().position, simulation_.neighbours());
+    lost_.look(simulation_.state().position, simulation_.contacts().neighbours());
     next_look_at_grains_ =
         simulation_.steps() +
         lost_.steps_to_next_look(simulation_.state().velocity, simulation_.time_step());
@@ -209,7 +209,7 @@ class Run {
   }
 
   void complete_report() {
-    const contact::ContactCounts counts = simulation_.contact_counts();
+    const contact::ContactCounts counts = simulation_.contacts().counts();
     report_.contacts = counts.sphere_sphere + counts.sphere_surface + counts.between_structures +
                        counts.with_planes;
     report_.broken_bonds = broken_bonds(simulation_);
@@ -243,7 +243,7 @@ class Run {
 
   const Scenario& scenario_;
   const RunSettings& settings_;
-  Simulation& simulation_;
+  dynamics::Simulation& simulation_;
   LostGrains lost_;
   Frames frames_;
   History history_;
@@ -286,7 +286,7 @@ void require_sound_time_step(const SimulationSettings& settings, double critical
 }
 
 /// @throws InputError
-void choose_time_step(const SimulationSettings& settings, Simulation& simulation) {
+void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& simulation) {
   double chosen = simulation.time_step();
   if (settings.time_step) {
     require_sound_time_step(settings, simulation.critical_step().dt);
@@ -320,21 +320,17 @@ contact::PairProperties<Law> properties_of_pairs(const std::vector<PairSettings>
   return all;
 }
 
-/// Under linear_frictional alone, which is the fastest, unless a pair has another law or more.
-std::unique_ptr<Simulation> simulation_of(const Scenario& scenario, dynamics::Scene scene,
-                                          const dynamics::SimulationOptions& options) {
+/// linear_frictional alone, which is the fastest, unless a pair has another law or more.
+contact::ContactModel model_of(const std::vector<PairSettings>& pairs) {
   using contact::AnyLaw;
   using contact::LinearFrictional;
-  const auto& pairs = scenario.contacts;
   if (std::all_of(pairs.begin(), pairs.end(), [](const PairSettings& pair) {
         return contact::linear_alone(pair.contact).has_value();
       })) {
     const auto linear = [](const auto& settings) { return *contact::linear_alone(settings); };
-    return std::make_unique<SimulationUnder<LinearFrictional>>(
-        std::move(scene), options, properties_of_pairs<LinearFrictional>(pairs, linear));
+    return contact::linear_frictional(properties_of_pairs<LinearFrictional>(pairs, linear));
   }
-  return std::make_unique<SimulationUnder<AnyLaw>>(
-      std::move(scene), options, properties_of_pairs<AnyLaw>(pairs, contact::properties_of));
+  return contact::any_law(properties_of_pairs<AnyLaw>(pairs, contact::properties_of));
 }
 
 }  // namespace
@@ -350,7 +346,8 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   options.self_contact = scenario.simulation.self_contact;
   options.threads = scenario.simulation.threads;
   try {
-    prepared.simulation = simulation_of(scenario, std::move(prepared.built.scene), options);
+    prepared.simulation = std::make_unique<dynamics::Simulation>(
+        std::move(prepared.built.scene), options, model_of(scenario.contacts));
   } catch (const std::length_error& error) {
     throw refused_self_contact(scenario, prepared.built.membranes, error.what());
   }

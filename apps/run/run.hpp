@@ -19,7 +19,7 @@ namespace plekton::apps {
 /// A simulation that is ready to run, and what was built for it.
 struct PreparedRun {
   BuiltScene built;  ///< its scene has moved into the simulation
-  std::unique_ptr<Simulation> simulation;
+  std::unique_ptr<dynamics::Simulation> simulation;
   double duration = 0.0;  ///< s
   InitialContacts start;
 };

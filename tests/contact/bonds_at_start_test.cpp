@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/contacts.hpp"
+#include "contact/contacts_under.hpp"
 #include "contact/laws/cohesive_frictional.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ class Pairs {
                                        {{node(4), node(6), node(7)}, kRadius}};
   std::vector<geometry::Cylinder> cylinders_{{{node(8), node(9)}, kRadius}};
   geometry::Surface surface_{cylinders_, facets_, 10};
-  Contacts<CohesiveFrictional> contacts_;
+  ContactsUnder<CohesiveFrictional> contacts_;
   geometry::ThreadPool pool_;
   NodeForces forces_{10};
 };

@@ -161,7 +161,7 @@ class SheetOnSheet {
     for (std::size_t i = first_of_small_; i < complex_.x.size(); ++i)
       complex_.x[i] += Vec3(-0.83, -0.41, 0.19);  // both are 0.2 thick
     surface_ = complex_.surface();
-    contacts_ = std::make_unique<Contacts<LinearFrictional>>(
+    contacts_ = std::make_unique<ContactsUnder<LinearFrictional>>(
         std::span<const Sphere>(), surface_,
         ContactMaterials<LinearFrictional>{
             MaterialPairs<LinearFrictional>({Material{1e6, 0.5, 0.3}}),
@@ -192,7 +192,7 @@ class SheetOnSheet {
   Complex complex_;
   std::size_t first_of_small_ = 0;
   Surface surface_;
-  std::unique_ptr<Contacts<LinearFrictional>> contacts_;
+  std::unique_ptr<ContactsUnder<LinearFrictional>> contacts_;
   geometry::ThreadPool pool_;
 };
 

@@ -2,7 +2,7 @@
 // A law that the library has never seen goes through the same kernels as its own, in lanes where
 // there are lanes. (Its properties are tested with those of all laws, law_properties_test.cpp.)
 #include "contact/balls/ball_kernel.hpp"
-#include "contact/contacts.hpp"
+#include "contact/contacts_under.hpp"
 #include "tests/support/complexes.hpp"
 #include "tests/support/one_at_a_time.hpp"
 #include "tests/support/weakening_slider.hpp"
@@ -68,11 +68,11 @@ Outcome outcome_of(int threads) {
   std::vector<Vec3>& x = place.complex.x;
   const Surface surface = place.complex.surface();
   const MaterialId stone{0};
-  Contacts<Law> contacts(place.spheres, surface,
-                         {MaterialPairs<Law>({Material{1e6, 0.5, 0.4}}),
-                          std::vector<MaterialId>(place.spheres.size(), stone),
-                          std::vector<MaterialId>(surface.structure_count(), stone)},
-                         0.05);
+  ContactsUnder<Law> contacts(place.spheres, surface,
+                              {MaterialPairs<Law>({Material{1e6, 0.5, 0.4}}),
+                               std::vector<MaterialId>(place.spheres.size(), stone),
+                               std::vector<MaterialId>(surface.structure_count(), stone)},
+                              0.05);
   geometry::ThreadPool pool(threads);
   Outcome outcome{NodeForces(x.size()), 0.0, 0.0, {}};
   for (int step = 0; step < 30; ++step) {

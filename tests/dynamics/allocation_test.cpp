@@ -14,7 +14,7 @@ namespace plekton::test {
 namespace {
 
 using dynamics::Held;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+using dynamics::Simulation;
 
 constexpr contact::MaterialId kStructure{0};
 constexpr contact::MaterialId kGrains{1};
@@ -215,7 +215,7 @@ TEST(Allocation, IsNoneInTheStepsOfGrainsOnANet) {
     EXPECT_EQ(allocations_of_steps(simulation, 4000, most_touching), 0u) << threads << " threads";
 
     std::size_t terms = 0;
-    simulation.contacts().with_surfaces().for_each_touching(
+    simulation.contacts().for_each_surface_term(
         [&](NodeId, const geometry::CorePoint&, const auto&, double, double) { ++terms; });
     // Four wires and four crossings close the first ring around a hole.
     EXPECT_GE(terms, 8 * simulation.contacts().counts().sphere_surface);

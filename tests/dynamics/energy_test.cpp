@@ -14,7 +14,7 @@ namespace plekton::test {
 namespace {
 
 using dynamics::Held;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+using dynamics::Simulation;
 
 constexpr contact::MaterialId kMaterial{0};
 const Vec3 kGravity(0.0, 0.0, -9.81);

@@ -11,8 +11,6 @@
 namespace plekton::dynamics {
 namespace {
 
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
-
 constexpr double kRadius = 0.005;
 constexpr double kThickness = 1e-4;
 constexpr contact::MaterialId kMaterial{0};

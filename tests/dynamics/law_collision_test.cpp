@@ -15,7 +15,6 @@ namespace {
 
 using namespace test::free_bodies;
 using contact::AnyLaw;
-using AnySimulation = Simulation<AnyLaw>;
 using test::kLaws;
 using test::NamedLaw;
 
@@ -98,11 +97,11 @@ Scene scene_of(const Case& item, const Flight& flight) {
 /// Lets the bodies collide. @returns in how many steps they touched
 std::size_t collide(const Case& item, const Flight& flight) {
   const contact::PairProperties<AnyLaw> properties{{{kMaterial, kMaterial}, item.law.properties}};
-  const AnySimulation probe(scene_of(item, flight), {.motion = {.gravity = Vec3::Zero()}},
-                            properties);
-  AnySimulation simulation(
-      scene_of(item, flight),
-      {.time_step = 0.1 * probe.time_step(), .motion = {.gravity = Vec3::Zero()}}, properties);
+  const Simulation probe(scene_of(item, flight), {.motion = {.gravity = Vec3::Zero()}},
+                         contact::any_law(properties));
+  Simulation simulation(scene_of(item, flight),
+                        {.time_step = 0.1 * probe.time_step(), .motion = {.gravity = Vec3::Zero()}},
+                        contact::any_law(properties));
   const auto before = test::momenta_of(simulation);
   const double energy = simulation.energy().initial;
   std::size_t touched = 0;

@@ -12,8 +12,6 @@
 namespace plekton::dynamics {
 namespace {
 
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr contact::MaterialId kMaterial{0};
 const Vec3 kGravity(0.0, 0.0, -9.81);

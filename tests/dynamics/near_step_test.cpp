@@ -16,9 +16,9 @@ namespace {
 using contact::MaterialId;
 using dynamics::Held;
 using dynamics::Scene;
+using dynamics::Simulation;
 using dynamics::SimulationOptions;
 using geometry::NodeId;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 const Vec3 kGravity(0.0, 0.0, -9.81);
 
 contact::Material material(Random& random) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A user's own contact law in a simulation: one file, and the row that instantiates it.
-#include "dynamics/simulation_definitions.hpp"
+// A user's own contact law in a simulation: one file, and the model that is made of it.
+#include "contact/contacts_under.hpp"
+#include "dynamics/simulation.hpp"
 #include "tests/support/weakening_slider.hpp"
 
 #include <gtest/gtest.h>
-
-template class plekton::dynamics::Simulation<plekton::test::WeakeningSlider>;
 
 namespace plekton::dynamics {
 namespace {
@@ -24,12 +23,12 @@ Scene slide() {
   return scene;
 }
 
-Simulation<test::WeakeningSlider> slid_for_a_while(int threads) {
+Simulation slid_for_a_while(int threads) {
   SimulationOptions options;
   options.motion.gravity = Vec3(7.0, 0.3, -7.0);
   options.threads = threads;
   options.time_step = 1e-5;
-  return {slide(), options};
+  return {slide(), options, contact::model_of<test::WeakeningSlider>()};
 }
 
 TEST(OwnLaw, KeepsTheBalanceOfEnergy) {

@@ -18,7 +18,6 @@ namespace plekton::dynamics {
 namespace {
 
 using geometry::NodeId;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 /// A beam, a cylinder and a facet on three nodes, and two planes.
 Scene scene_of_three_nodes() {

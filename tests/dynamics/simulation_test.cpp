@@ -11,7 +11,6 @@ namespace plekton::dynamics {
 namespace {
 
 using geometry::NodeId;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 const Vec3 kGravity(0.0, 0.0, -9.81);
 

@@ -14,7 +14,7 @@
 namespace plekton::test {
 namespace {
 
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+using dynamics::Simulation;
 constexpr contact::MaterialId kMaterial{0};
 constexpr double kRadius = 0.05;  // m, of the sphere
 constexpr double kWire = 0.001;   // m, radius
@@ -54,16 +54,19 @@ Scene sphere_on(const Net& net, Random& random) {
 
 Eigen::VectorXd contact_forces(const Scene& scene, const geometry::Surface& surface,
                                const std::vector<Vec3>& x) {
-  contact::Contacts<contact::LinearFrictional> contacts(
-      scene.elements.spheres, surface,
-      {contact::MaterialPairs<contact::LinearFrictional>(scene.materials),
-       {kMaterial},
-       {kMaterial}},
-      0.001);
+  const auto contacts = contact::linear_frictional()({.spheres = scene.elements.spheres,
+                                                      .surface = surface,
+                                                      .materials = scene.materials,
+                                                      .of_spheres = {kMaterial},
+                                                      .of_structures = {kMaterial},
+                                                      .masses = {},
+                                                      .skin = 0.001,
+                                                      .meets_planes = {},
+                                                      .rest = {}});
   geometry::ThreadPool pool;
   contact::NodeForces forces(x.size());
   const std::vector<Vec3> still(x.size(), Vec3::Zero());
-  contacts.advance({x, still, still}, {}, 0.0, pool, forces);
+  contacts->advance({x, still, still}, {}, 0.0, pool, forces);
   Eigen::VectorXd stacked = Eigen::VectorXd::Zero(first_entry(x.size()));
   for (std::size_t i = 0; i < x.size(); ++i) stacked.segment<3>(first_entry(i)) = forces.force[i];
   return stacked;

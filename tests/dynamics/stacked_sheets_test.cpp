@@ -13,7 +13,7 @@ namespace plekton::test {
 namespace {
 
 using dynamics::Held;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+using dynamics::Simulation;
 
 constexpr double kThickness = 0.01;  // m
 

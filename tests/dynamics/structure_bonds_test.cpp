@@ -15,7 +15,6 @@ namespace {
 using namespace test::free_bodies;
 using contact::AnyLaw;
 using contact::CohesiveFrictional;
-using AnySimulation = Simulation<AnyLaw>;
 using test::NamedLaw;
 
 constexpr double kModulus = 1e7;     // Pa
@@ -103,22 +102,22 @@ contact::PairProperties<AnyLaw> properties_of(const Case& item) {
   return {{{kMaterial, kMaterial}, item.law.properties}};
 }
 
-AnySimulation simulation_of(const Case& item, double time_step, int threads = 1) {
-  return AnySimulation(
+Simulation simulation_of(const Case& item, double time_step, int threads = 1) {
+  return Simulation(
       scene_of(item),
       {.time_step = time_step, .motion = {.gravity = Vec3::Zero()}, .threads = threads},
-      properties_of(item));
+      contact::any_law(properties_of(item)));
 }
 
-std::size_t bonds_in(const AnySimulation& simulation) {
-  return simulation.contacts().between_structures().bond_count();
+std::size_t bonds_in(const Simulation& simulation) {
+  return simulation.contacts().structure_bond_count();
 }
 
 class StructureBonds : public testing::TestWithParam<Case> {};
 
 TEST_P(StructureBonds, KeepMomentaAndTheBalanceOfEnergyAsTheyBreak) {
   const Case& item = GetParam();
-  AnySimulation simulation = simulation_of(item, 0.1 * simulation_of(item, 0.0).time_step());
+  Simulation simulation = simulation_of(item, 0.1 * simulation_of(item, 0.0).time_step());
   const auto before = test::momenta_of(simulation);
   simulation.step();
   const double initial = simulation.energy().initial;
@@ -143,7 +142,7 @@ TEST_P(StructureBonds, KeepMomentaAndTheBalanceOfEnergyAsTheyBreak) {
 }
 
 TEST_P(StructureBonds, GoOnOnWhatIsLeftOfStructuresThatBreak) {
-  AnySimulation simulation =
+  Simulation simulation =
       simulation_of(GetParam(), 0.1 * simulation_of(GetParam(), 0.0).time_step());
   const auto before = test::momenta_of(simulation);
   for (int step = 0; step < 30; ++step) simulation.step();
@@ -164,9 +163,9 @@ TEST_P(StructureBonds, GoOnOnWhatIsLeftOfStructuresThatBreak) {
 TEST_P(StructureBonds, AreTheSameToTheLastBitForAnyNumberOfThreads) {
   const Case& item = GetParam();
   const double time_step = 0.3 * simulation_of(item, 0.0).time_step();
-  AnySimulation one = simulation_of(item, time_step);
-  AnySimulation two = simulation_of(item, time_step, 2);
-  AnySimulation four = simulation_of(item, time_step, 4);
+  Simulation one = simulation_of(item, time_step);
+  Simulation two = simulation_of(item, time_step, 2);
+  Simulation four = simulation_of(item, time_step, 4);
   for (int step = 0; step < 200; ++step) {
     one.step();
     two.step();

@@ -9,7 +9,6 @@ namespace plekton::dynamics {
 namespace {
 
 using test::momenta_of;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 using namespace test::free_bodies;
 

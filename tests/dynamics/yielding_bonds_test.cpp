@@ -14,8 +14,8 @@ namespace plekton::test {
 namespace {
 
 using dynamics::BondStrength;
+using dynamics::Simulation;
 using dynamics::WireCurve;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 std::size_t broken_bonds(const Simulation& simulation) {
   std::size_t count = 0;

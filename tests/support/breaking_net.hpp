@@ -17,7 +17,7 @@ using dynamics::Held;
 using dynamics::Scene;
 using geometry::NodeId;
 using geometry::Vec3;
-using BreakingSimulation = dynamics::Simulation<contact::LinearFrictional>;
+using BreakingSimulation = dynamics::Simulation;
 
 inline constexpr double kMesh = 0.1;         // m, side of a square
 inline constexpr double kWireRadius = 0.01;  // m

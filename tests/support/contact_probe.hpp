@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/contacts.hpp"
+#include "contact/contacts_under.hpp"
 #include "contact/laws/linear_frictional.hpp"
 
 #include <array>
@@ -65,7 +65,7 @@ class ContactProbe {
 
   const LinearFrictional::Parameters& parameters() const { return parameters_; }
   const NodeForces& forces() const { return forces_; }
-  const contact::Contacts<LinearFrictional>& contacts() const { return contacts_; }
+  const contact::ContactsUnder<LinearFrictional>& contacts() const { return contacts_; }
   const std::vector<Vec3>& positions() const { return position_; }
 
   /// Puts the nodes elsewhere; the ball is the last.
@@ -121,7 +121,7 @@ class ContactProbe {
   std::vector<Vec3> velocity_;
   std::vector<Vec3> spin_;
   LinearFrictional::Parameters parameters_;
-  contact::Contacts<LinearFrictional> contacts_;
+  contact::ContactsUnder<LinearFrictional> contacts_;
   NodeForces forces_;
   geometry::ThreadPool pool_;
 };

@@ -12,10 +12,10 @@ namespace plekton::test {
 
 using dynamics::NodeState;
 using dynamics::Scene;
+using dynamics::Simulation;
 using geometry::index_of;
 using geometry::NodeId;
 using geometry::Vec3;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 enum class Target { long_cylinder, short_cylinder, facet };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/contacts.hpp"
+#include "contact/contacts_under.hpp"
 #include "contact/laws/any_law.hpp"
 
 #include <vector>
@@ -52,7 +52,7 @@ class GluedSphere {
                                        {{NodeId{1}, NodeId{3}, NodeId{2}}, kThickness}};
   geometry::Surface surface_{{}, facets_, 5};
   Vec3 foot_;
-  Contacts<CohesiveFrictional> contacts_;
+  ContactsUnder<CohesiveFrictional> contacts_;
   geometry::ThreadPool pool_;
   NodeForces forces_{5};
 };

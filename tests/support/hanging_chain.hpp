@@ -54,7 +54,7 @@ inline HangingChain hang_chain(int links) {
   dynamics::SimulationOptions options;
   options.motion.gravity = geometry::Vec3(0.0, 0.0, -9.81);
   options.motion.damping = 0.4;
-  dynamics::Simulation<contact::LinearFrictional> simulation(std::move(scene), options);
+  dynamics::Simulation simulation(std::move(scene), options);
   // The slowest swing takes about 1 s and loses most of its energy in it.
   while (simulation.time() < 6.0) simulation.step();
   const std::size_t middle = static_cast<std::size_t>(links / 2);

@@ -20,7 +20,7 @@ namespace plekton::test {
 using dynamics::Scene;
 using geometry::NodeId;
 using geometry::Vec3;
-using LoadedSimulation = dynamics::Simulation<contact::LinearFrictional>;
+using LoadedSimulation = dynamics::Simulation;
 
 /// A node of 2 kg and 0.1 kg m² without any element.
 inline NodeId add_lump(Scene& scene, const Vec3& place) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/contacts.hpp"
+#include "contact/contacts_under.hpp"
 #include "contact/laws/linear_frictional.hpp"
 #include "tests/support/contact_surfaces.hpp"
 
@@ -43,7 +43,8 @@ class MovingSceneOf {
                            {{{MaterialId{0}, MaterialId{0}}, properties}}),
         std::vector<MaterialId>(spheres_.size(), MaterialId{0}),
         std::vector<MaterialId>(surface_.structure_count(), MaterialId{0})};
-    contacts_ = std::make_unique<Contacts<Law>>(spheres_, surface_, std::move(materials), skin);
+    contacts_ =
+        std::make_unique<ContactsUnder<Law>>(spheres_, surface_, std::move(materials), skin);
     forces_ = NodeForces(complex_.x.size());
   }
 
@@ -52,7 +53,7 @@ class MovingSceneOf {
     contacts_->advance({complex_.x, velocity_, spin_}, planes_, dt, pool_, forces_);
   }
 
-  const Contacts<Law>& contacts() const { return *contacts_; }
+  const ContactsUnder<Law>& contacts() const { return *contacts_; }
 
   /// Contacts of the last step, numbered.
   std::vector<ContactRow> list() {
@@ -79,7 +80,7 @@ class MovingSceneOf {
   std::vector<Plane> planes_;
   std::vector<Vec3> velocity_;
   std::vector<Vec3> spin_;
-  std::unique_ptr<Contacts<Law>> contacts_;
+  std::unique_ptr<ContactsUnder<Law>> contacts_;
   NodeForces forces_;
   geometry::ThreadPool pool_;
 };

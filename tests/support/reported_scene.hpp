@@ -10,8 +10,6 @@
 /// A scene with contacts of every kind, to be read out under any law.
 namespace plekton::test {
 
-using AnySimulation = dynamics::Simulation<contact::AnyLaw>;
-
 /// A sheet whose rim is held; a patch of another sheet on it; spheres on both, on each other and
 /// against a wall; a plate that presses on the sheet from below. All touch at the start.
 struct ReportedScene {
@@ -35,13 +33,13 @@ struct ReportedScene {
     add_spheres();
   }
 
-  AnySimulation simulation(const NamedLaw& law, int threads = 1) const {
+  dynamics::Simulation simulation(const NamedLaw& law, int threads = 1) const {
     dynamics::SimulationOptions options;
     options.time_step = 2e-6;
     options.motion.gravity = Vec3(0, 0, -9.81);
     options.threads = threads;
-    return AnySimulation(scene, options,
-                         {{{contact::MaterialId{0}, contact::MaterialId{0}}, law.properties}});
+    return {scene, options,
+            contact::any_law({{{contact::MaterialId{0}, contact::MaterialId{0}}, law.properties}})};
   }
 
  private:

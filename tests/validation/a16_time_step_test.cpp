@@ -13,7 +13,7 @@
 namespace plekton::test {
 namespace {
 
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+using dynamics::Simulation;
 
 struct Chain {
   double radius;    // m

@@ -13,9 +13,9 @@ namespace {
 
 using dynamics::Held;
 using dynamics::Scene;
+using dynamics::Simulation;
 using geometry::NodeId;
 using geometry::Vec3;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 constexpr double kBall = 0.05;        // m
 constexpr double kSurface = 0.01;     // m

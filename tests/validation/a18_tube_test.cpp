@@ -26,10 +26,10 @@ namespace {
 
 using dynamics::Held;
 using dynamics::Scene;
+using dynamics::Simulation;
 using geometry::NodeId;
 using geometry::Vec3;
 using std::numbers::pi;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 constexpr int kAround = 60;
 constexpr int kAlong = 22;

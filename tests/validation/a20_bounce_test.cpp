@@ -13,8 +13,8 @@ namespace plekton::test {
 namespace {
 
 using dynamics::Held;
+using dynamics::Simulation;
 using geometry::Vec3;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 constexpr double kSphereRadius = 0.1;  // m
 constexpr double kThickness = 0.004;   // m, radius of facets and beams

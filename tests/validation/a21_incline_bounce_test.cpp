@@ -15,8 +15,8 @@ namespace plekton::test {
 namespace {
 
 using dynamics::Held;
+using dynamics::Simulation;
 using geometry::Vec3;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 constexpr double kThickness = 0.005;                           // m, radius of facets and beams
 constexpr double kModulus = 3e8;                               // Pa

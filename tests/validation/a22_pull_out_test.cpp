@@ -2,7 +2,8 @@
 // A22: a membrane, then a grid of the same lattice, is pulled out of a bed of 1368 grains between
 // two plates that press with 20 kPa. The pull over 2 sigma A, A what is still in the bed, is at
 // most tan(phi) where grains slide on a membrane; grains that interlock with a grid hold it better.
-#include "dynamics/simulation_definitions.hpp"
+#include "contact/contacts_under.hpp"
+#include "dynamics/simulation.hpp"
 #include "tests/support/lattice_body.hpp"
 #include "tests/support/seeded_random.hpp"
 
@@ -33,17 +34,15 @@ static_assert(contact::ContactLaw<LinearButForSomePairs>);
 
 }  // namespace plekton::test
 
-template class plekton::dynamics::Simulation<plekton::test::LinearButForSomePairs>;
-
 namespace plekton::test {
 namespace {
 
 using contact::MaterialId;
 using dynamics::Held;
 using dynamics::Scene;
+using dynamics::Simulation;
 using geometry::NodeId;
 using geometry::Vec3;
-using Simulation = dynamics::Simulation<LinearButForSomePairs>;
 
 constexpr double kLength = 0.10;     // m, of the bed along the pull
 constexpr double kWidth = 0.05;      // m
@@ -151,7 +150,8 @@ PullOut pull_out(Kind kind) {
   const Scene scene = pull_out_scene(kind);
   PullOut result;
   result.grains = scene.elements.spheres.size();
-  Simulation simulation(scene, options, {{{kLattice, kWalls}, {false}}});
+  Simulation simulation(scene, options,
+                        contact::model_of<LinearButForSomePairs>({{{kLattice, kWalls}, {false}}}));
   while (simulation.time() < kSettling) simulation.step();
   std::vector<NodeId> front;
   for (std::size_t i = 0; i < scene.state.size(); ++i) {
@@ -170,7 +170,7 @@ PullOut pull_out(Kind kind) {
     if (out < 0.5 * kPull) continue;
     ++samples;
     result.mean += share;
-    result.pressure += simulation.contacts().with_planes().force_on(5).z() / (kLength * kWidth);
+    result.pressure += simulation.contacts().force_on_plane(5).z() / (kLength * kWidth);
   }
   result.mean /= samples;
   result.pressure /= samples;

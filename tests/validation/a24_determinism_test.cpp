@@ -13,9 +13,9 @@
 namespace plekton {
 namespace {
 
+using dynamics::Simulation;
 using geometry::NodeId;
 using geometry::Vec3;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 /// A small catch: grains fall on a sheet held at its rim. Everything is created in the order of
 /// `order`'s shuffles.

@@ -16,10 +16,10 @@ namespace plekton {
 namespace {
 
 using dynamics::Held;
+using dynamics::Simulation;
 using geometry::NodeId;
 using geometry::ParallelSum;
 using geometry::Vec3;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 constexpr contact::MaterialId kFabric{0};
 constexpr contact::MaterialId kGrains{1};

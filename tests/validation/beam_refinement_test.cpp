@@ -172,7 +172,7 @@ double first_frequency(int elements, const BeamSection& section) {
     shape.push_back(w * scene.properties.mass[i]);
     scene.state.velocity[i] = Vec3(0.0, 0.0, 1e-4 * w);
   }
-  dynamics::Simulation<contact::LinearFrictional> simulation(std::move(scene), {});
+  dynamics::Simulation simulation(std::move(scene), {});
   return frequency_of_swing(simulation, shape);
 }
 

@@ -140,7 +140,7 @@ Pulled pull(const Case& of) {
   dynamics::SimulationOptions options;
   options.motion.damping = 0.1;
 
-  dynamics::Simulation<contact::LinearFrictional> simulation(scene, options);
+  dynamics::Simulation simulation(scene, options);
   double held = 0.0, pulled = 0.0, deepest = 0.0;
   while (simulation.time() < kEnd) {
     simulation.step();

@@ -54,9 +54,10 @@ Motion slide(double degrees) {
   scene.loads.gravity_factor = dynamics::TimeTable({{0.0, 0.0}, {0.06, 1.0}});
   contact::ContactSettings settings;
   settings.restitution = 0.1;
-  dynamics::Simulation<contact::AnyLaw> simulation(
+  dynamics::Simulation simulation(
       scene, {.motion = {.gravity = kGravity * Vec3(std::sin(slope), 0.0, -std::cos(slope))}},
-      {{{contact::MaterialId{0}, contact::MaterialId{0}}, contact::properties_of(settings)}});
+      contact::any_law(
+          {{{contact::MaterialId{0}, contact::MaterialId{0}}, contact::properties_of(settings)}}));
   const auto mean = [&](const std::vector<Vec3>& of) {
     double sum = 0.0, mass = 0.0;
     for (const NodeId node : sheet) {

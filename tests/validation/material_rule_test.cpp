@@ -61,9 +61,8 @@ struct Rebound {
 };
 
 Rebound rebound_of(Scene scene, const test::NamedLaw& law) {
-  Simulation<AnyLaw> simulation(std::move(scene),
-                                {.time_step = 2e-6, .motion = {.gravity = Vec3::Zero()}},
-                                {{{kMaterial, kMaterial}, law.properties}});
+  Simulation simulation(std::move(scene), {.time_step = 2e-6, .motion = {.gravity = Vec3::Zero()}},
+                        contact::any_law({{{kMaterial, kMaterial}, law.properties}}));
   while (simulation.time() < 0.02) simulation.step();
   return {simulation.state().velocity[0], simulation.state().angular_velocity[0]};
 }

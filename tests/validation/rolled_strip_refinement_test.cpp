@@ -12,8 +12,8 @@
 namespace plekton::test {
 namespace {
 
+using dynamics::Simulation;
 using std::numbers::pi;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 constexpr double kLength = 1.0;      // m
 constexpr double kDensity = 1000.0;  // kg/m³

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/contacts.hpp"
+#include "contact/contacts_under.hpp"
 #include "contact/laws/dmt_adhesion.hpp"
 #include "contact/laws/hertz_mindlin.hpp"
 #include "contact/laws/linear_frictional.hpp"
@@ -100,7 +100,7 @@ Vec3 force_on_last(const Bodies& bodies, std::size_t first,
   const ContactMaterials<Law> materials{
       MaterialPairs<Law>({kMaterial}, {{{MaterialId{0}, MaterialId{0}}, properties}}),
       std::vector<MaterialId>(spheres.size()), std::vector<MaterialId>(surface.structure_count())};
-  Contacts<Law> contacts(spheres, surface, materials, 0.01);
+  ContactsUnder<Law> contacts(spheres, surface, materials, 0.01);
   const std::vector<Vec3> still(bodies.x.size(), Vec3::Zero());
   geometry::ThreadPool pool;
   NodeForces forces(bodies.x.size());

@@ -72,9 +72,9 @@ TEST(Rebound, IsTheRestitutionThatWasAskedForWhateverABallFallsOn) {
     for (const Ground& ground : kGrounds) {
       Scene scene = ball_above(ground, 1e-6);
       scene.state.velocity[0] = Vec3(0, 0, -kSpeed);
-      Simulation<AnyLaw> simulation(std::move(scene),
-                                    {.time_step = 5e-7, .motion = {.gravity = Vec3::Zero()}},
-                                    {{{kMaterial, kMaterial}, law.properties}});
+      Simulation simulation(std::move(scene),
+                            {.time_step = 5e-7, .motion = {.gravity = Vec3::Zero()}},
+                            contact::any_law({{{kMaterial, kMaterial}, law.properties}}));
       while (simulation.time() < 0.01) simulation.step();
 
       // The dashpot is half a step late: by omega dt = 0.003 at most.
@@ -94,7 +94,7 @@ TEST(CriticalStep, IsThatOfTheStiffnessOfThePair) {
   for (const Ground& ground : kGrounds) {
     Scene scene = ball_above(ground, -1e-5);
     const double expected = 2.0 * std::sqrt(scene.properties.mass[0] / kStiffness);
-    const Simulation<LinearFrictional> simulation(std::move(scene), {}, pairs);
+    const Simulation simulation(std::move(scene), {}, contact::linear_frictional(pairs));
 
     EXPECT_LE(simulation.critical_step().dt, expected) << ground.name;
     EXPECT_LE(simulation.time_step(), 0.5 * expected) << ground.name;
@@ -114,8 +114,9 @@ TEST(CriticalStep, IsThatOfTheCurvatureUnderHertz) {
   for (const Ground& ground : {kGrounds[0], kGrounds[1]}) {
     Scene scene = ball_above(ground, -kOverlap);
     const double expected = 2.0 * std::sqrt(scene.properties.mass[0] / turning);
-    const Simulation<AnyLaw> simulation(
-        std::move(scene), {}, {{{kMaterial, kMaterial}, test::with<contact::HertzMindlin>({})}});
+    const Simulation simulation(
+        std::move(scene), {},
+        contact::any_law({{{kMaterial, kMaterial}, test::with<contact::HertzMindlin>({})}}));
 
     EXPECT_LE(simulation.critical_step().dt, expected) << ground.name;
     // What exact_critical_step() promises.

@@ -52,8 +52,7 @@ Simulation simulation_of(const Scene& scene, int threads = 1) {
 
 /// N, with which the bodies press on a plane.
 double pressing(const Simulation& simulation, std::size_t plane) {
-  return -simulation.contacts().with_planes().force_on(plane).dot(
-      simulation.planes()[plane].normal);
+  return -simulation.contacts().force_on_plane(plane).dot(simulation.planes()[plane].normal);
 }
 
 /// Largest distance of the force on the plate from a target, over the target, in a time (s).

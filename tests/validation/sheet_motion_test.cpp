@@ -12,7 +12,7 @@
 namespace plekton::test {
 namespace {
 
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+using dynamics::Simulation;
 
 constexpr double kDensity = 1000.0;  // kg/m³
 const SheetSection kPlate = dynamics::solid_sheet(0.02, 1e9, 0.3);

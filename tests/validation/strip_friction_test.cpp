@@ -60,8 +60,7 @@ TEST(StripOnASheet, SlipsFromThePulledEndOn) {
   scene.loads.forces.push_back(pull);
   scene.loads.mass_damping.push_back({strip, 60.0});
 
-  dynamics::Simulation<contact::LinearFrictional> simulation(
-      scene, {.motion = {.gravity = {0.0, 0.0, -kGravity}}});
+  dynamics::Simulation simulation(scene, {.motion = {.gravity = {0.0, 0.0, -kGravity}}});
   while (simulation.time() < 0.3) simulation.step();
 
   int slipped = 0;

@@ -27,12 +27,12 @@ namespace {
 
 using dynamics::Held;
 using dynamics::Scene;
+using dynamics::Simulation;
 using dynamics::WireCurve;
 using geometry::index_of;
 using geometry::LatticePart;
 using geometry::NodeId;
 using geometry::Vec3;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 constexpr double kWireRadius = 1.35e-3;  // m
 constexpr double kDensity = 7850.0;      // kg/m³

@@ -17,7 +17,7 @@
 namespace plekton::test {
 namespace {
 
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
+using dynamics::Simulation;
 using std::numbers::pi;
 
 // YADE multiplies the shear of a beam by 2 r / L: 0.02 of 12 E I / L³ for slender ones, and a

@@ -51,8 +51,7 @@ dynamics::Scene moving_packing(int count, double speed) {
 nlohmann::ordered_json broad_phase_share(int spheres, double speed) {
   dynamics::SimulationOptions options;
   options.time_step = kTimeStep;
-  dynamics::Simulation<contact::LinearFrictional> simulation(moving_packing(spheres, speed),
-                                                             options);
+  dynamics::Simulation simulation(moving_packing(spheres, speed), options);
   for (int i = 0; i < kWarmUp; ++i) simulation.step();
 
   std::vector<double> plain, rebuilding;

@@ -7,7 +7,7 @@
 
 namespace plekton::benchmarks {
 
-using BenchmarkSimulation = dynamics::Simulation<contact::LinearFrictional>;
+using BenchmarkSimulation = dynamics::Simulation;
 
 /// A scene on which codes are compared, with everything that decides its cost.
 struct BenchmarkScene {

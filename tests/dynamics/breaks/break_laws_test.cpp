@@ -14,12 +14,11 @@ using contact::AnyLaw;
 using test::kMesh;
 using test::kWire;
 using test::kWireRadius;
-using AnySimulation = Simulation<AnyLaw>;
 
 class BreakLaws : public testing::TestWithParam<test::NamedLaw> {
  protected:
-  static contact::PairProperties<AnyLaw> properties() {
-    return {{{kWire, kWire}, GetParam().properties}};
+  static contact::ContactModel model() {
+    return contact::any_law({{{kWire, kWire}, GetParam().properties}});
   }
   static SimulationOptions options() {
     SimulationOptions options;
@@ -46,8 +45,8 @@ class BreakLaws : public testing::TestWithParam<test::NamedLaw> {
 TEST_P(BreakLaws, ABreakOutOfRangeChangesNoBit) {
   Scene scene = chain_and_ball(Vec3(0.25, 0.0, 0.0598));
   scene.state.velocity.back() = Vec3(0.5, 0.0, 0.0);
-  AnySimulation whole(scene, options(), properties());
-  AnySimulation broken(scene, options(), properties());
+  Simulation whole(scene, options(), model());
+  Simulation broken(scene, options(), model());
   for (int i = 0; i < 10000; ++i) {
     if (i == 100) broken.break_bond(1);
     whole.step();
@@ -61,7 +60,7 @@ TEST_P(BreakLaws, ABreakOutOfRangeChangesNoBit) {
 
 TEST_P(BreakLaws, ABallLeavesABrokenCylinderFreelyAndTheLedgerCloses) {
   // Pressed into the wire from below, or glued to it.
-  AnySimulation simulation(chain_and_ball(Vec3(0.25, 0.0, -0.0598)), options(), properties());
+  Simulation simulation(chain_and_ball(Vec3(0.25, 0.0, -0.0598)), options(), model());
   for (int i = 0; i < 50; ++i) simulation.step();
   const double before = simulation.energy().closure_error();
 

@@ -17,7 +17,6 @@ namespace {
 
 using geometry::NodeId;
 using testing::HasSubstr;
-using Simulation = dynamics::Simulation<contact::LinearFrictional>;
 
 constexpr contact::MaterialId kMaterial{0};
 constexpr double kModulus = 1e7;     // Pa

@@ -106,9 +106,9 @@ TEST(PlaneServo, PressesAGrainWithItsForceAndStopsThere) {
 
   const double error = closure_until(simulation, 0.3);
 
-  const auto& planes = simulation.contacts().with_planes();
-  EXPECT_NEAR(planes.force_on(1).z(), 3.0, 1e-6 * 3.0);
-  EXPECT_NEAR(planes.force_on(0).z(), -3.0, 0.05 * 3.0);  // the grain rings without damping
+  EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 3.0, 1e-6 * 3.0);
+  EXPECT_NEAR(simulation.contacts().force_on_plane(0).z(), -3.0,
+              0.05 * 3.0);  // the grain rings without damping
   EXPECT_GT(simulation.energy().external_work, 0.0);
   EXPECT_LT(error, 0.01);  // of first order: the moment at which the plate strikes
 }
@@ -127,7 +127,7 @@ TEST(PlaneServo, KeepsTheEnergyBalanceAtWhateverMomentOfAStepItArrives) {
     auto simulation = simulation_of(scene, 0.0);
 
     EXPECT_LT(closure_until(simulation, 0.05), 0.005) << "phase " << phase;
-    EXPECT_NEAR(simulation.contacts().with_planes().force_on(1).z(), 10.0, 0.01) << phase;
+    EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 10.0, 0.01) << phase;
   }
 }
 

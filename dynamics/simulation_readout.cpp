@@ -1,66 +1,61 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
-
 #include "dynamics/readout/unbalanced_force.hpp"
 #include "dynamics/require_index.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <cmath>
 
-/// What can be read out of a simulation between steps; simulation_definitions.hpp includes this.
+/// What can be read out of a simulation between steps.
 namespace plekton::dynamics {
 
-template <contact::ContactLaw Law>
-std::vector<Vec3> Simulation<Law>::force_positions() const {
+std::vector<Vec3> Simulation::force_positions() const {
   std::vector<Vec3> positions = scene_.state.position;
   for (std::size_t i = 0; i < positions.size(); ++i)
     positions[i] -= last_drift_ * scene_.state.velocity[i];
   return positions;
 }
 
-template <contact::ContactLaw Law>
-Vec3 Simulation<Law>::force_point(std::size_t plane) const {
+Vec3 Simulation::force_point(std::size_t plane) const {
   require_index("force_point", "plane", plane, scene_.planes.size());
   return scene_.planes[plane].point - last_drift_ * scene_.planes[plane].velocity;
 }
 
-template <contact::ContactLaw Law>
-std::vector<contact::ContactRow> Simulation<Law>::list_contacts() {
-  contacts_.number();
+std::vector<contact::ContactRow> Simulation::list_contacts() {
+  contacts_->number();
+  return contact_rows();
+}
+
+std::vector<contact::ContactRow> Simulation::contact_rows() const {
   std::vector<contact::ContactRow> rows;
-  contacts_.for_each_row(force_positions(),
-                         [&](const contact::ContactRow& row) { rows.push_back(row); });
+  contacts_->for_each_row(force_positions(),
+                          [&](const contact::ContactRow& row) { rows.push_back(row); });
   return rows;
 }
 
-template <contact::ContactLaw Law>
-ForceAndMoment Simulation<Law>::plane_reaction(std::size_t plane) const {
+ForceAndMoment Simulation::plane_reaction(std::size_t plane) const {
   require_index("plane_reaction", "plane", plane, scene_.planes.size());
   const Vec3 about = force_point(plane);
   ForceAndMoment sum;
-  contacts_.with_planes().for_each_row(force_positions(), surface_,
-                                       [&](const contact::ContactRow& row) {
-                                         if (static_cast<std::size_t>(row.b.index) == plane)
-                                           sum.add(row.point - about, row.force(), row.moment);
-                                       });
+  contacts_->for_each_plane_row(force_positions(), [&](const contact::ContactRow& row) {
+    if (static_cast<std::size_t>(row.b.index) == plane)
+      sum.add(row.point - about, row.force(), row.moment);
+  });
   return sum;
 }
 
-template <contact::ContactLaw Law>
-ForceAndMoment Simulation<Law>::support_reaction(std::span<const NodeId> nodes,
-                                                 const Vec3& about) const {
+ForceAndMoment Simulation::support_reaction(std::span<const NodeId> nodes,
+                                            const Vec3& about) const {
   for (const NodeId node : nodes) require_node("support_reaction", node, scene_.state.size());
   const std::vector<Vec3> positions = force_positions();
   return dynamics::support_reaction(nodes, {positions, forces_, scene_.properties, motion_.gravity},
                                     about);
 }
 
-template <contact::ContactLaw Law>
-double Simulation<Law>::unbalanced_force_ratio() const {
+double Simulation::unbalanced_force_ratio() const {
   const std::vector<Vec3> positions = force_positions();
   MeanMagnitude carried;
-  contacts_.for_each_row(positions,
-                         [&](const contact::ContactRow& row) { carried.add(row.force().norm()); });
+  contacts_->for_each_row(positions,
+                          [&](const contact::ContactRow& row) { carried.add(row.force().norm()); });
   for (std::size_t i = 0; i < bonds_.size(); ++i) {
     if (bonds_.is_broken(i)) continue;
     const BondForces forces = bond_forces(i);
@@ -75,21 +70,18 @@ double Simulation<Law>::unbalanced_force_ratio() const {
                                           carried.value());
 }
 
-template <contact::ContactLaw Law>
-std::vector<FacetTraction> Simulation<Law>::facet_tractions() {
+std::vector<FacetTraction> Simulation::facet_tractions() {
   NodeForces forces(scene_.state.size());
-  contacts_.add_surface_forces(forces, pool_);
+  contacts_->add_surface_forces(forces, pool_);
   return dynamics::facet_tractions(scene_.elements.facets, forces.force, force_positions());
 }
 
-template <contact::ContactLaw Law>
-BondForces Simulation<Law>::bond_forces(std::size_t bond) const {
+BondForces Simulation::bond_forces(std::size_t bond) const {
   require_index("bond_forces", "bond", bond, bonds_.size());
   return yielding_bonds_.forces_of(bond, bonds_, scene_.state);
 }
 
-template <contact::ContactLaw Law>
-BondStress Simulation<Law>::bond_stress(std::size_t bond) const {
+BondStress Simulation::bond_stress(std::size_t bond) const {
   require_index("bond_stress", "bond", bond, bonds_.size());
   return dynamics::bond_stress(bond_forces(bond), scene_.bonds[bond].section);
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
-
 #include "dynamics/simulation.hpp"
 #include "geometry/product_features.hpp"
 
@@ -10,8 +8,7 @@
 #include <sstream>
 #include <string>
 
-/// How a simulation finds that it has become meaningless, and who is at fault;
-/// simulation_definitions.hpp includes this.
+/// How a simulation finds that it has become meaningless, and who is at fault.
 namespace plekton::dynamics {
 
 /// The contact or element that acts most on a node, as far as has been looked.
@@ -42,8 +39,7 @@ class StrongestAction {
 };
 
 /// Nodes that no element belongs to are not looked at, nor is any node while none is fast enough.
-template <contact::ContactLaw Law>
-void Simulation<Law>::check_motion() {
+void Simulation::check_motion() {
   const bool is_slow =
       fastest_ * drift_ <= least_furthest_ && fastest_spin_ * drift_ < std::numbers::pi;
   if (is_slow) return;
@@ -53,15 +49,13 @@ void Simulation<Law>::check_motion() {
 
 /// Energy is made where motion is: the ledger is looked at when the kinetic energy has doubled, and
 /// now and then, for what has gone into friction at once.
-template <contact::ContactLaw Law>
-void Simulation<Law>::watch_energy() {
+void Simulation::watch_energy() {
   constexpr std::int64_t kStepsBetweenLedgers = 1024;
   if (std::abs(work_.kinetic) <= 2.0 * most_kinetic_ && steps_ % kStepsBetweenLedgers != 0) return;
   check_energy();
 }
 
-template <contact::ContactLaw Law>
-void Simulation<Law>::check_energy() {
+void Simulation::check_energy() {
   const Energy now = energy();
   const double made = std::max(now.made(), -now.kinetic);
   most_kinetic_ = std::max(most_kinetic_, std::abs(now.kinetic));
@@ -92,8 +86,7 @@ void Simulation<Law>::check_energy() {
 
 /// Who is at fault, and what to do about it.
 /// @param drift  s, that the last step has moved the nodes by
-template <contact::ContactLaw Law>
-std::string Simulation<Law>::fault(const Divergence& divergence, double drift) {
+std::string Simulation::fault(const Divergence& divergence, double drift) {
   std::ostringstream text;
   if (const double limit = limit_exceeded_before(divergence, drift); limit > 0.0) {
     text << "it was that fast before the step: that was given or is prescribed; use a lower speed, "
@@ -128,9 +121,8 @@ std::string Simulation<Law>::fault(const Divergence& divergence, double drift) {
 
 /// Where a node moves or spins too fast, and would have without the forces of the last step: the
 /// longest step (s) in which that could be followed; else 0.
-template <contact::ContactLaw Law>
-double Simulation<Law>::limit_exceeded_before(const Divergence& divergence,
-                                              double drift) const noexcept {
+double Simulation::limit_exceeded_before(const Divergence& divergence,
+                                         double drift) const noexcept {
   if (divergence.sign == Divergence::Sign::energy) return 0.0;
   const std::size_t i = index_of(divergence.node);
   const NodeProperties& properties = scene_.properties;
@@ -149,8 +141,7 @@ double Simulation<Law>::limit_exceeded_before(const Divergence& divergence,
 
 /// Where the forces of the last step were found.
 /// @param drift  s, that the last step has moved the nodes by
-template <contact::ContactLaw Law>
-NodeState Simulation<Law>::state_before(double drift) const {
+NodeState Simulation::state_before(double drift) const {
   NodeState before = scene_.state;
   for (std::size_t i = 0; i < before.size(); ++i) {
     before.position[i] -= drift * before.velocity[i];
@@ -161,8 +152,7 @@ NodeState Simulation<Law>::state_before(double drift) const {
 
 /// s, of the structures and contacts at a state; with the velocities of now.
 /// @param expected  with the contacts that may come, or else with those of now
-template <contact::ContactLaw Law>
-double Simulation<Law>::critical_step_at(NodeState& state, bool expected) {
+double Simulation::critical_step_at(NodeState& state, bool expected) {
   std::swap(scene_.state, state);
   NodalStiffness space(scene_.state.size(), &scene_.properties);
   const CriticalStep step = expected ? structural_step(space, true) : present_step(space);
@@ -173,9 +163,7 @@ double Simulation<Law>::critical_step_at(NodeState& state, bool expected) {
 
 /// What acted most on the node, and how.
 /// @param state  where the forces were found
-template <contact::ContactLaw Law>
-std::string Simulation<Law>::strongest_action(const Divergence& divergence,
-                                              const NodeState& state) {
+std::string Simulation::strongest_action(const Divergence& divergence, const NodeState& state) {
   const NodeId node = divergence.node;
   StrongestAction action(divergence.sign == Divergence::Sign::spin);
   consider_contacts(node, state.position, action);
@@ -206,21 +194,21 @@ std::string Simulation<Law>::strongest_action(const Divergence& divergence,
 
 /// Of a patch of a sphere on a surface that has the node elsewhere than where it is deepest, what
 /// it does to the node is not known: it is at most that of all of these together.
-template <contact::ContactLaw Law>
-void Simulation<Law>::consider_contacts(NodeId node, geometry::Positions x,
-                                        StrongestAction& action) {
+void Simulation::consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action) {
   const auto describe_row = [this](const contact::ContactRow& row) {
     return [this, &row](std::ostream& text) { describe(row, text); };
   };
-  contacts_.between_structures().for_each_row_on(
+  contacts_->for_each_structure_row_on(
       node, x, [&](const contact::ContactRow& row, const Vec3& force, const Vec3& torque) {
         action.consider(force.norm(), torque.norm(), describe_row(row));
       });
   NodeForces all(scene_.state.size());
-  contacts_.with_surfaces().add_forces(all, pool_);
+  contacts_->add_sphere_surface_forces(all, pool_);
   const double most_force = all.force[index_of(node)].norm();
   const double most_torque = all.torque[index_of(node)].norm();
   const auto consider = [&](const contact::ContactRow& row) {
+    constexpr auto kStructure = contact::BodyKind::structure;
+    if (row.a.kind == kStructure && row.b.kind == kStructure) return;
     const double force = row.force().norm();
     const double torque =
         (row.point - x[index_of(node)]).cross(row.force()).norm() + row.moment.norm();
@@ -230,19 +218,15 @@ void Simulation<Law>::consider_contacts(NodeId node, geometry::Positions x,
       action.consider(std::min(force, most_force), std::min(torque, most_torque),
                       describe_row(row));
   };
-  contacts_.with_spheres().for_each_row(x, consider);
-  contacts_.with_surfaces().for_each_row(x, consider);
-  contacts_.with_planes().for_each_row(x, surface_, consider);
+  contacts_->for_each_row(x, consider);
 }
 
-template <contact::ContactLaw Law>
-bool Simulation<Law>::is_of_structure(const contact::ContactBody& body, NodeId node) const {
+bool Simulation::is_of_structure(const contact::ContactBody& body, NodeId node) const {
   return body.kind == contact::BodyKind::structure &&
          geometry::StructureId{body.index} == surface_.structure_of(node);
 }
 
-template <contact::ContactLaw Law>
-bool Simulation<Law>::has_node(const contact::ContactBody& body, NodeId node) const {
+bool Simulation::has_node(const contact::ContactBody& body, NodeId node) const {
   if (body.kind == contact::BodyKind::sphere)
     return scene_.elements.spheres[static_cast<std::size_t>(body.index)].nodes[0] == node;
   if (body.kind == contact::BodyKind::plane || body.feature.id < 0) return false;
@@ -252,8 +236,7 @@ bool Simulation<Law>::has_node(const contact::ContactBody& body, NodeId node) co
 
 /// As in "the contact of sphere 3 (node 40) with the edge (nodes 7, 8) of structure 0 at (0 0 1) m,
 /// 0.002 m deep".
-template <contact::ContactLaw Law>
-void Simulation<Law>::describe(const contact::ContactRow& row, std::ostream& text) const {
+void Simulation::describe(const contact::ContactRow& row, std::ostream& text) const {
   const auto name = [&](const contact::ContactBody& body) {
     if (body.kind == contact::BodyKind::plane) {
       text << "plane " << body.index;

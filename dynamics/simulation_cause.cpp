@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
-
 #include "dynamics/expected_contacts.hpp"
+#include "dynamics/present_contacts.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <algorithm>
 
-/// How a simulation finds out what limits its time step; simulation_definitions.hpp includes this.
+/// How a simulation finds out what limits its time step.
 namespace plekton::dynamics {
 
-template <contact::ContactLaw Law>
-StepCause Simulation<Law>::critical_cause() const {
+StepCause Simulation::critical_cause() const {
   NodalStiffness space(scene_.state.size(), &scene_.properties);
   const CriticalStep coming = structural_step(space, true);
   const CriticalStep present = present_step(space);
@@ -20,10 +18,10 @@ StepCause Simulation<Law>::critical_cause() const {
     StiffestPart parts(shortest, scene_.properties);
     consider_structures(parts);
     if (&shortest == &present) {
-      add_contacts_to(parts, 0.0, force_positions());
+      present_contacts().add_to(parts, 0.0, force_positions());
     } else {
       StepPart part{StepPart::Kind::coming_contacts};
-      const ExpectedContacts<Law> contacts(scene_, surface_, material_pairs_);
+      const ExpectedContacts contacts(scene_, surface_, *contacts_);
       part.partner = contacts.partner_of(parts.node());
       parts.consider(part, [&](NodalStiffness& stiffness) {
         stiffness.add(parts.node(), expected_[index_of(parts.node())]);
@@ -36,8 +34,7 @@ StepCause Simulation<Law>::critical_cause() const {
 }
 
 /// Everything but contacts that holds the node.
-template <contact::ContactLaw Law>
-void Simulation<Law>::consider_structures(StiffestPart& parts) const {
+void Simulation::consider_structures(StiffestPart& parts) const {
   const auto holds_it = [&](const auto& nodes) {
     return std::find(nodes.begin(), nodes.end(), parts.node()) != nodes.end();
   };

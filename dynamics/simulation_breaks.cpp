@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
-
 #include "dynamics/require_index.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/structure/broken_elements.hpp"
@@ -15,17 +13,15 @@
 #include <utility>
 #include <vector>
 
-/// What a simulation does when bonds break; simulation_definitions.hpp includes this.
+/// What a simulation does when bonds break.
 namespace plekton::dynamics {
 
-template <contact::ContactLaw Law>
-void Simulation<Law>::break_bond(std::size_t bond) {
+void Simulation::break_bond(std::size_t bond) {
   require_index("break_bond", "bond", bond, bonds_.size());
   broken_.bonds.push_back(bond);
 }
 
-template <contact::ContactLaw Law>
-void Simulation<Law>::break_cylinder(NodeId a, NodeId b) {
+void Simulation::break_cylinder(NodeId a, NodeId b) {
   for (const NodeId node : {a, b}) require_node("break_cylinder", node, scene_.state.size());
   const auto nodes = geometry::sorted(std::array{a, b});
   const auto& all = scene_.elements.cylinders;
@@ -44,8 +40,7 @@ void Simulation<Law>::break_cylinder(NodeId a, NodeId b) {
   }
 }
 
-template <contact::ContactLaw Law>
-void Simulation<Law>::break_facet(const std::array<NodeId, 3>& nodes) {
+void Simulation::break_facet(const std::array<NodeId, 3>& nodes) {
   for (const NodeId node : nodes) require_node("break_facet", node, scene_.state.size());
   const auto corners = geometry::sorted(nodes);
   const auto& all = scene_.elements.facets;
@@ -63,8 +58,7 @@ void Simulation<Law>::break_facet(const std::array<NodeId, 3>& nodes) {
 /// Before the forces of a step: takes out what hangs on the bonds and sheets that break in it,
 /// because they yielded, tore or were asked to. Linear in the scene where elements are gone; that
 /// step may allocate.
-template <contact::ContactLaw Law>
-void Simulation<Law>::follow_breaks() {
+void Simulation::follow_breaks() {
   const std::span<const std::size_t> yielded = yielding_bonds_.broken();
   if (broken_.empty() && yielded.empty() && sheet_facets_.broken().empty()) return;
   break_asked();
@@ -80,8 +74,7 @@ void Simulation<Law>::follow_breaks() {
 
 /// Half of the work of a bond's last step is still done by its force of before, the other half is
 /// not: the mean of its energies before and after is lost.
-template <contact::ContactLaw Law>
-void Simulation<Law>::break_asked() {
+void Simulation::break_asked() {
   for (const std::size_t bond : broken_.bonds) {
     if (bonds_.is_broken(bond)) continue;
     const double after = bonds_.energy_of(bond, scene_.state);
@@ -96,14 +89,13 @@ void Simulation<Law>::break_asked() {
 
 /// The scene's elements have become fewer. Elastic energies of contacts before and after are
 /// compared half a drift ago, for the same reason as those of bonds.
-template <contact::ContactLaw Law>
-void Simulation<Law>::follow_surface() {
+void Simulation::follow_surface() {
   geometry::Surface before = surface_.left_with(scene_.elements.cylinders, scene_.elements.facets);
   std::swap(before, surface_);
   const geometry::SurfaceChange change(before, surface_);
   std::vector<Vec3> at = scene_.state.position;
   for (std::size_t i = 0; i < at.size(); ++i) at[i] -= 0.5 * last_drift_ * scene_.state.velocity[i];
-  contacts_.follow(change, motion(), at, pool_);
+  contacts_->follow(change, motion(), at, pool_);
   loads_.follow(change);
 }
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/contacts.hpp"
+#include "contact/material.hpp"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace plekton::contact {
+
+/// What a scene's contacts are between.
+struct ContactScene {
+  std::span<const geometry::Sphere> spheres;  ///< they and the surface must outlive the contacts
+  const geometry::Surface& surface;
+  std::vector<Material> materials;
+  std::vector<MaterialId> of_spheres;     ///< by SphereId
+  std::vector<MaterialId> of_structures;  ///< by StructureId
+  /// kg, by NodeId, for laws that ask for masses; empty: all bodies count as held.
+  std::vector<double> masses;
+  double skin;  ///< m, how far a pair may be apart when it is listed as a candidate
+  /// By NodeId: which nodes of the surface touch planes; empty: all of them.
+  std::vector<bool> meets_planes;
+  Positions
+      rest;  ///< m, of all nodes, for structures that may touch themselves; empty: they do not
+};
+
+/// Which contact law a scene has, with the properties of its pairs of materials: makes the contacts
+/// of a scene.
+///
+/// linear_frictional() and any_law() are those that come with the library
+/// (contact/laws/models.hpp); model_of<Law>() makes one of a law of one's own
+/// (contact/contacts_under.hpp).
+using ContactModel = std::function<std::unique_ptr<Contacts>(ContactScene)>;
+
+}  // namespace plekton::contact
