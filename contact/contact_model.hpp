@@ -29,9 +29,7 @@ struct ContactScene {
 /// Which contact law a scene has, with the properties of its pairs of materials: makes the contacts
 /// of a scene.
 ///
-/// linear_frictional() and any_law() are those that come with the library
-/// (contact/laws/models.hpp); model_of<Law>() makes one of a law of one's own
-/// (contact/contacts_under.hpp).
+/// contact/laws/models.hpp has them: of laws that come with the library, and of one's own.
 using ContactModel = std::function<std::unique_ptr<Contacts>(ContactScene)>;
 
 }  // namespace plekton::contact

@@ -3,6 +3,8 @@
 
 #include "contact/balls/ball_contacts.hpp"
 #include "contact/contact_model.hpp"
+#include "contact/laws/any_law.hpp"
+#include "contact/laws/linear_frictional.hpp"
 #include "contact/plane_contacts.hpp"
 #include "contact/plane_neighbours.hpp"
 #include "contact/structure_contacts.hpp"
@@ -18,10 +20,7 @@
 
 namespace plekton::contact {
 
-/// Contacts under a law that is known as a type.
-///
-/// For a law of one's own include this in one source file, and hand model_of<Law>() to a
-/// simulation.
+/// Contacts under a law that is known as a type. Laws of one's own need none: laws/models.hpp.
 template <ContactLaw Law>
 class ContactsUnder final : public Contacts {
  public:
@@ -312,17 +311,23 @@ void ContactsUnder<Law>::follow(const geometry::SurfaceChange& change, const Mot
       between_structures_.follow(change, cell_neighbours_.pairs(), materials_, then, pool);
 }
 
-/// @param properties  of pairs of materials, for laws that have any
+/// @param properties  of pairs of materials
+/// @param others      of those that have none of their own
 template <ContactLaw Law>
-ContactModel model_of(const PairProperties<Law>& properties = {}) {
-  return [properties](ContactScene scene) -> std::unique_ptr<Contacts> {
+ContactModel model_under(const PairProperties<Law>& properties,
+                         const PropertiesOf<Law>& others = {}) {
+  return [properties, others](ContactScene scene) -> std::unique_ptr<Contacts> {
     return std::make_unique<ContactsUnder<Law>>(
         scene.spheres, scene.surface,
-        ContactMaterials<Law>{MaterialPairs<Law>(std::move(scene.materials), properties),
+        ContactMaterials<Law>{MaterialPairs<Law>(std::move(scene.materials), properties, others),
                               std::move(scene.of_spheres), std::move(scene.of_structures),
                               std::move(scene.masses)},
         scene.skin, scene.meets_planes, scene.rest);
   };
 }
+
+/// Compiled once, in the library.
+extern template class ContactsUnder<LinearFrictional>;
+extern template class ContactsUnder<AnyLaw>;
 
 }  // namespace plekton::contact

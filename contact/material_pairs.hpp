@@ -24,9 +24,11 @@ class MaterialPairs {
  public:
   using Parameters = typename Law::Parameters;
 
+  /// @param others  properties of the pairs that have none of their own
   explicit MaterialPairs(std::vector<Material> materials = {},
-                         const PairProperties<Law>& properties = {})
-      : materials_(std::move(materials)) {
+                         const PairProperties<Law>& properties = {},
+                         const PropertiesOf<Law>& others = {})
+      : materials_(std::move(materials)), others_(others) {
     for (const auto& [pair, of_pair] : properties)
       properties_[std::minmax(pair.first, pair.second)] = of_pair;
   }
@@ -36,7 +38,7 @@ class MaterialPairs {
   }
   Parameters combine(const BodyPart& a, const BodyPart& b) const {
     const auto own = properties_.find(std::minmax(a.material, b.material));
-    return contact::combine<Law>(own == properties_.end() ? PropertiesOf<Law>{} : own->second,
+    return contact::combine<Law>(own == properties_.end() ? others_ : own->second,
                                  {at(a.material), a.radius, a.mass, a.shape},
                                  {at(b.material), b.radius, b.mass, b.shape});
   }
@@ -50,7 +52,7 @@ class MaterialPairs {
   /// From now on contacts are not those of the first step (HasStart).
   /// @returns whether that changed any pair
   bool end_start() {
-    bool changed = false;
+    bool changed = contact::end_start<Law>(others_);
     for (auto& [pair, properties] : properties_) changed |= contact::end_start<Law>(properties);
     return changed;
   }
@@ -61,6 +63,7 @@ class MaterialPairs {
  private:
   std::vector<Material> materials_;
   PairProperties<Law> properties_;
+  PropertiesOf<Law> others_;
 };
 
 /// What the bodies of a scene are made of, as far as contacts are concerned.

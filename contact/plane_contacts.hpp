@@ -5,6 +5,8 @@
 #include "contact/bodies.hpp"
 #include "contact/contact_memory.hpp"
 #include "contact/force_records.hpp"
+#include "contact/laws/any_law.hpp"
+#include "contact/laws/linear_frictional.hpp"
 #include "contact/material_pairs.hpp"
 #include "contact/rekey.hpp"
 #include "contact/slip_state.hpp"
@@ -334,5 +336,9 @@ void PlaneContacts<Law>::for_each_row(Positions x, const geometry::Surface& surf
     visit(row);
   });
 }
+
+/// Compiled once, in the library.
+extern template class PlaneContacts<LinearFrictional>;
+extern template class PlaneContacts<AnyLaw>;
 
 }  // namespace plekton::contact

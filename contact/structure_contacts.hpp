@@ -4,6 +4,8 @@
 #include "contact/bodies.hpp"
 #include "contact/contact_row.hpp"
 #include "contact/energy_loss.hpp"
+#include "contact/laws/any_law.hpp"
+#include "contact/laws/linear_frictional.hpp"
 #include "contact/material_pairs.hpp"
 #include "contact/structure/mean_node_masses.hpp"
 #include "contact/structure/pair_terms.hpp"
@@ -357,3 +359,11 @@ EnergyLoss StructureContacts<Law>::advance(const Motion& motion, double dt,
 #include "contact/structure_contacts_rows.hpp"
 #include "contact/structure_contacts_spread.hpp"
 #include "contact/structure_contacts_sums.hpp"
+
+namespace plekton::contact {
+
+/// Compiled once, in the library.
+extern template class StructureContacts<LinearFrictional>;
+extern template class StructureContacts<AnyLaw>;
+
+}  // namespace plekton::contact

@@ -8,6 +8,8 @@
 #include "contact/energy_loss.hpp"
 #include "contact/force_records.hpp"
 #include "contact/last_side.hpp"
+#include "contact/laws/any_law.hpp"
+#include "contact/laws/linear_frictional.hpp"
 #include "contact/lone_block.hpp"
 #include "contact/lone_contact.hpp"
 #include "contact/material_pairs.hpp"
@@ -174,8 +176,9 @@ class SurfaceContacts {
                            int worker);
   std::size_t find_jobs(std::size_t begin, std::size_t end, const Motion& motion, Worker& worker);
   bool may_be_lone(Pair& pair, const Motion& motion, Job& job, SideFlags& sides, Worker& worker);
-  void add_lane(const Pair& pair, const SideFlags& sides, Worker& worker) const;
-  double keep_lone(Pair& pair, std::size_t lane, int worker);
+  void add_lane(const Pair& pair, const SideFlags& sides,
+                Worker& worker) const requires LaneLaw<Law>;
+  double keep_lone(Pair& pair, std::size_t lane, int worker) requires LaneLaw<Law>;
   geometry::FaceId lone_face_of(const Pair& pair, const std::vector<Lists>& lists) const noexcept;
   EnergyLoss advance_pair(Pair& pair, std::span<const geometry::CellId> cells, const Motion& motion,
                           double dt, int worker);
@@ -326,3 +329,11 @@ double SurfaceContacts<Law>::elastic_energy() const {
 #include "contact/surface_contacts_near.hpp"
 #include "contact/surface_contacts_rows.hpp"
 #include "contact/surface_contacts_step.hpp"
+
+namespace plekton::contact {
+
+/// Compiled once, in the library.
+extern template class SurfaceContacts<LinearFrictional>;
+extern template class SurfaceContacts<AnyLaw>;
+
+}  // namespace plekton::contact

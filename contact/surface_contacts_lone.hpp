@@ -96,7 +96,7 @@ geometry::FaceId SurfaceContacts<Law>::lone_face_of(
 
 template <ContactLaw Law>
 void SurfaceContacts<Law>::add_lane(const Pair& pair, const SideFlags& sides,
-                                    Worker& worker) const {
+                                    Worker& worker) const requires LaneLaw<Law> {
   LonePairs<Law>& lone = worker.lone;
   const auto& corners = surface_->nodes_of(pair.lone_face);
   lone.face[lone.block.count()] = pair.lone_face;
@@ -110,7 +110,8 @@ void SurfaceContacts<Law>::add_lane(const Pair& pair, const SideFlags& sides,
 
 /// Keeps the contact and its forces. @returns the energy (J) dissipated
 template <ContactLaw Law>
-double SurfaceContacts<Law>::keep_lone(Pair& pair, std::size_t lane, int worker_index) {
+double SurfaceContacts<Law>::keep_lone(Pair& pair, std::size_t lane,
+                                       int worker_index) requires LaneLaw<Law> {
   const LonePairs<Law>& lone = workers_[static_cast<std::size_t>(worker_index)].lone;
   const geometry::FaceId face = lone.face[lane];
   const auto& answer = lone.block.answer(lane);

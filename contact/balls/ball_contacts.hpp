@@ -11,6 +11,8 @@
 #include "contact/balls/pair_parameters.hpp"
 #include "contact/balls/pair_rows.hpp"
 #include "contact/balls/touched_lanes.hpp"
+#include "contact/laws/any_law.hpp"
+#include "contact/laws/linear_frictional.hpp"
 #include "contact/material_pairs.hpp"
 #include "contact/rekey.hpp"
 #include "contact/slip_state.hpp"
@@ -379,3 +381,11 @@ void BallContacts<Law>::advance_one(std::size_t row, std::size_t lane, Work& wor
 
 #include "contact/balls/ball_contact_rows.hpp"
 #include "contact/balls/ball_contact_sums.hpp"
+
+namespace plekton::contact {
+
+/// Compiled once, in the library.
+extern template class BallContacts<LinearFrictional>;
+extern template class BallContacts<AnyLaw>;
+
+}  // namespace plekton::contact

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/laws/law_list.hpp"
 
+#include "contact/laws/dashpot.hpp"
+#include "contact/laws/hertz_mindlin.hpp"
 #include "contact/laws/restitution.hpp"
+#include "contact/laws/with_parts.hpp"
 
 #include <array>
 #include <limits>
@@ -122,21 +125,6 @@ constexpr std::array<LawRow, 4> kLaws{
       "linear springs glued where they touch, fragile or ductile (Bourrier et al. 2013)", kCohesion,
       kCohesionChoices}}};
 
-PropertiesOf<AnyLaw> with_law(const ContactSettings& settings) {
-  PropertiesOf<AnyLaw> properties;
-  AnyBaseLaw::Properties& law = properties.whole.whole;
-  const std::string_view name = kLaws[settings.law].name;
-  if (name == LinearFrictional::name) law = AnyBaseLaw::Chosen<LinearFrictional>{settings.springs};
-  if (name == HertzMindlin::name) law = AnyBaseLaw::Chosen<HertzMindlin>{};
-  if (name == DmtAdhesion::name) law = AnyBaseLaw::Chosen<DmtAdhesion>{settings.adhesion};
-  if (name == CohesiveFrictional::name) {
-    AnyBaseLaw::Chosen<CohesiveFrictional> cohesive{settings.cohesion};
-    cohesive.properties.elastic = settings.springs;
-    law = cohesive;
-  }
-  return properties;
-}
-
 }  // namespace
 
 std::span<const LawRow> contact_laws() noexcept {
@@ -148,13 +136,19 @@ std::span<const LawParameter> common_law_parameters() noexcept {
 }
 
 PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings) {
-  PropertiesOf<AnyLaw> properties = with_law(settings);
   const std::string_view name = kLaws[settings.law].name;
   const bool is_hertz = name == HertzMindlin::name || name == DmtAdhesion::name;
-  properties.whole.part = settings.rolling;
-  properties.part.damping_ratio =
-      damping_ratio(is_hertz ? SpringKind::hertz : SpringKind::linear, settings.restitution);
-  return properties;
+  const Dashpot::Properties dashpot{
+      damping_ratio(is_hertz ? SpringKind::hertz : SpringKind::linear, settings.restitution)};
+  if (name == HertzMindlin::name) return with_parts<HertzMindlin>({}, settings.rolling, dashpot);
+  if (name == DmtAdhesion::name)
+    return with_parts<DmtAdhesion>(settings.adhesion, settings.rolling, dashpot);
+  if (name == CohesiveFrictional::name) {
+    CohesiveFrictional::Properties cohesion = settings.cohesion;
+    cohesion.elastic = settings.springs;
+    return with_parts<CohesiveFrictional>(cohesion, settings.rolling, dashpot);
+  }
+  return with_parts<LinearFrictional>(settings.springs, settings.rolling, dashpot);
 }
 
 std::optional<LinearFrictional::Properties> linear_alone(const ContactSettings& settings) noexcept {

@@ -2,6 +2,10 @@
 #pragma once
 
 #include "contact/laws/any_law.hpp"
+#include "contact/laws/cohesive_frictional.hpp"
+#include "contact/laws/dmt_adhesion.hpp"
+#include "contact/laws/linear_frictional.hpp"
+#include "contact/laws/rolling_twisting.hpp"
 
 #include <optional>
 #include <span>

@@ -6,11 +6,11 @@
 namespace plekton::contact {
 
 ContactModel linear_frictional(const PairProperties<LinearFrictional>& properties) {
-  return model_of<LinearFrictional>(properties);
+  return model_under<LinearFrictional>(properties);
 }
 
-ContactModel any_law(const PairProperties<AnyLaw>& properties) {
-  return model_of<AnyLaw>(properties);
+ContactModel any_law(const PairProperties<AnyLaw>& properties, const AnyLaw::Properties& others) {
+  return model_under<AnyLaw>(properties, others);
 }
 
 }  // namespace plekton::contact

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/contacts_under.hpp"
 #include "contact/laws/cohesive_frictional.hpp"
+#include "contact/laws/models.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,13 +21,17 @@ constexpr double kStrength = kModulus * kLimit / kRadius;  // Pa
 class Pairs {
  public:
   explicit Pairs(Bonds bonds)
-      : contacts_(spheres_, surface_,
-                  {MaterialPairs<CohesiveFrictional>(
-                       {Material{kModulus, 0.5, 0.4}},
-                       {{{MaterialId{0}, MaterialId{0}}, {kStrength, kStrength, 0.0, bonds}}}),
-                   std::vector<MaterialId>(4, MaterialId{0}),
-                   std::vector<MaterialId>(surface_.structure_count(), MaterialId{0})},
-                  0.01) {}
+      : contacts_(model_of<CohesiveFrictional>(
+            {{{MaterialId{0}, MaterialId{0}}, {kStrength, kStrength, 0.0, bonds}}})(
+            {.spheres = spheres_,
+             .surface = surface_,
+             .materials = {Material{kModulus, 0.5, 0.4}},
+             .of_spheres = std::vector<MaterialId>(4, MaterialId{0}),
+             .of_structures = std::vector<MaterialId>(surface_.structure_count(), MaterialId{0}),
+             .masses = {},
+             .skin = 0.01,
+             .meets_planes = {},
+             .rest = {}})) {}
 
   /// N, up, on what is above, in the order of the pairs.
   std::array<double, 4> forces_at(double gap) {
@@ -35,8 +39,8 @@ class Pairs {
     for (const std::size_t node : {1U, 2U, 8U, 9U}) x_[node].z() = up;
     x_[3].z() = kRadius + gap - 1.0;
     forces_.set_zero();
-    contacts_.advance({x_, still_, still_}, {{{Vec3(0, 0, -1), Vec3::UnitZ()}}}, 1e-4, pool_,
-                      forces_);
+    contacts_->advance({x_, still_, still_}, {{{Vec3(0, 0, -1), Vec3::UnitZ()}}}, 1e-4, pool_,
+                       forces_);
     const auto& f = forces_.force;
     return {f[1].z(), f[2].z(), f[8].z() + f[9].z(), f[3].z()};
   }
@@ -54,7 +58,7 @@ class Pairs {
                                        {{node(4), node(6), node(7)}, kRadius}};
   std::vector<geometry::Cylinder> cylinders_{{{node(8), node(9)}, kRadius}};
   geometry::Surface surface_{cylinders_, facets_, 10};
-  ContactsUnder<CohesiveFrictional> contacts_;
+  std::unique_ptr<Contacts> contacts_;
   geometry::ThreadPool pool_;
   NodeForces forces_{10};
 };

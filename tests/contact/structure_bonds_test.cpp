@@ -291,10 +291,11 @@ std::array<double, 2> forces_of_folded(const CohesiveFrictional::Properties& pro
   const geometry::Surface surface({}, facets, strip.x.size());
   geometry::ThreadPool pool;
   geometry::CellNeighbours neighbours(surface, strip.x, 0.0, true);
-  contact::StructureContacts<CohesiveFrictional> contacts(surface);
-  const contact::MaterialPairs<CohesiveFrictional> materials(
+  contact::StructureContacts<contact::AnyLaw> contacts(surface);
+  const contact::MaterialPairs<contact::AnyLaw> materials(
       {contact::Material{2.0 / kRange, 0.0, 0.0}},
-      {{{contact::MaterialId{0}, contact::MaterialId{0}}, properties}});
+      {{{contact::MaterialId{0}, contact::MaterialId{0}},
+        contact::AnyLaw::of<CohesiveFrictional>(properties)}});
   const std::vector<Vec3> still(strip.x.size(), Vec3::Zero());
   NodeForces forces;
   for (const double now : {-kOverlap, gap}) {

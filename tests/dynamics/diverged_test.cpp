@@ -2,7 +2,7 @@
 // What a simulation says that has become meaningless, and that it does.
 #include "dynamics/diverged.hpp"
 
-#include "contact/contacts_under.hpp"
+#include "contact/laws/models.hpp"
 #include "dynamics/simulation.hpp"
 #include "tests/support/weakening_slider.hpp"
 
@@ -73,7 +73,8 @@ Scene swinging_bar(double speed) {
 TEST(Diverged, NamesABondWhoseNodeSwingsAboveTheTrueCriticalStep) {
   // Amplitudes of micrometres: no node moves far in a step for long, but the energy grows by
   // (1.05 + sqrt(1.05² - 1))⁴ = 3.5 in each step.
-  const double critical = Linear(swinging_bar(1e-3), without_gravity(0.0)).exact_critical_step().dt;
+  const double critical =
+      Simulation(swinging_bar(1e-3), without_gravity(0.0)).exact_critical_step().dt;
   Simulation simulation(swinging_bar(1e-3), without_gravity(0.0));
   simulation.set_time_step(1.05 * critical);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/laws/any_law.hpp"
 #include "contact/laws/dashpot.hpp"
 #include "contact/laws/dmt_adhesion.hpp"
 #include "contact/laws/hertz_mindlin.hpp"
 #include "contact/laws/linear_frictional.hpp"
-#include "contact/laws/one_of.hpp"
 #include "contact/laws/rolling_twisting.hpp"
 #include "contact/laws/sum.hpp"
 #include "tests/support/seeded_random.hpp"
@@ -22,10 +22,9 @@ using namespace contact;
 using RollingLinear = Sum<LinearFrictional, RollingTwisting>;
 using DampedHertz = Sum<HertzMindlin, Dashpot>;
 using Everything = Sum<Sum<HertzMindlin, RollingTwisting>, Dashpot>;
-using Chosen = OneOf<LinearFrictional, HertzMindlin, RollingLinear>;
 
 using AllLaws = ::testing::Types<LinearFrictional, HertzMindlin, DmtAdhesion, RollingLinear,
-                                 DampedHertz, Everything, Chosen, WeakeningSlider>;
+                                 DampedHertz, Everything, AnyLaw, WeakeningSlider>;
 
 template <class Law>
 inline constexpr bool kHasDashpot =
@@ -66,12 +65,12 @@ struct RandomProperties<Sum<Whole, Part>> {
   }
 };
 template <>
-struct RandomProperties<Chosen> {
-  static Chosen::Properties from(Random& random) {
+struct RandomProperties<AnyLaw> {
+  static AnyLaw::Properties from(Random& random) {
     const double which = random.unit();
-    if (which < 0.3) return Chosen::Chosen<LinearFrictional>{};
-    if (which < 0.6) return Chosen::Chosen<HertzMindlin>{};
-    return Chosen::Chosen<RollingLinear>{RandomProperties<RollingLinear>::from(random)};
+    if (which < 0.3) return AnyLaw::of<LinearFrictional>();
+    if (which < 0.6) return AnyLaw::of<HertzMindlin>();
+    return AnyLaw::of<RollingLinear>(RandomProperties<RollingLinear>::from(random));
   }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/contacts_under.hpp"
-#include "contact/laws/any_law.hpp"
+#include "contact/laws/cohesive_frictional.hpp"
+#include "contact/laws/models.hpp"
 
 #include <vector>
 
@@ -23,13 +23,16 @@ class GluedSphere {
  public:
   GluedSphere(const CohesiveFrictional::Properties& properties, const Vec3& foot)
       : foot_(foot),
-        contacts_(
-            spheres_, surface_,
-            {MaterialPairs<CohesiveFrictional>({Material{kModulus, 0.5, 0.4}},
-                                               {{{MaterialId{0}, MaterialId{0}}, properties}}),
-             {MaterialId{0}},
-             {MaterialId{0}}},
-            0.01) {}
+        contacts_(model_of<CohesiveFrictional>({{{MaterialId{0}, MaterialId{0}}, properties}})(
+            {.spheres = spheres_,
+             .surface = surface_,
+             .materials = {Material{kModulus, 0.5, 0.4}},
+             .of_spheres = {MaterialId{0}},
+             .of_structures = {MaterialId{0}},
+             .masses = {},
+             .skin = 0.01,
+             .meets_planes = {},
+             .rest = {}})) {}
 
   /// Moves the sphere to a gap. @returns the forces on all nodes; the sphere is the last
   const NodeForces& move_to(double gap) {
@@ -37,10 +40,10 @@ class GluedSphere {
     const Vec3 place = foot_ + (kSphere + kThickness + gap) * Vec3::UnitZ();
     v_.back() = x_.back().isZero(0.0) ? Vec3(Vec3::Zero()) : Vec3((place - x_.back()) / dt);
     x_.back() = place;
-    contacts_.advance({x_, v_, w_}, {}, dt, pool_, forces_);
+    contacts_->advance({x_, v_, w_}, {}, dt, pool_, forces_);
     return forces_;
   }
-  std::size_t touching() const { return contacts_.counts().sphere_surface; }
+  std::size_t touching() const { return contacts_->counts().sphere_surface; }
 
  private:
   std::vector<Vec3> x_{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.2, 0.9, 0), Vec3(1.1, 1, 0),
@@ -52,7 +55,7 @@ class GluedSphere {
                                        {{NodeId{1}, NodeId{3}, NodeId{2}}, kThickness}};
   geometry::Surface surface_{{}, facets_, 5};
   Vec3 foot_;
-  ContactsUnder<CohesiveFrictional> contacts_;
+  std::unique_ptr<Contacts> contacts_;
   geometry::ThreadPool pool_;
   NodeForces forces_{5};
 };

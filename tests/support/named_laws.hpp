@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/laws/any_law.hpp"
+#include "contact/laws/cohesive_frictional.hpp"
+#include "contact/laws/dmt_adhesion.hpp"
+#include "contact/laws/hertz_mindlin.hpp"
+#include "contact/laws/linear_frictional.hpp"
 #include "contact/laws/restitution.hpp"
+#include "contact/laws/with_parts.hpp"
 
 #include <vector>
 
@@ -18,8 +22,7 @@ contact::PropertiesOf<contact::AnyLaw> with(
     const contact::PropertiesOf<Law>& properties,
     const contact::RollingTwisting::Properties& rolling = {},
     const contact::Dashpot::Properties& dashpot = {}) {
-  using Base = contact::AnyBaseLaw;
-  return {{Base::Properties{Base::Chosen<Law>{properties}}, rolling}, dashpot};
+  return contact::with_parts<Law>(properties, rolling, dashpot);
 }
 
 /// One of every kind, for stiffnesses of some 1e5 N/m and bodies of some kg.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/contacts_under.hpp"
 #include "contact/laws/dmt_adhesion.hpp"
 #include "contact/laws/hertz_mindlin.hpp"
 #include "contact/laws/linear_frictional.hpp"
+#include "contact/laws/models.hpp"
 
 #include <gtest/gtest.h>
 
@@ -97,14 +97,20 @@ Vec3 force_on_last(const Bodies& bodies, std::size_t first,
   std::vector<geometry::Sphere> spheres;
   if (bodies.has_ball) spheres.push_back({{geometry::id_at<NodeId>(bodies.x.size() - 1)}, kRadius});
   const geometry::Surface surface(bodies.cylinders, bodies.facets, bodies.x.size());
-  const ContactMaterials<Law> materials{
-      MaterialPairs<Law>({kMaterial}, {{{MaterialId{0}, MaterialId{0}}, properties}}),
-      std::vector<MaterialId>(spheres.size()), std::vector<MaterialId>(surface.structure_count())};
-  ContactsUnder<Law> contacts(spheres, surface, materials, 0.01);
+  const auto contacts = model_of<Law>({{{MaterialId{0}, MaterialId{0}}, properties}})(
+      {.spheres = spheres,
+       .surface = surface,
+       .materials = {kMaterial},
+       .of_spheres = std::vector<MaterialId>(spheres.size()),
+       .of_structures = std::vector<MaterialId>(surface.structure_count()),
+       .masses = {},
+       .skin = 0.01,
+       .meets_planes = {},
+       .rest = {}});
   const std::vector<Vec3> still(bodies.x.size(), Vec3::Zero());
   geometry::ThreadPool pool;
   NodeForces forces(bodies.x.size());
-  contacts.advance({bodies.x, still, still}, bodies.planes, 0.0, pool, forces);
+  contacts->advance({bodies.x, still, still}, bodies.planes, 0.0, pool, forces);
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = first; i < bodies.x.size(); ++i) sum += forces.force[i];
   return sum;

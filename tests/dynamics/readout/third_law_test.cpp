@@ -21,7 +21,7 @@ struct Size {
   double moment = 0.0;  ///< N m
 };
 
-Size size_of(const Simulation& simulation, const std::vector<Vec3>& x) {
+Size size_of(const dynamics::Simulation& simulation, const std::vector<Vec3>& x) {
   Size size;
   for (std::size_t i = 0; i < x.size(); ++i) {
     size.force += simulation.forces().force[i].norm();
@@ -33,7 +33,8 @@ Size size_of(const Simulation& simulation, const std::vector<Vec3>& x) {
 
 /// What acts on all nodes for which is_one() holds, about the origin.
 template <class IsOne>
-ForceAndMoment nodal_sum(const Simulation& simulation, const std::vector<Vec3>& x, IsOne is_one) {
+ForceAndMoment nodal_sum(const dynamics::Simulation& simulation, const std::vector<Vec3>& x,
+                         IsOne is_one) {
   ForceAndMoment sum;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (is_one(geometry::id_at<NodeId>(i)))
@@ -57,7 +58,7 @@ class ThirdLaw : public testing::TestWithParam<NamedLaw> {
   }
 
   ReportedScene reported_;
-  Simulation simulation_;
+  dynamics::Simulation simulation_;
   std::vector<Vec3> x_;
   std::vector<ContactRow> contacts_;
   Size size_;
@@ -143,7 +144,7 @@ TEST_P(ThirdLaw, ReactionsWeightAndInertiaAddUpToZero) {
 
 TEST_P(ThirdLaw, HoldsToTheBitForAnyNumberOfThreads) {
   for (const int threads : {2, 4}) {
-    Simulation other = reported_.simulation(GetParam(), threads);
+    dynamics::Simulation other = reported_.simulation(GetParam(), threads);
     for (int k = 0; k < 10; ++k) other.step();
     const std::vector<ContactRow> contacts = other.list_contacts();
     ASSERT_EQ(contacts.size(), contacts_.size());

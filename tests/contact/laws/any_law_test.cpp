@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/laws/one_of.hpp"
+#include "contact/laws/any_law.hpp"
 
 #include "contact/laws/hertz_mindlin.hpp"
 #include "contact/laws/linear_frictional.hpp"
@@ -10,12 +10,12 @@
 namespace plekton::contact {
 namespace {
 
-using Law = OneOf<LinearFrictional, HertzMindlin>;
+using Law = AnyLaw;
 const std::vector<Material> kMaterials{{1e6, 0.5, 0.4, 0.2}, {2e6, 0.3, 0.3, 0.3}};
 
-TEST(OneOf, HasTheLawOfEachPairOfMaterialsInAnyOrder) {
+TEST(AnyLaw, HasTheLawOfEachPairOfMaterialsInAnyOrder) {
   const MaterialPairs<Law> pairs(kMaterials,
-                                 {{{MaterialId{1}, MaterialId{0}}, Law::Chosen<HertzMindlin>{}}});
+                                 {{{MaterialId{1}, MaterialId{0}}, Law::of<HertzMindlin>()}});
   const auto force = [&](int a, int b) {
     return Law::elastic_normal_force(pairs.combine({MaterialId{a}, 0.1}, {MaterialId{b}, 0.1}),
                                      -1e-4);
@@ -29,10 +29,10 @@ TEST(OneOf, HasTheLawOfEachPairOfMaterialsInAnyOrder) {
             LinearFrictional::elastic_normal_force(LinearFrictional::combine(first, first), -1e-4));
 }
 
-TEST(OneOf, AnswersWithTheBitsOfTheLawItIs) {
+TEST(AnyLaw, AnswersWithTheBitsOfTheLawItIs) {
   const Body body{kMaterials[0], 0.1};
   const auto p = HertzMindlin::combine(body, body);
-  const Law::Parameters chosen = Law::ParametersFor<HertzMindlin>{p};
+  const Law::Parameters chosen = Law::combine(Law::of<HertzMindlin>(), body, body);
   HertzMindlin::History history{};
   Law::History of_chosen{};
   for (int step = 0; step < 20; ++step) {
@@ -47,6 +47,17 @@ TEST(OneOf, AnswersWithTheBitsOfTheLawItIs) {
     ASSERT_EQ(answer.dissipated, alone.dissipated);
     ASSERT_EQ(Law::history_energy(chosen, of_chosen), HertzMindlin::history_energy(p, history));
   }
+}
+
+TEST(AnyLaw, TakesANewHistoryForOneOfWhicheverLawAsks) {
+  const Body body{kMaterials[0], 0.1};
+  const Law::Parameters parameters = Law::combine(Law::of<HertzMindlin>(), body, body);
+  Law::History history{};
+
+  EXPECT_EQ(Law::history_energy(parameters, history), 0.0);
+  EXPECT_EQ(Law::moment(history, Vec3::UnitZ()), Vec3(Vec3::Zero()));
+  EXPECT_FALSE(Law::holds(history));
+  EXPECT_GT(Law::tangential_limit(parameters, 1.0, history), 1e300);
 }
 
 }  // namespace
