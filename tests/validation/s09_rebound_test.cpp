@@ -54,18 +54,15 @@ Scene ball_above(const Ground& ground, double gap) {
   return scene;
 }
 
-test::NamedLaw damped(const char* name, contact::PropertiesOf<AnyLaw> law, SpringKind kind) {
-  law.part.damping_ratio = contact::damping_ratio(kind, kRestitution);
-  return {name, law};
+template <class Law>
+test::NamedLaw damped(const char* name, const contact::PropertiesOf<Law>& law, SpringKind kind) {
+  return {name, test::with<Law>(law, {}, {contact::damping_ratio(kind, kRestitution)})};
 }
-const test::NamedLaw kHertz =
-    damped("Hertz", test::with<contact::HertzMindlin>({}), SpringKind::hertz);
-const test::NamedLaw kGiven = damped(
-    "GivenStiffness", test::with<LinearFrictional>({.normal_stiffness = 2e5}), SpringKind::linear);
-const test::NamedLaw kCurvature =
-    damped("Curvature",
-           test::with<LinearFrictional>({.radius = LinearFrictional::StiffnessRadius::curvature}),
-           SpringKind::linear);
+const test::NamedLaw kHertz = damped<contact::HertzMindlin>("Hertz", {}, SpringKind::hertz);
+const test::NamedLaw kGiven =
+    damped<LinearFrictional>("GivenStiffness", {.normal_stiffness = 2e5}, SpringKind::linear);
+const test::NamedLaw kCurvature = damped<LinearFrictional>(
+    "Curvature", {.radius = LinearFrictional::StiffnessRadius::curvature}, SpringKind::linear);
 
 TEST(Rebound, IsTheRestitutionThatWasAskedForWhateverABallFallsOn) {
   for (const test::NamedLaw& law : {kHertz, kGiven, kCurvature}) {
