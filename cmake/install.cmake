@@ -1,13 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The install tree: include/plekton/{geometry,contact,dynamics}, the libraries, the program, and the package
-# `find_package(plekton CONFIG COMPONENTS ...)` with one component for each library.
+# The install tree: the public headers below include/plekton, the libraries, the program, and the package: for CMake
+# `find_package(plekton CONFIG COMPONENTS ...)` with one component for each library, for others `pkg-config plekton`.
 include(CMakePackageConfigHelpers)
+include(cmake/public_headers.cmake)
+
+# What users include; what these need comes along.
+plekton_public_headers(public_headers
+  contact/laws/cohesive_frictional.hpp
+  contact/laws/dmt_adhesion.hpp
+  contact/laws/hertz_mindlin.hpp
+  contact/laws/law_list.hpp
+  contact/laws/models.hpp
+  contact/laws/with_parts.hpp
+  dynamics/output/csv_writer.hpp
+  dynamics/output/pvd_series.hpp
+  dynamics/output/scene_frame.hpp
+  dynamics/output/vtk_writer.hpp
+  dynamics/readout/unbalanced_force.hpp
+  dynamics/simulation.hpp
+  dynamics/structure/bonds_along.hpp
+  dynamics/structure/membrane_force.hpp
+  geometry/mesh/generators.hpp
+  geometry/mesh/import.hpp
+  geometry/mesh/membrane.hpp
+  geometry/mesh/mesh_file.hpp
+  geometry/mesh/orientation.hpp
+  geometry/mesh/remesh.hpp
+  geometry/mesh/repair.hpp
+  geometry/mesh/reshape.hpp
+  geometry/queries.hpp
+  geometry/version.hpp)
+foreach(header IN LISTS public_headers)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plekton/${folder})
+endforeach()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/plekton)
 foreach(name IN ITEMS geometry contact dynamics)
   install(TARGETS plekton_${name} EXPORT plekton-${name}-targets)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plekton
-    FILES_MATCHING PATTERN "*.hpp")
   install(EXPORT plekton-${name}-targets NAMESPACE plekton:: DESTINATION ${package_folder})
 endforeach()
 
@@ -17,6 +47,9 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/plekton-config.cmake.i
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/plekton-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/plekton-config.cmake ${PROJECT_BINARY_DIR}/plekton-config-version.cmake
   DESTINATION ${package_folder})
+file(RELATIVE_PATH prefix_from_package ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(${PROJECT_SOURCE_DIR}/cmake/plekton.pc.in ${PROJECT_BINARY_DIR}/plekton.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/plekton.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 file(RELATIVE_PATH libraries_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Questions to a tent of two thick facets and a rope, with plekton::geometry alone.
-#include "geometry/queries.hpp"
+#include <plekton/geometry/queries.hpp>
 
 #include <iostream>
 #include <vector>

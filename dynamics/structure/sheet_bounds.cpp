@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/sheet_facets.hpp"
 
+#include "dynamics/structure/sheet_kernel.hpp"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dynamics/structure/beam_blocks.hpp"
-#include "dynamics/structure/sheet_kernel.hpp"
+#include "dynamics/structure/sheet_spring.hpp"
 #include "dynamics/time_step.hpp"
 #include "geometry/thread_pool.hpp"
 

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/structure/sheet_facet.hpp"
+#include "dynamics/structure/sheet_spring.hpp"
 
 /// The arithmetic of one facet of a sheet. The formulas are derived at SheetFacets.
 namespace plekton::dynamics {
-
-/// Of the linear interpolation over a triangle.
-struct ShapeGradients {
-  std::array<Vec2, 3> gradients;  ///< 1/m, of the share of each corner
-  double area;                    ///< m²
-};
 
 inline ShapeGradients shape_gradients(const std::array<Vec2, 3>& corners) noexcept {
   const Vec2 e1 = corners[1] - corners[0];
@@ -20,19 +14,6 @@ inline ShapeGradients shape_gradients(const std::array<Vec2, 3>& corners) noexce
   const Vec2 g2 = Vec2(-e1.y(), e1.x()) / twice_area;
   return {{-g1 - g2, g1, g2}, 0.5 * twice_area};
 }
-
-/// What the force needs to know of a facet.
-struct SheetSpring {
-  std::array<Vec2, 3> corners;  ///< m, at rest
-  ShapeGradients shape;
-  double tensile_stiffness;  ///< N/m, E t / (1 - nu²)
-  double poisson_ratio;
-  double turning;            ///< N m, against turning of a node in the plane of the facet
-  Mat6 bending;              ///< N/m, see plate_bending
-  std::array<Quat, 3> rest;  ///< see SheetFacet
-};
-
-SheetSpring spring_of(const SheetFacet& facet) noexcept;
 
 /// Where the nodes of a facet are, and the facet's frame as each of them carries it.
 struct SheetPose {
@@ -49,14 +30,6 @@ inline SheetPose pose_of(const SheetSpring& spring, const std::array<NodeId, 3>&
   }
   return pose;
 }
-
-/// What a facet does to its nodes.
-struct SheetReaction {
-  std::array<Vec3, 3> force{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};   ///< N
-  std::array<Vec3, 3> torque{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< N m
-  Vec3 stress = Vec3::Zero();  ///< N/m, (11, 22, 12), second Piola-Kirchhoff, in the facet's frame
-  double energy = 0.0;         ///< J
-};
 
 /// Columns: where the facet's two axes have gone, stretched.
 inline Eigen::Matrix<double, 3, 2> deformation_gradient(const ShapeGradients& shape,

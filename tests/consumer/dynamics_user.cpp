@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/output/csv_writer.hpp"
+#include <plekton/dynamics/output/csv_writer.hpp>
 
 #include <array>
 #include <filesystem>

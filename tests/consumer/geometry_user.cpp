@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/box.hpp"
-#include "geometry/version.hpp"
+#include <plekton/geometry/box.hpp>
+#include <plekton/geometry/version.hpp>
 
 #include <array>
 #include <iostream>

@@ -4,6 +4,7 @@
 #include "dynamics/rotation_step.hpp"
 #include "dynamics/scene.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
+#include "dynamics/structure/sheet_kernel.hpp"
 
 #include <Eigen/SparseCholesky>
 

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# plekton_public_headers(out headers...): those headers, named from the root of the project, and all of the project's
+#   own that they include. The rest is internal, and not installed.
+function(plekton_public_headers out)
+  set(open ${ARGN})
+  set(all)
+  while(open)
+    list(POP_FRONT open header)
+    if(header IN_LIST all)
+      continue()
+    endif()
+    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/${header})
+      message(FATAL_ERROR "${header} is named as a public header, and is not there")
+    endif()
+    list(APPEND all ${header})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
+    file(STRINGS ${PROJECT_SOURCE_DIR}/${header} lines REGEX "^#include \"")
+    list(TRANSFORM lines REPLACE "^#include \"(.*)\".*" "\\1")
+    list(APPEND open ${lines})
+  endwhile()
+  list(SORT all)
+  set(${out} ${all} PARENT_SCOPE)
+endfunction()
