@@ -22,11 +22,11 @@ namespace plekton::contact {
 /// overlaps o below the range and that of the top t (0 at the range) a link from o_u down to o_l
 /// resists (o_u^2 - t^2)^-n - (o_l^2 - t^2)^-n. So
 ///   - where one pass is shallower than the others by far, or all are on one level, the hole gives
-///   back phi there exactly;
+///     back phi there exactly;
 ///   - resistances in a row add up, so a pass and a minimum, or a pass and a top, that are born
-///   together change nothing but what they add themselves; nor does what comes into range;
+///     together change nothing but what they add themselves; nor does what comes into range;
 ///   - shares change with the overlaps, and the force has the part that comes of that. So it is the
-///   gradient of the sum of weight * phi(distance) on the ball and on every node, for every law.
+///     gradient of the sum of weight * phi(distance) on the ball and on every node, for every law.
 /// With n = 12 a ring of springs with a deeper pass is off by 0 to 2.5 % of the energy of its
 /// shallowest one, with four of them by 0 to 6.4 %; what is given back too much is about in
 /// proportion to 1 / n. Where bars alone are in range it is never too little: shares are chances of

@@ -52,9 +52,8 @@ class SurfaceContacts {
   /// @param cells  of the present list, as rebuild() took them
   /// @param at     m, where the elastic energy of before and after is compared
   /// @returns the energy (J) lost: of histories that are over, and what of the elastic energy is
-  /// not
-  ///          in the surface that is left. Where a torn facet leaves sides that push more than once
-  ///          it may be negative.
+  ///          not in the surface that is left. Where a torn facet leaves sides that push more than
+  ///          once it may be negative.
   double follow(const geometry::SurfaceChange& change, std::span<const geometry::CellId> cells,
                 Positions at);
 

@@ -61,10 +61,9 @@ struct Scene {
                               double density, NodalInertia inertia = NodalInertia::ball);
 
   /// @throws std::invalid_argument listing every problem: arrays of different lengths, ids out of
-  /// range, a node
-  ///         without mass that is not held, a value that is not finite, a structure of several
-  ///         materials, a facet without area, a cylinder without length, a sphere on a node of
-  ///         another element, loads that cannot be applied (loads/loads_check.hpp).
+  ///         range, a node without mass that is not held, a value that is not finite, a structure
+  ///         of several materials, a facet without area, a cylinder without length, a sphere on a
+  ///         node of another element, loads that cannot be applied (loads/loads_check.hpp).
   void check() const;
 };
 

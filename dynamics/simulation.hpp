@@ -67,8 +67,7 @@ struct PresentContacts;
 class Simulation {
  public:
   /// @throws std::invalid_argument listing every problem of the scene or the options, among them a
-  /// time step above
-  ///         kLargestStep of the critical one
+  ///         time step above kLargestStep of the critical one
   /// @param model  which contact law there is
   Simulation(Scene scene, const SimulationOptions& options,
              const contact::ContactModel& model = contact::linear_frictional());

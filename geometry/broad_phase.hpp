@@ -37,9 +37,8 @@ class BroadPhase {
  public:
   /// No boxes.
   /// @throws std::logic_error if the FCL that is linked does not find the overlap of two boxes that
-  /// overlap; this is
-  ///         tried once in a process. The message names the known cause, Eigen's alignment, and the
-  ///         cure.
+  ///         overlap; this is tried once in a process. The message names the known cause, Eigen's
+  ///         alignment, and the cure.
   BroadPhase();
   BroadPhase(BroadPhase&&) noexcept;
   BroadPhase& operator=(BroadPhase&&) noexcept;

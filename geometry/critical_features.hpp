@@ -14,10 +14,11 @@
 /// its descending link. Exact signs tell which they are, so the link and its Euler number chi are
 /// exact too:
 ///
-///     face    no direction falls if the foot point is inside:                      coefficient 1,
-///     else 0 edge    each facet on it that falls away from it is one direction: coefficient 1 -
-///     facets node    falling edges are points, facets with two falling sides join them:
-///     coefficient 1 - edges + facets
+///     feature  directions that fall                                   coefficient
+///     face     none, if the foot point is inside                      1, else 0
+///     edge     one for each facet on it that falls away from it       1 - facets
+///     node     edges that fall are points, facets with two falling    1 - edges + facets
+///              sides join them
 ///
 /// coefficient = 1 - chi(descending link), and the sum of all coefficients is the Euler number of
 /// the surface, for every point, as long as facets have an area and edges a length: the self-test
@@ -29,10 +30,8 @@ namespace plekton::geometry {
 
 /// Descending link of a feature, as seen from a point.
 struct DescendingLink {
-  int coefficient;  ///< 1 - Euler number of the link; 0 also if the foot point is not on the
-                    ///< feature
-  int branches;  ///< connected pieces of the link; 0 at a minimum; -1 if the foot point is not on
-                 ///< the feature
+  int coefficient;  ///< 1 - Euler number of the link; 0 also without a foot point on the feature
+  int branches;     ///< connected pieces of the link: 0 at a minimum, -1 without a foot point
 };
 
 /// A feature with a foot point of the query point, that is a minimum, a pass or a top of the

@@ -31,9 +31,8 @@ class Surface {
 
   /// Time and memory grow linearly with the number of elements, times log for sorting the edges.
   /// @throws std::invalid_argument listing every problem: a node id out of range, an element that
-  /// repeats a node, two
-  ///         facets on the same three nodes, a radius that is not positive and finite, connected
-  ///         elements with different radii.
+  ///         repeats a node, two facets on the same three nodes, a radius that is not positive and
+  ///         finite, connected elements with different radii.
   Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
           std::size_t node_count);
 

@@ -11,9 +11,8 @@
 ///   - gap = distance of the cores - radius_a - radius_b, negative when the bodies overlap;
 ///   - forces are given on side b; side a gets the opposite;
 ///   - the contact point lies on the line through both core points, half the gap away from either
-///   surface:
-///     arm_a = radius_a + gap / 2 from the core point of a, arm_b = radius_b + gap / 2 from that of
-///     b.
+///     surface: arm_a = radius_a + gap / 2 from the core point of a,
+///              arm_b = radius_b + gap / 2 from that of b.
 namespace plekton::geometry {
 
 /// A point of the core of an element: the weighted mean of up to three nodes.

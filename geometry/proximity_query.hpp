@@ -47,8 +47,8 @@ struct ElementPair {
 class ProximityQuery {
  public:
   /// @throws std::invalid_argument listing every problem of the elements (see Surface; spheres
-  /// whose node does not
-  ///         exist or whose radius is not positive and finite) and of largest_gap
+  ///         whose node does not exist or whose radius is not positive and finite) and of
+  ///         largest_gap
   ProximityQuery(Elements elements, std::size_t node_count, const PairChoice& choice,
                  int threads = 1);
   ProximityQuery(Elements elements, std::size_t node_count, double largest_gap, int threads = 1)

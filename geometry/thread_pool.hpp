@@ -38,8 +38,7 @@ class ThreadPool {
   /// called all the same; with none at all nobody is called. The calling thread is worker 0; with
   /// one thread this is a plain call. No allocation unless a body throws.
   /// @throws What a body threw, after all have ended; the lowest worker's if several did.
-  /// std::logic_error if a loop of
-  ///         this pool is running.
+  ///         std::logic_error if a loop of this pool is running.
   template <class Body>
   void for_each_range(std::size_t count, Body&& body) {
     if (count == 0) return;

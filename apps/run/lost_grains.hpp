@@ -13,9 +13,9 @@ namespace plekton::apps {
 
 /// Which grains a simulation has lost. A grain is lost for good
 /// - when its centre has passed through a facet of a membrane, which no contact force should let
-/// happen, or
+///   happen, or
 /// - when its centre has left the box around everything at the start, grown on every side by its
-/// own longest side.
+///   own longest side.
 ///
 /// Between two looks a grain and the corners of a facet are taken to move straight and evenly. The
 /// centre passes through the facet if it changes sides of its plane and, at the moment it lies in

@@ -14,9 +14,9 @@ namespace plekton::apps {
 /// Reads a scenario file.
 /// @param overrides  "path=value" each, applied before anything is checked (overrides.hpp).
 /// @throws InputError listing every problem of the file, each with its place, what was found, what
-/// was expected, and a suggestion:
-///         keys that are unknown or missing, wrong kinds and units, values out of range, materials
-///         and mesh files that do not exist, sieve tables that do not rise.
+///         was expected, and a suggestion: keys that are unknown or missing, wrong kinds and units,
+///         values out of range, materials and mesh files that do not exist, sieve tables that do
+///         not rise.
 Scenario read_scenario(const std::filesystem::path& path,
                        std::span<const std::string> overrides = {});
 

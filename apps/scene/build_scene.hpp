@@ -66,8 +66,7 @@ using HearSetUp = std::function<void(const std::string& what, double share)>;
 /// like the facets, are numbered in the order of the membranes, and beam i is along cylinder i. In
 /// mode continuum there are neither: every facet is one of a thin sheet too, in the same order.
 /// @throws InputError listing every problem that only the files and the geometry show: meshes that
-/// cannot be used, nothing to hold,
-///         grains that do not fit.
+///         cannot be used, nothing to hold, grains that do not fit.
 BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear = {});
 
 }  // namespace plekton::apps

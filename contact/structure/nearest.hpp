@@ -12,7 +12,7 @@
 ///
 /// - a cylinder, nearly parallel to a facet: both ends of its part above the facet;
 /// - a cylinder and an edge beside each other: both ends of the part, and the nearest point
-/// between;
+///   between;
 /// - anything else: the nearest points. Facets that lie flat on each other have none that matter
 ///   (point_share.hpp). Where a ridge or a rim of facets lies along a facet the force goes to the
 ///   end that is nearer, also by a rounding error: the energy is continuous there, and the force on

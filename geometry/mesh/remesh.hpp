@@ -15,8 +15,8 @@ inline constexpr double kFeatureAngle = 40.0;
 /// @param target_edge  m.
 /// @throws MeshError if the length is not positive and finite or would make more than 2e7 facets,
 ///         and for a mesh that is not manifold or whose facets disagree, where remeshing would tear
-///         shared nodes apart.
-/// Source: Botsch & Kobbelt, A remeshing approach to multiresolution modeling (2004).
+///         shared nodes apart. Source: Botsch & Kobbelt, A remeshing approach to multiresolution
+///         modeling (2004).
 Mesh remesh(const Mesh& mesh, double target_edge);
 
 }  // namespace plekton::geometry

@@ -14,9 +14,8 @@ namespace plekton::geometry {
 ///                and about 0.1 ms and 1 kB for each.
 /// @throws MeshError if the length is not positive and finite, below 1/2000 of the diagonal of the
 ///         bounds, or so short that, by a coarse wrap, there would be more than a million facets;
-///         it says from which length on there are not.
-/// Source: Portaneri, Rouxel-Labbe, Hemmer, Cohen-Steiner & Alliez, Alpha wrapping with an offset
-/// (2022).
+///         it says from which length on there are not. Source: Portaneri, Rouxel-Labbe, Hemmer,
+///         Cohen-Steiner & Alliez, Alpha wrapping with an offset (2022).
 Mesh wrap(const Mesh& mesh, double finest);
 
 }  // namespace plekton::geometry
