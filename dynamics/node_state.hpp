@@ -89,4 +89,11 @@ struct NodeProperties {
   std::size_t size() const noexcept { return mass.size(); }
 };
 
+/// m, where the nodes were so much time (s) ago, with the velocities of now.
+inline std::vector<Vec3> positions_before(const NodeState& state, double time) {
+  std::vector<Vec3> positions = state.position;
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] -= time * state.velocity[i];
+  return positions;
+}
+
 }  // namespace plekton::dynamics

@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/simulation.hpp"
 
-#include "dynamics/expected_contacts.hpp"
-#include "dynamics/present_contacts.hpp"
+#include "dynamics/fault_finder.hpp"
+#include "dynamics/readout/unbalanced_force.hpp"
 #include "dynamics/require_index.hpp"
 #include "dynamics/scene_figures.hpp"
+#include "dynamics/step_chooser.hpp"
+#include "dynamics/step_limits.hpp"
+#include "dynamics/structure/broken_elements.hpp"
+#include "geometry/node_sets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numbers>
+#include <span>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace plekton::dynamics {
 
@@ -50,24 +60,6 @@ contact::ContactScene contact_scene(const Scene& scene, const geometry::Surface&
 /// the contacts, already made, fill what there is.
 constexpr std::size_t kPieces = 16;
 
-/// Leaves out the springs along the normals of contacts with surfaces: the forces of the contacts'
-/// energy have them, and what turns with them.
-struct SlipOnSurfaces {
-  ContactSprings& springs;
-
-  void add_pair(NodeId a, NodeId b, const ContactStiffness& contact) {
-    springs.add_pair(a, b, contact);
-  }
-  void add_on_surface(NodeId ball, const geometry::CorePoint& core, ContactStiffness contact,
-                      const SurfaceTurning&) {
-    contact.normal_stiffness = 0.0;
-    springs.add_on_surface(ball, core, contact);
-  }
-  void add_to_wall(NodeId ball, const ContactStiffness& contact) {
-    springs.add_to_wall(ball, contact);
-  }
-  void add(NodeId node, const IsotropicStiffness& single) { springs.add(node, single); }
-};
 }  // namespace
 
 Simulation::Simulation(Scene scene, const SimulationOptions& options,
@@ -84,8 +76,6 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       driven_planes_(scene_.loads, scene_.planes),
       plane_reactions_(driven_planes_.empty() ? 0 : scene_.planes.size()),
       forces_(scene_.state.size()),
-      radii_(node_radii(scene_, surface_)),
-      spread_(surface_),
       furthest_(furthest_in_a_step(scene_)),
       pace_radius_(pace_radius(scene_.elements)),
       full_gravity_(options.motion.gravity) {
@@ -104,24 +94,8 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
   bonds_.advance(scene_.state, pool_);
   contacts_->advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
   forces_.set_zero();
-  const ExpectedContacts expected(scene_, surface_, *contacts_);
-  expected_ = expected.of_nodes();
-  chooses_time_step_ = options.time_step == 0.0;
-  if (chooses_time_step_ && surface_.structure_count() > 0) {
-    of_structures_ = expected.of_structures();
-    is_counted_.resize(scene_.state.size());
-  }
-  collision_step_ = expected.collision_step();
-  const std::size_t pieces = chooses_time_step_ ? 1 : kPieces;
-  NodalStiffness stiffness((scene_.state.size() + pieces - 1) / pieces, &scene_.properties);
-  for_each_piece(stiffness, [&] {
-    add_expected_to(stiffness);
-    add_structures_to(stiffness);
-    const NodalStiffness::Total total = stiffness.total();
-    initial_stiffness_.translation += total.translation;
-    initial_stiffness_.rotation += total.rotation;
-  });
-  set_first_step(options.time_step, std::move(stiffness));
+  limits_ = std::make_unique<StepLimits>(resistance());
+  set_first_step(options.time_step);
   initial_moment_ = free_moment(0.0);
   work_.kinetic = kinetic_energy(scene_.state, scene_.properties);
   most_kinetic_ = work_.kinetic;
@@ -129,11 +103,15 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
                     sheet_facets_.elastic_energy();
 }
 
-/// contact::Motion Simulation::motion()param asked  s; 0: chosen
-/// contact::Motion Simulation::motion()param space  for the critical step; kept where the step is
-/// chosen contact::Motion Simulation::motion()throws std::invalid_argument if that is too long
-void Simulation::set_first_step(double asked, NodalStiffness space) {
-  const double critical = critical_step(space).dt;
+/// @param asked  s; 0: chosen
+/// @throws std::invalid_argument if that is too long
+void Simulation::set_first_step(double asked) {
+  const bool is_chosen = asked == 0.0;
+  const std::size_t pieces = is_chosen ? 1 : kPieces;
+  NodalStiffness space((scene_.state.size() + pieces - 1) / pieces, &scene_.properties);
+  initial_stiffness_ = limits_->total_stiffness(space);
+  const double critical = limits_->critical(space, force_positions()).dt;
+  dt_ = asked;
   if (asked > kLargestStep * critical) {
     std::ostringstream text;
     text << "time step " << asked << " s: the critical time step of this scene is " << critical
@@ -141,15 +119,12 @@ void Simulation::set_first_step(double asked, NodalStiffness space) {
          << " s), or 0 to have " << kSafety << " of it chosen";
     throw std::invalid_argument(text.str());
   }
-  dt_ = asked;
-  if (!chooses_time_step_) return;
-  space_ = std::move(space);
-  dt_ = kSafety * critical;
-  // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
-  if (!std::isfinite(critical)) return;
-  choose_time_step();
-  if (!std::isfinite(dt_)) dt_ = stable_step_ = kSafety * critical;
+  if (!is_chosen) return;
+  chooser_ = std::make_unique<StepChooser>(resistance(), *limits_);
+  dt_ = chooser_->first(critical, std::move(space), pace());
 }
+
+Simulation::~Simulation() = default;
 
 void Simulation::set_time_step(double dt) {
   if (!(dt > 0.0) || !std::isfinite(dt)) {
@@ -157,7 +132,7 @@ void Simulation::set_time_step(double dt) {
                                 " s: must be positive and finite");
   }
   dt_ = dt;
-  chooses_time_step_ = false;
+  chooser_.reset();
 }
 
 void Simulation::require_time_step() const {
@@ -171,7 +146,7 @@ void Simulation::set_velocity(NodeId node, const Vec3& velocity, const Vec3& ang
   require_node("set_velocity", node, scene_.state.size());
   scene_.state.velocity[index_of(node)] = velocity;
   scene_.state.angular_velocity[index_of(node)] = angular_velocity;
-  if (!chooses_time_step_ || !std::isfinite(dt_)) return;
+  if (chooser_ == nullptr || !std::isfinite(dt_)) return;
   dt_ = std::min(dt_, longest_step(velocity.norm(), largest_gravity(), pace_radius_));
 }
 
@@ -179,8 +154,15 @@ double Simulation::motion_ratio() const noexcept {
   return largest_speed(scene_.state) * dt_ / pace_radius_;
 }
 
-PresentContacts Simulation::present_contacts() const noexcept {
-  return {*contacts_, scene_.planes, radii_};
+Resistance Simulation::resistance() const noexcept {
+  return {scene_, surface_, *contacts_, bonds_, sheet_facets_, loads_};
+}
+
+Pace Simulation::pace() const noexcept {
+  return {steps_,
+          std::max({largest_speed(scene_.state), loads_.largest_speed(),
+                    driven_planes_.largest_speed()}),
+          largest_gravity()};
 }
 
 /// Nodes have drifted with the velocities after the last kick.
@@ -219,8 +201,7 @@ void Simulation::move_planes() {
     plane.point += drift_ * plane.velocity;
     squared = std::max(squared, plane.velocity.squaredNorm());
   }
-  way_in_a_step_ = std::sqrt(squared) * drift_;
-  look_.way += way_in_a_step_;
+  if (chooser_ != nullptr) chooser_->moved(std::sqrt(squared) * drift_);
 }
 
 Energy Simulation::energy() const {
@@ -264,97 +245,23 @@ double Simulation::rounding_energy() const {
          kEps * weight * (static_cast<double>(scene_.state.size()) + steps);
 }
 
-void Simulation::add_expected_to(NodalStiffness& stiffness) const {
-  for (std::size_t i = 0; i < expected_.size(); ++i)
-    stiffness.add(geometry::id_at<NodeId>(i), expected_[i]);
-}
-
-void Simulation::add_structures_to(NodalStiffness& stiffness) const {
-  for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
-    if (!bonds_.is_broken(i))
-      stiffness.add_beam(scene_.bonds[i], scene_.state, bonds_.spring(i).length);
-  }
-  sheet_facets_.add_to(stiffness, scene_.state);
-  loads_.add_springs_to(stiffness);
-  loads_.add_pressures_to(stiffness, scene_.state.position);
-}
-
 CriticalStep Simulation::critical_step() const {
-  NodalStiffness space(scene_.state.size(), &scene_.properties);
-  return critical_step(space);
+  return limits_->critical(force_positions());
 }
 
 CriticalStep Simulation::present_critical_step() const {
-  NodalStiffness space(scene_.state.size(), &scene_.properties);
-  CriticalStep step = present_step(space);
-  step.dt = loads_.critical_step(step.dt, scene_);
-  return step;
+  return limits_->present(force_positions());
+}
+
+StepCause Simulation::critical_cause() const {
+  return limits_->cause(force_positions());
 }
 
 ExactStep Simulation::exact_critical_step() const {
-  ContactSprings springs;
-  SlipOnSurfaces slip{springs};
-  present_contacts().add_to(slip, 0.0, force_positions());
-  contact::PatchFinder finder(surface_);
-  const auto normal = [&](geometry::Positions x, NodeForces& forces) {
-    contacts_->add_elastic_forces(x, forces, finder, [](NodeId) { return true; });
-  };
-  return dynamics::exact_critical_step(scene_, {bonds_, sheet_facets_}, loads_, springs, time_,
-                                       normal);
+  return limits_->exact(force_positions(), time_);
 }
 
-/// Calls look() for all nodes, as many at once as there is space for.
-template <class Look>
-void Simulation::for_each_piece(NodalStiffness& space, const Look& look) const {
-  for (std::size_t first = 0; first < scene_.state.size(); first += space.node_count()) {
-    space.begin_at(first);
-    look();
-  }
-}
-
-/// contact::Motion Simulation::motion()param space  for some of the nodes; its contents are
-/// overwritten
-CriticalStep Simulation::critical_step(NodalStiffness& space) const {
-  CriticalStep shortest = structural_step(space, true);
-  const CriticalStep present = present_step(space);
-  if (present.dt < shortest.dt) shortest = present;
-  shortest.dt = loads_.critical_step(shortest.dt, scene_);
-  return shortest;
-}
-
-/// Of the contacts of now, without gases and viscous damping.
-/// contact::Motion Simulation::motion()param space  where there are no surfaces it is all the space
-/// that is needed
-CriticalStep Simulation::present_step(NodalStiffness& space) const {
-  if (surface_.structure_count() == 0) return structural_step(space, false);
-  const std::vector<Vec3> x = force_positions();
-  NodalStiffness whole(scene_.state.size(), &scene_.properties);
-  ContactSprings springs;
-  SpreadStiffness spread(surface_);
-  add_structures_to(whole);
-  present_contacts().add_to(springs, 0.0, x);
-  add_spread_to(whole, springs, spread, x);
-  SpringShares().add(springs, scene_.properties, whole);
-  return whole.critical_step(scene_.properties);
-}
-
-/// Without gases and viscous damping.
-/// contact::Motion Simulation::motion()param expected  with the contacts that may come, or else
-/// with those of now
-CriticalStep Simulation::structural_step(NodalStiffness& space, bool expected) const {
-  CriticalStep shortest;
-  const std::vector<Vec3> x = force_positions();
-  for_each_piece(space, [&] {
-    if (expected) add_expected_to(space);
-    add_structures_to(space);
-    if (!expected) present_contacts().add_to(space, 0.0, x);
-    const CriticalStep step = space.critical_step(scene_.properties);
-    if (step.dt < shortest.dt) shortest = step;
-  });
-  return shortest;
-}
-
-/// contact::Motion Simulation::motion()param longest  s, the step is not longer
+/// @param longest  s, the step is not longer
 void Simulation::advance(double longest) {
   require_time_step();
   yielding_bonds_.advance(bonds_, scene_.state, pool_);
@@ -362,7 +269,8 @@ void Simulation::advance(double longest) {
   sheet_facets_.tear(scene_.state.position, pool_);
   follow_breaks();
   contacts_->advance(motion(), scene_.planes, last_drift_, pool_, forces_);
-  if (chooses_time_step_ && is_look_due()) choose_time_step();
+  if (chooser_ != nullptr && chooser_->is_due(steps_, dt_, fastest_spin_))
+    dt_ = chooser_->choose(dt_, pace());
   drift_ = std::min(dt_, longest);
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
@@ -387,6 +295,282 @@ bool Simulation::step_until(double end) {
   const bool is_rest = left < (1.0 - kRest) * dt_;
   advance(is_rest ? left : dt_);
   return true;
+}
+
+/// Nodes that no element belongs to are not looked at, nor is any node while none is fast enough.
+void Simulation::check_motion() {
+  const bool is_slow =
+      fastest_ * drift_ <= least_furthest_ && fastest_spin_ * drift_ < std::numbers::pi;
+  if (is_slow) return;
+  if (const auto runaway = find_runaway(scene_.state, furthest_, drift_))
+    throw Diverged(*runaway, steps_, time_, scene_.state,
+                   fault_finder().fault(*runaway, {last_drift_, drift_}, suspect_));
+}
+
+/// Energy is made where motion is: the ledger is looked at when the kinetic energy has doubled, and
+/// now and then, for what has gone into friction at once.
+void Simulation::watch_energy() {
+  constexpr std::int64_t kStepsBetweenLedgers = 1024;
+  if (std::abs(work_.kinetic) <= 2.0 * most_kinetic_ && steps_ % kStepsBetweenLedgers != 0) return;
+  check_energy();
+}
+
+void Simulation::check_energy() {
+  const Energy now = energy();
+  const double made = std::max(now.made(), -now.kinetic);
+  most_kinetic_ = std::max(most_kinetic_, std::abs(now.kinetic));
+  most_accounted_ = std::max(most_accounted_, now.accounted());
+  double plane_speed = driven_planes_.largest_speed();
+  for (const contact::Plane& plane : scene_.planes)
+    plane_speed = std::max(plane_speed, plane.velocity.norm());
+  // What starts from rest under a load has its first kinetic energy, a negative one, as initial.
+  const double there = most_accounted_ + std::abs(now.initial) +
+                       prescribed_energy(scene_.state, scene_.properties, plane_speed);
+  if (made <= std::max(now.rounding, there)) return;
+  const Divergence divergence{Divergence::Sign::energy,
+                              most_energetic(scene_.state, scene_.properties), made, there};
+  // What makes the energy need not act any more when it has become too much.
+  FaultFinder finder = fault_finder();
+  const std::string suspect = finder.strongest_action(divergence, finder.state_before(last_drift_));
+  if (!suspect.empty()) suspect_ = suspect;
+  // A comparison with NaN is false.
+  if (made <= kFarMore * there) return;
+  // Where next to nothing moves yet, as in the first steps under a load, what steps cut off is many
+  // times the energy there is. All of it in one node would not take that further between two looks
+  // than anything may go in a step: nobody could see it.
+  const std::size_t i = index_of(divergence.node);
+  const double speed = std::sqrt(2.0 * made / scene_.properties.mass[i]);
+  if (static_cast<double>(kStepsBetweenLooks) * speed * last_drift_ <= furthest_[i]) return;
+  throw Diverged(divergence, std::max<std::int64_t>(0, steps_ - 1), time_ - last_drift_,
+                 scene_.state, finder.fault(divergence, {last_drift_, last_drift_}, suspect_));
+}
+
+FaultFinder Simulation::fault_finder() noexcept {
+  return {resistance(), *limits_, scene_.state, forces_, furthest_, pool_};
+}
+
+// Loads.
+
+/// m/s², at any time.
+double Simulation::largest_gravity() const noexcept {
+  return scene_.loads.gravity_factor.largest() * full_gravity_.norm();
+}
+
+void Simulation::apply_loads() {
+  follow_gravity();
+  loads_.look_at(yielding_bonds_);
+  const LoadWork work = loads_.act({time_, last_drift_, drift_}, scene_.state, forces_, pool_);
+  work_.external += work.external;
+  work_.damped += work.damped;
+  if (!driven_planes_.empty()) drive_planes();
+}
+
+void Simulation::drive_planes() {
+  std::fill(plane_reactions_.begin(), plane_reactions_.end(), Vec3::Zero());
+  contacts_->for_each_plane_force(
+      [&](std::size_t plane, const Vec3& force) { plane_reactions_[plane] += force; });
+  const auto press = [this](std::size_t plane, double way) { return plane_press(plane, way); };
+  work_.external +=
+      driven_planes_.act({time_, last_drift_, drift_}, plane_reactions_, press, scene_.planes);
+}
+
+/// Of all bodies that the plane would touch if it were a way (m) further along its normal.
+PlanePress Simulation::plane_press(std::size_t plane, double way) const {
+  PlanePress press;
+  contacts_->for_each_near_plane_pair(
+      way, scene_.planes, scene_.state.position,
+      [&](NodeId, std::size_t near, const contact::PairSprings& pair, double gap) {
+        if (near != plane || !(gap < way)) return;
+        press.force += pair.normal_force(gap - way);
+        press.stiffness += pair.normal_stiffness(gap - way);
+      });
+  return press;
+}
+
+/// Gravity that grows does work on what lies still: its energy is that of the gravity of now.
+///
+/// Kicks by g0 and g1 do the work (g0 + g1)/2 . (C1 - C0) over the drift between them, C the free
+/// moment; -g1.C1 + g0.C0 differs from it by -(g1 - g0).(C0 + C1)/2.
+void Simulation::follow_gravity() {
+  const Vec3 gravity = scene_.loads.gravity_factor.at(time_) * full_gravity_;
+  if (gravity == motion_.gravity) return;
+  const Vec3 mean = 0.5 * (free_moment(last_drift_) + free_moment(0.0)) - initial_moment_;
+  work_.external -= (gravity - motion_.gravity).dot(mean);
+  motion_.gravity = gravity;
+}
+
+/// Mass times place (kg m) of the free nodes along the axes they are free in, at a time before now
+/// (s).
+Vec3 Simulation::free_moment(double before) const {
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t i = 0; i < scene_.state.size(); ++i) {
+    const Vec3 position = scene_.state.position[i] - before * scene_.state.velocity[i];
+    moment +=
+        scene_.properties.mass[i] * free_axes(scene_.properties.held[i]).cwiseProduct(position);
+  }
+  return moment;
+}
+
+// Breaks.
+
+void Simulation::break_bond(std::size_t bond) {
+  require_index("break_bond", "bond", bond, bonds_.size());
+  broken_.bonds.push_back(bond);
+}
+
+void Simulation::break_cylinder(NodeId a, NodeId b) {
+  for (const NodeId node : {a, b}) require_node("break_cylinder", node, scene_.state.size());
+  const auto nodes = geometry::sorted(std::array{a, b});
+  const auto& all = scene_.elements.cylinders;
+  const bool is_there = std::any_of(all.begin(), all.end(), [&](const auto& cylinder) {
+    return geometry::sorted(cylinder.nodes) == nodes;
+  });
+  if (!is_there) {
+    throw std::invalid_argument("there is no cylinder between nodes " +
+                                std::to_string(static_cast<std::int32_t>(a)) + " and " +
+                                std::to_string(static_cast<std::int32_t>(b)) +
+                                "; elements() are those that are left");
+  }
+  broken_.cylinders.push_back(nodes);
+  for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
+    if (geometry::sorted(scene_.bonds[i].nodes) == nodes) broken_.bonds.push_back(i);
+  }
+}
+
+void Simulation::break_facet(const std::array<NodeId, 3>& nodes) {
+  for (const NodeId node : nodes) require_node("break_facet", node, scene_.state.size());
+  const auto corners = geometry::sorted(nodes);
+  const auto& all = scene_.elements.facets;
+  const bool is_there = std::any_of(all.begin(), all.end(), [&](const auto& facet) {
+    return geometry::sorted(facet.nodes) == corners;
+  });
+  if (!is_there) {
+    std::string text = "there is no facet on nodes";
+    for (const NodeId node : nodes) text += " " + std::to_string(static_cast<std::int32_t>(node));
+    throw std::invalid_argument(text + "; elements() are those that are left");
+  }
+  broken_.facets.push_back(corners);
+}
+
+/// Before the forces of a step: takes out what hangs on the bonds and sheets that break in it,
+/// because they yielded, tore or were asked to. Linear in the scene where elements are gone; that
+/// step may allocate.
+void Simulation::follow_breaks() {
+  const std::span<const std::size_t> yielded = yielding_bonds_.broken();
+  if (broken_.empty() && yielded.empty() && sheet_facets_.broken().empty()) return;
+  break_asked();
+  loads_.follow(bonds_);
+  if (surface_.cell_count() > 0) {
+    broken_.bonds.insert(broken_.bonds.end(), yielded.begin(), yielded.end());
+    for (const std::size_t facet : sheet_facets_.broken())
+      broken_.facets.push_back(sheet_facets_.nodes(facet));
+    if (take_out_broken(scene_, broken_, bonds_, sheet_facets_)) follow_surface();
+  }
+  broken_.clear();
+}
+
+/// Half of the work of a bond's last step is still done by its force of before, the other half is
+/// not: the mean of its energies before and after is lost.
+void Simulation::break_asked() {
+  for (const std::size_t bond : broken_.bonds) {
+    if (bonds_.is_broken(bond)) continue;
+    const double after = bonds_.energy_of(bond, scene_.state);
+    broken_energy_ += 0.5 * (bonds_.break_bond(bond) + after);
+  }
+  for (const auto& nodes : broken_.facets) {
+    for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
+      if (geometry::sorted(sheet_facets_.nodes(i)) == nodes) sheet_facets_.break_facet(i);
+    }
+  }
+}
+
+/// The scene's elements have become fewer. Elastic energies of contacts before and after are
+/// compared half a drift ago, for the same reason as those of bonds.
+void Simulation::follow_surface() {
+  geometry::Surface before = surface_.left_with(scene_.elements.cylinders, scene_.elements.facets);
+  std::swap(before, surface_);
+  const geometry::SurfaceChange change(before, surface_);
+  std::vector<Vec3> at = scene_.state.position;
+  for (std::size_t i = 0; i < at.size(); ++i) at[i] -= 0.5 * last_drift_ * scene_.state.velocity[i];
+  contacts_->follow(change, motion(), at, pool_);
+  loads_.follow(change);
+}
+
+// What can be read out between steps.
+
+std::vector<Vec3> Simulation::force_positions() const {
+  return positions_before(scene_.state, last_drift_);
+}
+
+Vec3 Simulation::force_point(std::size_t plane) const {
+  require_index("force_point", "plane", plane, scene_.planes.size());
+  return scene_.planes[plane].point - last_drift_ * scene_.planes[plane].velocity;
+}
+
+std::vector<contact::ContactRow> Simulation::list_contacts() {
+  contacts_->number();
+  return contact_rows();
+}
+
+std::vector<contact::ContactRow> Simulation::contact_rows() const {
+  std::vector<contact::ContactRow> rows;
+  contacts_->for_each_row(force_positions(),
+                          [&](const contact::ContactRow& row) { rows.push_back(row); });
+  return rows;
+}
+
+ForceAndMoment Simulation::plane_reaction(std::size_t plane) const {
+  require_index("plane_reaction", "plane", plane, scene_.planes.size());
+  const Vec3 about = force_point(plane);
+  ForceAndMoment sum;
+  contacts_->for_each_plane_row(force_positions(), [&](const contact::ContactRow& row) {
+    if (static_cast<std::size_t>(row.b.index) == plane)
+      sum.add(row.point - about, row.force(), row.moment);
+  });
+  return sum;
+}
+
+ForceAndMoment Simulation::support_reaction(std::span<const NodeId> nodes,
+                                            const Vec3& about) const {
+  for (const NodeId node : nodes) require_node("support_reaction", node, scene_.state.size());
+  const std::vector<Vec3> positions = force_positions();
+  return dynamics::support_reaction(nodes, {positions, forces_, scene_.properties, motion_.gravity},
+                                    about);
+}
+
+double Simulation::unbalanced_force_ratio() const {
+  const std::vector<Vec3> positions = force_positions();
+  MeanMagnitude carried;
+  contacts_->for_each_row(positions,
+                          [&](const contact::ContactRow& row) { carried.add(row.force().norm()); });
+  for (std::size_t i = 0; i < bonds_.size(); ++i) {
+    if (bonds_.is_broken(i)) continue;
+    const BondForces forces = bond_forces(i);
+    carried.add(std::hypot(forces.tension, forces.shear.norm()));
+  }
+  for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
+    if (sheet_facets_.is_broken(i)) continue;
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      carried.add(sheet_facets_.corner_force(i, corner).norm());
+  }
+  return dynamics::unbalanced_force_ratio({positions, forces_, scene_.properties, motion_.gravity},
+                                          carried.value());
+}
+
+std::vector<FacetTraction> Simulation::facet_tractions() {
+  NodeForces forces(scene_.state.size());
+  contacts_->add_surface_forces(forces, pool_);
+  return dynamics::facet_tractions(scene_.elements.facets, forces.force, force_positions());
+}
+
+BondForces Simulation::bond_forces(std::size_t bond) const {
+  require_index("bond_forces", "bond", bond, bonds_.size());
+  return yielding_bonds_.forces_of(bond, bonds_, scene_.state);
+}
+
+BondStress Simulation::bond_stress(std::size_t bond) const {
+  require_index("bond_stress", "bond", bond, bonds_.size());
+  return dynamics::bond_stress(bond_forces(bond), scene_.bonds[bond].section);
 }
 
 }  // namespace plekton::dynamics

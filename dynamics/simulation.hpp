@@ -13,8 +13,6 @@
 #include "dynamics/readout/facet_traction.hpp"
 #include "dynamics/readout/reactions.hpp"
 #include "dynamics/scene.hpp"
-#include "dynamics/spread_stiffness.hpp"
-#include "dynamics/spring_shares.hpp"
 #include "dynamics/step_cause.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/broken_elements.hpp"
@@ -35,7 +33,7 @@ namespace plekton::dynamics {
 
 struct SimulationOptions {
   double time_step = 0.0;  ///< s; 0 chooses one as it goes: kSafety times the critical step with
-                           ///< the contacts of now and those that are near (simulation_step.cpp),
+                           ///< the contacts of now and those that are near (step_chooser.hpp),
                            ///< shorter while something is fast (dynamics/motion_step.hpp)
   MotionOptions motion;
   double skin =
@@ -45,20 +43,11 @@ struct SimulationOptions {
   bool self_contact = true;  ///< whether a structure may touch itself where it folds
 };
 
-/// A chosen time step is this part of the critical one.
-constexpr double kSafety = 0.65;
-/// A chosen step grows by no more than this in kStepsBetweenLooks steps: the leapfrog keeps
-/// energies while its step changes slowly.
-constexpr double kGrowth = 1.1;
-/// The way that nodes may go until a chosen step is looked at again is below this part of the
-/// smallest radius, unless a single step is longer. The longer it is the more contacts count that
-/// are still to come, and the shorter it is the more often they are counted.
-constexpr double kLongestWay = 0.05;
-/// A given time step must not be above this part of the critical one.
-constexpr double kLargestStep = 0.8;
-
-class StrongestAction;
-struct PresentContacts;
+class FaultFinder;
+class StepChooser;
+class StepLimits;
+struct Pace;
+struct Resistance;
 
 /// A scene in motion. The state belongs to the simulation; what is given out are views of it.
 ///
@@ -73,6 +62,7 @@ class Simulation {
              const contact::ContactModel& model = contact::linear_frictional());
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
+  ~Simulation();
 
   /// One time step. @throws Diverged; std::logic_error if none was given where nothing sets one
   void step() { advance(std::numeric_limits<double>::infinity()); }
@@ -178,10 +168,10 @@ class Simulation {
   CriticalStep present_critical_step() const;
   /// What the present step has to keep to: a given one to contacts that may come too.
   CriticalStep limit_of_step() const {
-    return chooses_time_step_ ? present_critical_step() : critical_step();
+    return chooses_time_step() ? present_critical_step() : critical_step();
   }
   /// Whether the step is chosen as it goes, and not given.
-  bool chooses_time_step() const noexcept { return chooses_time_step_; }
+  bool chooses_time_step() const noexcept { return chooser_ != nullptr; }
   /// What limits critical_step().
   StepCause critical_cause() const;
   /// Critical time step of the structures and contacts as they are now, by the frequencies of the
@@ -209,37 +199,13 @@ class Simulation {
   void account(const StepWork& work, const StepLengths& lengths);
   void check_motion();
   void watch_energy();
-  std::string fault(const Divergence& divergence, double drift);
-  double limit_exceeded_before(const Divergence& divergence, double drift) const noexcept;
-  NodeState state_before(double drift) const;
-  double critical_step_at(NodeState& state, bool expected);
-  std::string strongest_action(const Divergence& divergence, const NodeState& state);
-  void consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action);
-  bool has_node(const contact::ContactBody& body, NodeId node) const;
-  bool is_of_structure(const contact::ContactBody& body, NodeId node) const;
-  void describe(const contact::ContactRow& row, std::ostream& text) const;
-  void set_first_step(double asked, NodalStiffness space);
+  FaultFinder fault_finder() noexcept;
+  void set_first_step(double asked);
   void require_time_step() const;
-  void choose_time_step();
-  double motion_step() const noexcept;
+  Resistance resistance() const noexcept;
+  Pace pace() const noexcept;
   void move_planes();
   double rounding_energy() const;
-  void add_expected_to(NodalStiffness& stiffness) const;
-  void add_structures_to(NodalStiffness& stiffness) const;
-  PresentContacts present_contacts() const noexcept;
-  void add_near_contacts_to(ContactSprings& springs, double margin);
-  void add_near_structures_to(ContactSprings& springs, double margin);
-  void add_spread_to(NodalStiffness& stiffness, ContactSprings& springs, SpreadStiffness& spread,
-                     geometry::Positions x) const;
-  CriticalStep near_step(double margin);
-  bool is_look_due() const noexcept;
-  double largest_speed_now() const noexcept;
-  template <class Look>
-  void for_each_piece(NodalStiffness& space, const Look& look) const;
-  CriticalStep critical_step(NodalStiffness& space) const;
-  CriticalStep structural_step(NodalStiffness& space, bool expected) const;
-  CriticalStep present_step(NodalStiffness& space) const;
-  void consider_structures(StiffestPart& parts) const;
 
   Scene scene_;
   MotionOptions motion_;
@@ -256,28 +222,11 @@ class Simulation {
   double broken_energy_ = 0.0;         ///< J, of bonds that were asked for
   NodeForces forces_;
   Leapfrog leapfrog_;
-  std::vector<double> radii_;  ///< m, of the ball around each node; 0 where there is none
-  std::vector<IsotropicStiffness> expected_;  ///< of the contacts that may come, by node
-  NodalStiffness space_{0};  ///< to choose a time step without allocation; empty if one was given
-  ContactSprings springs_;   ///< of the last look at the step
-  SpringShares shares_;      ///< working space of a look
-  SpreadStiffness spread_;   ///< likewise; goes on from look to look
-  std::vector<IsotropicStiffness> of_structures_;  ///< by node, of a contact with another structure
-  std::vector<char> is_counted_;                   ///< by node, working space of a look
-  /// What is known from the last look at the step to the next one.
-  struct LastLook {
-    std::int64_t lists = 0;    ///< of contacts::Contacts::list_count()
-    double way = 0.0;          ///< m, no node or plane has gone further since
-    double longest_way = 0.0;  ///< m, for which it is good
-  };
-  LastLook look_;
-  double way_in_a_step_ = 0.0;  ///< m, of any node or plane, in the last step
+  std::unique_ptr<StepLimits> limits_;
+  std::unique_ptr<StepChooser> chooser_;  ///< none if the step was given
   double dt_ = 0.0;
-  double stable_step_ = std::numeric_limits<double>::infinity();     ///< s, see choose_time_step()
-  double collision_step_ = std::numeric_limits<double>::infinity();  ///< s, ExpectedContacts
   double drift_ = 0.0;       ///< s, length of the drift under way
   double last_drift_ = 0.0;  ///< s, length of the last step; 0 before the first
-  bool chooses_time_step_ = false;
   double time_ = 0.0;
   std::int64_t steps_ = 0;
   double fastest_ = std::numeric_limits<double>::infinity();  ///< m/s, after the last step

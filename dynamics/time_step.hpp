@@ -12,6 +12,11 @@
 
 namespace plekton::dynamics {
 
+/// A chosen time step is this part of the critical one.
+constexpr double kSafety = 0.65;
+/// A given time step must not be above this part of the critical one.
+constexpr double kLargestStep = 0.8;
+
 /// Largest time step at which the leapfrog is stable, or a little less, and who limits it.
 struct CriticalStep {
   double dt =

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/simulation.hpp"
+#include "dynamics/fault_finder.hpp"
+
 #include "geometry/product_features.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
-#include <string>
+#include <utility>
 
-/// How a simulation finds that it has become meaningless, and who is at fault.
 namespace plekton::dynamics {
 
 /// The contact or element that acts most on a node, as far as has been looked.
@@ -38,73 +38,27 @@ class StrongestAction {
   std::string text_;
 };
 
-/// Nodes that no element belongs to are not looked at, nor is any node while none is fast enough.
-void Simulation::check_motion() {
-  const bool is_slow =
-      fastest_ * drift_ <= least_furthest_ && fastest_spin_ * drift_ < std::numbers::pi;
-  if (is_slow) return;
-  if (const auto runaway = find_runaway(scene_.state, furthest_, drift_))
-    throw Diverged(*runaway, steps_, time_, scene_.state, fault(*runaway, drift_));
-}
-
-/// Energy is made where motion is: the ledger is looked at when the kinetic energy has doubled, and
-/// now and then, for what has gone into friction at once.
-void Simulation::watch_energy() {
-  constexpr std::int64_t kStepsBetweenLedgers = 1024;
-  if (std::abs(work_.kinetic) <= 2.0 * most_kinetic_ && steps_ % kStepsBetweenLedgers != 0) return;
-  check_energy();
-}
-
-void Simulation::check_energy() {
-  const Energy now = energy();
-  const double made = std::max(now.made(), -now.kinetic);
-  most_kinetic_ = std::max(most_kinetic_, std::abs(now.kinetic));
-  most_accounted_ = std::max(most_accounted_, now.accounted());
-  double plane_speed = driven_planes_.largest_speed();
-  for (const contact::Plane& plane : scene_.planes)
-    plane_speed = std::max(plane_speed, plane.velocity.norm());
-  // What starts from rest under a load has its first kinetic energy, a negative one, as initial.
-  const double there = most_accounted_ + std::abs(now.initial) +
-                       prescribed_energy(scene_.state, scene_.properties, plane_speed);
-  if (made <= std::max(now.rounding, there)) return;
-  const Divergence divergence{Divergence::Sign::energy,
-                              most_energetic(scene_.state, scene_.properties), made, there};
-  // What makes the energy need not act any more when it has become too much.
-  const std::string suspect = strongest_action(divergence, state_before(last_drift_));
-  if (!suspect.empty()) suspect_ = suspect;
-  // A comparison with NaN is false.
-  if (made <= kFarMore * there) return;
-  // Where next to nothing moves yet, as in the first steps under a load, what steps cut off is many
-  // times the energy there is. All of it in one node would not take that further between two looks
-  // than anything may go in a step: nobody could see it.
-  const std::size_t i = index_of(divergence.node);
-  const double speed = std::sqrt(2.0 * made / scene_.properties.mass[i]);
-  if (static_cast<double>(kStepsBetweenLooks) * speed * last_drift_ <= furthest_[i]) return;
-  throw Diverged(divergence, std::max<std::int64_t>(0, steps_ - 1), time_ - last_drift_,
-                 scene_.state, fault(divergence, last_drift_));
-}
-
-/// Who is at fault, and what to do about it.
-/// @param drift  s, that the last step has moved the nodes by
-std::string Simulation::fault(const Divergence& divergence, double drift) {
+std::string FaultFinder::fault(const Divergence& divergence, const Drifts& drifts,
+                               const std::string& suspect) {
   std::ostringstream text;
-  if (const double limit = limit_exceeded_before(divergence, drift); limit > 0.0) {
+  if (const double limit = limit_exceeded_before(divergence, drifts); limit > 0.0) {
     text << "it was that fast before the step: that was given or is prescribed; use a lower speed, "
             "or a time step below "
          << limit << " s (or \"auto\")";
     return text.str();
   }
+  const double drift = drifts.drift;
   NodeState before = state_before(drift);
   const std::string who = strongest_action(divergence, before);
   if (!who.empty())
     text << who;
-  else if (divergence.sign == Divergence::Sign::energy && !suspect_.empty())
-    text << "nothing acts on it now; before, " << suspect_;
+  else if (divergence.sign == Divergence::Sign::energy && !suspect.empty())
+    text << "nothing acts on it now; before, " << suspect;
   else
     text << "no contact and no element acts on it, but loads may";
   text << "; the time step of " << drift << " s is ";
-  const double usual = critical_step_at(before, true);
-  const double critical = critical_step_at(before, false);
+  const double usual = critical_step_at(before, drifts.last, true);
+  const double critical = critical_step_at(before, drifts.last, false);
   if (drift > kLargestStep * usual) {
     text << drift / usual << " of the critical one: use a smaller time step (or \"auto\")";
     return text.str();
@@ -121,28 +75,26 @@ std::string Simulation::fault(const Divergence& divergence, double drift) {
 
 /// Where a node moves or spins too fast, and would have without the forces of the last step: the
 /// longest step (s) in which that could be followed; else 0.
-double Simulation::limit_exceeded_before(const Divergence& divergence,
-                                         double drift) const noexcept {
+double FaultFinder::limit_exceeded_before(const Divergence& divergence,
+                                          const Drifts& drifts) const noexcept {
   if (divergence.sign == Divergence::Sign::energy) return 0.0;
   const std::size_t i = index_of(divergence.node);
-  const NodeProperties& properties = scene_.properties;
+  const NodeProperties& properties = of_.scene.properties;
   const bool spins = divergence.sign == Divergence::Sign::spin;
-  const Vec3& now = spins ? scene_.state.angular_velocity[i] : scene_.state.velocity[i];
+  const Vec3& now = spins ? state_->angular_velocity[i] : state_->velocity[i];
   const Vec3 free = spins ? free_turns(properties.held[i]) : free_axes(properties.held[i]);
   const double inertia = spins ? properties.inertia[i] : properties.mass[i];
   Vec3 before = now;
   if (free.maxCoeff() > 0.0) {
-    const Vec3& force = spins ? forces_.torque[i] : forces_.force[i];
-    before -= 0.5 * (last_drift_ + drift) / inertia * free.cwiseProduct(force);
+    const Vec3& force = spins ? forces_->torque[i] : forces_->force[i];
+    before -= 0.5 * (drifts.last + drifts.drift) / inertia * free.cwiseProduct(force);
   }
   const double most = spins ? std::numbers::pi : furthest_[i];
-  return before.norm() * drift > most ? most / now.norm() : 0.0;
+  return before.norm() * drifts.drift > most ? most / now.norm() : 0.0;
 }
 
-/// Where the forces of the last step were found.
-/// @param drift  s, that the last step has moved the nodes by
-NodeState Simulation::state_before(double drift) const {
-  NodeState before = scene_.state;
+NodeState FaultFinder::state_before(double drift) const {
+  NodeState before = *state_;
   for (std::size_t i = 0; i < before.size(); ++i) {
     before.position[i] -= drift * before.velocity[i];
     before.orientation[i] = turned(before.orientation[i], before.angular_velocity[i], -drift);
@@ -151,26 +103,24 @@ NodeState Simulation::state_before(double drift) const {
 }
 
 /// s, of the structures and contacts at a state; with the velocities of now.
+/// @param last      s, see Drifts
 /// @param expected  with the contacts that may come, or else with those of now
-double Simulation::critical_step_at(NodeState& state, bool expected) {
-  std::swap(scene_.state, state);
-  NodalStiffness space(scene_.state.size(), &scene_.properties);
-  const CriticalStep step = expected ? structural_step(space, true) : present_step(space);
-  const double critical = loads_.critical_step(step.dt, scene_);
-  std::swap(scene_.state, state);
-  return critical;
+double FaultFinder::critical_step_at(NodeState& state, double last, bool expected) {
+  std::swap(*state_, state);
+  const std::vector<Vec3> x = positions_before(*state_, last);
+  const CriticalStep step = expected ? limits_->coming(x) : limits_->present(x);
+  std::swap(*state_, state);
+  return step.dt;
 }
 
-/// What acted most on the node, and how.
-/// @param state  where the forces were found
-std::string Simulation::strongest_action(const Divergence& divergence, const NodeState& state) {
+std::string FaultFinder::strongest_action(const Divergence& divergence, const NodeState& state) {
   const NodeId node = divergence.node;
   StrongestAction action(divergence.sign == Divergence::Sign::spin);
   consider_contacts(node, state.position, action);
-  for (std::size_t i = 0; i < bonds_.size(); ++i) {
-    const auto nodes = bonds_.nodes(i);
-    if (bonds_.is_broken(i) || (nodes[0] != node && nodes[1] != node)) continue;
-    const BondForces forces = bonds_.forces_of(i, state);
+  for (std::size_t i = 0; i < of_.bonds.size(); ++i) {
+    const auto nodes = of_.bonds.nodes(i);
+    if (of_.bonds.is_broken(i) || (nodes[0] != node && nodes[1] != node)) continue;
+    const BondForces forces = of_.bonds.forces_of(i, state);
     const Vec3& moment = nodes[0] == node ? forces.moment_a : forces.moment_b;
     action.consider(std::hypot(forces.tension, forces.shear.norm()),
                     std::hypot(moment.norm(), forces.torque), [&](std::ostream& text) {
@@ -178,15 +128,16 @@ std::string Simulation::strongest_action(const Divergence& divergence, const Nod
                            << index_of(nodes[1]) << ")";
                     });
   }
-  for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
-    if (sheet_facets_.is_broken(i)) continue;
-    const auto nodes = sheet_facets_.nodes(i);
+  for (std::size_t i = 0; i < of_.sheet_facets.size(); ++i) {
+    if (of_.sheet_facets.is_broken(i)) continue;
+    const auto nodes = of_.sheet_facets.nodes(i);
     for (std::size_t corner = 0; corner < 3; ++corner) {
       if (nodes[corner] != node) continue;
-      action.consider(sheet_facets_.corner_force(i, corner).norm(), 0.0, [&](std::ostream& text) {
-        text << "sheet facet " << i << " (nodes " << index_of(nodes[0]) << ", "
-             << index_of(nodes[1]) << ", " << index_of(nodes[2]) << ")";
-      });
+      action.consider(of_.sheet_facets.corner_force(i, corner).norm(), 0.0,
+                      [&](std::ostream& text) {
+                        text << "sheet facet " << i << " (nodes " << index_of(nodes[0]) << ", "
+                             << index_of(nodes[1]) << ", " << index_of(nodes[2]) << ")";
+                      });
     }
   }
   return action.text();
@@ -194,16 +145,16 @@ std::string Simulation::strongest_action(const Divergence& divergence, const Nod
 
 /// Of a patch of a sphere on a surface that has the node elsewhere than where it is deepest, what
 /// it does to the node is not known: it is at most that of all of these together.
-void Simulation::consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action) {
+void FaultFinder::consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action) {
   const auto describe_row = [this](const contact::ContactRow& row) {
     return [this, &row](std::ostream& text) { describe(row, text); };
   };
-  contacts_->for_each_structure_row_on(
+  of_.contacts.for_each_structure_row_on(
       node, x, [&](const contact::ContactRow& row, const Vec3& force, const Vec3& torque) {
         action.consider(force.norm(), torque.norm(), describe_row(row));
       });
-  NodeForces all(scene_.state.size());
-  contacts_->add_sphere_surface_forces(all, pool_);
+  NodeForces all(state_->size());
+  of_.contacts.add_sphere_surface_forces(all, *pool_);
   const double most_force = all.force[index_of(node)].norm();
   const double most_torque = all.torque[index_of(node)].norm();
   const auto consider = [&](const contact::ContactRow& row) {
@@ -218,34 +169,34 @@ void Simulation::consider_contacts(NodeId node, geometry::Positions x, Strongest
       action.consider(std::min(force, most_force), std::min(torque, most_torque),
                       describe_row(row));
   };
-  contacts_->for_each_row(x, consider);
+  of_.contacts.for_each_row(x, consider);
 }
 
-bool Simulation::is_of_structure(const contact::ContactBody& body, NodeId node) const {
+bool FaultFinder::is_of_structure(const contact::ContactBody& body, NodeId node) const {
   return body.kind == contact::BodyKind::structure &&
-         geometry::StructureId{body.index} == surface_.structure_of(node);
+         geometry::StructureId{body.index} == of_.surface.structure_of(node);
 }
 
-bool Simulation::has_node(const contact::ContactBody& body, NodeId node) const {
+bool FaultFinder::has_node(const contact::ContactBody& body, NodeId node) const {
   if (body.kind == contact::BodyKind::sphere)
-    return scene_.elements.spheres[static_cast<std::size_t>(body.index)].nodes[0] == node;
+    return of_.scene.elements.spheres[static_cast<std::size_t>(body.index)].nodes[0] == node;
   if (body.kind == contact::BodyKind::plane || body.feature.id < 0) return false;
-  const geometry::FeatureNodes nodes = geometry::nodes_of(surface_, body.feature);
+  const geometry::FeatureNodes nodes = geometry::nodes_of(of_.surface, body.feature);
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
 }
 
 /// As in "the contact of sphere 3 (node 40) with the edge (nodes 7, 8) of structure 0 at (0 0 1) m,
 /// 0.002 m deep".
-void Simulation::describe(const contact::ContactRow& row, std::ostream& text) const {
+void FaultFinder::describe(const contact::ContactRow& row, std::ostream& text) const {
   const auto name = [&](const contact::ContactBody& body) {
     if (body.kind == contact::BodyKind::plane) {
       text << "plane " << body.index;
     } else if (body.kind == contact::BodyKind::sphere) {
-      const auto& sphere = scene_.elements.spheres[static_cast<std::size_t>(body.index)];
+      const auto& sphere = of_.scene.elements.spheres[static_cast<std::size_t>(body.index)];
       text << "sphere " << body.index << " (node " << index_of(sphere.nodes[0]) << ')';
     } else {
       constexpr const char* kKinds[] = {"node ", "the edge (nodes ", "the facet (nodes "};
-      const geometry::FeatureNodes nodes = geometry::nodes_of(surface_, body.feature);
+      const geometry::FeatureNodes nodes = geometry::nodes_of(of_.surface, body.feature);
       text << kKinds[static_cast<std::size_t>(body.feature.kind)];
       for (const NodeId& node : nodes)
         text << (&node == nodes.begin() ? "" : ", ") << index_of(node);
