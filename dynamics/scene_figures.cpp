@@ -47,23 +47,6 @@ double chosen_skin(const Scene& scene, double asked) {
   return std::isfinite(radius) ? 0.2 * radius : 1.0;
 }
 
-const Scene& checked(const Scene& scene, const SimulationOptions& options) {
-  scene.check();
-  std::ostringstream problems;
-  if (!(options.time_step >= 0.0))
-    problems << "time step " << options.time_step << " s: must be 0 (choose) or more\n";
-  if (!(options.motion.damping >= 0.0 && options.motion.damping < 1.0)) {
-    problems << "numerical damping " << options.motion.damping
-             << ": must be at least 0 and below 1\n";
-  }
-  if (!(options.skin >= 0.0))
-    problems << "skin " << options.skin << " m: must be 0 (choose) or more\n";
-  if (!options.motion.gravity.allFinite()) problems << "gravity is not finite\n";
-  if (options.threads < 1) problems << "threads " << options.threads << ": must be at least 1\n";
-  geometry::throw_if_any(problems);
-  return scene;
-}
-
 std::vector<double> node_radii(const Scene& scene, const geometry::Surface& surface) {
   std::vector<double> radii(scene.state.size(), 0.0);
   for (std::size_t n = 0; n < radii.size(); ++n) {

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/simulation.hpp"
+#include "dynamics/scene.hpp"
 
 #include <vector>
 
 /// What a simulation has to know of its scene before the first step, whatever its contact law.
 namespace plekton::dynamics {
-
-/// @returns the scene
-/// @throws std::invalid_argument listing every problem of the scene or the options
-const Scene& checked(const Scene& scene, const SimulationOptions& options);
 
 /// m, by node: what it may move in one step before nothing could notice it any more. A sphere its
 /// own radius, so that it cannot jump over what it should touch; nodes of structures the largest

@@ -9,6 +9,7 @@
 #include "dynamics/step_limits.hpp"
 #include "dynamics/structure/broken_elements.hpp"
 #include "geometry/node_sets.hpp"
+#include "geometry/problems.hpp"
 
 #include <algorithm>
 #include <array>
@@ -54,6 +55,25 @@ contact::ContactScene contact_scene(const Scene& scene, const geometry::Surface&
           .meets_planes = free_nodes(scene.properties),
           .rest = options.self_contact ? geometry::Positions(scene.state.position)
                                        : geometry::Positions()};
+}
+
+/// @returns the scene
+/// @throws std::invalid_argument listing every problem of the scene or the options
+const Scene& checked(const Scene& scene, const SimulationOptions& options) {
+  scene.check();
+  std::ostringstream problems;
+  if (!(options.time_step >= 0.0))
+    problems << "time step " << options.time_step << " s: must be 0 (choose) or more\n";
+  if (!(options.motion.damping >= 0.0 && options.motion.damping < 1.0)) {
+    problems << "numerical damping " << options.motion.damping
+             << ": must be at least 0 and below 1\n";
+  }
+  if (!(options.skin >= 0.0))
+    problems << "skin " << options.skin << " m: must be 0 (choose) or more\n";
+  if (!options.motion.gravity.allFinite()) problems << "gravity is not finite\n";
+  if (options.threads < 1) problems << "threads " << options.threads << ": must be at least 1\n";
+  geometry::throw_if_any(problems);
+  return scene;
 }
 
 /// Into how many pieces the nodes are cut when their stiffness is looked at once: less space, as

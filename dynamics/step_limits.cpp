@@ -6,6 +6,7 @@
 #include "dynamics/expected_contacts.hpp"
 #include "dynamics/scene_figures.hpp"
 #include "dynamics/spring_shares.hpp"
+#include "dynamics/structure/beam_stiffness.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ void StepLimits::add_expected(NodalStiffness& stiffness) const {
 void StepLimits::add_structures(NodalStiffness& stiffness) const {
   for (std::size_t i = 0; i < of_.scene.bonds.size(); ++i) {
     if (!of_.bonds.is_broken(i))
-      stiffness.add_beam(of_.scene.bonds[i], of_.scene.state, of_.bonds.spring(i).length);
+      add_beam(stiffness, of_.scene.bonds[i], of_.scene.state, of_.bonds.spring(i).length);
   }
   of_.sheet_facets.add_to(stiffness, of_.scene.state);
   of_.loads.add_springs_to(stiffness);
@@ -192,7 +193,7 @@ void StepLimits::consider_structures(StiffestPart& parts) const {
   for (std::size_t i = 0; i < of_.scene.bonds.size(); ++i) {
     if (of_.bonds.is_broken(i) || !holds_it(of_.scene.bonds[i].nodes)) continue;
     parts.consider({StepPart::Kind::bond, i}, [&](NodalStiffness& stiffness) {
-      stiffness.add_beam(of_.scene.bonds[i], of_.scene.state, of_.bonds.spring(i).length);
+      add_beam(stiffness, of_.scene.bonds[i], of_.scene.state, of_.bonds.spring(i).length);
     });
   }
   for (std::size_t i = 0; i < of_.sheet_facets.size(); ++i) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dynamics/node_state.hpp"
-#include "dynamics/structure/beam_bond.hpp"
 #include "geometry/proximity.hpp"
 
 #include <array>
@@ -16,6 +15,11 @@ namespace plekton::dynamics {
 constexpr double kSafety = 0.65;
 /// A given time step must not be above this part of the critical one.
 constexpr double kLargestStep = 0.8;
+
+/// c n n + t (I - n n), n a unit vector.
+inline Mat3 along_and_across(const Vec3& n, double along, double across) noexcept {
+  return across * Mat3::Identity() + ((along - across) * n) * n.transpose();
+}
 
 /// Largest time step at which the leapfrog is stable, or a little less, and who limits it.
 struct CriticalStep {
@@ -140,20 +144,6 @@ class NodalStiffness {
   void set_zero() noexcept;
 
   void add(NodeId node, const IsotropicStiffness& springs) noexcept;
-
-  /// Adds a bond as long as it is now, its nodes turned little from the chord (less than 45
-  /// degrees). Tension is included: it resists turning of the chord. So a bond may shorten its step
-  /// as it stretches. A bond of length 0 counts as long as at rest.
-  ///
-  /// Let gamma = 4 rho² / L², rho² = 2/5 A / pi the square of a node's radius of gyration: the
-  /// scale at which translation and rotation limit an unloaded beam alike. For equal beams in a
-  /// chain this gives omega² <= (E / density) / L² (7.5 + 12 A / (pi L²)), which is what Fried's
-  /// theorem gives for single elements, exact for slender ones.
-  /// @param rest_length  m, where its tension begins: the bond's length, or what yielding made it
-  void add_beam(const BeamBond& bond, const NodeState& state, double rest_length);
-  void add_beam(const BeamBond& bond, const NodeState& state) {
-    add_beam(bond, state, bond.length);
-  }
 
   /// Adds a contact between two balls.
   void add_pair(NodeId a, NodeId b, const ContactStiffness& contact);

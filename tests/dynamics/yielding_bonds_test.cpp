@@ -2,6 +2,7 @@
 #include "dynamics/structure/yielding_bonds.hpp"
 
 #include "dynamics/simulation.hpp"
+#include "dynamics/structure/beam_stiffness.hpp"
 #include "tests/support/yielding_lattice.hpp"
 
 #include <gtest/gtest.h>
@@ -158,8 +159,8 @@ TEST(YieldingBonds, LimitTheStepFromWhereTheyAreAtRestNow) {
   dynamics::NodalStiffness by_rest(simulation.state().size());
   dynamics::NodalStiffness first(simulation.state().size());
   for (std::size_t i = 0; i < scene.bonds.size(); ++i) {
-    by_rest.add_beam(scene.bonds[i], simulation.state(), simulation.bonds().spring(i).length);
-    first.add_beam(scene.bonds[i], simulation.state());
+    add_beam(by_rest, scene.bonds[i], simulation.state(), simulation.bonds().spring(i).length);
+    add_beam(first, scene.bonds[i], simulation.state());
   }
   EXPECT_DOUBLE_EQ(simulation.critical_step().dt,
                    by_rest.critical_step(simulation.properties()).dt);
