@@ -2,18 +2,21 @@
 #include "contact/elimination.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 namespace plekton::contact {
 namespace {
 
-constexpr std::uint32_t kLeft = 0xffffffffU;  ///< of a vertex without a row
+constexpr std::uint32_t kLeft = 0xffffffffU;  ///< of a vertex without a row, or in no star
 
 }  // namespace
 
 void Elimination::plan(std::uint32_t vertex_count, std::span<const Link> links) {
   if (neighbours_.size() < vertex_count) neighbours_.resize(vertex_count);
-  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) neighbours_[vertex].clear();
+  if (stars_.size() < vertex_count) stars_.resize(vertex_count);
+  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
+    neighbours_[vertex].clear();
+    stars_[vertex].clear();
+  }
   for (const Link& link : links) {
     neighbours_[link.a].push_back(link.b);
     neighbours_[link.b].push_back(link.a);
@@ -25,29 +28,32 @@ void Elimination::plan(std::uint32_t vertex_count, std::span<const Link> links) 
   }
   order_vertices(vertex_count);
   place_links(links);
+  std::size_t joins = links.size();
+  for (const Row& row : rows_) joins += std::size_t{row.count} * (row.count - 1) / 2;
+  if (joins_.size() < joins) joins_.resize(joins);
 }
 
 void Elimination::order_vertices(std::uint32_t vertex_count) {
   row_of_.assign(vertex_count, kLeft);
+  star_of_.assign(vertex_count, kLeft);
   rows_.clear();
   columns_.clear();
-  for (auto& list : by_count_) list.clear();
-  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) queue(vertex);
-  for (std::size_t count = 0; count < by_count_.size();) {
-    auto& list = by_count_[count];
+  beside_.clear();
+  degree_.resize(vertex_count);
+  for (auto& list : by_degree_) list.clear();
+  for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex)
+    queue(vertex, neighbours_[vertex].size());
+  for (std::size_t degree = 0; degree < by_degree_.size();) {
+    auto& list = by_degree_[degree];
     if (list.empty()) {
-      ++count;
+      ++degree;
       continue;
     }
     const std::uint32_t vertex = list.back();
     list.pop_back();
-    if (row_of_[vertex] != kLeft || neighbours_[vertex].size() != count)
-      continue;  // an older entry
+    if (row_of_[vertex] != kLeft || degree_[vertex] != degree) continue;  // an older entry
     add_row(vertex);
-    for (const std::uint32_t other : neighbours_[vertex]) {
-      queue(other);
-      count = std::min(count, neighbours_[other].size());
-    }
+    degree = std::min(degree, update_degrees(rows_.back()));
   }
   for (const Row& row : rows_) {
     const auto columns = std::span(columns_).subspan(row.first, row.count);
@@ -56,31 +62,63 @@ void Elimination::order_vertices(std::uint32_t vertex_count) {
   }
 }
 
-void Elimination::queue(std::uint32_t vertex) {
-  const std::size_t count = neighbours_[vertex].size();
-  if (by_count_.size() <= count) by_count_.resize(count + 1);
-  by_count_[count].push_back(vertex);
+void Elimination::queue(std::uint32_t vertex, std::size_t degree) {
+  degree_[vertex] = degree;
+  if (by_degree_.size() <= degree) by_degree_.resize(degree + 1);
+  by_degree_[degree].push_back(vertex);
 }
 
+/// Its neighbours are those by links, and the others of the stars that it is in; these stars are in
+/// its own from now on.
 void Elimination::add_row(std::uint32_t vertex) {
-  const auto& list = neighbours_[vertex];
-  row_of_[vertex] = static_cast<std::uint32_t>(rows_.size());
-  rows_.push_back({vertex, static_cast<std::uint32_t>(columns_.size()),
-                   static_cast<std::uint32_t>(list.size())});
-  columns_.insert(columns_.end(), list.begin(), list.end());
-  join_neighbours(vertex);
+  const auto row = static_cast<std::uint32_t>(rows_.size());
+  const auto first = static_cast<std::uint32_t>(columns_.size());
+  row_of_[vertex] = row;
+  const auto add = [&](std::uint32_t other) {
+    if (other == vertex || star_of_[other] == row) return;
+    star_of_[other] = row;
+    columns_.push_back(other);
+  };
+  for (const std::uint32_t other : neighbours_[vertex]) add(other);
+  for (const std::uint32_t star : stars_[vertex]) {
+    for (std::uint32_t i = 0; i < rows_[star].count; ++i) add(columns_[rows_[star].first + i]);
+    beside_[star].is_gone = true;
+  }
+  rows_.push_back({vertex, first, static_cast<std::uint32_t>(columns_.size()) - first});
+  beside_.push_back({row, 0, false});
 }
 
-void Elimination::join_neighbours(std::uint32_t vertex) {
-  const auto& list = neighbours_[vertex];
-  for (const std::uint32_t other : list) {
-    auto& others = neighbours_[other];
-    joined_.clear();
-    std::set_union(others.begin(), others.end(), list.begin(), list.end(),
-                   std::back_inserter(joined_));
-    std::erase_if(joined_, [&](std::uint32_t i) { return i == vertex || i == other; });
-    others.assign(joined_.begin(), joined_.end());
+/// Of the vertices of the last star.
+/// @returns the least
+std::size_t Elimination::update_degrees(const Row& last) {
+  const auto star = static_cast<std::uint32_t>(rows_.size() - 1);
+  const auto vertices = std::span(columns_).subspan(last.first, last.count);
+  for (const std::uint32_t vertex : vertices) {
+    for (const std::uint32_t other : stars_[vertex]) {
+      Beside& beside = beside_[other];
+      if (beside.is_gone) continue;
+      if (beside.last != star) beside = {star, rows_[other].count, false};
+      --beside.count;
+    }
   }
+  std::size_t least = rows_.size() + vertices.size();
+  for (const std::uint32_t vertex : vertices) {
+    std::size_t degree = vertices.size() - 1;
+    std::erase_if(neighbours_[vertex], [&](std::uint32_t other) {
+      return other == last.vertex || star_of_[other] == star;
+    });
+    std::erase_if(stars_[vertex], [&](std::uint32_t other) {
+      const Beside& beside = beside_[other];
+      if (beside.is_gone || beside.count == 0) return true;
+      degree += beside.count;
+      return false;
+    });
+    stars_[vertex].push_back(star);
+    degree += neighbours_[vertex].size();
+    queue(vertex, std::min(degree, row_of_.size() - rows_.size() - 1));
+    least = std::min(least, degree_[vertex]);
+  }
+  return least;
 }
 
 void Elimination::place_links(std::span<const Link> links) {
@@ -99,7 +137,7 @@ void Elimination::eliminate(std::uint32_t vertex_count, std::span<const double> 
   room_.assign(columns_.size(), 0.0);
   eliminated_.clear();
   couplings_.clear();
-  joins_.clear();
+  join_count_ = 0;
   for (std::size_t i = 0; i < conductances.size(); ++i) join(places_[i].at, conductances[i]);
   for (const Row& row : rows_) {
     if (row.vertex >= vertex_count) continue;
@@ -110,7 +148,7 @@ void Elimination::eliminate(std::uint32_t vertex_count, std::span<const double> 
       pivot += room_[at];
     }
     for (Coupling& coupling : std::span(couplings_).subspan(first)) coupling.share /= pivot;
-    eliminated_.push_back({first, static_cast<std::uint32_t>(couplings_.size()), joins_.size()});
+    eliminated_.push_back({first, static_cast<std::uint32_t>(couplings_.size()), join_count_});
     make_mesh(std::span(couplings_).subspan(first), pivot);
   }
 }
@@ -119,12 +157,12 @@ void Elimination::join(std::uint32_t at, double conductance) {
   const double old = room_[at];
   if (!(old > 0.0)) {  // also where what comes there is 0 by underflow
     room_[at] = conductance;
-    joins_.push_back({at, 0.0, conductance > 0.0 ? 1.0 : 0.0, 0.0});
+    joins_[join_count_++] = {at, 0.0, conductance > 0.0 ? 1.0 : 0.0, 0.0};
     return;
   }
   room_[at] += conductance;
   const double new_share = conductance / room_[at];
-  joins_.push_back({at, old / room_[at], new_share, old * new_share});
+  joins_[join_count_++] = {at, old / room_[at], new_share, old * new_share};
 }
 
 void Elimination::make_mesh(std::span<const Coupling> star, double pivot) {

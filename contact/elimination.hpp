@@ -20,11 +20,11 @@ namespace plekton::contact {
 /// So the least sum is one of positive numbers, one for every two links that were joined, and going
 /// back finds the drop of every link from differences alone. Conductances may differ by any factor:
 /// links that conduct well and have no drop keep their small ones to the last digit. Of all
-/// vertices left one with the fewest neighbours goes first (minimum degree); the order and the
-/// places of the couplings are found once for all parts, as a part couples no vertices that the
-/// whole does not.
+/// vertices left one with the fewest neighbours goes first (minimum degree, counted as often as
+/// stars they are in overlap); the order and the places of the couplings are found once for all
+/// parts, as a part couples no vertices that the whole does not.
 /// Source: nothing is ever subtracted from a conductance, Grassmann, Taksar & Heyman, Operations
-/// Research 33 (1985).
+/// Research 33 (1985). Order: Amestoy, Davis & Duff, SIAM J. Matrix Anal. Appl. 17 (1996).
 class Elimination {
  public:
   /// Keeps its working space, so that a warm call does not allocate.
@@ -36,7 +36,7 @@ class Elimination {
 
   /// How often two links were joined in the last part, and the conductance of each time: of two in
   /// series.
-  std::size_t join_count() const noexcept { return joins_.size(); }
+  std::size_t join_count() const noexcept { return join_count_; }
   double weight(std::size_t join) const noexcept { return joins_[join].weight; }
 
   /// What is left of drops in the last part.
@@ -62,9 +62,8 @@ class Elimination {
 
  private:
   void order_vertices(std::uint32_t vertex_count);
-  void queue(std::uint32_t vertex);
+  void queue(std::uint32_t vertex, std::size_t degree);
   void add_row(std::uint32_t vertex);
-  void join_neighbours(std::uint32_t vertex);
   void place_links(std::span<const Link> links);
 
   /// The vertices that one may be coupled to when it is eliminated.
@@ -73,6 +72,7 @@ class Elimination {
     std::uint32_t first;  ///< in columns_
     std::uint32_t count;
   };
+  std::size_t update_degrees(const Row& last);
   /// Of a link: in columns_, and 1 if it goes from the row to the column, -1 if back.
   struct Place {
     std::uint32_t at;
@@ -127,7 +127,8 @@ class Elimination {
   std::vector<double> room_;            ///< by place in columns_: conductances, then drops
   std::vector<Eliminated> eliminated_;  ///< in order
   std::vector<Coupling> couplings_;
-  std::vector<Join> joins_;  ///< of the links, then of the meshes
+  std::vector<Join> joins_;  ///< of the links, then of the meshes; room for all of the whole
+  std::size_t join_count_ = 0;
   // Of leave_out().
   std::vector<double> rates_;        ///< by place in columns_: of the logarithm of conductances
   std::vector<double> differences_;  ///< by join: of those of the two links
@@ -135,9 +136,20 @@ class Elimination {
   std::vector<double> star_rates_;   ///< by coupling: as it was when its vertex was eliminated
   std::vector<Rated> star_, others_, with_, below_, across_;  ///< by link of a star
   // Working space of plan().
-  std::vector<std::vector<std::uint32_t>> neighbours_;  ///< by vertex, of those left, ascending
-  std::vector<std::uint32_t> joined_;
-  std::vector<std::vector<std::uint32_t>> by_count_;  ///< of neighbours: vertices, some no more
+  /// What a star has beside a later one.
+  struct Beside {
+    std::uint32_t last;   ///< the later one
+    std::uint32_t count;  ///< of vertices that it does not have
+    bool is_gone;         ///< a later one has all
+  };
+  // A star is what its row couples, until a later one has all of it: vertices left are neighbours
+  // by links or as they are in one star.
+  std::vector<std::vector<std::uint32_t>> neighbours_;  ///< by vertex: by links that no star has
+  std::vector<std::vector<std::uint32_t>> stars_;       ///< by vertex: rows
+  std::vector<std::uint32_t> star_of_;                  ///< by vertex: the last one
+  std::vector<Beside> beside_;                          ///< by row
+  std::vector<std::size_t> degree_;                     ///< by vertex: of neighbours, at most
+  std::vector<std::vector<std::uint32_t>> by_degree_;   ///< vertices, some no more
 };
 
 }  // namespace plekton::contact
