@@ -119,7 +119,6 @@ void NearComplex::list_links(const Surface& surface) {
     key.link = static_cast<std::uint32_t>(links_.size());
     links_.push_back({key.upper, key.lower});
   }
-  std::sort(keys_.begin(), keys_.end());
 }
 
 void NearComplex::add_to(Filling& filling, const Cell& side, const Cell& cell, int sign) const {
@@ -133,6 +132,8 @@ void NearComplex::add_to(Filling& filling, const Cell& side, const Cell& cell, i
 /// Around a corner of a facet in range: corner, side, facet, other side.
 void NearComplex::list_fillings(const Surface& surface) {
   fillings_.clear();
+  if (cells_.empty() || cells_.back().feature.kind != FeatureKind::face) return;
+  std::sort(keys_.begin(), keys_.end());
   for (const Cell& facet : cells_) {
     if (facet.feature.kind != FeatureKind::face) continue;
     const FaceId face{facet.feature.id};
