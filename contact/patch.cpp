@@ -25,6 +25,12 @@ PatchTerm term_of(const geometry::CriticalFeature& feature, double weight) noexc
           0.0,          feature.is_minimum()};
 }
 
+/// A force on one node and none on anything else but the ball.
+PatchTerm inner_term(geometry::NodeId node, const Vec3& force) noexcept {
+  const double size = force.norm();
+  return {geometry::core_point(node), Vec3(force / size), 0.0, 0.0, size, 0.0, false, true};
+}
+
 }  // namespace
 
 PatchFinder::PatchFinder(const geometry::Surface& surface)
@@ -96,16 +102,35 @@ void PatchFinder::sort_out(std::span<const Critical> critical) {
 }
 
 void PatchFinder::link_passes(const Vec3& centre, Positions x) {
-  vertices_.clear();
-  const auto vertex_count = static_cast<std::uint32_t>(minima_.size() + passes_.size());
-  for (std::uint32_t i = 0; i < vertex_count; ++i)
-    vertices_.push_back({critical_of(i).core.feature, i});
-  std::sort(vertices_.begin(), vertices_.end());
-
+  number_vertices();
   links_.clear();
   pass_links_.clear();
-  for (auto i = static_cast<std::uint32_t>(minima_.size()); i < vertex_count; ++i)
+  for (auto i = static_cast<std::uint32_t>(minima_.size()); i < vertex_count(); ++i)
     add_links(i, centre, x);
+}
+
+/// Takes the numbers of the last call back one by one: a table of all features is as large as the
+/// surface.
+void PatchFinder::number_vertices() {
+  const std::size_t features =
+      surface_->node_count() + surface_->edge_count() + surface_->face_count();
+  if (vertex_at_.size() == features) {
+    for (const std::size_t place : places_) vertex_at_[place] = kOutOfRange;
+  } else {
+    vertex_at_.assign(features, kOutOfRange);
+  }
+  places_.clear();
+  for (std::uint32_t i = 0; i < vertex_count(); ++i) {
+    places_.push_back(place_of(critical_of(i).core.feature));
+    vertex_at_[places_.back()] = i;
+  }
+}
+
+std::size_t PatchFinder::place_of(Feature feature) const noexcept {
+  std::size_t first = 0;
+  if (feature.kind != geometry::FeatureKind::node) first += surface_->node_count();
+  if (feature.kind == geometry::FeatureKind::face) first += surface_->edge_count();
+  return first + static_cast<std::size_t>(feature.id);
 }
 
 void PatchFinder::add_links(std::uint32_t pass, const Vec3& centre, Positions x) {
@@ -124,8 +149,7 @@ void PatchFinder::add_links(std::uint32_t pass, const Vec3& centre, Positions x)
 
 /// The vertex that a foot is; kOutOfRange if it is none.
 std::uint32_t PatchFinder::vertex_of(Feature foot) const noexcept {
-  const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), Vertex{foot, 0});
-  return found != vertices_.end() && found->feature == foot ? found->id : kOutOfRange;
+  return vertex_at_[place_of(foot)];
 }
 
 /// The first vertex on the way down.
@@ -146,10 +170,10 @@ std::uint32_t PatchFinder::root_of(std::uint32_t vertex) const noexcept {
 
 /// Level by level: which parts hang together, and whether rings close.
 void PatchFinder::join_parts() {
-  root_.resize(vertices_.size());
+  root_.resize(vertex_count());
   std::iota(root_.begin(), root_.end(), 0U);
   has_rings_ = false;
-  weights_.assign(vertices_.size(), 0.0);
+  weights_.assign(vertex_count(), 0.0);
   for (std::uint32_t minimum = 0; minimum < minima_.size(); ++minimum) weights_[minimum] = 1.0;
   for (const PassLinks& pass : pass_links_) {
     weights_[pass.pass] = 1.0 - critical_of(pass.pass).branches;
@@ -167,10 +191,13 @@ void PatchFinder::add_terms_of_rings(const Vec3& centre, double range,
                                      const NormalLaw& law) {
   const auto shares = rings_->find(*surface_, centre, range, cells, x, law);
   const auto feet = rings_->complex().vertices();
+  if (shares.empty()) return;
+  Feature root = feet.front().core.feature;  // of the piece that was looked at last
+  std::uint32_t below = vertex_below(root, centre, x);
   for (const RingWeights::Share& share : shares) {
     const NearComplex::Vertex& foot = feet[share.vertex];
-    const Feature root = feet[rings_->root_of(share.vertex)].core.feature;
-    const std::uint32_t below = vertex_below(root, centre, x);
+    const Feature own_root = feet[rings_->root_of(share.vertex)].core.feature;
+    if (own_root != root) below = vertex_below(root = own_root, centre, x);
     if (below == kOutOfRange) continue;
     const std::uint32_t own = vertex_of(foot.core.feature);
     add_term(root_of(below), {foot.core, foot.normal, foot.distance, share.weight, share.slope, 0.0,
@@ -178,7 +205,7 @@ void PatchFinder::add_terms_of_rings(const Vec3& centre, double range,
   }
 }
 
-/// Of the nodes that are owned by cells in range: each once.
+/// Of the nodes that are owned by cells in range: each once. Nodes of facets give nothing back.
 void PatchFinder::find_wraps(const Vec3& centre, double range,
                              std::span<const geometry::CellId> cells, Positions x,
                              const NormalLaw& law) {
@@ -189,10 +216,42 @@ void PatchFinder::find_wraps(const Vec3& centre, double range,
     for (const geometry::NodeId node : surface_->nodes_of(cell)) {
       if (surface_->owner_of(node) != cell || !surface_->faces_of(node).empty()) continue;
       const std::size_t first = wrap_terms_.size();
-      wrap_.add_terms(*surface_, node, centre, range, x, law, wrap_terms_);
+      find_wrap(node, centre, range, x, law);
       if (wrap_terms_.size() > first) wrap_nodes_.push_back({node, first, wrap_terms_.size()});
     }
   }
+}
+
+/// A node pushes along its own normal, and beside that there are forces between it and the ends of
+/// its bars.
+void PatchFinder::find_wrap(geometry::NodeId node, const Vec3& centre, double range, Positions x,
+                            const NormalLaw& law) {
+  const Vec3& at = x[index_of(node)];
+  const Vec3 separation = at - centre;
+  if (!(separation.squaredNorm() < range * range)) return;
+  arms_.clear();
+  arm_ends_.clear();
+  for (const geometry::EdgeId edge : surface_->edges_of(node)) {
+    const auto& ends = surface_->nodes_of(edge);
+    arm_ends_.push_back(ends[0] == node ? ends[1] : ends[0]);
+    arms_.emplace_back().bar = x[index_of(arm_ends_.back())] - at;
+  }
+  const WrapShare wrap = wrap_share(separation, range, arms_);
+  if (!(wrap.contacts > 0.0)) return;
+  const double distance = separation.norm();
+  const Vec3 normal = separation / distance;
+  const double energy = law.energy(distance);
+  Vec3 beside = -energy * wrap.by_separation;  // N, on the node, what changes of shares do
+  for (std::size_t i = 0; i < arms_.size(); ++i) {
+    const Vec3 on_end = -energy * arms_[i].by_bar;
+    beside -= on_end;
+    if (!on_end.isZero(0.0)) wrap_terms_.push_back(inner_term(arm_ends_[i], on_end));
+  }
+  const double slope = beside.dot(normal);
+  const Vec3 aside = beside - slope * normal;
+  if (!aside.isZero(0.0)) wrap_terms_.push_back(inner_term(node, aside));
+  wrap_terms_.push_back(
+      {geometry::core_point(node), normal, distance, wrap.contacts, slope, 0.0, false});
 }
 
 void PatchFinder::add_terms_of_wraps(const Vec3& centre, Positions x) {
@@ -204,7 +263,7 @@ void PatchFinder::add_terms_of_wraps(const Vec3& centre, Positions x) {
 }
 
 void PatchFinder::add_terms() {
-  for (std::uint32_t vertex = 0; vertex < vertices_.size(); ++vertex) {
+  for (std::uint32_t vertex = 0; vertex < vertex_count(); ++vertex) {
     if (weights_[vertex] != 0.0)
       add_term(root_of(vertex), term_of(critical_of(vertex), weights_[vertex]));
   }

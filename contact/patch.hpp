@@ -29,6 +29,10 @@
 /// surface deforms.
 namespace plekton::contact {
 
+using geometry::Feature;
+using geometry::NodeId;
+using geometry::Positions;
+
 class RingWeights;
 
 /// What one critical feature adds to a patch. Side a is the ball, side b the surface.
@@ -89,6 +93,8 @@ class PatchFinder {
                     std::span<const geometry::CellId> cells, Positions x, const NormalLaw& law);
   void sort_out(std::span<const Critical> critical);
   void link_passes(const Vec3& centre, Positions x);
+  void number_vertices();
+  std::size_t place_of(Feature feature) const noexcept;
   void add_links(std::uint32_t pass, const Vec3& centre, Positions x);
   std::uint32_t vertex_of(Feature foot) const noexcept;
   std::uint32_t vertex_below(Feature branch, const Vec3& centre, Positions x) const;
@@ -101,6 +107,8 @@ class PatchFinder {
                           Positions x, const NormalLaw& law);
   void find_wraps(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
                   Positions x, const NormalLaw& law);
+  void find_wrap(geometry::NodeId node, const Vec3& centre, double range, Positions x,
+                 const NormalLaw& law);
   void add_terms_of_wraps(const Vec3& centre, Positions x);
   void add_term(std::uint32_t root, const PatchTerm& term);
   void add_terms();
@@ -109,7 +117,8 @@ class PatchFinder {
   const geometry::Surface* surface_;
   geometry::CriticalFeatureFinder critical_;
   std::unique_ptr<RingWeights> rings_;
-  Wrap wrap_;
+  std::vector<WrapArm> arms_;  ///< of a node
+  std::vector<geometry::NodeId> arm_ends_;
   std::vector<PatchTerm> wrap_terms_;
   struct NodeTerms {
     geometry::NodeId node;
@@ -125,15 +134,14 @@ class PatchFinder {
     std::uint32_t first_link;
     std::uint32_t link_count;
   };
-  /// A feature as a vertex of the graph: minima first, then passes.
-  struct Vertex {
-    Feature feature;
-    std::uint32_t id;
-    friend constexpr auto operator<=>(const Vertex&, const Vertex&) = default;
-  };
   std::vector<const Critical*> minima_;  ///< nearest first
   std::vector<const Critical*> passes_;  ///< and tops: what is no minimum; nearest first
-  std::vector<Vertex> vertices_;         ///< by feature
+  // Features as vertices of the graph: minima first, then passes.
+  std::uint32_t vertex_count() const noexcept {
+    return static_cast<std::uint32_t>(minima_.size() + passes_.size());
+  }
+  std::vector<std::uint32_t> vertex_at_;  ///< by place of a feature
+  std::vector<std::size_t> places_;       ///< that have one
   std::vector<PassLinks> pass_links_;
   std::vector<Link> links_;
   std::vector<std::uint32_t> root_;  ///< by vertex: the lowest of those that hang together, or one

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/wrap.hpp"
 
-#include "contact/patch.hpp"
+#include <Eigen/LU>
 
-#include <boost/math/quadrature/gauss.hpp>
-
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,188 +11,141 @@
 namespace plekton::contact {
 namespace {
 
-/// Ten points on a stretch from a to 3 a, or from 0 to 2 pi c times the least of the lengths y.
-/// What is integrated has its nearest poles at tau = i y, and at i pi c y where bars with feet on
-/// either side of the node turn by H = i c. So it is regular around a stretch in an ellipse whose
-/// half axes add up to at least 2.9 times half the stretch, and the integral is off by less than
-/// 2.9^-20 = 6e-10 of it. The last stretch ends at the range, where laws are powers of the overlap:
-/// there the root of what is left is taken, which leaves 2.06 of the ellipse, and 16 points.
-using Rule = boost::math::quadrature::gauss<double, 10>;
-using LastRule = boost::math::quadrature::gauss<double, 16>;
-constexpr double kStretch = 3.0;
-constexpr double kFirstStretch = 2.0 * std::numbers::pi * Wrap::kTurn;
+using std::numbers::inv_pi;
 
-/// Of the width of the contact: a foot nearer to the node is at it. Its part weighs as the square.
-constexpr double kLeastLength = 1e-9;
+/// a(h) and its slope.
+struct Seen {
+  double value;
+  double slope;
+};
 
-template <class Points, class Visit>
-void for_each_point(double from, double to, Visit visit) {
-  const double middle = 0.5 * (from + to);
-  const double half = 0.5 * (to - from);
-  for (std::size_t i = 0; i < Points::abscissa().size(); ++i) {
-    for (const double sign : {-1.0, 1.0})
-      visit(middle + sign * half * Points::abscissa()[i], half * Points::weights()[i]);
+/// Beyond it what is left in closed form after its powers of h cancel loses digits; this many terms
+/// of the series in 1 / h^2 have them all.
+constexpr double kFar = 4.0;
+constexpr std::size_t kTerms = 12;
+
+/// a = 1/2 - sum of (-1)^j 8 / (pi (2j + 1) (2j + 3) (2j + 5)) h^-(2j + 1): by the moments
+/// of 4 g (1 - g^2), which is how much levels t = T g weigh.
+Seen seen_from_afar(double h) noexcept {
+  static constexpr auto kCoefficients = [] {
+    std::array<double, kTerms> of{};
+    for (std::size_t j = 0; j < kTerms; ++j) {
+      const double odd = 2.0 * static_cast<double>(j) + 1.0;
+      of[j] = (j % 2 == 0 ? 8.0 : -8.0) * inv_pi / (odd * (odd + 2.0) * (odd + 4.0));
+    }
+    return of;
+  }();
+  const double inverse = 1.0 / h;
+  const double square = inverse * inverse;
+  double value = 0.0, slope = 0.0;
+  for (std::size_t j = kTerms; j-- > 0;) {
+    value = value * square + kCoefficients[j];
+    slope = slope * square + (2.0 * static_cast<double>(j) + 1.0) * kCoefficients[j];
   }
+  return {0.5 - value * inverse, slope * square};
 }
 
-/// @param visit  gets tau and its part of the integral
-template <class Visit>
-void for_each_level(double first, double width, Visit visit) {
-  double from = 0.0;
-  for (double to = first; to < width; from = to, to *= kStretch)
-    for_each_point<Rule>(from, to, visit);
-  const double left = width - from;
-  for_each_point<LastRule>(0.0, 1.0, [&](double root, double part) {
-    visit(width - left * root * root, 2.0 * left * root * part);
-  });
+/// @param h  foot over width
+Seen seen(double h) noexcept {
+  const double size = std::abs(h);
+  Seen of;
+  if (size > kFar) {
+    of = seen_from_afar(size);
+  } else {
+    const double angle = std::atan(size);
+    const double rest = 0.5 * std::numbers::pi - angle;
+    const double square = size * size;
+    of.value = inv_pi * (angle + size * (5.0 / 3.0 + square) - square * (2.0 + square) * rest);
+    of.slope = 4.0 * inv_pi * (2.0 / 3.0 + square - size * (1.0 + square) * rest);
+  }
+  return {std::copysign(of.value, h), of.slope};
 }
 
-constexpr double kSquare = Wrap::kTurn * Wrap::kTurn;
+/// What arms of a node add up to.
+struct Sums {
+  Eigen::Matrix3d coupling = kTurn * Eigen::Matrix3d::Identity();
+  Vec3 along = Vec3::Zero();
+  Vec3 seen_along = Vec3::Zero();
+  double seen = 0.0;
+  double squared_length = 0.0;  ///< m^2
+};
 
-/// f and its slope.
-double part_of(double turn, double& slope) noexcept {
+Sums look_along(const Vec3& separation, double distance, double width, std::span<WrapArm> arms) {
+  Sums sums;
+  for (WrapArm& arm : arms) {
+    arm.length = arm.bar.norm();
+    arm.direction = arm.length > 0.0 ? Vec3(arm.bar / arm.length) : Vec3(Vec3::Zero());
+    arm.foot = -separation.dot(arm.direction);
+    arm.along = arm.direction + arm.foot / (distance * distance) * separation;
+    const Seen of = seen(arm.foot / width);
+    arm.seen = of.value;
+    arm.slope = of.slope / width;
+    sums.coupling += arm.along * arm.along.transpose();
+    sums.along += arm.along;
+    sums.seen_along += arm.seen * arm.along;
+    sums.seen += arm.seen;
+    sums.squared_length += arm.length * arm.length;
+  }
+  return sums;
+}
+
+/// (1 + c^2) x^3 / (x^2 + c^2 X^2) and its derivatives.
+struct Returned {
+  double contacts;
+  double by_turn;            ///< by x
+  double by_squared_width;   ///< 1/m^2, by T^2 as far as X depends on it
+  double by_squared_length;  ///< 1/m^2, by L^2
+};
+
+Returned returned(double turn, double count, double squared_length, double squared_width) {
+  constexpr double kOfWidth = 9.0 * std::numbers::pi * std::numbers::pi / 64.0;
+  const double most = 0.25 * kTurn * kTurn * count * count;  // of c^2 X^2
+  const double sum = squared_length + kOfWidth * squared_width;
+  const double bend = most * squared_length / sum;
   const double square = turn * turn;
-  const double below = square + kSquare;
-  slope = (1.0 + kSquare) * square * (square + 3.0 * kSquare) / (below * below);
-  return (1.0 + kSquare) * square * turn / below;
-}
-
-/// A force on one node and none on anything else but the ball.
-PatchTerm inner_term(NodeId node, const Vec3& force) noexcept {
-  const double size = force.norm();
-  return {geometry::core_point(node), Vec3(force / size), 0.0, 0.0, size, 0.0, false, true};
+  const double below = square + bend;
+  const double factor = (1.0 + kTurn * kTurn) * square / below;
+  const double by_bend = -factor * turn / below * most * kOfWidth / (sum * sum);
+  return {factor * turn, factor * (square + 3.0 * bend) / below, -by_bend * squared_length,
+          by_bend * squared_width};
 }
 
 }  // namespace
 
-bool Wrap::find_turns(const geometry::Surface& surface, NodeId node, const Vec3& to_centre,
-                      Positions x) {
-  arms_.clear();
-  turns_.clear();
-  const Vec3& at = x[index_of(node)];
-  for (const geometry::EdgeId edge : surface.edges_of(node)) {
-    const auto& ends = surface.nodes_of(edge);
-    const NodeId end = ends[0] == node ? ends[1] : ends[0];
-    const Vec3 bar = x[index_of(end)] - at;
-    const double length = bar.norm();
-    if (!(length > 0.0)) continue;
-    const Vec3 direction = bar / length;
-    arms_.push_back({end, direction, length, to_centre.dot(direction), 0.0, 0.0, Vec3::Zero()});
-  }
-  for (std::size_t a = 0; a < arms_.size(); ++a) {
-    for (std::size_t b = a + 1; b < arms_.size(); ++b) {
-      const double cosine = arms_[a].direction.dot(arms_[b].direction);
-      if (cosine < kJunction && arms_[a].along + arms_[b].along > 0.0)
-        turns_.push_back({a, b, cosine, 0.0});
-    }
-  }
-  return !turns_.empty();
-}
+WrapShare wrap_share(const Vec3& separation, double range, std::span<WrapArm> arms) {
+  for (WrapArm& arm : arms) arm.by_bar.setZero();
+  const double distance = separation.norm();
+  if (!(distance > 0.0 && distance < range) || arms.size() < 2) return {};
+  const double squared_width = 2.0 * distance * (range - distance);
+  const double width = std::sqrt(squared_width);
+  const Sums sums = look_along(separation, distance, width, arms);
+  // The weights are 1 - p . balance.
+  const Eigen::Matrix3d inverse = sums.coupling.inverse();
+  const Vec3 balance = inverse * sums.along;
+  const Vec3 seen_balance = inverse * sums.seen_along;
+  const double turn = sums.seen - sums.along.dot(seen_balance);
+  const auto count = static_cast<double>(arms.size());
+  // What rounding leaves of bars in line is no turn.
+  if (!(turn > 4.0 * count * std::numeric_limits<double>::epsilon())) return {};
 
-/// The least length y of a bar that turns, but for those with their feet at the node.
-double Wrap::least_along() const noexcept {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Turn& turn : turns_) {
-    for (const std::size_t i : {turn.a, turn.b}) {
-      if (arms_[i].along != 0.0) least = std::min(least, std::abs(arms_[i].along));
-    }
+  const Returned of = returned(turn, count, sums.squared_length / count, squared_width);
+  WrapShare share{of.contacts, Vec3::Zero()};
+  double by_squared_width = of.by_squared_width;
+  for (WrapArm& arm : arms) {
+    const double weight = 1.0 - arm.along.dot(balance);
+    const double by_foot = of.by_turn * weight * arm.slope;
+    // Along the surface, as balance is.
+    const Vec3 by_along =
+        -of.by_turn * (weight * seen_balance + (arm.seen - arm.along.dot(seen_balance)) * balance);
+    by_squared_width -= 0.5 * by_foot * arm.foot / squared_width;
+    share.by_separation += arm.foot / (distance * distance) * by_along - by_foot * arm.direction;
+    if (!(arm.length > 0.0)) continue;
+    const Vec3 by_direction = by_along - by_foot * separation;
+    arm.by_bar = (by_direction - by_direction.dot(arm.direction) * arm.direction) / arm.length +
+                 2.0 * of.by_squared_length / count * arm.bar;
   }
-  return least;
-}
-
-void Wrap::look_from(double tau) noexcept {
-  for (Arm& arm : arms_) arm.seen = 2.0 * std::numbers::inv_pi * std::atan2(arm.along, tau);
-}
-
-/// Adds what a level gives back.
-/// @param distance  m, of the node
-/// @param force     N, of the law at the level, over the level and times the part of tau
-/// @param spring    m, the same for a spring of 1 N/m
-void Wrap::add_level(double distance, double tau, double force, double spring) {
-  look_from(tau);
-  for (Turn& turn : turns_) {
-    Arm& a = arms_[turn.a];
-    Arm& b = arms_[turn.b];
-    double slope = 0.0;
-    const double part = part_of(0.5 * (a.seen + b.seen), slope);
-    const double weight = turn.weight();
-    turn.energy += part * force * tau;
-    energy_of_spring_ += weight * part * spring * tau;
-    for (Arm* const arm : {&a, &b}) {
-      const double by_angle =
-          weight * slope * std::numbers::inv_pi / (tau * tau + arm->along * arm->along);
-      arm->energy_by_along += by_angle * tau * force * tau;
-      energy_by_distance_ += by_angle * arm->along * force * distance;
-    }
-  }
-}
-
-/// By the distance of the node what is under the integral is integrated by parts first, so that the
-/// law's force is enough.
-void Wrap::integrate(double distance, double range, const NormalLaw& law) {
-  energy_ = energy_of_spring_ = energy_by_distance_ = 0.0;
-  const double width = std::sqrt((range - distance) * (range + distance));
-  for (Arm& arm : arms_) {
-    if (std::abs(arm.along) < kLeastLength * width) arm.along = 0.0;
-  }
-  for_each_level(kFirstStretch * least_along(), width, [&](double tau, double part) {
-    const double level = std::sqrt(distance * distance + tau * tau);
-    add_level(distance, tau, part * law.force(level) / level, part * (range - level) / level);
-  });
-  for (const Turn& turn : turns_) energy_ += turn.weight() * turn.energy;
-  energy_by_distance_ += part_of_turns(width) * law.force(range) * distance / range;
-  energy_by_distance_ -= part_of_turns(0.0) * law.force(distance);
-}
-
-/// Sum of w f(H) at a level.
-double Wrap::part_of_turns(double tau) noexcept {
-  look_from(tau);
-  double sum = 0.0;
-  double slope = 0.0;
-  for (const Turn& turn : turns_) {
-    sum += turn.weight() * part_of(0.5 * (arms_[turn.a].seen + arms_[turn.b].seen), slope);
-  }
-  return sum;
-}
-
-/// Of w.
-void Wrap::add_slopes_of_angles() noexcept {
-  for (const Turn& turn : turns_) {
-    Arm& a = arms_[turn.a];
-    Arm& b = arms_[turn.b];
-    const double by_cosine = turn.weight_by_cosine() * turn.energy;
-    a.energy_by_direction += by_cosine * b.direction;
-    b.energy_by_direction += by_cosine * a.direction;
-  }
-}
-
-void Wrap::add_terms(const geometry::Surface& surface, NodeId node, const Vec3& centre,
-                     double range, Positions x, const NormalLaw& law,
-                     std::vector<PatchTerm>& terms) {
-  const Vec3 to_node = x[index_of(node)] - centre;
-  const double distance = to_node.norm();
-  if (!(distance > 0.0 && distance < range) || !find_turns(surface, node, -to_node, x)) return;
-  integrate(distance, range, law);
-  add_slopes_of_angles();
-
-  // A bar's direction turns with its end, and the length y with both.
-  const Vec3 normal = to_node / distance;
-  Vec3 on_node = -energy_by_distance_ * normal;
-  for (const Arm& arm : arms_) {
-    const Vec3 by_direction = arm.energy_by_direction - arm.energy_by_along * to_node;
-    const Vec3 on_end =
-        (by_direction.dot(arm.direction) * arm.direction - by_direction) / arm.length;
-    on_node += arm.energy_by_along * arm.direction - on_end;
-    if (!on_end.isZero(0.0)) terms.push_back(inner_term(arm.end, on_end));
-  }
-  const double push = on_node.dot(normal);
-  const Vec3 aside = on_node - push * normal;
-  if (!aside.isZero(0.0)) terms.push_back(inner_term(node, aside));
-  const double depth = range - distance;
-  const double count = 2.0 * energy_of_spring_ / (depth * depth);
-  terms.push_back({geometry::core_point(node), normal, distance, count,
-                   push - count * law.force(distance), energy_ - count * law.energy(distance),
-                   false, false});
+  share.by_separation += by_squared_width * 2.0 * (range / distance - 2.0) * separation;
+  return share;
 }
 
 }  // namespace plekton::contact

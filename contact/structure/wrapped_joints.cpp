@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/structure/wrapped_joints.hpp"
 
-#include "contact/structure/wrap.hpp"
-
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace plekton::contact::structure {
 namespace {
@@ -34,12 +33,66 @@ void add_on(PairForces& forces, std::uint8_t place, const Vec3& force) {
   (place < 3 ? forces.on_a[place] : forces.on_b[place - 3U]) += force;
 }
 
+/// Where a separation leads to: a point of a simplex.
+struct Foot {
+  unsigned corners;  ///< that span the lowest feature that holds it
+  Vec3 weights;
+  Vec3 separation;  ///< m, from it to the joint; perpendicular to that feature
+};
+
+/// The separation is perpendicular to the facet.
+Vec3 from_face(const Vec3& by_separation, const Simplex& facet, const Foot& foot,
+               std::array<Vec3, 3>& on_other) {
+  const Vec3 area_normal = area_normal_of(facet);
+  const double area = area_normal.norm();
+  const Vec3 normal = area_normal / area;
+  const Vec3 along_normal = by_separation.dot(normal) * normal;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 opposite = facet.x[(k + 2) % 3] - facet.x[(k + 1) % 3];
+    const Vec3 by_weight = normal.cross(opposite) / area;  // 1/m, slope of the weight
+    on_other[k] += foot.weights[static_cast<int>(k)] * along_normal +
+                   by_separation.dot(by_weight) * foot.separation;
+  }
+  return -along_normal;
+}
+
+/// The separation is perpendicular to the edge between two corners.
+Vec3 from_edge(const Vec3& by_separation, const Simplex& other, std::array<std::size_t, 2> ends,
+               const Foot& foot, std::array<Vec3, 3>& on_other) {
+  const Vec3 edge = other.x[ends[1]] - other.x[ends[0]];
+  const double length = edge.norm();
+  const Vec3 along = edge / length;
+  const double by_turn = by_separation.dot(along) / length;
+  const Vec3 across = by_separation - by_separation.dot(along) * along;
+  for (const std::size_t end : ends) on_other[end] += foot.weights[static_cast<int>(end)] * across;
+  on_other[ends[0]] -= by_turn * foot.separation;
+  on_other[ends[1]] += by_turn * foot.separation;
+  return -across;
+}
+
+/// Forces of an energy that depends on the separation of a joint from its nearest point.
+/// @param on_other  gets those on the corners of the simplex
+/// @returns the force on the joint
+Vec3 separating_forces(const Vec3& by_separation, const Simplex& other, const Foot& foot,
+                       std::array<Vec3, 3>& on_other) {
+  const int count = std::popcount(foot.corners);
+  if (count == 3) return from_face(by_separation, other, foot, on_other);
+  const auto first = static_cast<std::size_t>(std::countr_zero(foot.corners));
+  if (count == 2) {
+    const auto last = static_cast<std::size_t>(std::bit_width(foot.corners)) - 1;
+    return from_edge(by_separation, other, {first, last}, foot, on_other);
+  }
+  on_other[first] += by_separation;
+  return -by_separation;
+}
+
 }  // namespace
 
 void WrappedJoints::clear(std::size_t pairs) {
   first_joints_.assign(1, 0);
   joints_.clear();
   arms_.clear();
+  bars_.clear();
   touched_.clear();
   has_ends_.assign(pairs, 0);
 }
@@ -66,7 +119,7 @@ void WrappedJoints::add_side(const PairTerm& term, bool is_a, std::span<const Ho
     return cells.size();
   };
   const std::size_t count = count_of(bars);
-  if (count < 2 || count > kMostArms || count * count_of(opposite) != holders.size()) return;
+  if (count < 2 || count * count_of(opposite) != holders.size()) return;
   const bool are_bars = std::all_of(bars.begin(), bars.end(), [&](geometry::CellId cell) {
     return surface.nodes_of(cell).size() == 2;
   });
@@ -81,6 +134,7 @@ void WrappedJoints::add_side(const PairTerm& term, bool is_a, std::span<const Ho
       return cell_on(of, is_a, pairs) == bar;
     });
     arms_.push_back({ends[0] == node ? ends[1] : ends[0], holder->pair, 0});
+    bars_.emplace_back();
   }
   joints_.push_back(joint);
 }
@@ -103,23 +157,26 @@ double WrappedJoints::evaluate(std::size_t term, const PairTerm& features,
     const Vec3& at = x[index_of(node)];
     const Foot foot = joint.is_a ? Foot{points.corners_b, points.weights_b, -points.separation}
                                  : Foot{points.corners_a, points.weights_a, points.separation};
-    std::array<Vec3, kMostArms> arms, by_arms;
+    const auto bars = std::span(bars_).subspan(joint.first, joint.count);
     for (std::uint32_t m = 0; m < joint.count; ++m)
-      arms[m] = x[index_of(arms_[joint.first + m].end)] - at;
-    const WrapEnergy wrap = wrap_energy(foot.separation, {arms.data(), joint.count}, spring,
-                                        {by_arms.data(), joint.count});
-    if (!pulls) joint.acts = wrap.energy != 0.0;
-    if (wrap.energy == 0.0) continue;
+      bars[m].bar = x[index_of(arms_[joint.first + m].end)] - at;
+    const WrapShare wrap = wrap_share(foot.separation, spring.range(), bars);
+    if (!pulls) joint.acts = wrap.contacts > 0.0;
+    if (!(wrap.contacts > 0.0)) continue;
+    const double distance = foot.separation.norm();
+    const double energy = spring.energy(distance);
+    const Vec3 by_separation = energy * wrap.by_separation -
+                               wrap.contacts * spring.force(distance) / distance * foot.separation;
     const Simplex other = simplex_at(joint.is_a ? features.b : features.a, x);
     std::array<Vec3, 3> on_other{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    Vec3 on_node = separating_forces(wrap.by_separation, other, foot, on_other);
+    Vec3 on_node = separating_forces(by_separation, other, foot, on_other);
     push += (joint.is_a ? -joint.weight : joint.weight) * on_node.dot(found.cores.normal);
     for (std::uint32_t m = 0; m < joint.count; ++m) {
       Arm& arm = arms_[joint.first + m];
-      on_node += by_arms[m];
-      (pulls ? arm.pull : arm.push) = -joint.weight * by_arms[m];
+      on_node += energy * bars[m].by_bar;
+      (pulls ? arm.pull : arm.push) = -joint.weight * energy * bars[m].by_bar;
     }
-    to.energy += joint.weight * wrap.energy;
+    to.energy += joint.weight * wrap.contacts * energy;
     (joint.is_a ? to.on_a : to.on_b)[0] += joint.weight * on_node;
     for (std::size_t k = 0; k < other.count; ++k)
       (joint.is_a ? to.on_b : to.on_a)[k] += joint.weight * on_other[k];

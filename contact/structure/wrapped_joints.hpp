@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/structure/pair_term.hpp"
+#include "contact/wrap.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +18,7 @@ struct Holder {
 };
 
 /// The joints of bars among the terms of a list of pairs, and what wraps give back at them
-/// (wrap.hpp): to the terms themselves, and to the other ends of the bars.
+/// (contact/wrap.hpp): to the terms themselves, and to the other ends of the bars.
 ///
 /// A joint is a node of a term that only bars have, with all of them in all the pairs of cells that
 /// have the term. Where some of these pairs are not in the list, because the cells share a node
@@ -84,6 +85,7 @@ class WrappedJoints {
   std::vector<std::uint32_t> first_joints_;  ///< by term, and the number of all
   std::vector<Joint> joints_;
   std::vector<Arm> arms_;
+  std::vector<WrapArm> bars_;           ///< by arm
   std::vector<char> has_ends_;          ///< by pair
   std::vector<std::uint32_t> touched_;  ///< pairs that have
   std::vector<PairForces> ends_;        ///< by pair; empty if there are no joints

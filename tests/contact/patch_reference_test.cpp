@@ -95,8 +95,7 @@ struct Comparison {
     // hundred.
     const bool is_shared =
         has_rings_or_hollows(critical, centre, range, cells, complex.x, total.patches);
-    const double wrap =
-        reference_wrap_energy(surface, complex.x, centre, range, contact::Wrap::kTurn);
+    const double wrap = reference_wrap_energy(surface, complex.x, centre, range, contact::kTurn);
     if (is_shared) {
       // Holes begin at a mean over their rings, not where the shallowest pass does: of a ring of
       // two passes by at most 2.4 % of the energy, and of bars never too late (ring_weights.hpp).
@@ -111,7 +110,7 @@ struct Comparison {
     shared += critical_passes(critical, centre, range, cells, complex.x);
     several += total.patches > 1;
     if (wrap > 0.0) {
-      // Simpson's rule at steps of 1 / 4000 of the fourth root of the depth.
+      // Simpson's rule at steps of 1 / 4000 of the root of the depth.
       ASSERT_NEAR(total.energy, expected.energy + wrap, 1e-8 * range * range);
       ++wraps;
       return;

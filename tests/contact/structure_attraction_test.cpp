@@ -66,7 +66,7 @@ TEST(StructureAttraction, PushesAgainstTheGradientOfItsEnergy) {
       meeting.place(shifted);
       return meeting.energy();
     };
-    // A straight chain is where a wrap sets in (structure/wrap.hpp): with the square of the bend on
+    // A straight chain is where a wrap sets in (contact/wrap.hpp): with the square of the bend on
     // one side only, which differences see as a slope in proportion to the step.
     constexpr double kStep = 2e-9;
     const double change = (energy_at(kStep) - energy_at(-kStep)) / (2.0 * kStep);

@@ -103,28 +103,29 @@ TEST(BallInAHoop, IsPushedTheSameByFinerBarsOnceTheyHangTogether) {
 }
 
 TEST(BallInAHoop, IsPushedByWhatLevelsOfTheAdditiveRuleSay) {
-  // By levels a bar between two nodes counts H, the ends of the hoop nothing more. 16 equal bars:
-  // 15 nodes, and the piece itself.
+  // At a level half a bar is seen from half the chord under an angle, and each node counts its two
+  // angles over pi in the mean over the levels. 16 equal bars: 15 nodes, and the piece itself.
   constexpr int kBars = 16;
   constexpr double kOverlap = 0.05;
-  constexpr double kTurn = contact::Wrap::kTurn;
+  constexpr double kTurn = contact::kTurn;
   const double foot = 1.0 - kOverlap;
   const double half_bar = foot * std::tan(0.5 * std::numbers::pi / kBars);
   const double node = std::hypot(foot, half_bar);
-  const double straight = 2.0 * std::cos(std::numbers::pi / kBars) - 1.0;
-  const double weight = straight * straight * (3.0 - 2.0 * straight);
-  double inner = 0.0;
+  double mean = 0.0;
   constexpr int kSteps = 200000;
   for (int i = 0; i < kSteps; ++i) {
-    const double level = node + (1.0 - node) * (i + 0.5) / kSteps;
-    const double seen =
-        2.0 / std::numbers::pi * std::asin(half_bar / std::sqrt(level * level - foot * foot));
-    inner += (1.0 + kTurn * kTurn) * seen * seen * seen / (seen * seen + kTurn * kTurn) *
-             (1.0 - level) * (1.0 - node) / kSteps;
+    const double part = (i + 0.5) / kSteps;  // root of the depth below the node, over the deepest
+    const double half_chord = std::sqrt(2.0 * node * (1.0 - node)) * part;
+    mean += 2.0 / std::numbers::pi * std::atan(half_bar / half_chord) * 4.0 * part *
+            (1.0 - part * part) / kSteps;
   }
+  const double even_squared =
+      1.0 / (1.0 + std::pow(0.375 * std::numbers::pi / half_bar, 2) * 0.5 * node * (1.0 - node));
+  const double counts =
+      (1.0 + kTurn * kTurn) * mean * mean * mean / (mean * mean + kTurn * kTurn * even_squared);
   const double apart = 0.5 * (kOverlap * kOverlap - (1.0 - node) * (1.0 - node));
-  const double expected =
-      kBars * apart + 0.5 * (1.0 - node) * (1.0 - node) + (kBars - 1) * weight * inner;
+  const double of_node = 0.5 * (1.0 - node) * (1.0 - node);
+  const double expected = kBars * apart + of_node + (kBars - 1) * counts * of_node;
   EXPECT_NEAR(push_of(half_hoop(kBars, kOverlap)).energy, expected, 1e-5 * expected);
 }
 
@@ -208,10 +209,12 @@ TEST(BallOnABend, FeelsForcesThatFollowWhereAWirePassesThroughStraight) {
     constexpr double kStep = 1e-7;
     for (double height = -1e-3; height < 1e-3; height += 1e-5)
       largest = std::max(largest, std::abs(forces(x, height + kStep) - forces(x, height)) / kStep);
-    // That of a contact, and 2 / (pi c) (width / bar)^2 of it, with a width of sqrt(2 * 0.03) and
-    // terms of the order of c beside it.
-    constexpr double kTurn = contact::Wrap::kTurn;
-    const double of_turn = 2.0 / (std::numbers::pi * kTurn) * 2.0 * 0.03 / 0.04;
+    // That of a contact, and 0.53 / c (T / L)^2 sqrt(1 + (3 pi T / 8 L)^2) of it (wrap.hpp), with a
+    // width of sqrt(2 * 0.03) and terms of the order of c beside it.
+    constexpr double kTurn = contact::kTurn;
+    const double squared = 2.0 * 0.03 / 0.04;
+    const double of_turn =
+        0.53 / kTurn * squared * std::sqrt(1.0 + std::pow(0.375 * std::numbers::pi, 2) * squared);
     EXPECT_LT(largest, 1.0 + (1.0 + kTurn) * of_turn) << x;
   }
 }

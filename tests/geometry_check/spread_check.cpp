@@ -134,8 +134,8 @@ bool follows(const SpreadTouch& touch, Random& random) {
        test::cells_near(surface, touch.centre, kRange + here.deepest, touch.complex.x))
     contacts += surface.nodes_of(cell).size() == 3 ? 7.0 : 3.0;
   const double width_over_bar = std::sqrt(2.0 * kRange * here.deepest) / least_bar(touch.complex);
-  const double turn =
-      2.0 / (std::numbers::pi * contact::Wrap::kTurn) * width_over_bar * width_over_bar;
+  const double turn = 0.53 / contact::kTurn * width_over_bar * width_over_bar *
+                      std::hypot(1.0, 0.375 * std::numbers::pi * width_over_bar);
   const double steepness = kRange / (kRange - 1.001 * here.deepest);
   const Vec3 direction = random.direction();
   for (const double part : {1e-3, 1e-4, 1e-5}) {
