@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 namespace plekton::contact {
 namespace {
@@ -24,6 +23,7 @@ void NearComplex::build(const Surface& surface, const Vec3& point, double range,
   list_cells(surface, cells);
   find_feet(surface, point, range, x);
   number_vertices();
+  start_levels();
   list_links(surface);
   list_fillings(surface);
 }
@@ -93,15 +93,19 @@ const NearComplex::Cell* NearComplex::cell_of(Feature feature) const noexcept {
   return found != cells_.end() && found->feature == feature ? &*found : nullptr;
 }
 
+void NearComplex::start_levels() {
+  distances_.clear();
+  for (const Vertex& vertex : vertices_) distances_.push_back(vertex.distance);
+  of_cells_.clear();
+  for (const Cell& cell : cells_) of_cells_.push_back(cell.vertex);
+  levels_.start(distances_, of_cells_);
+}
+
 void NearComplex::add_link(const Cell* side, const Cell& cell) {
-  if (side == nullptr || side->vertex == cell.vertex) return;
-  const bool is_upper = side->vertex > cell.vertex;  // but for rounding
-  keys_.push_back({side->feature, cell.feature, std::max(side->vertex, cell.vertex),
-                   std::min(side->vertex, cell.vertex), is_upper ? 1 : -1, 0});
+  if (side != nullptr) levels_.add_link(place_of(*side), place_of(cell));
 }
 
 void NearComplex::list_links(const Surface& surface) {
-  keys_.clear();
   for (const Cell& cell : cells_) {
     if (cell.feature.kind == FeatureKind::edge) {
       for (const NodeId end : surface.nodes_of(EdgeId{cell.feature.id}))
@@ -111,29 +115,13 @@ void NearComplex::list_links(const Surface& surface) {
         add_link(cell_of(Feature(side)), cell);
     }
   }
-  std::sort(keys_.begin(), keys_.end(), [](const LinkKey& a, const LinkKey& b) {
-    return std::tie(a.upper, a.lower, a.side, a.cell) < std::tie(b.upper, b.lower, b.side, b.cell);
-  });
-  links_.clear();
-  for (LinkKey& key : keys_) {
-    key.link = static_cast<std::uint32_t>(links_.size());
-    links_.push_back({key.upper, key.lower});
-  }
-}
-
-void NearComplex::add_to(Filling& filling, const Cell& side, const Cell& cell, int sign) const {
-  const auto found =
-      std::lower_bound(keys_.begin(), keys_.end(), LinkKey{side.feature, cell.feature, 0, 0, 0, 0});
-  if (found == keys_.end() || found->side != side.feature || found->cell != cell.feature) return;
-  filling.links[filling.count] = found->link;
-  filling.signs[filling.count++] = static_cast<std::int8_t>(sign * found->sign);
+  levels_.sort_links();
 }
 
 /// Around a corner of a facet in range: corner, side, facet, other side.
 void NearComplex::list_fillings(const Surface& surface) {
-  fillings_.clear();
   if (cells_.empty() || cells_.back().feature.kind != FeatureKind::face) return;
-  std::sort(keys_.begin(), keys_.end());
+  levels_.index_links();
   for (const Cell& facet : cells_) {
     if (facet.feature.kind != FeatureKind::face) continue;
     const FaceId face{facet.feature.id};
@@ -146,21 +134,11 @@ void NearComplex::list_fillings(const Surface& surface) {
       const Cell* const last_side = cell_of(Feature(sides[(k + 2) % 3]));
       // At the range a corner may be in it while rounding leaves out the side.
       if (first_side == nullptr || last_side == nullptr) continue;
-      const Cell& first = *first_side;
-      const Cell& last = *last_side;
-      const std::uint32_t upper =
-          std::max({corner->vertex, first.vertex, last.vertex, facet.vertex});
-      Filling filling{upper, {}, {}, 0};
-      add_to(filling, *corner, first, 1);
-      add_to(filling, first, facet, 1);
-      add_to(filling, last, facet, -1);
-      add_to(filling, *corner, last, -1);
-      if (filling.count > 0) fillings_.push_back(filling);
+      levels_.add_filling(place_of(*corner), place_of(*first_side), place_of(facet),
+                          place_of(*last_side));
     }
   }
-  std::sort(fillings_.begin(), fillings_.end(), [](const Filling& a, const Filling& b) {
-    return std::tie(a.upper, a.links) < std::tie(b.upper, b.links);
-  });
+  levels_.sort_fillings();
 }
 
 }  // namespace plekton::contact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/patch.hpp"
 
+#include "contact/near_complex.hpp"
 #include "contact/ring_weights.hpp"
 #include "geometry/descent.hpp"
 
@@ -34,7 +35,10 @@ PatchTerm inner_term(geometry::NodeId node, const Vec3& force) noexcept {
 }  // namespace
 
 PatchFinder::PatchFinder(const geometry::Surface& surface)
-    : surface_(&surface), critical_(surface), rings_(std::make_unique<RingWeights>()) {}
+    : surface_(&surface),
+      critical_(surface),
+      near_(std::make_unique<NearComplex>()),
+      rings_(std::make_unique<RingWeights>()) {}
 
 PatchFinder::PatchFinder(PatchFinder&&) noexcept = default;
 PatchFinder& PatchFinder::operator=(PatchFinder&&) noexcept = default;
@@ -189,8 +193,11 @@ void PatchFinder::join_parts() {
 void PatchFinder::add_terms_of_rings(const Vec3& centre, double range,
                                      std::span<const geometry::CellId> cells, Positions x,
                                      const NormalLaw& law) {
-  const auto shares = rings_->find(*surface_, centre, range, cells, x, law);
-  const auto feet = rings_->complex().vertices();
+  near_->build(*surface_, centre, range, cells, x);
+  const auto feet = near_->vertices();
+  energies_.clear();
+  for (const NearComplex::Vertex& foot : feet) energies_.push_back(law.energy(foot.distance));
+  const auto shares = rings_->find(near_->levels(), range, energies_);
   if (shares.empty()) return;
   Feature root = feet.front().core.feature;  // of the piece that was looked at last
   std::uint32_t below = vertex_below(root, centre, x);

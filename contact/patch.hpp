@@ -33,6 +33,7 @@ using geometry::Feature;
 using geometry::NodeId;
 using geometry::Positions;
 
+class NearComplex;
 class RingWeights;
 
 /// What one critical feature adds to a patch. Side a is the ball, side b the surface.
@@ -116,9 +117,11 @@ class PatchFinder {
 
   const geometry::Surface* surface_;
   geometry::CriticalFeatureFinder critical_;
+  std::unique_ptr<NearComplex> near_;
   std::unique_ptr<RingWeights> rings_;
   std::vector<WrapArm> arms_;  ///< of a node
   std::vector<geometry::NodeId> arm_ends_;
+  std::vector<double> energies_;  ///< J, by vertex of near_
   std::vector<PatchTerm> wrap_terms_;
   struct NodeTerms {
     geometry::NodeId node;

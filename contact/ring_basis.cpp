@@ -42,18 +42,23 @@ void RingBasis::find_closings(std::uint32_t vertex_count, std::span<const Link> 
 /// surface in space have boundaries without torsion, so the currents stay -1, 0 and 1, or small
 /// whole numbers.)
 void RingBasis::reduce(const Filling& filling) {
+  std::size_t first = closings_.size();
+  std::size_t end = 0;
   for (std::size_t k = 0; k < filling.count; ++k) {
     const std::uint32_t place = place_[filling.links[k]];
-    if (place != kNone) row_[place] += filling.signs[k];
+    if (place == kNone) continue;
+    row_[place] += filling.signs[k];
+    first = std::min<std::size_t>(first, place);
+    end = std::max<std::size_t>(end, place + 1);
   }
-  for (std::size_t last = closings_.size(); last-- > 0;) {
+  for (std::size_t last = end; last-- > first;) {
     const double current = row_[last];
     if (current == 0.0) continue;
     Closing& closing = closings_[last];
     if (closing.filled_at == kNone) {
       closing.filled_at = filling.upper;
       closing.first = static_cast<std::uint32_t>(currents_.size());
-      for (std::uint32_t i = 0; i <= last; ++i) {
+      for (auto i = static_cast<std::uint32_t>(first); i <= last; ++i) {
         if (row_[i] != 0.0) currents_.push_back({i, std::exchange(row_[i], 0.0)});
       }
       closing.count = static_cast<std::uint32_t>(currents_.size()) - closing.first;
@@ -62,6 +67,7 @@ void RingBasis::reduce(const Filling& filling) {
     const auto older = std::span(currents_).subspan(closing.first, closing.count);
     const double factor = current / older.back().current;
     for (const Current& entry : older) row_[entry.closing] -= factor * entry.current;
+    first = std::min<std::size_t>(first, older.front().closing);
   }
   tops_.push_back(filling.upper);
 }

@@ -37,23 +37,20 @@ constexpr double power_slope(double x, double y, int n) noexcept {
 
 }  // namespace
 
-std::span<const RingWeights::Share> RingWeights::find(const geometry::Surface& surface,
-                                                      const Vec3& point, double range,
-                                                      std::span<const geometry::CellId> cells,
-                                                      Positions x, const NormalLaw& law) {
-  near_.build(surface, point, range, cells, x);
-  const auto feet = near_.vertices();
-  const auto count = static_cast<std::uint32_t>(feet.size());
-  flows_.build(count, near_.links(), near_.fillings());
+std::span<const RingWeights::Share> RingWeights::find(const LevelComplex& complex, double range,
+                                                      std::span<const double> energies) {
+  complex_ = &complex;
   range_ = range;
-  energies_.clear();
-  for (const NearComplex::Vertex& foot : feet) energies_.push_back(law.energy(foot.distance));
+  energies_ = energies;
+  const auto distances = complex.distances();
+  const auto count = static_cast<std::uint32_t>(distances.size());
+  flows_.build(count, complex.links(), complex.fillings());
   slopes_.assign(count, 0.0);
   count_pieces();
   const auto fillers = flows_.basis().fillers();
   for (std::size_t i = 0; i < fillers.size();) {
     const std::uint32_t first = fillers[i];
-    const double level = feet[first].distance;
+    const double level = distances[first];
     while (i < fillers.size() && is_at(level, fillers[i])) ++i;
     end_holes({level, first, fillers[i - 1] + 1, tops_at(level)});
   }
@@ -80,7 +77,7 @@ std::span<const std::uint32_t> RingWeights::tops_at(double level) const noexcept
 }
 
 bool RingWeights::is_at(double level, std::uint32_t vertex) const noexcept {
-  return std::abs(near_.vertices()[vertex].distance - level) <= kLeastOverlap * range_;
+  return std::abs(complex_->distances()[vertex] - level) <= kLeastOverlap * range_;
 }
 
 void RingWeights::end_holes(const End& end) {
@@ -107,49 +104,51 @@ void RingWeights::end_holes(const End& end) {
 void RingWeights::share_out() {
   values_.clear();
   for (std::size_t i = 0; i < resistances_.size(); ++i)
-    values_.push_back(energies_[near_.links()[i].a]);
+    values_.push_back(energies_[complex_->links()[i].a]);
   const auto shares = flows_.shares(values_);
-  for (std::size_t i = 0; i < shares.size(); ++i) weights_[near_.links()[i].a] += shares[i];
+  for (std::size_t i = 0; i < shares.size(); ++i) weights_[complex_->links()[i].a] += shares[i];
 }
 
 /// Of the vertices below a level.
 void RingWeights::set_overlaps(const End& end) {
-  const auto feet = near_.vertices();
-  const double unit = range_ - feet.front().distance;
+  const auto distances = complex_->distances();
+  const double unit = range_ - distances.front();
   top_ = (range_ - end.level) / unit;
   overlaps_.clear();
   inverses_.clear();
-  for (const NearComplex::Vertex& foot : feet.first(end.first)) {
-    const double below = end.level - foot.distance;
+  for (const double distance : distances.first(end.first)) {
+    const double below = end.level - distance;
     if (!(below > kLeastOverlap * range_)) break;
-    overlaps_.push_back((range_ - foot.distance) / unit);
+    overlaps_.push_back((range_ - distance) / unit);
     inverses_.push_back(1.0 / (below / unit * (overlaps_.back() + top_)));
   }
 }
 
 /// Of the links between them.
 void RingWeights::set_resistances() {
-  const auto feet = near_.vertices();
-  const double unit = range_ - feet.front().distance;
+  const auto distances = complex_->distances();
+  const double unit = range_ - distances.front();
   resistances_.clear();
-  for (const Link& link : near_.links()) {
+  for (std::size_t i = 0; i < complex_->links().size(); ++i) {
+    const Link& link = complex_->links()[i];
     if (link.a >= overlaps_.size()) break;
-    const double drop = std::max((feet[link.a].distance - feet[link.b].distance) / unit,
-                                 kLeastDrop * overlaps_[link.a]);
+    const double drop =
+        std::max((distances[link.a] - distances[link.b]) / unit, kLeastDrop * overlaps_[link.a]);
     const double x = inverses_[link.a];
     const double y = inverses_[link.b];
     const double difference = drop * (overlaps_[link.a] + overlaps_[link.b]) * x * y;
-    resistances_.push_back(difference * power_slope(x, y, kSharpness));
+    resistances_.push_back(difference * power_slope(x, y, kSharpness) /
+                           complex_->multiplicities()[i]);
   }
 }
 
 void RingWeights::add_slopes(const End& end) {
   const auto by_resistance = flows_.slopes(values_);
-  const double per_metre = 2.0 * kSharpness / (range_ - near_.vertices().front().distance);
+  const double per_metre = 2.0 * kSharpness / (range_ - complex_->distances().front());
   double of_top = 0.0;
   for (std::size_t i = 0; i < by_resistance.size(); ++i) {
-    const Link& link = near_.links()[i];
-    const double slope = per_metre * by_resistance[i];
+    const Link& link = complex_->links()[i];
+    const double slope = per_metre * by_resistance[i] / complex_->multiplicities()[i];
     // In this order, as the next power may overflow, and slopes be as small.
     const double upper = slope * power(inverses_[link.a], kSharpness) * inverses_[link.a];
     const double lower = slope * power(inverses_[link.b], kSharpness) * inverses_[link.b];

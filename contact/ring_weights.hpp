@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/near_complex.hpp"
-#include "contact/normal_law.hpp"
+#include "contact/level_complex.hpp"
 #include "contact/ring_flows.hpp"
 
 #include <span>
@@ -45,21 +44,20 @@ class RingWeights {
  public:
   /// What a foot point gets.
   struct Share {
-    std::uint32_t vertex;  ///< of complex()
+    std::uint32_t vertex;  ///< of the complex
     double weight;         ///< of the energy of one contact there
     double slope;  ///< N, how much the energy grows with the overlap there as weights change
   };
 
   /// Keeps its working space, so that a warm call does not allocate.
-  /// @param cells   ascending; every cell nearer than range
-  /// @param law     of one contact
-  /// @returns       minima, passes and what holes give back, all that is not 0, nearest first;
-  ///                valid until the next call
-  std::span<const Share> find(const geometry::Surface& surface, const Vec3& point, double range,
-                              std::span<const geometry::CellId> cells, Positions x,
-                              const NormalLaw& law);
+  /// @param complex   all of it is nearer than range; must outlive the call
+  /// @param range     m
+  /// @param energies  J, of one contact at each vertex
+  /// @returns         minima, passes and what holes give back, all that is not 0, nearest first;
+  ///                  valid until the next call
+  std::span<const Share> find(const LevelComplex& complex, double range,
+                              std::span<const double> energies);
 
-  const NearComplex& complex() const noexcept { return near_; }
   /// The lowest of the vertices that hang together with one.
   std::uint32_t root_of(std::uint32_t vertex) const noexcept {
     return flows_.basis().root_of(vertex);
@@ -81,10 +79,10 @@ class RingWeights {
   void share_out();
   void add_slopes(const End& end);
 
-  NearComplex near_;
+  const LevelComplex* complex_ = nullptr;  ///< of the last find(), as the next
   RingFlows flows_;
-  double range_ = 0.0;            ///< m, of the last find()
-  std::vector<double> energies_;  ///< J, by vertex
+  double range_ = 0.0;  ///< m
+  std::span<const double> energies_;
   std::vector<double> weights_, slopes_;
   std::vector<Share> shares_;
   // Of one end, in units of the deepest overlap.

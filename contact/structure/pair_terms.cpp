@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/structure/pair_terms.hpp"
 
+#include "contact/structure/nearest.hpp"
+
 #include <algorithm>
 
 namespace plekton::contact::structure {
@@ -31,6 +33,22 @@ double push_of(const PairTerm& term, const Vec3& normal) {
   double push = 0.0;
   for (std::size_t i = 0; i < term.b.count; ++i) push += term.forces.on_b[i].dot(normal);
   return push;
+}
+
+void add_part(const PointShare& of, double part, PointShare& to) {
+  to.share += part * of.share;
+  to.by_distance += part * of.by_distance;
+}
+
+/// Adds the forces on some nodes to those of a term that has all of them that feel any.
+void add_on_nodes(const geometry::FeatureNodes& nodes, const std::array<Vec3, 3>& forces,
+                  const PairTerm& term, PairForces& to) {
+  for (std::size_t i = 0; i < nodes.count; ++i) {
+    for (std::size_t k = 0; k < term.a.count; ++k)
+      if (term.a.ids[k] == nodes.ids[i]) to.on_a[k] += forces[i];
+    for (std::size_t k = 0; k < term.b.count; ++k)
+      if (term.b.ids[k] == nodes.ids[i]) to.on_b[k] += forces[i];
+  }
 }
 
 PairForces scaled(const PairForces& forces, double by) {
@@ -95,12 +113,14 @@ void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& mo
   shared_.resize(candidates_.size());
   in_turns(candidates_.size(), pool,
            [&](std::size_t i) { is_acting_[i] = evaluate_candidate(i, springs, motion.position); });
-  tilt_cells(springs, motion.position);
   acted_.swap(acting_);
   acting_.clear();
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (is_acting_[i] != 0) acting_.push_back(candidates_[i]);
   }
+  by_tilt_.assign(term_of_pair_.size(), {});
+  give_back_of_rings(springs, motion.position);
+  tilt_cells(springs, motion.position);
   joints_.gather(acting_);
   acting_changed_ = terms_are_new_ || acting_ != acted_;
   terms_are_new_ = false;
@@ -207,9 +227,107 @@ PointShare PairTerms::share_of(const PairTerm& term, double overlap, double rang
   return {part * mean.share, part * mean.by_distance, 0.0};
 }
 
+void PairTerms::give_back_of_rings(std::span<const NormalSpring> springs, Positions x) {
+  if (!search_.find(acting_, terms_, holders_, term_of_pair_.size())) return;
+  ring_terms_.clear();
+  for (const std::uint32_t term : acting_) {
+    const std::uint32_t part = search_.part_of(holders(terms_[term]).front().pair);
+    if (search_.is_more(part)) ring_terms_.push_back({part, term});
+  }
+  std::sort(ring_terms_.begin(), ring_terms_.end());
+  const auto pairs = search_.pairs();
+  auto term = ring_terms_.begin();
+  for (std::size_t first = 0, end = 0; first < pairs.size(); first = end) {
+    const std::uint32_t part = search_.part_of(pairs[first]);
+    while (end < pairs.size() && search_.part_of(pairs[end]) == part) ++end;
+    const auto first_term = term;
+    while (term != ring_terms_.end() && term->part == part) ++term;
+    give_back(pairs.subspan(first, end - first), {first_term, term}, springs, x);
+  }
+}
+
+/// @param pairs  of cells of one part, all in range
+/// @param terms  of it, all in range
+void PairTerms::give_back(std::span<const std::uint32_t> pairs, std::span<const RingTerm> terms,
+                          std::span<const NormalSpring> springs, Positions x) {
+  const NormalSpring& spring = springs[of_cells(pairs.front()).spring];
+  find_vertices(pairs, spring.range(), x);
+  for (const RingTerm& of : terms) {
+    const std::uint32_t vertex = complex_.vertex_of(terms_[of.term].a, terms_[of.term].b);
+    if (vertex != ProductComplex::kNone) vertices_[vertex].weight -= terms_[of.term].weight;
+  }
+  const std::vector<Vertex> before = vertices_;
+  add_rings(pairs, spring, false);
+  if (!spring.attracts()) return;
+  vertices_ = before;
+  add_rings(pairs, spring.attraction(), true);
+}
+
+void PairTerms::find_vertices(std::span<const std::uint32_t> pairs, double range, Positions x) {
+  ring_cells_.clear();
+  double deepest = 0.0;
+  for (const std::uint32_t pair : pairs) {
+    const PairTerm& cells = of_cells(pair);
+    ring_cells_.push_back({&cells.a, &cells.b, &proximity_[pair].cores});
+    deepest = std::max(deepest, cells.overlap);
+  }
+  complex_.build(ring_cells_, range, x);
+  const auto distances = complex_.levels().distances();
+  vertices_.assign(distances.size(), {});
+  const bool lie_flat = std::any_of(pairs.begin(), pairs.end(), [&](std::uint32_t pair) {
+    return point_share(proximity_[pair].tilt, deepest, range).share != 1.0;
+  });
+  if (!lie_flat) return;
+  for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
+    PointShare& mean = vertices_[i].share;
+    const auto having = complex_.holders(i);
+    mean = {0.0, 0.0, 0.0};
+    for (const std::uint32_t pair : having)
+      add_part(point_share(proximity_[pairs[pair]].tilt, range - distances[i], range),
+               1.0 / static_cast<double>(having.size()), mean);
+  }
+}
+
+/// Spreads what a place does over the pairs of cells that have it.
+void PairTerms::add_rings(std::span<const std::uint32_t> pairs, const NormalSpring& spring,
+                          bool pulls) {
+  const auto distances = complex_.levels().distances();
+  energies_.clear();
+  for (std::size_t i = 0; i < vertices_.size(); ++i)
+    energies_.push_back(vertices_[i].share.share * spring.energy(distances[i]));
+  for (const RingWeights::Share& of : rings_.find(complex_.levels(), spring.range(), energies_)) {
+    vertices_[of.vertex].weight += of.weight;
+    vertices_[of.vertex].slope += of.slope;
+  }
+  for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
+    const Vertex& vertex = vertices_[i];
+    if (vertex.weight == 0.0 && vertex.slope == 0.0) continue;
+    const double whole = spring.energy(distances[i]);
+    const double force = vertex.weight * (vertex.share.share * spring.force(distances[i]) -
+                                          vertex.share.by_distance * whole) +
+                         vertex.slope;
+    const ProductComplex::Place& place = complex_.place(i);
+    const auto having = complex_.holders(i);
+    const double part = 1.0 / static_cast<double>(having.size());
+    const PairForces forces = pushing_apart(place.cores, part * force);
+    for (const std::uint32_t of : having) {
+      const std::uint32_t pair = pairs[of];
+      const std::uint32_t cells = term_of_pair_[pair];
+      PairTerm& term = terms_[cells];
+      PairForces& to = pulls ? attractions_[cells] : term.forces;
+      to.energy += part * vertex.weight * energies_[i];
+      add_on_nodes(place.a, forces.on_a, term, to);
+      add_on_nodes(place.b, forces.on_b, term, to);
+      if (!pulls) term.push += part * force;
+      const PointShare share =
+          point_share(proximity_[pair].tilt, spring.range() - distances[i], spring.range());
+      by_tilt_[pair][pulls ? 1 : 0] += part * share.by_tilt * vertex.weight * whole;
+    }
+  }
+}
+
 /// The tilts of pairs of cells turn the nodes of both facets, also those that a term does not have.
 void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x) {
-  by_tilt_.assign(term_of_pair_.size(), {});
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (shared_[i] == std::array{0.0, 0.0}) continue;
     const PairTerm& term = terms_[candidates_[i]];

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/ring_weights.hpp"
 #include "contact/structure/clearances.hpp"
 #include "contact/structure/pair_term.hpp"
+#include "contact/structure/product_complex.hpp"
+#include "contact/structure/ring_search.hpp"
 #include "contact/structure/wrapped_joints.hpp"
 #include "geometry/thread_pool.hpp"
 
@@ -19,6 +22,18 @@ namespace plekton::contact::structure {
 /// where their nearest points lie in it, these are its own. So pairs of cells are looked at first,
 /// as far as they may be in range (clearances.hpp), and for most of their features nothing more has
 /// to be found.
+///
+/// Their weights add up to Euler's number of what is in range. Where that is not the number of
+/// pieces (ring_search.hpp), because a saddle that closes a ring takes one contact away that no
+/// pieces have merged for, and the maximum that fills it adds one again, the rule for a sphere on a
+/// surface holds (patch.hpp): contacts are counted by pieces, and a ring gives back what its saddle
+/// takes, smoothly (ring_weights.hpp), here with the pairs of features of both bodies
+/// (product_complex.hpp). With the weights W of that rule, and the w of all terms that stand at one
+/// place, each place adds (W - sum of w) * share * phi(distance) to the energy, with the mean share
+/// of the pairs of cells that have it (point_share.hpp). That is 0 where there are pieces alone,
+/// and changes continuously from there on, as W does; for each energy of the law the force is its
+/// gradient. What bodies have by their extent is measured, not counted: nothing is given back of
+/// it.
 class PairTerms {
  public:
   explicit PairTerms(const geometry::Surface& surface) : surface_(&surface) {}
@@ -84,6 +99,18 @@ class PairTerms {
   bool acting_changed() const noexcept { return acting_changed_; }
 
  private:
+  /// A term of a part with rings.
+  struct RingTerm {
+    std::uint32_t part;
+    std::uint32_t term;
+    friend constexpr auto operator<=>(const RingTerm&, const RingTerm&) = default;
+  };
+  /// A place of such a part.
+  struct Vertex {
+    double weight = 0.0;  ///< beside those of the terms that stand there
+    double slope = 0.0;   ///< N, how much the energy grows with the overlap as weights change
+    PointShare share;
+  };
   void find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
                        geometry::ThreadPool& pool);
   void list_candidates();
@@ -93,6 +120,11 @@ class PairTerms {
   void act(std::size_t candidate, const TermProximity& found, const NormalSpring& spring,
            Positions x);
   PointShare share_of(const PairTerm& term, double overlap, double range) const noexcept;
+  void give_back_of_rings(std::span<const NormalSpring> springs, Positions x);
+  void give_back(std::span<const std::uint32_t> pairs, std::span<const RingTerm> terms,
+                 std::span<const NormalSpring> springs, Positions x);
+  void find_vertices(std::span<const std::uint32_t> pairs, double range, Positions x);
+  void add_rings(std::span<const std::uint32_t> pairs, const NormalSpring& spring, bool pulls);
   void tilt_cells(std::span<const NormalSpring> springs, Positions x);
 
   const geometry::Surface* surface_;
@@ -118,6 +150,13 @@ class PairTerms {
   std::vector<std::uint32_t> acting_;
   std::vector<std::uint32_t> acted_;  ///< in the step before
   bool acting_changed_ = false;
+  RingSearch search_;
+  ProductComplex complex_;
+  RingWeights rings_;
+  std::vector<RingTerm> ring_terms_;
+  std::vector<ProductComplex::CellPair> ring_cells_;
+  std::vector<Vertex> vertices_;
+  std::vector<double> energies_;  ///< J, by vertex
 };
 
 }  // namespace plekton::contact::structure

@@ -24,7 +24,7 @@ int pieces(const NearComplex& complex, double level) {
     return i;
   };
   int count = static_cast<int>(below);
-  for (const Link& link : complex.links()) {
+  for (const Link& link : complex.levels().links()) {
     if (link.a >= below || find(link.a) == find(link.b)) continue;
     root[find(link.a)] = find(link.b);
     --count;
@@ -85,7 +85,8 @@ TEST(NearComplex, HasTheHolesThatTheCriticalFeaturesCountAtEveryLevel) {
     near.build(surface, point, 2.0, cells, complex.x);
     CriticalFeatureFinder critical(surface);
     RingBasis rings;
-    rings.build(static_cast<std::uint32_t>(near.vertices().size()), near.links(), near.fillings());
+    rings.build(static_cast<std::uint32_t>(near.vertices().size()), near.levels().links(),
+                near.levels().fillings());
     for (int k = 0; k < 20; ++k) {
       const double level = random.uniform(0.0, 2.0);
       int sum = 0;
