@@ -76,6 +76,7 @@ inline std::map<NodeList, int> weighted_simplices(const Body& body) {
 
 struct ReferenceMeeting {
   Vec3 force = Vec3::Zero();  ///< on b, for f(overlap) = overlap
+  double energy = 0.0;        ///< of these, as pieces count
   int components = 0;
   int pairs = 0;             ///< of cells, in range
   double most_parallel = 0;  ///< largest |cosine| between the planes or lines of two cells in range
@@ -125,7 +126,10 @@ inline bool bends_around(const Body& chain, int node, const Body& other, double 
   return false;
 }
 
-inline ReferenceMeeting reference_meeting(const Body& a, const Body& b, double range) {
+/// Pieces alone, and nothing of rings and wraps.
+/// @param levels  m, gets the number of pieces integrated over the levels
+inline ReferenceMeeting reference_pieces(const Body& a, const Body& b, double range,
+                                         double* levels = nullptr) {
   struct Pair {
     NodeList a;
     NodeList b;
@@ -143,6 +147,7 @@ inline ReferenceMeeting reference_meeting(const Body& a, const Body& b, double r
       const ReferenceFoot foot = reference_separation(cell_a, a.x, cell_b, b.x);
       if (!(foot.distance < range)) continue;
       result.force += (range - foot.distance) / foot.distance * foot.separation;
+      result.energy += 0.5 * (range - foot.distance) * (range - foot.distance);
       pieces += range - foot.distance;
       result.most_parallel = std::max(result.most_parallel, alignment(cell_a, a.x, cell_b, b.x));
       pairs.push_back({cell_a, cell_b});
@@ -178,10 +183,18 @@ inline ReferenceMeeting reference_meeting(const Body& a, const Body& b, double r
     if (find(seam.i) == find(seam.k)) continue;
     root[find(seam.i)] = find(seam.k);
     result.force -= (range - seam.foot.distance) / seam.foot.distance * seam.foot.separation;
+    result.energy -= 0.5 * (range - seam.foot.distance) * (range - seam.foot.distance);
     pieces -= range - seam.foot.distance;
     --result.components;
   }
-  if (pairs.empty()) return result;
+  if (levels != nullptr) *levels = pieces;
+  return result;
+}
+
+inline ReferenceMeeting reference_meeting(const Body& a, const Body& b, double range) {
+  double pieces = 0.0;
+  ReferenceMeeting result = reference_pieces(a, b, range, &pieces);
+  if (result.pairs == 0) return result;
   const auto wraps = [range](const Body& chain, const Body& other) {
     for (std::size_t node = 0; node < chain.x.size(); ++node)
       if (bends_around(chain, static_cast<int>(node), other, range)) return true;
