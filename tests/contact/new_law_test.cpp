@@ -2,9 +2,12 @@
 // A law that the library has never seen goes through the same kernels as its own, in lanes where
 // there are lanes. (Its properties are tested with those of all laws, law_properties_test.cpp.)
 #include "contact/balls/ball_kernel.hpp"
-#include "contact/contacts_under.hpp"
+#include "contact/lane_law.hpp"
+#include "contact/laws/models.hpp"
+#include "geometry/rows.hpp"
+#include "geometry/vector_width.hpp"
 #include "tests/support/complexes.hpp"
-#include "tests/support/one_at_a_time.hpp"
+#include "tests/support/seeded_random.hpp"
 #include "tests/support/weakening_slider.hpp"
 
 #include <gtest/gtest.h>
@@ -19,8 +22,7 @@ using geometry::Sphere;
 using geometry::Surface;
 using test::Random;
 using test::WeakeningSlider;
-using Twin = test::OneAtATime<WeakeningSlider>;
-static_assert(LaneLaw<WeakeningSlider> && ContactLaw<Twin> && !LaneLaw<Twin>);
+static_assert(LaneLaw<WeakeningSlider>);
 static_assert(sizeof(WeakeningSlider::History) == 4 * sizeof(double));
 
 constexpr double kStep = 2e-3;  // s
@@ -61,28 +63,31 @@ struct Outcome {
   ContactCounts counts;
 };
 
-/// @param Law  the law of all contacts
-template <class Law>
 Outcome outcome_of(int threads) {
   Place place;
   std::vector<Vec3>& x = place.complex.x;
   const Surface surface = place.complex.surface();
   const MaterialId stone{0};
-  ContactsUnder<Law> contacts(place.spheres, surface,
-                              {MaterialPairs<Law>({Material{1e6, 0.5, 0.4}}),
-                               std::vector<MaterialId>(place.spheres.size(), stone),
-                               std::vector<MaterialId>(surface.structure_count(), stone)},
-                              0.05);
+  const auto contacts = model_of<WeakeningSlider>()(
+      {.spheres = place.spheres,
+       .surface = surface,
+       .materials = {Material{1e6, 0.5, 0.4}},
+       .of_spheres = std::vector<MaterialId>(place.spheres.size(), stone),
+       .of_structures = std::vector<MaterialId>(surface.structure_count(), stone),
+       .masses = {},
+       .skin = 0.05,
+       .meets_planes = {},
+       .rest = {}});
   geometry::ThreadPool pool(threads);
   Outcome outcome{NodeForces(x.size()), 0.0, 0.0, {}};
   for (int step = 0; step < 30; ++step) {
     const double to_and_fro = step % 10 < 5 ? kStep : -kStep;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += to_and_fro * place.velocity[i];
-    contacts.advance({x, place.velocity, place.spin}, place.planes, kStep, pool, outcome.forces);
+    contacts->advance({x, place.velocity, place.spin}, place.planes, kStep, pool, outcome.forces);
   }
-  outcome.energy = contacts.elastic_energy();
-  outcome.dissipated = contacts.dissipated();
-  outcome.counts = contacts.counts();
+  outcome.energy = contacts->elastic_energy();
+  outcome.dissipated = contacts->dissipated();
+  outcome.counts = contacts->counts();
   return outcome;
 }
 
@@ -94,7 +99,7 @@ void expect_same_bits(const Outcome& a, const Outcome& b) {
 }
 
 TEST(NewLaw, ActsInContactsOfEveryKind) {
-  const ContactCounts counts = outcome_of<WeakeningSlider>(1).counts;
+  const ContactCounts counts = outcome_of(1).counts;
 
   EXPECT_GT(counts.sphere_sphere, 64U);
   EXPECT_GT(counts.sphere_surface, 32U);
@@ -103,20 +108,16 @@ TEST(NewLaw, ActsInContactsOfEveryKind) {
 }
 
 TEST(NewLaw, SlidesAndSticks) {
-  const Outcome outcome = outcome_of<WeakeningSlider>(1);
+  const Outcome outcome = outcome_of(1);
 
   EXPECT_GT(outcome.energy, 0.0);
   EXPECT_GT(outcome.dissipated, 0.0);
 }
 
-TEST(NewLaw, HasTheSameBitsSideBySideAndOneAtATime) {
-  expect_same_bits(outcome_of<WeakeningSlider>(1), outcome_of<Twin>(1));
-}
-
 TEST(NewLaw, HasTheSameBitsForAnyNumberOfThreads) {
-  const Outcome of_one = outcome_of<WeakeningSlider>(1);
+  const Outcome of_one = outcome_of(1);
 
-  for (const int threads : {2, 4}) expect_same_bits(outcome_of<WeakeningSlider>(threads), of_one);
+  for (const int threads : {2, 4}) expect_same_bits(outcome_of(threads), of_one);
 }
 
 template <class Width>
