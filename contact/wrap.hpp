@@ -37,11 +37,12 @@
 /// the bars as they are in a wrap: X^2 = (n / 2)^2 L^2 / (L^2 + (3 pi T / 8)^2), which has its
 /// limits for n bars of the mean square length L^2 both long and short against T. So a wrap gets
 /// all of x back, whatever its mesh: half of a drum with 12 to 640 bars has the force of the
-/// integral over the chain to 0.4 % up to overlaps of a twentieth of its radius, and to 10 %
-/// between meshes for a law after Hertz. And W starts as x^3, so that forces on nodes are Lipschitz
-/// where wires pass through straight; the smaller c = kTurn, the less a wrap is off that is not
-/// quite even, and the stiffer nodes are there, by up to 0.53 / c (T / L)^2 sqrt(1 + (3 pi T / 8
-/// L)^2) contacts where bars are in line. With twice of c the belt is off by up to 1.4 %.
+/// integral over the chain to 0.4 % up to overlaps of a twentieth of its radius; under a law after
+/// Hertz meshes differ about as much as under a linear spring. And W starts as x^3, so that forces
+/// on nodes are Lipschitz where wires pass through straight; the smaller c = kTurn, the less a wrap
+/// is off that is not quite even, and the stiffer nodes are there: up to
+/// 0.53 / c (T / L)^2 sqrt(1 + (3 pi T / 8 L)^2) contacts where bars are in line. With twice of c
+/// the belt is off by up to 1.4 %.
 ///
 /// W is a function of the separation and the bars alone; forces are its gradient.
 namespace plekton::contact {
