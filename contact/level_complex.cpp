@@ -43,6 +43,7 @@ void LevelComplex::index_links() {
 
 void LevelComplex::add_to(Filling& filling, std::uint32_t side, std::uint32_t cell,
                           int sign) const {
+  if (vertices_[side] == vertices_[cell]) return;
   const auto found = std::lower_bound(keys_.begin(), keys_.end(), LinkKey{side, cell, 0, 0, 0, 0});
   if (found == keys_.end() || found->side != side || found->cell != cell) return;
   filling.links[filling.count] = found->link;

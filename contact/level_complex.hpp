@@ -32,7 +32,7 @@ class LevelComplex {
   /// All of them, then sort_links().
   void add_link(std::uint32_t side, std::uint32_t cell);
   void sort_links();
-  /// First index_links(), then all of them, then sort_fillings().
+  /// First index_links(), then all of them, then sort_fillings() or merge_links().
   void index_links();
   void add_filling(std::uint32_t corner, std::uint32_t first_side, std::uint32_t cell,
                    std::uint32_t last_side);

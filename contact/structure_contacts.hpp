@@ -31,10 +31,11 @@ namespace plekton::contact {
 ///
 /// The elastic force, and an attraction of bodies that touch, is the gradient of one energy, a sum
 /// over pairs of features (structure/nearest.hpp, structure/extended.hpp) with the weights of
-/// product_features.hpp: one contact for every part of the contact region, and one more for every
-/// diameter of length or square diameter of area on which bodies run side by side. Friction and all
-/// else is decided once per patch, a part of the region that hangs together: its spring is as stiff
-/// as the contacts it counts, it acts where the elastic force acts, and it follows the
+/// product_features.hpp: one contact for every part of the contact region, also where it closes a
+/// ring (structure/pair_terms.hpp), and one more for every diameter of length or square diameter of
+/// area on which bodies run side by side. Friction and all else is decided once per patch, a part
+/// of the region that hangs together: its spring is as stiff as the contacts it counts, it acts
+/// where the elastic force acts, and it follows the
 /// patch over the mesh. Facets that lie on each other have a spring for every pair of them instead
 /// (structure/spread_contact.hpp), for the part of the elastic force that their overlap has, and so
 /// have bars on anything, for their shares of it. Under

@@ -220,7 +220,6 @@ void ProductComplex::list_fillings() {
         levels_.add_filling(corners_[i].side, corners_[i].cell, cell, corners_[i + 1].cell);
     }
   }
-  levels_.sort_fillings();
   levels_.merge_links();
 }
 

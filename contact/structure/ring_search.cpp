@@ -55,7 +55,7 @@ bool RingSearch::find(std::span<const std::uint32_t> acting, std::span<const Pai
   return !pairs_.empty();
 }
 
-/// Most often the order is that of the step before.
+/// Deepest first.
 void RingSearch::sort(std::span<const std::uint32_t> acting, std::span<const PairTerm> terms) {
   const auto is_deeper = [&](std::uint32_t p, std::uint32_t q) {
     return terms[p].overlap != terms[q].overlap ? terms[p].overlap > terms[q].overlap : p < q;
