@@ -155,13 +155,21 @@ class SceneProblems {
     }
   }
 
+  /// A surface may be without thickness, but nothing that is in contact; other radii are the
+  /// surface's affair.
+  void expect_thickness(std::string_view kind, std::size_t id, double radius) {
+    if (radius == 0.0) line(kind, id) << "its radius is 0; what is in contact needs a thickness\n";
+  }
+
   /// Facets and cylinders, and the one material of each connected structure.
   void list_structures() {
     const geometry::Elements& elements = scene_.elements;
     for (std::size_t i = 0; i < elements.cylinders.size(); ++i) {
+      expect_thickness("cylinder", i, elements.cylinders[i].radius);
       expect_material("cylinder", i, scene_.cylinder_materials[i]);
     }
     for (std::size_t i = 0; i < elements.facets.size(); ++i) {
+      expect_thickness("facet", i, elements.facets[i].radius);
       expect_material("facet", i, scene_.facet_materials[i]);
     }
     try {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -57,8 +56,8 @@ class ElementProblems {
                        << "; merge duplicate nodes or delete the element\n";
       }
     }
-    if (!(radius > 0.0 && std::isfinite(radius))) {
-      line(kind, id) << " has radius " << radius << " m; it must be positive and finite\n";
+    if (!(radius >= 0.0 && std::isfinite(radius))) {
+      line(kind, id) << " has radius " << radius << " m; it must be finite and not negative\n";
     }
   }
 
@@ -77,7 +76,7 @@ class ElementProblems {
 class RadiusCheck {
  public:
   RadiusCheck(std::size_t node_count, ElementProblems& problems)
-      : components_(node_count), radius_(node_count, 0.0), problems_(&problems) {}
+      : components_(node_count), radius_(node_count, -1.0), problems_(&problems) {}
 
   template <class Element>
   void connect(std::span<const Element> elements) {
@@ -95,7 +94,7 @@ class RadiusCheck {
       if (!is_usable(elements[i])) continue;
       const double radius = elements[i].radius;
       double& common = radius_[components_.root(index_of(elements[i].nodes[0]))];
-      if (common == 0.0) common = radius;
+      if (common < 0.0) common = radius;
       if (common == radius) continue;
       problems_->line(kind, i) << " has radius " << radius
                                << " m, but it is connected to elements of radius " << common
@@ -106,28 +105,51 @@ class RadiusCheck {
  private:
   template <class Element>
   bool is_usable(const Element& element) const {
-    return element.radius > 0.0 && std::isfinite(element.radius) &&
+    return element.radius >= 0.0 && std::isfinite(element.radius) &&
            std::all_of(element.nodes.begin(), element.nodes.end(), [this](NodeId node) {
              return static_cast<std::int64_t>(node) >= 0 && index_of(node) < radius_.size();
            });
   }
 
   Components components_;
-  std::vector<double> radius_;  // m, of the structure with this root; 0 until an element sets it
+  std::vector<double> radius_;  // m, of the structure with this root; negative until an element
+                                // sets it
   ElementProblems* problems_;
 };
+
+/// Of each facet the first one with the same nodes, itself if there is none before it.
+std::vector<std::size_t> first_with_same_nodes(std::span<const Facet> facets) {
+  struct Entry {
+    std::array<NodeId, 3> nodes;
+    std::uint32_t facet;
+    auto operator<=>(const Entry&) const = default;
+  };
+  std::vector<Entry> entries(facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    auto [a, b, c] = facets[f].nodes;
+    if (b < a) std::swap(a, b);
+    if (c < b) std::swap(b, c);
+    if (b < a) std::swap(a, b);
+    entries[f] = {{a, b, c}, static_cast<std::uint32_t>(f)};
+  }
+  std::sort(entries.begin(), entries.end());
+  std::vector<std::size_t> first(facets.size());
+  std::size_t of_run = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].nodes != entries[of_run].nodes) of_run = i;
+    first[entries[i].facet] = entries[of_run].facet;
+  }
+  return first;
+}
 
 void check_elements(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
                     std::size_t node_count) {
   ElementProblems problems;
-  std::map<std::array<NodeId, 3>, std::size_t> seen;
+  const auto first = first_with_same_nodes(facets);
   for (std::size_t f = 0; f < facets.size(); ++f) {
     problems.check("facet", f, facets[f].nodes, facets[f].radius, node_count);
-    auto key = facets[f].nodes;
-    std::sort(key.begin(), key.end());
-    const auto [other, is_new] = seen.try_emplace(key, f);
-    if (!is_new) {
-      problems.line("facet", f) << " has the same nodes as facet " << other->second
+    if (first[f] != f) {
+      problems.line("facet", f) << " has the same nodes as facet " << first[f]
                                 << "; delete one of them\n";
     }
   }
@@ -155,6 +177,8 @@ Surface::Surface(std::span<const Cylinder> cylinders, std::span<const Facet> fac
 
 Surface Surface::left_with(std::span<const Cylinder> cylinders,
                            std::span<const Facet> facets) const {
+  require_nodes(cylinders);
+  require_nodes(facets);
   Surface left;
   left.build_edges(cylinders, facets);
   require_part(left);
@@ -166,6 +190,19 @@ Surface Surface::left_with(std::span<const Cylinder> cylinders,
     if (left.node_edges_[n].empty()) left.node_structure_[n] = StructureId{-1};
   }
   return left;
+}
+
+/// @throws std::invalid_argument if an element names a node that does not exist
+template <class Element>
+void Surface::require_nodes(std::span<const Element> elements) const {
+  for (const Element& element : elements) {
+    for (const NodeId node : element.nodes) {
+      if (static_cast<std::int64_t>(node) >= 0 && index_of(node) < node_count()) continue;
+      throw std::invalid_argument("surface: an element of those left names node " +
+                                  std::to_string(static_cast<std::int32_t>(node)) +
+                                  ", but there are " + std::to_string(node_count()) + " nodes");
+    }
+  }
 }
 
 /// @throws std::invalid_argument if facets or edges are none of this surface
@@ -188,22 +225,49 @@ void Surface::require_part(const Surface& part) const {
   }
 }
 
+/// Edges are collected under their lower nodes: the time is linear, but for sorting those of each
+/// node.
 void Surface::build_edges(std::span<const Cylinder> cylinders, std::span<const Facet> facets) {
   face_nodes_.reserve(facets.size());
   for (const Facet& facet : facets) face_nodes_.push_back(facet.nodes);
-  for (const auto& n : face_nodes_) {
-    for (std::size_t k = 0; k < 3; ++k) edge_nodes_.push_back(sorted(n[k], n[(k + 1) % 3]));
+  const auto for_each_side = [&](const auto& visit) {
+    for (const auto& n : face_nodes_) {
+      for (std::size_t k = 0; k < 3; ++k) visit(sorted(n[k], n[(k + 1) % 3]));
+    }
+    for (const Cylinder& cylinder : cylinders) visit(sorted(cylinder.nodes[0], cylinder.nodes[1]));
+  };
+  std::vector<std::size_t> start(1, 0);
+  for_each_side([&](const std::array<NodeId, 2>& side) {
+    if (start.size() < index_of(side[0]) + 2) start.resize(index_of(side[0]) + 2, 0);
+    ++start[index_of(side[0]) + 1];
+  });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<NodeId> upper(start.back());
+  std::vector<std::size_t> end(start.begin(), start.end());
+  for_each_side(
+      [&](const std::array<NodeId, 2>& side) { upper[end[index_of(side[0])]++] = side[1]; });
+
+  std::vector<std::size_t> first_edge(start.size(), 0);
+  edge_nodes_.reserve(upper.size() / 2 + 1);
+  for (std::size_t low = 0; low + 1 < start.size(); ++low) {
+    const auto begin = upper.begin() + static_cast<std::ptrdiff_t>(start[low]);
+    const auto last = upper.begin() + static_cast<std::ptrdiff_t>(start[low + 1]);
+    std::sort(begin, last);
+    std::for_each(begin, std::unique(begin, last), [&](NodeId high) {
+      edge_nodes_.push_back({id_at<NodeId>(low), high});
+    });
+    first_edge[low + 1] = edge_nodes_.size();
   }
-  for (const Cylinder& cylinder : cylinders)
-    edge_nodes_.push_back(sorted(cylinder.nodes[0], cylinder.nodes[1]));
-  std::sort(edge_nodes_.begin(), edge_nodes_.end());
-  edge_nodes_.erase(std::unique(edge_nodes_.begin(), edge_nodes_.end()), edge_nodes_.end());
 
   face_edges_.resize(face_nodes_.size());
   for (std::size_t f = 0; f < face_nodes_.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto key = sorted(face_nodes_[f][k], face_nodes_[f][(k + 1) % 3]);
-      const auto found = std::lower_bound(edge_nodes_.begin(), edge_nodes_.end(), key);
+      const auto of_node = [&](std::size_t node) {
+        return edge_nodes_.begin() + static_cast<std::ptrdiff_t>(first_edge[node]);
+      };
+      const std::size_t low = index_of(key[0]);
+      const auto found = std::lower_bound(of_node(low), of_node(low + 1), key);
       face_edges_[f][k] = id_at<EdgeId>(static_cast<std::size_t>(found - edge_nodes_.begin()));
     }
   }

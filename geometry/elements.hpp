@@ -31,7 +31,7 @@ class Surface {
 
   /// Time and memory grow linearly with the number of elements, times log for sorting the edges.
   /// @throws std::invalid_argument listing every problem: a node id out of range, an element that
-  ///         repeats a node, two facets on the same three nodes, a radius that is not positive and
+  ///         repeats a node, two facets on the same three nodes, a radius that is negative or not
   ///         finite, connected elements with different radii.
   Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
           std::size_t node_count);
@@ -116,6 +116,8 @@ class Surface {
   };
 
   void build_edges(std::span<const Cylinder> cylinders, std::span<const Facet> facets);
+  template <class Element>
+  void require_nodes(std::span<const Element> elements) const;
   void require_part(const Surface& part) const;
   void build_incidence();
   void build_structures(std::span<const Cylinder> cylinders, std::span<const Facet> facets);

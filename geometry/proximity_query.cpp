@@ -24,9 +24,9 @@ void list_sphere_problems(std::span<const Sphere> spheres, std::size_t node_coun
       problems << "sphere " << i << " names node " << node << ", but there are " << node_count
                << " nodes\n";
     }
-    if (!(spheres[i].radius > 0.0 && std::isfinite(spheres[i].radius))) {
+    if (!(spheres[i].radius >= 0.0 && std::isfinite(spheres[i].radius))) {
       problems << "sphere " << i << " has radius " << spheres[i].radius
-               << " m; it must be positive and finite\n";
+               << " m; it must be finite and not negative\n";
     }
   }
 }

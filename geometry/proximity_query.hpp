@@ -47,7 +47,7 @@ struct ElementPair {
 class ProximityQuery {
  public:
   /// @throws std::invalid_argument listing every problem of the elements (see Surface; spheres
-  ///         whose node does not exist or whose radius is not positive and finite) and of
+  ///         whose node does not exist or whose radius is negative or not finite) and of
   ///         largest_gap
   ProximityQuery(Elements elements, std::size_t node_count, const PairChoice& choice,
                  int threads = 1);

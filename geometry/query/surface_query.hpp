@@ -1,39 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/broad_phase.hpp"
-#include "geometry/primitive_pairs.hpp"
+#include "geometry/query/box_tree.hpp"
+#include "geometry/query/enclosure.hpp"
+#include "geometry/query/nearest_search.hpp"
 #include "geometry/query/ray.hpp"
 #include "geometry/thread_pool.hpp"
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace plekton::geometry {
 
-/// The cell of a surface that is nearest to something, and how.
-struct NearestCell {
-  CellId cell;
-  Proximity proximity;  ///< a: what was asked with; b: the cell
+/// How far a point is from a closed surface of facets without thickness, and on which side.
+struct SignedDistance {
+  double distance;      ///< m, negative inside, 0 on the surface
+  Side side;            ///< exact
+  NearestCell nearest;  ///< by distance, of equal ones the lowest; its gap counts the radius
 };
 
-/// The two cells at which two surfaces are nearest.
-struct NearestCells {
-  CellId a;
-  CellId b;
-  Proximity proximity;
-};
-
-/// Questions to a surface at one moment: what is nearest, what does a ray hit. Const functions may
-/// run at the same time, and answers are the same for any number of threads.
+/// Questions to a surface at one moment: what is nearest, what does a ray hit, what is inside.
+/// Const functions may run at the same time, and answers are the same for any number of threads.
 ///
 /// The features that an answer names are exactly those at which its cell is nearest
 /// (primitive_pairs.hpp). Which cell it is, the computed gaps decide, of equal ones the lowest
 /// cell. They have rounding errors: of cells that are equally near, as those around a nearest edge
-/// or node, it may be any.
+/// or node, it may be any. Cells that share the nearest feature of a point agree about its distance
+/// to the last bit, so of these it is the lowest.
 ///
-/// A question takes O(log cells) for cells of similar size that do not crowd around the answer.
+/// Making one takes O(n log n) for n cells, moving O(n). A question takes O(log n + cells as near
+/// as the answer to a few ulps) from anywhere, if cells are of similar size and not nearly all as
+/// far as each other, as those of a ball are from its centre.
 class SurfaceQuery {
  public:
   /// @param surface  must outlive this
@@ -57,15 +56,35 @@ class SurfaceQuery {
   /// Every cell whose gap to a probe is less than a length (m), ascending.
   std::vector<NearestCell> within(const Probe& probe, double gap) const;
 
-  /// The smallest gap between two surfaces, of equal ones the lowest cells, of this one first.
-  /// Takes O(n log m) for n cells here and m there, and the time of one pair more for every two
-  /// whose boxes are no further apart than the answer, or overlap: n m if all lie on one another.
+  /// The smallest gap between two surfaces, of equal ones the lowest cells, of this one first; of
+  /// those that are equal to rounding it may be any.
+  /// Goes down both trees: O(log n) if the surfaces are nearest in one place, and the time of one
+  /// pair more for every two cells that are as near as the answer, or whose boxes are and that no
+  /// plane along one of them keeps apart.
   /// @returns nothing if one of them has no cells
   std::optional<NearestCells> nearest(const SurfaceQuery& other) const;
 
   /// Where a ray first enters the thick surface: of the hits of all cells (ray.hpp) the one with
   /// the smallest t, of equal t that of the lowest cell.
   std::optional<RayHit> first_hit(const Ray& ray) const;
+
+  /// Where a ray enters each cell that it enters, by t, then by cell: one hit for every cell, so
+  /// two or more with one t and one feature where it goes through an edge or a node.
+  std::vector<RayHit> all_hits(const Ray& ray) const;
+
+  /// Whether the surface encloses something: it has facets, every edge an even number of them, and
+  /// no free cylinders. Decided by the nodes that facets share, not by where they are.
+  bool is_closed() const noexcept { return open_reason_.empty(); }
+
+  /// On which side of the closed surface a point is (enclosure.hpp), exactly. The radius does not
+  /// count.
+  /// @throws std::invalid_argument for a point as for a probe; std::logic_error that names what is
+  /// open if the surface is not closed
+  Side side_of(const Vec3& point) const;
+
+  /// Distance from the closed surface with the sign of side_of(), which no rounding of the distance
+  /// can turn. @throws as side_of()
+  SignedDistance signed_distance(const Vec3& point) const;
 
   /// Many questions, shared by threads; the answers in the order of the questions.
   std::vector<std::optional<NearestCell>> nearest(std::span<const Probe> probes,
@@ -74,28 +93,17 @@ class SurfaceQuery {
 
  private:
   void check(Positions x) const;
+  void require_closed() const;
   void make_boxes();
-  Box box_of(CellId cell, double margin) const;
-  Probe probe_of(CellId cell) const;
-
-  /// Reused by the questions of one thread.
-  struct Work {
-    std::vector<std::int32_t> cells;
-  };
-  std::optional<NearestCell> nearest(const Probe& probe, Work& work) const;
-  void improve(const Probe& probe, double reach, std::optional<NearestCell>& best,
-               Work& work) const;
-  void improve(const SurfaceQuery& other, NearestCells& best, Work& work) const;
-  double slack(const Ray& ray, double t) const;
-  std::optional<RayHit> first_hit(const Ray& ray, Work& work) const;
-  std::optional<RayHit> first_hit_near(const Ray& ray, double from, double to, Work& work) const;
+  ThickBox box_of(CellId cell) const;
+  SearchedSurface searched() const noexcept { return {{*surface_, x_}, tree_}; }
 
   const Surface* surface_;
   std::vector<Vec3> x_;
-  std::vector<Box> boxes_;
-  BroadPhase tree_;
-  Box bounds_{Vec3::Zero(), Vec3::Zero()};
-  double cell_size_ = 0.0;  ///< m, mean length of the boxes' diagonals
+  std::vector<ThickBox> boxes_;
+  BoxTree tree_;
+  Box bounds_{Vec3::Zero(), Vec3::Zero()};  ///< m, of the thick cells
+  std::string open_reason_;                 ///< why the surface is not closed, empty if it is
 };
 
 }  // namespace plekton::geometry

@@ -279,7 +279,7 @@ TEST(SurfaceErrors, ListEveryProblemAtOnce) {
   bad.cylinder(5, 5);          // repeats
   bad.cylinder(6, 99);         // out of range
   bad.cylinder(5, 6);
-  bad.cylinders[2].radius = 0.0;
+  bad.cylinders[2].radius = -1.0;
   bad.cylinder(6, 7);
   bad.cylinders[3].radius = std::numeric_limits<double>::quiet_NaN();
   bad.cylinder(5, 7);
@@ -302,10 +302,12 @@ TEST(SurfaceErrors, ListEveryProblemAtOnce) {
           "surface: facet 5 has radius 0.2 m, but it is connected to elements of radius 0.1 m"));
   EXPECT_THAT(message, HasSubstr("surface: cylinder 0 repeats node 5"));
   EXPECT_THAT(message, HasSubstr("surface: cylinder 1 names node 99, but there are 8 nodes"));
-  EXPECT_THAT(message, HasSubstr("surface: cylinder 2 has radius 0 m; it must be positive"));
-  EXPECT_THAT(message, HasSubstr("surface: cylinder 3 has radius nan m; it must be positive"));
   EXPECT_THAT(message,
-              HasSubstr("surface: cylinder 4 has radius inf m; it must be positive and finite"));
+              HasSubstr("surface: cylinder 2 has radius -1 m; it must be finite and not negative"));
+  EXPECT_THAT(message, HasSubstr("surface: cylinder 3 has radius nan m; it must be finite"));
+  EXPECT_THAT(
+      message,
+      HasSubstr("surface: cylinder 4 has radius inf m; it must be finite and not negative"));
   EXPECT_THAT(
       message,
       HasSubstr(
