@@ -6,6 +6,7 @@ compiled for this machine. See README.md, "Against the peers".
 """
 
 import argparse
+import itertools
 import json
 import os
 import sys
@@ -22,7 +23,8 @@ from comparison.running import last_lines, run
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bench", help="path of plekton-bench")
-    parser.add_argument("--scenes", nargs="+", default=cases.SCENE_NAMES, choices=cases.SCENE_NAMES)
+    parser.add_argument("--search", help="path of plekton-bench-search, which is run beside the scenes (G12)")
+    parser.add_argument("--scenes", nargs="*", default=cases.SCENE_NAMES, choices=cases.SCENE_NAMES)
     parser.add_argument("--sizes", nargs="+", type=int, default=[5000, 20000, 100000], help="spheres of s1")
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--threads", nargs="+", type=int, default=[1, 2], help="of Plekton")
@@ -119,6 +121,18 @@ def all_runs(ready, found, options):
                 yield record
 
 
+def search_runs(options):
+    """The records of plekton-bench-search, which asks CGAL and FCL as well, in turns, by processor time."""
+    if not options.search:
+        return
+    command = [str(Path(options.search).resolve()), "--repetitions", str(options.repetitions)]
+    ended = run(command, 1, options.timeout)
+    if ended.code != 0:
+        raise RuntimeError(f"plekton-bench-search ends with {ended.code}: {last_lines(ended.text)}")
+    for figures in outputs.read_searches(ended.text):
+        yield {**figures, "threads": 1, "rss_MiB": ended.rss, "share": ended.share}
+
+
 def tell(record):
     what = f"{record['scene']} {record['size'] or ''} {record['code']} x{record['threads']} #{record['repetition']}"
     figure = "failed" if "failed" in record else f"{record['ms_per_step']:.4g} ms/step"
@@ -129,7 +143,7 @@ def collect(ready, found, options):
     """Runs all and writes each record as it comes; an interrupt keeps what there is."""
     records = []
     try:
-        for record in all_runs(ready, found, options):
+        for record in itertools.chain(all_runs(ready, found, options), search_runs(options)):
             records.append(record)
             tell(record)
             if options.out:

@@ -90,6 +90,28 @@ class Outputs(unittest.TestCase):
                 outputs.read_json(text, 50)
 
 
+class Searches(unittest.TestCase):
+    LINE = '{"scene": "search_near", "code": "%s", "size": 500000, "repetition": 0, "steps": 1, "ms_per_step": %g, "cpu_ms_per_step": %g}'
+
+    def records(self, ours, theirs):
+        text = "\n".join(self.LINE % (code, ms, ms) for code, ms in (("plekton", ours), ("cgal", theirs)))
+        return [{**figures, "threads": 1, "rss_MiB": 20.0} for figures in outputs.read_searches(text)]
+
+    def test_the_search_promise_is_judged_by_the_lines_of_its_program(self):
+        held = row(self.records(300.0, 400.0), "G12", "search_near", ("cgal",))
+        missed = row(self.records(500.0, 400.0), "G12", "search_near", ("cgal",))
+
+        self.assertAlmostEqual(held.measured.median, 4.0 / 3.0)
+        self.assertEqual((held.verdict(held.must), missed.verdict(missed.must)), ("holds", "missed"))
+
+    def test_what_was_not_searched_is_not_measured(self):
+        self.assertEqual(row([], "G12", "search_flat").verdict(0.5), "not measured (needs --search)")
+
+    def test_no_line_is_no_result(self):
+        with self.assertRaises(outputs.Unreadable):
+            outputs.read_searches("Segmentation fault")
+
+
 class Statistics(unittest.TestCase):
     def test_ratios_are_taken_within_repetitions(self):
         # The machine slows down by half in the second repetition; the ratio stays 2.

@@ -39,6 +39,14 @@ def read_json(text, steps, prefix=""):
     return checked(figures, steps)
 
 
+def read_searches(text):
+    """All lines of plekton-bench-search."""
+    found = [json.loads(line) for line in text.splitlines() if line.startswith("{")]
+    if not found:
+        raise Unreadable("no line with a result")
+    return [checked(figures, 1) for figures in found]
+
+
 LOOP = re.compile(r"Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms")
 SHARE = re.compile(r"([\d.]+)% CPU use")
 CLOCK = re.compile(r"\(\S+\) [A-Z](?: -?\d+){10} (\d+) (\d+) ")

@@ -13,7 +13,7 @@ NATIVE_SHARE = 0.85
 SMALL = 20000
 """Spheres, up to which two threads have to bring more."""
 
-TITLES = {"yade": "YADE", "lammps": "LAMMPS", "liggghts": "LIGGGHTS", "loop": "the minimal loop"}
+TITLES = {"yade": "YADE", "lammps": "LAMMPS", "liggghts": "LIGGGHTS", "loop": "the minimal loop", "cgal": "CGAL", "fcl": "FCL"}
 
 
 @dataclass(frozen=True)
@@ -140,11 +140,31 @@ def growth(results, installed):
     yield Row("G10", "ns a sphere-step, 100000 over 5000", measured, 1.5, 1.3, at_least=False, missing=missing)
 
 
+SEARCHES = (
+    ("search_near", "cgal", 1.0),
+    ("search_far", "cgal", 1.0),
+    ("search_rings", "fcl", 0.5),
+    ("search_waves", "fcl", 0.5),
+    ("search_tilted", "fcl", 0.5),
+    ("search_flat", "fcl", 0.5),
+)
+"""Scene of plekton-bench-search, who else answers, and how many times as fast Plekton must be."""
+
+
+def searches(results, installed):
+    """G12."""
+    for scene, peer, must in SEARCHES:
+        for size in results.sizes(scene):
+            yield against(results, installed, "G12", peer, scene, size, (must, None))
+        if not results.sizes(scene):
+            yield Row("G12", f"{scene}: times {TITLES[peer]}", None, must, None, missing="needs --search")
+
+
 def rows(results, installed):
     """All promises.
 
     @param results    Results of plekton and of its peers.
     @param installed  Names of the peers found on this machine.
     """
-    for group in (sphere_beds, structures, contacts, two_threads, memory, growth):
+    for group in (sphere_beds, structures, contacts, two_threads, memory, growth, searches):
         yield from group(results, installed)
