@@ -172,6 +172,7 @@ Surface::Surface(std::span<const Cylinder> cylinders, std::span<const Facet> fac
   node_structure_.assign(node_count, StructureId{-1});
   build_edges(cylinders, facets);
   build_incidence();
+  place_cylinders(cylinders);
   build_structures(cylinders, facets);
 }
 
@@ -186,6 +187,7 @@ Surface Surface::left_with(std::span<const Cylinder> cylinders,
   left.structure_radius_ = structure_radius_;
   left.structure_is_sheet_ = structure_is_sheet_;
   left.build_incidence();
+  left.place_cylinders(cylinders);
   for (std::size_t n = 0; n < node_count(); ++n) {
     if (left.node_edges_[n].empty()) left.node_structure_[n] = StructureId{-1};
   }
@@ -310,6 +312,18 @@ void Surface::build_incidence() {
       const CellId candidate = edge_owner_[index_of(edge)];
       if (owner == CellId{-1} || candidate < owner) owner = candidate;
     }
+  }
+}
+
+void Surface::place_cylinders(std::span<const Cylinder> cylinders) {
+  free_cylinders_.resize(free_edges_.size());
+  for (std::size_t c = cylinders.size(); c-- > 0;) {
+    const auto ends = sorted(cylinders[c].nodes[0], cylinders[c].nodes[1]);
+    const auto edges = edges_of(ends[0]);
+    const auto edge =
+        std::find_if(edges.begin(), edges.end(), [&](EdgeId e) { return nodes_of(e) == ends; });
+    const std::size_t cell = index_of(owner_of(*edge));
+    if (cell >= face_count()) free_cylinders_[cell - face_count()] = static_cast<std::uint32_t>(c);
   }
 }
 

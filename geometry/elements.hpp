@@ -82,6 +82,12 @@ class Surface {
   Feature feature_of(CellId cell) const noexcept;
   /// Nodes of a cell: 3 of a facet, 2 of a free cylinder.
   std::span<const NodeId> nodes_of(CellId cell) const noexcept;
+  /// Place in its table of the facet or the cylinder that a cell is: the first of the cylinders if
+  /// several are along one edge. Of left_with() the tables are those of what is left.
+  std::size_t place_of(CellId cell) const noexcept {
+    const std::size_t i = index_of(cell);
+    return i < face_count() ? i : free_cylinders_[i - face_count()];
+  }
   CellId owner_of(EdgeId edge) const noexcept { return edge_owner_[index_of(edge)]; }
   /// Of a node that belongs to some cell.
   CellId owner_of(NodeId node) const noexcept { return node_owner_[index_of(node)]; }
@@ -120,12 +126,14 @@ class Surface {
   void require_nodes(std::span<const Element> elements) const;
   void require_part(const Surface& part) const;
   void build_incidence();
+  void place_cylinders(std::span<const Cylinder> cylinders);
   void build_structures(std::span<const Cylinder> cylinders, std::span<const Facet> facets);
 
   std::vector<std::array<NodeId, 3>> face_nodes_;
   std::vector<std::array<EdgeId, 3>> face_edges_;
   std::vector<std::array<NodeId, 2>> edge_nodes_;
   std::vector<EdgeId> free_edges_;
+  std::vector<std::uint32_t> free_cylinders_;  ///< places, by free edge
   Lists<EdgeId> node_edges_;
   Lists<FaceId> node_faces_;
   Lists<FaceId> edge_faces_;

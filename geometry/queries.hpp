@@ -8,8 +8,14 @@
 ///     proximity()              two primitives: nearest points, features, gap, normal
 ///     ProximityQuery           all pairs of a scene nearer than a distance, while it moves
 ///     SurfaceQuery             a surface: nearest to a point, ball, cylinder, facet or surface;
-///                              first hit of a ray; many questions at once
+///                              first hit and all hits of a ray; inside or outside, and signed
+///                              distance, of closed ones; many questions at once
 ///     hit()                    a ray and one thick primitive
+///     first_contact()          two primitives that move during a step
+///
+/// A radius may be 0. Ids are places in tables: those of a SphereId and a FaceId in the tables of
+/// spheres and facets, and Surface::place_of() gives that of a cell. Distances may be as small as a
+/// double can be between sides longer than 1e-140 m, and coordinates must be below 1e75 m.
 ///
 /// Whatever names a feature is decided exactly. Degenerate primitives are allowed: a facet without
 /// area is the union of its sides, a cylinder without length a ball. Cores that meet are reported
@@ -18,6 +24,7 @@
 #include "geometry/elements.hpp"
 #include "geometry/primitive_pairs.hpp"
 #include "geometry/proximity_query.hpp"
+#include "geometry/query/first_contact.hpp"
 #include "geometry/query/ray.hpp"
 #include "geometry/query/surface_query.hpp"
 #include "geometry/thread_pool.hpp"

@@ -23,7 +23,9 @@
 /// the sides exchanged and the separation reversed, bit for bit. Segments without length and
 /// triangles without area are the union of their lower features.
 ///
-/// Coordinates must be finite and below 1e75 in magnitude (m).
+/// Coordinates must be finite and below 1e75 in magnitude (m). The distance may be as small as a
+/// double can be, but sides have to be longer than 1e-140 m for its accuracy and that of the
+/// weights; what is decided is exact for shorter ones too.
 namespace plekton::geometry {
 
 struct ClosestPoints {

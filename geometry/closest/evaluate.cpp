@@ -209,12 +209,23 @@ Points of_vanishing_features(Corners a, Corners b, Carriers carriers) {
 
 }  // namespace
 
+namespace {
+
+/// m, also where the square would vanish.
+double length_of(const Vec3& v) {
+  constexpr double kSquareHasAllBits = 1e-140;  // m
+  const double length = v.norm();
+  return length > kSquareHasAllBits ? length : v.stableNorm();
+}
+
+}  // namespace
+
 ClosestPoints evaluate(Corners a, Corners b, const Decision& decision) noexcept {
   Points points = points_of(a, b, decision);
   if (!std::isfinite((points.weights_a + points.weights_b + points.separation).sum()))
     points = of_vanishing_features(a, b, decision.carriers);
   if (decision.relation != Relation::apart) points.separation.setZero();
-  return {points.weights_a,    points.weights_b,    points.separation, points.separation.norm(),
+  return {points.weights_a,    points.weights_b,    points.separation, length_of(points.separation),
           decision.carriers.a, decision.carriers.b, decision.relation};
 }
 

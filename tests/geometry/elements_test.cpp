@@ -339,5 +339,32 @@ TEST(SurfaceErrors, DoNotComplainAboutLooseStructuresOfDifferentRadii) {
   EXPECT_EQ(message_of(loose), "");
 }
 
+TEST(Surface, NamesThePlacesOfItsCellsInTheTables) {
+  Complex complex;
+  for (int k = 0; k < 6; ++k) complex.node(Vec3::Zero());
+  complex.facet(3, 4, 5);
+  complex.cylinder(5, 2);
+  complex.cylinder(4, 3);  // along the facet: no cell
+  complex.cylinder(1, 0);
+  complex.cylinder(2, 5);  // along the first one
+  const Surface surface = complex.surface();
+
+  ASSERT_EQ(surface.cell_count(), 3U);
+  EXPECT_EQ(surface.place_of(CellId{0}), 0U);
+  for (const CellId cell : {CellId{1}, CellId{2}}) {
+    const auto& nodes = complex.cylinders[surface.place_of(cell)].nodes;
+    EXPECT_TRUE(std::is_permutation(nodes.begin(), nodes.end(), surface.nodes_of(cell).begin()));
+  }
+  EXPECT_EQ(surface.place_of(CellId{1}), 2U);
+  EXPECT_EQ(surface.place_of(CellId{2}), 0U);
+}
+
+TEST(Surface, MayBeWithoutThickness) {
+  Complex complex = test::sheet(1);
+  for (Facet& facet : complex.facets) facet.radius = 0.0;
+  const Surface surface = complex.surface();
+  EXPECT_EQ(surface.radius(surface.structure_of(CellId{0})), 0.0);
+}
+
 }  // namespace
 }  // namespace plekton::geometry

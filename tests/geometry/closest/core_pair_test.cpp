@@ -94,5 +94,19 @@ TEST(CoreProximity, GivesTheSameBitsWithAnyGuess) {
   EXPECT_GT(crossings, 100u);
 }
 
+TEST(CorePair, HasADistanceAndADirectionWhereTheSquareOfTheDistanceVanishes) {
+  const Core facet{{Vec3(-1, -1, 0), Vec3(2, -1, 0), Vec3(-1, 2, 0)}, 3};
+  const Core bar{{Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3::Zero()}, 2};
+  for (const double gap : {1e-150, 1e-154, 1e-162, 1e-200, 1e-300}) {
+    const Core point{{Vec3(0, 0, gap), Vec3::Zero(), Vec3::Zero()}, 1};
+    for (const Core& below : {facet, bar}) {
+      const CoreProximity found = core_proximity(point, below);
+      EXPECT_EQ(found.points.relation, Relation::apart);
+      EXPECT_NEAR(found.signed_distance, gap, 1e-12 * gap);
+      EXPECT_NEAR((found.normal - Vec3(0, 0, -1)).norm(), 0.0, 1e-12);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plekton::geometry
