@@ -6,7 +6,7 @@
 #include "contact/laws/tangential_spring.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <type_traits>
 
 namespace plekton::contact {
 
@@ -33,35 +33,46 @@ struct CohesiveFrictional {
     Bonds bonds = Bonds::new_contacts;
     LinearFrictional::Properties elastic = {};
   };
-  struct Parameters {
-    LinearFrictional::Parameters elastic;
-    double tension;           ///< N, of a bond
-    double shear;             ///< N
-    double rupture_distance;  ///< m
-    bool glues;               ///< bodies that come to touch
+  template <class Real>
+  struct ParametersOf {
+    LinearFrictional::ParametersOf<Real> elastic;
+    Real tension;           ///< N, of a bond
+    Real shear;             ///< N
+    Real rupture_distance;  ///< m
+    Real glues;             ///< 1 if it glues bodies that come to touch, else 0
   };
-  enum class Bond : std::int64_t { none, holds, broken };
-  struct History {
-    TangentialSpring spring;
-    double overlap = 0.0;  ///< m, u
-    double yielded = 0.0;  ///< m, u_p <= 0
-    double pull = 0.0;     ///< N, normal force beyond the elastic one; negative in tension
-    Bond bond = Bond::none;
+  using Parameters = ParametersOf<double>;
+
+  // What may become of a bond, as numbers: bonds are looked at side by side.
+  static constexpr double kNone = 0.0;
+  static constexpr double kHolds = 1.0;
+  static constexpr double kBroken = -1.0;
+
+  template <class Real>
+  struct HistoryOf {
+    TangentialSpringOf<Real> spring;
+    Real overlap = Real(0.0);  ///< m, u
+    Real yielded = Real(0.0);  ///< m, u_p <= 0
+    Real pull = Real(0.0);     ///< N, normal force beyond the elastic one; negative in tension
+    Real bond = Real(kNone);   ///< or kHolds, kBroken
   };
+  using History = HistoryOf<double>;
 
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
     const double smaller = std::min(a.radius, b.radius);
     return {LinearFrictional::combine(properties.elastic, a, b),
             properties.tensile_strength * smaller * smaller,
             properties.shear_strength * smaller * smaller, properties.rupture_distance,
-            properties.bonds != Bonds::none};
+            properties.bonds != Bonds::none ? 1.0 : 0.0};
   }
   static Parameters multiplied(const Parameters& p, double count) noexcept {
     return {LinearFrictional::multiplied(p.elastic, count), count * p.tension, count * p.shear,
             p.rupture_distance, p.glues};
   }
 
-  static double elastic_normal_force(const Parameters& p, double gap) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real elastic_normal_force(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>& gap) noexcept {
     return LinearFrictional::elastic_normal_force(p.elastic, gap);
   }
   static double elastic_normal_energy(const Parameters& p, double gap) noexcept {
@@ -69,12 +80,18 @@ struct CohesiveFrictional {
   }
 
   /// How far apart (m) bodies may be that are still glued.
-  static double reach(const Parameters& p) noexcept {
-    const double k = p.elastic.normal_stiffness;
-    return k > 0.0 ? p.rupture_distance + p.tension / k : 0.0;
+  template <class Real>
+  PLEKTON_INLINE static Real reach(const ParametersOf<Real>& p) noexcept {
+    const Real& k = p.elastic.normal_stiffness;
+    return geometry::select(k > Real(0.0), Real(p.rupture_distance + p.tension / k), Real(0.0));
   }
   /// Whether a contact goes on over a distance.
-  static bool holds(const History& history) noexcept { return history.bond == Bond::holds; }
+  static bool holds(const History& history) noexcept { return hold(history) > 0.0; }
+  /// The same side by side: positive where it does.
+  template <class Real>
+  PLEKTON_INLINE static Real hold(const HistoryOf<Real>& history) noexcept {
+    return history.bond;
+  }
 
   /// See HasStart.
   static bool end_start(Properties& properties) noexcept {
@@ -85,38 +102,38 @@ struct CohesiveFrictional {
 
   /// See HasBonds. A bond without strength is none.
   static bool glues(const Parameters& p) noexcept {
-    return p.glues && (p.tension > 0.0 || p.shear > 0.0);
+    return p.glues > 0.0 && (p.tension > 0.0 || p.shear > 0.0);
   }
-  static void glue(const Parameters&, History& history) noexcept { history.bond = Bond::holds; }
+  static void glue(const Parameters&, History& history) noexcept { history.bond = kHolds; }
   static Parameters of_bond(const Parameters& p) noexcept { return p; }
   static Parameters beside_bonds(const Parameters& p, double part) noexcept {
     const LinearFrictional::Parameters& e = p.elastic;
-    return {{e.normal_stiffness, part * e.tangential_stiffness, part * e.friction},
-            0.0,
-            0.0,
-            0.0,
-            false};
+    return {
+        {e.normal_stiffness, part * e.tangential_stiffness, part * e.friction}, 0.0, 0.0, 0.0, 0.0};
   }
 
-  static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
-                            double dt) noexcept {
-    const double energy_before = bond_energy(p, history);
-    const double pull_before = history.pull;
-    move_bond(p, motion, history);
-    const double pressing = motion.elastic_normal_force + history.pull;
-    double dissipated = 0.0;
-    const Vec3 slip = dt * motion.slip_velocity;
-    const double stiffness = p.elastic.tangential_stiffness;
-    if (history.bond == Bond::holds && p.rupture_distance == 0.0 &&
-        (history.spring.force - stiffness * slip).norm() > shear_limit(p, history, pressing)) {
-      release(history);
-    }
-    const double limit = shear_limit(p, history, motion.elastic_normal_force + history.pull);
-    dissipated += history.spring.advance(slip, stiffness, limit);
-    dissipated += energy_before - bond_energy(p, history) -
-                  0.5 * (pull_before + history.pull) * motion.gap_rate * dt;
-    return {(motion.elastic_normal_force + history.pull) * motion.normal + history.spring.force,
-            dissipated};
+  template <class Real>
+  PLEKTON_INLINE static ContactForceOf<Real> force(const ParametersOf<Real>& p,
+                                                   const RelativeMotionOf<Real>& motion,
+                                                   HistoryOf<Real>& history, double dt) noexcept {
+    const Real energy_before = bond_energy(p, history);
+    const Real pull_before = history.pull;
+    const Vec3Of<Real> slip = Real(dt) * motion.slip_velocity;
+    const Real& stiffness = p.elastic.tangential_stiffness;
+    stretch_bond(p, motion, history);
+    shear_bond(p, motion, slip, history);
+    const Real pressing = motion.elastic_normal_force + history.pull;
+    const Real of_spring =
+        history.spring.advance(slip, stiffness, shear_limit(p, history, pressing));
+    const Real of_bond = energy_before - bond_energy(p, history) -
+                         Real(0.5) * (pull_before + history.pull) * motion.gap_rate * Real(dt);
+    return {total_force(motion.elastic_normal_force, motion.normal, history), of_spring + of_bond};
+  }
+
+  /// See TellsForce.
+  static Vec3 force_of_state(const Parameters& p, double gap, const Vec3& normal,
+                             const History& history) noexcept {
+    return total_force(elastic_normal_force(p, gap), normal, history);
   }
 
   /// See TellsTangentialLimit.
@@ -125,18 +142,26 @@ struct CohesiveFrictional {
     return shear_limit(p, history, elastic_force + history.pull);
   }
 
-  static double history_energy(const Parameters& p, const History& history) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>& p,
+                                            const HistoryOf<Real>& history) noexcept {
     return history.spring.energy() + bond_energy(p, history);
   }
 
-  static double normal_stiffness(const Parameters& p, double) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real normal_stiffness(const ParametersOf<Real>& p,
+                                              const std::type_identity_t<Real>&) noexcept {
     return p.elastic.normal_stiffness;
   }
-  static double tangential_stiffness(const Parameters& p, double) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real tangential_stiffness(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>&) noexcept {
     return p.elastic.tangential_stiffness;
   }
 
-  static void rotate(History& history, const FrameRotation& rotation) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static void rotate(HistoryOf<Real>& history,
+                                    const FrameRotationOf<Real>& rotation) noexcept {
     history.spring.force = rotation(history.spring.force);
   }
   /// A bond is one: what comes together has yielded as much as the part that has most.
@@ -145,48 +170,97 @@ struct CohesiveFrictional {
     history.overlap = other.overlap;
     history.yielded = std::min(history.yielded, other.yielded);
     history.pull += share * other.pull;
-    history.bond = std::max(history.bond, other.bond);
+    const bool is_broken = std::min(history.bond, other.bond) < 0.0;
+    history.bond = is_broken ? kBroken : std::max(history.bond, other.bond);
   }
 
  private:
   /// The overlap of one spring with the elastic force there is; over a distance, minus that.
-  static double overlap_of(const Parameters& p, const RelativeMotion& motion) noexcept {
-    const bool touches = motion.elastic_normal_force > 0.0 && p.elastic.normal_stiffness > 0.0;
-    return touches ? motion.elastic_normal_force / p.elastic.normal_stiffness
-                   : std::min(0.0, -motion.gap);
+  template <class Real>
+  PLEKTON_INLINE static Real overlap_of(const ParametersOf<Real>& p,
+                                        const RelativeMotionOf<Real>& motion) noexcept {
+    const Real& k = p.elastic.normal_stiffness;
+    const Real& force = motion.elastic_normal_force;
+    return geometry::select(geometry::smaller_of(force, k) > Real(0.0), Real(force / k),
+                            geometry::smaller_of(Real(-motion.gap), Real(0.0)));
   }
 
-  static void move_bond(const Parameters& p, const RelativeMotion& motion,
-                        History& history) noexcept {
-    const double k = p.elastic.normal_stiffness;
+  // Conditions are numbers that are positive where they hold, and all of some hold where the
+  // smallest is positive.
+
+  /// Positive for bonds that break at once instead of yielding.
+  template <class Real>
+  PLEKTON_INLINE static Real is_fragile(const ParametersOf<Real>& p) noexcept {
+    return geometry::select(p.rupture_distance > Real(0.0), Real(-1.0), Real(1.0));
+  }
+
+  /// The bond along the normal: begins, carries, yields or breaks.
+  template <class Real>
+  PLEKTON_INLINE static void stretch_bond(const ParametersOf<Real>& p,
+                                          const RelativeMotionOf<Real>& motion,
+                                          HistoryOf<Real>& history) noexcept {
+    using geometry::select;
+    using geometry::smaller_of;
+    const Real zero = 0.0;
+    const Real& k = p.elastic.normal_stiffness;
     history.overlap = overlap_of(p, motion);
-    if (history.bond == Bond::none && history.overlap > 0.0 && p.glues) history.bond = Bond::holds;
-    if (history.bond != Bond::holds) return release(history, history.bond);
-    if (-k * (history.overlap - history.yielded) > p.tension) {
-      if (p.rupture_distance == 0.0) return release(history);
-      history.yielded = history.overlap + p.tension / k;
-      if (-history.yielded > p.rupture_distance) return release(history);
-    }
-    history.pull = k * (history.overlap - history.yielded) - motion.elastic_normal_force;
+    const Real is_none = Real(0.5) - history.bond * history.bond;
+    const Real begins = smaller_of(history.overlap, smaller_of(p.glues, is_none));
+    history.bond = select(begins > zero, Real(kHolds), history.bond);
+
+    const Real tension = -k * (history.overlap - history.yielded);
+    const Real gives_way = smaller_of(Real(tension - p.tension), history.bond);
+    const Real yielded =
+        select(gives_way > zero, Real(history.overlap + p.tension / k), history.yielded);
+    const Real is_used_up = geometry::larger_of(Real(-yielded - p.rupture_distance), is_fragile(p));
+    history.bond = select(smaller_of(gives_way, is_used_up) > zero, Real(kBroken), history.bond);
+    history.yielded = select(history.bond > zero, yielded, zero);
+    const Real pull = k * (history.overlap - history.yielded) - motion.elastic_normal_force;
+    history.pull = select(history.bond > zero, pull, zero);
   }
 
-  static void release(History& history, Bond next = Bond::broken) noexcept {
-    history.bond = next;
-    history.pull = 0.0;
-    history.yielded = 0.0;
+  /// A fragile bond breaks in shear.
+  template <class Real>
+  PLEKTON_INLINE static void shear_bond(const ParametersOf<Real>& p,
+                                        const RelativeMotionOf<Real>& motion,
+                                        const std::type_identity_t<Vec3Of<Real>>& slip,
+                                        HistoryOf<Real>& history) noexcept {
+    using geometry::select;
+    using geometry::smaller_of;
+    const Real zero = 0.0;
+    const Real limit = shear_limit(p, history, motion.elastic_normal_force + history.pull);
+    const Vec3Of<Real> trial = history.spring.force - p.elastic.tangential_stiffness * slip;
+    const Real too_much = trial.norm() - limit;
+    const Real breaks = smaller_of(too_much, smaller_of(is_fragile(p), history.bond));
+    history.bond = select(breaks > zero, Real(kBroken), history.bond);
+    history.yielded = select(breaks > zero, zero, history.yielded);
+    history.pull = select(breaks > zero, zero, history.pull);
   }
 
-  static double shear_limit(const Parameters& p, const History& history, double pressing) noexcept {
-    const double glue = history.bond == Bond::holds ? p.shear : 0.0;
-    return std::max(0.0, glue + p.elastic.friction * pressing);
+  template <class Real>
+  PLEKTON_INLINE static Real shear_limit(const ParametersOf<Real>& p,
+                                         const HistoryOf<Real>& history,
+                                         const std::type_identity_t<Real>& pressing) noexcept {
+    const Real of_bond = geometry::select(history.bond > Real(0.0), p.shear, Real(0.0));
+    return geometry::positive_part(Real(of_bond + p.elastic.friction * pressing));
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static Vec3Of<Real> total_force(const Real& elastic_force,
+                                                 const Vec3Of<Real>& normal,
+                                                 const HistoryOf<Real>& history) noexcept {
+    return (elastic_force + history.pull) * normal + history.spring.force;
   }
 
   /// J, beyond that of the elastic force.
-  static double bond_energy(const Parameters& p, const History& history) noexcept {
-    if (history.bond != Bond::holds) return 0.0;
-    const double stretched = history.overlap - history.yielded;
-    const double pressed = std::max(0.0, history.overlap);
-    return 0.5 * p.elastic.normal_stiffness * (stretched * stretched - pressed * pressed);
+  template <class Real>
+  PLEKTON_INLINE static Real bond_energy(const ParametersOf<Real>& p,
+                                         const HistoryOf<Real>& history) noexcept {
+    const Real stretched = history.overlap - history.yielded;
+    const Real pressed = geometry::positive_part(history.overlap);
+    const Real energy =
+        Real(0.5) * p.elastic.normal_stiffness * (stretched * stretched - pressed * pressed);
+    return geometry::select(history.bond > Real(0.0), energy, Real(0.0));
   }
 };
 

@@ -5,11 +5,13 @@
 
 namespace plekton::contact {
 
-/// N/m, of a contact.
-struct ContactStiffness {
-  double normal;
-  double tangential;
+/// N/m, of a contact. Real is double, or a Pack for contacts side by side.
+template <class Real>
+struct ContactStiffnessOf {
+  Real normal;
+  Real tangential;
 };
+using ContactStiffness = ContactStiffnessOf<double>;
 
 /// What can be added to a contact law (sum.hpp): forces and moments that come on top of its own,
 /// such as resistance to rolling, or a dashpot. It has no elastic normal force, and knows of the
@@ -31,6 +33,12 @@ concept ContactPart = requires(const typename Part::Properties& properties,
   { Part::effective(parameters, stiffness) } -> std::same_as<ContactStiffness>;
   { Part::rotate(history, rotation) } -> std::same_as<void>;
   { Part::add_share(history, other, number) } -> std::same_as<void>;
+};
+
+/// A part whose force after a step follows from its history and the normal then (TellsForce).
+template <class Part>
+concept PartTellsForce = requires(const typename Part::History& history, const Vec3& normal) {
+  { Part::force_of_state(history, normal) } -> std::same_as<Vec3>;
 };
 
 /// What a bond has of a part, and a contact beside bonds (HasBonds): of one that says nothing about

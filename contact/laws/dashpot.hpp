@@ -3,7 +3,6 @@
 
 #include "contact/laws/contact_part.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace plekton::contact {
@@ -19,13 +18,18 @@ struct Dashpot {
   struct Properties {
     double damping_ratio = 0.0;  ///< xi >= 0; damping_ratio() gives that of a restitution
   };
-  struct Parameters {
-    double damping_ratio;
-    double strength;  ///< sqrt(kg), 2 xi sqrt(m); 0 without mass
+  template <class Real>
+  struct ParametersOf {
+    Real damping_ratio;
+    Real strength;  ///< sqrt(kg), 2 xi sqrt(m); 0 without mass
   };
-  struct History {
-    double push = 0.0;  ///< N, of the last step, along the normal
+  using Parameters = ParametersOf<double>;
+
+  template <class Real>
+  struct HistoryOf {
+    Real push = Real(0.0);  ///< N, of the last step, along the normal
   };
+  using History = HistoryOf<double>;
 
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
     const double mass = reduced_mass(a, b);
@@ -38,26 +42,41 @@ struct Dashpot {
   /// The dashpot is one for a contact as a whole, not for its bonds.
   static Parameters of_bond(const Parameters& p) noexcept { return {p.damping_ratio, 0.0}; }
 
-  static ContactForce force(const Parameters& p, const RelativeMotion& motion,
-                            const ContactStiffness& stiffness, History& history,
-                            double dt) noexcept {
-    const double before = history.push;
-    const double push = -p.strength * std::sqrt(stiffness.normal) * motion.gap_rate;
-    history.push = std::max(push, -motion.elastic_normal_force);
-    return {history.push * motion.normal, -0.5 * (before + history.push) * motion.gap_rate * dt};
+  template <class Real>
+  PLEKTON_INLINE static ContactForceOf<Real> force(const ParametersOf<Real>& p,
+                                                   const RelativeMotionOf<Real>& motion,
+                                                   const ContactStiffnessOf<Real>& stiffness,
+                                                   HistoryOf<Real>& history, double dt) noexcept {
+    const Real before = history.push;
+    const Real push = -p.strength * geometry::square_root(stiffness.normal) * motion.gap_rate;
+    history.push = geometry::larger_of(Real(-motion.elastic_normal_force), push);
+    return {history.push * motion.normal,
+            Real(-0.5) * (before + history.push) * motion.gap_rate * Real(dt)};
   }
 
-  static double history_energy(const Parameters&, const History&) noexcept { return 0.0; }
+  /// See PartTellsForce.
+  static Vec3 force_of_state(const History& history, const Vec3& normal) noexcept {
+    return history.push * normal;
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>&,
+                                            const HistoryOf<Real>&) noexcept {
+    return Real(0.0);
+  }
 
   /// The step of the leapfrog with a damping that lags behind by half a step is shorter by
   /// sqrt(1 + xi^2) - xi. Belytschko, Liu & Moran, Nonlinear Finite Elements (2000), section 6.2.
-  static ContactStiffness effective(const Parameters& p,
-                                    const ContactStiffness& stiffness) noexcept {
-    const double shorter = std::sqrt(1.0 + p.damping_ratio * p.damping_ratio) - p.damping_ratio;
+  template <class Real>
+  PLEKTON_INLINE static ContactStiffnessOf<Real> effective(
+      const ParametersOf<Real>& p, const ContactStiffnessOf<Real>& stiffness) noexcept {
+    const Real root = geometry::square_root(Real(Real(1.0) + p.damping_ratio * p.damping_ratio));
+    const Real shorter = root - p.damping_ratio;
     return {stiffness.normal / (shorter * shorter), stiffness.tangential};
   }
 
-  static void rotate(History&, const FrameRotation&) noexcept {}
+  template <class Real>
+  PLEKTON_INLINE static void rotate(HistoryOf<Real>&, const FrameRotationOf<Real>&) noexcept {}
   static void add_share(History& history, const History& other, double share) noexcept {
     history.push += share * other.push;
   }

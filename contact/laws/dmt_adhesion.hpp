@@ -28,14 +28,19 @@ struct DmtAdhesion {
   struct Properties {
     double work_of_adhesion = 0.0;  ///< J/m², w, >= 0
   };
-  struct Parameters {
-    HertzMindlin::Parameters elastic;
-    double attraction;  ///< N
+  template <class Real>
+  struct ParametersOf {
+    HertzMindlin::ParametersOf<Real> elastic;
+    Real attraction;  ///< N
   };
-  struct History {
-    HertzMindlin::History elastic;
-    double overlap = 0.0;  ///< m
+  using Parameters = ParametersOf<double>;
+
+  template <class Real>
+  struct HistoryOf {
+    HertzMindlin::HistoryOf<Real> elastic;
+    Real overlap = Real(0.0);  ///< m
   };
+  using History = HistoryOf<double>;
 
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
     return {HertzMindlin::combine(a, b), 2.0 * std::numbers::pi * properties.work_of_adhesion *
@@ -45,7 +50,9 @@ struct DmtAdhesion {
     return {HertzMindlin::multiplied(p.elastic, count), count * p.attraction};
   }
 
-  static double elastic_normal_force(const Parameters& p, double gap) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real elastic_normal_force(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>& gap) noexcept {
     return HertzMindlin::elastic_normal_force(p.elastic, gap);
   }
   static double elastic_normal_energy(const Parameters& p, double gap) noexcept {
@@ -56,12 +63,21 @@ struct DmtAdhesion {
   static double attraction(const Parameters& p) noexcept { return p.attraction; }
   static Parameters without_attraction(const Parameters& p) noexcept { return {p.elastic, 0.0}; }
 
-  static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
-                            double dt) noexcept {
-    ContactForce answer = HertzMindlin::force(p.elastic, motion, history.elastic, dt);
-    history.overlap = std::max(0.0, -motion.gap);
-    if (history.overlap > 0.0) answer.force -= p.attraction * motion.normal;
+  template <class Real>
+  PLEKTON_INLINE static ContactForceOf<Real> force(const ParametersOf<Real>& p,
+                                                   const RelativeMotionOf<Real>& motion,
+                                                   HistoryOf<Real>& history, double dt) noexcept {
+    ContactForceOf<Real> answer = HertzMindlin::force(p.elastic, motion, history.elastic, dt);
+    history.overlap = geometry::positive_part(Real(-motion.gap));
+    answer.force = answer.force - pull(p, history) * motion.normal;
     return answer;
+  }
+
+  /// See TellsForce.
+  static Vec3 force_of_state(const Parameters& p, double gap, const Vec3& normal,
+                             const History& history) noexcept {
+    const Vec3 elastic = HertzMindlin::force_of_state(p.elastic, gap, normal, history.elastic);
+    return elastic - pull(p, history) * normal;
   }
 
   /// See TellsTangentialLimit.
@@ -71,24 +87,40 @@ struct DmtAdhesion {
   }
 
   /// Bodies that touch have given up energy to the attraction.
-  static double history_energy(const Parameters& p, const History& history) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>& p,
+                                            const HistoryOf<Real>& history) noexcept {
     return HertzMindlin::history_energy(p.elastic, history.elastic) -
            p.attraction * history.overlap;
   }
 
-  static double normal_stiffness(const Parameters& p, double gap) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real normal_stiffness(const ParametersOf<Real>& p,
+                                              const std::type_identity_t<Real>& gap) noexcept {
     return HertzMindlin::normal_stiffness(p.elastic, gap);
   }
-  static double tangential_stiffness(const Parameters& p, double gap) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real tangential_stiffness(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>& gap) noexcept {
     return HertzMindlin::tangential_stiffness(p.elastic, gap);
   }
 
-  static void rotate(History& history, const FrameRotation& rotation) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static void rotate(HistoryOf<Real>& history,
+                                    const FrameRotationOf<Real>& rotation) noexcept {
     HertzMindlin::rotate(history.elastic, rotation);
   }
   static void add_share(History& history, const History& other, double share) noexcept {
     HertzMindlin::add_share(history.elastic, other.elastic, share);
     history.overlap += share * other.overlap;
+  }
+
+ private:
+  /// N, of bodies that touch.
+  template <class Real>
+  PLEKTON_INLINE static Real pull(const ParametersOf<Real>& p,
+                                  const HistoryOf<Real>& history) noexcept {
+    return geometry::select(history.overlap > Real(0.0), p.attraction, Real(0.0));
   }
 };
 

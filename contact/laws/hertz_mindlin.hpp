@@ -6,7 +6,7 @@
 #include "contact/laws/tangential_spring.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <type_traits>
 
 namespace plekton::contact {
 
@@ -21,15 +21,20 @@ namespace plekton::contact {
 struct HertzMindlin {
   static constexpr std::string_view name = "hertz_mindlin";
 
-  struct Parameters {
-    double modulus;        ///< Pa, E*
-    double shear_modulus;  ///< Pa, G*
-    double radius;         ///< m, R: hertz_radius()
-    double friction;       ///< tan(phi), of the smoother body
+  template <class Real>
+  struct ParametersOf {
+    Real modulus;        ///< Pa, E*
+    Real shear_modulus;  ///< Pa, G*
+    Real radius;         ///< m, R: hertz_radius()
+    Real friction;       ///< tan(phi), of the smoother body
   };
-  struct History {
-    TangentialSpring spring;
+  using Parameters = ParametersOf<double>;
+
+  template <class Real>
+  struct HistoryOf {
+    TangentialSpringOf<Real> spring;
   };
+  using History = HistoryOf<double>;
 
   static Parameters combine(const Body& a, const Body& b) noexcept {
     const Material &m = a.material, &n = b.material;
@@ -49,20 +54,31 @@ struct HertzMindlin {
     return {count * p.modulus, count * p.shear_modulus, p.radius, p.friction};
   }
 
-  static double elastic_normal_force(const Parameters& p, double gap) noexcept {
-    return 4.0 / 3.0 * p.modulus * contact_radius(p, gap) * overlap(gap);
+  template <class Real>
+  PLEKTON_INLINE static Real elastic_normal_force(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>& gap) noexcept {
+    return Real(4.0 / 3.0) * p.modulus * contact_radius(p, gap) * overlap(gap);
   }
   static double elastic_normal_energy(const Parameters& p, double gap) noexcept {
     const double d = overlap(gap);
     return 8.0 / 15.0 * p.modulus * contact_radius(p, gap) * d * d;
   }
 
-  static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
-                            double dt) noexcept {
-    const double limit = p.friction * motion.elastic_normal_force;
-    const double dissipated = history.spring.advance(dt * motion.slip_velocity,
-                                                     tangential_stiffness(p, motion.gap), limit);
+  template <class Real>
+  PLEKTON_INLINE static ContactForceOf<Real> force(const ParametersOf<Real>& p,
+                                                   const RelativeMotionOf<Real>& motion,
+                                                   HistoryOf<Real>& history, double dt) noexcept {
+    const Real limit = p.friction * motion.elastic_normal_force;
+    const Vec3Of<Real> slip = Real(dt) * motion.slip_velocity;
+    const Real dissipated =
+        history.spring.advance(slip, tangential_stiffness(p, motion.gap), limit);
     return {motion.elastic_normal_force * motion.normal + history.spring.force, dissipated};
+  }
+
+  /// See TellsForce.
+  static Vec3 force_of_state(const Parameters& p, double gap, const Vec3& normal,
+                             const History& history) noexcept {
+    return elastic_normal_force(p, gap) * normal + history.spring.force;
   }
 
   /// See TellsTangentialLimit.
@@ -71,18 +87,26 @@ struct HertzMindlin {
     return p.friction * elastic_force;
   }
 
-  static double history_energy(const Parameters&, const History& history) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>&,
+                                            const HistoryOf<Real>& history) noexcept {
     return history.spring.energy();
   }
 
-  static double normal_stiffness(const Parameters& p, double gap) noexcept {
-    return 2.0 * p.modulus * contact_radius(p, gap);
+  template <class Real>
+  PLEKTON_INLINE static Real normal_stiffness(const ParametersOf<Real>& p,
+                                              const std::type_identity_t<Real>& gap) noexcept {
+    return Real(2.0) * p.modulus * contact_radius(p, gap);
   }
-  static double tangential_stiffness(const Parameters& p, double gap) noexcept {
-    return 8.0 * p.shear_modulus * contact_radius(p, gap);
+  template <class Real>
+  PLEKTON_INLINE static Real tangential_stiffness(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>& gap) noexcept {
+    return Real(8.0) * p.shear_modulus * contact_radius(p, gap);
   }
 
-  static void rotate(History& history, const FrameRotation& rotation) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static void rotate(HistoryOf<Real>& history,
+                                    const FrameRotationOf<Real>& rotation) noexcept {
     history.spring.force = rotation(history.spring.force);
   }
   static void add_share(History& history, const History& other, double share) noexcept {
@@ -90,10 +114,15 @@ struct HertzMindlin {
   }
 
  private:
-  static double overlap(double gap) noexcept { return std::max(0.0, -gap); }
+  template <class Real>
+  PLEKTON_INLINE static Real overlap(const Real& gap) noexcept {
+    return geometry::positive_part(Real(-gap));
+  }
   /// m, of the circle in which the bodies touch.
-  static double contact_radius(const Parameters& p, double gap) noexcept {
-    return std::sqrt(p.radius * overlap(gap));
+  template <class Real>
+  PLEKTON_INLINE static Real contact_radius(const ParametersOf<Real>& p,
+                                            const std::type_identity_t<Real>& gap) noexcept {
+    return geometry::square_root(Real(p.radius * overlap(gap)));
   }
 };
 

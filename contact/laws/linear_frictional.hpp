@@ -129,10 +129,14 @@ struct LinearFrictional {
     return Real(0.5) * p.tangential_stiffness * history.elastic_slip.squaredNorm();
   }
 
-  static double normal_stiffness(const Parameters& p, double) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real normal_stiffness(const ParametersOf<Real>& p,
+                                              const std::type_identity_t<Real>&) noexcept {
     return p.normal_stiffness;
   }
-  static double tangential_stiffness(const Parameters& p, double) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real tangential_stiffness(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>&) noexcept {
     return p.tangential_stiffness;
   }
 

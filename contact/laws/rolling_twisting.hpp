@@ -5,7 +5,9 @@
 #include "contact/laws/tangential_spring.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace plekton::contact {
 
@@ -24,23 +26,38 @@ struct RollingTwisting {
     double rolling_limit = std::numeric_limits<double>::infinity();   ///< eta of rolling, >= 0
     double twisting_limit = std::numeric_limits<double>::infinity();  ///< eta of twisting, >= 0
   };
-  struct Parameters {
-    double rolling_arms;   ///< m², alpha R_a R_b
-    double twisting_arms;  ///< m²
-    double rolling_arm;    ///< m, eta min(R_a, R_b)
-    double twisting_arm;   ///< m
-    double radius;         ///< m, the smaller one
+  template <class Real>
+  struct ParametersOf {
+    Real rolling_arms;           ///< m², alpha R_a R_b
+    Real twisting_arms;          ///< m²
+    Real rolling_arm;            ///< m, eta min(R_a, R_b)
+    Real twisting_arm;           ///< m
+    Real radius;                 ///< m, the smaller one
+    Real inverse_rolling_arms;   ///< 1/m², 0 without them
+    Real inverse_twisting_arms;  ///< 1/m²
   };
-  struct History {
-    TangentialSpring rolling;   ///< N m
-    TangentialSpring twisting;  ///< N m; its force is (moment about the normal, 0, 0)
+  using Parameters = ParametersOf<double>;
+
+  template <class Real>
+  struct HistoryOf {
+    Vec3Of<Real> rolling = Vec3Of<Real>::Zero();  ///< N m, on body b
+    Real twisting = Real(0.0);                    ///< N m, on body b, about the normal
+    Real stiffness = Real(0.0);  ///< N/m, of the contact, at which both arose; 0: no contact yet
   };
+  using History = HistoryOf<double>;
 
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
     const double arms = a.radius * b.radius;
     const double smaller = std::min(a.radius, b.radius);
-    return {properties.rolling_stiffness * arms, properties.twisting_stiffness * arms,
-            properties.rolling_limit * smaller, properties.twisting_limit * smaller, smaller};
+    const double rolling_arms = properties.rolling_stiffness * arms;
+    const double twisting_arms = properties.twisting_stiffness * arms;
+    return {rolling_arms,
+            twisting_arms,
+            properties.rolling_limit * smaller,
+            properties.twisting_limit * smaller,
+            smaller,
+            compliance_of(rolling_arms),
+            compliance_of(twisting_arms)};
   }
   /// The stiffness that comes with the contact is multiplied already.
   static Parameters multiplied(const Parameters& p, double) noexcept { return p; }
@@ -49,49 +66,75 @@ struct RollingTwisting {
   static Parameters beside_bonds(const Parameters& p, double part) noexcept {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     const auto limit = [&](double arm) { return arm < kNone ? part * arm : arm; };
-    return {p.rolling_arms, p.twisting_arms, limit(p.rolling_arm), limit(p.twisting_arm), p.radius};
+    Parameters beside = p;
+    beside.rolling_arm = limit(p.rolling_arm);
+    beside.twisting_arm = limit(p.twisting_arm);
+    return beside;
   }
 
-  static ContactForce force(const Parameters& p, const RelativeMotion& motion,
-                            const ContactStiffness& stiffness, History& history,
-                            double dt) noexcept {
-    const Vec3 turned = dt * motion.spin_velocity;
-    const double twist = turned.dot(motion.normal);
-    const auto limit = [&](double arm) {  // infinity times 0 is no number
-      return arm < std::numeric_limits<double>::infinity() ? arm * motion.elastic_normal_force
-                                                           : arm;
-    };
-    double dissipated =
-        history.rolling.advance(turned - twist * motion.normal,
-                                p.rolling_arms * stiffness.tangential, limit(p.rolling_arm));
-    dissipated += history.twisting.advance(
-        {twist, 0.0, 0.0}, p.twisting_arms * stiffness.tangential, limit(p.twisting_arm));
-    return {Vec3::Zero(), dissipated, moment(history, motion.normal)};
+  template <class Real>
+  PLEKTON_INLINE static ContactForceOf<Real> force(const ParametersOf<Real>& p,
+                                                   const RelativeMotionOf<Real>& motion,
+                                                   const ContactStiffnessOf<Real>& stiffness,
+                                                   HistoryOf<Real>& history, double dt) noexcept {
+    const Vec3Of<Real> turned = Real(dt) * motion.spin_velocity;
+    const Real twist = turned.dot(motion.normal);
+    const Vec3Of<Real> rolled = turned - twist * motion.normal;
+    const StiffnessChangeOf<Real> change(history.stiffness, stiffness.tangential);
+    history.stiffness = stiffness.tangential;
+    const Real of_rolling = advance_spring(history.rolling, rolled,
+                                           change.scaled(p.rolling_arms, p.inverse_rolling_arms),
+                                           limit(p.rolling_arm, motion));
+    const Real of_twisting = advance_spring(history.twisting, twist,
+                                            change.scaled(p.twisting_arms, p.inverse_twisting_arms),
+                                            limit(p.twisting_arm, motion));
+    return {Vec3Of<Real>::Zero(), of_rolling + of_twisting, moment(history, motion.normal)};
   }
 
   /// See HasMoments.
-  static Vec3 moment(const History& history, const Vec3& normal) noexcept {
-    return history.rolling.force + history.twisting.force[0] * normal;
+  template <class Real>
+  PLEKTON_INLINE static Vec3Of<Real> moment(
+      const HistoryOf<Real>& history, const std::type_identity_t<Vec3Of<Real>>& normal) noexcept {
+    return history.rolling + history.twisting * normal;
   }
 
-  static double history_energy(const Parameters&, const History& history) noexcept {
-    return history.rolling.energy() + history.twisting.energy();
+  /// See PartTellsForce.
+  static Vec3 force_of_state(const History&, const Vec3&) noexcept { return Vec3::Zero(); }
+
+  template <class Real>
+  PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>& p,
+                                            const HistoryOf<Real>& history) noexcept {
+    return Real(0.5) * compliance_of(history.stiffness) *
+           (p.inverse_rolling_arms * history.rolling.squaredNorm() +
+            p.inverse_twisting_arms * (history.twisting * history.twisting));
   }
 
   /// A spring between rotations counts as one of the slip that has an arm of the smaller radius:
   /// never softer than it is.
-  static ContactStiffness effective(const Parameters& p,
-                                    const ContactStiffness& stiffness) noexcept {
-    const double arms = std::max(p.rolling_arms, p.twisting_arms);
-    return {stiffness.normal, (1.0 + arms / (p.radius * p.radius)) * stiffness.tangential};
+  template <class Real>
+  PLEKTON_INLINE static ContactStiffnessOf<Real> effective(
+      const ParametersOf<Real>& p, const ContactStiffnessOf<Real>& stiffness) noexcept {
+    const Real arms = geometry::larger_of(p.rolling_arms, p.twisting_arms);
+    return {stiffness.normal, (Real(1.0) + arms / (p.radius * p.radius)) * stiffness.tangential};
   }
 
-  static void rotate(History& history, const FrameRotation& rotation) noexcept {
-    history.rolling.force = rotation(history.rolling.force);
+  template <class Real>
+  PLEKTON_INLINE static void rotate(HistoryOf<Real>& history,
+                                    const FrameRotationOf<Real>& rotation) noexcept {
+    history.rolling = rotation(history.rolling);
   }
   static void add_share(History& history, const History& other, double share) noexcept {
-    history.rolling.add_share(other.rolling, share);
-    history.twisting.add_share(other.twisting, share);
+    history.rolling += share * other.rolling;
+    history.twisting += share * other.twisting;
+    history.stiffness += std::abs(share) * other.stiffness;
+  }
+
+ private:
+  /// N m; infinity times 0 is no number.
+  template <class Real>
+  PLEKTON_INLINE static Real limit(const Real& arm, const RelativeMotionOf<Real>& motion) noexcept {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    return geometry::select(Real(kNone) > arm, Real(arm * motion.elastic_normal_force), arm);
   }
 };
 

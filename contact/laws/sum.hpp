@@ -4,9 +4,39 @@
 #include "contact/bonds.hpp"
 #include "contact/laws/contact_part.hpp"
 
+#include <type_traits>
+
 namespace plekton::contact {
 
-/// A contact law with something added. A sum is a law: parts can be added one after the other.
+namespace detail {
+
+/// Parameters and history of a law or a part for Real: those of a law that is not written for any
+/// Real are for double alone.
+template <class Law, class Real>
+struct NumbersOf {};
+template <class Law, class Real>
+requires requires {
+  typename Law::template ParametersOf<Real>;
+}
+struct NumbersOf<Law, Real> {
+  using Parameters = typename Law::template ParametersOf<Real>;
+  using History = typename Law::template HistoryOf<Real>;
+};
+template <class Law>
+requires(!requires { typename Law::template ParametersOf<double>; }) struct NumbersOf<Law, double> {
+  using Parameters = typename Law::Parameters;
+  using History = typename Law::History;
+};
+
+template <class Law, class Real>
+concept HasNumbersOf = requires {
+  typename NumbersOf<Law, Real>::Parameters;
+};
+
+}  // namespace detail
+
+/// A contact law with something added. A sum is a law: parts can be added one after the other. It
+/// is written for any Real if both are.
 template <ContactLaw Whole, ContactPart Part>
 struct Sum {
   static constexpr std::string_view name = Whole::name;
@@ -16,14 +46,21 @@ struct Sum {
     PropertiesOf<Whole> whole;
     PropertiesOf<Part> part;
   };
-  struct Parameters {
-    typename Whole::Parameters whole;
-    typename Part::Parameters part;
+  template <class Real>
+  requires detail::HasNumbersOf<Whole, Real> && detail::HasNumbersOf<Part, Real>
+  struct ParametersOf {
+    typename detail::NumbersOf<Whole, Real>::Parameters whole;
+    typename detail::NumbersOf<Part, Real>::Parameters part;
   };
-  struct History {
-    typename Whole::History whole;
-    typename Part::History part;
+  using Parameters = ParametersOf<double>;
+
+  template <class Real>
+  requires detail::HasNumbersOf<Whole, Real> && detail::HasNumbersOf<Part, Real>
+  struct HistoryOf {
+    typename detail::NumbersOf<Whole, Real>::History whole;
+    typename detail::NumbersOf<Part, Real>::History part;
   };
+  using History = HistoryOf<double>;
 
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
     return {contact::combine<Whole>(properties.whole, a, b), Part::combine(properties.part, a, b)};
@@ -32,15 +69,26 @@ struct Sum {
     return {Whole::multiplied(p.whole, count), Part::multiplied(p.part, count)};
   }
 
-  static double elastic_normal_force(const Parameters& p, double gap) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real elastic_normal_force(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>& gap) noexcept {
     return Whole::elastic_normal_force(p.whole, gap);
   }
   static double elastic_normal_energy(const Parameters& p, double gap) noexcept {
     return Whole::elastic_normal_energy(p.whole, gap);
   }
 
-  static double reach(const Parameters& p) { return reach_of<Whole>(p.whole); }
-  static bool holds(const History& history) { return contact::holds<Whole>(history.whole); }
+  template <class Real>
+  PLEKTON_INLINE static Real reach(const ParametersOf<Real>& p) requires HasReach<Whole> {
+    return Whole::reach(p.whole);
+  }
+  static bool holds(const History& history) requires HasReach<Whole> {
+    return Whole::holds(history.whole);
+  }
+  template <class Real>
+  PLEKTON_INLINE static Real hold(const HistoryOf<Real>& history) requires HasReach<Whole> {
+    return Whole::hold(history.whole);
+  }
 
   /// See HasAttraction.
   static double attraction(const Parameters& p) { return attraction_of<Whole>(p.whole); }
@@ -63,13 +111,23 @@ struct Sum {
     return {contact::beside_bonds<Whole>(p.whole, part), part_beside_bonds<Part>(p.part, part)};
   }
 
-  static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
-                            double dt) noexcept {
-    const ContactForce whole = Whole::force(p.whole, motion, history.whole, dt);
-    const ContactForce part =
+  template <class Real>
+  PLEKTON_INLINE static ContactForceOf<Real> force(const ParametersOf<Real>& p,
+                                                   const RelativeMotionOf<Real>& motion,
+                                                   HistoryOf<Real>& history, double dt) noexcept {
+    const ContactForceOf<Real> whole = Whole::force(p.whole, motion, history.whole, dt);
+    const ContactForceOf<Real> part =
         Part::force(p.part, motion, stiffness(p, motion.gap), history.part, dt);
     return {whole.force + part.force, whole.dissipated + part.dissipated,
             whole.moment + part.moment};
+  }
+
+  /// See TellsForce.
+  static Vec3 force_of_state(const Parameters& p, double gap, const Vec3& normal,
+                             const History& history) noexcept requires TellsForce<Whole> &&
+      PartTellsForce<Part> {
+    return Whole::force_of_state(p.whole, gap, normal, history.whole) +
+           Part::force_of_state(history.part, normal);
   }
 
   /// See HasMoments.
@@ -86,19 +144,27 @@ struct Sum {
     return Whole::tangential_limit(p.whole, elastic_force, history.whole);
   }
 
-  static double history_energy(const Parameters& p, const History& history) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>& p,
+                                            const HistoryOf<Real>& history) noexcept {
     return Whole::history_energy(p.whole, history.whole) +
            Part::history_energy(p.part, history.part);
   }
 
-  static double normal_stiffness(const Parameters& p, double gap) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real normal_stiffness(const ParametersOf<Real>& p,
+                                              const std::type_identity_t<Real>& gap) noexcept {
     return Part::effective(p.part, stiffness(p, gap)).normal;
   }
-  static double tangential_stiffness(const Parameters& p, double gap) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static Real tangential_stiffness(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>& gap) noexcept {
     return Part::effective(p.part, stiffness(p, gap)).tangential;
   }
 
-  static void rotate(History& history, const FrameRotation& rotation) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static void rotate(HistoryOf<Real>& history,
+                                    const FrameRotationOf<Real>& rotation) noexcept {
     Whole::rotate(history.whole, rotation);
     Part::rotate(history.part, rotation);
   }
@@ -109,7 +175,9 @@ struct Sum {
 
  private:
   /// Of the law without the part.
-  static ContactStiffness stiffness(const Parameters& p, double gap) noexcept {
+  template <class Real>
+  PLEKTON_INLINE static ContactStiffnessOf<Real> stiffness(
+      const ParametersOf<Real>& p, const std::type_identity_t<Real>& gap) noexcept {
     return {Whole::normal_stiffness(p.whole, gap), Whole::tangential_stiffness(p.whole, gap)};
   }
 };

@@ -52,8 +52,8 @@ TEST(RollingTwisting, TurnsItsMomentWithTheContactButNotTheTwist) {
 
   Law::rotate(history, {Vec3::UnitZ(), Vec3::UnitX(), 0.0});  // z to x, so x to -z
 
-  EXPECT_NEAR(history.part.rolling.force[2], -before[0], 1e-15 * before.norm());
-  EXPECT_EQ(history.part.twisting.force[0], before[2]);
+  EXPECT_NEAR(history.part.rolling[2], -before[0], 1e-15 * before.norm());
+  EXPECT_EQ(history.part.twisting, before[2]);
 }
 
 }  // namespace
