@@ -35,6 +35,7 @@ struct LoneKinematicsOf {
   Vec3Of<Real> lever_a;   ///< m, from the ball's centre to the contact point
   Vec3Of<Real> lever_b;   ///< m, from the foot to the contact point
   Vec3Of<Real> velocity;  ///< m/s, of the facet relative to the ball
+  Vec3Of<Real> spin;      ///< rad/s, of the facet relative to the ball
   Real twist_rate;        ///< rad/s
 };
 
@@ -65,6 +66,7 @@ PLEKTON_INLINE LoneKinematicsOf<Real> lone_kinematics(
           lever_a,
           lever_b,
           velocity - motion.velocity[0] - spin_a.cross(lever_a),
+          spin - spin_a,
           Real(0.5) * twice_mean.dot(at.direction)};
 }
 
@@ -193,9 +195,10 @@ PLEKTON_INLINE void LoneBlock<Law>::advance_lanes(std::size_t first, const Motio
   const auto last = geometry::gather_numbers<LoneMemoryOf<Real, History>, W>([&](
       std::size_t lane) __attribute__((always_inline)) { return lanes[lane].memory; });
   const LoneMotionOf<Real> bodies = motion_of<W>(lanes, pair.radius, pair.range, motion);
+  Real reach = bodies.range;
+  if constexpr (HasReach<Law>) reach = bodies.range + Law::reach(pair.parameters);
   const auto at = geometry::face_foot<Real>(
-      bodies.position[0], {bodies.position[1], bodies.position[2], bodies.position[3]},
-      bodies.range,
+      bodies.position[0], {bodies.position[1], bodies.position[2], bodies.position[3]}, reach,
       geometry::gather_vectors<W>([&](std::size_t lane) __attribute__((always_inline))
                                       ->const SideFlags& { return lanes[lane].sides; }));
   const LoneKinematicsOf<Real> state = lone_kinematics(bodies, at);
@@ -207,24 +210,34 @@ PLEKTON_INLINE void LoneBlock<Law>::advance_lanes(std::size_t first, const Motio
 
   const Real elastic = Law::elastic_normal_force(pair.parameters, state.gap);
   const RelativeMotionOf<Real> relative =
-      relative_motion<Real>(at.direction, state.gap, elastic, state.velocity);
+      relative_motion<Real>(at.direction, state.gap, elastic, state.velocity, state.spin);
+  // What is within reach, but neither pushes nor holds, is no contact.
+  Real is_certain = at.is_alone;
+  if constexpr (HasReach<Law>)
+    is_certain = smaller_of(is_certain, larger_of(Real(-state.gap), Law::hold(history)));
   const ContactForceOf<Real> answer = Law::force(pair.parameters, relative, history, dt);
   const Vector elastic_force = elastic * at.direction;
   const Vector other = answer.force - elastic_force;
   const Vector turning = state.lever_a.cross(other);
+  Vector torque_a{-turning.x, -turning.y, -turning.z};
+  Vector torque_b = state.lever_b.cross(other);
+  if constexpr (HasMoments<Law>) {
+    torque_a = torque_a - answer.moment;
+    torque_b = torque_b + answer.moment;
+  }
   const Real has_lever = bodies.range + state.gap;
   const Real unturned = last.normal.dot(at.direction);
   const Real untwisted = Real(geometry::kSmallAngleSquared) - rotation.twist * rotation.twist;
   const LoneAnswerOf<Real, History> answers{
       at.weights,
       elastic_force + other,
-      {-turning.x, -turning.y, -turning.z},
-      state.lever_b.cross(other),
+      torque_a,
+      torque_b,
       {history, at.direction},
       state.foot,
       state.gap,
       lost + answer.dissipated,
-      geometry::detail::smallest_of(has_lever, unturned, untwisted, at.is_alone)};
+      geometry::detail::smallest_of(has_lever, unturned, untwisted, is_certain)};
   geometry::scatter_numbers<W>(
       answers, [&](std::size_t lane) __attribute__((always_inline)) {
         return reinterpret_cast<double*>(&answers_[first + lane]);

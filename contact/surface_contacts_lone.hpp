@@ -77,7 +77,7 @@ bool SurfaceContacts<Law>::may_be_lone(Pair& pair, const Motion& motion, Job& jo
   job.cell_count = worker.cells.size() - job.first_cell;
   return pair.lone_face != kNoFace &&
          are_beside(*surface_, pair.lone_face,
-                    {worker.cells.data() + job.first_cell, job.cell_count}, centre, pair.range,
+                    {worker.cells.data() + job.first_cell, job.cell_count}, centre, pair.reach,
                     motion.position, sides);
 }
 

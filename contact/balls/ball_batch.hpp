@@ -14,6 +14,7 @@ namespace plekton::contact {
 /// What a step of pairs side by side came to.
 template <LaneLaw Law, class Real>
 struct LaneStepOf {
+  Real touch;  ///< 1 if the pair touches or goes on over a distance, else 0
   BallStepOf<Real> step;
   typename Law::template HistoryOf<Real> history;
   Vec3Of<Real> normal;
@@ -25,10 +26,12 @@ struct LaneStepOf {
 };
 
 /// One step of pairs that touch.
+/// @param touch  1 if the balls overlap, else 0
 /// @param history, last_normal  of the last step; all zero in a new contact
 template <LaneLaw Law, class Real>
 PLEKTON_INLINE LaneStepOf<Law, Real> advance_lanes(
-    const BallMotionOf<Real>& balls, const typename Law::template ParametersOf<Real>& parameters,
+    const BallMotionOf<Real>& balls, const Real& touch,
+    const typename Law::template ParametersOf<Real>& parameters,
     typename Law::template HistoryOf<Real> history, const Vec3Of<Real>& last_normal,
     double dt) noexcept {
   const Real distance = balls.separation.norm();
@@ -39,14 +42,21 @@ PLEKTON_INLINE LaneStepOf<Law, Real> advance_lanes(
                               balls.spin_b,
                               balls.radius_a,
                               balls.radius_b};
+  Real touch_or_hold = touch;
+  if constexpr (HasReach<Law>)
+    touch_or_hold = geometry::flag(
+        larger_of(touch, goes_on_side_by_side<Law, Real>(
+                             parameters, history, distance - (pair.radius_a + pair.radius_b))) >
+        Real(0.0));
   const FrameRotationOf<Real> rotation{last_normal, pair.normal, Real(dt) * pair.twist_rate()};
   Law::rotate(history, rotation);
   const BallStepOf<Real> step = ball_step<Law>(pair, parameters, history, dt);
   const Real smaller = geometry::smaller_of(pair.radius_a, pair.radius_b);
   const Real untwisted = Real(geometry::kSmallAngleSquared) - rotation.twist * rotation.twist;
   const Real unturned = select(Real(0.0) > rotation.from.dot(rotation.to), Real(-1.0), Real(1.0));
-  return {step, history, pair.normal, smaller,
-          geometry::smaller_of(distance, geometry::smaller_of(untwisted, unturned))};
+  return {touch_or_hold, step,
+          history,       pair.normal,
+          smaller,       geometry::smaller_of(distance, geometry::smaller_of(untwisted, unturned))};
 }
 
 /// Pairs in a batch: all rows together fit into the first level of a cache.
@@ -103,14 +113,16 @@ PLEKTON_INLINE void BallBatch<Law>::advance_lanes(std::size_t lane, double dt) n
       spin_a.template load<Vector>(lane),     spin_b.template load<Vector>(lane),
       radius_a.template load<Real>(lane),     radius_b.template load<Real>(lane)};
   const auto answer = contact::advance_lanes<Law, Real>(
-      balls, parameters.template load<typename Law::template ParametersOf<Real>>(lane),
+      balls, Real(1.0), parameters.template load<typename Law::template ParametersOf<Real>>(lane),
       history.template load<typename Law::template HistoryOf<Real>>(lane),
       normal.template load<Vector>(lane), dt);
   history.store(lane, answer.history);
   normal.store(lane, answer.normal);
   gap.store(lane, answer.step.gap);
   force.store(lane, answer.step.force);
-  torque_a.store(lane, answer.step.arm_a * answer.step.force_cross_normal);
+  Vector torque = answer.step.arm_a * answer.step.force_cross_normal;
+  if constexpr (HasMoments<Law>) torque = torque - answer.step.moment;
+  torque_a.store(lane, torque);
   dissipated.store(lane, answer.step.dissipated);
   overlap_ratio.store(lane, -answer.step.gap / answer.smaller_radius);
   is_right.store(lane, answer.is_right);

@@ -287,15 +287,17 @@ PLEKTON_INLINE bool BallContacts<Law>::advance_side_by_side(std::size_t row, std
   Rows& rows = rows_[row];
   const Pair* const pairs = blocks_.row(row);
   const BallMotionOf<Real> balls = work.balls.template pairs<W>(pairs + lane);
-  const Real touch = balls.touch();
-  const unsigned touching = bits_of(touch);
+  const Real overlaps = balls.touch();
+  const unsigned overlapping = bits_of(overlaps);
   const unsigned touched = touched_[row].from(lane) & geometry::kAllBits<W>;
-  if ((touching | touched) == 0) return true;
+  if ((overlapping | touched) == 0) return true;
 
   const auto last_normal = rows.normal.template load<Vector>(lane);
   const auto answer =
-      advance_lanes<Law, Real>(balls, parameters_.template of_lanes<W>(row, lane, balls),
+      advance_lanes<Law, Real>(balls, overlaps, parameters_.template of_lanes<W>(row, lane, balls),
                                rows.history.template load<History>(lane), last_normal, work.dt);
+  const Real& touch = answer.touch;
+  const unsigned touching = HasReach<Law> ? bits_of(touch) : overlapping;
   const unsigned right = bits_of(geometry::flag(answer.is_right > 0.0));
   if ((touching & right) != (touching | touched)) return false;
 
@@ -325,9 +327,23 @@ PLEKTON_INLINE bool BallContacts<Law>::advance_side_by_side(std::size_t row, std
       {if_touching(force.x), if_touching(force.y), if_touching(force.z), if_touching(cross.x),
        if_touching(cross.y), if_touching(cross.z), answer.step.arm_a, answer.step.arm_b},
       [&](std::size_t k) __attribute__((always_inline)) { return of_lanes[k].force.data(); });
-  for (std::size_t k = 0; k < std::size_t{W}; ++k) {
-    add_to_a(work.sums[pairs[lane + k].a], of_lanes[k]);
-    add_to_b(work.sums[pairs[lane + k].b], of_lanes[k]);
+  if constexpr (HasMoments<Law>) {
+    const Vector& moment = answer.step.moment;
+    std::array<BallMoment, std::size_t{W}> moments;
+    const Real none = 0.0;
+    geometry::scatter_things<W, 8>(
+        {none, none, none, if_touching(moment.x), if_touching(moment.y), if_touching(moment.z),
+         none, none},
+        [&](std::size_t k) __attribute__((always_inline)) { return moments[k].none.data(); });
+    for (std::size_t k = 0; k < std::size_t{W}; ++k) {
+      add_to_a(work.sums[pairs[lane + k].a], of_lanes[k], moments[k]);
+      add_to_b(work.sums[pairs[lane + k].b], of_lanes[k], moments[k]);
+    }
+  } else {
+    for (std::size_t k = 0; k < std::size_t{W}; ++k) {
+      add_to_a(work.sums[pairs[lane + k].a], of_lanes[k]);
+      add_to_b(work.sums[pairs[lane + k].b], of_lanes[k]);
+    }
   }
   return true;
 }
@@ -369,11 +385,13 @@ void BallContacts<Law>::advance_one(std::size_t row, std::size_t lane, Work& wor
     outcome.radius[lane] = smaller;
   }
   const BallForce force{step.force, step.force_cross_normal, step.arm_a, step.arm_b};
-  add_to_a(work.sums[members.a], force);
-  add_to_b(work.sums[members.b], force);
   if constexpr (HasMoments<Law>) {
-    work.sums[members.a].torque -= step.moment;
-    work.sums[members.b].torque += step.moment;
+    const BallMoment moment{Vec3::Zero(), step.moment, {}};
+    add_to_a(work.sums[members.a], force, moment);
+    add_to_b(work.sums[members.b], force, moment);
+  } else {
+    add_to_a(work.sums[members.a], force);
+    add_to_b(work.sums[members.b], force);
   }
 }
 

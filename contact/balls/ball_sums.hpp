@@ -16,13 +16,20 @@ struct alignas(64) BallForce {
   double arm_b;             ///< m
 };
 
+/// Moment between two balls that touch, where a BallSum has its torque.
+struct alignas(64) BallMoment {
+  Vec3 none;                     ///< zero
+  Vec3 moment;                   ///< N m, on b
+  std::array<double, 2> unused;  ///< any numbers
+};
+
 /// Sum of forces on a ball.
 struct alignas(64) BallSum {
   Vec3 force;                    ///< N
   Vec3 torque;                   ///< N m
   std::array<double, 2> unused;  ///< any numbers
 };
-static_assert(sizeof(BallForce) == 64 && sizeof(BallSum) == 64);
+static_assert(sizeof(BallForce) == 64 && sizeof(BallSum) == 64 && sizeof(BallMoment) == 64);
 
 /// Adds (-force, arm_a * cross), in whole vectors: a factor for each number of the row.
 PLEKTON_INLINE void add_to_a(BallSum& a, const BallForce& force) noexcept {
@@ -39,6 +46,20 @@ PLEKTON_INLINE void add_to_b(BallSum& b, const BallForce& force) noexcept {
   const Row row = Row::load(force.force.data());
   double* const sum = b.force.data();
   (Row::load(sum) + geometry::pick<kFactor>(row, Row(1.0)) * row).store(sum);
+}
+
+/// The same, then the moment.
+PLEKTON_INLINE void add_to_a(BallSum& a, const BallForce& force,
+                             const BallMoment& moment) noexcept {
+  using Row = geometry::Pack<8>;
+  add_to_a(a, force);
+  (Row::load(a.force.data()) - Row::load(moment.none.data())).store(a.force.data());
+}
+PLEKTON_INLINE void add_to_b(BallSum& b, const BallForce& force,
+                             const BallMoment& moment) noexcept {
+  using Row = geometry::Pack<8>;
+  add_to_b(b, force);
+  (Row::load(b.force.data()) + Row::load(moment.none.data())).store(b.force.data());
 }
 
 }  // namespace plekton::contact

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/balls/ball_batch.hpp"
 #include "contact/balls/ball_contacts.hpp"
-#include "contact/laws/linear_frictional.hpp"
+#include "tests/support/contact_laws.hpp"
 #include "tests/support/one_at_a_time.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -17,23 +18,27 @@
 namespace plekton::contact {
 namespace {
 
-using Law = LinearFrictional;
-using Block = BallBatch<Law>;
-
 constexpr double kStep = 1e-5;  // s
+constexpr Material kStone{2e6, 0.3, 0.5};
+constexpr double kMass = 1e-5;  // kg
 
+template <class Law>
 struct Case {
   BallPairOf<double> pair;
   Vec3 separation;
-  Law::Parameters parameters;
+  typename Law::Parameters parameters;
   ContactMemory<Law> memory;
+
+  Body body(double radius) const { return {kStone, radius, kMass}; }
 };
 
-/// Overlapping balls in motion; every fourth contact is new, about half of the others slip.
+/// Overlapping balls in motion, or just apart; every fourth contact is new, about half of the
+/// others slip.
+template <class Law>
 class RandomCases {
  public:
-  Case operator()() {
-    Case c;
+  Case<Law> operator()() {
+    Case<Law> c;
     c.pair.radius_a = 1e-3 * (1.0 + 0.3 * number());
     c.pair.radius_b = 1e-3 * (1.0 + 0.3 * number());
     const Vec3 direction = vector().normalized();
@@ -43,10 +48,17 @@ class RandomCases {
     c.pair.velocity = vector();
     c.pair.spin_a = 100.0 * vector();
     c.pair.spin_b = 100.0 * vector();
-    c.parameters = {1e4, 3e3, 0.5};
+    c.parameters = combine<Law>(test::random_properties<Law>(random_), c.body(c.pair.radius_a),
+                                c.body(c.pair.radius_b));
     if (count_++ % 4 == 0) return c;
     c.memory.normal = (direction + 0.01 * vector()).normalized();
-    c.memory.history.elastic_slip = 1e-6 * c.memory.normal.cross(vector());
+    // A contact that has slipped and rolled, towards the end over a distance.
+    for (const double gap : {-1e-5, -2e-5, 1e-5 * number()}) {
+      const RelativeMotion motion =
+          relative_motion(c.memory.normal, gap, Law::elastic_normal_force(c.parameters, gap),
+                          vector(), 1e3 * vector());
+      Law::force(c.parameters, motion, c.memory.history, kStep);
+    }
     return c;
   }
 
@@ -56,10 +68,12 @@ class RandomCases {
  private:
   std::mt19937_64 engine_{20240229};
   std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
+  test::Random random_{3};
   int count_ = 0;
 };
 
-void put(const Case& c, std::size_t lane, Block& block) {
+template <class Law>
+void put(const Case<Law>& c, std::size_t lane, BallBatch<Law>& block) {
   block.separation.set(lane, c.separation);
   block.velocity.set(lane, c.pair.velocity);
   block.spin_a.set(lane, c.pair.spin_a);
@@ -78,52 +92,80 @@ Vec3 vector_of(const Rows& rows, std::size_t lane) {
   return v;
 }
 
-void expect_step_of(const Case& c, const Block& block, std::size_t lane) {
-  Law::History history = carried_history<Law>(c.memory, c.pair.normal, kStep * c.pair.twist_rate());
+/// The numbers that a thing consists of.
+template <class Thing>
+std::vector<double> numbers_of(const Thing& thing) {
+  std::vector<double> numbers(sizeof(Thing) / sizeof(double));
+  std::memcpy(numbers.data(), &thing, sizeof(Thing));
+  return numbers;
+}
+
+template <class Law>
+void expect_step_of(const Case<Law>& c, const BallBatch<Law>& block, std::size_t lane) {
+  typename Law::History history =
+      carried_history<Law>(c.memory, c.pair.normal, kStep * c.pair.twist_rate());
   const BallStepOf<double> step = ball_step<Law>(c.pair, c.parameters, history, kStep);
 
   EXPECT_EQ(vector_of(block.normal, lane), c.pair.normal);
-  EXPECT_EQ(vector_of(block.history, lane), history.elastic_slip);
+  EXPECT_EQ(numbers_of(block.history.template at<typename Law::History>(lane)),
+            numbers_of(history));
   EXPECT_EQ(vector_of(block.force, lane), step.force);
-  EXPECT_EQ(vector_of(block.torque_a, lane), step.arm_a * step.force_cross_normal);
+  EXPECT_EQ(vector_of(block.torque_a, lane), step.arm_a * step.force_cross_normal - step.moment);
   EXPECT_EQ(block.gap.number(lane), step.gap);
   EXPECT_EQ(block.dissipated.number(lane), step.dissipated);
   EXPECT_EQ(block.overlap_ratio.number(lane),
             -step.gap / std::min(c.pair.radius_a, c.pair.radius_b));
 }
 
-template <class Width>
+template <class Law>
 class BallKernel : public testing::Test {};
-using Widths = testing::Types<geometry::Width<2>, geometry::Width<4>, geometry::Width<8>>;
-TYPED_TEST_SUITE(BallKernel, Widths);
+TYPED_TEST_SUITE(BallKernel, test::LaneLaws);
 
-TYPED_TEST(BallKernel, GivesTheBitsOfOnePairAfterTheOtherForAnyCount) {
-  RandomCases random;
-  for (std::size_t count = 1; count <= 40; ++count) {
-    std::vector<Case> cases;
-    Block block;
-    for (std::size_t lane = 0; lane < count; ++lane) put(cases.emplace_back(random()), lane, block);
-
-    ASSERT_TRUE(block.template advance<TypeParam::value>(count, kStep));
-
-    for (std::size_t lane = 0; lane < count; ++lane) expect_step_of(cases[lane], block, lane);
-  }
+/// Calls run(Width) for every width.
+template <class Run>
+void for_each_width(const Run& run) {
+  run(geometry::Width<2>{});
+  run(geometry::Width<4>{});
+  run(geometry::Width<8>{});
 }
 
-TYPED_TEST(BallKernel, SaysWhenAPairNeedsThePlainWay) {
-  RandomCases random;
-  const auto all_right = [](const Case& odd, std::size_t lane) {
-    RandomCases others;
-    Block block;
+TYPED_TEST(BallKernel, GivesTheBitsOfOnePairAfterTheOtherForAnyCount) {
+  for_each_width([](auto width) {
+    RandomCases<TypeParam> random;
+    for (std::size_t count = 1; count <= 40; ++count) {
+      std::vector<Case<TypeParam>> cases;
+      BallBatch<TypeParam> block;
+      for (std::size_t lane = 0; lane < count; ++lane)
+        put(cases.emplace_back(random()), lane, block);
+
+      ASSERT_TRUE(block.template advance<width>(count, kStep));
+
+      for (std::size_t lane = 0; lane < count; ++lane) expect_step_of(cases[lane], block, lane);
+    }
+  });
+}
+
+using Law = LinearFrictional;
+
+template <class Width>
+class BallKernelOf : public testing::Test {};
+using Widths = testing::Types<geometry::Width<2>, geometry::Width<4>, geometry::Width<8>>;
+TYPED_TEST_SUITE(BallKernelOf, Widths);
+
+TYPED_TEST(BallKernelOf, SaysWhenAPairNeedsThePlainWay) {
+  RandomCases<Law> random;
+  const auto all_right = [](const Case<Law>& odd, std::size_t lane) {
+    RandomCases<Law> others;
+    BallBatch<Law> block;
     for (std::size_t k = 0; k < 11; ++k) put(k == lane ? odd : others(), k, block);
     return block.template advance<TypeParam::value>(11, kStep);
   };
-  Case ordinary = random();
-  Case flipped = ordinary;
+  Case<Law> ordinary = random();
+  Case<Law> flipped = ordinary;
   flipped.memory.normal = -flipped.pair.normal;
-  Case coincident = ordinary;
+  Case<Law> coincident = ordinary;
   coincident.separation.setZero();
-  Case twisted = ordinary;
+  Case<Law> twisted = ordinary;
   twisted.pair.spin_a = twisted.pair.spin_b = 0.11 / kStep * twisted.pair.normal;
 
   for (std::size_t lane = 0; lane < 11; ++lane) {
@@ -134,10 +176,10 @@ TYPED_TEST(BallKernel, SaysWhenAPairNeedsThePlainWay) {
   }
 }
 
-TEST(BallKernel, RunsWithTheWidestVectorsOfThisMachine) {
-  RandomCases random;
-  std::vector<Case> cases;
-  Block block;
+TYPED_TEST(BallKernel, RunsWithTheWidestVectorsOfThisMachine) {
+  RandomCases<TypeParam> random;
+  std::vector<Case<TypeParam>> cases;
+  BallBatch<TypeParam> block;
   for (std::size_t lane = 0; lane < 37; ++lane) put(cases.emplace_back(random()), lane, block);
 
   ASSERT_TRUE(advance_side_by_side(block, cases.size(), kStep));
@@ -158,7 +200,7 @@ std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false,
   std::vector<Ball> balls;
   std::vector<geometry::IndexPair> pairs;
   for (std::int32_t b = 0; b < std::int32_t{kBalls}; ++b) {
-    balls.push_back({NodeId{b}, 1e-3, MaterialId{0}});
+    balls.push_back({NodeId{b}, 1e-3, MaterialId{0}, kMass});
     for (std::int32_t a = 0; a < b; ++a) pairs.push_back({a, b});
   }
   std::sort(pairs.begin(), pairs.end());
@@ -166,11 +208,10 @@ std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false,
   geometry::ThreadPool pool(threads);
   NodeForces forces(kBalls);
   std::vector<Vec3> all;
-  RandomCases random;
+  RandomCases<Law> random;
   std::vector<Vec3> x(kBalls), v(kBalls), w(kBalls);
   for (Vec3& p : x) p = 3e-3 * random.vector();
-  const MaterialPairs<AnyLaw> materials({{2e6, 0.3, 0.5}},
-                                        {{{MaterialId{0}, MaterialId{0}}, properties}});
+  const MaterialPairs<AnyLaw> materials({kStone}, {{{MaterialId{0}, MaterialId{0}}, properties}});
   contacts.rebuild(pairs, balls, materials, pool, knows_where ? Positions(x) : Positions());
   for (int step = 0; step < 20; ++step) {
     for (std::size_t i = 0; i < kBalls; ++i) {
@@ -213,8 +254,18 @@ TEST(BallContacts, SetTheForcesOfAllNodes) {
   }
 }
 
-TEST(BallContacts, HaveTheSameBitsSideBySideAndOneAfterTheOther) {
-  EXPECT_EQ(forces_of_a_crowd<Law>(1), forces_of_a_crowd<PlainLaw>(1));
+template <class Law>
+class BallContactsUnder : public testing::Test {};
+TYPED_TEST_SUITE(BallContactsUnder, test::LaneLaws);
+
+TYPED_TEST(BallContactsUnder, HaveTheSameBitsSideBySideAndOneAfterTheOther) {
+  test::Random random(7);
+  for (int trial = 0; trial < 5; ++trial) {
+    const auto properties = test::random_properties<TypeParam>(random);
+
+    EXPECT_EQ(forces_of_a_crowd<TypeParam>(1, false, properties),
+              forces_of_a_crowd<test::OneAtATime<TypeParam>>(1, false, properties));
+  }
 }
 
 /// One says what the others come to, so that parameters are kept instead of made anew.

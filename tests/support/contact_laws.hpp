@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/laws/any_law.hpp"
+#include "contact/laws/cohesive_frictional.hpp"
 #include "contact/laws/dashpot.hpp"
 #include "contact/laws/dmt_adhesion.hpp"
 #include "contact/laws/hertz_mindlin.hpp"
@@ -27,6 +28,17 @@ using AllLaws = ::testing::Types<LinearFrictional, HertzMindlin, DmtAdhesion, Ro
                                  DampedHertz, Everything, AnyLaw, WeakeningSlider>;
 
 template <class Law>
+using WithParts = Sum<Sum<Law, RollingTwisting>, Dashpot>;
+
+/// Every law that is written for contacts side by side, alone, with each part and with both.
+using LaneLaws =
+    ::testing::Types<LinearFrictional, RollingLinear, Sum<LinearFrictional, Dashpot>,
+                     WithParts<LinearFrictional>, HertzMindlin, Sum<HertzMindlin, RollingTwisting>,
+                     DampedHertz, Everything, DmtAdhesion, WithParts<DmtAdhesion>,
+                     CohesiveFrictional, Sum<CohesiveFrictional, RollingTwisting>,
+                     WithParts<CohesiveFrictional>, WeakeningSlider>;
+
+template <class Law>
 inline constexpr bool kHasDashpot =
     std::is_same_v<Law, DampedHertz> || std::is_same_v<Law, Everything>;
 
@@ -46,6 +58,15 @@ struct RandomProperties<LinearFrictional> {
 template <>
 struct RandomProperties<DmtAdhesion> {
   static DmtAdhesion::Properties from(Random& random) { return {random.uniform(0.0, 1e-4)}; }
+};
+/// Fragile and ductile bonds, and none, that some 1e-5 to 1e-4 m stretch as far as they go.
+template <>
+struct RandomProperties<CohesiveFrictional> {
+  static CohesiveFrictional::Properties from(Random& random) {
+    const auto strength = [&] { return random.unit() < 0.2 ? 0.0 : random.uniform(1e4, 4e5); };
+    return {strength(), strength(), random.coin() ? 0.0 : random.uniform(1e-5, 2e-4),
+            random.unit() < 0.8 ? Bonds::new_contacts : Bonds::none};
+  }
 };
 template <>
 struct RandomProperties<RollingTwisting> {
