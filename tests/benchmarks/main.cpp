@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plekton-bench: runs a scene and prints one JSON line about its cost, or makes a bed.
 #include "tests/benchmarks/measurement.hpp"
+#include "tests/benchmarks/scenes/laws.hpp"
 #include "tests/benchmarks/scenes/scene_table.hpp"
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,7 @@ namespace bench = plekton::benchmarks;
 struct RunOptions {
   bool lists = false;
   std::string scene;
+  std::string law = "linear_frictional";
   std::string bed;
   std::optional<std::size_t> spheres;
   int copies = 1;
@@ -77,6 +79,7 @@ nlohmann::ordered_json to_json(const plekton::contact::ContactCounts& counts) {
 nlohmann::ordered_json run(const RunOptions& options) {
   const bench::SceneEntry& entry = bench::find_scene(options.scene);
   bench::BenchmarkScene scene = entry.make(input_of(entry, options));
+  bench::set_law(options.law, scene);
   scene.options.threads = options.threads;
   scene.options.skin = options.skin;
   const bench::Window window{options.warm_up.value_or(entry.warm_up),
@@ -86,6 +89,7 @@ nlohmann::ordered_json run(const RunOptions& options) {
   const double steps_per_second = window.steps / result.wall;
   const std::size_t contacts = bench::total(result.contacts);
   return {{"scene", entry.name},
+          {"law", options.law},
           {"N", result.elements},
           {"threads", options.threads},
           {"warm_up", window.warm_up},
@@ -115,6 +119,8 @@ void make_bed(const BedOptions& options) {
 
 void add_run_options(CLI::App& app, RunOptions& options) {
   app.add_option("scene", options.scene, "see --list");
+  app.add_option("--law", options.law, "of all contacts; with +parts also rolling and a dashpot")
+      ->check(CLI::IsMember(bench::law_names()));
   app.add_option("--bed", options.bed, "packing of spheres; without it one is made")
       ->check(CLI::ExistingFile);
   app.add_option("--spheres", options.spheres, "of the bed that is made")

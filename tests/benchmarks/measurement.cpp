@@ -40,7 +40,7 @@ StateFigures state_figures(const BenchmarkSimulation& simulation) {
 }
 
 Measurement measure(BenchmarkScene scene, const Window& window) {
-  BenchmarkSimulation simulation(std::move(scene.scene), scene.options);
+  BenchmarkSimulation simulation(std::move(scene.scene), scene.options, scene.model);
   const auto& contacts = simulation.contacts();
   const auto rebuilds = [&] {
     return contacts.neighbours().rebuild_count() + contacts.cell_neighbours().rebuild_count();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmarks/bed_maker.hpp"
 #include "tests/benchmarks/measurement.hpp"
+#include "tests/benchmarks/scenes/laws.hpp"
 #include "tests/benchmarks/scenes/parts.hpp"
 #include "tests/benchmarks/scenes/scene_table.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -63,6 +64,22 @@ TEST(BenchmarkScenes, AllRunAndHaveContactsUnlessTheyAreLifted) {
     EXPECT_LT(result.state.lowest_node, result.state.mean_height);
     EXPECT_LT(result.state.mean_height, result.state.highest_node);
   }
+}
+
+TEST(BenchmarkScenes, RunUnderEveryLaw) {
+  const Bed bed = small_bed(BedKind::slab);
+  for (const std::string& law : law_names()) {
+    SCOPED_TRACE(law);
+    BenchmarkScene scene = find_scene("s2").make({bed, 4});
+    set_law(law, scene);
+
+    const Measurement result = measure(std::move(scene), {0, 20});
+
+    EXPECT_GT(result.contacts.sphere_sphere, 0U);
+    EXPECT_TRUE(std::isfinite(result.state.kinetic_energy));
+  }
+  BenchmarkScene scene = find_scene("s2").make({bed, 4});
+  EXPECT_THROW(set_law("glue", scene), std::invalid_argument);
 }
 
 TEST(BenchmarkScenes, AreListedWhereAnUnknownOneIsAskedFor) {

@@ -236,6 +236,23 @@ class Promises(unittest.TestCase):
 
         self.assertAlmostEqual(row(records, "G10").measured.median, 1.4)
 
+    def test_a_law_costs_what_its_scene_takes_over_the_same_under_the_linear_one(self):
+        linear = run("plekton", "s1:linear_frictional", 5000, 1.0)
+        hertz = run("plekton", "s1:hertz_mindlin", 5000, 1.4)
+
+        of_hertz = row([linear, hertz], "G11", "s1: hertz_mindlin over")
+
+        self.assertAlmostEqual(of_hertz.measured.median, 1.4)
+        self.assertEqual(of_hertz.verdict(1.3), "missed")
+
+    def test_plekton_is_told_the_law_of_a_scene(self):
+        case = cases.Case("s2:dmt_adhesion+parts", 5000, "", 1, 2)
+
+        words = codes.plekton_command("bench", codes.Job(case, None, 1))
+
+        self.assertEqual(words[1], "s2")
+        self.assertEqual(words[-2:], ["--law", "dmt_adhesion+parts"])
+
 
 class Runs(unittest.TestCase):
     def setUp(self):

@@ -48,7 +48,26 @@ LAYER_GROUNDS = ("layer_sheet", "layer_spheres")
 
 LAYER_WARM_UP, LAYER_STEPS = 200, 600
 
-SCENE_NAMES = (*SCENES, LAYERS)
+LAWS = "laws"
+"""Scenes under every law, from which follows what a law costs over linear_frictional."""
+
+LAW_SCENES = ("s1", "s2")
+
+LINEAR_LAW = "linear_frictional"
+
+OTHER_LAWS = (
+    "linear_frictional+parts",
+    *(law + parts for law in ("hertz_mindlin", "dmt_adhesion", "cohesive_frictional") for parts in ("", "+parts")),
+)
+"""Of plekton-bench --law; with +parts resistance to rolling and twisting, and a dashpot."""
+
+
+def under(scene, law):
+    """The name of a scene under a law."""
+    return f"{scene}:{law}"
+
+
+SCENE_NAMES = (*SCENES, LAYERS, LAWS)
 """What can be asked for."""
 
 SHEET = "sheet"
@@ -98,6 +117,14 @@ def cases_of(names, sizes):
         if name == LAYERS:
             scenes = (ground + end for ground in LAYER_GROUNDS for end in ("", "_lifted"))
             cases += [Case(scene, 0, "", LAYER_WARM_UP, LAYER_STEPS, for_peers=False) for scene in scenes]
+            continue
+        if name == LAWS:
+            bases = [SCENES[scene] for scene in LAW_SCENES]
+            cases += [
+                Case(under(base.name, law), base.size, base.bed, base.warm_up, base.steps, for_peers=False)
+                for base in bases
+                for law in (LINEAR_LAW, *OTHER_LAWS)
+            ]
             continue
         scene = SCENES[name]
         for size in sizes if scene.has_sizes else [scene.size]:

@@ -43,8 +43,10 @@ class Code:
 
 def plekton_command(program, job):
     case = job.case
-    scene = {"sheet": "s2", "lone": "s1"}.get(case.scene, case.scene)
+    scene, _, law = {"sheet": "s2", "lone": "s1"}.get(case.scene, case.scene).partition(":")
     command = [program, scene, "--warm-up", str(case.warm_up), "--steps", str(case.steps), "--threads", str(job.threads)]
+    if law:
+        command += ["--law", law]
     if job.bed:
         command += ["--bed", str(job.bed)]
     if case.scene == "sheet":

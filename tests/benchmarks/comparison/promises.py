@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 
 from comparison import costs
-from comparison.cases import SCENES, SHEET_CELLS
+from comparison.cases import LAW_SCENES, LINEAR_LAW, OTHER_LAWS, SCENES, SHEET_CELLS, under
 from comparison.results import Results, Spread, combine
 
 NATIVE_SHARE = 0.85
@@ -140,6 +140,18 @@ def growth(results, installed):
     yield Row("G10", "ns a sphere-step, 100000 over 5000", measured, 1.5, 1.3, at_least=False, missing=missing)
 
 
+def laws(results, installed):
+    """G11."""
+    for scene in LAW_SCENES:
+        size = SCENES[scene].size
+        linear = results.times("plekton", under(scene, LINEAR_LAW), size)
+        for law in OTHER_LAWS:
+            times = results.times("plekton", under(scene, law), size)
+            measured = combine(lambda base, other: other / base, linear, times)
+            missing = "" if measured else "needs laws"
+            yield Row("G11", f"{scene}: {law} over {LINEAR_LAW}", measured, 1.3, None, at_least=False, missing=missing)
+
+
 SEARCHES = (
     ("search_near", "cgal", 1.0),
     ("search_far", "cgal", 1.0),
@@ -166,5 +178,5 @@ def rows(results, installed):
     @param results    Results of plekton and of its peers.
     @param installed  Names of the peers found on this machine.
     """
-    for group in (sphere_beds, structures, contacts, two_threads, memory, growth, searches):
+    for group in (sphere_beds, structures, contacts, two_threads, memory, growth, laws, searches):
         yield from group(results, installed)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/laws/models.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <cstddef>
@@ -14,6 +15,7 @@ struct BenchmarkScene {
   dynamics::Scene scene;
   dynamics::SimulationOptions options;
   std::size_t element_count;  ///< spheres, facets and free cylinders
+  contact::ContactModel model = contact::linear_frictional();
 };
 
 }  // namespace plekton::benchmarks
