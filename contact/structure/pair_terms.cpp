@@ -4,6 +4,7 @@
 #include "contact/structure/nearest.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace plekton::contact::structure {
 namespace {
@@ -33,11 +34,6 @@ double push_of(const PairTerm& term, const Vec3& normal) {
   double push = 0.0;
   for (std::size_t i = 0; i < term.b.count; ++i) push += term.forces.on_b[i].dot(normal);
   return push;
-}
-
-void add_part(const PointShare& of, double part, PointShare& to) {
-  to.share += part * of.share;
-  to.by_distance += part * of.by_distance;
 }
 
 /// Adds the forces on some nodes to those of a term that has all of them that feel any.
@@ -251,78 +247,84 @@ void PairTerms::give_back_of_rings(std::span<const NormalSpring> springs, Positi
 void PairTerms::give_back(std::span<const std::uint32_t> pairs, std::span<const RingTerm> terms,
                           std::span<const NormalSpring> springs, Positions x) {
   const NormalSpring& spring = springs[of_cells(pairs.front()).spring];
-  find_vertices(pairs, spring.range(), x);
+  const double share = flatness_share(pairs, spring.range());
+  // Less would drown in the rounding of what there is.
+  if (share < std::numeric_limits<double>::epsilon()) return;
+  ring_cells_.clear();
+  for (const std::uint32_t pair : pairs)
+    ring_cells_.push_back({&of_cells(pair).a, &of_cells(pair).b, &proximity_[pair].cores});
+  complex_.build(ring_cells_, spring.range(), x);
+  counts_.assign(complex_.levels().distances().size(), 0.0);
   for (const RingTerm& of : terms) {
     const std::uint32_t vertex = complex_.vertex_of(terms_[of.term].a, terms_[of.term].b);
-    if (vertex != ProductComplex::kNone) vertices_[vertex].weight -= terms_[of.term].weight;
+    if (vertex != ProductComplex::kNone) counts_[vertex] += terms_[of.term].weight;
   }
-  const std::vector<Vertex> before = vertices_;
-  add_rings(pairs, spring, false);
-  if (!spring.attracts()) return;
-  vertices_ = before;
-  add_rings(pairs, spring.attraction(), true);
+  add_rings(pairs, share, spring, false);
+  if (spring.attracts()) add_rings(pairs, share, spring.attraction(), true);
 }
 
-void PairTerms::find_vertices(std::span<const std::uint32_t> pairs, double range, Positions x) {
-  ring_cells_.clear();
-  double deepest = 0.0;
-  for (const std::uint32_t pair : pairs) {
-    const PairTerm& cells = of_cells(pair);
-    ring_cells_.push_back({&cells.a, &cells.b, &proximity_[pair].cores});
-    deepest = std::max(deepest, cells.overlap);
-  }
-  complex_.build(ring_cells_, range, x);
-  const auto distances = complex_.levels().distances();
-  vertices_.assign(distances.size(), {});
-  const bool lie_flat = std::any_of(pairs.begin(), pairs.end(), [&](std::uint32_t pair) {
-    return point_share(proximity_[pair].tilt, deepest, range).share != 1.0;
-  });
-  if (!lie_flat) return;
-  for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
-    PointShare& mean = vertices_[i].share;
-    const auto having = complex_.holders(i);
-    mean = {0.0, 0.0, 0.0};
-    for (const std::uint32_t pair : having)
-      add_part(point_share(proximity_[pairs[pair]].tilt, range - distances[i], range),
-               1.0 / static_cast<double>(having.size()), mean);
-  }
+double PairTerms::flatness_share(std::span<const std::uint32_t> pairs,
+                                 double range) const noexcept {
+  double share = 1.0;
+  for (const std::uint32_t pair : pairs)
+    share *= point_share(proximity_[pair].tilt, of_cells(pair).overlap, range).share;
+  return share;
 }
 
 /// Spreads what a place does over the pairs of cells that have it.
-void PairTerms::add_rings(std::span<const std::uint32_t> pairs, const NormalSpring& spring,
-                          bool pulls) {
+void PairTerms::add_rings(std::span<const std::uint32_t> pairs, double share,
+                          const NormalSpring& spring, bool pulls) {
   const auto distances = complex_.levels().distances();
   energies_.clear();
-  for (std::size_t i = 0; i < vertices_.size(); ++i)
-    energies_.push_back(vertices_[i].share.share * spring.energy(distances[i]));
-  for (const RingWeights::Share& of : rings_.find(complex_.levels(), spring.range(), energies_)) {
-    vertices_[of.vertex].weight += of.weight;
-    vertices_[of.vertex].slope += of.slope;
+  weights_.clear();
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    energies_.push_back(spring.energy(distances[i]));
+    weights_.push_back(-counts_[i]);
   }
-  for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
-    const Vertex& vertex = vertices_[i];
-    if (vertex.weight == 0.0 && vertex.slope == 0.0) continue;
-    const double whole = spring.energy(distances[i]);
-    const double force = vertex.weight * (vertex.share.share * spring.force(distances[i]) -
-                                          vertex.share.by_distance * whole) +
-                         vertex.slope;
+  slopes_.assign(distances.size(), 0.0);
+  for (const RingWeights::Share& of : rings_.find(complex_.levels(), spring.range(), energies_)) {
+    weights_[of.vertex] += of.weight;
+    slopes_[of.vertex] = of.slope;
+  }
+  double whole = 0.0;
+  for (std::uint32_t i = 0; i < distances.size(); ++i) {
+    if (weights_[i] == 0.0 && slopes_[i] == 0.0) continue;
+    const double energy = weights_[i] * energies_[i];
+    const double force = share * (weights_[i] * spring.force(distances[i]) + slopes_[i]);
+    whole += energy;
     const ProductComplex::Place& place = complex_.place(i);
     const auto having = complex_.holders(i);
     const double part = 1.0 / static_cast<double>(having.size());
     const PairForces forces = pushing_apart(place.cores, part * force);
     for (const std::uint32_t of : having) {
-      const std::uint32_t pair = pairs[of];
-      const std::uint32_t cells = term_of_pair_[pair];
+      const std::uint32_t cells = term_of_pair_[pairs[of]];
       PairTerm& term = terms_[cells];
       PairForces& to = pulls ? attractions_[cells] : term.forces;
-      to.energy += part * vertex.weight * energies_[i];
+      to.energy += part * share * energy;
       add_on_nodes(place.a, forces.on_a, term, to);
       add_on_nodes(place.b, forces.on_b, term, to);
       if (!pulls) term.push += part * force;
-      const PointShare share =
-          point_share(proximity_[pair].tilt, spring.range() - distances[i], spring.range());
-      by_tilt_[pair][pulls ? 1 : 0] += part * share.by_tilt * vertex.weight * whole;
     }
+  }
+  if (share != 1.0) add_flatness(pairs, share * whole, spring.range(), pulls);
+}
+
+/// What the share of a part does, as it changes with the overlaps and tilts of its pairs.
+/// @param energy  J, that it is a factor of
+void PairTerms::add_flatness(std::span<const std::uint32_t> pairs, double energy, double range,
+                             bool pulls) {
+  for (const std::uint32_t pair : pairs) {
+    const std::uint32_t cells = term_of_pair_[pair];
+    PairTerm& term = terms_[cells];
+    const PointShare of = point_share(proximity_[pair].tilt, term.overlap, range);
+    if (of.share == 1.0) continue;
+    const double force = -energy / of.share * of.by_distance;
+    const PairForces forces = pushing_apart(proximity_[pair].cores, force);
+    PairForces& to = pulls ? attractions_[cells] : term.forces;
+    add_on_nodes(term.a, forces.on_a, term, to);
+    add_on_nodes(term.b, forces.on_b, term, to);
+    if (!pulls) term.push += force;
+    by_tilt_[pair][pulls ? 1 : 0] += energy / of.share * of.by_tilt;
   }
 }
 

@@ -29,11 +29,11 @@ namespace plekton::contact::structure {
 /// surface holds (patch.hpp): contacts are counted by pieces, and a ring gives back what its saddle
 /// takes, smoothly (ring_weights.hpp), here with the pairs of features of both bodies
 /// (product_complex.hpp). With the weights W of that rule, and the w of all terms that stand at one
-/// place, each place adds (W - sum of w) * share * phi(distance) to the energy, with the mean share
-/// of the pairs of cells that have it (point_share.hpp). That is 0 where there are pieces alone,
-/// and changes continuously from there on, as W does; for each energy of the law the force is its
-/// gradient. What bodies have by their extent is measured, not counted: nothing is given back of
-/// it.
+/// place, each place adds g * (W - sum of w) * phi(distance) to the energy. That is 0 where there
+/// are pieces alone, and changes continuously from there on, as W does; for each energy of the law
+/// the force is its gradient. g is the product of the point shares of all pairs of facets of the
+/// part (point_share.hpp): 1 where none lie flat on each other, 0 where some do. There the area is
+/// measured and nearest points are anywhere, so rings of them mean nothing.
 class PairTerms {
  public:
   explicit PairTerms(const geometry::Surface& surface) : surface_(&surface) {}
@@ -105,12 +105,6 @@ class PairTerms {
     std::uint32_t term;
     friend constexpr auto operator<=>(const RingTerm&, const RingTerm&) = default;
   };
-  /// A place of such a part.
-  struct Vertex {
-    double weight = 0.0;  ///< beside those of the terms that stand there
-    double slope = 0.0;   ///< N, how much the energy grows with the overlap as weights change
-    PointShare share;
-  };
   void find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
                        geometry::ThreadPool& pool);
   void list_candidates();
@@ -123,8 +117,10 @@ class PairTerms {
   void give_back_of_rings(std::span<const NormalSpring> springs, Positions x);
   void give_back(std::span<const std::uint32_t> pairs, std::span<const RingTerm> terms,
                  std::span<const NormalSpring> springs, Positions x);
-  void find_vertices(std::span<const std::uint32_t> pairs, double range, Positions x);
-  void add_rings(std::span<const std::uint32_t> pairs, const NormalSpring& spring, bool pulls);
+  double flatness_share(std::span<const std::uint32_t> pairs, double range) const noexcept;
+  void add_rings(std::span<const std::uint32_t> pairs, double share, const NormalSpring& spring,
+                 bool pulls);
+  void add_flatness(std::span<const std::uint32_t> pairs, double energy, double range, bool pulls);
   void tilt_cells(std::span<const NormalSpring> springs, Positions x);
 
   const geometry::Surface* surface_;
@@ -155,8 +151,10 @@ class PairTerms {
   RingWeights rings_;
   std::vector<RingTerm> ring_terms_;
   std::vector<ProductComplex::CellPair> ring_cells_;
-  std::vector<Vertex> vertices_;
+  std::vector<double> counts_;    ///< by vertex: weights of the terms that stand there
   std::vector<double> energies_;  ///< J, by vertex
+  std::vector<double> weights_;   ///< by vertex: beside those
+  std::vector<double> slopes_;    ///< N, by vertex: of the energy by the overlap, as weights change
 };
 
 }  // namespace plekton::contact::structure

@@ -91,7 +91,7 @@ void ProductComplex::build(std::span<const CellPair> pairs, double range, geomet
 /// in it, these are its own.
 void ProductComplex::take(std::span<const Candidate> same, std::span<const CellPair> pairs,
                           double range, geometry::Positions x) {
-  Cell cell{same.front().key, {}, kNone, same.front().pair};
+  Cell cell{same.front().key, {}, kNone, same.front().pair, 0.0};
   for (const Candidate& of : same) {
     if (of.cell == kNone || cell.place != kNone) continue;
     const Cell& above = cells_[of.cell];
@@ -112,9 +112,13 @@ void ProductComplex::take(std::span<const Candidate> same, std::span<const CellP
     places_.push_back(place);
     set_foot(cell);
   }
+  cell.level = places_[cell.place].cores.signed_distance;
   const auto own = static_cast<std::uint32_t>(cells_.size());
-  for (const Candidate& of : same)
-    if (of.cell != kNone) by_side_.push_back({own, of.cell});
+  for (const Candidate& of : same) {
+    if (of.cell == kNone) continue;
+    by_side_.push_back({own, of.cell});
+    cell.level = std::max(cell.level, cells_[of.cell].level);
+  }
   cells_.push_back(cell);
 }
 
@@ -171,15 +175,13 @@ void ProductComplex::number_vertices() {
     vertices_[i] = is_own ? static_cast<std::uint32_t>(apexes_.size()) : vertices_[foot];
     if (is_own) apexes_.push_back(i);
   }
-  const auto distance = [this](std::uint32_t cell) {
-    return places_[cells_[cell].place].cores.signed_distance;
-  };
+  const auto distance = [this](std::uint32_t cell) { return cells_[cell].level; };
   above_.resize(apexes_.size());
   std::iota(above_.begin(), above_.end(), 0U);
   std::sort(above_.begin(), above_.end(), [&](std::uint32_t i, std::uint32_t k) {
     const double p = distance(apexes_[i]);
     const double q = distance(apexes_[k]);
-    return p != q ? p < q : cells_[apexes_[i]].key < cells_[apexes_[k]].key;
+    return p != q ? p < q : apexes_[i] < apexes_[k];  // sides come after cells
   });
   holders_.resize(above_.size());
   for (std::uint32_t place = 0; place < above_.size(); ++place) holders_[above_[place]] = place;
@@ -233,11 +235,11 @@ std::span<const std::uint32_t> ProductComplex::holders(std::uint32_t vertex) {
   holders_.clear();
   above_.assign(1, apexes_[vertex]);
   for (std::size_t next = 0; next < above_.size(); ++next) {
-    const std::uint32_t cell = above_[next];
-    if (cells_[cell].pair != kNone) holders_.push_back(cells_[cell].pair);
+    const std::uint32_t side = above_[next];
+    if (cells_[side].pair != kNone) holders_.push_back(cells_[side].pair);
     // Faces are listed by the side, as its cell was taken.
-    auto face = std::lower_bound(by_side_.begin(), by_side_.end(), Face{cell, 0});
-    for (; face != by_side_.end() && face->side == cell; ++face) {
+    auto face = std::lower_bound(by_side_.begin(), by_side_.end(), Face{side, 0});
+    for (; face != by_side_.end() && face->side == side; ++face) {
       if (std::find(above_.begin(), above_.end(), face->cell) == above_.end())
         above_.push_back(face->cell);
     }

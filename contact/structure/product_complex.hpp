@@ -61,6 +61,8 @@ class ProductComplex {
     Key foot;  ///< the features that hold its nearest points
     std::uint32_t place;
     std::uint32_t pair;  ///< kNone, if it is of sides or corners
+    double level;        ///< m, its distance; but for rounding no less than that of a cell it is a
+                         ///< side of
   };
   /// A side of a cell, or a pair of cells.
   struct Candidate {
