@@ -259,8 +259,16 @@ void PairTerms::give_back(std::span<const std::uint32_t> pairs, std::span<const 
     const std::uint32_t vertex = complex_.vertex_of(terms_[of.term].a, terms_[of.term].b);
     if (vertex != ProductComplex::kNone) counts_[vertex] += terms_[of.term].weight;
   }
+  if (!complex_.levels().fillings().empty() && most_rings() > kMostRings) return;
   add_rings(pairs, share, spring, false);
   if (spring.attracts()) add_rings(pairs, share, spring.attraction(), true);
+}
+
+/// Of the part whose counts these are, at any level.
+double PairTerms::most_rings() const noexcept {
+  double pieces_less_rings = 0.0, least = 1.0;
+  for (const double count : counts_) least = std::min(least, pieces_less_rings += count);
+  return 1.0 - least;
 }
 
 double PairTerms::flatness_share(std::span<const std::uint32_t> pairs,
