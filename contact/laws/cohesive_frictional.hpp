@@ -40,6 +40,7 @@ struct CohesiveFrictional {
     Real shear;             ///< N
     Real rupture_distance;  ///< m
     Real glues;             ///< 1 if it glues bodies that come to touch, else 0
+    Real compliance;        ///< m/N, along the normal, 0 without stiffness
   };
   using Parameters = ParametersOf<double>;
 
@@ -60,14 +61,15 @@ struct CohesiveFrictional {
 
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
     const double smaller = std::min(a.radius, b.radius);
-    return {LinearFrictional::combine(properties.elastic, a, b),
-            properties.tensile_strength * smaller * smaller,
-            properties.shear_strength * smaller * smaller, properties.rupture_distance,
-            properties.bonds != Bonds::none ? 1.0 : 0.0};
+    return with_compliance({LinearFrictional::combine(properties.elastic, a, b),
+                            properties.tensile_strength * smaller * smaller,
+                            properties.shear_strength * smaller * smaller,
+                            properties.rupture_distance,
+                            properties.bonds != Bonds::none ? 1.0 : 0.0, 0.0});
   }
   static Parameters multiplied(const Parameters& p, double count) noexcept {
-    return {LinearFrictional::multiplied(p.elastic, count), count * p.tension, count * p.shear,
-            p.rupture_distance, p.glues};
+    return with_compliance({LinearFrictional::multiplied(p.elastic, count), count * p.tension,
+                            count * p.shear, p.rupture_distance, p.glues, 0.0});
   }
 
   template <class Real>
@@ -83,7 +85,8 @@ struct CohesiveFrictional {
   template <class Real>
   PLEKTON_INLINE static Real reach(const ParametersOf<Real>& p) noexcept {
     const Real& k = p.elastic.normal_stiffness;
-    return geometry::select(k > Real(0.0), Real(p.rupture_distance + p.tension / k), Real(0.0));
+    return geometry::select(k > Real(0.0), Real(p.rupture_distance + p.tension * p.compliance),
+                            Real(0.0));
   }
   /// Whether a contact goes on over a distance.
   static bool holds(const History& history) noexcept { return hold(history) > 0.0; }
@@ -108,8 +111,12 @@ struct CohesiveFrictional {
   static Parameters of_bond(const Parameters& p) noexcept { return p; }
   static Parameters beside_bonds(const Parameters& p, double part) noexcept {
     const LinearFrictional::Parameters& e = p.elastic;
-    return {
-        {e.normal_stiffness, part * e.tangential_stiffness, part * e.friction}, 0.0, 0.0, 0.0, 0.0};
+    return with_compliance({{e.normal_stiffness, part * e.tangential_stiffness, part * e.friction},
+                            0.0,
+                            0.0,
+                            0.0,
+                            0.0,
+                            0.0});
   }
 
   template <class Real>
@@ -120,11 +127,15 @@ struct CohesiveFrictional {
     const Real pull_before = history.pull;
     const Vec3Of<Real> slip = Real(dt) * motion.slip_velocity;
     const Real& stiffness = p.elastic.tangential_stiffness;
+    const StiffnessChangeOf<Real> spring(history.spring.compliance, stiffness);
+    const Vec3Of<Real> force_before = history.spring.force;
+    const TrialForceOf<Real> trial = spring.trial(force_before, slip);
     stretch_bond(p, motion, history);
-    shear_bond(p, motion, slip, history);
+    shear_bond(p, motion, trial.magnitude, history);
     const Real pressing = motion.elastic_normal_force + history.pull;
-    const Real of_spring =
-        history.spring.advance(slip, stiffness, shear_limit(p, history, pressing));
+    history.spring.force = trial.limited_to(shear_limit(p, history, pressing));
+    history.spring.compliance = spring.compliance_now;
+    const Real of_spring = spring.dissipated(force_before, history.spring.force, slip);
     const Real of_bond = energy_before - bond_energy(p, history) -
                          Real(0.5) * (pull_before + history.pull) * motion.gap_rate * Real(dt);
     return {total_force(motion.elastic_normal_force, motion.normal, history), of_spring + of_bond};
@@ -175,13 +186,18 @@ struct CohesiveFrictional {
   }
 
  private:
+  static Parameters with_compliance(Parameters p) noexcept {
+    p.compliance = inverse_of(p.elastic.normal_stiffness);
+    return p;
+  }
+
   /// The overlap of one spring with the elastic force there is; over a distance, minus that.
   template <class Real>
   PLEKTON_INLINE static Real overlap_of(const ParametersOf<Real>& p,
                                         const RelativeMotionOf<Real>& motion) noexcept {
     const Real& k = p.elastic.normal_stiffness;
     const Real& force = motion.elastic_normal_force;
-    return geometry::select(geometry::smaller_of(force, k) > Real(0.0), Real(force / k),
+    return geometry::select(geometry::smaller_of(force, k) > Real(0.0), Real(force * p.compliance),
                             geometry::smaller_of(Real(-motion.gap), Real(0.0)));
   }
 
@@ -211,7 +227,7 @@ struct CohesiveFrictional {
     const Real tension = -k * (history.overlap - history.yielded);
     const Real gives_way = smaller_of(Real(tension - p.tension), history.bond);
     const Real yielded =
-        select(gives_way > zero, Real(history.overlap + p.tension / k), history.yielded);
+        select(gives_way > zero, Real(history.overlap + p.tension * p.compliance), history.yielded);
     const Real is_used_up = geometry::larger_of(Real(-yielded - p.rupture_distance), is_fragile(p));
     history.bond = select(smaller_of(gives_way, is_used_up) > zero, Real(kBroken), history.bond);
     history.yielded = select(history.bond > zero, yielded, zero);
@@ -223,14 +239,13 @@ struct CohesiveFrictional {
   template <class Real>
   PLEKTON_INLINE static void shear_bond(const ParametersOf<Real>& p,
                                         const RelativeMotionOf<Real>& motion,
-                                        const std::type_identity_t<Vec3Of<Real>>& slip,
+                                        const std::type_identity_t<Real>& trial_force,
                                         HistoryOf<Real>& history) noexcept {
     using geometry::select;
     using geometry::smaller_of;
     const Real zero = 0.0;
     const Real limit = shear_limit(p, history, motion.elastic_normal_force + history.pull);
-    const Vec3Of<Real> trial = history.spring.force - p.elastic.tangential_stiffness * slip;
-    const Real too_much = trial.norm() - limit;
+    const Real too_much = trial_force - limit;
     const Real breaks = smaller_of(too_much, smaller_of(is_fragile(p), history.bond));
     history.bond = select(breaks > zero, Real(kBroken), history.bond);
     history.yielded = select(breaks > zero, zero, history.yielded);

@@ -5,7 +5,6 @@
 #include "contact/laws/tangential_spring.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -42,7 +41,7 @@ struct RollingTwisting {
   struct HistoryOf {
     Vec3Of<Real> rolling = Vec3Of<Real>::Zero();  ///< N m, on body b
     Real twisting = Real(0.0);                    ///< N m, on body b, about the normal
-    Real stiffness = Real(0.0);  ///< N/m, of the contact, at which both arose; 0: no contact yet
+    Real compliance = Real(0.0);  ///< m/N, of the contact, at which both arose; 0: no contact yet
   };
   using History = HistoryOf<double>;
 
@@ -56,8 +55,8 @@ struct RollingTwisting {
             properties.rolling_limit * smaller,
             properties.twisting_limit * smaller,
             smaller,
-            compliance_of(rolling_arms),
-            compliance_of(twisting_arms)};
+            inverse_of(rolling_arms),
+            inverse_of(twisting_arms)};
   }
   /// The stiffness that comes with the contact is multiplied already.
   static Parameters multiplied(const Parameters& p, double) noexcept { return p; }
@@ -80,8 +79,8 @@ struct RollingTwisting {
     const Vec3Of<Real> turned = Real(dt) * motion.spin_velocity;
     const Real twist = turned.dot(motion.normal);
     const Vec3Of<Real> rolled = turned - twist * motion.normal;
-    const StiffnessChangeOf<Real> change(history.stiffness, stiffness.tangential);
-    history.stiffness = stiffness.tangential;
+    const StiffnessChangeOf<Real> change(history.compliance, stiffness.tangential);
+    history.compliance = change.compliance_now;
     const Real of_rolling = advance_spring(history.rolling, rolled,
                                            change.scaled(p.rolling_arms, p.inverse_rolling_arms),
                                            limit(p.rolling_arm, motion));
@@ -104,7 +103,7 @@ struct RollingTwisting {
   template <class Real>
   PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>& p,
                                             const HistoryOf<Real>& history) noexcept {
-    return Real(0.5) * compliance_of(history.stiffness) *
+    return Real(0.5) * history.compliance *
            (p.inverse_rolling_arms * history.rolling.squaredNorm() +
             p.inverse_twisting_arms * (history.twisting * history.twisting));
   }
@@ -126,7 +125,7 @@ struct RollingTwisting {
   static void add_share(History& history, const History& other, double share) noexcept {
     history.rolling += share * other.rolling;
     history.twisting += share * other.twisting;
-    history.stiffness += std::abs(share) * other.stiffness;
+    history.compliance = compliance_beside(history.compliance, other.compliance, share);
   }
 
  private:
