@@ -80,8 +80,8 @@ std::string bonds(const Scenario& scenario, const InitialContacts& start) {
 }
 
 std::string overlaps(const Scenario& scenario, const InitialContacts& start) {
-  std::map<std::array<BodyTable, 2>, std::vector<const InitialOverlap*>> by_tables;
-  for (const InitialOverlap& overlap : start.overlaps) by_tables[overlap.of].push_back(&overlap);
+  std::map<std::array<BodyTable, 2>, std::vector<const BodyOverlap*>> by_tables;
+  for (const BodyOverlap& overlap : start.overlaps) by_tables[overlap.of].push_back(&overlap);
   std::string text;
   for (const auto& [tables, all] : by_tables) {
     text += fmt::format("overlaps at the start of {} with {}: {}{}\n", path_of(tables[0], scenario),

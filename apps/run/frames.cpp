@@ -86,9 +86,10 @@ std::vector<dynamics::BondStress> stresses_of(const dynamics::Simulation& simula
 }  // namespace
 
 Frames::Frames(const fs::path& folder, const OutputSettings& settings,
-               const dynamics::Simulation& simulation)
+               const dynamics::Simulation& simulation, const BodyTables& bodies)
     : folder_(folder),
       settings_(settings),
+      bodies_(bodies),
       sphere_ids_(simulation.elements().spheres.size()),
       grains_(folder / "grains.pvd"),
       membranes_(folder / "membranes.pvd"),
@@ -131,15 +132,30 @@ void Frames::write_membranes(dynamics::Simulation& simulation, const dynamics::N
                                      simulation.time()));
 }
 
+std::vector<dynamics::ContactLabels> Frames::labels_of(
+    const std::vector<contact::ContactRow>& contacts) const {
+  std::vector<dynamics::ContactLabels> labels;
+  labels.reserve(contacts.size());
+  for (const contact::ContactRow& contact : contacts) {
+    const BodyTable a = bodies_.table_of(contact.a);
+    const BodyTable b = bodies_.table_of(contact.b);
+    labels.push_back({static_cast<std::int32_t>(a.number), static_cast<std::int32_t>(b.number),
+                      static_cast<std::int32_t>(bodies_.material_of(a)),
+                      static_cast<std::int32_t>(bodies_.material_of(b))});
+  }
+  return labels;
+}
+
 void Frames::write_contacts(dynamics::Simulation& simulation) {
   const std::vector<contact::ContactRow> contacts = simulation.list_contacts();
+  const std::vector<dynamics::ContactLabels> labels = labels_of(contacts);
   const double time = simulation.time();
   if (settings_.contacts)
-    write_part("contacts", contacts_, dynamics::contacts_frame(contacts, time));
+    write_part("contacts", contacts_, dynamics::contacts_frame(contacts, time, labels));
   if (!contact_list_) return;
   std::vector<double> row;
-  for (const contact::ContactRow& contact : contacts) {
-    dynamics::fill_contact_row(time, contact, row);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    dynamics::fill_contact_row(time, contacts[i], labels[i], row);
     contact_list_->add(row);
   }
   contact_list_->flush();
@@ -148,7 +164,8 @@ void Frames::write_contacts(dynamics::Simulation& simulation) {
 void Frames::write(dynamics::Simulation& simulation) {
   const dynamics::NodeState& state = simulation.state();
   const std::vector<Vec3> forces = node_forces(simulation);
-  const dynamics::NodesView nodes{state.position, state.velocity, state.angular_velocity, forces};
+  const dynamics::NodesView nodes{state.position, state.velocity,   state.angular_velocity,
+                                  forces,         bodies_.groups(), bodies_.materials()};
   if (settings_.grains) {
     write_part("grains", grains_,
                dynamics::grains_frame({nodes, simulation.elements().spheres, sphere_ids_},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/run/body_tables.hpp"
 #include "apps/scenario/scenario.hpp"
 #include "dynamics/output/csv_writer.hpp"
 #include "dynamics/output/pvd_series.hpp"
@@ -21,10 +22,11 @@ namespace plekton::apps {
 /// frame. If it is asked for, contacts.csv has the contacts of every frame too.
 class Frames {
  public:
-  /// Removes the series and frames that an earlier run left under the same names. @throws
-  /// dynamics::OutputError
+  /// Removes the series and frames that an earlier run left under the same names.
+  /// @param bodies  have to stay as long as this
+  /// @throws dynamics::OutputError
   Frames(const std::filesystem::path& folder, const OutputSettings& settings,
-         const dynamics::Simulation& simulation);
+         const dynamics::Simulation& simulation, const BodyTables& bodies);
 
   /// Writes the state of now. @throws dynamics::OutputError
   void write(dynamics::Simulation& simulation);
@@ -36,11 +38,14 @@ class Frames {
                   const dynamics::PolyData& data);
   /// Sum of contacts, bonds, loads and gravity on each node (N).
   std::vector<Vec3> node_forces(const dynamics::Simulation& simulation) const;
+  std::vector<dynamics::ContactLabels> labels_of(
+      const std::vector<contact::ContactRow>& contacts) const;
   void write_membranes(dynamics::Simulation& simulation, const dynamics::NodesView& nodes);
   void write_contacts(dynamics::Simulation& simulation);
 
   std::filesystem::path folder_;
   OutputSettings settings_;
+  const BodyTables& bodies_;
   std::vector<std::int64_t> sphere_ids_;
   dynamics::PvdSeries grains_;
   dynamics::PvdSeries membranes_;

@@ -46,6 +46,17 @@ class TimeInto {
   Progress::Clock::time_point start_ = Progress::Clock::now();
 };
 
+TableNames names_of(const Scenario& scenario) {
+  TableNames names;
+  for (const MaterialSettings& material : scenario.materials)
+    names.materials.push_back(material.name);
+  for (const GrainSettings& grains : scenario.grains) names.grains.push_back(grains.name);
+  for (const MembraneSettings& membrane : scenario.membranes)
+    names.membranes.push_back(membrane.name);
+  for (const PlaneSettings& plane : scenario.planes) names.planes.push_back(plane.name);
+  return names;
+}
+
 /// One run: what is written, and what is watched.
 class Run {
  public:
@@ -53,8 +64,9 @@ class Run {
       : scenario_(scenario),
         settings_(settings),
         simulation_(*prepared.simulation),
+        bodies_(scenario, prepared.built, simulation_),
         lost_(simulation_.elements(), simulation_.state().position),
-        frames_(settings.out, scenario.output, simulation_),
+        frames_(settings.out, scenario.output, simulation_, bodies_),
         history_(settings.out),
         reactions_(settings.out, prepared.built.reactions),
         pressures_(settings.out, scenario),
@@ -206,6 +218,7 @@ class Run {
     report_.cylinders = elements.cylinders.size();
     report_.bonds = simulation_.bonds().size();
     report_.planes = simulation_.planes().size();
+    report_.names = names_of(scenario_);
   }
 
   void complete_report() {
@@ -244,6 +257,7 @@ class Run {
   const Scenario& scenario_;
   const RunSettings& settings_;
   dynamics::Simulation& simulation_;
+  BodyTables bodies_;
   LostGrains lost_;
   Frames frames_;
   History history_;

@@ -18,6 +18,13 @@ Json options_of(const RunReport& report) {
           {"threads", report.threads},   {"seed", report.seed},     {"damping", report.damping}};
 }
 
+Json names_of(const TableNames& names) {
+  return {{"materials", names.materials},
+          {"grains", names.grains},
+          {"membranes", names.membranes},
+          {"planes", names.planes}};
+}
+
 Json counts_of(const RunReport& report) {
   return {{"grains", report.grains},
           {"nodes", report.nodes},
@@ -66,6 +73,7 @@ std::string to_json(const RunReport& report) {
                {"interrupted", report.status == RunStatus::interrupted}};
   if (!report.message.empty()) json["message"] = report.message;
   json["options"] = options_of(report);
+  json["names"] = names_of(report.names);
   json["counts"] = counts_of(report);
   json["timing"] = timing_of(report);
   json["largest_overlap_ratio"] = report.largest_overlap_ratio;

@@ -21,6 +21,14 @@ enum class RunStatus : std::uint8_t {
 };
 std::string_view name_of(RunStatus status) noexcept;
 
+/// Names by number, as the arrays of frames have the numbers. That of a plane may be empty.
+struct TableNames {
+  std::vector<std::string> materials;
+  std::vector<std::string> grains;
+  std::vector<std::string> membranes;
+  std::vector<std::string> planes;
+};
+
 /// What a run was asked to do and what came of it: the content of run.json.
 struct RunReport {
   RunStatus status = RunStatus::finished;
@@ -32,6 +40,8 @@ struct RunReport {
   int threads = 1;
   std::uint64_t seed = 0;
   double damping = 0.0;
+
+  TableNames names;
 
   std::size_t grains = 0;
   std::size_t nodes = 0;

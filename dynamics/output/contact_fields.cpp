@@ -21,7 +21,7 @@ std::int64_t kind_of(const ContactBody& body) {
   return body.kind == BodyKind::plane ? 4 : 1 + static_cast<std::int64_t>(body.feature.kind);
 }
 
-const std::array<ContactField, 17> kFields = {{
+const std::array<ContactField, 21> kFields = {{
     {{"id", "", "number that a contact keeps as long as it lasts; none is given twice"},
      [](const ContactRow& c) { return c.id; }},
     {{"kind_a", "", kKinds}, [](const ContactRow& c) { return kind_of(c.a); }},
@@ -51,6 +51,14 @@ const std::array<ContactField, 17> kFields = {{
      [](const ContactRow& c) { return std::int64_t{c.is_bonded}; }},
     {{"is_slipping", "", "1: the tangential force is at its limit"},
      [](const ContactRow& c) { return std::int64_t{c.is_slipping}; }},
+    {{"group_a", "",
+      "number of the table [[grains]], [[membranes]] or [[planes]], from 0; run.json has the "
+      "names"},
+     &ContactLabels::group_a},
+    {{"material_a", "", "number of the material, from 0; run.json has the names"},
+     &ContactLabels::material_a},
+    {{"group_b", "", "likewise of b"}, &ContactLabels::group_b},
+    {{"material_b", "", "likewise of b"}, &ContactLabels::material_b},
 }};
 
 }  // namespace
@@ -72,7 +80,8 @@ std::vector<CsvColumn> contact_columns() {
   return columns;
 }
 
-void fill_contact_row(double time, const ContactRow& contact, std::vector<double>& row) {
+void fill_contact_row(double time, const ContactRow& contact, const ContactLabels& labels,
+                      std::vector<double>& row) {
   row.assign(1, time);
   for (const ContactField& field : kFields) {
     if (const auto* vector = std::get_if<ContactField::Vector>(&field.value)) {
@@ -80,6 +89,8 @@ void fill_contact_row(double time, const ContactRow& contact, std::vector<double
       row.insert(row.end(), value.data(), value.data() + 3);
     } else if (const auto* number = std::get_if<ContactField::Number>(&field.value)) {
       row.push_back((*number)(contact));
+    } else if (const auto* label = std::get_if<ContactField::Label>(&field.value)) {
+      row.push_back(labels.**label);
     } else {
       row.push_back(static_cast<double>(std::get<ContactField::Whole>(field.value)(contact)));
     }

@@ -12,13 +12,23 @@
 
 namespace plekton::dynamics {
 
+/// Where the bodies of a contact come from: numbers that the simulation knows nothing of.
+struct ContactLabels {
+  std::int32_t group_a = -1;  ///< among those of its kind: of grains, membranes or planes
+  std::int32_t group_b = -1;
+  std::int32_t material_a = -1;
+  std::int32_t material_b = -1;
+};
+
 /// Something that is told of every contact.
 struct ContactField : OutputField {
   using Number = double (*)(const contact::ContactRow&);
   using Vector = geometry::Vec3 (*)(const contact::ContactRow&);
   using Whole = std::int64_t (*)(const contact::ContactRow&);
 
-  std::variant<Number, Vector, Whole> value;
+  using Label = std::int32_t ContactLabels::*;
+
+  std::variant<Number, Vector, Whole, Label> value;
 };
 
 /// All of them: the arrays of contacts.pvd and the columns of contacts.csv.
@@ -29,6 +39,7 @@ std::vector<CsvColumn> contact_columns();
 /// What stands in them.
 /// @param time  s
 /// @param row   is overwritten
-void fill_contact_row(double time, const contact::ContactRow& contact, std::vector<double>& row);
+void fill_contact_row(double time, const contact::ContactRow& contact, const ContactLabels& labels,
+                      std::vector<double>& row);
 
 }  // namespace plekton::dynamics

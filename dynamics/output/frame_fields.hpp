@@ -17,6 +17,11 @@ inline constexpr OutputField kForce{
     "of contacts, bonds, sheets, loads and gravity; at a held node the support bears it"};
 inline constexpr OutputField kId{"id", "", "number of the sphere"};
 inline constexpr OutputField kNode{"node", "", "number of the node"};
+inline constexpr OutputField kGrains{
+    "grains", "", "number of the table [[grains]], from 0; run.json has the names"};
+// Of points and cells:
+inline constexpr OutputField kMaterial{"material", "",
+                                       "number of the material, from 0; run.json has the names"};
 // Of cells, 0 of those that have none:
 inline constexpr OutputField kTension{
     "tension", "N", "of a cylinder, negative in compression; of a facet the mean of its sides"};
@@ -33,10 +38,14 @@ inline constexpr OutputField kPressure{
     "of contacts on a facet: positive from the side that it faces, negative from behind"};
 inline constexpr OutputField kShear{"contact_shear", "Pa", "traction of contacts along a facet"};
 
-inline constexpr std::array kOfGrains = {kRadius, kVelocity, kSpin, kForce, kId};
+inline constexpr OutputField kMembrane{
+    "membrane", "", "number of the table [[membranes]], from 0; run.json has the names"};
+
+inline constexpr std::array kOfGrains = {kRadius, kVelocity, kSpin,    kForce,
+                                         kId,     kGrains,   kMaterial};
 inline constexpr std::array kOfNodes = {kVelocity, kSpin, kForce, kNode};
-inline constexpr std::array kOfCells = {kRadius,        kTension,       kAxialStress,
-                                        kBendingStress, kTorsionStress, kLargest,
-                                        kSmallest,      kPressure,      kShear};
+inline constexpr std::array kOfCells = {kRadius,        kTension,  kAxialStress, kBendingStress,
+                                        kTorsionStress, kLargest,  kSmallest,    kPressure,
+                                        kShear,         kMembrane, kMaterial};
 
 }  // namespace plekton::dynamics::frame_fields

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/output/scene_frame.hpp"
 
-#include "dynamics/output/contact_fields.hpp"
 #include "dynamics/output/frame_fields.hpp"
 
 #include <algorithm>
@@ -36,6 +35,10 @@ DataArray vectors(const OutputField& field, std::size_t count, Value value) {
     for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<float>(vector[axis]));
   }
   return {std::string(field.name), 3, std::move(values)};
+}
+
+DataArray labels(const OutputField& field, std::vector<std::int32_t> values) {
+  return {std::string(field.name), 1, std::move(values)};
 }
 
 /// The results every node has, for a choice of nodes.
@@ -165,6 +168,20 @@ void add_tractions(const SurfaceView& surface, PolyData& data) {
   }));
 }
 
+void add_labels(const SurfaceView& surface, PolyData& data) {
+  const auto add = [&](const OutputField& field, std::span<const std::int32_t> of_nodes) {
+    if (of_nodes.empty()) return;
+    std::vector<std::int32_t> values;
+    values.reserve(data.cell_count());
+    for (const Cylinder& cylinder : surface.cylinders)
+      values.push_back(of_nodes[index_of(cylinder.nodes[0])]);
+    for (const Facet& facet : surface.facets) values.push_back(of_nodes[index_of(facet.nodes[0])]);
+    data.cell_arrays.push_back(labels(field, std::move(values)));
+  };
+  add(frame_fields::kMembrane, surface.nodes.group);
+  add(frame_fields::kMaterial, surface.nodes.material);
+}
+
 void add_cell_arrays(const SurfaceView& surface, PolyData& data) {
   const SideTension side_tension(surface);
   data.cell_arrays.push_back(cell_scalars(
@@ -176,6 +193,7 @@ void add_cell_arrays(const SurfaceView& surface, PolyData& data) {
   if (!surface.stresses.empty()) add_stresses(surface, data);
   if (!surface.membrane_forces.empty()) add_membrane_forces(surface, data);
   if (!surface.tractions.empty()) add_tractions(surface, data);
+  add_labels(surface, data);
 }
 
 }  // namespace
@@ -197,6 +215,14 @@ PolyData grains_frame(const GrainsView& grains, double time) {
                                    [&](std::size_t i) { return grains.spheres[i].radius; }));
   data.point_arrays.push_back({std::string(frame_fields::kId.name), 1,
                                std::vector<std::int64_t>(grains.id.begin(), grains.id.end())});
+  const auto add_labels = [&](const OutputField& field, std::span<const std::int32_t> of_nodes) {
+    if (of_nodes.empty()) return;
+    std::vector<std::int32_t> values;
+    for (const NodeId node : nodes) values.push_back(of_nodes[index_of(node)]);
+    data.point_arrays.push_back(labels(field, std::move(values)));
+  };
+  add_labels(frame_fields::kGrains, grains.nodes.group);
+  add_labels(frame_fields::kMaterial, grains.nodes.material);
   return data;
 }
 
@@ -217,7 +243,8 @@ PolyData surface_frame(const SurfaceView& surface, double time) {
   return data;
 }
 
-PolyData contacts_frame(std::span<const contact::ContactRow> contacts, double time) {
+PolyData contacts_frame(std::span<const contact::ContactRow> contacts, double time,
+                        std::span<const ContactLabels> labels_of) {
   const std::size_t count = contacts.size();
   PolyData data;
   data.time = time;
@@ -235,6 +262,12 @@ PolyData contacts_frame(std::span<const contact::ContactRow> contacts, double ti
     } else if (const auto* number = std::get_if<ContactField::Number>(&field.value)) {
       data.cell_arrays.push_back(
           scalars(field, count, [&](std::size_t i) { return (*number)(contacts[i]); }));
+    } else if (const auto* label = std::get_if<ContactField::Label>(&field.value)) {
+      if (labels_of.size() != count) continue;
+      std::vector<std::int32_t> values(count);
+      std::transform(labels_of.begin(), labels_of.end(), values.begin(),
+                     [&](const ContactLabels& contact) { return contact.**label; });
+      data.cell_arrays.push_back(labels(field, std::move(values)));
     } else {
       const auto whole = std::get<ContactField::Whole>(field.value);
       std::vector<std::int64_t> values(count);

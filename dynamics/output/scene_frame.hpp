@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/contact_row.hpp"
+#include "dynamics/output/contact_fields.hpp"
 #include "dynamics/output/vtk_writer.hpp"
 #include "dynamics/readout/bond_stress.hpp"
 #include "dynamics/readout/facet_traction.hpp"
@@ -25,6 +26,9 @@ struct NodesView {
   /// N, sum of loads, bonds and contacts; at a held node the reaction of its support is the
   /// opposite.
   std::span<const geometry::Vec3> force;
+  /// Number of the grains or the membrane that a node is of; empty if nobody asks for it.
+  std::span<const std::int32_t> group = {};
+  std::span<const std::int32_t> material = {};  ///< its number, likewise
 };
 
 /// The free spheres.
@@ -45,16 +49,20 @@ struct SurfaceView {
   std::span<const FacetTraction> tractions = {};          ///< one for each facet, or none
 };
 
-/// One point and vertex for each sphere, in their order, with the arrays frame_fields::kOfGrains.
+/// One point and vertex for each sphere, in their order, with those of the arrays
+/// frame_fields::kOfGrains for which something is given.
 PolyData grains_frame(const GrainsView& grains, double time);
 
 /// Cylinders as lines and facets as triangles, over the nodes they share, in the order of the node
 /// ids. Point arrays: frame_fields::kOfNodes; cell arrays: those of frame_fields::kOfCells for
-/// which something is given. Time grows with n log n for n cylinders.
+/// which something is given; group and material of a cell are those of its first node. Time grows
+/// with n log n for n cylinders.
 PolyData surface_frame(const SurfaceView& surface, double time);
 
 /// A line for each contact, from core point a to core point b; of no length where the cores touch.
 /// Cell arrays: contact_fields().
-PolyData contacts_frame(std::span<const contact::ContactRow> contacts, double time);
+/// @param labels  one for each contact, or none; then there are no arrays of them
+PolyData contacts_frame(std::span<const contact::ContactRow> contacts, double time,
+                        std::span<const ContactLabels> labels = {});
 
 }  // namespace plekton::dynamics

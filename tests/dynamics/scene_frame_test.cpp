@@ -141,6 +141,31 @@ TEST(SurfaceFrame, ShowsStressesOfCylindersAndTractionsOnFacets) {
   EXPECT_THAT(floats(data.cell_arrays, "contact_shear"), ElementsAre(0, 0, 0, 5, 6, 7));
 }
 
+TEST(SceneFrames, TellGroupAndMaterialOfGrainsAndOfCellsByTheirFirstNode) {
+  const FiveNodes nodes;
+  const std::array<Facet, 1> facets = {Facet{{node(3), node(4), node(1)}, 0.2}};
+  const std::array<Cylinder, 1> cylinders = {Cylinder{{node(0), node(1)}, 0.2}};
+  const std::array<double, 1> tension{};
+  const std::array<Sphere, 1> spheres = {Sphere{{node(2)}, 0.5}};
+  const std::array<std::int64_t, 1> id = {7};
+  const std::array<std::int32_t, 5> groups = {4, 4, 1, 6, 6};
+  const std::array<std::int32_t, 5> materials = {0, 0, 2, 3, 3};
+  NodesView view = nodes.view();
+  view.group = groups;
+  view.material = materials;
+
+  const PolyData surface = surface_frame({view, cylinders, tension, facets}, 0.0);
+  const PolyData grains = grains_frame({view, spheres, id}, 0.0);
+
+  const auto whole = [](const std::vector<DataArray>& arrays, const std::string& name) {
+    return std::get<std::vector<std::int32_t>>(array(arrays, name).values);
+  };
+  EXPECT_THAT(whole(surface.cell_arrays, "membrane"), ElementsAre(4, 6));
+  EXPECT_THAT(whole(surface.cell_arrays, "material"), ElementsAre(0, 3));
+  EXPECT_THAT(whole(grains.point_arrays, "grains"), ElementsAre(1));
+  EXPECT_THAT(whole(grains.point_arrays, "material"), ElementsAre(2));
+}
+
 contact::ContactRow contact_of(const Vec3& point_a, const Vec3& point_b, const Vec3& normal_force,
                                const Vec3& tangential_force, double gap) {
   contact::ContactRow row;
@@ -176,11 +201,15 @@ TEST(SceneFrames, HaveTheArraysOfTheTablesInTheirOrder) {
   const std::array<Cylinder, 1> cylinders = {Cylinder{{node(0), node(1)}, 0.2}};
   const std::array<double, 1> tension{};
   const std::array<BondStress, 1> stresses{};
+  const std::array<std::int32_t, 5> labels{};
+  NodesView with_labels = nodes.view();
+  with_labels.group = with_labels.material = labels;
 
   const PolyData surface =
-      surface_frame({nodes.view(), cylinders, tension, facets, forces, stresses, tractions}, 0.0);
+      surface_frame({with_labels, cylinders, tension, facets, forces, stresses, tractions}, 0.0);
 
-  EXPECT_EQ(names_of(grains_frame({}, 0.0).point_arrays), names_of_fields(frame_fields::kOfGrains));
+  EXPECT_EQ(names_of(grains_frame({with_labels, {}, {}}, 0.0).point_arrays),
+            names_of_fields(frame_fields::kOfGrains));
   EXPECT_EQ(names_of(surface.point_arrays), names_of_fields(frame_fields::kOfNodes));
   EXPECT_EQ(names_of(surface.cell_arrays), names_of_fields(frame_fields::kOfCells));
   EXPECT_EQ(names_of(contacts_frame({}, 0.0).cell_arrays), names_of_fields(contact_fields()));
@@ -217,8 +246,9 @@ TEST(ContactsFrame, DrawsEachContactBetweenItsCorePoints) {
 TEST(ContactList, HasAColumnForEachNumberOfARow) {
   std::vector<double> row{1.0, 2.0, 3.0};
 
-  fill_contact_row(
-      0.5, contact_of(Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, 5), Vec3(3, 4, 0), -0.125), row);
+  fill_contact_row(0.5,
+                   contact_of(Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, 5), Vec3(3, 4, 0), -0.125),
+                   {.group_a = 2, .group_b = 0, .material_a = 1, .material_b = 5}, row);
 
   const std::vector<CsvColumn> columns = contact_columns();
   ASSERT_EQ(row.size(), columns.size());
@@ -231,6 +261,10 @@ TEST(ContactList, HasAColumnForEachNumberOfARow) {
   EXPECT_EQ(value("normal_force_z"), 5.0);
   EXPECT_EQ(value("tangential_force_magnitude"), 5.0);
   EXPECT_EQ(value("gap"), -0.125);
+  EXPECT_EQ(value("group_a"), 2.0);
+  EXPECT_EQ(value("material_a"), 1.0);
+  EXPECT_EQ(value("group_b"), 0.0);
+  EXPECT_EQ(value("material_b"), 5.0);
 }
 
 TEST(SceneFrames, KeepTheirArraysWhenThereIsNothingToShow) {

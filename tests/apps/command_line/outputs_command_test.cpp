@@ -4,6 +4,7 @@
 #include "dynamics/output/contact_fields.hpp"
 #include "tests/apps/command_line/command_fixture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -146,6 +147,54 @@ kind = "nodes"
 membrane = "ball"
 nodes = "all"
 )";
+
+TEST_F(Outputs, TellTablesAndMaterialsByNumbersWithNamesInTheReport) {
+  set_output("contact_list = true\n[materials.felt]\nyoung_modulus = \"1 MPa\"\n" +
+             std::string("friction_angle = \"20 deg\"\n") + std::string(kAir));
+  const Outcome outcome = outcome_of(
+      {"run", scenario(), "--out", out(), "--set", "planes.floor.material=felt", "--set",
+       "membranes.ball.material=felt", "--set", "membranes.ball.translate=[0.3, 0, 0.1]", "--set",
+       "planes.floor.point=[0, 0, \"-5 mm\"]"});
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+
+  const nlohmann::json names = report()["names"];
+  const auto number_of = [&](const std::string& kind, const std::string& name) {
+    const std::vector<std::string> all = names[kind];
+    return static_cast<int>(std::find(all.begin(), all.end(), name) - all.begin());
+  };
+  const int gravel = number_of("materials", "gravel");
+  const int felt = number_of("materials", "felt");
+  EXPECT_EQ(gravel + felt, 1);
+  EXPECT_EQ(names["grains"], nlohmann::json({"gravel"}));
+  EXPECT_EQ(names["planes"], nlohmann::json({"floor"}));
+
+  const test::VtpReader grains(test::bytes_of(folder_ / "out/frames/grains_00000.vtp"));
+  EXPECT_EQ(grains.values<std::int32_t>("PointData", "grains"), std::vector<std::int32_t>(20, 0));
+  EXPECT_EQ(grains.values<std::int32_t>("PointData", "material"),
+            std::vector<std::int32_t>(20, gravel));
+  // 200 facets of the sheet, with their sides; then 320 of the ball, which has no beams.
+  const test::VtpReader membranes(test::bytes_of(folder_ / "out/frames/membranes_00000.vtp"));
+  const auto of_cells = membranes.values<std::int32_t>("CellData", "membrane");
+  const auto materials = membranes.values<std::int32_t>("CellData", "material");
+  ASSERT_EQ(of_cells.size(), membranes.count("NumberOfLines") + 200U + 320U);
+  EXPECT_EQ(of_cells.front(), number_of("membranes", "sheet"));
+  EXPECT_EQ(std::count(of_cells.begin(), of_cells.end(), number_of("membranes", "ball")), 320);
+  for (std::size_t i = 0; i < of_cells.size(); ++i)
+    EXPECT_EQ(materials[i], of_cells[i] == number_of("membranes", "ball") ? felt : gravel);
+
+  const Table table(test::bytes_of(folder_ / "out/contacts.csv"));
+  std::set<int> kinds;
+  for (const auto& row : table.rows) {
+    const int kind = static_cast<int>(table.at(row, "kind_b"));
+    kinds.insert(kind);
+    const bool is_of_ball = kind != 4 && kind != 0 && table.at(row, "group_b") == 1.0;
+    EXPECT_EQ(table.at(row, "group_a"), 0.0);
+    EXPECT_EQ(table.at(row, "material_a"), gravel);
+    EXPECT_EQ(table.at(row, "material_b"), kind == 4 || is_of_ball ? felt : gravel);
+  }
+  EXPECT_TRUE(kinds.contains(4));
+  EXPECT_GT(kinds.size(), 1U);
+}
 
 TEST_F(Outputs, OfPressuresHaveTheVolumeThatTheyFollow) {
   set_output(std::string(kAir));

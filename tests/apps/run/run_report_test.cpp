@@ -15,6 +15,7 @@ RunReport example() {
   report.status = RunStatus::interrupted;
   report.scenario = "catch.toml";
   report.overrides = {"simulation.duration=1 s"};
+  report.names = {{"gravel", "steel"}, {"sand"}, {"net", "sheet"}, {""}};
   report.grains = 1000;
   report.steps = 200;
   report.wall_time = 0.1;
@@ -37,6 +38,10 @@ TEST(RunReport, SaysInJsonWhatTheRunWas) {
   EXPECT_EQ(json["status"], "interrupted");
   EXPECT_TRUE(json["interrupted"]);
   EXPECT_EQ(json["options"]["set"][0], "simulation.duration=1 s");
+  EXPECT_EQ(json["names"]["materials"][1], "steel");
+  EXPECT_EQ(json["names"]["grains"][0], "sand");
+  EXPECT_EQ(json["names"]["membranes"][1], "sheet");
+  EXPECT_EQ(json["names"]["planes"][0], "");
   EXPECT_EQ(json["counts"]["grains"], 1000);
   EXPECT_DOUBLE_EQ(json["timing"]["ms_per_step"], 0.5);
   EXPECT_EQ(json["timing"]["start_up_s"], 0.02);
