@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/repair.hpp"
 
+#include "geometry/mesh/close_slits.hpp"
 #include "geometry/mesh/edge_table.hpp"
 #include "geometry/mesh/exact_signs.hpp"
 #include "geometry/mesh/orientation.hpp"
@@ -147,6 +148,17 @@ void drop_duplicates(Mesh& mesh, MeshReport& report) {
   mesh.facets = std::move(kept);
 }
 
+/// Of dropped facets those that can be flipped.
+std::vector<std::array<NodeId, 3>> triangles_of(
+    const std::vector<std::vector<std::size_t>>& dropped) {
+  std::vector<std::array<NodeId, 3>> triangles;
+  for (const auto& corners : dropped) {
+    if (corners.size() == 3)
+      triangles.push_back({node_at(corners[0]), node_at(corners[1]), node_at(corners[2])});
+  }
+  return triangles;
+}
+
 /// Sides of dropped facets that are a border now.
 std::size_t count_slits(const EdgeTable& edges,
                         const std::vector<std::vector<std::size_t>>& dropped) {
@@ -238,6 +250,7 @@ Mesh repair(const PolygonSoup& input, const RepairOptions& options, MeshReport& 
 
   Mesh mesh{std::move(soup.points), cutter.take_facets()};
   drop_duplicates(mesh, report);
+  close_slits(mesh, triangles_of(cutter.dropped()));
   {
     const EdgeTable edges(mesh);
     report.changed.slits = count_slits(edges, cutter.dropped());

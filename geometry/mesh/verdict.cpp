@@ -52,6 +52,10 @@ void warn_about_shape(MeshReport& report) {
   if (after.self_intersections.value_or(0) > 0)
     reasons.push_back(counted(*after.self_intersections, "pair of facets intersects",
                               "pairs of facets intersect"));
+  if (after.bounds_volume && !*after.bounds_volume)
+    reasons.push_back(
+        "the mesh is closed but bounds no volume: one closed part lies in another and faces the "
+        "same way; turn the inner one over if it is a hole, or take it away");
   if (after.smallest_angle < kSmallAngle) {
     std::ostringstream text;
     text << "the smallest angle of a facet is " << after.smallest_angle

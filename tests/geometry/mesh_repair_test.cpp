@@ -129,15 +129,47 @@ TEST(Repair, DropsFacetsThatAreDegenerateOrThereTwiceAndCountsEachKind) {
   EXPECT_EQ(shape(mesh), shape(box_shell({1.0, 1.0, 1.0})));
 }
 
-TEST(Repair, WarnsOfSlitsThatADroppedFacetLeaves) {
+TEST(Repair, ClosesTheSlitOfADroppedFacetByAnEdgeFlip) {
   // Two triangles below, one above the line from (0,0) to (2,0); a flat facet joins them.
   const PolygonSoup soup{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, -1, 0}, {1, 1, 0}},
                          {{0, 3, 1}, {1, 3, 2}, {0, 1, 2}, {0, 2, 4}}};
 
+  const auto [mesh, report] = repaired(soup);
+
+  EXPECT_EQ(report.changed.zero_area_facets, 1u);
+  EXPECT_EQ(report.changed.slits, 0u);
+  EXPECT_EQ(report.after.facets, 4u);
+  EXPECT_EQ(report.after.border_edges, 4u);
+  EXPECT_EQ(report.after.area, 2.0);
+  EXPECT_EQ(report.after.inconsistent_edges, 0u);
+  EXPECT_EQ(report.verdict, MeshVerdict::repaired);
+}
+
+TEST(Repair, WarnsOfSlitsThatNoFlipCloses) {
+  // As before, but two facets above share the long side, so there is none to be cut.
+  const PolygonSoup soup{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, -1, 0}, {1, 1, 0}, {1, 0, 1}},
+                         {{0, 3, 1}, {1, 3, 2}, {0, 1, 2}, {0, 2, 4}, {0, 2, 5}}};
+
   const MeshReport report = repaired(soup).report;
 
   EXPECT_EQ(report.changed.zero_area_facets, 1u);
-  EXPECT_EQ(report.changed.slits, 3u);
+  EXPECT_EQ(report.changed.slits, 2u);
+  EXPECT_EQ(report.verdict, MeshVerdict::usable_with_warnings);
+}
+
+TEST(Repair, WarnsOfAClosedMeshThatBoundsNoVolume) {
+  // A box in a box, both facing outward, as their orientation alone would have it.
+  PolygonSoup soup = to_soup(box_shell({3.0, 3.0, 3.0}));
+  PolygonSoup inner = to_soup(box_shell({1.0, 1.0, 1.0}));
+  for (auto& polygon : inner.polygons)
+    for (std::size_t& corner : polygon) corner += soup.points.size();
+  for (const Vec3& point : inner.points) soup.points.push_back(point + Vec3::Ones());
+  soup.polygons.insert(soup.polygons.end(), inner.polygons.begin(), inner.polygons.end());
+
+  const MeshReport report = repaired(soup, {.orient = false}).report;
+
+  ASSERT_EQ(report.after.bounds_volume, false);
+  EXPECT_THAT(report.reasons, ElementsAre(HasSubstr("closed but bounds no volume")));
   EXPECT_EQ(report.verdict, MeshVerdict::usable_with_warnings);
 }
 
