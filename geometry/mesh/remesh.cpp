@@ -2,6 +2,7 @@
 #include "geometry/mesh/remesh.hpp"
 
 #include "geometry/mesh/measures.hpp"
+#include "geometry/mesh/solid_checks.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
@@ -70,30 +71,75 @@ Mesh from_cgal(const SurfaceMesh& surface) {
   return mesh;
 }
 
+/// Edges and nodes that remeshing has to respect.
+struct Features {
+  SurfaceMesh::Property_map<SurfaceMesh::Edge_index, bool> kept;
+  SurfaceMesh::Property_map<SurfaceMesh::Vertex_index, bool> fixed;
+};
+
+Vec3 way_along(const SurfaceMesh& surface, SurfaceMesh::Halfedge_index halfedge) {
+  const auto& from = surface.point(surface.source(halfedge));
+  const auto& to = surface.point(surface.target(halfedge));
+  return {to.x() - from.x(), to.y() - from.y(), to.z() - from.z()};
+}
+
+/// Whether a line of features ends or branches at a node, or turns there as a circle of less than
+/// two target edges radius does. Elsewhere a piece of 4/3 of the target is at most a ninth of the
+/// target away from the line: (4/3)² / (8 * 2).
+bool is_corner(const SurfaceMesh& surface, SurfaceMesh::Vertex_index node, const Features& features,
+               double target_edge) {
+  std::vector<Vec3> ways;  // to the node
+  for (const auto halfedge : CGAL::halfedges_around_target(node, surface))
+    if (features.kept[surface.edge(halfedge)]) ways.push_back(way_along(surface, halfedge));
+  if (ways.empty()) return false;
+  if (ways.size() != 2) return true;
+  const double turn = std::atan2(ways[0].cross(ways[1]).norm(), -ways[0].dot(ways[1]));
+  return turn * 2.0 * target_edge > 0.5 * (ways[0].norm() + ways[1].norm());
+}
+
+void mark_lines(SurfaceMesh& surface, Features& features) {
+  PMP::detect_sharp_edges(surface, kFeatureAngle, features.kept);
+  for (const auto edge : surface.edges())
+    if (surface.is_border(edge)) features.kept[edge] = true;
+}
+
+/// @param collapse  whether short edges of features go, too
+Mesh remeshed(const Mesh& mesh, double target_edge, bool collapse) {
+  SurfaceMesh surface = to_cgal(mesh);
+  Features features{
+      surface.add_property_map<SurfaceMesh::Edge_index, bool>("e:kept", false).first,
+      surface.add_property_map<SurfaceMesh::Vertex_index, bool>("v:fixed", false).first};
+  mark_lines(surface, features);
+  std::vector<SurfaceMesh::Edge_index> lines;
+  for (const auto edge : surface.edges())
+    if (features.kept[edge]) lines.push_back(edge);
+  // What is kept must be short enough before, or the rounds would never end.
+  PMP::split_long_edges(lines, 4.0 / 3.0 * target_edge, surface);
+  mark_lines(surface, features);
+  if (collapse) {
+    for (const auto node : surface.vertices())
+      features.fixed[node] = is_corner(surface, node, features, target_edge);
+  }
+  PMP::isotropic_remeshing(surface.faces(), target_edge, surface,
+                           CGAL::parameters::number_of_iterations(kRounds)
+                               .edge_is_constrained_map(features.kept)
+                               .vertex_is_constrained_map(features.fixed)
+                               .protect_constraints(!collapse)
+                               .collapse_constraints(collapse));
+  surface.collect_garbage();
+  return from_cgal(surface);
+}
+
 }  // namespace
 
 Mesh remesh(const Mesh& mesh, double target_edge) {
   require_remeshable(measure(mesh, false), target_edge);
-  SurfaceMesh surface = to_cgal(mesh);
-  auto kept = surface.add_property_map<SurfaceMesh::Edge_index, bool>("e:kept", false).first;
-  const auto mark = [&] {
-    PMP::detect_sharp_edges(surface, kFeatureAngle, kept);
-    for (const auto edge : surface.edges())
-      if (surface.is_border(edge)) kept[edge] = true;
-  };
-  mark();
-  std::vector<SurfaceMesh::Edge_index> lines;
-  for (const auto edge : surface.edges())
-    if (kept[edge]) lines.push_back(edge);
-  // What is kept must be short enough before, or the rounds would never end.
-  PMP::split_long_edges(lines, 4.0 / 3.0 * target_edge, surface);
-  mark();
-  PMP::isotropic_remeshing(surface.faces(), target_edge, surface,
-                           CGAL::parameters::number_of_iterations(kRounds)
-                               .edge_is_constrained_map(kept)
-                               .protect_constraints(true));
-  surface.collect_garbage();
-  return from_cgal(surface);
+  Mesh result = remeshed(mesh, target_edge, true);
+  const std::size_t crossings = self_intersections(result).size();
+  if (crossings == 0) return result;
+  // Lines that lie close together may cross when they are made of fewer pieces.
+  Mesh careful = remeshed(mesh, target_edge, false);
+  return self_intersections(careful).size() < crossings ? careful : result;
 }
 
 }  // namespace plekton::geometry

@@ -10,8 +10,11 @@ inline constexpr double kFeatureAngle = 40.0;
 
 /// Replaces the facets by nearly equilateral ones with edges near a length (CGAL's
 /// isotropic_remeshing, five rounds). Border edges and folds above kFeatureAngle are cut where they
-/// are longer than 4/3 of it and stay in place otherwise, so the rim and the creases keep their
-/// shape, and edges along them may stay shorter. Other nodes lie on the old surface up to rounding.
+/// are longer than 4/3 of it, and collapsed along their line where they are shorter than 4/5 of it.
+/// Their nodes stay in place or go; those where lines end, branch, or turn as within a circle of
+/// two target edges radius stay, so the rim and the creases are no more than a ninth of the target
+/// away from where they were. If facets of the outcome intersect, short edges of lines stay as well
+/// where that makes fewer of them. Other nodes lie on the old surface up to rounding.
 /// @param target_edge  m.
 /// @throws MeshError if the length is not positive and finite or would make more than 2e7 facets,
 ///         and for a mesh that is not manifold or whose facets disagree, where remeshing would tear

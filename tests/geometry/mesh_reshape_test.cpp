@@ -100,6 +100,34 @@ TEST(SurfaceDistance, IsZeroOfASurfaceFromItselfAndSeesWhatOneSideLacks) {
   EXPECT_GT(surface_distance(sphere, far_part).sampled, 0.85);
 }
 
+TEST(Remesh, CollapsesShortEdgesAlongStraightRimsAndFoldsButKeepsTheirCorners) {
+  const double target = 0.25;
+  const Mesh sheet =
+      remesh(plane_sheet({.width = 1.0, .length = 2.0, .cells_x = 40, .cells_y = 80}), target);
+  const Mesh box = remesh(box_shell({1.0, 2.0, 3.0}, {20, 40, 60}), target);
+
+  const MeshMeasures flat = measure(sheet, true);
+  EXPECT_NEAR(flat.area, 2.0, 1e-12);
+  // Edges of less than 4/5 of the target go while their neighbours allow it: half of it on average.
+  EXPECT_LE(flat.border_edges, 6.0 / (0.5 * target));
+  EXPECT_EQ(flat.self_intersections, 0u);
+  const MeshMeasures closed = measure(box, true);
+  EXPECT_NEAR(closed.volume.value(), 6.0, 1e-11);
+  EXPECT_NEAR(closed.area, 22.0, 1e-11);
+  EXPECT_GT(closed.mean_edge, 0.8 * target);
+  EXPECT_EQ(closed.self_intersections, 0u);
+}
+
+TEST(Remesh, KeepsLinesThatTurnWithinAFewEdges) {
+  // The rims of a tube of 0.1 m radius, of 64 pieces; a target of the same length would cut them
+  // down to a few chords.
+  const Mesh ring = tube({.radius = 0.1, .length = 1.0, .around = 64, .along = 40});
+  const Mesh mesh = remesh(ring, 0.1);
+
+  EXPECT_EQ(measure(mesh, false).border_edges, 128u);
+  EXPECT_EQ(measure(mesh, true).self_intersections, 0u);
+}
+
 TEST(Remesh, MakesEdgesOfTheTargetLengthOnASphere) {
   const Mesh sphere = icosphere(1.0, 4);
 
