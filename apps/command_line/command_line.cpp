@@ -110,7 +110,6 @@ int run_command(const CommandLine& line) {
   const InterruptGuard guard;
   const bool terminal = ::isatty(STDOUT_FILENO) != 0;
   const RunSettings settings{out,
-                             line.overrides,
                              std::cout,
                              terminal ? ProgressStyle::one_line : ProgressStyle::lines,
                              [&] { return guard.interrupted(); },

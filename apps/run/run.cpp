@@ -7,7 +7,9 @@
 #include "apps/run/pressures.hpp"
 #include "apps/run/reactions.hpp"
 #include "apps/run/refused_self_contact.hpp"
+#include "apps/run/run_origin.hpp"
 #include "apps/run/run_warnings.hpp"
+#include "apps/run/scenario_copy.hpp"
 #include "dynamics/output/file.hpp"
 
 #include <fmt/format.h>
@@ -45,17 +47,6 @@ class TimeInto {
   double& sum_;
   Progress::Clock::time_point start_ = Progress::Clock::now();
 };
-
-TableNames names_of(const Scenario& scenario) {
-  TableNames names;
-  for (const MaterialSettings& material : scenario.materials)
-    names.materials.push_back(material.name);
-  for (const GrainSettings& grains : scenario.grains) names.grains.push_back(grains.name);
-  for (const MembraneSettings& membrane : scenario.membranes)
-    names.membranes.push_back(membrane.name);
-  for (const PlaneSettings& plane : scenario.planes) names.planes.push_back(plane.name);
-  return names;
-}
 
 /// One run: what is written, and what is watched.
 class Run {
@@ -205,8 +196,10 @@ class Run {
   }
 
   void describe() {
+    report_.date = date_of_now();
+    report_.host = name_of_host();
     report_.scenario = scenario_.file.string();
-    report_.overrides = settings_.overrides;
+    report_.overrides = scenario_.overrides;
     report_.duration = scenario_.simulation.duration;
     report_.threads = scenario_.simulation.threads;
     report_.seed = scenario_.simulation.seed;
@@ -266,11 +259,11 @@ class Run {
   Progress progress_;
   RunReport report_;
   Progress::Clock::time_point start_ = Progress::Clock::now();
-  double next_row_ = 0.0;          // s
-  double next_reactions_ = 0.0;    // s; infinite if there are none
-  double next_frame_ = 0.0;        // s
-  double largest_turnover_ = 0.0;  // J, of all rows
-  double largest_tracking_ = 0.0;  // J, magnitude, of all rows
+  double next_row_ = 0.0;               // s
+  double next_reactions_ = 0.0;         // s; infinite if there are none
+  double next_frame_ = 0.0;             // s
+  double largest_turnover_ = 0.0;       // J, of all rows
+  double largest_tracking_ = 0.0;       // J, magnitude, of all rows
   std::int64_t last_row_step_ = -1;
   std::int64_t last_reactions_step_ = -1;
   std::int64_t last_frame_step_ = -1;
@@ -380,6 +373,7 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
   if (!settings.overwrite) refuse_results(settings.out, "run", kResultFiles);
   std::error_code ignored;
   std::filesystem::remove(settings.out / "run.json", ignored);
+  write_scenario_copy(settings.out, scenario);
   return Run(scenario, prepared, settings).execute();
 }
 

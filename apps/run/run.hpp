@@ -33,8 +33,7 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear = {});
 
 /// How and where to run.
 struct RunSettings {
-  std::filesystem::path out;           ///< folder for all that is written
-  std::vector<std::string> overrides;  ///< for the report
+  std::filesystem::path out;  ///< folder for all that is written
   std::ostream& progress;
   ProgressStyle style;
   std::function<bool()> is_interrupted;  ///< asked after every step

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/run_report.hpp"
 
+#include "apps/run/build_info.hpp"
 #include "dynamics/output/file.hpp"
 #include "geometry/version.hpp"
 
@@ -67,8 +68,24 @@ std::string_view name_of(RunStatus status) noexcept {
   return kNames[static_cast<std::size_t>(status)];
 }
 
+TableNames names_of(const Scenario& scenario) {
+  TableNames names;
+  for (const MaterialSettings& material : scenario.materials)
+    names.materials.push_back(material.name);
+  for (const GrainSettings& grains : scenario.grains) names.grains.push_back(grains.name);
+  for (const MembraneSettings& membrane : scenario.membranes)
+    names.membranes.push_back(membrane.name);
+  for (const PlaneSettings& plane : scenario.planes) names.planes.push_back(plane.name);
+  return names;
+}
+
 std::string to_json(const RunReport& report) {
+  const BuildInfo build = build_info();
   Json json = {{"plekton", kVersion},
+               {"revision", build.revision},
+               {"compiler", build.compiler},
+               {"date", report.date},
+               {"host", report.host},
                {"status", name_of(report.status)},
                {"interrupted", report.status == RunStatus::interrupted}};
   if (!report.message.empty()) json["message"] = report.message;

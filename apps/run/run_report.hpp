@@ -29,11 +29,15 @@ struct TableNames {
   std::vector<std::string> planes;
 };
 
+TableNames names_of(const Scenario& scenario);
+
 /// What a run was asked to do and what came of it: the content of run.json.
 struct RunReport {
   RunStatus status = RunStatus::finished;
   std::string message;  ///< of the error, if failed
 
+  std::string date;  ///< when it began, as in "2026-05-01T12:00:00Z"
+  std::string host;  ///< name of the machine
   std::string scenario;
   std::vector<std::string> overrides;
   double duration = 0.0;  ///< s, asked for

@@ -178,7 +178,9 @@ struct StopSettings {
 };
 
 struct Scenario {
-  std::filesystem::path file;
+  std::filesystem::path file;          ///< or kStandardInputName
+  std::string text;                    ///< of the file, as it was read
+  std::vector<std::string> overrides;  ///< "path=value" each, in the order they were applied
   SimulationSettings simulation;
   std::vector<MaterialSettings> materials;
   std::vector<PairSettings> contacts;

@@ -91,13 +91,15 @@ Scenario parse_scenario(std::string_view text, const fs::path& path,
                         std::span<const std::string> overrides) {
   Table table = parse_toml(text, path.string());
   apply_overrides(table, overrides);
-  return scenario_of(table, path);
+  Scenario scenario = scenario_of(table, path);
+  scenario.text = text;
+  scenario.overrides.assign(overrides.begin(), overrides.end());
+  return scenario;
 }
 
 Scenario read_scenario(const fs::path& path, std::span<const std::string> overrides) {
-  Table table = read_toml_file(path);
-  apply_overrides(table, overrides);
-  return scenario_of(table, path);
+  return parse_scenario(read_toml_text(path),
+                        path == kStandardInput ? fs::path(kStandardInputName) : path, overrides);
 }
 
 void record_keys(KeyRecorder& recorder) {

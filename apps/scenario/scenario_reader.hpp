@@ -11,7 +11,8 @@
 
 namespace plekton::apps {
 
-/// Reads a scenario file.
+/// Reads a scenario file, or standard input (kStandardInput); mesh files are relative to its
+/// folder, of standard input to the current one.
 /// @param overrides  "path=value" each, applied before anything is checked (overrides.hpp).
 /// @throws InputError listing every problem of the file, each with its place, what was found, what
 ///         was expected, and a suggestion: keys that are unknown or missing, wrong kinds and units,

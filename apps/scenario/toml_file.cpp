@@ -6,8 +6,12 @@
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <system_error>
 #include <tuple>
 
 namespace plekton::apps {
@@ -64,6 +68,27 @@ Value converted(const toml::node& node, const std::string& source, int depth) {
   return value;
 }
 
+/// All of it, to its end. @throws InputError
+std::string text_of_standard_input() {
+  constexpr std::size_t kLongest = std::size_t{64} << 20U;  // bytes, a thousand long scenarios
+  std::string text;
+  std::array<char, 65536> block;
+  while (true) {
+    const ::ssize_t count = ::read(STDIN_FILENO, block.data(), block.size());
+    if (count == 0) return text;
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      throw InputError(fmt::format("{}: cannot be read: {}; expected a scenario (.toml)",
+                                   kStandardInputName, std::generic_category().message(errno)));
+    }
+    text.append(block.data(), static_cast<std::size_t>(count));
+    if (text.size() > kLongest) {
+      throw InputError(fmt::format("{}: is longer than {} MiB; expected a scenario (.toml)",
+                                   kStandardInputName, kLongest >> 20U));
+    }
+  }
+}
+
 /// Every place of a value, and of what is in it, becomes this one.
 void set_place(Value& value, const Place& place) {
   value.place = place;
@@ -92,14 +117,13 @@ Table parse_toml(std::string_view text, const std::string& source) {
   }
 }
 
-Table read_toml_file(const fs::path& path) {
-  std::string text;
+std::string read_toml_text(const fs::path& path) {
+  if (path == kStandardInput) return text_of_standard_input();
   try {
-    text = geometry::read_regular_file(path, "a scenario (.toml)");
+    return geometry::read_regular_file(path, "a scenario (.toml)");
   } catch (const geometry::UnreadableFile& error) {
     throw InputError(error.what());
   }
-  return parse_toml(text, path.string());
 }
 
 Value parse_toml_value(std::string_view text, const Place& place) {

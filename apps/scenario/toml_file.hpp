@@ -9,12 +9,17 @@
 
 namespace plekton::apps {
 
-/// Reads a TOML file. Places name it as the path is written.
-/// @throws InputError if it cannot be read or is not TOML, with the place where it stops being so.
-Table read_toml_file(const std::filesystem::path& path);
+/// What stands for standard input on the command line, and what messages call that.
+inline constexpr std::string_view kStandardInput = "-";
+inline constexpr std::string_view kStandardInputName = "standard input";
 
-/// The same from memory.
+/// The text of a file, or of standard input.
+/// @throws InputError if it cannot be read, or is longer than any scenario
+std::string read_toml_text(const std::filesystem::path& path);
+
+/// Reads TOML.
 /// @param source  What places call it.
+/// @throws InputError if it is not TOML, with the place where it stops being so.
 Table parse_toml(std::string_view text, const std::string& source);
 
 /// A single value written as in TOML; anything that is not is a text, so that quotes may be left

@@ -105,8 +105,8 @@ TEST_F(Outputs, ListTheContactsOfEveryFrameWithNumbersThatLast) {
   set_output(std::string(kReactions));
   const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
   ASSERT_EQ(outcome.exit_code, kDone);
-  EXPECT_THAT(outcome.out, HasSubstr("run.json, energy.csv, reactions.csv, contacts.csv, and for "
-                                     "ParaView "));
+  EXPECT_THAT(outcome.out, HasSubstr("run.json, energy.csv, reactions.csv, contacts.csv, "
+                                     "scenario-as-run.toml, and for ParaView "));
 
   const Table table(test::bytes_of(folder_ / "out/contacts.csv"));
 
@@ -151,10 +151,10 @@ nodes = "all"
 TEST_F(Outputs, TellTablesAndMaterialsByNumbersWithNamesInTheReport) {
   set_output("contact_list = true\n[materials.felt]\nyoung_modulus = \"1 MPa\"\n" +
              std::string("friction_angle = \"20 deg\"\n") + std::string(kAir));
-  const Outcome outcome = outcome_of(
-      {"run", scenario(), "--out", out(), "--set", "planes.floor.material=felt", "--set",
-       "membranes.ball.material=felt", "--set", "membranes.ball.translate=[0.3, 0, 0.1]", "--set",
-       "planes.floor.point=[0, 0, \"-5 mm\"]"});
+  const Outcome outcome =
+      outcome_of({"run", scenario(), "--out", out(), "--set", "planes.floor.material=felt", "--set",
+                  "membranes.ball.material=felt", "--set", "membranes.ball.translate=[0.3, 0, 0.1]",
+                  "--set", "planes.floor.point=[0, 0, \"-5 mm\"]"});
   ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
 
   const nlohmann::json names = report()["names"];

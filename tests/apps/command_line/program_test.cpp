@@ -167,7 +167,7 @@ TEST_F(Command, RunRefusesAFolderThatHoldsResults) {
   const std::string energies = test::bytes_of(folder_ / "out/energy.csv");
   const std::string series = test::bytes_of(folder_ / "out/grains.pvd");
 
-  for (const std::string left : {"run.json", "energy.csv", "grains.pvd"}) {
+  for (const std::string left : {"run.json", "energy.csv", "scenario-as-run.toml", "grains.pvd"}) {
     const Outcome outcome =
         outcome_of({"run", scenario(), "--out", out(), "--set", "grains.gravel.count=10"});
 

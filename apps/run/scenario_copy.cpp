@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/scenario_copy.hpp"
+
+#include "dynamics/output/file.hpp"
+#include "geometry/printable.hpp"
+
+#include <system_error>
+
+namespace plekton::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A comment of one line. Line breaks would end it, and other control characters are no TOML.
+std::string comment(std::string_view text) {
+  std::string shown = geometry::printable(text);
+  for (std::size_t at = shown.find('\n'); at != std::string::npos; at = shown.find('\n', at))
+    shown.replace(at, 1, "\\n");
+  return "# " + shown + '\n';
+}
+
+}  // namespace
+
+std::string copy_of(const Scenario& scenario) {
+  std::error_code ignored;
+  const fs::path folder = fs::absolute(scenario.file, ignored).parent_path();
+  std::string copy = scenario.text;
+  if (!copy.empty() && !copy.ends_with('\n')) copy += '\n';
+  copy += comment("This is a copy of " + scenario.file.string() +
+                  " as it was run. Files that it names are relative to " + folder.string() + ".");
+  for (const std::string& replaced : scenario.overrides) copy += comment("--set " + replaced);
+  return copy;
+}
+
+void write_scenario_copy(const fs::path& folder, const Scenario& scenario) {
+  const fs::path path = folder / kScenarioCopy;
+  if (std::error_code ignored; fs::equivalent(path, scenario.file, ignored)) return;
+  dynamics::OutputFile file(path);
+  file.write(copy_of(scenario));
+  file.commit();
+}
+
+}  // namespace plekton::apps
