@@ -81,6 +81,25 @@ std::optional<BodyOverlap> overlap_of(const ContactRow& row, const BodyTables& b
   return overlap;
 }
 
+std::optional<BodyOverlap> deepest_overlap(std::span<const ContactRow> rows,
+                                           const BodyTables& bodies,
+                                           const dynamics::Simulation& simulation) {
+  std::optional<BodyOverlap> deepest;
+  for (const ContactRow& row : rows) {
+    const auto overlap = overlap_of(row, bodies, simulation);
+    if (overlap && (!deepest || overlap->ratio > deepest->ratio)) deepest = overlap;
+  }
+  return deepest;
+}
+
+std::string name_of(const BodyOverlap& overlap, std::size_t side, const Scenario& scenario) {
+  const BodyTable& table = overlap.of[side];
+  const std::string path = path_of(table, scenario);
+  return table.kind == BodyTable::Kind::grains
+             ? fmt::format("{} grain {}", path, overlap.grains[side])
+             : path;
+}
+
 std::string text_of(const BodyOverlap& overlap) {
   std::string who;
   for (std::size_t side = 0; side < 2; ++side) {

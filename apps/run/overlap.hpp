@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace plekton::apps {
@@ -26,6 +27,14 @@ struct BodyOverlap {
 /// be rounding of coordinates, or where it is a bond without a contact.
 std::optional<BodyOverlap> overlap_of(const contact::ContactRow& row, const BodyTables& bodies,
                                       const dynamics::Simulation& simulation);
+
+/// The one of these contacts with the largest ratio; nothing if no bodies overlap.
+std::optional<BodyOverlap> deepest_overlap(std::span<const contact::ContactRow> rows,
+                                           const BodyTables& bodies,
+                                           const dynamics::Simulation& simulation);
+
+/// Whose body is on a side of it (0 or 1), as in "grains.sand grain 3".
+std::string name_of(const BodyOverlap& overlap, std::size_t side, const Scenario& scenario);
 
 /// As in "15 mm (150 % of the radius) of grain 0 and grain 3 at (0.3, 0, 0.01) m".
 std::string text_of(const BodyOverlap& overlap);

@@ -94,6 +94,7 @@ class Run {
     write_due(0.0);
     report_.start_up_time = seconds_since(settings_.began);
     while (simulation_.step_until(scenario_.simulation.duration)) {
+      if (simulation_.largest_overlap_ratio() > next_overlap_) look_at_overlaps();
       const bool looks = simulation_.steps() % kStepsBetweenLooks == 0;
       if (simulation_.steps() >= next_look_at_grains_) look_at_grains();
       if (simulation_.steps() % kStepsBetweenCriticalSteps == 0) watch_time_step();
@@ -105,6 +106,19 @@ class Run {
       if (looks && is_at_rest()) return RunStatus::at_rest;
     }
     return RunStatus::finished;
+  }
+
+  /// Who is in whom where the largest overlap has grown: not often, since that lists all contacts.
+  void look_at_overlaps() {
+    next_overlap_ = (1.0 + kSameOverlap) * simulation_.largest_overlap_ratio();
+    const auto deepest = deepest_overlap(simulation_.contact_rows(), bodies_, simulation_);
+    if (!deepest) return;
+    report_.deepest_overlap = {name_of(*deepest, 0, scenario_),
+                               name_of(*deepest, 1, scenario_),
+                               deepest->depth,
+                               deepest->ratio,
+                               deepest->place,
+                               simulation_.time()};
   }
 
   void look_at_grains() {
@@ -264,6 +278,7 @@ class Run {
   double next_frame_ = 0.0;             // s
   double largest_turnover_ = 0.0;       // J, of all rows
   double largest_tracking_ = 0.0;       // J, magnitude, of all rows
+  double next_overlap_ = kDeepOverlap;  // ratio above which overlaps are looked at
   std::int64_t last_row_step_ = -1;
   std::int64_t last_reactions_step_ = -1;
   std::int64_t last_frame_step_ = -1;

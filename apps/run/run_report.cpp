@@ -26,6 +26,15 @@ Json names_of(const TableNames& names) {
           {"planes", names.planes}};
 }
 
+Json overlap_of(const DeepestOverlap& overlap) {
+  const Vec3& x = overlap.place;
+  return {{"of", {overlap.a, overlap.b}},
+          {"depth_m", overlap.depth},
+          {"ratio", overlap.ratio},
+          {"place_m", {x[0], x[1], x[2]}},
+          {"time_s", overlap.time}};
+}
+
 Json counts_of(const RunReport& report) {
   return {{"grains", report.grains},
           {"nodes", report.nodes},
@@ -94,6 +103,7 @@ std::string to_json(const RunReport& report) {
   json["counts"] = counts_of(report);
   json["timing"] = timing_of(report);
   json["largest_overlap_ratio"] = report.largest_overlap_ratio;
+  if (report.deepest_overlap) json["deepest_overlap"] = overlap_of(*report.deepest_overlap);
   json["pass_throughs"] = report.pass_throughs;
   json["most_crossings"] = report.most_crossings;
   json["dt_over_critical"] = report.dt_over_critical;

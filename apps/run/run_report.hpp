@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,16 @@ enum class RunStatus : std::uint8_t {
   failed        ///< by an error; see the message
 };
 std::string_view name_of(RunStatus status) noexcept;
+
+/// Who was in whom, where and when.
+struct DeepestOverlap {
+  std::string a;  ///< as in "grains.sand grain 3"
+  std::string b;
+  double depth = 0.0;         ///< m
+  double ratio = 0.0;         ///< of the depth to the smaller radius
+  Vec3 place = Vec3::Zero();  ///< m
+  double time = 0.0;          ///< s
+};
 
 /// Names by number, as the arrays of frames have the numbers. That of a plane may be empty.
 struct TableNames {
@@ -66,6 +77,8 @@ struct RunReport {
   double output_time = 0.0;    ///< s, of the wall time: frames and rows of energy.csv
 
   double largest_overlap_ratio = 0.0;
+  /// The overlap with that ratio to within kSameOverlap; nothing where none was above kDeepOverlap.
+  std::optional<DeepestOverlap> deepest_overlap;
   std::int64_t pass_throughs = 0;     ///< of grain centres through facets and cylinders
   std::size_t most_crossings = 0;     ///< of facets and cylinders through each other, at a time
   double dt_over_critical = 0.0;      ///< the largest at any look

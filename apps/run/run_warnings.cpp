@@ -4,15 +4,26 @@
 #include <fmt/format.h>
 
 namespace plekton::apps {
+namespace {
+
+std::string text_of(const DeepestOverlap& overlap) {
+  const Vec3& x = overlap.place;
+  return fmt::format("of {} with {} by {:.3g} mm at ({:.4g}, {:.4g}, {:.4g}) m after {:.4g} s",
+                     overlap.a, overlap.b, 1e3 * overlap.depth, x[0], x[1], x[2], overlap.time);
+}
+
+}  // namespace
 
 std::vector<std::string> warnings_about(const RunReport& report) {
   std::vector<std::string> warnings;
   if (report.largest_overlap_ratio > kDeepOverlap) {
     warnings.push_back(fmt::format(
-        "the largest overlap is {:.3g} % of a radius, above {:.0f} %: too deep for a contact, and "
+        "the largest overlap is {:.3g} % of a radius, above {:.0f} %{}: too deep for a contact, "
+        "and "
         "grains may pass through what they press on; raise young_modulus of the materials, or slow "
         "down what moves fast",
-        100.0 * report.largest_overlap_ratio, 100.0 * kDeepOverlap));
+        100.0 * report.largest_overlap_ratio, 100.0 * kDeepOverlap,
+        report.deepest_overlap ? ", " + text_of(*report.deepest_overlap) : ""));
   }
   if (report.largest_motion_ratio > kFastMotion) {
     warnings.push_back(fmt::format(

@@ -11,6 +11,9 @@ namespace plekton::apps {
 
 /// Overlap over radius above which a contact is no small deformation any more.
 inline constexpr double kDeepOverlap = 0.05;
+/// Deep overlaps that are less than this apart count as the same: who is in whom is looked at anew
+/// where the largest has grown by so much.
+inline constexpr double kSameOverlap = 0.01;
 /// Closure error over the energy that went through, above which the motion cannot be trusted.
 inline constexpr double kPoorClosure = 0.01;
 /// Energy lost or made where contacts are handed on over the energy that went through, above which
