@@ -4,6 +4,7 @@
 #include "apps/command_line/import_command.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/list_command.hpp"
+#include "apps/command_line/run_estimate.hpp"
 #include "apps/command_line/start_listing.hpp"
 #include "apps/command_line/step_advice.hpp"
 #include "apps/command_line/summary.hpp"
@@ -122,11 +123,13 @@ int run_command(const CommandLine& line) {
 
 int check_command(const CommandLine& line) {
   const Scenario scenario = scenario_of(line);
-  const PreparedRun prepared = prepared_aloud(scenario);
+  PreparedRun prepared = prepared_aloud(scenario);
   std::cout << summary_of(prepared) << listing_of_start(scenario, prepared) << std::flush;
   require_possible_start(prepared.start, scenario);
   std::cout << step_advice(scenario, prepared);
   if (line.power_iteration) std::cout << summary_of(prepared.simulation->exact_critical_step());
+  // Last, since it moves the simulation on.
+  std::cout << text_of(estimate_run(scenario, prepared));
   std::cout << line.scenario.string() << ": no problems\n";
   flush_output();
   return kDone;

@@ -83,76 +83,89 @@ std::vector<dynamics::BondStress> stresses_of(const dynamics::Simulation& simula
   return stresses;
 }
 
-}  // namespace
-
-Frames::Frames(const fs::path& folder, const OutputSettings& settings,
-               const dynamics::Simulation& simulation, const BodyTables& bodies)
-    : folder_(folder),
-      settings_(settings),
-      bodies_(bodies),
-      sphere_ids_(simulation.elements().spheres.size()),
-      grains_(folder / "grains.pvd"),
-      membranes_(folder / "membranes.pvd"),
-      contacts_(folder / "contacts.pvd") {
-  std::iota(sphere_ids_.begin(), sphere_ids_.end(), 0);
-  settings_.grains = settings_.grains && !simulation.elements().spheres.empty();
-  settings_.membranes = settings_.membranes && (!simulation.elements().cylinders.empty() ||
-                                                !simulation.elements().facets.empty());
-  make_output_folder(folder_ / "frames");
-  remove_earlier(folder_);
-  if (settings_.contact_list) {
-    contact_list_.emplace(folder_ / "contacts.csv", dynamics::contact_columns(),
-                          dynamics::CsvWriter::Flush::on_request);
-  }
-}
-
-std::vector<Vec3> Frames::node_forces(const dynamics::Simulation& simulation) const {
+/// Sum of contacts, bonds, loads and gravity on each node (N).
+std::vector<Vec3> node_forces(const dynamics::Simulation& simulation) {
   std::vector<Vec3> forces = simulation.forces().force;
   for (std::size_t i = 0; i < forces.size(); ++i)
     forces[i] += simulation.properties().mass[i] * simulation.gravity();
   return forces;
 }
 
-void Frames::write_part(const std::string& name, dynamics::PvdSeries& series,
-                        const dynamics::PolyData& data) {
-  const fs::path file = folder_ / "frames" / fmt::format("{}_{:05}.vtp", name, count_);
-  dynamics::write_vtp(file, data);
-  series.add({{data.time, name, file}});
+std::vector<dynamics::ContactLabels> labels_of(const std::vector<contact::ContactRow>& contacts,
+                                               const BodyTables& bodies) {
+  std::vector<dynamics::ContactLabels> labels;
+  labels.reserve(contacts.size());
+  for (const contact::ContactRow& contact : contacts) {
+    const BodyTable a = bodies.table_of(contact.a);
+    const BodyTable b = bodies.table_of(contact.b);
+    labels.push_back({static_cast<std::int32_t>(a.number), static_cast<std::int32_t>(b.number),
+                      static_cast<std::int32_t>(bodies.material_of(a)),
+                      static_cast<std::int32_t>(bodies.material_of(b))});
+  }
+  return labels;
 }
 
-void Frames::write_membranes(dynamics::Simulation& simulation, const dynamics::NodesView& nodes) {
+dynamics::PolyData grains_of(const dynamics::Simulation& simulation,
+                             const dynamics::NodesView& nodes) {
+  const auto& spheres = simulation.elements().spheres;
+  std::vector<std::int64_t> ids(spheres.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  return dynamics::grains_frame({nodes, spheres, ids}, simulation.time());
+}
+
+dynamics::PolyData membranes_of(dynamics::Simulation& simulation,
+                                const dynamics::NodesView& nodes) {
   const std::vector<double> tensions = tensions_of(simulation);
   const auto membrane_forces = membrane_forces_of(simulation);
   const auto stresses = stresses_of(simulation);
   const auto tractions = simulation.facet_tractions();
   const auto& elements = simulation.elements();
-  write_part("membranes", membranes_,
-             dynamics::surface_frame({nodes, elements.cylinders, tensions, elements.facets,
-                                      membrane_forces, stresses, tractions},
-                                     simulation.time()));
+  return dynamics::surface_frame(
+      {nodes, elements.cylinders, tensions, elements.facets, membrane_forces, stresses, tractions},
+      simulation.time());
 }
 
-std::vector<dynamics::ContactLabels> Frames::labels_of(
-    const std::vector<contact::ContactRow>& contacts) const {
-  std::vector<dynamics::ContactLabels> labels;
-  labels.reserve(contacts.size());
-  for (const contact::ContactRow& contact : contacts) {
-    const BodyTable a = bodies_.table_of(contact.a);
-    const BodyTable b = bodies_.table_of(contact.b);
-    labels.push_back({static_cast<std::int32_t>(a.number), static_cast<std::int32_t>(b.number),
-                      static_cast<std::int32_t>(bodies_.material_of(a)),
-                      static_cast<std::int32_t>(bodies_.material_of(b))});
+}  // namespace
+
+OutputSettings settings_for(OutputSettings settings, const dynamics::Simulation& simulation) {
+  const geometry::Elements& elements = simulation.elements();
+  settings.grains = settings.grains && !elements.spheres.empty();
+  settings.membranes =
+      settings.membranes && (!elements.cylinders.empty() || !elements.facets.empty());
+  return settings;
+}
+
+std::vector<FramePart> frame_of(const OutputSettings& settings, dynamics::Simulation& simulation,
+                                const BodyTables& bodies,
+                                const std::vector<contact::ContactRow>& contacts) {
+  const dynamics::NodeState& state = simulation.state();
+  const std::vector<Vec3> forces = node_forces(simulation);
+  const dynamics::NodesView nodes{state.position, state.velocity,  state.angular_velocity,
+                                  forces,         bodies.groups(), bodies.materials()};
+  std::vector<FramePart> parts;
+  if (settings.grains) parts.push_back({"grains", grains_of(simulation, nodes)});
+  if (settings.membranes) parts.push_back({"membranes", membranes_of(simulation, nodes)});
+  if (settings.contacts)
+    parts.push_back({"contacts", dynamics::contacts_frame(contacts, simulation.time(),
+                                                          labels_of(contacts, bodies))});
+  return parts;
+}
+
+Frames::Frames(const fs::path& folder, const OutputSettings& settings,
+               const dynamics::Simulation& simulation, const BodyTables& bodies)
+    : folder_(folder), settings_(settings_for(settings, simulation)), bodies_(bodies) {
+  make_output_folder(folder_ / "frames");
+  remove_earlier(folder_);
+  for (const std::string_view part : kParts)
+    series_.try_emplace(std::string(part), folder_ / fmt::format("{}.pvd", part));
+  if (settings_.contact_list) {
+    contact_list_.emplace(folder_ / "contacts.csv", dynamics::contact_columns(),
+                          dynamics::CsvWriter::Flush::on_request);
   }
-  return labels;
 }
 
-void Frames::write_contacts(dynamics::Simulation& simulation) {
-  const std::vector<contact::ContactRow> contacts = simulation.list_contacts();
-  const std::vector<dynamics::ContactLabels> labels = labels_of(contacts);
-  const double time = simulation.time();
-  if (settings_.contacts)
-    write_part("contacts", contacts_, dynamics::contacts_frame(contacts, time, labels));
-  if (!contact_list_) return;
+void Frames::list_contacts(double time, const std::vector<contact::ContactRow>& contacts) {
+  const std::vector<dynamics::ContactLabels> labels = labels_of(contacts, bodies_);
   std::vector<double> row;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     dynamics::fill_contact_row(time, contacts[i], labels[i], row);
@@ -162,17 +175,14 @@ void Frames::write_contacts(dynamics::Simulation& simulation) {
 }
 
 void Frames::write(dynamics::Simulation& simulation) {
-  const dynamics::NodeState& state = simulation.state();
-  const std::vector<Vec3> forces = node_forces(simulation);
-  const dynamics::NodesView nodes{state.position, state.velocity,   state.angular_velocity,
-                                  forces,         bodies_.groups(), bodies_.materials()};
-  if (settings_.grains) {
-    write_part("grains", grains_,
-               dynamics::grains_frame({nodes, simulation.elements().spheres, sphere_ids_},
-                                      simulation.time()));
+  std::vector<contact::ContactRow> contacts;
+  if (settings_.contacts || contact_list_) contacts = simulation.list_contacts();
+  for (const auto& [name, data] : frame_of(settings_, simulation, bodies_, contacts)) {
+    const fs::path file = folder_ / "frames" / fmt::format("{}_{:05}.vtp", name, count_);
+    dynamics::write_vtp(file, data);
+    series_.at(name).add({{data.time, name, file}});
   }
-  if (settings_.membranes) write_membranes(simulation, nodes);
-  if (settings_.contacts || settings_.contact_list) write_contacts(simulation);
+  if (contact_list_) list_contacts(simulation.time(), contacts);
   ++count_;
 }
 

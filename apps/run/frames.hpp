@@ -9,13 +9,29 @@
 #include "dynamics/output/vtk_writer.hpp"
 #include "dynamics/simulation.hpp"
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace plekton::apps {
+
+/// One of the data sets of a frame.
+struct FramePart {
+  std::string name;  ///< of its series: "grains", "membranes" or "contacts"
+  dynamics::PolyData data;
+};
+
+/// What is asked for and of which there is something in a simulation that begins; contacts always.
+OutputSettings settings_for(OutputSettings settings, const dynamics::Simulation& simulation);
+
+/// What a simulation looks like now: the data sets that are asked for.
+/// @param contacts  those of the last step, where they are asked for
+std::vector<FramePart> frame_of(const OutputSettings& settings, dynamics::Simulation& simulation,
+                                const BodyTables& bodies,
+                                const std::vector<contact::ContactRow>& contacts);
 
 /// Writes what a simulation looks like for ParaView: the time series grains.pvd, membranes.pvd and
 /// contacts.pvd in a folder, their data sets in its folder frames. The series are valid after every
@@ -34,22 +50,12 @@ class Frames {
   std::size_t count() const noexcept { return count_; }
 
  private:
-  void write_part(const std::string& name, dynamics::PvdSeries& series,
-                  const dynamics::PolyData& data);
-  /// Sum of contacts, bonds, loads and gravity on each node (N).
-  std::vector<Vec3> node_forces(const dynamics::Simulation& simulation) const;
-  std::vector<dynamics::ContactLabels> labels_of(
-      const std::vector<contact::ContactRow>& contacts) const;
-  void write_membranes(dynamics::Simulation& simulation, const dynamics::NodesView& nodes);
-  void write_contacts(dynamics::Simulation& simulation);
+  void list_contacts(double time, const std::vector<contact::ContactRow>& contacts);
 
   std::filesystem::path folder_;
   OutputSettings settings_;
   const BodyTables& bodies_;
-  std::vector<std::int64_t> sphere_ids_;
-  dynamics::PvdSeries grains_;
-  dynamics::PvdSeries membranes_;
-  dynamics::PvdSeries contacts_;
+  std::map<std::string, dynamics::PvdSeries> series_;  ///< by name
   std::optional<dynamics::CsvWriter> contact_list_;
   std::size_t count_ = 0;
 };

@@ -25,11 +25,14 @@ constexpr std::string_view vtk_type() noexcept {
   if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
 }
 
+constexpr std::string_view kEnd = "\n  </AppendedData>\n</VTKFile>\n";
+
 /// The two parts of a file, growing side by side: an array adds its description to one and its
 /// bytes to the other.
 struct Document {
   std::string xml;
   std::string appended;
+  std::size_t unpacked = 0;  // bytes of all arrays
 
   template <class T>
   void add_array(std::string_view name, std::size_t components, std::span<const T> values) {
@@ -40,6 +43,7 @@ struct Document {
         .append(std::to_string(appended.size()))
         .append("\"/>\n");
     appended += compressed_blocks(std::as_bytes(values));
+    unpacked += values.size_bytes();
   }
 
   void add_arrays(std::string_view section, const std::vector<DataArray>& arrays,
@@ -120,8 +124,14 @@ void write_vtp(const std::filesystem::path& file, const PolyData& data) {
   OutputFile out(file);
   out.write(content.xml);
   out.write(content.appended);
-  out.write("\n  </AppendedData>\n</VTKFile>\n");
+  out.write(kEnd);
   out.commit();
+}
+
+VtpSize vtp_size(const PolyData& data) {
+  const Document content = document(data);
+  const std::size_t described = content.xml.size() + kEnd.size();
+  return {described + content.appended.size(), described + content.unpacked};
 }
 
 }  // namespace plekton::dynamics

@@ -55,4 +55,12 @@ struct PolyData {
 /// Source: VTK File Formats, "XML File Formats" (docs.vtk.org).
 void write_vtp(const std::filesystem::path& file, const PolyData& data);
 
+/// Bytes of a file of write_vtp().
+struct VtpSize {
+  std::size_t packed = 0;    ///< what it has
+  std::size_t unpacked = 0;  ///< what it would have if nothing in it could be packed, about
+};
+/// Packs the data to tell, and writes nothing.
+VtpSize vtp_size(const PolyData& data);
+
 }  // namespace plekton::dynamics
