@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/command_line.hpp"
 
+#include "apps/command_line/check_report.hpp"
 #include "apps/command_line/import_command.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/list_command.hpp"
@@ -13,6 +14,7 @@
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
+#include "apps/scenario/toml_file.hpp"
 #include "apps/scenario/units.hpp"
 #include "geometry/printable.hpp"
 #include "geometry/version.hpp"
@@ -56,6 +58,7 @@ struct CommandLine {
   bool refuse_intersections = false;
   std::optional<std::string> thickness;
   bool overwrite = false;
+  bool quiet = false;
   bool json = false;
   bool power_iteration = false;
 };
@@ -91,46 +94,82 @@ void flush_output() {
                   std::generic_category().message(errno)));
 }
 
+/// How to tell a progress there.
+ProgressStyle style_on(int descriptor, bool quiet) {
+  if (quiet) return ProgressStyle::none;
+  return ::isatty(descriptor) != 0 ? ProgressStyle::one_line : ProgressStyle::lines;
+}
+
 /// Says on standard error what is being set up, so that results stay alone on standard output.
-PreparedRun prepared_aloud(const Scenario& scenario) {
-  const bool terminal = ::isatty(STDERR_FILENO) != 0;
-  SetUpProgress progress(std::cerr, terminal ? ProgressStyle::one_line : ProgressStyle::lines);
+PreparedRun prepared_aloud(const Scenario& scenario, bool quiet) {
+  SetUpProgress progress(std::cerr, style_on(STDERR_FILENO, quiet));
   return prepare_run(scenario,
                      [&](const std::string& what, double share) { progress.update(what, share); });
+}
+
+fs::path default_folder(const Scenario& scenario) {
+  const bool is_input = scenario.file == kStandardInputName;
+  return fs::path("out") / (is_input ? fs::path("stdin") : scenario.file.stem());
 }
 
 int run_command(const CommandLine& line) {
   const auto began = Progress::Clock::now();
   const Scenario scenario = scenario_of(line);
-  const fs::path out = line.out.empty() ? fs::path("out") / line.scenario.stem() : line.out;
+  const fs::path out = line.out.empty() ? default_folder(scenario) : line.out;
   // Before the scene is built, which may take long.
   check_output_folder(out, line.overwrite);
-  PreparedRun prepared = prepared_aloud(scenario);
-  std::cout << summary_of(prepared) << std::flush;
+  PreparedRun prepared = prepared_aloud(scenario, line.quiet);
+  if (!line.quiet) std::cout << summary_of(prepared) << std::flush;
 
   const InterruptGuard guard;
-  const bool terminal = ::isatty(STDOUT_FILENO) != 0;
   const RunSettings settings{out,
                              std::cout,
-                             terminal ? ProgressStyle::one_line : ProgressStyle::lines,
+                             style_on(STDOUT_FILENO, line.quiet),
                              [&] { return guard.interrupted(); },
                              began,
                              line.overwrite};
   const RunReport report = run(scenario, prepared, settings);
-  std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n';
+  if (line.quiet) {
+    for (const std::string& warning : report.warnings)
+      std::cerr << "plekton: warning: " << warning << '\n';
+  } else {
+    std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n';
+  }
   return report.status == RunStatus::interrupted ? kInterrupted : kDone;
 }
 
+/// Prints one JSON object, also of a scenario with problems, before these go the way of all errors.
+int check_for_programs(const CommandLine& line) {
+  const auto print = [](const nlohmann::ordered_json& report) {
+    // A path need not be UTF-8; what is not becomes a replacement character.
+    std::cout << report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+              << '\n';
+    flush_output();
+  };
+  try {
+    const Scenario scenario = scenario_of(line);
+    PreparedRun prepared = prepared_aloud(scenario, true);
+    require_possible_start(prepared.start, scenario);
+    auto report = check_report(scenario, prepared);
+    print(report);
+  } catch (const InputError& error) {
+    print(check_report(error.what()));
+    throw;
+  }
+  return kDone;
+}
+
 int check_command(const CommandLine& line) {
+  if (line.json) return check_for_programs(line);
   const Scenario scenario = scenario_of(line);
-  PreparedRun prepared = prepared_aloud(scenario);
+  PreparedRun prepared = prepared_aloud(scenario, false);
   std::cout << summary_of(prepared) << listing_of_start(scenario, prepared) << std::flush;
   require_possible_start(prepared.start, scenario);
   std::cout << step_advice(scenario, prepared);
   if (line.power_iteration) std::cout << summary_of(prepared.simulation->exact_critical_step());
   // Last, since it moves the simulation on.
   std::cout << text_of(estimate_run(scenario, prepared));
-  std::cout << line.scenario.string() << ": no problems\n";
+  std::cout << scenario.file.string() << ": no problems\n";
   flush_output();
   return kDone;
 }
@@ -185,8 +224,10 @@ int import_command(const CommandLine& line) {
 
 void add_scenario_options(CLI::App& command, CommandLine& line) {
   command
-      .add_option("scenario", line.scenario,
-                  "Scenario file (.toml); apps/scenario.md documents its keys")
+      .add_option(
+          "scenario", line.scenario,
+          "Scenario file (.toml), or - for standard input: the mesh files it names are then "
+          "relative to the current folder; apps/scenario.md documents its keys")
       ->required();
   command
       .add_option("--set", line.overrides,
@@ -234,15 +275,21 @@ int dispatch(int argc, const char* const* argv) {
   CLI::App* run = app.add_subcommand("run", "Run a scenario");
   add_scenario_options(*run, line);
   run->add_option("--out", line.out,
-                  "Folder for the results; out/<name of the scenario> if not given");
+                  "Folder for the results; out/<name of the scenario> if not given, out/stdin of "
+                  "standard input");
   run->add_flag("--overwrite", line.overwrite,
                 "Replace the results of an earlier run in that folder");
+  run->add_flag("--quiet", line.quiet,
+                "Print nothing but problems and warnings, on standard error");
   CLI::App* check = app.add_subcommand(
       "check", "Read a scenario, build its scene, and say what it is or what is wrong with it");
   add_scenario_options(*check, line);
-  check->add_flag("--power-iteration", line.power_iteration,
-                  "Also find the critical time step of the scene as it is by power iteration on "
-                  "its forces");
+  check
+      ->add_flag("--power-iteration", line.power_iteration,
+                 "Also find the critical time step of the scene as it is by power iteration on "
+                 "its forces; not with --json")
+      ->excludes(
+          check->add_flag("--json", line.json, "Print all of it as JSON, also the problems"));
   CLI::App* import = app.add_subcommand(
       "import", "Read and repair a mesh (.off, .obj, .stl, .ply, .msh, .vtp), and report on it");
   import->add_option("mesh", line.mesh, "Mesh file")->required();

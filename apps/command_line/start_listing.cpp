@@ -30,41 +30,11 @@ void include(Box& box, const Vec3& centre, double radius) {
   box.upper = box.upper.cwiseMax((centre.array() + radius).matrix());
 }
 
-std::string line_of(const std::string& name, const Box& box) {
-  const Vec3& l = box.lower;
-  const Vec3& u = box.upper;
-  return fmt::format("box of {}: ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m\n", name,
-                     l[0], l[1], l[2], u[0], u[1], u[2]);
-}
-
-/// Around membranes with their thickness, around grains, and around all of them. Planes have none.
-std::string boxes(const Scenario& scenario, const PreparedRun& prepared) {
-  const dynamics::Scene& scene = prepared.simulation->scene();
-  const auto& x = scene.state.position;
-  std::string text;
-  Box all = no_box();
-  const auto add = [&](const std::string& name, const Box& box) {
-    text += line_of(name, box);
-    all = {all.lower.cwiseMin(box.lower), all.upper.cwiseMax(box.upper)};
-  };
-  for (std::size_t m = 0; m < prepared.built.membranes.size(); ++m) {
-    const BuiltMembrane& membrane = prepared.built.membranes[m];
-    Box box = no_box();
-    for (std::size_t n = membrane.first_node; n < membrane.first_node + membrane.nodes; ++n)
-      include(box, x[n], 0.5 * scenario.membranes[m].thickness);
-    add("membranes." + membrane.name, box);
-  }
-  std::size_t first = 0;
-  for (const BuiltGrains& grains : prepared.built.grains) {
-    Box box = no_box();
-    for (std::size_t i = first; i < first + grains.count; ++i) {
-      const geometry::Sphere& sphere = scene.elements.spheres[i];
-      include(box, x[index_of(sphere.nodes[0])], sphere.radius);
-    }
-    first += grains.count;
-    add("grains." + grains.name, box);
-  }
-  return text + line_of("everything", all);
+std::string line_of(const NamedBox& body) {
+  const Vec3& l = body.box.lower;
+  const Vec3& u = body.box.upper;
+  return fmt::format("box of {}: ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m\n",
+                     body.name, l[0], l[1], l[2], u[0], u[1], u[2]);
 }
 
 std::string bonds(const Scenario& scenario, const InitialContacts& start) {
@@ -95,9 +65,38 @@ std::string overlaps(const Scenario& scenario, const InitialContacts& start) {
 
 }  // namespace
 
+std::vector<NamedBox> boxes_at_start(const Scenario& scenario, const PreparedRun& prepared) {
+  const dynamics::Scene& scene = prepared.simulation->scene();
+  const auto& x = scene.state.position;
+  std::vector<NamedBox> boxes;
+  for (std::size_t m = 0; m < prepared.built.membranes.size(); ++m) {
+    const BuiltMembrane& membrane = prepared.built.membranes[m];
+    Box box = no_box();
+    for (std::size_t n = membrane.first_node; n < membrane.first_node + membrane.nodes; ++n)
+      include(box, x[n], 0.5 * scenario.membranes[m].thickness);
+    boxes.push_back({"membranes." + membrane.name, box});
+  }
+  std::size_t first = 0;
+  for (const BuiltGrains& grains : prepared.built.grains) {
+    Box box = no_box();
+    for (std::size_t i = first; i < first + grains.count; ++i) {
+      const geometry::Sphere& sphere = scene.elements.spheres[i];
+      include(box, x[index_of(sphere.nodes[0])], sphere.radius);
+    }
+    first += grains.count;
+    boxes.push_back({"grains." + grains.name, box});
+  }
+  Box all = no_box();
+  for (const auto& [name, box] : boxes)
+    all = {all.lower.cwiseMin(box.lower), all.upper.cwiseMax(box.upper)};
+  boxes.push_back({"everything", all});
+  return boxes;
+}
+
 std::string listing_of_start(const Scenario& scenario, const PreparedRun& prepared) {
-  return boxes(scenario, prepared) + bonds(scenario, prepared.start) +
-         overlaps(scenario, prepared.start);
+  std::string text;
+  for (const NamedBox& body : boxes_at_start(scenario, prepared)) text += line_of(body);
+  return text + bonds(scenario, prepared.start) + overlaps(scenario, prepared.start);
 }
 
 }  // namespace plekton::apps

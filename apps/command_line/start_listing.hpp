@@ -2,10 +2,22 @@
 #pragma once
 
 #include "apps/run/run.hpp"
+#include "geometry/box.hpp"
 
 #include <string>
+#include <vector>
 
 namespace plekton::apps {
+
+/// The box around a body, with its radius.
+struct NamedBox {
+  std::string name;  ///< as in "membranes.net"
+  geometry::Box box;
+};
+
+/// Around membranes with their thickness, around grains, and around all of them ("everything").
+/// Planes have none.
+std::vector<NamedBox> boxes_at_start(const Scenario& scenario, const PreparedRun& prepared);
 
 /// How a scene begins, in lines: the boxes around its bodies, the bonds that hold, and who overlaps
 /// whom, with the deepest places.
