@@ -49,6 +49,7 @@ struct CommandLine {
   std::optional<int> threads;
   fs::path out;
   fs::path mesh;
+  std::string scale = "1";
   std::string weld = "0 m";
   bool fill_holes = false;
   std::optional<std::string> longest_hole;
@@ -187,6 +188,22 @@ double length_option(const std::string& name, const std::string& text, const Ran
   return length;
 }
 
+/// @throws InputError for what is no positive number
+double scale_option(const std::string& text) {
+  double scale = 0.0;
+  try {
+    scale = parse_quantity(text, kNumber);
+  } catch (const UnitError& error) {
+    throw InputError(fmt::format("--scale: {}", error.what()));
+  }
+  if (!kPositive.holds(scale))
+    throw InputError(
+        fmt::format("--scale: got \"{}\"; expected a number{}, such as 0.001 for a "
+                    "mesh in mm",
+                    text, kPositive.text));
+  return scale;
+}
+
 geometry::RepairOptions repair_options(const CommandLine& line) {
   geometry::RepairOptions options;
   options.weld_distance = length_option("--weld", line.weld, kNotNegative);
@@ -211,6 +228,7 @@ int list_command() {
 int import_command(const CommandLine& line) {
   ImportArguments arguments;
   arguments.mesh = line.mesh;
+  arguments.scale = scale_option(line.scale);
   arguments.repair = repair_options(line);
   if (line.thickness)
     arguments.thickness = length_option("--thickness", *line.thickness, kPositive);
@@ -293,6 +311,8 @@ int dispatch(int argc, const char* const* argv) {
   CLI::App* import = app.add_subcommand(
       "import", "Read and repair a mesh (.off, .obj, .stl, .ply, .msh, .vtp), and report on it");
   import->add_option("mesh", line.mesh, "Mesh file")->required();
+  import->add_option("--scale", line.scale,
+                     "Multiply all coordinates by this first, as in 0.001 for a mesh in mm");
   import->add_option("--weld", line.weld, "Join points within this distance, as in \"1 um\"");
   import->add_flag("--fill-holes", line.fill_holes, "Fill holes, also the rim of an open sheet");
   import->add_option("--longest-hole", line.longest_hole,

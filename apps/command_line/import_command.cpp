@@ -33,6 +33,7 @@ void import_mesh_file(const ImportArguments& arguments, std::ostream& out) {
                    std::array<std::string_view, 2>{mesh_name, "report.json"});
   geometry::ImportOptions options;
   options.repair = arguments.repair;
+  options.scale = arguments.scale;
   const geometry::ImportedMesh imported = [&]() -> geometry::ImportedMesh {
     if (!arguments.thickness) return geometry::import_mesh(arguments.mesh, options);
     auto with_thickness =

@@ -13,6 +13,7 @@ namespace plekton::apps {
 struct ImportArguments {
   std::filesystem::path mesh;
   geometry::RepairOptions repair;
+  double scale = 1.0;                        ///< of the coordinates in the file
   std::optional<double> thickness;           ///< m, to hear whether it goes with the mesh
   std::optional<std::filesystem::path> out;  ///< folder for the repaired mesh and report.json
   bool overwrite = false;  ///< replace these where they are from an earlier import

@@ -3,14 +3,29 @@
 
 #include "geometry/mesh/mesh_file.hpp"
 
+#include <cmath>
+#include <string>
 #include <utility>
 
 namespace plekton::geometry {
+namespace {
+
+PolygonSoup scaled(PolygonSoup soup, double scale, const std::string& source) {
+  if (!(scale > 0.0) || !std::isfinite(scale))
+    throw MeshError(source + ": a scale of " + std::to_string(scale) +
+                    "; expected a positive number");
+  if (scale == 1.0) return soup;
+  for (Vec3& point : soup.points) point *= scale;
+  return soup;
+}
+
+}  // namespace
 
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options) {
   ImportedMesh imported;
   imported.report.source = path.filename().string();
-  imported.mesh = repair(read_mesh_file(path), options.repair, imported.report);
+  imported.mesh = repair(scaled(read_mesh_file(path), options.scale, imported.report.source),
+                         options.repair, imported.report);
   const MeshReport& report = imported.report;
   if (report.verdict != MeshVerdict::refused) return imported;
 

@@ -13,7 +13,8 @@
 namespace plekton::geometry {
 
 struct ImportOptions {
-  RepairOptions repair;
+  RepairOptions repair;  ///< lengths after scaling
+  double scale = 1.0;    ///< of all coordinates, before anything else; finite, > 0
 };
 
 struct ImportedMesh {
@@ -29,7 +30,8 @@ struct RefusedMesh : MeshError {
 };
 
 /// Reads a mesh file, repairs it and reports on it.
-/// @throws MeshError if the file cannot be read or holds bad numbers (as read_mesh_file).
+/// @throws MeshError if the file cannot be read or holds bad numbers (as read_mesh_file), or if the
+/// scale is none.
 /// @throws RefusedMesh if the verdict is refused.
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 

@@ -180,6 +180,31 @@ TEST(ImportCommand, RefusesLengthsThatAskForNothing) {
               HasSubstr("--weld: got \"-1 um\"; expected a length of at least 0"));
 }
 
+TEST(ImportCommand, ScalesAMeshBeforeItsRepair) {
+  const test::TemporaryFolder folder;
+  // In mm; two points 1 um apart.
+  test::write_bytes(folder / "a.off",
+                    "OFF\n6 2 0\n0 0 0\n100 0 0\n0 100 0\n100 0.001 0\n0 100 0\n100 100 0\n"
+                    "3 0 1 2\n3 3 5 4\n");
+
+  const Outcome outcome = outcome_of(
+      {"import", (folder / "a.off").string(), "--scale", "0.001", "--weld", "2 um", "--json"});
+
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_NEAR(json["after"]["area"], 0.01, 1e-7);
+  EXPECT_EQ(json["after"]["points"], 4);
+}
+
+TEST(ImportCommand, RefusesAScaleThatIsNone) {
+  for (const std::string text : {"0", "-1", "nan", "1 mm", "x"}) {
+    const Outcome outcome = outcome_of({"import", kHammock, "--scale=" + text});
+
+    EXPECT_EQ(outcome.exit_code, kFailed) << text;
+    EXPECT_THAT(outcome.err, HasSubstr("--scale: got ")) << text;
+  }
+}
+
 TEST(ImportCommand, LeavesNoHalfOfItsFilesWhenTheFolderCannotBeWritten) {
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "file", "");
