@@ -3,6 +3,7 @@
 
 #include "contact/motion.hpp"
 #include "geometry/feature.hpp"
+#include "geometry/function_ref.hpp"
 
 #include <cstdint>
 
@@ -46,5 +47,7 @@ inline void set_force(ContactRow& row, const Vec3& force) noexcept {
   row.normal_force = force.dot(row.normal) * row.normal;
   row.tangential_force = force - row.normal_force;
 }
+
+using VisitRow = geometry::FunctionRef<void(const ContactRow&)>;
 
 }  // namespace plekton::contact

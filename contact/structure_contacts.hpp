@@ -14,6 +14,7 @@
 #include "contact/structure/structure_patch.hpp"
 #include "contact/structure/touching_patches.hpp"
 #include "geometry/cell_neighbours.hpp"
+#include "geometry/function_ref.hpp"
 #include "geometry/parallel_sum.hpp"
 #include "geometry/surface_change.hpp"
 
@@ -91,8 +92,7 @@ class StructureContacts {
 
   /// Calls visit(node, stiffness (N/m), radius (m), tangential over normal stiffness) for what
   /// every patch, and every bond over a distance, adds to the stiffness around its nodes.
-  template <class Visit>
-  void for_each_stiffness(Visit&& visit) const;
+  void for_each_stiffness(geometry::FunctionRef<void(NodeId, double, double, double)> visit) const;
 
   /// Calls visit(cells) for the listed pairs of cells that do not touch, but may be as near as a
   /// margin (m).
@@ -115,13 +115,12 @@ class StructureContacts {
 
   /// Calls visit(ContactRow) for every patch that pushed in the last step, in the order of the
   /// list, then for every bond.
-  template <class Visit>
-  void for_each_row(Positions x, Visit&& visit) const;
+  void for_each_row(Positions x, VisitRow visit) const;
 
   /// Calls visit(ContactRow, force (N), torque (N m)) for the same rows, with what each did to one
   /// node: exactly, wherever in the patch that is. Linear in the nodes of the scene.
-  template <class Visit>
-  void for_each_row_on(NodeId node, Positions x, Visit&& visit) const;
+  using VisitRowOn = geometry::FunctionRef<void(const ContactRow&, const Vec3&, const Vec3&)>;
+  void for_each_row_on(NodeId node, Positions x, VisitRowOn visit) const;
 
  private:
   using PairTerm = structure::PairTerm;
@@ -296,72 +295,6 @@ class StructureContacts {
   std::vector<double> near_push_;  ///< N, by pair of cells
   double largest_overlap_ratio_ = 0.0;
 };
-
-template <ContactLaw Law>
-double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs,
-                                       const ContactMaterials<Law>& materials) {
-  std::vector<PairOfCells> listed;
-  std::vector<char> lives(patches_.size(), 0);
-  auto old = pairs_.begin();
-  for (const geometry::CellPair& cells : pairs) {
-    while (old != pairs_.end() && old->cells < cells) ++old;
-    const bool known = old != pairs_.end() && old->cells == cells;
-    listed.push_back(known ? *old : PairOfCells{cells});
-    if (known && old->patch >= 0) lives[static_cast<std::size_t>(old->patch)] = 1;
-  }
-  pairs_.swap(listed);
-  if (!bonds_.empty()) match_bonds();
-  if (meetings_.empty()) make_meetings(materials);
-  terms_.rebuild(pairs);
-  double lost = 0.0;
-  for (std::size_t i = 0; i < patches_.size(); ++i) {
-    if (lives[i]) continue;
-    lost += history_energy(patches_[i]);
-    patches_[i].memory = {};  // so that it is not lost again when nothing follows the patch
-  }
-  return lost;
-}
-
-template <ContactLaw Law>
-EnergyLoss StructureContacts<Law>::advance(const Motion& motion, double dt,
-                                           geometry::ThreadPool& pool) {
-  if (terms_.empty() && patches_.empty() && bonds_.empty()) return {};
-  terms_.evaluate(springs_, motion, pool);
-  previous_.clear();
-  for (const Patch& patch : patches_) {
-    previous_.push_back({patch.memory, patch.meeting, patch.point_count(), history_energy(patch),
-                         patch.id, patch.normal_force, patch.is_torn});
-  }
-  drop_broken_bonds();
-  if (terms_.acting_changed()) {
-    find_patches();
-    find_places();
-  }
-  find_heirs();
-  add_up_patches(motion.position);
-  find_spreads(motion.position);
-  EnergyLoss loss;
-  loss.tracking = prepare_bonds(motion, pool);
-  loss += inherit(motion, dt);
-  loss += carry_spreads(motion, dt);
-  for (Patch& patch : patches_) loss.dissipated += patch.apply_law(meeting_of(patch), motion, dt);
-  loss.dissipated += advance_spreads(motion, dt, pool);
-  loss.dissipated += advance_bonds(motion, dt, pool);
-  return loss;
-}
-
-}  // namespace plekton::contact
-
-#include "contact/structure_contacts_bonds.hpp"
-#include "contact/structure_contacts_change.hpp"
-#include "contact/structure_contacts_heirs.hpp"
-#include "contact/structure_contacts_meetings.hpp"
-#include "contact/structure_contacts_patches.hpp"
-#include "contact/structure_contacts_rows.hpp"
-#include "contact/structure_contacts_spread.hpp"
-#include "contact/structure_contacts_sums.hpp"
-
-namespace plekton::contact {
 
 /// Compiled once, in the library.
 extern template class StructureContacts<LinearFrictional>;

@@ -17,6 +17,7 @@
 #include "contact/patch_force.hpp"
 #include "contact/patch_heirs.hpp"
 #include "contact/rekey.hpp"
+#include "geometry/function_ref.hpp"
 #include "geometry/neighbours.hpp"
 #include "geometry/parallel_sum.hpp"
 #include "geometry/surface_change.hpp"
@@ -93,25 +94,24 @@ class SurfaceContacts {
   /// contact begins there.
   /// @param margin  m, at most the skin of the list
   /// @param cells   of the present list, as rebuild() took them
-  template <class Visit>
+  using VisitComing = geometry::FunctionRef<void(NodeId, const geometry::CorePoint&,
+                                                 const typename Law::Parameters&, double)>;
   void for_each_coming(double margin, std::span<const geometry::CellId> cells, Positions x,
-                       Visit&& visit) const;
+                       VisitComing visit) const;
 
   /// Adds the elastic normal forces (N) with the nodes anywhere near where they were in the last
   /// step: what the contacts' energy gives, without friction and whatever else has a history.
   /// @param cells   of the present list, as rebuild() took them
   /// @param finder  working space, of this surface
   /// @param wants   (ball's node) -> whether its contacts count
-  template <class Wants>
   void add_elastic_forces(std::span<const geometry::CellId> cells, Positions x, NodeForces& forces,
-                          PatchFinder& finder, Wants&& wants) const;
+                          PatchFinder& finder, geometry::FunctionRef<bool(NodeId)> wants) const;
 
   /// Gives a number after the last one to every contact that has none.
   void number(std::int64_t& last);
 
   /// Calls visit(ContactRow) for every contact of the last step, in the order of the list.
-  template <class Visit>
-  void for_each_row(Positions x, Visit&& visit) const;
+  void for_each_row(Positions x, VisitRow visit) const;
 
  private:
   /// A contact as it is kept for the next step.
@@ -230,106 +230,6 @@ class SurfaceContacts {
   Rekey<Pair> rekey_;
   geometry::ParallelSum<EnergyLoss> sum_;
 };
-
-template <ContactLaw Law>
-double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
-                                     std::span<const NearCells> near,
-                                     std::span<const geometry::CellId> cells,
-                                     std::span<const Ball> balls,
-                                     std::span<const MaterialId> materials_of_structures,
-                                     const MaterialPairs<Law>& materials) {
-  double lost = 0.0;
-  const auto make = [&](std::size_t i, const Pair* old) {
-    const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
-    const geometry::StructureId structure{keys[i].b};
-    const double radius_b = surface_->radius(structure);
-    const MaterialId material_b = materials_of_structures[index_of(structure)];
-    const auto parameters = materials.combine(
-        {ball.material, ball.radius, ball.mass},
-        {.material = material_b, .radius = radius_b, .shape = shape_of(*surface_, structure)});
-    const double range = ball.radius + radius_b;
-    return Pair{{ball.radius, range, parameters},
-                ball.node,
-                range + reach_of<Law>(parameters),
-                near[i],
-                old ? old->contacts : Range{},
-                old ? old->lone_face : kNoFace,
-                {}};
-  };
-  rekey_(pairs_, keys, make, [&](const Pair& old) { lost += drop(old); });
-  watch_.rebuild(cells);
-  return lost;
-}
-
-template <ContactLaw Law>
-double SurfaceContacts<Law>::drop(const Pair& pair) const {
-  if (pair.contacts.count == 0) return 0.0;
-  double lost = 0.0;
-  for (const Contact& contact : contacts_of(pair, current_)) {
-    lost += Law::history_energy(pair.parameters, contact.memory.history);
-  }
-  return lost;
-}
-
-template <ContactLaw Law>
-EnergyLoss SurfaceContacts<Law>::advance(const Motion& motion, double dt,
-                                         geometry::ThreadPool& pool) {
-  const auto worker_count = static_cast<std::size_t>(pool.thread_count());
-  while (workers_.size() < worker_count) workers_.emplace_back(*surface_);
-  current_.swap(previous_);
-  current_.resize(worker_count);
-  previous_.resize(worker_count);
-  for (Lists& lists : current_) {
-    lists.contacts.clear();
-    lists.minima.clear();
-  }
-  for (Worker& worker : workers_) {
-    worker.pass_throughs = 0;
-    make_room(worker.cells, watch_.cell_count());
-  }
-  records_.reset(pool.thread_count());
-  watch_.begin_step(motion);
-  return sum_(pairs_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {
-    return advance_pairs(begin, end, motion, dt, worker);
-  });
-}
-
-template <ContactLaw Law>
-std::int64_t SurfaceContacts<Law>::pass_throughs() const noexcept {
-  std::int64_t count = 0;
-  for (const Worker& worker : workers_) count += worker.pass_throughs;
-  return count;
-}
-
-template <ContactLaw Law>
-std::size_t SurfaceContacts<Law>::touching() const noexcept {
-  std::size_t count = 0;
-  for (const Lists& lists : current_) count += lists.contacts.size();
-  return count;
-}
-
-template <ContactLaw Law>
-double SurfaceContacts<Law>::elastic_energy() const {
-  double energy = 0.0;
-  for (const Pair& pair : pairs_) {
-    if (pair.contacts.count == 0) continue;
-    for (const Contact& contact : contacts_of(pair, current_)) {
-      energy +=
-          contact.elastic_energy + Law::history_energy(pair.parameters, contact.memory.history);
-    }
-  }
-  return energy;
-}
-
-}  // namespace plekton::contact
-
-#include "contact/surface_contacts_change.hpp"
-#include "contact/surface_contacts_lone.hpp"
-#include "contact/surface_contacts_near.hpp"
-#include "contact/surface_contacts_rows.hpp"
-#include "contact/surface_contacts_step.hpp"
-
-namespace plekton::contact {
 
 /// Compiled once, in the library.
 extern template class SurfaceContacts<LinearFrictional>;

@@ -78,8 +78,7 @@ class BallContacts {
   void number(std::int64_t& last);
 
   /// Calls visit(ContactRow) for every touching pair, in the order of the list.
-  template <class Visit>
-  void for_each_row(Positions x, Visit&& visit) const;
+  void for_each_row(Positions x, VisitRow visit) const;
 
  private:
   using Rows = PairRows<Law>;
@@ -395,12 +394,112 @@ void BallContacts<Law>::advance_one(std::size_t row, std::size_t lane, Work& wor
   }
 }
 
-}  // namespace plekton::contact
+template <ContactLaw Law>
+std::size_t BallContacts<Law>::touching() const noexcept {
+  std::size_t count = 0;
+  for (const Outcome& outcome : outcomes_) count += outcome.touching;
+  return count;
+}
 
-#include "contact/balls/ball_contact_rows.hpp"
-#include "contact/balls/ball_contact_sums.hpp"
+template <ContactLaw Law>
+double BallContacts<Law>::largest_overlap_ratio() const noexcept {
+  double deepest = 0.0;
+  for (const Outcome& outcome : outcomes_) deepest = std::max(deepest, outcome.largest_ratio());
+  return deepest;
+}
 
-namespace plekton::contact {
+template <ContactLaw Law>
+double BallContacts<Law>::elastic_energy() const {
+  double energy = 0.0;
+  for_each_lane([&](const geometry::IndexPair&, const Parameters& parameters, const Rows& rows,
+                    std::size_t lane) {
+    energy += Law::elastic_normal_energy(parameters, rows.gap.number(lane)) +
+              Law::history_energy(parameters, rows.memory(lane).history);
+  });
+  return energy;
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::number(std::int64_t& last) {
+  PairNumbers::Reader known(numbers_);
+  PairNumbers numbers;
+  for_each_lane(
+      [&](const geometry::IndexPair& pair, const Parameters&, const Rows& rows, std::size_t lane) {
+        const auto row = static_cast<std::size_t>(&rows - rows_.data());
+        const bool has_one = touched_[row].since_numbered(lane);
+        numbers.add(pair, has_one ? known.of(pair) : ++last);
+      });
+  numbers_ = std::move(numbers);
+  for (TouchedLanes& touched : touched_) touched.set_numbered();
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::for_each_row(Positions x, VisitRow visit) const {
+  PairNumbers::Reader numbers(numbers_);
+  for_each_lane([&](const geometry::IndexPair& pair, const Parameters& parameters, const Rows& rows,
+                    std::size_t lane) {
+    const Ball &a = ball(pair.a), &b = ball(pair.b);
+    ContactRow row;
+    if (touched_[static_cast<std::size_t>(&rows - rows_.data())].since_numbered(lane))
+      row.id = numbers.of(pair);
+    row.a = {BodyKind::sphere, pair.a, geometry::Feature(a.node)};
+    row.b = {BodyKind::sphere, pair.b, geometry::Feature(b.node)};
+    row.point_a = x[index_of(a.node)];
+    row.point_b = x[index_of(b.node)];
+    const ContactMemory<Law> memory = rows.memory(lane);
+    row.normal = memory.normal;
+    row.gap = rows.gap.number(lane);
+    row.point = row.point_a + (a.radius + 0.5 * row.gap) * row.normal;
+    set_force(row, rows.force_on_b(lane, parameters));
+    if constexpr (HasMoments<Law>) row.moment = Law::moment(memory.history, memory.normal);
+    set_state<Law>(row, parameters, memory.history, Law::elastic_normal_force(parameters, row.gap));
+    visit(row);
+  });
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::hand_over(const BallBlocks::Block& block, const Work& work,
+                                  NodeForces& forces) {
+  constexpr std::size_t kAhead = 16;
+  const auto owned = blocks_.owned(block);
+  const BallSum* const sums = work.sums.data();
+  for (std::size_t m = 0; m < owned.size(); ++m) {
+    const std::size_t ahead = index_of(owned[std::min(m + kAhead, owned.size() - 1)].node);
+    __builtin_prefetch(&forces.force[ahead], 1);
+    __builtin_prefetch(&forces.torque[ahead], 1);
+    forces.force[index_of(owned[m].node)] = sums[m].force;
+    forces.torque[index_of(owned[m].node)] = sums[m].torque;
+  }
+  std::copy_n(sums + owned.size(), block.borrowed(), lent_.begin() + block.first_borrowed);
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::set_others_zero(NodeForces& forces, geometry::ThreadPool& pool) const {
+  if (blocks_.other_nodes().empty()) return;
+  pool.for_each_range(forces.force.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (const BallBlocks::NodeRange& range : blocks_.other_nodes()) {
+      const std::size_t first = std::max(begin, range.begin);
+      const std::size_t last = std::min(end, range.end);
+      if (first < last) forces.set_zero(first, last);
+    }
+  });
+}
+
+template <ContactLaw Law>
+void BallContacts<Law>::return_loans(NodeForces& forces, geometry::ThreadPool& pool) const {
+  const auto add = [&](NodeId node, std::size_t borrowed) {
+    forces.force[index_of(node)] += lent_[borrowed].force;
+    forces.torque[index_of(node)] += lent_[borrowed].torque;
+  };
+  const auto ask = [&](NodeId node, std::size_t borrowed) {
+    __builtin_prefetch(&lent_[borrowed]);
+    __builtin_prefetch(&forces.force[index_of(node)]);
+    __builtin_prefetch(&forces.torque[index_of(node)]);
+  };
+  pool.for_each_range(blocks_.blocks().size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t k = begin; k < end; ++k) blocks_.for_each_loan(k, add, ask);
+  });
+}
 
 /// Compiled once, in the library.
 extern template class BallContacts<LinearFrictional>;
