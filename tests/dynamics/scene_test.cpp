@@ -196,5 +196,16 @@ TEST(Scene, AllowsANodeWithoutMassThatIsHeld) {
   EXPECT_THAT(problems_of(scene), HasSubstr("node 5: its moment of inertia is 0"));
 }
 
+TEST(Scene, RefusesSurfacesWithoutThicknessThatQueriesTake) {
+  Scene scene = sound_scene();
+  scene.elements.facets[0].radius = 0.0;
+  scene.elements.cylinders[0].radius = 0.0;
+
+  const std::string problems = problems_of(scene);
+
+  EXPECT_THAT(problems, HasSubstr("facet 0: its radius is 0"));
+  EXPECT_THAT(problems, HasSubstr("cylinder 0: its radius is 0"));
+}
+
 }  // namespace
 }  // namespace plekton::dynamics
