@@ -6,28 +6,28 @@ include(cmake/public_headers.cmake)
 
 # What users include; what these need comes along.
 plekton_public_headers(public_headers
-  contact/laws/cohesive_frictional.hpp
-  contact/laws/dmt_adhesion.hpp
-  contact/laws/hertz_mindlin.hpp
-  contact/laws/law_list.hpp
-  contact/laws/models.hpp
-  contact/laws/with_parts.hpp
+  contact/law/cohesive_frictional.hpp
+  contact/law/dmt_adhesion.hpp
+  contact/law/hertz_mindlin.hpp
+  contact/law/law_list.hpp
+  contact/models.hpp
+  contact/law/with_parts.hpp
   dynamics/output/csv_writer.hpp
   dynamics/output/pvd_series.hpp
   dynamics/output/scene_frame.hpp
   dynamics/output/vtk_writer.hpp
-  dynamics/readout/unbalanced_force.hpp
+  dynamics/measures/unbalanced_force.hpp
   dynamics/simulation.hpp
   dynamics/structure/bonds_along.hpp
   dynamics/structure/membrane_force.hpp
-  geometry/mesh/generators.hpp
-  geometry/mesh/import.hpp
-  geometry/mesh/membrane.hpp
-  geometry/mesh/mesh_file.hpp
-  geometry/mesh/orientation.hpp
-  geometry/mesh/remesh.hpp
-  geometry/mesh/repair.hpp
-  geometry/mesh/reshape.hpp
+  geometry/mesh/generate/generators.hpp
+  geometry/mesh/io/import.hpp
+  geometry/mesh/generate/membrane.hpp
+  geometry/mesh/io/mesh_file.hpp
+  geometry/mesh/repair/orientation.hpp
+  geometry/mesh/repair/remesh.hpp
+  geometry/mesh/repair/repair.hpp
+  geometry/mesh/repair/reshape.hpp
   geometry/queries.hpp
   geometry/version.hpp)
 foreach(header IN LISTS public_headers)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/contacts.hpp"
-#include "contact/material.hpp"
+#include "contact/base/material.hpp"
 
 #include <functional>
 #include <memory>
@@ -29,7 +29,7 @@ struct ContactScene {
 /// Which contact law a scene has, with the properties of its pairs of materials: makes the contacts
 /// of a scene.
 ///
-/// contact/laws/models.hpp has them: of laws that come with the library, and of one's own.
+/// contact/models.hpp has them: of laws that come with the library, and of one's own.
 using ContactModel = std::function<std::unique_ptr<Contacts>(ContactScene)>;
 
 }  // namespace plekton::contact

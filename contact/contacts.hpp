@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/bodies.hpp"
-#include "contact/contact_row.hpp"
-#include "contact/motion.hpp"
-#include "contact/pair_springs.hpp"
-#include "geometry/cell_neighbours.hpp"
-#include "geometry/function_ref.hpp"
-#include "geometry/neighbours.hpp"
-#include "geometry/proximity.hpp"
-#include "geometry/surface_change.hpp"
-#include "geometry/thread_pool.hpp"
+#include "contact/base/bodies.hpp"
+#include "contact/tracking/contact_row.hpp"
+#include "contact/base/motion.hpp"
+#include "contact/law/pair_springs.hpp"
+#include "geometry/neighbor/cell_neighbours.hpp"
+#include "geometry/base/function_ref.hpp"
+#include "geometry/neighbor/neighbours.hpp"
+#include "geometry/primitives/proximity.hpp"
+#include "geometry/primitives/surface_change.hpp"
+#include "geometry/base/thread_pool.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -50,12 +50,12 @@ class Contacts {
   Contacts& operator=(const Contacts&) = delete;
   virtual ~Contacts() = default;
 
-  /// From now on the spheres' lists choose their skin by themselves (geometry/neighbours.hpp).
+  /// From now on the spheres' lists choose their skin by themselves (geometry/neighbor/neighbours.hpp).
   /// @param radius  m, > 0, of a usual sphere
   virtual void tune_skin(double radius) noexcept = 0;
 
   /// From now on the lists of structures choose their skin by themselves
-  /// (geometry/cell_neighbours.hpp).
+  /// (geometry/neighbor/cell_neighbours.hpp).
   virtual void choose_skin_of_structures() = 0;
 
   /// One step: finds who touches whom, carries histories over, asks the law, and sets the forces of

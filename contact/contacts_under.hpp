@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/balls/ball_contacts.hpp"
+#include "contact/sphere_sphere/ball_contacts.hpp"
 #include "contact/contact_model.hpp"
-#include "contact/laws/any_law.hpp"
-#include "contact/laws/linear_frictional.hpp"
-#include "contact/plane_contacts.hpp"
-#include "contact/plane_neighbours.hpp"
-#include "contact/structure_contacts.hpp"
-#include "contact/surface_contacts.hpp"
-#include "geometry/cell_neighbours.hpp"
-#include "geometry/neighbours.hpp"
+#include "contact/law/any_law.hpp"
+#include "contact/law/linear_frictional.hpp"
+#include "contact/sphere_plane/plane_contacts.hpp"
+#include "contact/sphere_plane/plane_neighbours.hpp"
+#include "contact/surface_surface/structure_contacts.hpp"
+#include "contact/sphere_surface/surface_contacts.hpp"
+#include "geometry/neighbor/cell_neighbours.hpp"
+#include "geometry/neighbor/neighbours.hpp"
 
 #include <cstdint>
 #include <map>
@@ -20,7 +20,7 @@
 
 namespace plekton::contact {
 
-/// Contacts under a law that is known as a type. Laws of one's own need none: laws/models.hpp.
+/// Contacts under a law that is known as a type. Laws of one's own need none: models.hpp.
 template <ContactLaw Law>
 class ContactsUnder final : public Contacts {
  public:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/loads_check.hpp"
-#include "dynamics/scene.hpp"
-#include "dynamics/shape_check.hpp"
-#include "geometry/problems.hpp"
+#include "dynamics/model/scene.hpp"
+#include "dynamics/model/shape_check.hpp"
+#include "geometry/base/problems.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/simulation.hpp"
 
-#include "dynamics/fault_finder.hpp"
-#include "dynamics/readout/unbalanced_force.hpp"
-#include "dynamics/require_index.hpp"
-#include "dynamics/scene_figures.hpp"
-#include "dynamics/step_chooser.hpp"
-#include "dynamics/step_limits.hpp"
-#include "dynamics/structure/broken_elements.hpp"
-#include "geometry/node_sets.hpp"
-#include "geometry/problems.hpp"
+#include "dynamics/measures/fault_finder.hpp"
+#include "dynamics/measures/unbalanced_force.hpp"
+#include "dynamics/model/require_index.hpp"
+#include "dynamics/model/scene_figures.hpp"
+#include "dynamics/time_step/step_chooser.hpp"
+#include "dynamics/time_step/step_limits.hpp"
+#include "dynamics/broken_elements.hpp"
+#include "geometry/primitives/node_sets.hpp"
+#include "geometry/base/problems.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/laws/models.hpp"
-#include "dynamics/diverged.hpp"
-#include "dynamics/energy.hpp"
-#include "dynamics/exact_step.hpp"
+#include "contact/models.hpp"
+#include "dynamics/measures/diverged.hpp"
+#include "dynamics/measures/energy.hpp"
+#include "dynamics/time_step/exact_step.hpp"
 #include "dynamics/integrators/leapfrog.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/loads/plane_servo.hpp"
-#include "dynamics/motion_step.hpp"
-#include "dynamics/readout/bond_stress.hpp"
-#include "dynamics/readout/facet_traction.hpp"
-#include "dynamics/readout/reactions.hpp"
-#include "dynamics/scene.hpp"
-#include "dynamics/step_cause.hpp"
+#include "dynamics/time_step/motion_step.hpp"
+#include "dynamics/measures/bond_stress.hpp"
+#include "dynamics/measures/facet_traction.hpp"
+#include "dynamics/measures/reactions.hpp"
+#include "dynamics/model/scene.hpp"
+#include "dynamics/time_step/step_cause.hpp"
 #include "dynamics/structure/beam_bond.hpp"
-#include "dynamics/structure/broken_elements.hpp"
+#include "dynamics/broken_elements.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/yielding_bonds.hpp"
-#include "dynamics/time_step.hpp"
+#include "dynamics/state/nodal_stiffness.hpp"
 
 #include <array>
 #include <cstdint>
@@ -34,7 +34,7 @@ namespace plekton::dynamics {
 struct SimulationOptions {
   double time_step = 0.0;  ///< s; 0 chooses one as it goes: kSafety times the critical step with
                            ///< the contacts of now and those that are near (step_chooser.hpp),
-                           ///< shorter while something is fast (dynamics/motion_step.hpp)
+                           ///< shorter while something is fast (dynamics/time_step/motion_step.hpp)
   MotionOptions motion;
   double skin =
       0.0;  ///< m, how far apart a pair may be when it is listed; 0 begins with a fifth of
@@ -73,7 +73,7 @@ class Simulation {
   bool step_until(double end);
 
   /// Breaks a bond for good, in the next step: it carries nothing any more, and the elements it
-  /// held are gone from elements() and surface() (structure/broken_elements.hpp). Nothing touches
+  /// held are gone from elements() and surface() (broken_elements.hpp). Nothing touches
   /// them then; contacts on what is left go on with their histories. Masses stay with the nodes, so
   /// no momentum is lost; what the bond had stored is counted as dissipated, and what contacts had
   /// as lost in tracking.
@@ -136,14 +136,14 @@ class Simulation {
   std::vector<contact::ContactRow> contact_rows() const;
   /// What bodies do to a plane, about force_point(plane).
   ForceAndMoment plane_reaction(std::size_t plane) const;
-  /// What the supports of nodes bear: readout/reactions.hpp. Of grains, membranes and any other
+  /// What the supports of nodes bear: measures/reactions.hpp. Of grains, membranes and any other
   /// bodies contact_force_on() there tells what contacts do to them.
   /// @param about  m, point of the moment
   ForceAndMoment support_reaction(std::span<const NodeId> nodes, const Vec3& about) const;
-  /// How far from balance the last step was: readout/unbalanced_force.hpp. Like all reading out it
+  /// How far from balance the last step was: measures/unbalanced_force.hpp. Like all reading out it
   /// costs nothing until it is asked for; then time linear in the number of nodes and contacts.
   double unbalanced_force_ratio() const;
-  /// What contacts did to the facets in the last step: readout/facet_traction.hpp.
+  /// What contacts did to the facets in the last step: measures/facet_traction.hpp.
   std::vector<FacetTraction> facet_tractions();
   /// Of a bond as its nodes are now.
   BondStress bond_stress(std::size_t bond) const;
@@ -180,7 +180,7 @@ class Simulation {
   /// short.
   ExactStep exact_critical_step() const;
   /// How far the fastest node moves in a step over the smallest radius: of the spheres, or of the
-  /// structures if there are none. Above kLargestMotion (dynamics/motion_step.hpp) contacts are
+  /// structures if there are none. Above kLargestMotion (dynamics/time_step/motion_step.hpp) contacts are
   /// seen late; a chosen step keeps below that, a given one may not.
   double motion_ratio() const noexcept;
 

@@ -21,10 +21,10 @@
 /// area is the union of its sides, a cylinder without length a ball. Cores that meet are reported
 /// as such (Relation), with the shortest way out. Wrong input throws std::invalid_argument that
 /// lists every problem; nothing else is thrown but std::bad_alloc.
-#include "geometry/elements.hpp"
-#include "geometry/primitive_pairs.hpp"
-#include "geometry/proximity_query.hpp"
+#include "geometry/primitives/elements.hpp"
+#include "geometry/closest/primitive_pairs.hpp"
+#include "geometry/query/proximity_query.hpp"
 #include "geometry/query/first_contact.hpp"
 #include "geometry/query/ray.hpp"
 #include "geometry/query/surface_query.hpp"
-#include "geometry/thread_pool.hpp"
+#include "geometry/base/thread_pool.hpp"

@@ -16,7 +16,7 @@
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/toml_file.hpp"
 #include "apps/scenario/units.hpp"
-#include "geometry/printable.hpp"
+#include "geometry/base/printable.hpp"
 #include "geometry/version.hpp"
 
 #include <CLI/CLI.hpp>

@@ -3,8 +3,8 @@
 
 #include "apps/run/output_folder.hpp"
 #include "dynamics/output/file.hpp"
-#include "geometry/mesh/import.hpp"
-#include "geometry/mesh/mesh_file.hpp"
+#include "geometry/mesh/io/import.hpp"
+#include "geometry/mesh/io/mesh_file.hpp"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/mesh/repair.hpp"
+#include "geometry/mesh/repair/repair.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "apps/run/frames.hpp"
 #include "apps/run/history.hpp"
 #include "apps/run/reactions.hpp"
-#include "dynamics/diverged.hpp"
+#include "dynamics/measures/diverged.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "apps/command_line/start_listing.hpp"
 
 #include "apps/scenario/section.hpp"
-#include "geometry/box.hpp"
+#include "geometry/primitives/box.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/run/run.hpp"
-#include "geometry/box.hpp"
+#include "geometry/primitives/box.hpp"
 
 #include <string>
 #include <vector>

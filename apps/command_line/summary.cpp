@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/summary.hpp"
 
-#include "geometry/mesh/report.hpp"
+#include "geometry/mesh/repair/report.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/bodies.hpp"
-#include "geometry/box.hpp"
-#include "geometry/types.hpp"
+#include "contact/base/bodies.hpp"
+#include "geometry/primitives/box.hpp"
+#include "geometry/base/types.hpp"
 
 #include <array>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/body_tables.hpp"
 
-#include "geometry/product_features.hpp"
+#include "geometry/critical/product_features.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/elements.hpp"
-#include "geometry/neighbours.hpp"
+#include "geometry/primitives/elements.hpp"
+#include "geometry/neighbor/neighbours.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "apps/run/overlap.hpp"
 
 #include "geometry/closest/core_pair.hpp"
-#include "geometry/product_features.hpp"
+#include "geometry/critical/product_features.hpp"
 
 #include <fmt/format.h>
 

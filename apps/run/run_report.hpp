@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/scene/build_scene.hpp"
-#include "dynamics/energy.hpp"
+#include "dynamics/measures/energy.hpp"
 
 #include <cstdint>
 #include <filesystem>

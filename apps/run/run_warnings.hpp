@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/run/run_report.hpp"
-#include "dynamics/motion_step.hpp"
+#include "dynamics/time_step/motion_step.hpp"
 
 #include <string>
 #include <vector>

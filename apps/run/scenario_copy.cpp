@@ -2,7 +2,7 @@
 #include "apps/run/scenario_copy.hpp"
 
 #include "dynamics/output/file.hpp"
-#include "geometry/printable.hpp"
+#include "geometry/base/printable.hpp"
 
 #include <system_error>
 

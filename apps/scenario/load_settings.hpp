@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/scenario/problems.hpp"
-#include "dynamics/loads/loads.hpp"
-#include "geometry/box.hpp"
+#include "dynamics/model/loads.hpp"
+#include "geometry/primitives/box.hpp"
 
 #include <cstddef>
 #include <cstdint>

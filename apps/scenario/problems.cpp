@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/problems.hpp"
 
-#include "geometry/printable.hpp"
+#include "geometry/base/printable.hpp"
 
 #include <fmt/format.h>
 

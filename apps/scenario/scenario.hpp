@@ -5,13 +5,13 @@
 #include "apps/scenario/load_settings.hpp"
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/shape_settings.hpp"
-#include "contact/laws/law_list.hpp"
+#include "contact/law/law_list.hpp"
 #include "dynamics/structure/bond_strength.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
 #include "dynamics/structure/wire_curve.hpp"
-#include "geometry/box.hpp"
-#include "geometry/mesh/repair.hpp"
-#include "geometry/types.hpp"
+#include "geometry/primitives/box.hpp"
+#include "geometry/mesh/repair/repair.hpp"
+#include "geometry/base/types.hpp"
 
 #include <cstdint>
 #include <filesystem>

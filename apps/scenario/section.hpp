@@ -4,7 +4,7 @@
 #include "apps/scenario/config_tree.hpp"
 #include "apps/scenario/key_recorder.hpp"
 #include "apps/scenario/units.hpp"
-#include "geometry/types.hpp"
+#include "geometry/base/types.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/mesh/generators.hpp"
-#include "geometry/mesh/lattice.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "geometry/mesh/generate/lattice.hpp"
 
 #include <array>
 #include <variant>

@@ -2,7 +2,7 @@
 #include "apps/scenario/toml_file.hpp"
 
 #include "apps/scenario/toml_depth.hpp"
-#include "geometry/regular_file.hpp"
+#include "geometry/base/regular_file.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>

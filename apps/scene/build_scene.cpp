@@ -5,8 +5,8 @@
 #include "apps/scene/build_reactions.hpp"
 #include "apps/scene/grain_generator.hpp"
 #include "apps/scene/membrane_builder.hpp"
-#include "geometry/mesh/import.hpp"
-#include "geometry/space_order.hpp"
+#include "geometry/mesh/io/import.hpp"
+#include "geometry/neighbor/space_order.hpp"
 
 #include <fmt/format.h>
 

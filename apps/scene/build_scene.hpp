@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/scenario/scenario.hpp"
-#include "dynamics/scene.hpp"
-#include "geometry/mesh/report.hpp"
+#include "dynamics/model/scene.hpp"
+#include "geometry/mesh/repair/report.hpp"
 
 #include <cstddef>
 #include <functional>

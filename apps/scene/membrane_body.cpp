@@ -2,7 +2,7 @@
 #include "apps/scene/membrane_body.hpp"
 
 #include "geometry/mesh/edge_table.hpp"
-#include "geometry/mesh/import.hpp"
+#include "geometry/mesh/io/import.hpp"
 
 #include <fmt/format.h>
 

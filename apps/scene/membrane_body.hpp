@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/scenario/scenario.hpp"
-#include "geometry/mesh/membrane.hpp"
-#include "geometry/mesh/report.hpp"
+#include "geometry/mesh/generate/membrane.hpp"
+#include "geometry/mesh/repair/report.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -2,8 +2,8 @@
 #include "dynamics/integrators/leapfrog.hpp"
 
 #include "dynamics/integrators/leapfrog_lanes.hpp"
-#include "geometry/rows.hpp"
-#include "geometry/vector_width.hpp"
+#include "geometry/base/rows.hpp"
+#include "geometry/base/vector_width.hpp"
 
 namespace plekton::dynamics {
 namespace {

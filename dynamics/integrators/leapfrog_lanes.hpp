@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dynamics/integrators/leapfrog.hpp"
-#include "dynamics/rotation_step.hpp"
-#include "geometry/lanes.hpp"
+#include "dynamics/state/rotation_step.hpp"
+#include "geometry/base/lanes.hpp"
 
 #include <array>
 #include <cstdint>

@@ -6,8 +6,8 @@
 #include "dynamics/loads/prescribed_motion.hpp"
 #include "dynamics/loads/surface_pressure.hpp"
 #include "dynamics/loads/viscous_damping.hpp"
-#include "dynamics/scene.hpp"
-#include "dynamics/time_step.hpp"
+#include "dynamics/model/scene.hpp"
+#include "dynamics/state/nodal_stiffness.hpp"
 
 namespace plekton::dynamics {
 

@@ -3,7 +3,7 @@
 
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/loads/loaded_nodes.hpp"
-#include "dynamics/loads/loads.hpp"
+#include "dynamics/model/loads.hpp"
 
 namespace plekton::dynamics {
 

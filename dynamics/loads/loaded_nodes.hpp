@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/node_state.hpp"
-#include "geometry/parallel_sum.hpp"
+#include "dynamics/state/node_state.hpp"
+#include "geometry/base/parallel_sum.hpp"
 
 #include <vector>
 

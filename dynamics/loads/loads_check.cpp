@@ -2,7 +2,7 @@
 #include "dynamics/loads/loads_check.hpp"
 
 #include "dynamics/loads/surface_pressure_check.hpp"
-#include "dynamics/scene.hpp"
+#include "dynamics/model/scene.hpp"
 
 #include <algorithm>
 #include <array>

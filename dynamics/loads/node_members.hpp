@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/node_state.hpp"
+#include "dynamics/state/node_state.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/bodies.hpp"
+#include "contact/base/bodies.hpp"
 #include "dynamics/loads/load_step.hpp"
-#include "dynamics/loads/loads.hpp"
+#include "dynamics/model/loads.hpp"
 
 #include <functional>
 #include <span>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dynamics/loads/load_step.hpp"
-#include "dynamics/loads/loads.hpp"
-#include "geometry/parallel_sum.hpp"
+#include "dynamics/model/loads.hpp"
+#include "geometry/base/parallel_sum.hpp"
 
 namespace plekton::dynamics {
 

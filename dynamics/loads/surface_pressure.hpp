@@ -3,10 +3,10 @@
 
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/loads/loaded_nodes.hpp"
-#include "dynamics/loads/loads.hpp"
+#include "dynamics/model/loads.hpp"
 #include "dynamics/loads/node_members.hpp"
-#include "geometry/facet.hpp"
-#include "geometry/surface_change.hpp"
+#include "geometry/primitives/facet.hpp"
+#include "geometry/primitives/surface_change.hpp"
 
 #include <span>
 

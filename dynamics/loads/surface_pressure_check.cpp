@@ -2,8 +2,8 @@
 #include "dynamics/loads/surface_pressure_check.hpp"
 
 #include "dynamics/loads/surface_pressure.hpp"
-#include "dynamics/scene.hpp"
-#include "geometry/node_sets.hpp"
+#include "dynamics/model/scene.hpp"
+#include "geometry/primitives/node_sets.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/loads/loads.hpp"
-#include "geometry/facet.hpp"
+#include "dynamics/model/loads.hpp"
+#include "geometry/primitives/facet.hpp"
 
 #include <iosfwd>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/contact_row.hpp"
+#include "contact/tracking/contact_row.hpp"
 #include "dynamics/output/csv_writer.hpp"
 #include "dynamics/output/output_field.hpp"
 

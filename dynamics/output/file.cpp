@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/output/file.hpp"
 
-#include "geometry/new_file.hpp"
+#include "geometry/base/new_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/contact_row.hpp"
+#include "contact/tracking/contact_row.hpp"
 #include "dynamics/output/contact_fields.hpp"
 #include "dynamics/output/vtk_writer.hpp"
-#include "dynamics/readout/bond_stress.hpp"
-#include "dynamics/readout/facet_traction.hpp"
+#include "dynamics/measures/bond_stress.hpp"
+#include "dynamics/measures/facet_traction.hpp"
 #include "dynamics/structure/membrane_force.hpp"
-#include "geometry/cylinder.hpp"
-#include "geometry/facet.hpp"
-#include "geometry/sphere.hpp"
+#include "geometry/primitives/cylinder.hpp"
+#include "geometry/primitives/facet.hpp"
+#include "geometry/primitives/sphere.hpp"
 
 #include <cstdint>
 #include <span>

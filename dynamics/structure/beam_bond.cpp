@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/beam_bond.hpp"
 
-#include "geometry/problems.hpp"
-#include "geometry/vector_width.hpp"
+#include "geometry/base/problems.hpp"
+#include "geometry/base/vector_width.hpp"
 
 #include <algorithm>
 #include <cmath>

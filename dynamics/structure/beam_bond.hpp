@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/node_state.hpp"
+#include "dynamics/state/node_state.hpp"
 #include "dynamics/structure/beam_blocks.hpp"
 #include "dynamics/structure/beam_rows.hpp"
 #include "dynamics/structure/bond_forces.hpp"
-#include "geometry/thread_pool.hpp"
+#include "geometry/base/thread_pool.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/rotation_step.hpp"
-#include "geometry/pack.hpp"
+#include "dynamics/state/rotation_step.hpp"
+#include "geometry/base/pack.hpp"
 
 #include <limits>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/node_state.hpp"
+#include "dynamics/state/node_state.hpp"
 #include "dynamics/structure/beam_kernel.hpp"
-#include "geometry/lanes.hpp"
-#include "geometry/rows.hpp"
+#include "geometry/base/lanes.hpp"
+#include "geometry/base/rows.hpp"
 
 #include <array>
 #include <cstdint>

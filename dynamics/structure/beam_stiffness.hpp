@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dynamics/structure/beam_bond.hpp"
-#include "dynamics/time_step.hpp"
+#include "dynamics/state/nodal_stiffness.hpp"
 
 namespace plekton::dynamics {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/bond_yield.hpp"
 
-#include "dynamics/rotation_step.hpp"
+#include "dynamics/state/rotation_step.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/bonds_along.hpp"
 
-#include "geometry/node_sets.hpp"
+#include "geometry/primitives/node_sets.hpp"
 
 #include <algorithm>
 #include <array>

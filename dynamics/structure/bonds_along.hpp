@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dynamics/structure/beam_bond.hpp"
-#include "geometry/cylinder.hpp"
+#include "geometry/primitives/cylinder.hpp"
 
 #include <limits>
 #include <span>

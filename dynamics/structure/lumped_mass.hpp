@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/node_state.hpp"
+#include "dynamics/state/node_state.hpp"
 #include "dynamics/structure/beam_bond.hpp"
-#include "geometry/facet.hpp"
+#include "geometry/primitives/facet.hpp"
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/sheet_facet.hpp"
 
-#include "geometry/problems.hpp"
+#include "geometry/base/problems.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "dynamics/structure/membrane_force.hpp"
 #include "dynamics/structure/sheet_bending.hpp"
 #include "dynamics/structure/sheet_kernel.hpp"
-#include "geometry/problems.hpp"
+#include "geometry/base/problems.hpp"
 
 #include <Eigen/LU>
 

@@ -3,8 +3,8 @@
 
 #include "dynamics/structure/beam_blocks.hpp"
 #include "dynamics/structure/sheet_spring.hpp"
-#include "dynamics/time_step.hpp"
-#include "geometry/thread_pool.hpp"
+#include "dynamics/state/nodal_stiffness.hpp"
+#include "geometry/base/thread_pool.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/closest/certificate.hpp"
 
-#include "geometry/predicates.hpp"
+#include "geometry/base/predicates.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/proximity.hpp"
-#include "geometry/types.hpp"
+#include "geometry/primitives/proximity.hpp"
+#include "geometry/base/types.hpp"
 
 #include <cstdint>
 

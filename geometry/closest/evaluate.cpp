@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/closest/decide.hpp"
-#include "geometry/foot_point.hpp"
-#include "geometry/predicates.hpp"
+#include "geometry/closest/foot_point.hpp"
+#include "geometry/base/predicates.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/mesh.hpp"
 
-#include "geometry/printable.hpp"
+#include "geometry/base/printable.hpp"
 
 namespace plekton::geometry {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/box.hpp"
+#include "geometry/primitives/box.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/primitive_pairs.hpp"
+#include "geometry/closest/primitive_pairs.hpp"
 #include "geometry/query/box_tree.hpp"
 
 namespace plekton::geometry {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/query/surface_query.hpp"
 
-#include "geometry/problems.hpp"
+#include "geometry/base/problems.hpp"
 #include "geometry/query/probe_check.hpp"
 #include "geometry/query/ray_search.hpp"
 

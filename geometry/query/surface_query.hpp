@@ -5,7 +5,7 @@
 #include "geometry/query/enclosure.hpp"
 #include "geometry/query/nearest_search.hpp"
 #include "geometry/query/ray.hpp"
-#include "geometry/thread_pool.hpp"
+#include "geometry/base/thread_pool.hpp"
 
 #include <optional>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/types.hpp"
+#include "geometry/base/types.hpp"
 
 #include <filesystem>
 #include <vector>

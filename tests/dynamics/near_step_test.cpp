@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/simulation.hpp"
-#include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A user's own contact law in a simulation: one file, and the model that is made of it.
-#include "contact/laws/models.hpp"
+#include "contact/models.hpp"
 #include "dynamics/simulation.hpp"
 #include "tests/support/weakening_slider.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/simulation.hpp"
 
-#include "geometry/mesh/generators.hpp"
-#include "geometry/mesh/membrane.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "geometry/mesh/generate/membrane.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,10 +2,10 @@
 // libFuzzer target of the whole import: the first byte chooses the reader, the second the repairs,
 // the others are the file. Whatever it holds, the outcome is a mesh that fits its report, or a
 // refusal.
-#include "geometry/mesh/fill_holes.hpp"
-#include "geometry/mesh/mesh_file.hpp"
-#include "geometry/mesh/remesh.hpp"
-#include "geometry/mesh/repair.hpp"
+#include "geometry/mesh/repair/fill_holes.hpp"
+#include "geometry/mesh/io/mesh_file.hpp"
+#include "geometry/mesh/repair/remesh.hpp"
+#include "geometry/mesh/repair/repair.hpp"
 #include "tests/fuzz/require.hpp"
 
 #include <algorithm>

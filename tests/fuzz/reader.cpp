@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // libFuzzer target of one mesh format, PLEKTON_FUZZ_FORMAT: any bytes are either a soup of polygons
 // with finite points and corners that exist, or refused with a MeshError.
-#include "geometry/mesh/mesh_file.hpp"
+#include "geometry/mesh/io/mesh_file.hpp"
 #include "tests/fuzz/require.hpp"
 
 #include <cstdint>

@@ -20,7 +20,7 @@ struct Touch {
 /// promises nothing.
 using ForceRule = std::function<std::optional<geometry::Vec3>(const Touch&)>;
 
-/// Patches of contact/patch.hpp; none where passes close a ring, because how fast shares of a hole
+/// Patches of contact/sphere_surface/patch.hpp; none where passes close a ring, because how fast shares of a hole
 /// change depends on the ring.
 std::optional<geometry::Vec3> force_of_patches(const Touch& touch);
 

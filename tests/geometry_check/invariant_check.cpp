@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/geometry_check/invariant_check.hpp"
 
-#include "geometry/critical_features.hpp"
+#include "geometry/critical/critical_features.hpp"
 #include "tests/geometry_check/any_surface.hpp"
 #include "tests/geometry_check/force_check.hpp"
 #include "tests/geometry_check/spread_check.hpp"

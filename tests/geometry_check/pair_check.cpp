@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/geometry_check/pair_check.hpp"
 
-#include "geometry/predicates.hpp"
+#include "geometry/base/predicates.hpp"
 #include "tests/support/closest_checks.hpp"
 #include "tests/support/point_triangle_families.hpp"
 

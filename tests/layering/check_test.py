@@ -19,7 +19,7 @@ class SeededTree(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
-        for name in ("geometry/box.hpp", "contact/patch.hpp", "dynamics/scene.hpp", "geometry/mesh/repair.hpp", "tests/support/lattice.hpp"):
+        for name in ("geometry/primitives/box.hpp", "contact/sphere_surface/patch.hpp", "dynamics/model/scene.hpp", "geometry/mesh/repair/repair.hpp", "tests/support/lattice.hpp"):
             self.write(name, TAG)
 
     def write(self, path, text):
@@ -41,13 +41,13 @@ class SeededTree(unittest.TestCase):
         self.assertEqual(self.violations_of(path, text), [])
 
     def test_a_clean_tree_has_no_violation(self):
-        self.assert_clean("dynamics/scene.cpp", TAG + '#include "dynamics/scene.hpp"\n#include "contact/patch.hpp"\n#include "geometry/box.hpp"\n')
+        self.assert_clean("dynamics/model/scene.cpp", TAG + '#include "dynamics/model/scene.hpp"\n#include "contact/sphere_surface/patch.hpp"\n#include "geometry/primitives/box.hpp"\n')
 
     def test_includes_against_the_arrow_are_flagged(self):
         for path, header in (
-            ("geometry/box.cpp", "contact/patch.hpp"),
-            ("contact/patch.cpp", "dynamics/scene.hpp"),
-            ("dynamics/scene.cpp", "tests/support/lattice.hpp"),
+            ("geometry/primitives/box.cpp", "contact/sphere_surface/patch.hpp"),
+            ("contact/sphere_surface/patch.cpp", "dynamics/model/scene.hpp"),
+            ("dynamics/model/scene.cpp", "tests/support/lattice.hpp"),
         ):
             with self.subTest(path=path):
                 self.assert_flagged(path, TAG + f'#include "{header}"\n', "against the arrow")
@@ -65,25 +65,25 @@ class SeededTree(unittest.TestCase):
         self.assert_flagged("apps/units.cpp", TAG, "none of the folders of apps")
 
     def test_the_line_of_an_include_is_named_and_spaces_do_not_hide_it(self):
-        self.assert_flagged("geometry/box.cpp", TAG + '\n  #  include <contact/patch.hpp>\n', "geometry/box.cpp:3")
+        self.assert_flagged("geometry/primitives/box.cpp", TAG + '\n  #  include <contact/sphere_surface/patch.hpp>\n', "geometry/primitives/box.cpp:3")
 
     def test_tests_may_include_everything(self):
-        self.assert_clean("tests/geometry/box_test.cpp", TAG + '#include "dynamics/scene.hpp"\n#include <CGAL/Gmpq.h>\n')
+        self.assert_clean("tests/geometry/primitives/box_test.cpp", TAG + '#include "dynamics/model/scene.hpp"\n#include <CGAL/Gmpq.h>\n')
 
     def test_an_include_that_does_not_start_at_the_root_is_flagged(self):
-        self.assert_flagged("geometry/box.cpp", TAG + '#include "box.hpp"\n', "name it from there")
+        self.assert_flagged("geometry/primitives/box.cpp", TAG + '#include "box.hpp"\n', "name it from there")
 
     def test_the_core_may_not_include_the_mesh_folder(self):
-        self.assert_flagged("geometry/box.cpp", TAG + '#include "geometry/mesh/repair.hpp"\n', "not part of it")
+        self.assert_flagged("geometry/primitives/box.cpp", TAG + '#include "geometry/mesh/repair/repair.hpp"\n', "not part of it")
 
     def test_packages_outside_their_file_are_flagged(self):
         for path, header, reason in (
-            ("geometry/box.cpp", "fcl/fcl.h", "only geometry/broad_phase.cpp"),
-            ("geometry/box.cpp", "ccd/ccd.h", "only geometry/closest/deep.cpp"),
-            ("geometry/broad_phase.hpp", "fcl/fcl.h", "only geometry/broad_phase.cpp"),
-            ("geometry/box.cpp", "CGAL/Interval_nt.h", "only geometry/predicates.cpp"),
-            ("geometry/mesh/repair.hpp", "CGAL/Surface_mesh.h", "out of sight"),
-            ("contact/patch.cpp", "CGAL/Gmpq.h", "only geometry/predicates.cpp"),
+            ("geometry/primitives/box.cpp", "fcl/fcl.h", "only geometry/neighbor/broad_phase.cpp"),
+            ("geometry/primitives/box.cpp", "ccd/ccd.h", "only geometry/closest/deep.cpp"),
+            ("geometry/neighbor/broad_phase.hpp", "fcl/fcl.h", "only geometry/neighbor/broad_phase.cpp"),
+            ("geometry/primitives/box.cpp", "CGAL/Interval_nt.h", "only geometry/base/predicates.cpp"),
+            ("geometry/mesh/repair/repair.hpp", "CGAL/Surface_mesh.h", "out of sight"),
+            ("contact/sphere_surface/patch.cpp", "CGAL/Gmpq.h", "only geometry/base/predicates.cpp"),
             ("apps/main.cpp", "ccd/vec3.h", "only geometry/closest/deep.cpp"),
         ):
             with self.subTest(path=path, header=header):
@@ -91,24 +91,24 @@ class SeededTree(unittest.TestCase):
                 self.write(path, TAG)
 
     def test_packages_in_their_own_file_are_clean(self):
-        self.assert_clean("geometry/broad_phase.cpp", TAG + "#include <fcl/fcl.h>\n")
+        self.assert_clean("geometry/neighbor/broad_phase.cpp", TAG + "#include <fcl/fcl.h>\n")
         self.assert_clean("geometry/closest/deep.cpp", TAG + "#include <ccd/ccd.h>\n")
-        self.assert_clean("geometry/predicates.cpp", TAG + "#include <CGAL/Interval_nt.h>\n")
-        self.assert_clean("geometry/mesh/repair.cpp", TAG + "#include <CGAL/Surface_mesh.h>\n")
+        self.assert_clean("geometry/base/predicates.cpp", TAG + "#include <CGAL/Interval_nt.h>\n")
+        self.assert_clean("geometry/mesh/repair/repair.cpp", TAG + "#include <CGAL/Surface_mesh.h>\n")
 
     def test_a_gpl_header_in_the_core_is_flagged(self):
-        self.assert_flagged("geometry/predicates.cpp", TAG + "#include <CGAL/Surface_mesh.h>\n", "only LGPL headers")
+        self.assert_flagged("geometry/base/predicates.cpp", TAG + "#include <CGAL/Surface_mesh.h>\n", "only LGPL headers")
 
     def test_a_missing_licence_tag_is_flagged(self):
-        self.assert_flagged("geometry/box.cpp", '#include "geometry/box.hpp"\n', "SPDX")
-        self.assert_flagged("geometry/box.cpp", "", "SPDX")
+        self.assert_flagged("geometry/primitives/box.cpp", '#include "geometry/primitives/box.hpp"\n', "SPDX")
+        self.assert_flagged("geometry/primitives/box.cpp", "", "SPDX")
 
     def test_a_licence_tag_may_follow_the_interpreter_line(self):
         self.assert_clean("apps/quickstart.sh", f"#!/bin/sh\n# {SPDX}\n")
 
     def test_a_file_that_is_too_long_is_flagged(self):
-        self.assert_clean("geometry/box.cpp", TAG + "\n" * (MAX_LINES - 1))
-        self.assert_flagged("geometry/box.cpp", TAG + "\n" * MAX_LINES, "split it")
+        self.assert_clean("geometry/primitives/box.cpp", TAG + "\n" * (MAX_LINES - 1))
+        self.assert_flagged("geometry/primitives/box.cpp", TAG + "\n" * MAX_LINES, "split it")
 
     def test_build_folders_are_not_read(self):
         self.assert_clean("build/dev/generated.cpp", "no tag\n")

@@ -16,10 +16,10 @@ APP_FOLDERS = ("grains", "scenario", "scene", "run", "command_line")
 
 MAX_LINES = 400
 
-ONLY_HOME = {"fcl": "geometry/broad_phase.cpp", "ccd": "geometry/closest/deep.cpp"}
+ONLY_HOME = {"fcl": "geometry/neighbor/broad_phase.cpp", "ccd": "geometry/closest/deep.cpp"}
 """Package folder of the headers: the only file that may include them."""
 
-CGAL_HOMES = ("geometry/predicates.cpp", "geometry/space_order.cpp")
+CGAL_HOMES = ("geometry/base/predicates.cpp", "geometry/neighbor/space_order.cpp")
 """The only files outside geometry/mesh that may include CGAL."""
 
 CGAL_CORE_HEADERS = {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/laws/linear_frictional.hpp"
-#include "contact/surface_contacts.hpp"
+#include "contact/law/linear_frictional.hpp"
+#include "contact/sphere_surface/surface_contacts.hpp"
 #include "tests/support/contact_surfaces.hpp"
 
 #include <vector>

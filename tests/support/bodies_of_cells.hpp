@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/laws/linear_frictional.hpp"
-#include "contact/structure_contacts.hpp"
-#include "geometry/cell_neighbours.hpp"
-#include "geometry/elements.hpp"
+#include "contact/law/linear_frictional.hpp"
+#include "contact/surface_surface/structure_contacts.hpp"
+#include "geometry/neighbor/cell_neighbours.hpp"
+#include "geometry/primitives/elements.hpp"
 
 #include <Eigen/Geometry>
 

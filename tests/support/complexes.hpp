@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/elements.hpp"
+#include "geometry/primitives/elements.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <array>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/laws/any_law.hpp"
-#include "contact/laws/cohesive_frictional.hpp"
-#include "contact/laws/dashpot.hpp"
-#include "contact/laws/dmt_adhesion.hpp"
-#include "contact/laws/hertz_mindlin.hpp"
-#include "contact/laws/linear_frictional.hpp"
-#include "contact/laws/rolling_twisting.hpp"
-#include "contact/laws/sum.hpp"
+#include "contact/law/any_law.hpp"
+#include "contact/law/cohesive_frictional.hpp"
+#include "contact/law/dashpot.hpp"
+#include "contact/law/dmt_adhesion.hpp"
+#include "contact/law/hertz_mindlin.hpp"
+#include "contact/law/linear_frictional.hpp"
+#include "contact/law/rolling_twisting.hpp"
+#include "contact/law/sum.hpp"
 #include "tests/support/seeded_random.hpp"
 #include "tests/support/weakening_slider.hpp"
 

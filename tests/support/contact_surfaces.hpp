@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/patch.hpp"
+#include "contact/sphere_surface/patch.hpp"
 #include "tests/support/complexes.hpp"
 
 #include <numeric>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/scene.hpp"
+#include "dynamics/model/scene.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/laws/cohesive_frictional.hpp"
-#include "contact/laws/models.hpp"
+#include "contact/law/cohesive_frictional.hpp"
+#include "contact/models.hpp"
 
 #include <vector>
 

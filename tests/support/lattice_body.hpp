@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/scene.hpp"
-#include "geometry/mesh/generators.hpp"
-#include "geometry/mesh/membrane.hpp"
+#include "dynamics/model/scene.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "geometry/mesh/generate/membrane.hpp"
 
 #include <cstddef>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dynamics/simulation.hpp"
-#include "geometry/mesh/generators.hpp"
-#include "geometry/mesh/membrane.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "geometry/mesh/generate/membrane.hpp"
 
 #include <gmock/gmock.h>
 

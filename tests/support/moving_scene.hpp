@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/contacts_under.hpp"
-#include "contact/laws/linear_frictional.hpp"
+#include "contact/law/linear_frictional.hpp"
 #include "tests/support/contact_surfaces.hpp"
 
 #include <memory>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/laws/cohesive_frictional.hpp"
-#include "contact/laws/dmt_adhesion.hpp"
-#include "contact/laws/hertz_mindlin.hpp"
-#include "contact/laws/linear_frictional.hpp"
-#include "contact/laws/restitution.hpp"
-#include "contact/laws/with_parts.hpp"
+#include "contact/law/cohesive_frictional.hpp"
+#include "contact/law/dmt_adhesion.hpp"
+#include "contact/law/hertz_mindlin.hpp"
+#include "contact/law/linear_frictional.hpp"
+#include "contact/law/restitution.hpp"
+#include "contact/law/with_parts.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/seeded_random.hpp"
 #include "tests/support/sheet_structure.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/rotation_step.hpp"
-#include "dynamics/scene.hpp"
+#include "dynamics/state/rotation_step.hpp"
+#include "dynamics/model/scene.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/sheet_kernel.hpp"
 

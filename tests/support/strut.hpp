@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/box.hpp"
-#include "geometry/primitive_pairs.hpp"
+#include "geometry/primitives/box.hpp"
+#include "geometry/closest/primitive_pairs.hpp"
 
 #include <array>
 

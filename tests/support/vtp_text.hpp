@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/mesh/byte_order.hpp"
-#include "geometry/types.hpp"
+#include "geometry/mesh/io/byte_order.hpp"
+#include "geometry/base/types.hpp"
 
 #include <zlib.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/contact_law.hpp"
+#include "contact/law/contact_law.hpp"
 
 #include <algorithm>
 #include <type_traits>

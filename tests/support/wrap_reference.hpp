@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/elements.hpp"
+#include "geometry/primitives/elements.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-/// Reference of what the nodes of bars give back where they wrap a ball (contact/wrap.hpp), for
+/// Reference of what the nodes of bars give back where they wrap a ball (contact/sphere_surface/wrap.hpp), for
 /// springs of 1 N/m: by levels, with Simpson's rule, and with the bars' weights from as many normal
 /// equations.
 namespace plekton::test {

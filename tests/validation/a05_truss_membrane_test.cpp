@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/beam_structure.hpp"
 
 #include <Eigen/Cholesky>

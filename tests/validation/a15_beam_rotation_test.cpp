@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/rotation_step.hpp"
+#include "dynamics/state/rotation_step.hpp"
 #include "tests/support/beam_structure.hpp"
 
 #include <gtest/gtest.h>

@@ -12,8 +12,8 @@
 // and P is 535.4 N, not the 517.5 N of bars. Beams that are too soft in shear by 2 r / l = 0.38
 // (YADE) have 1.027 instead of 1.0704 and stay nearer to the 517.5 N.
 #include "dynamics/simulation.hpp"
-#include "geometry/mesh/generators.hpp"
-#include "geometry/mesh/membrane.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "geometry/mesh/generate/membrane.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // A22: a membrane, then a grid of the same lattice, is pulled out of a bed of 1368 grains between
 // two plates that press with 20 kPa. The pull over 2 sigma A, A what is still in the bed, is at
 // most tan(phi) where grains slide on a membrane; grains that interlock with a grid hold it better.
-#include "contact/laws/models.hpp"
+#include "contact/models.hpp"
 #include "dynamics/simulation.hpp"
 #include "tests/support/lattice_body.hpp"
 #include "tests/support/seeded_random.hpp"

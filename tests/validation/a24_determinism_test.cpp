@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A24: the same result for any order of creation.
 #include "dynamics/simulation.hpp"
-#include "geometry/mesh/generators.hpp"
-#include "geometry/mesh/membrane.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "geometry/mesh/generate/membrane.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/patch.hpp"
+#include "contact/sphere_surface/patch.hpp"
 #include "tests/support/hollow_ball.hpp"
 #include "tests/support/structure_rule_reference.hpp"
 

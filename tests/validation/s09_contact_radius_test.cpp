@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/laws/dmt_adhesion.hpp"
-#include "contact/laws/hertz_mindlin.hpp"
-#include "contact/laws/linear_frictional.hpp"
-#include "contact/laws/models.hpp"
+#include "contact/law/dmt_adhesion.hpp"
+#include "contact/law/hertz_mindlin.hpp"
+#include "contact/law/linear_frictional.hpp"
+#include "contact/models.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 // and the net of n meshes across and R rows of twists n P at the elongation R (t' - t) + (R + 1)
 // (h' - h). At the sides a twist has one wire at either end instead of two, and half of the force.
 #include "dynamics/simulation.hpp"
-#include "geometry/mesh/lattice.hpp"
+#include "geometry/mesh/generate/lattice.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/mesh/generators.hpp"
-#include "geometry/mesh/mesh_file.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "geometry/mesh/io/mesh_file.hpp"
 #include "tests/apps/command_line/program_fixture.hpp"
 #include "tests/support/vtp_reader.hpp"
 

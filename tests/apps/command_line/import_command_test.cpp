@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/import_command.hpp"
 
-#include "geometry/mesh/mesh_file.hpp"
+#include "geometry/mesh/io/mesh_file.hpp"
 #include "tests/apps/command_line/program_fixture.hpp"
 
 #include <fmt/format.h>

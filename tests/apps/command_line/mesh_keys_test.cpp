@@ -2,8 +2,8 @@
 // The keys of a scenario that repair the mesh of a membrane.
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scene/build_scene.hpp"
-#include "geometry/mesh/generators.hpp"
-#include "geometry/mesh/mesh_file.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "geometry/mesh/io/mesh_file.hpp"
 #include "tests/apps/command_line/program_fixture.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that move far in a step, as the user of the program meets them.
-#include "dynamics/motion_step.hpp"
+#include "dynamics/time_step/motion_step.hpp"
 #include "tests/apps/command_line/command_fixture.hpp"
 
 #include <gmock/gmock.h>

@@ -2,8 +2,8 @@
 #include "apps/scene/build_scene.hpp"
 
 #include "apps/scenario/scenario_reader.hpp"
-#include "geometry/mesh/generators.hpp"
-#include "geometry/mesh/mesh_file.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "geometry/mesh/io/mesh_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmarks/geometry/import_time.hpp"
 
-#include "geometry/mesh/import.hpp"
-#include "geometry/mesh/mesh_file.hpp"
+#include "geometry/mesh/io/import.hpp"
+#include "geometry/mesh/io/mesh_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forces of beams between nodes: dynamics/structure/beam_bond.hpp.
 #include "dynamics/structure/beam_bond.hpp"
-#include "geometry/mesh/lattice.hpp"
+#include "geometry/mesh/generate/lattice.hpp"
 #include "tests/benchmarks/kernels/run_over.hpp"
 #include "tests/benchmarks/kernels/subjects.hpp"
 #include "tests/support/seeded_random.hpp"

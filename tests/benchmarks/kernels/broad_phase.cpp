@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lists of candidates for packings of spheres: the tree of boxes, its pairs, and both as a
 // simulation asks for them.
-#include "geometry/broad_phase.hpp"
+#include "geometry/neighbor/broad_phase.hpp"
 
-#include "geometry/neighbours.hpp"
+#include "geometry/neighbor/neighbours.hpp"
 #include "tests/benchmarks/kernels/run_over.hpp"
 #include "tests/benchmarks/kernels/subjects.hpp"
 #include "tests/support/seeded_random.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a law answers to a relative motion: one contact after the other, as on surfaces, and as many
 // side by side as the processor's vectors hold, as between spheres.
-#include "contact/laws/linear_frictional.hpp"
-#include "geometry/vector_width.hpp"
+#include "contact/law/linear_frictional.hpp"
+#include "geometry/base/vector_width.hpp"
 #include "tests/benchmarks/kernels/run_over.hpp"
 #include "tests/benchmarks/kernels/subjects.hpp"
 #include "tests/support/seeded_random.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plekton-bench-kernels: what a call of each kernel costs, with the options of Google Benchmark
 // (--help). README.md says what the names mean.
-#include "geometry/vector_width.hpp"
+#include "geometry/base/vector_width.hpp"
 #include "geometry/version.hpp"
 #include "tests/benchmarks/kernels/subjects.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two primitives of a scene: nearest points with the features that hold them, gap, normal and arms,
-// for each of the six pairs of geometry/primitive_pairs.hpp.
-#include "geometry/primitive_pairs.hpp"
+// for each of the six pairs of geometry/closest/primitive_pairs.hpp.
+#include "geometry/closest/primitive_pairs.hpp"
 #include "tests/benchmarks/kernels/inputs.hpp"
 #include "tests/benchmarks/kernels/subjects.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Balls that slide over a surface: which features push, patches, what they inherit, the law and the
-// forces; all of contact/surface_contacts.hpp between two lists of neighbours.
-#include "contact/laws/linear_frictional.hpp"
-#include "contact/surface_contacts.hpp"
+// forces; all of contact/sphere_surface/surface_contacts.hpp between two lists of neighbours.
+#include "contact/law/linear_frictional.hpp"
+#include "contact/sphere_surface/surface_contacts.hpp"
 #include "tests/benchmarks/kernels/run_over.hpp"
 #include "tests/benchmarks/kernels/subjects.hpp"
 #include "tests/support/contact_surfaces.hpp"

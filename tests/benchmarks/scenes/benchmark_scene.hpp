@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/laws/models.hpp"
+#include "contact/models.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <cstddef>

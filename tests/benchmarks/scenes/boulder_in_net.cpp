@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmarks/scenes/boulder_in_net.hpp"
 
-#include "geometry/mesh/lattice.hpp"
+#include "geometry/mesh/generate/lattice.hpp"
 #include "tests/benchmarks/scenes/parts.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmarks/scenes/hollow_spheres.hpp"
 
-#include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/generate/generators.hpp"
 #include "tests/benchmarks/scenes/parts.hpp"
 
 namespace plekton::benchmarks {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmarks/scenes/layer_of_spheres.hpp"
 
-#include "geometry/mesh/generators.hpp"
+#include "geometry/mesh/generate/generators.hpp"
 #include "tests/benchmarks/scenes/parts.hpp"
 #include "tests/support/seeded_random.hpp"
 

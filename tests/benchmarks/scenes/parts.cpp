@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmarks/scenes/parts.hpp"
 
-#include "geometry/mesh/membrane.hpp"
-#include "geometry/space_order.hpp"
+#include "geometry/mesh/generate/membrane.hpp"
+#include "geometry/neighbor/space_order.hpp"
 
 namespace plekton::benchmarks {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/mesh/lattice.hpp"
+#include "geometry/mesh/generate/lattice.hpp"
 #include "geometry/mesh/mesh.hpp"
 #include "tests/benchmarks/bed.hpp"
 #include "tests/benchmarks/scenes/benchmark_scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/structure/broken_elements.hpp"
+#include "dynamics/broken_elements.hpp"
 
 #include "tests/support/breaking_net.hpp"
 

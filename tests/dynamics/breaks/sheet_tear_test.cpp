@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sheets that tear, and elements that are broken by name.
 #include "dynamics/simulation.hpp"
-#include "geometry/mesh/generators.hpp"
-#include "geometry/mesh/membrane.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "geometry/mesh/generate/membrane.hpp"
 #include "tests/support/free_collision.hpp"
 
 #include <gmock/gmock.h>

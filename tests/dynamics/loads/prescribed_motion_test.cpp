@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/prescribed_motion.hpp"
 
-#include "dynamics/rotation_step.hpp"
+#include "dynamics/state/rotation_step.hpp"
 #include "tests/support/beam_structure.hpp"
 #include "tests/support/loaded_scene.hpp"
 

@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/balls/ball_contacts.hpp"
-
-namespace plekton::contact {
-
-template class BallContacts<LinearFrictional>;
-template class BallContacts<AnyLaw>;
-
-}  // namespace plekton::contact

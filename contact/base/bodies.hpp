@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/material.hpp"
+#include "contact/base/motion.hpp"
+#include "geometry/primitives/elements.hpp"
+
+#include <limits>
+#include <vector>
+
+namespace plekton::contact {
+
+/// A ball that touches other things: a sphere, or a node of a structure where it meets a plane.
+struct Ball {
+  NodeId node;
+  double radius;  ///< m
+  MaterialId material;
+  double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
+};
+
+/// A rigid half-space: a wall, a floor, a plate. It moves with a velocity of its own and does not
+/// turn.
+struct Plane {
+  Vec3 point;                    ///< m, any point of the plane
+  Vec3 normal;                   ///< unit, out of the solid, into the space of the bodies
+  Vec3 velocity = Vec3::Zero();  ///< m/s
+  MaterialId material{};
+};
+
+/// Of a structure.
+inline Shape shape_of(const geometry::Surface& surface, geometry::StructureId structure) noexcept {
+  return surface.is_sheet(structure) ? Shape::flat : Shape::cylinder;
+}
+
+}  // namespace plekton::contact

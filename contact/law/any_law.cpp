@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/law/any_law.hpp"
+
+#include "contact/law/linear_frictional.hpp"
+
+namespace plekton::contact {
+
+static_assert(ContactLaw<AnyLaw> && HasMoments<AnyLaw> && HasReach<AnyLaw> &&
+              HasAttraction<AnyLaw> && HasBonds<AnyLaw> && HasStart<AnyLaw> &&
+              TellsTangentialLimit<AnyLaw>);
+
+AnyLaw::Properties::Properties() noexcept {
+  keep(Table<LinearFrictional>::functions, LinearFrictional::Properties{});
+}
+
+}  // namespace plekton::contact

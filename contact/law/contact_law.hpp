@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/material.hpp"
+#include "contact/base/relative_motion.hpp"
+#include "contact/base/rotation.hpp"
+
+#include <concepts>
+#include <string_view>
+
+namespace plekton::contact {
+
+namespace detail {
+
+struct NoProperties {
+  friend bool operator==(const NoProperties&, const NoProperties&) = default;
+};
+template <class Law>
+struct PropertiesOf {
+  using Type = NoProperties;
+};
+template <class Law>
+requires requires {
+  typename Law::Properties;
+}
+struct PropertiesOf<Law> {
+  using Type = typename Law::Properties;
+};
+
+}  // namespace detail
+
+/// Numbers that a law has for a pair of materials, not for each of them: of most laws there are
+/// none.
+template <class Law>
+using PropertiesOf = typename detail::PropertiesOf<Law>::Type;
+
+/// Parameters of a pair of bodies.
+template <class Law>
+typename Law::Parameters combine(const PropertiesOf<Law>& properties, const Body& a,
+                                 const Body& b) {
+  if constexpr (requires { typename Law::Properties; }) {
+    return Law::combine(properties, a, b);
+  } else {
+    return Law::combine(a, b);
+  }
+}
+
+/// Whether a law answers with moments too; contacts under the others do not look at them. Such a
+/// law also tells the moment (N m, on b) of the last step from the history and the normal then:
+/// moment(history, normal).
+template <class Law>
+concept HasMoments = requires {
+  requires Law::has_moments;
+};
+
+/// What a contact law is: stateless functions of parameters, relative motion and history. It never
+/// sees a shape.
+///
+/// The elastic normal force depends on the gap alone and is summed over the features of a patch by
+/// the contact rule; everything else (friction, viscosity, cohesion) is decided once per patch by
+/// force().
+template <class Law>
+concept ContactLaw = requires(const typename Law::Parameters& parameters,
+                              const RelativeMotion& motion, typename Law::History& history,
+                              const typename Law::History& other, const Body& body,
+                              const FrameRotation& rotation, double number) {
+  { Law::name } -> std::convertible_to<std::string_view>;
+  /// Parameters of a pair of bodies. A law with a type Properties takes them first.
+  { combine<Law>(PropertiesOf<Law>{}, body, body) } -> std::same_as<typename Law::Parameters>;
+  /// Parameters of that many equal contacts side by side.
+  { Law::multiplied(parameters, number) } -> std::same_as<typename Law::Parameters>;
+  /// Elastic normal force (N) of one feature at a gap (m); 0 for a gap >= 0.
+  { Law::elastic_normal_force(parameters, number) } -> std::same_as<double>;
+  /// Energy (J) stored by that force.
+  { Law::elastic_normal_energy(parameters, number) } -> std::same_as<double>;
+  /// Total force on body b after a step of the given length (s).
+  { Law::force(parameters, motion, history, number) } -> std::same_as<ContactForce>;
+  /// Energy (J) stored by the history.
+  { Law::history_energy(parameters, other) } -> std::same_as<double>;
+  /// Stiffness (N/m) of one feature at a gap (m), normal and tangential, for the time step.
+  { Law::normal_stiffness(parameters, number) } -> std::same_as<double>;
+  { Law::tangential_stiffness(parameters, number) } -> std::same_as<double>;
+  /// Turns the history with the contact frame.
+  { Law::rotate(history, rotation) } -> std::same_as<void>;
+  /// Adds a share of another contact's history: how contacts split and merge.
+  { Law::add_share(history, other, number) } -> std::same_as<void>;
+};
+
+/// A law whose force after a step follows from the gap (m), the normal and the history then: it
+/// does not have to be kept. To the bit what force() has answered.
+template <class Law>
+concept TellsForce = requires(const typename Law::Parameters& parameters, double gap,
+                              const Vec3& normal, const typename Law::History& history) {
+  { Law::force_of_state(parameters, gap, normal, history) } -> std::same_as<Vec3>;
+};
+
+/// A law that tells how large (N) the tangential force may be, from the parameters, the magnitude
+/// of the elastic normal force and the history.
+template <class Law>
+concept TellsTangentialLimit = requires(const typename Law::Parameters& parameters, double force,
+                                        const typename Law::History& history) {
+  { Law::tangential_limit(parameters, force, history) } -> std::same_as<double>;
+};
+
+/// A law whose contacts may go on over a distance, because the bodies stick to each other.
+///
+/// reach(parameters): how far apart (m) the surfaces may be; holds(history): whether they stick.
+template <class Law>
+concept HasReach = requires(const typename Law::Parameters& parameters,
+                            const typename Law::History& history) {
+  { Law::reach(parameters) } -> std::same_as<double>;
+  { Law::holds(history) } -> std::same_as<bool>;
+};
+
+/// m, 0 for laws that only push.
+template <class Law>
+double reach_of(const typename Law::Parameters& parameters) {
+  if constexpr (HasReach<Law>) {
+    return Law::reach(parameters);
+  } else {
+    return 0.0;
+  }
+}
+
+/// A law under which bodies that touch attract each other with a force that does not depend on how
+/// deep. force() and history_energy() have it too; structures, whose contacts are counted by a
+/// measure that moves with them, take it from here instead and give the law parameters without it.
+///
+/// attraction(parameters): the force (N), >= 0; without_attraction(parameters): the same but for
+/// it.
+template <class Law>
+concept HasAttraction = requires(const typename Law::Parameters& parameters) {
+  { Law::attraction(parameters) } -> std::same_as<double>;
+  { Law::without_attraction(parameters) } -> std::same_as<typename Law::Parameters>;
+};
+
+/// N, 0 for laws without one.
+template <class Law>
+double attraction_of(const typename Law::Parameters& parameters) {
+  if constexpr (HasAttraction<Law>) {
+    return Law::attraction(parameters);
+  } else {
+    return 0.0;
+  }
+}
+
+template <class Law>
+typename Law::Parameters without_attraction(const typename Law::Parameters& parameters) {
+  if constexpr (HasAttraction<Law>) {
+    return Law::without_attraction(parameters);
+  } else {
+    return parameters;
+  }
+}
+
+/// Whether bodies with this history stick to each other.
+template <class Law>
+bool holds(const typename Law::History& history) {
+  if constexpr (HasReach<Law>) {
+    return Law::holds(history);
+  } else {
+    return false;
+  }
+}
+
+/// Whether a contact with this history goes on at a gap (m) that is not negative.
+template <class Law>
+bool goes_on(const typename Law::Parameters& parameters, const typename Law::History& history,
+             double gap) {
+  return holds<Law>(history) && gap < reach_of<Law>(parameters);
+}
+
+}  // namespace plekton::contact

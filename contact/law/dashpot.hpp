@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/law/contact_part.hpp"
+
+#include <cmath>
+
+namespace plekton::contact {
+
+/// A dashpot along the normal, as strong as a restitution wants it: c = 2 xi sqrt(m k), with the
+/// reduced mass m of both bodies, the present stiffness k, and the damping ratio xi of
+/// restitution.hpp. It never makes the contact pull.
+///
+/// A surface that a ball meets counts as held: of a light free membrane the restitution is lower.
+struct Dashpot {
+  static constexpr std::string_view name = "dashpot";
+
+  struct Properties {
+    double damping_ratio = 0.0;  ///< xi >= 0; damping_ratio() gives that of a restitution
+  };
+  template <class Real>
+  struct ParametersOf {
+    Real damping_ratio;
+    Real strength;  ///< sqrt(kg), 2 xi sqrt(m); 0 without mass
+  };
+  using Parameters = ParametersOf<double>;
+
+  template <class Real>
+  struct HistoryOf {
+    Real push = Real(0.0);  ///< N, of the last step, along the normal
+  };
+  using History = HistoryOf<double>;
+
+  static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
+    const double mass = reduced_mass(a, b);
+    const double xi = properties.damping_ratio;
+    return {xi, std::isfinite(mass) ? 2.0 * xi * std::sqrt(mass) : 0.0};
+  }
+  /// Springs side by side carry one mass.
+  static Parameters multiplied(const Parameters& p, double) noexcept { return p; }
+
+  /// The dashpot is one for a contact as a whole, not for its bonds.
+  static Parameters of_bond(const Parameters& p) noexcept { return {p.damping_ratio, 0.0}; }
+
+  template <class Real>
+  PLEKTON_INLINE static ContactForceOf<Real> force(const ParametersOf<Real>& p,
+                                                   const RelativeMotionOf<Real>& motion,
+                                                   const ContactStiffnessOf<Real>& stiffness,
+                                                   HistoryOf<Real>& history, double dt) noexcept {
+    const Real before = history.push;
+    const Real push = -p.strength * geometry::square_root(stiffness.normal) * motion.gap_rate;
+    history.push = geometry::larger_of(Real(-motion.elastic_normal_force), push);
+    return {history.push * motion.normal,
+            Real(-0.5) * (before + history.push) * motion.gap_rate * Real(dt)};
+  }
+
+  /// See PartTellsForce.
+  static Vec3 force_of_state(const History& history, const Vec3& normal) noexcept {
+    return history.push * normal;
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>&,
+                                            const HistoryOf<Real>&) noexcept {
+    return Real(0.0);
+  }
+
+  /// The step of the leapfrog with a damping that lags behind by half a step is shorter by
+  /// sqrt(1 + xi^2) - xi. Belytschko, Liu & Moran, Nonlinear Finite Elements (2000), section 6.2.
+  template <class Real>
+  PLEKTON_INLINE static ContactStiffnessOf<Real> effective(
+      const ParametersOf<Real>& p, const ContactStiffnessOf<Real>& stiffness) noexcept {
+    const Real root = geometry::square_root(Real(Real(1.0) + p.damping_ratio * p.damping_ratio));
+    const Real shorter = root - p.damping_ratio;
+    return {stiffness.normal / (shorter * shorter), stiffness.tangential};
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static void rotate(HistoryOf<Real>&, const FrameRotationOf<Real>&) noexcept {}
+  static void add_share(History& history, const History& other, double share) noexcept {
+    history.push += share * other.push;
+  }
+};
+
+static_assert(ContactPart<Dashpot>);
+
+}  // namespace plekton::contact

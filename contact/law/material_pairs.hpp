@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/bodies.hpp"
+#include "contact/law/bonds.hpp"
+#include "contact/law/contact_law.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace plekton::contact {
+
+/// Properties of pairs of materials, in any order of the two. The rest has those of
+/// PropertiesOf<Law>{}.
+template <class Law>
+using PairProperties = std::map<std::pair<MaterialId, MaterialId>, PropertiesOf<Law>>;
+
+/// The contact materials of a scene, and what their pairs do.
+template <ContactLaw Law>
+class MaterialPairs {
+ public:
+  using Parameters = typename Law::Parameters;
+
+  /// @param others  properties of the pairs that have none of their own
+  explicit MaterialPairs(std::vector<Material> materials = {},
+                         const PairProperties<Law>& properties = {},
+                         const PropertiesOf<Law>& others = {})
+      : materials_(std::move(materials)), others_(others) {
+    for (const auto& [pair, of_pair] : properties)
+      properties_[std::minmax(pair.first, pair.second)] = of_pair;
+  }
+
+  Parameters combine(const Ball& a, const Ball& b) const {
+    return combine(BodyPart{a.material, a.radius, a.mass}, BodyPart{b.material, b.radius, b.mass});
+  }
+  Parameters combine(const BodyPart& a, const BodyPart& b) const {
+    const auto own = properties_.find(std::minmax(a.material, b.material));
+    return contact::combine<Law>(own == properties_.end() ? others_ : own->second,
+                                 {at(a.material), a.radius, a.mass, a.shape},
+                                 {at(b.material), b.radius, b.mass, b.shape});
+  }
+
+  /// Whether a pair has other properties than one of which nothing is said.
+  bool has_properties(MaterialId a, MaterialId b) const {
+    const auto own = properties_.find(std::minmax(a, b));
+    return own != properties_.end() && !(own->second == PropertiesOf<Law>{});
+  }
+
+  /// From now on contacts are not those of the first step (HasStart).
+  /// @returns whether that changed any pair
+  bool end_start() {
+    bool changed = contact::end_start<Law>(others_);
+    for (auto& [pair, properties] : properties_) changed |= contact::end_start<Law>(properties);
+    return changed;
+  }
+
+  std::size_t size() const noexcept { return materials_.size(); }
+  const Material& at(MaterialId id) const { return materials_[static_cast<std::size_t>(id)]; }
+
+ private:
+  std::vector<Material> materials_;
+  PairProperties<Law> properties_;
+  PropertiesOf<Law> others_;
+};
+
+/// What the bodies of a scene are made of, as far as contacts are concerned.
+template <ContactLaw Law>
+struct ContactMaterials {
+  MaterialPairs<Law> pairs;
+  std::vector<MaterialId> of_spheres;     ///< by SphereId
+  std::vector<MaterialId> of_structures;  ///< by StructureId
+  /// kg, by NodeId, for laws that ask for masses; empty: all bodies count as held.
+  std::vector<double> masses = {};
+
+  double mass_of(geometry::NodeId node) const {
+    return masses.empty() ? std::numeric_limits<double>::infinity() : masses[index_of(node)];
+  }
+};
+
+}  // namespace plekton::contact

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/law/bonds.hpp"
+#include "contact/law/contact_part.hpp"
+
+#include <type_traits>
+
+namespace plekton::contact {
+
+namespace detail {
+
+/// Parameters and history of a law or a part for Real: those of a law that is not written for any
+/// Real are for double alone.
+template <class Law, class Real>
+struct NumbersOf {};
+template <class Law, class Real>
+requires requires {
+  typename Law::template ParametersOf<Real>;
+}
+struct NumbersOf<Law, Real> {
+  using Parameters = typename Law::template ParametersOf<Real>;
+  using History = typename Law::template HistoryOf<Real>;
+};
+template <class Law>
+requires(!requires { typename Law::template ParametersOf<double>; }) struct NumbersOf<Law, double> {
+  using Parameters = typename Law::Parameters;
+  using History = typename Law::History;
+};
+
+template <class Law, class Real>
+concept HasNumbersOf = requires {
+  typename NumbersOf<Law, Real>::Parameters;
+};
+
+}  // namespace detail
+
+/// A contact law with something added. A sum is a law: parts can be added one after the other. It
+/// is written for any Real if both are.
+template <ContactLaw Whole, ContactPart Part>
+struct Sum {
+  static constexpr std::string_view name = Whole::name;
+  static constexpr bool has_moments = HasMoments<Whole> || HasMoments<Part>;
+
+  struct Properties {
+    PropertiesOf<Whole> whole;
+    PropertiesOf<Part> part;
+  };
+  template <class Real>
+  requires detail::HasNumbersOf<Whole, Real> && detail::HasNumbersOf<Part, Real>
+  struct ParametersOf {
+    typename detail::NumbersOf<Whole, Real>::Parameters whole;
+    typename detail::NumbersOf<Part, Real>::Parameters part;
+  };
+  using Parameters = ParametersOf<double>;
+
+  template <class Real>
+  requires detail::HasNumbersOf<Whole, Real> && detail::HasNumbersOf<Part, Real>
+  struct HistoryOf {
+    typename detail::NumbersOf<Whole, Real>::History whole;
+    typename detail::NumbersOf<Part, Real>::History part;
+  };
+  using History = HistoryOf<double>;
+
+  static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
+    return {contact::combine<Whole>(properties.whole, a, b), Part::combine(properties.part, a, b)};
+  }
+  static Parameters multiplied(const Parameters& p, double count) noexcept {
+    return {Whole::multiplied(p.whole, count), Part::multiplied(p.part, count)};
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static Real elastic_normal_force(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>& gap) noexcept {
+    return Whole::elastic_normal_force(p.whole, gap);
+  }
+  static double elastic_normal_energy(const Parameters& p, double gap) noexcept {
+    return Whole::elastic_normal_energy(p.whole, gap);
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static Real reach(const ParametersOf<Real>& p) requires HasReach<Whole> {
+    return Whole::reach(p.whole);
+  }
+  static bool holds(const History& history) requires HasReach<Whole> {
+    return Whole::holds(history.whole);
+  }
+  template <class Real>
+  PLEKTON_INLINE static Real hold(const HistoryOf<Real>& history) requires HasReach<Whole> {
+    return Whole::hold(history.whole);
+  }
+
+  /// See HasAttraction.
+  static double attraction(const Parameters& p) { return attraction_of<Whole>(p.whole); }
+  static Parameters without_attraction(const Parameters& p) {
+    return {contact::without_attraction<Whole>(p.whole), p.part};
+  }
+
+  /// See HasStart and HasBonds.
+  static bool end_start(Properties& properties) {
+    return contact::end_start<Whole>(properties.whole);
+  }
+  static bool glues(const Parameters& p) { return contact::glues<Whole>(p.whole); }
+  static void glue(const Parameters& p, History& history) {
+    contact::glue<Whole>(p.whole, history.whole);
+  }
+  static Parameters of_bond(const Parameters& p) {
+    return {contact::of_bond<Whole>(p.whole), part_of_bond<Part>(p.part)};
+  }
+  static Parameters beside_bonds(const Parameters& p, double part) {
+    return {contact::beside_bonds<Whole>(p.whole, part), part_beside_bonds<Part>(p.part, part)};
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static ContactForceOf<Real> force(const ParametersOf<Real>& p,
+                                                   const RelativeMotionOf<Real>& motion,
+                                                   HistoryOf<Real>& history, double dt) noexcept {
+    const ContactForceOf<Real> whole = Whole::force(p.whole, motion, history.whole, dt);
+    const ContactForceOf<Real> part =
+        Part::force(p.part, motion, stiffness(p, motion.gap), history.part, dt);
+    return {whole.force + part.force, whole.dissipated + part.dissipated,
+            whole.moment + part.moment};
+  }
+
+  /// See TellsForce.
+  static Vec3 force_of_state(const Parameters& p, double gap, const Vec3& normal,
+                             const History& history) noexcept requires TellsForce<Whole> &&
+      PartTellsForce<Part> {
+    return Whole::force_of_state(p.whole, gap, normal, history.whole) +
+           Part::force_of_state(history.part, normal);
+  }
+
+  /// See HasMoments.
+  static Vec3 moment(const History& history, const Vec3& normal) {
+    Vec3 moment = Vec3::Zero();
+    if constexpr (HasMoments<Whole>) moment += Whole::moment(history.whole, normal);
+    if constexpr (HasMoments<Part>) moment += Part::moment(history.part, normal);
+    return moment;
+  }
+
+  /// See TellsTangentialLimit.
+  static double tangential_limit(const Parameters& p, double elastic_force,
+                                 const History& history) requires TellsTangentialLimit<Whole> {
+    return Whole::tangential_limit(p.whole, elastic_force, history.whole);
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static Real history_energy(const ParametersOf<Real>& p,
+                                            const HistoryOf<Real>& history) noexcept {
+    return Whole::history_energy(p.whole, history.whole) +
+           Part::history_energy(p.part, history.part);
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static Real normal_stiffness(const ParametersOf<Real>& p,
+                                              const std::type_identity_t<Real>& gap) noexcept {
+    return Part::effective(p.part, stiffness(p, gap)).normal;
+  }
+  template <class Real>
+  PLEKTON_INLINE static Real tangential_stiffness(const ParametersOf<Real>& p,
+                                                  const std::type_identity_t<Real>& gap) noexcept {
+    return Part::effective(p.part, stiffness(p, gap)).tangential;
+  }
+
+  template <class Real>
+  PLEKTON_INLINE static void rotate(HistoryOf<Real>& history,
+                                    const FrameRotationOf<Real>& rotation) noexcept {
+    Whole::rotate(history.whole, rotation);
+    Part::rotate(history.part, rotation);
+  }
+  static void add_share(History& history, const History& other, double share) noexcept {
+    Whole::add_share(history.whole, other.whole, share);
+    Part::add_share(history.part, other.part, share);
+  }
+
+ private:
+  /// Of the law without the part.
+  template <class Real>
+  PLEKTON_INLINE static ContactStiffnessOf<Real> stiffness(
+      const ParametersOf<Real>& p, const std::type_identity_t<Real>& gap) noexcept {
+    return {Whole::normal_stiffness(p.whole, gap), Whole::tangential_stiffness(p.whole, gap)};
+  }
+};
+
+}  // namespace plekton::contact

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/bodies.hpp"
+#include "contact/law/any_law.hpp"
+#include "contact/law/linear_frictional.hpp"
+#include "contact/law/material_pairs.hpp"
+#include "contact/sphere_sphere/ball_batch.hpp"
+#include "contact/tracking/contact_memory.hpp"
+#include "contact/tracking/force_records.hpp"
+#include "contact/tracking/rekey.hpp"
+#include "contact/tracking/slip_state.hpp"
+#include "geometry/base/parallel_sum.hpp"
+#include "geometry/primitives/elements.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace plekton::contact {
+
+/// Contacts of balls (a) with planes (b): one slot for each pair that may touch. A plane has the
+/// stiffness of a ball of its material and of the radius of the ball that touches it.
+template <ContactLaw Law>
+class PlaneContacts {
+ public:
+  /// Takes a new list of pairs (ball, plane), sorted; pairs in both lists keep their memory.
+  /// @returns the energy (J) lost with contacts that left the list
+  double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+                 std::span<const Plane> planes, const MaterialPairs<Law>& materials);
+
+  /// One step of all contacts; adds their forces to the nodes.
+  /// @returns the energy (J) dissipated
+  double advance(const Motion& motion, std::span<const Plane> planes, double dt,
+                 geometry::ThreadPool& pool, NodeForces& forces);
+
+  /// Adds the forces of the last step once more, to other sums.
+  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
+    records_.add_to(forces, pool);
+  }
+  std::size_t touching() const noexcept { return records_.size(); }
+  /// Largest overlap of the last step over the radius of the smaller ball.
+  double largest_overlap_ratio() const noexcept { return records_.deepest(); }
+
+  /// Energy (J) stored in all contacts, at the positions of the last step.
+  double elastic_energy() const;
+
+  /// Force (N) of all bodies on a plane in the last step.
+  Vec3 force_on(std::size_t plane) const;
+
+  /// Calls visit(ball's node, plane, parameters, gap) for every touching pair.
+  template <class Visit>
+  void for_each_touching(Visit&& visit) const {
+    records_.for_each([&](const PlaneForce& record) {
+      const Slot& slot = slots_[record.contact];
+      visit(record.a, record.plane, slot.parameters, slot.gap);
+    });
+  }
+
+  /// Calls visit(ball's node, plane, parameters, gap) for every listed pair that is nearer than a
+  /// margin (m) with the bodies where they are now.
+  template <class Visit>
+  void for_each_near(double margin, std::span<const Plane> planes, Positions x,
+                     Visit&& visit) const {
+    for (const Slot& slot : slots_) {
+      const Plane& plane = planes[slot.plane];
+      const double gap = (x[index_of(slot.node)] - plane.point).dot(plane.normal) - slot.radius;
+      if (gap < margin + reach_of<Law>(slot.parameters))
+        visit(slot.node, slot.plane, slot.parameters, gap);
+    }
+  }
+
+  /// Calls visit(plane, force (N) on it) for every touching pair of the last step, in a fixed
+  /// order.
+  template <class Visit>
+  void for_each_force(Visit&& visit) const {
+    records_.for_each([&](const PlaneForce& record) { visit(record.plane, record.force); });
+  }
+
+  /// Gives a number after the last one to every contact that has none.
+  void number(std::int64_t& last) {
+    for (Slot& slot : slots_) {
+      if (!slot.memory.is_new() && slot.id == 0) slot.id = ++last;
+    }
+  }
+
+  /// Calls visit(ContactRow) for every touching pair of the last step, in the order of the list.
+  /// @param surface  of whose nodes some of the balls are
+  void for_each_row(Positions x, const geometry::Surface& surface, VisitRow visit) const;
+
+ private:
+  struct Slot {
+    NodeId node;
+    std::size_t plane;
+    double radius;
+    double gap = 0.0;  ///< m, of the last step
+    typename Law::Parameters parameters;
+    ContactMemory<Law> memory;
+    std::int64_t id = 0;  ///< 0: none yet
+  };
+
+  using Records = typename ForceRecords<PlaneForce>::List;
+
+  /// Slots that touch, in the order of the list, and how high (m) their centres are.
+  struct Touching {
+    std::array<std::size_t, kBatchLanes> slot;
+    std::array<double, kBatchLanes> height;
+    std::size_t count = 0;
+    bool all_have_images = true;  ///< none is so deep that it is beyond its mirror image
+  };
+
+  /// One step of slots that touch, side by side if the law allows. @returns the energy (J)
+  /// dissipated
+  double advance_touching(const Touching& touching, const Motion& motion,
+                          std::span<const Plane> planes, double dt, Records& records);
+  /// One step of all contacts of some balls.
+  double advance_balls(std::size_t begin, std::size_t end, const Motion& motion,
+                       std::span<const Plane> planes, double dt, Records& records);
+  template <class Block>
+  void gather(const Touching& touching, const Motion& motion, std::span<const Plane> planes,
+              Block& block) const;
+  template <class Block>
+  double scatter(const Touching& touching, const Block& block, Records& records);
+  double advance_one(std::size_t i, double height, const Motion& motion,
+                     std::span<const Plane> planes, double dt, Records& records);
+
+  std::vector<Slot> slots_;
+  std::size_t ball_count_ = 0;
+  ForceRecords<PlaneForce> records_;
+  Rekey<Slot> rekey_;
+  geometry::ParallelSum<double> sum_;
+};
+
+/// Compiled once, in the library.
+extern template class PlaneContacts<LinearFrictional>;
+extern template class PlaneContacts<AnyLaw>;
+
+}  // namespace plekton::contact

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/sphere_plane/plane_neighbours.hpp"
+
+#include <algorithm>
+
+namespace plekton::contact {
+
+bool PlaneNeighbours::update(std::span<const Ball> balls, std::span<const Plane> planes,
+                             Positions x) {
+  const auto has_moved = [this](const Plane& now, const Plane& then) {
+    return now.normal != then.normal ||
+           2.0 * std::abs((now.point - then.point).dot(then.normal)) >= skin_;
+  };
+  const bool planes_moved =
+      !std::equal(planes.begin(), planes.end(), built_for_.begin(), built_for_.end(),
+                  [&](const Plane& now, const Plane& then) { return !has_moved(now, then); });
+  if (!expired_ && !planes_moved) return false;
+
+  pairs_.clear();
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    for (std::size_t p = 0; p < planes.size(); ++p) {
+      const double height = (x[index_of(balls[i].node)] - planes[p].point).dot(planes[p].normal);
+      if (height < balls[i].radius + reach_ + 1.5 * skin_) {
+        pairs_.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(p)});
+      }
+    }
+  }
+  built_for_.assign(planes.begin(), planes.end());
+  expired_ = false;
+  return true;
+}
+
+}  // namespace plekton::contact

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/sphere_sphere/ball_blocks.hpp"
+
+#include "contact/tracking/rekey.hpp"
+#include "geometry/neighbor/space_order.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace plekton::contact {
+namespace {
+
+/// Motions and sums of the members of a usual block, a third more than the balls that it owns, fill
+/// a part of a cache of the second level (512 KiB and more), and half of its pairs stay within it.
+constexpr std::size_t kUsualBalls = 640;
+/// So that few threads get equal numbers of blocks.
+constexpr std::size_t kBlocksAtOnce = 8;
+/// To move a ball and add up what acts on it takes about as long as this many pairs.
+constexpr std::size_t kPairsPerBall = 2;
+/// Neighbours stay near each other in the order while many lists are made.
+constexpr int kListsPerOrder = 16;
+
+std::size_t block_count(std::size_t balls) {
+  if (balls < 2 * kUsualBalls) return 1;
+  const std::size_t groups =
+      (balls + kUsualBalls * kBlocksAtOnce - 1) / (kUsualBalls * kBlocksAtOnce);
+  return groups * kBlocksAtOnce;
+}
+
+template <class Number>
+void set_all(std::vector<Number>& list, std::size_t count, Number value) {
+  make_room(list, count);
+  list.assign(count, value);
+}
+
+}  // namespace
+
+void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+                        geometry::ThreadPool& pool, Positions x) {
+  std::int32_t last = -1;
+  for (const geometry::IndexPair& pair : pairs) last = std::max(last, pair.b);
+  order_balls(balls.first(static_cast<std::size_t>(last + 1)), x);
+  sort_pairs(pairs, pool);
+  find_touching(pairs, balls, x, pool);
+
+  cut_order();
+  const std::size_t count = first_places_.size() - 1;
+  set_all(member_of_, order_.size(), 0U);
+  set_all(slots_, pairs.size(), 0U);
+  make_room(pairs_, pairs.size() + 2 * kLanes * count);
+  blocks_.clear();
+  members_.clear();
+  balls_.clear();
+  pairs_.clear();
+  largest_member_count_ = 0;
+  for (std::size_t k = 0; k < count; ++k) fill_block(k, pairs, balls);
+  find_loans();
+  find_other_nodes(x.size());
+}
+
+/// Whoever takes part in no pair of a new list may be in it and did in an older one: only a change
+/// of their number, or age, asks for a new order.
+void BallBlocks::order_balls(std::span<const Ball> balls, Positions x) {
+  nodes_.clear();
+  for (const Ball& ball : balls) nodes_.push_back(ball.node);
+  if (order_.size() == balls.size() && ++lists_in_order_ < kListsPerOrder) return;
+  lists_in_order_ = 0;
+  set_all(order_, balls.size(), 0);
+  std::iota(order_.begin(), order_.end(), 0);
+  if (!x.empty()) geometry::order_along_curve(x, nodes_, order_);
+  set_all(places_, balls.size(), 0U);
+  for (std::size_t place = 0; place < order_.size(); ++place)
+    places_[static_cast<std::size_t>(order_[place])] = static_cast<std::uint32_t>(place);
+}
+
+/// Into blocks that take equally long. Pairs belong to their first balls, so the first blocks would
+/// have some percent more of them than the last if all had the same number of balls.
+void BallBlocks::cut_order() {
+  const std::size_t balls = order_.size();
+  const auto work_before = [&](std::size_t place) {
+    return kPairsPerBall * place + first_of_place_[place];
+  };
+  const std::size_t count = block_count(balls);
+  first_places_.assign(1, 0);
+  for (std::size_t place = 0; place <= balls; ++place) {
+    while (first_places_.size() <= count &&
+           work_before(place) * count >= first_places_.size() * work_before(balls))
+      first_places_.push_back(static_cast<std::uint32_t>(place));
+  }
+}
+
+/// By counting, then within the few pairs of each ball.
+void BallBlocks::sort_pairs(std::span<const geometry::IndexPair> pairs,
+                            geometry::ThreadPool& pool) {
+  const auto places = [&](std::uint32_t i) {
+    return std::minmax(places_[static_cast<std::size_t>(pairs[i].a)],
+                       places_[static_cast<std::size_t>(pairs[i].b)]);
+  };
+  std::vector<std::uint32_t>& first = first_of_place_;
+  set_all(first, order_.size() + 1, 0U);
+  set_all(sorted_, pairs.size(), 0U);
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) ++first[places(i).first];
+  std::exclusive_scan(first.begin(), first.end(), first.begin(), 0U);
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) sorted_[first[places(i).first]++] = i;
+  // Now each entry is where the next one's pairs begin.
+  std::copy_backward(first.begin(), first.end() - 1, first.end());
+  first[0] = 0;
+  pool.for_each_range(order_.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t place = begin; place < end; ++place)
+      std::sort(
+          sorted_.begin() + first[place], sorted_.begin() + first[place + 1],
+          [&](std::uint32_t i, std::uint32_t j) { return places(i).second < places(j).second; });
+  });
+}
+
+void BallBlocks::find_touching(std::span<const geometry::IndexPair> pairs,
+                               std::span<const Ball> balls, Positions x,
+                               geometry::ThreadPool& pool) {
+  set_all<std::uint8_t>(touches_, pairs.size(), 0);
+  if (x.empty()) return;
+  pool.for_each_range(pairs.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Ball& a = balls[static_cast<std::size_t>(pairs[i].a)];
+      const Ball& b = balls[static_cast<std::size_t>(pairs[i].b)];
+      const double range = a.radius + b.radius;
+      touches_[i] = (x[index_of(b.node)] - x[index_of(a.node)]).squaredNorm() < range * range;
+    }
+  });
+}
+
+BallBlocks::Stretch BallBlocks::add_stretch(std::size_t pair_count) {
+  const std::size_t rows = (pair_count + kLanes - 1) / kLanes;
+  const Stretch stretch{static_cast<std::uint32_t>(pairs_.size() / kLanes),
+                        static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(pair_count)};
+  pairs_.resize(pairs_.size() + stretch.slot_count());
+  return stretch;
+}
+
+void BallBlocks::fill_block(std::size_t k, std::span<const geometry::IndexPair> pairs,
+                            std::span<const Ball> balls) {
+  const std::span<const std::uint32_t> own(sorted_.begin() + first_of_place_[first_places_[k]],
+                                           sorted_.begin() + first_of_place_[first_places_[k + 1]]);
+  const auto touching = static_cast<std::size_t>(
+      std::ranges::count_if(own, [&](auto i) { return touches_[i] != 0; }));
+  Block block{};
+  block.first_member = static_cast<std::uint32_t>(members_.size());
+  block.owned = first_places_[k + 1] - first_places_[k];
+  if (!blocks_.empty())
+    block.first_borrowed = blocks_.back().first_borrowed + blocks_.back().borrowed();
+  block.first_row = static_cast<std::uint32_t>(row_count());
+  block.stretches = {add_stretch(touching), add_stretch(own.size() - touching)};
+  block.row_count = static_cast<std::uint32_t>(row_count()) - block.first_row;
+  for (std::size_t place = first_places_[k]; place < first_places_[k + 1]; ++place)
+    add_member(order_[place], balls);
+  std::array<std::size_t, 2> filled{};
+  for (const std::uint32_t i : own) {
+    const std::size_t which = touches_[i] != 0 ? 0 : 1;
+    slots_[i] = static_cast<std::uint32_t>(block.stretches[which].slot(filled[which]++));
+    pairs_[slots_[i]] = {member(block, pairs[i].a, balls), member(block, pairs[i].b, balls)};
+  }
+  const auto none = static_cast<std::uint32_t>(members_.size() - block.first_member);
+  members_.push_back({NodeId{-1}, 0.0});
+  balls_.push_back(-1);
+  for (const Stretch& stretch : block.stretches) {
+    for (std::size_t n = stretch.pair_count; n < stretch.slot_count(); ++n)
+      pairs_[stretch.slot(n)] = {none, none};
+  }
+  block.member_count = none + 1;
+  largest_member_count_ = std::max<std::size_t>(largest_member_count_, block.member_count);
+  blocks_.push_back(block);
+}
+
+void BallBlocks::add_member(std::int32_t ball, std::span<const Ball> balls) {
+  const auto b = static_cast<std::size_t>(ball);
+  member_of_[b] = static_cast<std::uint32_t>(members_.size());
+  members_.push_back({balls[b].node, balls[b].radius});
+  balls_.push_back(ball);
+}
+
+std::uint32_t BallBlocks::member(const Block& block, std::int32_t ball,
+                                 std::span<const Ball> balls) {
+  const std::uint32_t& member = member_of_[static_cast<std::size_t>(ball)];
+  const bool is_known =
+      member >= block.first_member && member < balls_.size() && balls_[member] == ball;
+  if (!is_known) add_member(ball, balls);
+  return member - block.first_member;
+}
+
+std::size_t BallBlocks::block_of(std::int32_t ball) const noexcept {
+  const std::uint32_t place = places_[static_cast<std::size_t>(ball)];
+  const auto after = std::upper_bound(first_places_.begin(), first_places_.end(), place);
+  return static_cast<std::size_t>(after - first_places_.begin()) - 1;
+}
+
+/// By counting; borrowers in the order of the blocks.
+void BallBlocks::find_loans() {
+  const auto for_each_borrowed = [&](const auto& visit) {
+    for (const Block& block : blocks_) {
+      for (std::uint32_t m = block.owned; m + 1 < block.member_count; ++m)
+        visit(block.first_borrowed + m - block.owned, balls_[block.first_member + m]);
+    }
+  };
+  set_all(first_loans_, blocks_.size() + 1, 0U);
+  std::uint32_t loans = 0;
+  for_each_borrowed([&](std::uint32_t, std::int32_t ball) {
+    ++first_loans_[block_of(ball)];
+    ++loans;
+  });
+  std::exclusive_scan(first_loans_.begin(), first_loans_.end(), first_loans_.begin(), 0U);
+  make_room(loans_, loans);
+  loans_.resize(loans);
+  for_each_borrowed([&](std::uint32_t borrowed, std::int32_t ball) {
+    loans_[first_loans_[block_of(ball)]++] = {nodes_[static_cast<std::size_t>(ball)], borrowed};
+  });
+  std::rotate(first_loans_.begin(), first_loans_.end() - 1, first_loans_.end());
+  first_loans_[0] = 0;
+}
+
+/// @param node_count  or fewer, if all after those belong to balls
+void BallBlocks::find_other_nodes(std::size_t node_count) {
+  for (const NodeId node : nodes_) node_count = std::max(node_count, index_of(node) + 1);
+  set_all<std::uint8_t>(is_owned_, node_count, 0);
+  for (const NodeId node : nodes_) is_owned_[index_of(node)] = 1;
+  other_nodes_.clear();
+  for (std::size_t node = 0; node < node_count; ++node) {
+    if (is_owned_[node] != 0) continue;
+    if (node == 0 || is_owned_[node - 1] != 0) other_nodes_.push_back({node, node});
+    other_nodes_.back().end = node + 1;
+  }
+}
+
+}  // namespace plekton::contact

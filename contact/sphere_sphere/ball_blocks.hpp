@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/bodies.hpp"
+#include "geometry/base/thread_pool.hpp"
+#include "geometry/neighbor/broad_phase.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plekton::contact {
+
+/// Shares balls and the pairs that they form out into blocks, so that a block is worked on by one
+/// thread, in the cache nearest to it.
+///
+/// Balls are put in order along a space-filling curve, and the order is cut into blocks that take
+/// equally long, each a clump in space. A ball is owned by one block. A pair belongs to the block
+/// of whichever of its balls comes first in the order; the block borrows the other one if it does
+/// not own it, and what the pair adds to a borrowed ball is handed to its owner afterwards. The
+/// blocks depend on the list and on the positions from which it was made, not on the number of
+/// threads, and sums are taken in an order that follows from the blocks alone.
+class BallBlocks {
+ public:
+  /// Pairs side by side in a row; a block has whole rows.
+  static constexpr std::size_t kLanes = 8;
+
+  /// Rows of a block that are filled lane by lane: each lane of the rows runs through a stretch of
+  /// the pairs, so that neighbouring lanes add to different balls, and none has to wait for the sum
+  /// of the one before.
+  struct Stretch {
+    std::uint32_t first_row;
+    std::uint32_t row_count;
+    std::uint32_t pair_count;
+
+    /// Row and lane of its pair n.
+    std::size_t slot(std::size_t n) const noexcept {
+      return (first_row + n % row_count) * kLanes + n / row_count;
+    }
+    std::size_t slot_count() const noexcept { return row_count * kLanes; }
+  };
+
+  struct Block {
+    std::uint32_t first_member;  ///< its balls: those it owns, those it borrows, that of no size
+    std::uint32_t owned;         ///< how many it owns
+    std::uint32_t member_count;
+    std::uint32_t first_borrowed;  ///< those that it borrows, counted over all blocks
+    std::uint32_t first_row;
+    std::uint32_t row_count;
+    /// Of pairs that touched when the list was made, and of the others: rows follow each other.
+    std::array<Stretch, 2> stretches;
+
+    std::uint32_t borrowed() const noexcept { return member_count - 1 - owned; }
+  };
+
+  /// A ball as a member of a block.
+  struct Member {
+    NodeId node;
+    double radius;  ///< m
+  };
+
+  /// Nodes [begin, end).
+  struct NodeRange {
+    std::size_t begin;
+    std::size_t end;
+  };
+
+  /// Which members of its block a pair joins; a is the ball with the lower index in the list.
+  struct Pair {
+    std::uint32_t a, b;
+  };
+
+  /// Takes a new list. Allocates only for a longer one than ever before.
+  /// @param pairs  of balls, a < b, sorted; balls after the last of them are left out
+  /// @param x      m, of nodes; empty: the balls are in order already, and there are no nodes after
+  ///               those of the balls
+  void assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+              geometry::ThreadPool& pool, Positions x);
+
+  std::span<const Block> blocks() const noexcept { return blocks_; }
+  /// How many balls there are in blocks.
+  std::size_t ball_count() const noexcept { return order_.size(); }
+  /// Over all blocks.
+  std::size_t member_count() const noexcept { return members_.size(); }
+  /// The nodes, in order, that no block owns.
+  std::span<const NodeRange> other_nodes() const noexcept { return other_nodes_; }
+  /// Borrowed ones, over all blocks.
+  std::size_t borrowed_count() const noexcept { return loans_.size(); }
+  std::size_t row_count() const noexcept { return pairs_.size() / kLanes; }
+  std::size_t largest_member_count() const noexcept { return largest_member_count_; }
+
+  std::span<const Member> members(const Block& block) const noexcept {
+    return {&members_[block.first_member], block.member_count};
+  }
+  std::span<const Member> owned(const Block& block) const noexcept {
+    return members(block).first(block.owned);
+  }
+  /// The pairs of a row; lanes without a pair join the ball of no size to itself.
+  const Pair* row(std::size_t row) const noexcept { return &pairs_[row * kLanes]; }
+  /// Row and lane of pair i of the list: slot / kLanes and slot % kLanes.
+  std::uint32_t slot(std::size_t i) const noexcept { return slots_[i]; }
+
+  /// Calls add(node, which one of those borrowed) for every ball that a block owns and another one
+  /// borrows, in a fixed order.
+  /// @param ahead  called with the same some calls before, to ask for what add() will read
+  template <class Add, class Ahead>
+  void for_each_loan(std::size_t block, Add&& add, Ahead&& ahead) const {
+    constexpr std::uint32_t kAhead = 16;
+    const std::uint32_t end = first_loans_[block + 1];
+    for (std::uint32_t i = first_loans_[block]; i < end; ++i) {
+      const Loan& later = loans_[std::min(i + kAhead, end - 1)];
+      ahead(later.node, later.borrowed);
+      add(loans_[i].node, loans_[i].borrowed);
+    }
+  }
+
+ private:
+  struct Loan {
+    NodeId node;
+    std::uint32_t borrowed;
+  };
+
+  void order_balls(std::span<const Ball> balls, Positions x);
+  void sort_pairs(std::span<const geometry::IndexPair> pairs, geometry::ThreadPool& pool);
+  void cut_order();
+  void find_touching(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+                     Positions x, geometry::ThreadPool& pool);
+  Stretch add_stretch(std::size_t pair_count);
+  void fill_block(std::size_t block, std::span<const geometry::IndexPair> pairs,
+                  std::span<const Ball> balls);
+  /// The member, within its block, that a ball is; borrows it if need be.
+  std::uint32_t member(const Block& block, std::int32_t ball, std::span<const Ball> balls);
+  void add_member(std::int32_t ball, std::span<const Ball> balls);
+  void find_loans();
+  void find_other_nodes(std::size_t node_count);
+  std::size_t block_of(std::int32_t ball) const noexcept;
+
+  std::vector<std::int32_t> order_;            ///< balls along the curve
+  std::vector<std::uint32_t> places_;          ///< by ball: where it is in order_
+  std::vector<std::uint32_t> first_of_place_;  ///< by place: its first pair in sorted_
+  std::vector<std::uint32_t> sorted_;          ///< pairs by place of their first and other ball
+  std::vector<std::uint32_t> first_places_;    ///< by block
+  std::vector<std::uint8_t> touches_;          ///< by pair, 1 or 0, when the list was made
+  std::vector<std::uint32_t> member_of_;  ///< by ball: which member of the last block it was in
+  std::vector<Block> blocks_;
+  std::vector<Member> members_;
+  std::vector<std::int32_t> balls_;  ///< by member
+  std::vector<Pair> pairs_;          ///< by slot
+  std::vector<std::uint32_t> slots_;
+  std::vector<Loan> loans_;  ///< by block of the owner
+  std::vector<std::uint32_t> first_loans_;
+  std::vector<NodeRange> other_nodes_;
+  std::vector<std::uint8_t> is_owned_;  ///< by node, 1 or 0
+  std::vector<NodeId> nodes_;           ///< by ball
+  std::size_t largest_member_count_ = 0;
+  int lists_in_order_ = 0;  ///< how many lists were made with this order
+};
+
+}  // namespace plekton::contact

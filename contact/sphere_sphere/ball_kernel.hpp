@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/tracking/contact_memory.hpp"
+
+#include <algorithm>
+
+/// The arithmetic of a contact between two balls, for one pair (Real = double) or for some side by
+/// side (Real = Pack).
+namespace plekton::contact {
+
+/// How two balls stand and move.
+template <class Real>
+struct BallMotionOf {
+  Vec3Of<Real> separation;  ///< m, from centre a to centre b
+  Vec3Of<Real> velocity;    ///< m/s, of centre b relative to centre a
+  Vec3Of<Real> spin_a;      ///< rad/s
+  Vec3Of<Real> spin_b;      ///< rad/s
+  Real radius_a;            ///< m
+  Real radius_b;            ///< m
+
+  /// 1 if the balls overlap, else 0; without a square root.
+  PLEKTON_INLINE Real touch() const noexcept {
+    const Real range = radius_a + radius_b;
+    return geometry::flag(range * range > separation.squaredNorm());
+  }
+};
+
+/// Two balls that touch.
+template <class Real>
+struct BallPairOf {
+  Vec3Of<Real> normal;    ///< unit, from a to b
+  Real distance;          ///< m, of the centres
+  Vec3Of<Real> velocity;  ///< m/s, of centre b relative to centre a
+  Vec3Of<Real> spin_a;    ///< rad/s
+  Vec3Of<Real> spin_b;    ///< rad/s
+  Real radius_a;          ///< m
+  Real radius_b;          ///< m
+
+  /// Rate (rad/s) at which both balls turn about the normal, their mean.
+  PLEKTON_INLINE Real twist_rate() const noexcept {
+    const Vec3Of<Real> twice_mean = spin_a + spin_b;
+    return Real(0.5) * twice_mean.dot(normal);
+  }
+};
+
+/// What a step of a pair came to.
+template <class Real>
+struct BallStepOf {
+  Real gap;                         ///< m
+  Vec3Of<Real> force;               ///< N, on b
+  Vec3Of<Real> force_cross_normal;  ///< N; times an arm it is the torque on that ball
+  Real arm_a;                       ///< m
+  Real arm_b;                       ///< m
+  Real dissipated;                  ///< J
+  Vec3Of<Real> moment;              ///< N m, on b
+};
+
+/// Asks the law. The forces act at the point half way through the overlap.
+/// @param history  already turned into the frame of this step
+template <class Law, class Real, class Parameters, class History>
+PLEKTON_INLINE BallStepOf<Real> ball_step(const BallPairOf<Real>& pair,
+                                          const Parameters& parameters, History& history,
+                                          double dt) noexcept {
+  const Real gap = pair.distance - (pair.radius_a + pair.radius_b);
+  const Real arm_a = pair.radius_a + Real(0.5) * gap;
+  const Real arm_b = pair.radius_b + Real(0.5) * gap;
+  const Vec3Of<Real> slip_of_spins = (arm_a * pair.spin_a + arm_b * pair.spin_b).cross(pair.normal);
+  const RelativeMotionOf<Real> motion =
+      relative_motion<Real>(pair.normal, gap, Law::elastic_normal_force(parameters, gap),
+                            pair.velocity - slip_of_spins, pair.spin_b - pair.spin_a);
+  const ContactForceOf<Real> answer = Law::force(parameters, motion, history, dt);
+  return {gap,          answer.force, answer.force.cross(pair.normal),
+          arm_a,        arm_b,        answer.dissipated,
+          answer.moment};
+}
+
+}  // namespace plekton::contact

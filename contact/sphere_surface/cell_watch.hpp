@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/motion.hpp"
+#include "geometry/neighbor/neighbours.hpp"
+#include "geometry/primitives/elements.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plekton::contact {
+
+/// Of the cells in the list of a ball, those that may be in range now: each cell sleeps for as long
+/// as it cannot be.
+///
+/// When a cell is looked at and is out of range by a clearance c (geometry/primitives/cell_clearance.hpp), it
+/// can come into range only after the ball and the cell have together moved by c: no point of a
+/// cell moves further than the one of its nodes that moves most. Let moved be the sum over the
+/// steps of twice the furthest way of any node: the cell sleeps until it has grown by c. So in most
+/// steps a pair costs one comparison and a look at the few cells that are awake: O(pairs + cells in
+/// range), while the list, which is made for many steps, holds several times as many.
+///
+/// Rounding: as in geometry/neighbor/skin.hpp, a step x += v dt is rounded by at most 4 eps of the way and
+/// of the coordinate; the sums are rounded up.
+class CellWatch {
+ public:
+  using NearCells = geometry::NearCells;
+
+  explicit CellWatch(const geometry::Surface& surface) : surface_(&surface) {}
+
+  /// Takes a new list; all are awake.
+  void rebuild(std::span<const geometry::CellId> cells);
+
+  /// Begins a step. All are awake in the first step of a list, and where the way of the nodes is
+  /// not known: O(number of nodes) then, else O(1).
+  void begin_step(const Motion& motion) noexcept;
+
+  /// Of all pairs together.
+  std::size_t cell_count() const noexcept { return cells_.size(); }
+
+  /// What is known of the cells of a pair; at first nothing.
+  struct Awake {
+    double wake = 0.0;        ///< m, what moved has to be before another one may be in range
+    std::uint32_t count = 0;  ///< may be in range now: the first ones of its part of the list
+  };
+
+  /// Whether none of the cells of a pair can be in range.
+  bool is_asleep(const Awake& awake) const noexcept { return awake.count == 0 && is_known(awake); }
+
+  /// Whether those that were awake in the last step are all that can be in range.
+  bool is_known(const Awake& awake) const noexcept { return !all_awake_ && moved_ < awake.wake; }
+
+  /// The cells of a pair that may be nearer than range (m) to its ball, ascending.
+  /// @param near   a part of the list; one thread at a time for each
+  /// @param awake  of this pair, from its last step
+  /// @param found  to which they are added
+  void find(const NearCells& near, const Vec3& centre, double range, Positions x, Awake& awake,
+            std::vector<geometry::CellId>& found);
+
+ private:
+  const geometry::Surface* surface_;
+  std::vector<geometry::CellId> cells_;  ///< of each pair, those awake first
+  std::vector<double> wake_;  ///< m, by place in cells_: what moved_ has to be; negative:
+                              ///< so many steps more it is taken to be in range
+  double moved_ = 0.0;        ///< m, twice the way of any node at most since all were awake
+  double furthest_ = 0.0;     ///< m, largest coordinate at that time
+  bool is_new_ = true;        ///< no step of this list yet
+  bool all_awake_ = true;     ///< in this step
+};
+
+}  // namespace plekton::contact

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/law/contact_law.hpp"
+#include "contact/sphere_surface/patch_force.hpp"
+#include "contact/tracking/contact_memory.hpp"
+
+/// Nearly all patches are one minimum alone, and follow one contact alone: what the general way
+/// makes of these, to the last bit, without its sums and lists.
+namespace plekton::contact {
+
+/// Whether a patch is one minimum alone, with a normal that is certain.
+inline bool is_lone(std::span<const PatchTerm> terms) noexcept {
+  return terms.size() == 1 && terms[0].weight == 1.0 && terms[0].slope == 0.0 &&
+         terms[0].distance > 0.0;
+}
+
+/// patch_state() and set_kinematics() of a patch that is_lone().
+/// @param ball, radius  of side a, m
+/// @param range         m, radius of ball + radius of surface
+template <ContactLaw Law>
+PatchState lone_state(const PatchTerm& term, const typename Law::Parameters& parameters,
+                      NodeId ball, double radius, double range, const Motion& motion) {
+  PatchState state;
+  state.root = term.core.feature;
+  state.normal = term.normal;
+  state.gap = term.distance - range;
+  state.elastic_force = Law::elastic_normal_force(parameters, state.gap);
+  state.elastic_energy = Law::elastic_normal_energy(parameters, state.gap);
+  state.foot = term.distance * term.normal;
+  const double distance = range + state.gap;
+  state.lever_a = distance > 0.0 ? Vec3((radius + 0.5 * state.gap) / distance * state.foot)
+                                 : Vec3(Vec3::Zero());
+  const Vec3 lever_b = state.lever_a - state.foot;
+  const Vec3& spin_a = motion.angular_velocity[index_of(ball)];
+  state.relative_velocity = velocity_at(term.core, lever_b, motion) -
+                            motion.velocity[index_of(ball)] - spin_a.cross(state.lever_a);
+  const Vec3 spin_b = angular_velocity_at(term.core, motion);
+  state.relative_spin = spin_b - spin_a;
+  state.twist_rate = 0.5 * (spin_a + spin_b).dot(state.normal);
+  return state;
+}
+
+}  // namespace plekton::contact

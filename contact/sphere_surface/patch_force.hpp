@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/sphere_surface/patch.hpp"
+#include "contact/tracking/interpolation.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plekton::contact {
+
+/// A patch as one contact of a ball (a) with a surface (b).
+struct PatchState {
+  Feature root;
+  Vec3 normal = Vec3::Zero();   ///< unit, direction of the elastic force on b
+  double gap = 0.0;             ///< m, of the deepest minimum
+  double elastic_force = 0.0;   ///< N, the terms' elastic forces added as vectors
+  double elastic_energy = 0.0;  ///< J, of these
+  Vec3 foot = Vec3::Zero();     ///< m, from the ball's centre to the representative point:
+                                ///< force-weighted mean of the feet
+  Vec3 lever_a = Vec3::Zero();  ///< m, from the ball's centre to the contact point
+  Vec3 relative_velocity = Vec3::Zero();  ///< m/s, of b relative to a at the contact point
+  Vec3 relative_spin = Vec3::Zero();      ///< rad/s, of b relative to a
+  double twist_rate = 0.0;  ///< rad/s, mean angular velocity of both bodies about the normal
+};
+
+/// What a term carries of its patch.
+struct PatchTermForce {
+  double elastic;  ///< N, along the term's normal; negative for a pass
+  double share;    ///< of every other force of the patch; the shares of a patch add up to 1
+};
+
+/// Adds up the elastic forces of a patch. Each term pushes at its own foot, through the ball's
+/// centre.
+/// @param elastic_force   gap -> N, of one feature
+/// @param elastic_energy  gap -> J
+/// @param hold            (term, elastic force) -> how much of all that is not elastic goes to a
+///                        term, in any unit: its elastic force, if only what pushes is in contact
+/// @param term_forces     of the same length as terms
+template <class Force, class Energy, class Hold>
+PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, double range,
+                       Force elastic_force, Energy elastic_energy, Hold hold,
+                       std::span<PatchTermForce> term_forces) {
+  PatchState state;
+  state.root = patch.root;
+  state.gap = terms[0].distance - range;
+  double total = 0.0, total_elastic = 0.0;
+  Vec3 force = Vec3::Zero(), holding = Vec3::Zero();
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const PatchTerm& term = terms[i];
+    const double gap = term.distance - range;
+    const double elastic = term.weight * elastic_force(gap) + term.slope;
+    const double share = term.is_inner ? 0.0 : hold(term, elastic);
+    term_forces[i] = {elastic, share};
+    total += share;
+    total_elastic += elastic;
+    force += elastic * term.normal;
+    holding += share * term.normal;
+    state.foot += share * term.distance * term.normal;
+    state.elastic_energy += term.weight * elastic_energy(gap) + term.energy;
+  }
+  if (terms.size() == 1 || !(total > 0.0)) {
+    // One term, or no force yet: the deepest minimum stands for all.
+    state.normal = terms[0].normal;
+    state.elastic_force = total_elastic;
+    state.foot = terms[0].distance * terms[0].normal;
+    for (std::size_t i = 0; i < terms.size(); ++i) term_forces[i].share = i == 0 ? 1.0 : 0.0;
+    return state;
+  }
+  state.elastic_force = force.norm();
+  const double length = holding.norm();
+  state.normal = length > 0.0 ? Vec3(holding / length) : terms[0].normal;
+  state.foot /= total;
+  for (PatchTermForce& term_force : term_forces) term_force.share /= total;
+  return state;
+}
+
+/// Places the contact point and finds the relative motion there. Any point would balance the
+/// momenta, as long as both sides use the same; this one is half the gap away from either surface,
+/// on the line to the representative point.
+inline void set_kinematics(PatchState& state, NodeId ball, double radius, double range,
+                           std::span<const PatchTerm> terms,
+                           std::span<const PatchTermForce> term_forces, const Motion& motion) {
+  const double distance = range + state.gap;
+  state.lever_a = distance > 0.0 ? Vec3((radius + 0.5 * state.gap) / distance * state.foot)
+                                 : Vec3(Vec3::Zero());
+  Vec3 velocity = Vec3::Zero();
+  Vec3 spin = Vec3::Zero();
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const Vec3 lever = state.lever_a - terms[i].distance * terms[i].normal;
+    velocity += term_forces[i].share * velocity_at(terms[i].core, lever, motion);
+    spin += term_forces[i].share * angular_velocity_at(terms[i].core, motion);
+  }
+  const Vec3& spin_a = motion.angular_velocity[index_of(ball)];
+  state.relative_velocity =
+      velocity - motion.velocity[index_of(ball)] - spin_a.cross(state.lever_a);
+  state.relative_spin = spin - spin_a;
+  state.twist_rate = 0.5 * (spin_a + spin).dot(state.normal);
+}
+
+}  // namespace plekton::contact

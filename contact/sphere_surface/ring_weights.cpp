@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/sphere_surface/ring_weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plekton::contact {
+namespace {
+
+/// Of the range. Smaller overlaps below a level are left out, as rounding makes them.
+constexpr double kLeastOverlap = 1e-12;
+
+/// Two vertices at one distance have a link without resistance; this share of their overlap is as
+/// good as none, and finite.
+constexpr double kLeastDrop = 1e-20;
+
+/// n: the sharper, the less is given back beyond pieces and the less the force jumps where tops
+/// tie, and the faster it turns from pass to pass where two of these do.
+constexpr int kSharpness = 12;
+
+constexpr double power(double x, int n) noexcept {
+  double result = 1.0;
+  for (int i = 0; i < n; ++i) result *= x;
+  return result;
+}
+
+/// (x^n - y^n) / (x - y)
+constexpr double power_slope(double x, double y, int n) noexcept {
+  double sum = 1.0;
+  double last = 1.0;
+  for (int i = 1; i < n; ++i) {
+    last *= y;
+    sum = sum * x + last;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::span<const RingWeights::Share> RingWeights::find(const LevelComplex& complex, double range,
+                                                      std::span<const double> energies) {
+  complex_ = &complex;
+  range_ = range;
+  energies_ = energies;
+  const auto distances = complex.distances();
+  const auto count = static_cast<std::uint32_t>(distances.size());
+  flows_.build(count, complex.links(), complex.fillings());
+  slopes_.assign(count, 0.0);
+  count_pieces();
+  const auto fillers = flows_.basis().fillers();
+  for (std::size_t i = 0; i < fillers.size();) {
+    const std::uint32_t first = fillers[i];
+    const double level = distances[first];
+    while (i < fillers.size() && is_at(level, fillers[i])) ++i;
+    end_holes({level, first, fillers[i - 1] + 1, tops_at(level)});
+  }
+  end_holes({range, count, RingBasis::kNone, {}});
+  shares_.clear();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (weights_[i] != 0.0 || slopes_[i] != 0.0) shares_.push_back({i, weights_[i], slopes_[i]});
+  }
+  return shares_;
+}
+
+/// As if every pass joined pieces. In the order of the distances as they are rounded, so that what
+/// is taken off here and what the holes give back agree about it.
+void RingWeights::count_pieces() {
+  weights_.clear();
+  for (const std::uint32_t branches : flows_.basis().branches()) weights_.push_back(1.0 - branches);
+}
+
+std::span<const std::uint32_t> RingWeights::tops_at(double level) const noexcept {
+  const auto tops = flows_.basis().tops();
+  const auto tied = [&](std::uint32_t top) { return is_at(level, top); };
+  const auto first = std::find_if(tops.begin(), tops.end(), tied);
+  return {first, std::find_if_not(first, tops.end(), tied)};
+}
+
+bool RingWeights::is_at(double level, std::uint32_t vertex) const noexcept {
+  return std::abs(complex_->distances()[vertex] - level) <= kLeastOverlap * range_;
+}
+
+void RingWeights::end_holes(const End& end) {
+  const RingBasis& basis = flows_.basis();
+  const bool is_top = !end.tops.empty();
+  const std::uint32_t filled = is_top ? end.first : RingBasis::kNone;
+  const std::size_t holes =
+      is_top ? basis.shut_count(end.first, end.end) : basis.hole_count({end.first, filled});
+  if (holes == 0) return;
+  set_overlaps(end);
+  // Vertices that tie with the level are left out, and the holes that begin with them.
+  const ComplexPart below{static_cast<std::uint32_t>(overlaps_.size()), filled};
+  set_resistances();
+  const std::size_t flows = flows_.find(below, end.end, resistances_);
+  if (flows > 0) {
+    share_out();
+    add_slopes(end);
+  }
+  // Holes that end as they begin.
+  for (const std::uint32_t top : end.tops)
+    weights_[top] += static_cast<double>(holes - flows) / static_cast<double>(end.tops.size());
+}
+
+void RingWeights::share_out() {
+  values_.clear();
+  for (std::size_t i = 0; i < resistances_.size(); ++i)
+    values_.push_back(energies_[complex_->links()[i].a]);
+  const auto shares = flows_.shares(values_);
+  for (std::size_t i = 0; i < shares.size(); ++i) weights_[complex_->links()[i].a] += shares[i];
+}
+
+/// Of the vertices below a level.
+void RingWeights::set_overlaps(const End& end) {
+  const auto distances = complex_->distances();
+  const double unit = range_ - distances.front();
+  top_ = (range_ - end.level) / unit;
+  overlaps_.clear();
+  inverses_.clear();
+  for (const double distance : distances.first(end.first)) {
+    const double below = end.level - distance;
+    if (!(below > kLeastOverlap * range_)) break;
+    overlaps_.push_back((range_ - distance) / unit);
+    inverses_.push_back(1.0 / (below / unit * (overlaps_.back() + top_)));
+  }
+}
+
+/// Of the links between them.
+void RingWeights::set_resistances() {
+  const auto distances = complex_->distances();
+  const double unit = range_ - distances.front();
+  resistances_.clear();
+  for (std::size_t i = 0; i < complex_->links().size(); ++i) {
+    const Link& link = complex_->links()[i];
+    if (link.a >= overlaps_.size()) break;
+    const double drop =
+        std::max((distances[link.a] - distances[link.b]) / unit, kLeastDrop * overlaps_[link.a]);
+    const double x = inverses_[link.a];
+    const double y = inverses_[link.b];
+    const double difference = drop * (overlaps_[link.a] + overlaps_[link.b]) * x * y;
+    resistances_.push_back(difference * power_slope(x, y, kSharpness) /
+                           complex_->multiplicities()[i]);
+  }
+}
+
+void RingWeights::add_slopes(const End& end) {
+  const auto by_resistance = flows_.slopes(values_);
+  const double per_metre = 2.0 * kSharpness / (range_ - complex_->distances().front());
+  double of_top = 0.0;
+  for (std::size_t i = 0; i < by_resistance.size(); ++i) {
+    const Link& link = complex_->links()[i];
+    const double slope = per_metre * by_resistance[i] / complex_->multiplicities()[i];
+    // In this order, as the next power may overflow, and slopes be as small.
+    const double upper = slope * power(inverses_[link.a], kSharpness) * inverses_[link.a];
+    const double lower = slope * power(inverses_[link.b], kSharpness) * inverses_[link.b];
+    slopes_[link.a] -= upper * overlaps_[link.a];
+    slopes_[link.b] += lower * overlaps_[link.b];
+    of_top += (upper - lower) * top_;
+  }
+  for (const std::uint32_t top : end.tops)
+    slopes_[top] += of_top / static_cast<double>(end.tops.size());
+}
+
+}  // namespace plekton::contact

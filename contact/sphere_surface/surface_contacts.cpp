@@ -1,0 +1,646 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/sphere_surface/surface_contacts.hpp"
+
+#include "contact/tracking/slip_state.hpp"
+#include "geometry/critical/descent.hpp"
+#include "geometry/primitives/cell_clearance.hpp"
+#include "geometry/primitives/surface_change.hpp"
+
+#include <optional>
+
+namespace plekton::contact {
+
+template <ContactLaw Law>
+double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
+                                     std::span<const NearCells> near,
+                                     std::span<const geometry::CellId> cells,
+                                     std::span<const Ball> balls,
+                                     std::span<const MaterialId> materials_of_structures,
+                                     const MaterialPairs<Law>& materials) {
+  double lost = 0.0;
+  const auto make = [&](std::size_t i, const Pair* old) {
+    const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
+    const geometry::StructureId structure{keys[i].b};
+    const double radius_b = surface_->radius(structure);
+    const MaterialId material_b = materials_of_structures[index_of(structure)];
+    const auto parameters = materials.combine(
+        {ball.material, ball.radius, ball.mass},
+        {.material = material_b, .radius = radius_b, .shape = shape_of(*surface_, structure)});
+    const double range = ball.radius + radius_b;
+    return Pair{{ball.radius, range, parameters},
+                ball.node,
+                range + reach_of<Law>(parameters),
+                near[i],
+                old ? old->contacts : Range{},
+                old ? old->lone_face : kNoFace,
+                {}};
+  };
+  rekey_(pairs_, keys, make, [&](const Pair& old) { lost += drop(old); });
+  watch_.rebuild(cells);
+  return lost;
+}
+
+template <ContactLaw Law>
+double SurfaceContacts<Law>::drop(const Pair& pair) const {
+  if (pair.contacts.count == 0) return 0.0;
+  double lost = 0.0;
+  for (const Contact& contact : contacts_of(pair, current_)) {
+    lost += Law::history_energy(pair.parameters, contact.memory.history);
+  }
+  return lost;
+}
+
+template <ContactLaw Law>
+EnergyLoss SurfaceContacts<Law>::advance(const Motion& motion, double dt,
+                                         geometry::ThreadPool& pool) {
+  const auto worker_count = static_cast<std::size_t>(pool.thread_count());
+  while (workers_.size() < worker_count) workers_.emplace_back(*surface_);
+  current_.swap(previous_);
+  current_.resize(worker_count);
+  previous_.resize(worker_count);
+  for (Lists& lists : current_) {
+    lists.contacts.clear();
+    lists.minima.clear();
+  }
+  for (Worker& worker : workers_) {
+    worker.pass_throughs = 0;
+    make_room(worker.cells, watch_.cell_count());
+  }
+  records_.reset(pool.thread_count());
+  watch_.begin_step(motion);
+  return sum_(pairs_.size(), pool, [&](std::size_t begin, std::size_t end, int worker) {
+    return advance_pairs(begin, end, motion, dt, worker);
+  });
+}
+
+template <ContactLaw Law>
+std::int64_t SurfaceContacts<Law>::pass_throughs() const noexcept {
+  std::int64_t count = 0;
+  for (const Worker& worker : workers_) count += worker.pass_throughs;
+  return count;
+}
+
+template <ContactLaw Law>
+std::size_t SurfaceContacts<Law>::touching() const noexcept {
+  std::size_t count = 0;
+  for (const Lists& lists : current_) count += lists.contacts.size();
+  return count;
+}
+
+template <ContactLaw Law>
+double SurfaceContacts<Law>::elastic_energy() const {
+  double energy = 0.0;
+  for (const Pair& pair : pairs_) {
+    if (pair.contacts.count == 0) continue;
+    for (const Contact& contact : contacts_of(pair, current_)) {
+      energy +=
+          contact.elastic_energy + Law::history_energy(pair.parameters, contact.memory.history);
+    }
+  }
+  return energy;
+}
+
+// What becomes of the contacts of balls with a surface that loses some of its elements.
+
+template <ContactLaw Law>
+double SurfaceContacts<Law>::follow(const geometry::SurfaceChange& change,
+                                    std::span<const geometry::CellId> cells, Positions at) {
+  double lost = released_by(change, cells, at);
+  for (Pair& pair : pairs_) {
+    pair.lone_face = kNoFace;
+    if (pair.contacts.count > 0) lost += keep_minima(pair, change);
+  }
+  surface_ = &change.after();
+  watch_ = CellWatch(*surface_);
+  workers_.clear();
+  return lost;
+}
+
+/// Elastic energy (J) of normal forces before, minus what it is afterwards, where the nodes are at
+/// a moment. Only pairs with a cell that is gone have changed: a feature in range has all its cells
+/// in the list.
+template <ContactLaw Law>
+double SurfaceContacts<Law>::released_by(const geometry::SurfaceChange& change,
+                                         std::span<const geometry::CellId> cells,
+                                         Positions at) const {
+  PatchFinder before(change.before());
+  PatchFinder after(change.after());
+  double released = 0.0;
+  std::vector<geometry::CellId> left;
+  for (const Pair& pair : pairs_) {
+    const auto near = cells.subspan(pair.near.first, pair.near.count);
+    if (std::all_of(near.begin(), near.end(),
+                    [&](geometry::CellId cell) { return change.now(cell).has_value(); }))
+      continue;
+    left.clear();
+    for (const geometry::CellId cell : near) {
+      const auto of_cell = change.left_of(cell);
+      left.insert(left.end(), of_cell.begin(), of_cell.end());
+    }
+    std::sort(left.begin(), left.end());
+    left.erase(std::unique(left.begin(), left.end()), left.end());
+    released += normal_energy(pair, before, near, at) - normal_energy(pair, after, left, at);
+  }
+  return released;
+}
+
+template <ContactLaw Law>
+double SurfaceContacts<Law>::normal_energy(const Pair& pair, PatchFinder& finder,
+                                           std::span<const geometry::CellId> cells, Positions x) {
+  if (cells.empty()) return 0.0;
+  const NormalPart one{&pair};
+  const Vec3& centre = x[index_of(pair.node)];
+  double energy = 0.0;
+  for (const Patch& patch : finder.find(centre, pair.reach, cells, x, NormalLaw(one))) {
+    for (const PatchTerm& term : finder.terms(patch))
+      energy += term.weight * one.energy(term.distance) + term.energy;
+  }
+  return energy;
+}
+
+/// A contact goes on from the minima that are left; without any nothing follows it. @returns the
+/// energy (J) of the histories that are lost
+template <ContactLaw Law>
+double SurfaceContacts<Law>::keep_minima(const Pair& pair, const geometry::SurfaceChange& change) {
+  double lost = 0.0;
+  Lists& lists = current_[static_cast<std::size_t>(pair.contacts.worker)];
+  for (std::uint32_t i = 0; i < pair.contacts.count; ++i) {
+    Contact& contact = lists.contacts[pair.contacts.first + i];
+    Feature* const minima = lists.minima.data() + contact.first_minimum;
+    std::uint32_t left = 0;
+    for (std::uint32_t m = 0; m < contact.minimum_count; ++m) {
+      if (const auto minimum = change.now(minima[m])) minima[left++] = *minimum;
+    }
+    contact.minimum_count = left;
+    if (left == 0) lost += forget<Law>(pair.parameters, contact.memory);
+  }
+  return lost;
+}
+
+// Most balls in contact lie where they lay in the step before: on the inside of one facet, far
+// from its sides. These go side by side; all others, and those that turn out to have moved on, one
+// after the other (surface_contacts_step.hpp), in the order of the list.
+
+template <ContactLaw Law>
+EnergyLoss SurfaceContacts<Law>::advance_pairs(std::size_t begin, std::size_t end,
+                                               const Motion& motion, double dt, int worker_index) {
+  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
+  EnergyLoss loss;
+  while (begin < end) {
+    begin = find_jobs(begin, end, motion, worker);
+    if constexpr (LaneLaw<Law>) advance_side_by_side(worker.lone.block, motion, dt);
+    for (const Job& job : worker.jobs) {
+      Pair& pair = pairs_[job.pair];
+      if constexpr (LaneLaw<Law>) {
+        if (job.lane != kNoLane && worker.lone.block.is_right(job.lane)) {
+          loss.dissipated += keep_lone(pair, job.lane, worker_index);
+          continue;
+        }
+      }
+      loss += advance_pair(pair, {worker.cells.data() + job.first_cell, job.cell_count}, motion, dt,
+                           worker_index);
+      if constexpr (LaneLaw<Law>) pair.lone_face = lone_face_of(pair, current_);
+    }
+  }
+  return loss;
+}
+
+/// Finds the pairs that are awake, as long as there are lanes for those that may go side by side.
+/// @returns the first pair that was not looked at
+template <ContactLaw Law>
+std::size_t SurfaceContacts<Law>::find_jobs(std::size_t begin, std::size_t end,
+                                            const Motion& motion, Worker& worker) {
+  worker.jobs.clear();
+  worker.cells.clear();
+  make_room(worker.jobs, end - begin);
+  if constexpr (LaneLaw<Law>) worker.lone.block.clear();
+  std::size_t i = begin;
+  for (; i < end; ++i) {
+    Pair& pair = pairs_[i];
+    if (watch_.is_asleep(pair.awake)) continue;
+    Job job{i, worker.cells.size(), 0, kNoLane};
+    SideFlags sides = kNoSides;
+    if (may_be_lone(pair, motion, job, sides, worker)) {
+      if constexpr (LaneLaw<Law>) {
+        job.lane = worker.lone.block.count();
+        add_lane(pair, sides, worker);
+      }
+    }
+    if (job.cell_count > 0 || pair.contacts.count > 0) worker.jobs.push_back(job);
+    if constexpr (LaneLaw<Law>) {
+      if (worker.lone.block.count() == kLoneLanes) return i + 1;
+    }
+  }
+  return i;
+}
+
+/// Lists the cells that may be in range. @returns whether the pair is likely to touch the inside of
+/// the same facet as in the last step, alone
+/// @param sides  kNoSides; see are_beside()
+template <ContactLaw Law>
+bool SurfaceContacts<Law>::may_be_lone(Pair& pair, const Motion& motion, Job& job, SideFlags& sides,
+                                       Worker& worker) {
+  if (pair.lone_face != kNoFace && watch_.is_known(pair.awake) && pair.awake.count == 1) {
+    worker.cells.push_back(geometry::id_at<geometry::CellId>(index_of(pair.lone_face)));
+    job.cell_count = 1;
+    return true;
+  }
+  const Vec3& centre = motion.position[index_of(pair.node)];
+  watch_.find(pair.near, centre, pair.reach, motion.position, pair.awake, worker.cells);
+  job.cell_count = worker.cells.size() - job.first_cell;
+  return pair.lone_face != kNoFace &&
+         are_beside(*surface_, pair.lone_face,
+                    {worker.cells.data() + job.first_cell, job.cell_count}, centre, pair.reach,
+                    motion.position, sides);
+}
+
+/// The facet whose inside is the only contact of a pair; none if there is no such facet.
+/// @param lists  with the contacts of the pair
+template <ContactLaw Law>
+geometry::FaceId SurfaceContacts<Law>::lone_face_of(
+    const Pair& pair, const std::vector<Lists>& lists) const noexcept {
+  if (pair.contacts.count != 1) return kNoFace;
+  const Contact& contact = contacts_of(pair, lists)[0];
+  if (contact.minimum_count != 1) return kNoFace;
+  const Feature minimum =
+      lists[static_cast<std::size_t>(pair.contacts.worker)].minima[contact.first_minimum];
+  return minimum.kind == geometry::FeatureKind::face ? geometry::FaceId{minimum.id} : kNoFace;
+}
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::add_lane(const Pair& pair, const SideFlags& sides,
+                                    Worker& worker) const requires LaneLaw<Law> {
+  LonePairs<Law>& lone = worker.lone;
+  const auto& corners = surface_->nodes_of(pair.lone_face);
+  lone.face[lone.block.count()] = pair.lone_face;
+  const Contact& last = contacts_of(pair, previous_)[0];
+  static_assert(sizeof(Pair) >= LoneBlock<Law>::kReadOfPair * sizeof(double));
+  static_assert(sizeof(Contact) >= LoneBlock<Law>::kReadOfMemory * sizeof(double));
+  lone.block.add({pair.node, corners[0], corners[1], corners[2]},
+                 reinterpret_cast<const double*>(&pair),
+                 reinterpret_cast<const double*>(&last.memory), sides);
+}
+
+/// Keeps the contact and its forces. @returns the energy (J) dissipated
+template <ContactLaw Law>
+double SurfaceContacts<Law>::keep_lone(Pair& pair, std::size_t lane,
+                                       int worker_index) requires LaneLaw<Law> {
+  const LonePairs<Law>& lone = workers_[static_cast<std::size_t>(worker_index)].lone;
+  const geometry::FaceId face = lone.face[lane];
+  const auto& answer = lone.block.answer(lane);
+  const double gap = answer.gap;
+  SurfaceForce& record = records_.of_worker(worker_index).add(-gap / pair.radius);
+  record.a = pair.node;
+  record.core = {surface_->nodes_of(face), answer.weights, Feature(face)};
+  record.force = answer.force_b;
+  record.torque_a = answer.torque_a;
+  record.torque_b = answer.torque_b;
+  record.elastic = Law::elastic_normal_force(pair.parameters, gap);
+  record.pair = static_cast<std::uint32_t>(&pair - pairs_.data());
+
+  const std::int64_t id = contacts_of(pair, previous_)[0].id;
+  Lists& lists = current_[static_cast<std::size_t>(worker_index)];
+  pair.contacts = {worker_index, static_cast<std::uint32_t>(lists.contacts.size()), 1};
+  record.contact = pair.contacts.first;
+  lists.contacts.push_back({{answer.memory.history, answer.memory.normal},
+                            answer.foot,
+                            gap,
+                            record.elastic,
+                            Law::elastic_normal_energy(pair.parameters, gap),
+                            id,
+                            static_cast<std::uint32_t>(lists.minima.size()),
+                            1});
+  lists.minima.push_back(record.core.feature);
+  return answer.dissipated;
+}
+
+// What a step looks at before contacts of balls with surfaces begin, and their forces as a
+// function of the positions alone.
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::for_each_coming(double margin, std::span<const geometry::CellId> cells,
+                                           Positions x, VisitComing visit) const {
+  for (const Pair& pair : pairs_) {
+    const Vec3& centre = x[index_of(pair.node)];
+    const double range = pair.reach + margin;
+    std::optional<geometry::SurfaceFoot> nearest;
+    bool is_visited = false;  // the nearest one
+    for (const geometry::CellId cell : cells.subspan(pair.near.first, pair.near.count)) {
+      if (geometry::clearance(*surface_, cell, centre, range, x) > 0.0) continue;
+      const geometry::Feature whole = surface_->feature_of(cell);
+      const geometry::SurfaceFoot foot = geometry::foot_on(
+          *surface_, geometry::closest_feature(*surface_, whole, centre, x), centre, x);
+      const bool is_coming =
+          foot.core.feature == whole && foot.distance >= pair.range && foot.distance < range;
+      if (is_coming) visit(pair.node, foot.core, pair.parameters, pair.range);
+      if (nearest && !(foot.distance < nearest->distance)) continue;
+      nearest = foot;
+      is_visited = is_coming;
+    }
+    if (pair.contacts.count == 0 && nearest && !is_visited && nearest->distance < range)
+      visit(pair.node, nearest->core, pair.parameters, pair.range);
+  }
+}
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::add_elastic_forces(std::span<const geometry::CellId> cells, Positions x,
+                                              NodeForces& forces, PatchFinder& finder,
+                                              geometry::FunctionRef<bool(NodeId)> wants) const {
+  for (const Pair& pair : pairs_) {
+    if (pair.contacts.count == 0 || !wants(pair.node)) continue;
+    const NormalPart one{&pair};
+    for (const Patch& patch :
+         finder.find(x[index_of(pair.node)], pair.reach,
+                     cells.subspan(pair.near.first, pair.near.count), x, NormalLaw(one))) {
+      for (const PatchTerm& term : finder.terms(patch)) {
+        const double force = term.weight * one.force(term.distance) + term.slope;
+        const SurfaceForce record{
+            pair.node, term.core, force * term.normal, Vec3::Zero(), Vec3::Zero(), force, 0, 0};
+        record.add_to(forces, [](NodeId) { return true; });
+      }
+    }
+  }
+}
+
+// One step of the contacts of one ball with one surface.
+
+template <ContactLaw Law>
+EnergyLoss SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geometry::CellId> cells,
+                                              const Motion& motion, double dt, int worker_index) {
+  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
+  Lists& lists = current_[static_cast<std::size_t>(worker_index)];
+  const Vec3& centre = motion.position[index_of(pair.node)];
+  const NormalPart one{&pair};
+  const auto patches =
+      worker.patches.find(centre, pair.reach, cells, motion.position, NormalLaw(one));
+
+  const std::size_t first = lists.contacts.size();
+  EnergyLoss loss;
+  if (patches.size() == 1 && pair.contacts.count <= 1 &&
+      is_lone(worker.patches.terms(patches.front()))) {
+    loss = advance_alone(pair, patches[0], motion, dt, worker_index);
+  } else {
+    keep_sides(pair, patches, motion.position, worker);
+    find_states(pair, patches, motion, worker);
+    loss = inherit(pair, patches, motion, dt, worker);
+    for (std::size_t j = 0; j < patches.size(); ++j) {
+      const auto terms = worker.patches.terms(patches[j]);
+      loss.dissipated +=
+          add_contact(pair, terms, worker.states[j],
+                      {worker.term_forces.data() + patches[j].first_term, terms.size()},
+                      worker.inherited[j], dt, worker_index);
+    }
+  }
+  const std::size_t count = lists.contacts.size() - first;
+  pair.contacts = count == 0 ? Range{}
+                             : Range{worker_index, static_cast<std::uint32_t>(first),
+                                     static_cast<std::uint32_t>(count)};
+  return loss;
+}
+
+/// Asks the law, and keeps the contact and its forces. @returns the energy (J) dissipated
+template <ContactLaw Law>
+double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const PatchTerm> terms,
+                                         const PatchState& state,
+                                         std::span<const PatchTermForce> term_forces,
+                                         const Inherited& inherited, double dt, int worker_index) {
+  if (HasReach<Law> && !(state.gap < 0.0) && !holds<Law>(inherited.history))
+    return Law::history_energy(pair.parameters, inherited.history);
+  Lists& lists = current_[static_cast<std::size_t>(worker_index)];
+  const RelativeMotion relative = relative_motion(state.normal, state.gap, state.elastic_force,
+                                                  state.relative_velocity, state.relative_spin);
+  const auto first_minimum = static_cast<std::uint32_t>(lists.minima.size());
+  for (const PatchTerm& term : terms) {
+    if (term.is_minimum) lists.minima.push_back(term.core.feature);
+  }
+  typename Law::History next = inherited.history;
+  const ContactForce result = Law::force(pair.parameters, relative, next, dt);
+  lists.contacts.push_back({{next, state.normal},
+                            state.foot,
+                            state.gap,
+                            state.elastic_force,
+                            state.elastic_energy,
+                            inherited.id,
+                            first_minimum,
+                            static_cast<std::uint32_t>(lists.minima.size()) - first_minimum});
+  write_forces(pair, terms, state, result, term_forces, worker_index);
+  return result.dissipated;
+}
+
+/// One patch of one term that follows at most one contact: the same as the general way.
+template <ContactLaw Law>
+EnergyLoss SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& patch,
+                                               const Motion& motion, double dt, int worker_index) {
+  Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
+  const PatchTerm& term = worker.patches.terms(patch)[0];
+  const PatchState state =
+      lone_state<Law>(term, pair.parameters, pair.node, pair.radius, pair.range, motion);
+  Inherited inherited;
+  EnergyLoss loss;
+  for (const Contact& old : contacts_of(pair, previous_)) {
+    const double stored = Law::history_energy(pair.parameters, old.memory.history);
+    const Feature* minima =
+        previous_[static_cast<std::size_t>(pair.contacts.worker)].minima.data() + old.first_minimum;
+    const bool stays = old.minimum_count == 1 && *minima == term.core.feature;
+    if (!stays && worker.heirs
+                      .find({minima, old.minimum_count}, motion.position[index_of(pair.node)],
+                            motion.position, {&patch, 1}, worker.patches)
+                      .empty()) {
+      loss.dissipated = stored;
+      continue;
+    }
+    loss.tracking = stored;
+    worker.pass_throughs += is_turned_over(old.memory.normal, state.normal);
+    Law::add_share(inherited.history,
+                   carried_history<Law>(old.memory, state.normal, dt * state.twist_rate), 1.0);
+    inherited.id = old.id;
+  }
+  loss.tracking -= Law::history_energy(pair.parameters, inherited.history);
+  const PatchTermForce term_force{state.elastic_force, 1.0};
+  loss.dissipated +=
+      add_contact(pair, {&term, 1}, state, {&term_force, 1}, inherited, dt, worker_index);
+  return loss;
+}
+
+/// Where a ball's centre lies on the surface itself, the contact of the last step says on which
+/// side it is.
+template <ContactLaw Law>
+void SurfaceContacts<Law>::keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x,
+                                      Worker& worker) {
+  for (std::size_t j = 0; j < patches.size(); ++j) {
+    const std::span<PatchTerm> terms = worker.patches.terms(patches[j]);
+    if (terms[0].distance > 0.0 || pair.contacts.count == 0) continue;  // the first is the nearest
+    const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
+    for (const Contact& old : contacts_of(pair, previous_)) {
+      const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
+                                           x[index_of(pair.node)], x, patches, worker.patches);
+      if (std::find(heirs.begin(), heirs.end(), j) == heirs.end()) continue;
+      for (PatchTerm& term : terms) {
+        const bool is_on_the_surface = term.distance == 0.0 && !term.is_inner;
+        if (is_on_the_surface) term.normal = normal_on_last_side(term, old.memory.normal, x);
+      }
+      break;
+    }
+  }
+}
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> patches,
+                                       const Motion& motion, Worker& worker) {
+  worker.states.clear();
+  worker.term_forces.clear();
+  for (const Patch& patch : patches) {
+    const auto terms = worker.patches.terms(patch);
+    worker.term_forces.resize(patch.first_term + terms.size());
+    const std::span<PatchTermForce> term_forces{worker.term_forces.data() + patch.first_term,
+                                                terms.size()};
+    worker.states.push_back(patch_state(
+        patch, terms, pair.range,
+        [&](double gap) { return Law::elastic_normal_force(pair.parameters, gap); },
+        [&](double gap) { return Law::elastic_normal_energy(pair.parameters, gap); },
+        [&](const PatchTerm& term, double elastic) {
+          return HasReach<Law> ? term.weight * std::max(0.0, pair.reach - term.distance) : elastic;
+        },
+        term_forces));
+    set_kinematics(worker.states.back(), pair.node, pair.radius, pair.range, terms, term_forces,
+                   motion);
+  }
+}
+
+/// Hands the histories of the last step's contacts to this step's patches. A contact that splits
+/// shares its history in proportion to the elastic forces, and its number goes to the patch with
+/// the largest; of contacts that merge the one with the largest hands its number on. What a contact
+/// stored that nothing follows is dissipated.
+template <ContactLaw Law>
+EnergyLoss SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> patches,
+                                         const Motion& motion, double dt, Worker& worker) {
+  worker.inherited.assign(patches.size(), Inherited{});
+  EnergyLoss loss;
+  if (pair.contacts.count == 0) return loss;
+  const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
+  for (const Contact& old : contacts_of(pair, previous_)) {
+    const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
+                                         motion.position[index_of(pair.node)], motion.position,
+                                         patches, worker.patches);
+    (heirs.empty() ? loss.dissipated : loss.tracking) +=
+        Law::history_energy(pair.parameters, old.memory.history);
+    double total = 0.0;
+    for (const std::uint32_t heir : heirs) total += worker.states[heir].elastic_force;
+    hand_on_number(old, heirs, worker);
+    // A ball rolls around an edge little by little: a normal that turns over in one step has gone
+    // through the surface.
+    worker.pass_throughs +=
+        !heirs.empty() && std::all_of(heirs.begin(), heirs.end(), [&](std::uint32_t heir) {
+          return is_turned_over(old.memory.normal, worker.states[heir].normal);
+        });
+    for (const std::uint32_t heir : heirs) {
+      const PatchState& state = worker.states[heir];
+      const double share =
+          total > 0.0 ? state.elastic_force / total : 1.0 / static_cast<double>(heirs.size());
+      Law::add_share(worker.inherited[heir].history,
+                     carried_history<Law>(old.memory, state.normal, dt * state.twist_rate), share);
+    }
+  }
+  for (const Inherited& inherited : worker.inherited)
+    loss.tracking -= Law::history_energy(pair.parameters, inherited.history);
+  return loss;
+}
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::hand_on_number(const Contact& old, std::span<const std::uint32_t> heirs,
+                                          Worker& worker) {
+  if (heirs.empty()) return;
+  const std::uint32_t largest =
+      *std::max_element(heirs.begin(), heirs.end(), [&](std::uint32_t p, std::uint32_t q) {
+        return worker.states[p].elastic_force < worker.states[q].elastic_force;
+      });
+  Inherited& inherited = worker.inherited[largest];
+  if (!(old.elastic_force > inherited.from)) return;
+  inherited.id = old.id;
+  inherited.from = old.elastic_force;
+}
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchTerm> terms,
+                                        const PatchState& state, const ContactForce& answer,
+                                        std::span<const PatchTermForce> term_forces, int worker) {
+  auto& records = records_.of_worker(worker);
+  const auto contact =
+      static_cast<std::uint32_t>(current_[static_cast<std::size_t>(worker)].contacts.size() - 1);
+  const Vec3 other_force = answer.force - state.elastic_force * state.normal;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const Vec3 other = term_forces[i].share * other_force;
+    const Vec3 lever_b = state.lever_a - terms[i].distance * terms[i].normal;
+    records.add(
+        {pair.node, terms[i].core, term_forces[i].elastic * terms[i].normal + other,
+         -state.lever_a.cross(other) - term_forces[i].share * answer.moment,
+         lever_b.cross(other) + term_forces[i].share * answer.moment, term_forces[i].elastic,
+         static_cast<std::uint32_t>(&pair - pairs_.data()), contact},
+        -state.gap / pair.radius);
+  }
+}
+
+// Contacts of balls with surfaces as they are reported.
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::number(std::int64_t& last) {
+  for (Lists& lists : current_) {
+    for (Contact& contact : lists.contacts) {
+      if (contact.id == 0) contact.id = ++last;
+    }
+  }
+}
+
+template <ContactLaw Law>
+void SurfaceContacts<Law>::for_each_row(Positions x, VisitRow visit) const {
+  for (std::size_t w = 0; w < records_.lists().size(); ++w) {
+    const auto& list = records_.lists()[w];
+    const std::span<const SurfaceForce> records{list.records.data(), list.count};
+    for (std::size_t begin = 0; begin < records.size();) {
+      const std::uint32_t contact = records[begin].contact;
+      std::size_t end = begin + 1;
+      while (end < records.size() && records[end].contact == contact) ++end;
+      visit(row_of(records.subspan(begin, end - begin), current_[w].contacts[contact], x));
+      begin = end;
+    }
+  }
+}
+
+/// The sum of what its terms do, so that all rows together do what has been done to the nodes.
+/// @param records  of the contact; the first is that of the deepest minimum
+template <ContactLaw Law>
+ContactRow SurfaceContacts<Law>::row_of(std::span<const SurfaceForce> records,
+                                        const Contact& contact, Positions x) const {
+  const SurfaceForce& deepest = records.front();
+  const Pair& pair = pairs_[deepest.pair];
+  const geometry::IndexPair& key = rekey_.key(deepest.pair);
+  Vec3 force = Vec3::Zero();
+  Vec3 torque = Vec3::Zero();  // on the ball, about its centre
+  for (const SurfaceForce& record : records) {
+    force += record.force;
+    torque += record.torque_a;
+  }
+  const double distance = pair.range + contact.gap;
+  const Vec3 lever = distance > 0.0
+                         ? Vec3((pair.radius + 0.5 * contact.gap) / distance * contact.foot)
+                         : Vec3(Vec3::Zero());
+  const Vec3& centre = x[index_of(pair.node)];
+  ContactRow row;
+  row.id = contact.id;
+  row.a = {BodyKind::sphere, key.a, Feature(pair.node)};
+  row.b = {BodyKind::structure, key.b, deepest.core.feature};
+  row.point_a = centre;
+  row.point_b = centre + contact.foot;
+  row.point = centre + lever;
+  row.normal = contact.memory.normal;
+  row.gap = contact.gap;
+  set_force(row, force);
+  if (HasMoments<Law> || records.size() > 1) row.moment = -torque - lever.cross(force);
+  set_state<Law>(row, pair.parameters, contact.memory.history, contact.elastic_force);
+  return row;
+}
+
+template class SurfaceContacts<LinearFrictional>;
+template class SurfaceContacts<AnyLaw>;
+
+}  // namespace plekton::contact

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/bodies.hpp"
+#include "contact/law/any_law.hpp"
+#include "contact/law/linear_frictional.hpp"
+#include "contact/law/material_pairs.hpp"
+#include "contact/sphere_surface/cell_watch.hpp"
+#include "contact/sphere_surface/last_side.hpp"
+#include "contact/sphere_surface/lone_block.hpp"
+#include "contact/sphere_surface/lone_contact.hpp"
+#include "contact/sphere_surface/patch.hpp"
+#include "contact/sphere_surface/patch_force.hpp"
+#include "contact/sphere_surface/patch_heirs.hpp"
+#include "contact/tracking/contact_memory.hpp"
+#include "contact/tracking/contact_row.hpp"
+#include "contact/tracking/energy_loss.hpp"
+#include "contact/tracking/force_records.hpp"
+#include "contact/tracking/rekey.hpp"
+#include "geometry/base/function_ref.hpp"
+#include "geometry/base/parallel_sum.hpp"
+#include "geometry/neighbor/neighbours.hpp"
+#include "geometry/primitives/surface_change.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace plekton::contact {
+
+using geometry::NearCells;
+
+/// Contacts of balls (a) with deformable surfaces (b). A contact belongs to a ball and a structure,
+/// never to a pair of elements: it lives on a patch (patch.hpp), and follows it over the surface.
+template <ContactLaw Law>
+class SurfaceContacts {
+ public:
+  explicit SurfaceContacts(const geometry::Surface& surface)
+      : surface_(&surface), watch_(surface) {}
+
+  /// Takes a new list of pairs (ball, structure), sorted, with their cells in ascending order;
+  /// pairs in both lists keep their patches.
+  /// @param materials_of_structures  by StructureId
+  /// @returns the energy (J) lost with contacts that left the list
+  double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const NearCells> near,
+                 std::span<const geometry::CellId> cells, std::span<const Ball> balls,
+                 std::span<const MaterialId> materials_of_structures,
+                 const MaterialPairs<Law>& materials);
+
+  /// Goes on with what is left of the surface: contacts keep their histories on the minima that are
+  /// left, and one without any is over. A new list has to follow.
+  /// @param cells  of the present list, as rebuild() took them
+  /// @param at     m, where the elastic energy of before and after is compared
+  /// @returns the energy (J) lost: of histories that are over, and what of the elastic energy is
+  ///          not in the surface that is left. Where a torn facet leaves sides that push more than
+  ///          once it may be negative.
+  double follow(const geometry::SurfaceChange& change, std::span<const geometry::CellId> cells,
+                Positions at);
+
+  /// One step of all contacts: forces are written down, not yet added.
+  EnergyLoss advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
+
+  void add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {
+    records_.add_to(forces, pool);
+  }
+
+  /// Largest overlap of the last step over the radius of the ball.
+  double largest_overlap_ratio() const noexcept { return records_.deepest(); }
+
+  /// How many balls had their centre on the other side of a surface than in the step before: they
+  /// pass through it. In the last step.
+  std::int64_t pass_throughs() const noexcept;
+
+  /// Number of patches in contact.
+  std::size_t touching() const noexcept;
+
+  /// Energy (J) stored in all contacts, at the positions of the last step.
+  double elastic_energy() const;
+
+  /// Calls visit(ball's node, core point of a term, parameters, range (m): radius of the ball and
+  /// of the surface, elastic force (N) of the term) for every term of every patch.
+  template <class Visit>
+  void for_each_touching(Visit&& visit) const {
+    records_.for_each([&](const SurfaceForce& record) {
+      const Pair& pair = pairs_[record.pair];
+      visit(record.a, record.core, pair.parameters, pair.range, record.elastic);
+    });
+  }
+
+  /// Calls visit(ball's node, core point, parameters, range (m)) for what is not in contact but may
+  /// be as soon as bodies come nearer by a margin: the nearest point of every cell whose inside
+  /// holds it, and of a surface that the ball does not touch the nearest one of all, since a
+  /// contact begins there.
+  /// @param margin  m, at most the skin of the list
+  /// @param cells   of the present list, as rebuild() took them
+  using VisitComing = geometry::FunctionRef<void(NodeId, const geometry::CorePoint&,
+                                                 const typename Law::Parameters&, double)>;
+  void for_each_coming(double margin, std::span<const geometry::CellId> cells, Positions x,
+                       VisitComing visit) const;
+
+  /// Adds the elastic normal forces (N) with the nodes anywhere near where they were in the last
+  /// step: what the contacts' energy gives, without friction and whatever else has a history.
+  /// @param cells   of the present list, as rebuild() took them
+  /// @param finder  working space, of this surface
+  /// @param wants   (ball's node) -> whether its contacts count
+  void add_elastic_forces(std::span<const geometry::CellId> cells, Positions x, NodeForces& forces,
+                          PatchFinder& finder, geometry::FunctionRef<bool(NodeId)> wants) const;
+
+  /// Gives a number after the last one to every contact that has none.
+  void number(std::int64_t& last);
+
+  /// Calls visit(ContactRow) for every contact of the last step, in the order of the list.
+  void for_each_row(Positions x, VisitRow visit) const;
+
+ private:
+  /// A contact as it is kept for the next step.
+  struct Contact {
+    ContactMemory<Law> memory;
+    Vec3 foot;                    ///< m, from the ball's centre to the representative point
+    double gap;                   ///< m, of the deepest minimum
+    double elastic_force;         ///< N, magnitude of the sum of the normal forces
+    double elastic_energy;        ///< J, of the normal forces
+    std::int64_t id;              ///< 0: none yet
+    std::uint32_t first_minimum;  ///< features of its minima, in Lists::minima
+    std::uint32_t minimum_count;
+  };
+  struct Lists {
+    std::vector<Contact> contacts;
+    std::vector<Feature> minima;
+  };
+  /// Where the contacts of a pair are.
+  struct Range {
+    int worker = 0;
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+  };
+  struct Pair : LonePair<Law> {
+    NodeId node;
+    double reach;  ///< m, the range and the law's reach
+    NearCells near;
+    Range contacts;
+    geometry::FaceId lone_face;  ///< whose inside was the only contact in the last step; or none
+    CellWatch::Awake awake;
+  };
+  static constexpr geometry::FaceId kNoFace{-1};
+  /// A pair that is awake, with the cells that may be in range.
+  struct Job {
+    std::size_t pair;
+    std::size_t first_cell;  ///< in Worker::cells
+    std::size_t cell_count;
+    std::size_t lane;  ///< in Worker::lone; kNoLane: to be computed by itself
+  };
+  /// What a contact has from those of the last step.
+  struct Inherited {
+    typename Law::History history{};
+    std::int64_t id = 0;
+    double from = -1.0;  ///< N, elastic force of the contact that the id is from
+  };
+  static constexpr std::size_t kNoLane = std::numeric_limits<std::size_t>::max();
+  struct Worker {
+    explicit Worker(const geometry::Surface& surface) : patches(surface), heirs(surface) {}
+    PatchFinder patches;
+    PatchHeirs heirs;
+    std::vector<Job> jobs;
+    std::vector<geometry::CellId> cells;  ///< of the jobs
+    std::vector<PatchState> states;
+    std::vector<PatchTermForce> term_forces;  ///< in the order of the patches and their terms
+    std::vector<Inherited> inherited;         ///< by patch
+    std::int64_t pass_throughs = 0;           ///< in this step
+    LonePairs<Law> lone;
+  };
+
+  EnergyLoss advance_pairs(std::size_t begin, std::size_t end, const Motion& motion, double dt,
+                           int worker);
+  std::size_t find_jobs(std::size_t begin, std::size_t end, const Motion& motion, Worker& worker);
+  bool may_be_lone(Pair& pair, const Motion& motion, Job& job, SideFlags& sides, Worker& worker);
+  void add_lane(const Pair& pair, const SideFlags& sides,
+                Worker& worker) const requires LaneLaw<Law>;
+  double keep_lone(Pair& pair, std::size_t lane, int worker) requires LaneLaw<Law>;
+  geometry::FaceId lone_face_of(const Pair& pair, const std::vector<Lists>& lists) const noexcept;
+  EnergyLoss advance_pair(Pair& pair, std::span<const geometry::CellId> cells, const Motion& motion,
+                          double dt, int worker);
+  EnergyLoss advance_alone(const Pair& pair, const Patch& patch, const Motion& motion, double dt,
+                           int worker);
+  double add_contact(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
+                     std::span<const PatchTermForce> term_forces, const Inherited& inherited,
+                     double dt, int worker);
+  void keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x, Worker& worker);
+  void find_states(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
+                   Worker& worker);
+  EnergyLoss inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
+                     double dt, Worker& worker);
+  void write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
+                    const ContactForce& answer, std::span<const PatchTermForce> term_forces,
+                    int worker);
+  static void hand_on_number(const Contact& old, std::span<const std::uint32_t> heirs,
+                             Worker& worker);
+  double drop(const Pair& pair) const;
+  ContactRow row_of(std::span<const SurfaceForce> records, const Contact& contact,
+                    Positions x) const;
+  double released_by(const geometry::SurfaceChange& change, std::span<const geometry::CellId> cells,
+                     Positions at) const;
+  /// Of one contact of a pair, by distance (m).
+  struct NormalPart {
+    const Pair* pair;
+    double energy(double distance) const {
+      return Law::elastic_normal_energy(pair->parameters, distance - pair->range);
+    }
+    double force(double distance) const {
+      return Law::elastic_normal_force(pair->parameters, distance - pair->range);
+    }
+  };
+  static double normal_energy(const Pair& pair, PatchFinder& finder,
+                              std::span<const geometry::CellId> cells, Positions x);
+  double keep_minima(const Pair& pair, const geometry::SurfaceChange& change);
+  std::span<const Contact> contacts_of(const Pair& pair, const std::vector<Lists>& lists) const {
+    return {
+        lists[static_cast<std::size_t>(pair.contacts.worker)].contacts.data() + pair.contacts.first,
+        pair.contacts.count};
+  }
+
+  const geometry::Surface* surface_;
+  std::vector<Pair> pairs_;
+  CellWatch watch_;
+  std::vector<Lists> current_;   ///< by worker
+  std::vector<Lists> previous_;  ///< by worker
+  std::vector<Worker> workers_;
+  ForceRecords<SurfaceForce> records_;
+  Rekey<Pair> rekey_;
+  geometry::ParallelSum<EnergyLoss> sum_;
+};
+
+/// Compiled once, in the library.
+extern template class SurfaceContacts<LinearFrictional>;
+extern template class SurfaceContacts<AnyLaw>;
+
+}  // namespace plekton::contact

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/surface_surface/overlap.hpp"
+
+namespace plekton::contact::structure {
+namespace {
+
+template <class Number>
+using Point = geometry::PackVec3<Number>;
+
+template <class Number>
+Point<Number> normal_of(const std::array<Point<Number>, 3>& facet) {
+  return unit((facet[1] - facet[0]).cross(facet[2] - facet[0]));
+}
+
+/// What round-off makes of a point on a plane is below this times the numbers it comes from. A line
+/// that lies in a plane up to that crosses it nowhere.
+constexpr double kRoundoff = 1e-12;
+
+/// Height of a point over a plane, in units of the length of its normal; 0 up to round-off.
+template <class Number>
+double height_now(const Point<Number>& point, const Point<Number>& origin,
+                  const Point<Number>& normal) {
+  const Vec3 up = still(point) - still(origin);
+  const Vec3 n = still(normal);
+  const double height = up.dot(n);
+  return std::abs(height) <= kRoundoff * std::sqrt(up.squaredNorm() * n.squaredNorm()) ? 0.0
+                                                                                       : height;
+}
+
+template <class Number>
+bool lies_in(const Point<Number>& first, const Point<Number>& last, const Point<Number>& origin,
+             const Point<Number>& normal) {
+  return height_now(first, origin, normal) == 0.0 && height_now(last, origin, normal) == 0.0;
+}
+
+template <class Number>
+bool keep_above(IntervalOf<Number>& interval, const Number& height_at_0,
+                const Number& height_at_1) {
+  const double now_at_0 = still(height_at_0), now_at_1 = still(height_at_1);
+  if (now_at_0 < 0.0 && now_at_1 < 0.0) return false;
+  if (now_at_0 < 0.0 || now_at_1 < 0.0) {
+    const Number zero = height_at_0 / (height_at_0 - height_at_1);
+    if (now_at_0 < 0.0 && zero > interval.from) interval.from = zero;
+    if (now_at_1 < 0.0 && zero < interval.to) interval.to = zero;
+  }
+  return interval.from < interval.to;
+}
+
+template <class Number>
+bool keep_inside(IntervalOf<Number>& interval, const Point<Number>& first,
+                 const Point<Number>& last, const Point<Number>& origin,
+                 const Point<Number>& inward) {
+  if (lies_in(first, last, origin, inward)) return true;
+  return keep_above<Number>(interval, (first - origin).dot(inward), (last - origin).dot(inward));
+}
+
+/// Keeps the part of an edge above the interior of a facet. @returns whether there is one
+template <class Number>
+bool keep_over(IntervalOf<Number>& part, const Point<Number>& first, const Point<Number>& last,
+               const std::array<Point<Number>, 3>& facet, const Point<Number>& normal) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point<Number> inward = normal.cross(facet[(i + 1) % 3] - facet[i]);
+    if (!keep_inside(part, first, last, facet[i], inward)) return false;
+  }
+  return true;
+}
+
+/// A point without derivatives.
+Point<double> now(const Vector& x) {
+  return {x.x.value, x.y.value, x.z.value};
+}
+
+/// Whether an edge has a part above a facet: by the same numbers, without derivatives.
+bool is_over_now(const Vector& first, const Vector& last, const std::array<Vector, 3>& facet) {
+  const std::array<Point<double>, 3> corners{now(facet[0]), now(facet[1]), now(facet[2])};
+  IntervalOf<double> part{0.0, 1.0};
+  return keep_over(part, now(first), now(last), corners, normal_of(corners));
+}
+
+}  // namespace
+
+bool lies_in_plane(const Vector& first, const Vector& last, const Vector& origin,
+                   const Vector& normal) {
+  return lies_in<Real>(first, last, origin, normal);
+}
+
+bool cut(Interval& interval, const Vector& first, const Vector& last, const Vector& origin,
+         const Vector& inward) {
+  return keep_inside<Real>(interval, first, last, origin, inward);
+}
+
+bool cut(Interval& interval, const Real& height_at_0, const Real& height_at_1) {
+  return keep_above<Real>(interval, height_at_0, height_at_1);
+}
+
+std::optional<EdgeOverFacet> above(const Vector& first, const Vector& last,
+                                   const std::array<Vector, 3>& facet) {
+  if (!is_over_now(first, last, facet)) return {};
+  const Vector normal = normal_of<Real>(facet);
+  EdgeOverFacet found{{0.0, 1.0}, (last - first).norm(), 0.0, 0.0, 0.0};
+  keep_over(found.part, first, last, facet, normal);
+  const Real height_first = (first - facet[0]).dot(normal);
+  const Real height_last = (last - facet[0]).dot(normal);
+  // Beyond the facet the edge may go to the other side of its plane.
+  const double middle = 0.5 * (found.part.from.value + found.part.to.value);
+  const double height = (1.0 - middle) * height_first.value + middle * height_last.value;
+  const Real side(height >= 0.0 ? 1.0 : -1.0);
+  found.first = side * height_first;
+  found.last = side * height_last;
+  found.slope = (found.last - found.first) / found.length;
+  return found;
+}
+
+std::optional<EdgeBesideEdge> beside(const std::array<Vector, 2>& edge,
+                                     const std::array<Vector, 2>& other) {
+  const Vector along = unit(other[1] - other[0]);
+  const Vector to_first = edge[0] - other[0];
+  const Real first = to_first.dot(along);
+  EdgeBesideEdge found{{0.0, 1.0}, (edge[1] - edge[0]).norm(), {}, {}};
+  if (!cut(found.part, edge[0], edge[1], other[0], along)) return {};
+  if (!cut(found.part, edge[0], edge[1], other[1], -1.0 * along)) return {};
+  const Vector direction = unit(edge[1] - edge[0]);
+  found.start = to_first - first * along;
+  found.drift = direction - direction.dot(along) * along;
+  return found;
+}
+
+}  // namespace plekton::contact::structure

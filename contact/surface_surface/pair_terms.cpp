@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/surface_surface/pair_terms.hpp"
+
+#include "contact/surface_surface/nearest.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace plekton::contact::structure {
+namespace {
+
+/// Calls visit(i) for i below a count. Terms cost very different times, and the costly ones come
+/// first: threads take turns.
+template <class Visit>
+void in_turns(std::size_t count, geometry::ThreadPool& pool, Visit visit) {
+  const auto stride = static_cast<std::size_t>(pool.thread_count());
+  pool.for_each_range(stride, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t first = begin; first < end; ++first) {
+      for (std::size_t i = first; i < count; i += stride) visit(i);
+    }
+  });
+}
+
+geometry::FeatureNodes some_of(const geometry::FeatureNodes& nodes, unsigned corners) noexcept {
+  geometry::FeatureNodes some{nodes.ids, 0};
+  for (std::size_t k = 0; k < nodes.count; ++k) {
+    if ((corners >> k & 1U) != 0) some.ids[some.count++] = nodes.ids[k];
+  }
+  return some;
+}
+
+/// N, how hard the forces of a term push its features apart.
+double push_of(const PairTerm& term, const Vec3& normal) {
+  double push = 0.0;
+  for (std::size_t i = 0; i < term.b.count; ++i) push += term.forces.on_b[i].dot(normal);
+  return push;
+}
+
+/// Adds the forces on some nodes to those of a term that has all of them that feel any.
+void add_on_nodes(const geometry::FeatureNodes& nodes, const std::array<Vec3, 3>& forces,
+                  const PairTerm& term, PairForces& to) {
+  for (std::size_t i = 0; i < nodes.count; ++i) {
+    for (std::size_t k = 0; k < term.a.count; ++k)
+      if (term.a.ids[k] == nodes.ids[i]) to.on_a[k] += forces[i];
+    for (std::size_t k = 0; k < term.b.count; ++k)
+      if (term.b.ids[k] == nodes.ids[i]) to.on_b[k] += forces[i];
+  }
+}
+
+PairForces scaled(const PairForces& forces, double by) {
+  PairForces result;
+  result.energy = by * forces.energy;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.on_a[i] = by * forces.on_a[i];
+    result.on_b[i] = by * forces.on_b[i];
+  }
+  return result;
+}
+
+}  // namespace
+
+std::array<geometry::FeatureNodes, 2> PairTerms::carriers(std::uint32_t pair) const noexcept {
+  const PairTerm& term = terms_[term_of_pair_[pair]];
+  const geometry::ClosestPoints& points = proximity_[pair].cores.points;
+  const auto a = some_of(term.a, points.corners_a);
+  const auto b = some_of(term.b, points.corners_b);
+  return holders(term).front().is_turned ? std::array{b, a} : std::array{a, b};
+}
+
+void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
+  const geometry::ProductFeatures features = geometry::product_features(*surface_, pairs);
+  terms_.clear();
+  holders_.clear();
+  first_holders_.clear();
+  acting_.clear();
+  terms_are_new_ = true;
+  term_of_pair_.resize(pairs.size());
+  proximity_.resize(pairs.size());
+  spreads_.resize(pairs.size());
+  is_near_.assign(pairs.size(), 0);
+  joints_.clear(pairs.size());
+  for (const std::uint32_t pair : features.holders) holders_.push_back({pair, false});
+  const std::size_t count = surface_->structure_count();
+  for (const geometry::FeaturePair& pair : features.pairs) {
+    PairTerm term = pair_term(*surface_, pair);
+    const auto first = index_of(surface_->structure_of(term.a.ids[0]));
+    const auto second = index_of(surface_->structure_of(term.b.ids[0]));
+    term.spring = static_cast<std::uint32_t>(first * count - first * (first + 1) / 2 + second);
+    for (std::uint32_t h = 0; h < term.holder_count; ++h) {
+      Holder& holder = holders_[term.first_holder + h];
+      const auto nodes = surface_->nodes_of(pairs[holder.pair].a);
+      holder.is_turned = std::find(nodes.begin(), nodes.end(), term.a.ids[0]) == nodes.end();
+      if (term.is_of_cells) term_of_pair_[holder.pair] = static_cast<std::uint32_t>(terms_.size());
+    }
+    first_holders_.push_back(term.first_holder);
+    joints_.add(term, {holders_.data() + term.first_holder, term.holder_count}, pairs, *surface_);
+    terms_.push_back(term);
+  }
+  joints_.finish(terms_, term_of_pair_);
+  first_holders_.push_back(static_cast<std::uint32_t>(holders_.size()));
+}
+
+void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& motion,
+                         geometry::ThreadPool& pool) {
+  if (terms_are_new_) prepare_attractions(springs);
+  find_near_pairs(springs, motion, pool);
+  list_candidates();
+  is_acting_.resize(candidates_.size());
+  shared_.resize(candidates_.size());
+  in_turns(candidates_.size(), pool,
+           [&](std::size_t i) { is_acting_[i] = evaluate_candidate(i, springs, motion.position); });
+  acted_.swap(acting_);
+  acting_.clear();
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (is_acting_[i] != 0) acting_.push_back(candidates_[i]);
+  }
+  by_tilt_.assign(term_of_pair_.size(), {});
+  give_back_of_rings(springs, motion.position);
+  tilt_cells(springs, motion.position);
+  joints_.gather(acting_);
+  acting_changed_ = terms_are_new_ || acting_ != acted_;
+  terms_are_new_ = false;
+}
+
+void PairTerms::prepare_attractions(std::span<const NormalSpring> springs) {
+  attracts_.clear();
+  attractions_.clear();
+  if (std::none_of(springs.begin(), springs.end(), [](const auto& of) { return of.attracts(); }))
+    return;
+  for (const NormalSpring& spring : springs) attracts_.push_back(spring.attracts());
+  attractions_.resize(terms_.size());
+}
+
+void PairTerms::find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
+                                geometry::ThreadPool& pool) {
+  if (terms_are_new_) {
+    clearances_.reset(term_of_pair_.size(), motion.position);
+  } else {
+    clearances_.move(motion.way, motion.position);
+  }
+  due_.clear();
+  clearances_.for_each_due([&](std::size_t i) { due_.push_back(static_cast<std::uint32_t>(i)); });
+  in_turns(due_.size(), pool, [&](std::size_t i) {
+    const std::uint32_t pair = due_[i];
+    const PairTerm& term = terms_[term_of_pair_[pair]];
+    TermProximity& found = proximity_[pair];
+    const geometry::closest::Carriers last{found.cores.points.corners_a,
+                                           found.cores.points.corners_b};
+    found =
+        proximity(term, springs[term.spring].range(), motion.position, is_near_[pair] != 0, last);
+  });
+  for (const std::uint32_t pair : due_) {
+    clearances_.set(pair, proximity_[pair].clearance);
+    is_near_[pair] = proximity_[pair].clearance < 0.0;
+  }
+}
+
+/// Terms that may be in range: all pairs of cells that have them are.
+void PairTerms::list_candidates() {
+  candidates_.clear();
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    // A term's holders lie behind those of the one before.
+    const Holder* const first = holders_.data() + first_holders_[i];
+    const Holder* const last = holders_.data() + first_holders_[i + 1];
+    if (std::all_of(first, last, [&](const Holder& of) { return is_near_[of.pair] != 0; }))
+      candidates_.push_back(static_cast<std::uint32_t>(i));
+  }
+}
+
+/// @returns whether it is in range
+bool PairTerms::evaluate_candidate(std::size_t candidate, std::span<const NormalSpring> springs,
+                                   Positions x) {
+  const PairTerm& term = terms_[candidates_[candidate]];
+  const NormalSpring& spring = springs[term.spring];
+  shared_[candidate] = {};
+  if (term.is_of_cells) {
+    act(candidate, proximity_[holders(term).front().pair], spring, x);
+    return true;
+  }
+  TermProximity own;
+  for (const Holder& holder : holders(term)) {
+    const PairTerm& cells = terms_[term_of_pair_[holder.pair]];
+    if (!takes_over(term, cells, holder.is_turned, proximity_[holder.pair], own)) continue;
+    act(candidate, own, spring, x);
+    return true;
+  }
+  own = proximity(term, spring.range(), x, false, {});
+  if (own.clearance < 0.0) act(candidate, own, spring, x);
+  return own.clearance < 0.0;
+}
+
+void PairTerms::act(std::size_t candidate, const TermProximity& found, const NormalSpring& spring,
+                    Positions x) {
+  const std::uint32_t i = candidates_[candidate];
+  PairTerm& term = terms_[i];
+  term.meets = found.cores.points.relation == geometry::Relation::touching_or_crossing;
+  term.overlap = spring.range() - found.cores.signed_distance;
+  const PointShare share = share_of(term, term.overlap, spring.range());
+  const TermForces pushing = term_forces(term, found, share, spring, x);
+  term.point_share = share.share;
+  term.forces = pushing.forces;
+  if (term.a.count == 3 && term.b.count == 3)
+    spreads_[holders(term).front().pair] = scaled(pushing.spread, 1.0 - share.share);
+  shared_[candidate][0] = pushing.shared;
+  term.push = push_of(term, found.cores.normal);
+  term.push += joints_.evaluate(i, term, found, spring, x, false, term.forces);
+  if (!spring.attracts()) return;
+  const TermForces pulling = term_forces(term, found, share, spring.attraction(), x);
+  attractions_[i] = pulling.forces;
+  joints_.evaluate(i, term, found, spring.attraction(), x, true, attractions_[i]);
+  shared_[candidate][1] = pulling.shared;
+}
+
+/// Mean of the pairs of cells that have a term. All of them are in range: their tilts are of now.
+PointShare PairTerms::share_of(const PairTerm& term, double overlap, double range) const noexcept {
+  PointShare mean{0.0, 0.0, 0.0};
+  for (const Holder& holder : holders(term)) {
+    const PointShare of = point_share(proximity_[holder.pair].tilt, overlap, range);
+    mean.share += of.share;
+    mean.by_distance += of.by_distance;
+  }
+  const double part = 1.0 / static_cast<double>(term.holder_count);
+  return {part * mean.share, part * mean.by_distance, 0.0};
+}
+
+void PairTerms::give_back_of_rings(std::span<const NormalSpring> springs, Positions x) {
+  if (!search_.find(acting_, terms_, holders_, term_of_pair_.size())) return;
+  ring_terms_.clear();
+  for (const std::uint32_t term : acting_) {
+    const std::uint32_t part = search_.part_of(holders(terms_[term]).front().pair);
+    if (search_.is_more(part)) ring_terms_.push_back({part, term});
+  }
+  std::sort(ring_terms_.begin(), ring_terms_.end());
+  const auto pairs = search_.pairs();
+  auto term = ring_terms_.begin();
+  for (std::size_t first = 0, end = 0; first < pairs.size(); first = end) {
+    const std::uint32_t part = search_.part_of(pairs[first]);
+    while (end < pairs.size() && search_.part_of(pairs[end]) == part) ++end;
+    const auto first_term = term;
+    while (term != ring_terms_.end() && term->part == part) ++term;
+    give_back(pairs.subspan(first, end - first), {first_term, term}, springs, x);
+  }
+}
+
+/// @param pairs  of cells of one part, all in range
+/// @param terms  of it, all in range
+void PairTerms::give_back(std::span<const std::uint32_t> pairs, std::span<const RingTerm> terms,
+                          std::span<const NormalSpring> springs, Positions x) {
+  const NormalSpring& spring = springs[of_cells(pairs.front()).spring];
+  const double share = flatness_share(pairs, spring.range());
+  // Less would drown in the rounding of what there is.
+  if (share < std::numeric_limits<double>::epsilon()) return;
+  ring_cells_.clear();
+  for (const std::uint32_t pair : pairs)
+    ring_cells_.push_back({&of_cells(pair).a, &of_cells(pair).b, &proximity_[pair].cores});
+  complex_.build(ring_cells_, spring.range(), x);
+  counts_.assign(complex_.levels().distances().size(), 0.0);
+  for (const RingTerm& of : terms) {
+    const std::uint32_t vertex = complex_.vertex_of(terms_[of.term].a, terms_[of.term].b);
+    if (vertex != ProductComplex::kNone) counts_[vertex] += terms_[of.term].weight;
+  }
+  if (!complex_.levels().fillings().empty() && most_rings() > kMostRings) return;
+  add_rings(pairs, share, spring, false);
+  if (spring.attracts()) add_rings(pairs, share, spring.attraction(), true);
+}
+
+/// Of the part whose counts these are, at any level.
+double PairTerms::most_rings() const noexcept {
+  double pieces_less_rings = 0.0, least = 1.0;
+  for (const double count : counts_) least = std::min(least, pieces_less_rings += count);
+  return 1.0 - least;
+}
+
+double PairTerms::flatness_share(std::span<const std::uint32_t> pairs,
+                                 double range) const noexcept {
+  double share = 1.0;
+  for (const std::uint32_t pair : pairs)
+    share *= point_share(proximity_[pair].tilt, of_cells(pair).overlap, range).share;
+  return share;
+}
+
+/// Spreads what a place does over the pairs of cells that have it.
+void PairTerms::add_rings(std::span<const std::uint32_t> pairs, double share,
+                          const NormalSpring& spring, bool pulls) {
+  const auto distances = complex_.levels().distances();
+  energies_.clear();
+  weights_.clear();
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    energies_.push_back(spring.energy(distances[i]));
+    weights_.push_back(-counts_[i]);
+  }
+  slopes_.assign(distances.size(), 0.0);
+  for (const RingWeights::Share& of : rings_.find(complex_.levels(), spring.range(), energies_)) {
+    weights_[of.vertex] += of.weight;
+    slopes_[of.vertex] = of.slope;
+  }
+  double whole = 0.0;
+  for (std::uint32_t i = 0; i < distances.size(); ++i) {
+    if (weights_[i] == 0.0 && slopes_[i] == 0.0) continue;
+    const double energy = weights_[i] * energies_[i];
+    const double force = share * (weights_[i] * spring.force(distances[i]) + slopes_[i]);
+    whole += energy;
+    const ProductComplex::Place& place = complex_.place(i);
+    const auto having = complex_.holders(i);
+    const double part = 1.0 / static_cast<double>(having.size());
+    const PairForces forces = pushing_apart(place.cores, part * force);
+    for (const std::uint32_t of : having) {
+      const std::uint32_t cells = term_of_pair_[pairs[of]];
+      PairTerm& term = terms_[cells];
+      PairForces& to = pulls ? attractions_[cells] : term.forces;
+      to.energy += part * share * energy;
+      add_on_nodes(place.a, forces.on_a, term, to);
+      add_on_nodes(place.b, forces.on_b, term, to);
+      if (!pulls) term.push += part * force;
+    }
+  }
+  if (share != 1.0) add_flatness(pairs, share * whole, spring.range(), pulls);
+}
+
+/// What the share of a part does, as it changes with the overlaps and tilts of its pairs.
+/// @param energy  J, that it is a factor of
+void PairTerms::add_flatness(std::span<const std::uint32_t> pairs, double energy, double range,
+                             bool pulls) {
+  for (const std::uint32_t pair : pairs) {
+    const std::uint32_t cells = term_of_pair_[pair];
+    PairTerm& term = terms_[cells];
+    const PointShare of = point_share(proximity_[pair].tilt, term.overlap, range);
+    if (of.share == 1.0) continue;
+    const double force = -energy / of.share * of.by_distance;
+    const PairForces forces = pushing_apart(proximity_[pair].cores, force);
+    PairForces& to = pulls ? attractions_[cells] : term.forces;
+    add_on_nodes(term.a, forces.on_a, term, to);
+    add_on_nodes(term.b, forces.on_b, term, to);
+    if (!pulls) term.push += force;
+    by_tilt_[pair][pulls ? 1 : 0] += energy / of.share * of.by_tilt;
+  }
+}
+
+/// The tilts of pairs of cells turn the nodes of both facets, also those that a term does not have.
+void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x) {
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (shared_[i] == std::array{0.0, 0.0}) continue;
+    const PairTerm& term = terms_[candidates_[i]];
+    const double range = springs[term.spring].range();
+    for (const Holder& holder : holders(term)) {
+      const PointShare of = point_share(proximity_[holder.pair].tilt, term.overlap, range);
+      const double by_tilt = of.by_tilt / static_cast<double>(term.holder_count);
+      for (std::size_t k = 0; k < 2; ++k) by_tilt_[holder.pair][k] += by_tilt * shared_[i][k];
+    }
+  }
+  for (std::size_t pair = 0; pair < by_tilt_.size(); ++pair) {
+    const std::uint32_t cells = term_of_pair_[pair];
+    const auto [pushing, pulling] = by_tilt_[pair];
+    if (pushing != 0.0) add_tilting(terms_[cells], pushing, x, terms_[cells].forces);
+    if (pulling != 0.0) add_tilting(terms_[cells], pulling, x, attractions_[cells]);
+  }
+}
+
+}  // namespace plekton::contact::structure

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/sphere_surface/ring_weights.hpp"
+#include "contact/surface_surface/clearances.hpp"
+#include "contact/surface_surface/pair_term.hpp"
+#include "contact/surface_surface/product_complex.hpp"
+#include "contact/surface_surface/ring_search.hpp"
+#include "contact/surface_surface/wrapped_joints.hpp"
+#include "geometry/base/thread_pool.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plekton::contact::structure {
+
+/// All pairs of features of the listed pairs of cells, and what they do in the present step.
+///
+/// A feature is a part of its cell: it is in range only if all pairs of cells that have it are, and
+/// where their nearest points lie in it, these are its own. So pairs of cells are looked at first,
+/// as far as they may be in range (clearances.hpp), and for most of their features nothing more has
+/// to be found.
+///
+/// Their weights add up to Euler's number of what is in range. Where that is not the number of
+/// pieces (ring_search.hpp), because a saddle that closes a ring takes one contact away that no
+/// pieces have merged for, and the maximum that fills it adds one again, the rule for a sphere on a
+/// surface holds (patch.hpp): contacts are counted by pieces, and a ring gives back what its saddle
+/// takes, smoothly (ring_weights.hpp), here with the pairs of features of both bodies
+/// (product_complex.hpp). With the weights W of that rule, and the w of all terms that stand at one
+/// place, each place adds g * (W - sum of w) * phi(distance) to the energy. That is 0 where there
+/// are pieces alone, and changes continuously from there on, as W does; for each energy of the law
+/// the force is its gradient. g is the product of the point shares of all pairs of facets of the
+/// part (point_share.hpp): 1 where none lie flat on each other, 0 where some do. There the area is
+/// measured and nearest points are anywhere, so rings of them mean nothing.
+///
+/// The cost grows with the third power of the rings of a part that something fills. So a part of
+/// more than kMostRings, as of a sheet that lies on a fine net, keeps what its terms add up to: one
+/// contact less for each ring, beside all that the extents of bars and facets count there. Its
+/// energy jumps where it comes to have more.
+class PairTerms {
+ public:
+  /// At 64 a sheet on a net takes 12 ms a step, six times what it takes without.
+  static constexpr double kMostRings = 64.0;
+
+  explicit PairTerms(const geometry::Surface& surface) : surface_(&surface) {}
+
+  /// @param pairs  sorted, each once
+  void rebuild(std::span<const geometry::CellPair> pairs);
+
+  /// Finds which terms are in range, and their forces.
+  /// @param springs  by the rows of the upper triangle of pairs of structures
+  void evaluate(std::span<const NormalSpring> springs, const Motion& motion,
+                geometry::ThreadPool& pool);
+
+  bool empty() const noexcept { return terms_.empty(); }
+  const PairTerm& operator[](std::size_t term) const noexcept { return terms_[term]; }
+  std::span<const Holder> holders(const PairTerm& term) const noexcept {
+    return {holders_.data() + term.first_holder, term.holder_count};
+  }
+
+  /// The term of both cells of a pair.
+  const PairTerm& of_cells(std::uint32_t pair) const noexcept {
+    return terms_[term_of_pair_[pair]];
+  }
+
+  /// What attracts the features of a term in range, besides its forces; null if nothing does.
+  const PairForces* attraction(std::size_t term) const noexcept {
+    return attracts_.empty() || attracts_[terms_[term].spring] == 0 ? nullptr : &attractions_[term];
+  }
+
+  /// What the extent of two facets does that a term in range is of, as far as their nearest points
+  /// do not count (1 - their share): a part of its forces; null if it is of anything else.
+  const PairForces* spread(std::size_t term) const noexcept {
+    const PairTerm& of = terms_[term];
+    if (of.a.count != 3 || of.b.count != 3) return nullptr;
+    return &spreads_[holders(of).front().pair];
+  }
+
+  /// Whether a joint of a chain that wraps around something is in a term in range.
+  bool wraps(std::size_t term) const noexcept { return joints_.acts(term); }
+  /// What joints of bars do to the other ends of these, besides the forces of a term of two cells
+  /// in range; null if nothing does anything.
+  const PairForces* at_ends(std::size_t term) const noexcept {
+    const PairTerm& of = terms_[term];
+    return of.is_of_cells ? joints_.on_pair(holders(of).front().pair) : nullptr;
+  }
+  /// The same of the attraction.
+  const PairForces* attraction_at_ends(std::size_t term) const noexcept {
+    const PairTerm& of = terms_[term];
+    return of.is_of_cells ? joints_.attraction_on_pair(holders(of).front().pair) : nullptr;
+  }
+
+  /// Of a pair of cells in range at the last evaluate(): the corners of the features that hold its
+  /// nearest points, of its first cell and of its second.
+  std::array<geometry::FeatureNodes, 2> carriers(std::uint32_t pair) const noexcept;
+
+  /// Whether a pair of cells may be in range, or so much (m) out of it.
+  bool may_be_within(std::uint32_t pair, double margin) const noexcept {
+    return clearances_.may_be_within(pair, margin);
+  }
+
+  /// Terms in range, ascending.
+  std::span<const std::uint32_t> acting() const noexcept { return acting_; }
+  /// Whether these are others than in the step before, or the terms are new.
+  bool acting_changed() const noexcept { return acting_changed_; }
+
+ private:
+  /// A term of a part with rings.
+  struct RingTerm {
+    std::uint32_t part;
+    std::uint32_t term;
+    friend constexpr auto operator<=>(const RingTerm&, const RingTerm&) = default;
+  };
+  void find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
+                       geometry::ThreadPool& pool);
+  void list_candidates();
+  void prepare_attractions(std::span<const NormalSpring> springs);
+  bool evaluate_candidate(std::size_t candidate, std::span<const NormalSpring> springs,
+                          Positions x);
+  void act(std::size_t candidate, const TermProximity& found, const NormalSpring& spring,
+           Positions x);
+  PointShare share_of(const PairTerm& term, double overlap, double range) const noexcept;
+  void give_back_of_rings(std::span<const NormalSpring> springs, Positions x);
+  void give_back(std::span<const std::uint32_t> pairs, std::span<const RingTerm> terms,
+                 std::span<const NormalSpring> springs, Positions x);
+  double most_rings() const noexcept;
+  double flatness_share(std::span<const std::uint32_t> pairs, double range) const noexcept;
+  void add_rings(std::span<const std::uint32_t> pairs, double share, const NormalSpring& spring,
+                 bool pulls);
+  void add_flatness(std::span<const std::uint32_t> pairs, double energy, double range, bool pulls);
+  void tilt_cells(std::span<const NormalSpring> springs, Positions x);
+
+  const geometry::Surface* surface_;
+  std::vector<PairTerm> terms_;
+  std::vector<Holder> holders_;
+  WrappedJoints joints_;
+  std::vector<char> attracts_;  ///< by spring; empty if none does
+  std::vector<PairForces>
+      attractions_;  ///< by term, of those in range; empty if no spring attracts
+  std::vector<std::uint32_t> first_holders_;  ///< by term, and the number of all
+  std::vector<std::uint32_t> term_of_pair_;   ///< of both cells
+  bool terms_are_new_ = false;
+  Clearances clearances_;                 ///< of the pairs of cells
+  std::vector<std::uint32_t> due_;        ///< pairs of cells that may be in range, ascending
+  std::vector<TermProximity> proximity_;  ///< by pair; of those in range, as it is now
+  std::vector<PairForces> spreads_;       ///< by pair; of those of facets in range
+  std::vector<char> is_near_;             ///< by pair: in range
+  std::vector<std::uint32_t> candidates_;
+  /// J, by candidate: what the share of a term is of; of attraction in the second.
+  std::vector<std::array<double, 2>> shared_;
+  std::vector<std::array<double, 2>> by_tilt_;  ///< J, by pair of cells: of tilt_cells()
+  std::vector<char> is_acting_;                 ///< by candidate
+  std::vector<std::uint32_t> acting_;
+  std::vector<std::uint32_t> acted_;  ///< in the step before
+  bool acting_changed_ = false;
+  RingSearch search_;
+  ProductComplex complex_;
+  RingWeights rings_;
+  std::vector<RingTerm> ring_terms_;
+  std::vector<ProductComplex::CellPair> ring_cells_;
+  std::vector<double> counts_;    ///< by vertex: weights of the terms that stand there
+  std::vector<double> energies_;  ///< J, by vertex
+  std::vector<double> weights_;   ///< by vertex: beside those
+  std::vector<double> slopes_;    ///< N, by vertex: of the energy by the overlap, as weights change
+};
+
+}  // namespace plekton::contact::structure

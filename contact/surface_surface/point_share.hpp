@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/surface_surface/simplex.hpp"
+
+/// Where two facets touch at a point, and where they lie on each other.
+///
+/// Facets that are tilted against each other by an angle t touch in a strip of the width u / t,
+/// with u the overlap. As long as that is narrow beside the bodies' thickness the contact is one at
+/// the nearest points (nearest.hpp). Where it is wide, it counts by its area (extended.hpp), and
+/// where the nearest points are no longer matters: of facets that lie flat they are anywhere, and
+/// the next rounding picks another corner. So what a pair of facets does at its nearest points is
+/// multiplied by a share that depends on
+///
+///     X = (range * sin t / u)^2        range: the sum of both radii
+///
+/// alone: 1 from X1 = 1 - kCosineOfCrossing^2 = 0.19 on (a strip of 2.3 ranges), below that z (2 -
+/// z) with z = X / X1. It is smooth, and goes to 0 where the facets are flat: no corner is favoured
+/// there, whatever rounding or a mesh that coincides with the other one makes of them. What the
+/// nearest points of a linear spring store grows to twice what it was at X1, and no further: deeper
+/// overlaps never store less, so nothing attracts. It goes with the square of the angle, like a
+/// spring that turns the facets flat.
+///
+/// Why X1: facets that cross at more than kCosineOfCrossing have no extent, so they must count in
+/// full at any overlap up to the range. And where the share falls the area of the overlap has taken
+/// over: a corner of 90 degrees that tips down by t along its diagonal has the area (u / t)^2 in
+/// range, and the integral of the energy over it is 1 / (6 X) of the energy of one contact, 0.9
+/// where the share begins to fall. So the sum never falls below one contact while a body comes to
+/// lie flat.
+///
+/// Features that facets share (geometry/critical/product_features.hpp) take the mean share of all pairs of
+/// cells that have them. With the weights of inclusion and exclusion, what lies in several pairs of
+/// cells then counts with a mean of their shares: on a seam of two with half of each.
+namespace plekton::contact::structure {
+
+/// Square of the sine of the angle between the planes of two facets; negative where one is none.
+double tilt_between(const Simplex& a, const Simplex& b);
+
+struct PointShare {
+  double share = 1.0;
+  double by_distance = 0.0;  ///< 1/m, derivative by the distance of the nearest points
+  double by_tilt = 0.0;      ///< derivative by tilt_between()
+};
+
+/// @param tilt     of tilt_between()
+/// @param overlap  m, > 0
+/// @param range    m
+PointShare point_share(double tilt, double overlap, double range);
+
+/// Forces of an energy that depends on tilt_between() of two facets.
+/// @param by_tilt  J, its derivative
+PairForces tilting_forces(const Simplex& a, const Simplex& b, double by_tilt);
+
+}  // namespace plekton::contact::structure

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/law/bonds.hpp"
+#include "contact/surface_surface/pair_term.hpp"
+#include "contact/surface_surface/structure_patch.hpp"
+#include "contact/tracking/contact_memory.hpp"
+#include "contact/tracking/interpolation.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace plekton::contact::structure {
+
+/// What two cells that lie on each other have of everything but the elastic normal force: friction
+/// is a field, with a spring and a limit of its own for every pair of facets that lie flat on each
+/// other, and for every pair with a bar in it, at the point on which its part of the pressure acts.
+/// So a sheet that is turned on another one resists, a strip that is pulled slips from the pulled
+/// end on, and the pull in a belt grows around its drum.
+///
+/// A pair comes into being and ends with an overlap or a share that goes to 0, and so do the force
+/// it is pressed with, the limit of its friction and what its spring can hold. A spring that comes
+/// to count for more contacts keeps its force, one that counts for less keeps its stretch: neither
+/// gains energy. Of bars, what a spring counts for less is handed to those beside it that come to
+/// count for more (structure_contacts_spread.hpp).
+template <ContactLaw Law>
+struct SpreadContact {
+  /// One facet: its corners, and their shares of the elastic force.
+  struct Side {
+    std::array<NodeId, 3> nodes{};
+    std::array<double, 3> shares{};
+    Vec3 point = Vec3::Zero();  ///< m, on which the force acts
+
+    void find_shares(const std::array<Vec3, 3>& forces, const Vec3& per_force, Positions x) {
+      double sum = 0.0;
+      // Of an overlap that is a sliver the corners may be pushed either way; its place is on the
+      // facet.
+      for (std::size_t i = 0; i < 3; ++i)
+        sum += shares[i] = std::max(0.0, per_force.dot(forces[i]));
+      const Vec3& origin = x[index_of(nodes[0])];
+      point = origin;
+      for (std::size_t i = 0; i < 3; ++i) {
+        shares[i] /= sum;
+        point += shares[i] * (x[index_of(nodes[i])] - origin);
+      }
+    }
+    Vec3 velocity_at(const Vec3& lever, const Motion& motion) const {
+      Vec3 velocity = Vec3::Zero();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t node = index_of(nodes[i]);
+        velocity +=
+            shares[i] * (motion.velocity[node] + motion.angular_velocity[node].cross(lever));
+      }
+      return velocity;
+    }
+    Vec3 angular_velocity(const Motion& motion) const {
+      Vec3 spin = Vec3::Zero();
+      for (std::size_t i = 0; i < 3; ++i)
+        spin += shares[i] * motion.angular_velocity[index_of(nodes[i])];
+      return spin;
+    }
+    /// Transpose of both.
+    void add_force_at(const Vec3& lever, const Vec3& force, const Vec3& moment,
+                      NodeForces& forces) const {
+      const Vec3 torque = lever.cross(force) + moment;
+      for (std::size_t i = 0; i < 3; ++i) {
+        forces.force[index_of(nodes[i])] += shares[i] * force;
+        forces.torque[index_of(nodes[i])] += shares[i] * torque;
+      }
+    }
+  };
+
+  std::uint32_t pair = 0;   ///< of cells
+  std::uint32_t patch = 0;  ///< of which it is a part
+  bool is_turned = false;   ///< side a is on the patch's second side
+  bool is_of_bar = false;   ///< one of its cells at least is a cylinder
+  bool is_wrapped = false;  ///< in a patch that wraps around something
+  std::uint32_t meeting = 0;
+  Side a;
+  Side b;
+  Vec3 elastic_force = Vec3::Zero();  ///< N, on b
+  double normal_force = 0.0;          ///< N, its magnitude
+  double gap = 0.0;                   ///< m, mean over the forces
+  double count = 0.0;                 ///< of contacts
+  ContactMemory<Law> memory;
+  double energy = 0.0;              ///< J, of the history
+  double dissipated = 0.0;          ///< J, in the last step
+  Vec3 other_force = Vec3::Zero();  ///< N, on b: all but the elastic force
+  Vec3 moment = Vec3::Zero();       ///< N m, on b
+
+  /// Sets where and how hard a term of two facets presses by its extent.
+  /// @returns whether it does
+  bool locate(const PairTerm& term, const PairForces& spread, const Meeting<Law>& bodies,
+              Positions x) {
+    elastic_force = spread.on_b[0] + spread.on_b[1] + spread.on_b[2];
+    normal_force = elastic_force.norm();
+    if (!(normal_force > 0.0) || !(spread.energy > 0.0)) return false;
+    gap = -2.0 * spread.energy / normal_force;
+    const double one = Law::elastic_normal_force(bodies.parameters, gap);
+    if (!(one > 0.0)) return false;
+    count = normal_force / one;
+    a.nodes = term.a.ids;
+    b.nodes = term.b.ids;
+    const Vec3 per_force = elastic_force / (normal_force * normal_force);
+    a.find_shares(spread.on_a, -per_force, x);
+    b.find_shares(spread.on_b, per_force, x);
+    return true;
+  }
+
+  /// How a pair of cells with a bar in it presses.
+  struct Pressed {
+    double force;         ///< N
+    double mean_overlap;  ///< m
+    Vec3 towards;         ///< from a to b: direction of the patch, as far as it is the pair's too
+    double own;           ///< as far as its own direction is, from 0 to 1
+  };
+  /// Sets where a term with a bar in it presses.
+  /// @returns whether it does
+  bool locate_bar(const PairTerm& term, const Pressed& pressed, const Meeting<Law>& bodies,
+                  Positions x) {
+    const Vec3 force = term.forces.on_b[0] + term.forces.on_b[1] + term.forces.on_b[2];
+    const double size = force.norm();
+    const double one = Law::elastic_normal_force(bodies.parameters, -pressed.mean_overlap);
+    if (!(size > 0.0) || !(one > 0.0)) return false;
+    const Vec3 direction = pressed.towards + pressed.own / size * force;
+    if (!(direction.norm() > 0.0)) return false;
+    is_of_bar = true;
+    gap = -pressed.mean_overlap;
+    normal_force = pressed.force;
+    elastic_force = normal_force * direction.normalized();
+    // Bars of a wrap have a whole spring each, whatever the share of their push: a short bar beside
+    // a long one slips no earlier for it.
+    count = (1.0 - pressed.own) * normal_force / one + pressed.own;
+    a.nodes = term.a.ids;
+    b.nodes = term.b.ids;
+    const Vec3 per_force = force / (size * size);
+    a.find_shares(term.forces.on_a, -per_force, x);
+    b.find_shares(term.forces.on_b, per_force, x);
+    return true;
+  }
+
+  /// Whether its cells hang together with those of another.
+  bool is_beside(const SpreadContact& other) const {
+    const auto meet = [](const Side& p, const Side& q) {
+      return std::any_of(p.nodes.begin(), p.nodes.end(), [&](NodeId node) {
+        return std::find(q.nodes.begin(), q.nodes.end(), node) != q.nodes.end();
+      });
+    };
+    return (meet(a, other.a) && meet(b, other.b)) || (meet(a, other.b) && meet(b, other.a));
+  }
+
+  Vec3 normal() const { return elastic_force / normal_force; }
+  /// @param free_part  of the tangential force, that no bonds carry
+  typename Law::Parameters parameters(const Meeting<Law>& bodies, double free_part) const {
+    return beside_bonds<Law>(Law::multiplied(bodies.parameters, count), free_part);
+  }
+
+  /// Adds the history of a spread contact of the last step.
+  /// @param contacts  that it counts for, of both
+  void take_over(const SpreadContact& old, double contacts, const Motion& motion, double dt) {
+    // Pairs within one structure may have their cells the other way round.
+    const double sign = old.memory.normal.dot(normal()) < 0.0 && old.pair != pair ? -1.0 : 1.0;
+    const Vec3 onto = sign * normal();
+    const Vec3 spin = 0.5 * (a.angular_velocity(motion) + b.angular_velocity(motion));
+    const auto carried = carried_history<Law>(old.memory, onto, dt * spin.dot(onto));
+    Law::add_share(memory.history, carried, sign * contacts / count);
+  }
+
+  /// One step of the law.
+  void apply_law(const Meeting<Law>& bodies, double free_part, const Motion& motion, double dt) {
+    const auto of_all = parameters(bodies, free_part);
+    memory.normal = normal();
+    const Vec3 velocity =
+        b.velocity_at(lever_b(bodies), motion) - a.velocity_at(lever_a(bodies), motion);
+    const RelativeMotion relative =
+        relative_motion(memory.normal, gap, normal_force, velocity,
+                        b.angular_velocity(motion) - a.angular_velocity(motion));
+    const ContactForce result = Law::force(of_all, relative, memory.history, dt);
+    other_force = result.force - elastic_force;
+    moment = result.moment;
+    dissipated = result.dissipated;
+    find_energy(bodies, free_part);
+  }
+  void find_energy(const Meeting<Law>& bodies, double free_part) {
+    energy = Law::history_energy(parameters(bodies, free_part), memory.history);
+  }
+
+  void add_forces(const Meeting<Law>& bodies, NodeForces& forces) const {
+    a.add_force_at(lever_a(bodies), -other_force, -moment, forces);
+    b.add_force_at(lever_b(bodies), other_force, moment, forces);
+  }
+
+  /// m. The contact point lies between the two points on which the elastic force acts.
+  Vec3 lever_a(const Meeting<Law>& bodies) const {
+    return bodies.radius_first / (bodies.radius_first + bodies.radius_second) * (b.point - a.point);
+  }
+  Vec3 lever_b(const Meeting<Law>& bodies) const {
+    return bodies.radius_second / (bodies.radius_first + bodies.radius_second) *
+           (a.point - b.point);
+  }
+};
+
+}  // namespace plekton::contact::structure

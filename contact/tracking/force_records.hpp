@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/tracking/interpolation.hpp"
+#include "geometry/base/thread_pool.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+/// Forces of contacts, written down by whoever computes them and summed afterwards, node by node in
+/// the order of the contacts: the sums have the same bits for any number of threads.
+namespace plekton::contact {
+
+/// Force of one term of a patch: on a ball (a) and at a core point of a surface (b).
+struct SurfaceForce {
+  NodeId a;
+  geometry::CorePoint core;
+  Vec3 force;             ///< N, on b
+  Vec3 torque_a;          ///< N m, on a
+  Vec3 torque_b;          ///< N m, on b, shared by its nodes by weight
+  double elastic;         ///< N, part of the force along the line of a and the core point, on b;
+                          ///< negative for a pass
+  std::uint32_t pair;     ///< of ball and structure
+  std::uint32_t contact;  ///< among those of the worker
+
+  template <class Owns>
+  void add_to(NodeForces& forces, Owns owns) const {
+    if (owns(a)) {
+      forces.force[index_of(a)] -= force;
+      forces.torque[index_of(a)] += torque_a;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const NodeId node = core.nodes[i];
+      const double weight = core.weights[static_cast<int>(i)];
+      if (!owns(node)) continue;
+      forces.force[index_of(node)] += weight * force;
+      forces.torque[index_of(node)] += weight * torque_b;
+    }
+  }
+};
+
+/// Force of a plane on a ball.
+struct PlaneForce {
+  NodeId a;
+  std::size_t plane;
+  Vec3 force;     ///< N, on the plane
+  Vec3 torque_a;  ///< N m, on a
+  std::size_t contact;
+
+  void add_to(NodeForces& forces) const {
+    forces.force[index_of(a)] -= force;
+    forces.torque[index_of(a)] += torque_a;
+  }
+  template <class Owns>
+  void add_to(NodeForces& forces, Owns owns) const {
+    if (owns(a)) add_to(forces);
+  }
+};
+
+/// The records of all contacts of a kind, in the order of the contacts: those of the first worker
+/// first.
+template <class Record>
+class ForceRecords {
+ public:
+  /// What one worker wrote down.
+  struct alignas(64) List {
+    std::vector<Record> records;  ///< the first count of them
+    std::size_t count = 0;
+    double deepest = 0.0;  ///< largest overlap over the radius of the smaller ball
+
+    /// @returns a record to be filled in; before that it holds anything
+    Record& add(double overlap_ratio) {
+      deepest = std::max(deepest, overlap_ratio);
+      // The vector keeps its size from step to step: making a record again would write it twice.
+      if (count == records.size()) records.resize(2 * count + 64);
+      return records[count++];
+    }
+    void add(const Record& record, double overlap_ratio) { add(overlap_ratio) = record; }
+  };
+
+  /// Empty lists, one for each worker; keeps their memory.
+  void reset(int worker_count) {
+    lists_.resize(static_cast<std::size_t>(worker_count));
+    for (List& list : lists_) {
+      list.count = 0;
+      list.deepest = 0.0;
+    }
+  }
+
+  List& of_worker(int worker) noexcept { return lists_[static_cast<std::size_t>(worker)]; }
+
+  const std::vector<List>& lists() const noexcept { return lists_; }
+
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (const List& list : lists_) {
+      for (std::size_t i = 0; i < list.count; ++i) visit(list.records[i]);
+    }
+  }
+
+  std::size_t size() const noexcept {
+    std::size_t count = 0;
+    for (const List& list : lists_) count += list.count;
+    return count;
+  }
+
+  /// Largest overlap over the radius of the smaller ball.
+  double deepest() const noexcept {
+    double deepest = 0.0;
+    for (const List& list : lists_) deepest = std::max(deepest, list.deepest);
+    return deepest;
+  }
+
+  /// Adds all forces to the nodes. Each thread goes through all records and adds to the nodes it
+  /// owns.
+  void add_to(NodeForces& forces, geometry::ThreadPool& pool) const {
+    if (size() == 0) return;
+    if (pool.thread_count() == 1) {
+      for_each([&](const Record& record) { record.add_to(forces, [](NodeId) { return true; }); });
+      return;
+    }
+    pool.for_each_range(forces.force.size(), [&](std::size_t begin, std::size_t end, int) {
+      const auto owns = [begin, end](NodeId node) {
+        return index_of(node) >= begin && index_of(node) < end;
+      };
+      for_each([&](const Record& record) { record.add_to(forces, owns); });
+    });
+  }
+
+ private:
+  std::vector<List> lists_;
+};
+
+}  // namespace plekton::contact

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "geometry/neighbor/broad_phase.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace plekton::contact {
+
+/// Makes room for a number of things, and for a quarter more if there is less: a list whose length
+/// varies a little soon has the room it needs.
+template <class Thing>
+void make_room(std::vector<Thing>& list, std::size_t count) {
+  if (count > list.capacity()) list.reserve(count + count / 4);
+}
+
+/// Finds the keys of one list in another; both sorted, linear time.
+/// @param match  (place in new_keys, whether it is in old_keys, place in old_keys if it is)
+/// @param drop   (place in old_keys of a key that is not in new_keys)
+template <class Match, class Drop>
+void match_keys(std::span<const geometry::IndexPair> old_keys,
+                std::span<const geometry::IndexPair> new_keys, Match match, Drop drop) {
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < new_keys.size(); ++i) {
+    for (; old < old_keys.size() && old_keys[old] < new_keys[i]; ++old) drop(old);
+    const bool is_known = old < old_keys.size() && old_keys[old] == new_keys[i];
+    match(i, is_known, old);
+    old += is_known;
+  }
+  for (; old < old_keys.size(); ++old) drop(old);
+}
+
+/// Moves a list of things with keys to a new list of keys, again and again; both sorted, linear
+/// time. Keeps its room: a list that is not much longer than any before does not allocate.
+template <class Thing>
+class Rekey {
+ public:
+  /// Of the thing at a place.
+  const geometry::IndexPair& key(std::size_t place) const noexcept { return keys_[place]; }
+
+  /// The place of the first key of those whose first index is at least a.
+  std::size_t first_of(std::size_t a) const noexcept {
+    const auto is_before = [a](const geometry::IndexPair& key) {
+      return static_cast<std::size_t>(key.a) < a;
+    };
+    return static_cast<std::size_t>(std::partition_point(keys_.begin(), keys_.end(), is_before) -
+                                    keys_.begin());
+  }
+
+  /// @param things  by the keys of the last call, empty at first; afterwards by new_keys
+  /// @param make    (place in new_keys, old thing of that key or nullptr) -> thing
+  /// @param drop    (old thing whose key is not in the new list)
+  template <class Make, class Drop>
+  void operator()(std::vector<Thing>& things, std::span<const geometry::IndexPair> new_keys,
+                  Make make, Drop drop) {
+    moved_.clear();
+    make_room(moved_, new_keys.size());
+    match_keys(
+        keys_, new_keys,
+        [&](std::size_t i, bool is_known, std::size_t old) {
+          moved_.push_back(make(i, is_known ? &things[old] : nullptr));
+        },
+        [&](std::size_t old) { drop(things[old]); });
+    make_room(keys_, new_keys.size());
+    keys_.assign(new_keys.begin(), new_keys.end());
+    things.swap(moved_);
+  }
+
+ private:
+  std::vector<geometry::IndexPair> keys_;
+  std::vector<Thing> moved_;
+};
+
+}  // namespace plekton::contact

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/tracking/contact_row.hpp"
+#include "dynamics/measures/diverged.hpp"
+#include "dynamics/time_step/step_limits.hpp"
+
+#include <iosfwd>
+#include <span>
+#include <string>
+
+namespace plekton::dynamics {
+
+class StrongestAction;
+
+/// How long the last drifts were.
+struct Drifts {
+  double last;   ///< s, between the forces of the last step and those before
+  double drift;  ///< s, that the last step has moved the nodes by
+};
+
+/// Finds who is at fault where a simulation has become meaningless.
+class FaultFinder {
+ public:
+  /// All of it must outlive this.
+  /// @param state     of the scene; moved back to where the forces were found while it is looked at
+  /// @param forces    of the last step
+  /// @param furthest  m, by node, what it may move in a step
+  FaultFinder(const Resistance& of, const StepLimits& limits, NodeState& state,
+              const NodeForces& forces, std::span<const double> furthest,
+              geometry::ThreadPool& pool)
+      : of_(of),
+        limits_(&limits),
+        state_(&state),
+        forces_(&forces),
+        furthest_(furthest),
+        pool_(&pool) {}
+
+  /// Who is at fault, and what to do about it.
+  /// @param suspect  what acted where energy came from nowhere; may be empty
+  std::string fault(const Divergence& divergence, const Drifts& drifts, const std::string& suspect);
+
+  /// What acted most on the node, and how; empty if nothing does.
+  /// @param state  where the forces were found
+  std::string strongest_action(const Divergence& divergence, const NodeState& state);
+
+  /// Where the forces of the last step were found.
+  /// @param drift  s, that the last step has moved the nodes by
+  NodeState state_before(double drift) const;
+
+ private:
+  double limit_exceeded_before(const Divergence& divergence, const Drifts& drifts) const noexcept;
+  double critical_step_at(NodeState& state, double last, bool expected);
+  void consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action);
+  bool has_node(const contact::ContactBody& body, NodeId node) const;
+  bool is_of_structure(const contact::ContactBody& body, NodeId node) const;
+  void describe(const contact::ContactRow& row, std::ostream& text) const;
+
+  Resistance of_;
+  const StepLimits* limits_;
+  NodeState* state_;
+  const NodeForces* forces_;
+  std::span<const double> furthest_;
+  geometry::ThreadPool* pool_;
+};
+
+}  // namespace plekton::dynamics

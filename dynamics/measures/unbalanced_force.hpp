@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/measures/reactions.hpp"
+
+#include <cstddef>
+
+namespace plekton::dynamics {
+
+/// A mean of magnitudes; 0 of none.
+class MeanMagnitude {
+ public:
+  void add(double magnitude) noexcept {
+    sum_ += magnitude;
+    ++count_;
+  }
+  double value() const noexcept { return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0; }
+
+ private:
+  double sum_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+/// How far from balance a scene is: the mean magnitude of the resultant forces on free nodes,
+/// weight included, over the mean magnitude of the forces between bodies and within structures. It
+/// goes to 0 as everything comes to rest; 1e-2 to 1e-3 is usually called quasi-static.
+///
+/// Of nodes, those that are free along some axis count, along their free axes; of forces, those of
+/// all contacts and bonds, and those of sheet facets on their corners. As the unbalanced force of
+/// YADE (Smilauer et al., Yade Documentation, 2nd ed. (2015), utils.unbalancedForce), after Cundall
+/// & Strack.
+/// @param carried  mean of the forces between bodies and within structures (N)
+/// @returns  0 where no resultant is left, infinity where there is one and nothing is carried
+double unbalanced_force_ratio(const LoadedNodesView& nodes, double carried) noexcept;
+
+}  // namespace plekton::dynamics

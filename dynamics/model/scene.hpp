@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/bodies.hpp"
+#include "dynamics/model/loads.hpp"
+#include "dynamics/state/node_state.hpp"
+#include "dynamics/structure/beam_bond.hpp"
+#include "dynamics/structure/bond_law.hpp"
+#include "dynamics/structure/lumped_mass.hpp"
+#include "dynamics/structure/sheet_facet.hpp"
+#include "geometry/primitives/elements.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plekton::dynamics {
+
+/// Everything a simulation starts from: plain data that can be built by hand, by a reader or by a
+/// generator.
+struct Scene {
+  NodeState state;
+  NodeProperties properties;
+  geometry::Elements elements;
+  std::vector<BeamBond> bonds;
+  std::vector<BondLaw> bond_laws;  ///< of the bonds that yield or break
+  std::vector<SheetFacet> sheet_facets;
+  std::vector<contact::Plane> planes;
+  std::vector<contact::Material> materials;           ///< by MaterialId
+  std::vector<contact::MaterialId> sphere_materials;  ///< by SphereId
+  std::vector<contact::MaterialId>
+      cylinder_materials;  ///< one for each cylinder; one material for a connected structure
+  std::vector<contact::MaterialId> facet_materials;  ///< one for each facet
+  Loads loads;
+
+  /// Adds a node at rest. Mass and inertia are filled in by what is attached to it.
+  NodeId add_node(const Vec3& position, Held held = Held::nothing);
+
+  /// Adds a sphere with its node: mass 4/3 pi r³ density, inertia 2/5 m r².
+  geometry::SphereId add_sphere(const Vec3& centre, double radius, double density,
+                                contact::MaterialId material);
+
+  /// Adds a cylinder between nodes: its geometry only.
+  void add_cylinder(NodeId a, NodeId b, double radius, contact::MaterialId material);
+
+  /// Adds a thick facet between nodes: its geometry only.
+  void add_facet(NodeId a, NodeId b, NodeId c, double radius, contact::MaterialId material);
+
+  /// Adds a beam between nodes, at rest as they are now, with half of its mass to either: m += 1/2
+  /// rho A L, and inertia += 2/5 of that times r² (edge mode, as in Effeindzourou et al. 2016), or
+  /// as the last argument says.
+  /// @returns  its place in bonds
+  std::size_t add_beam(NodeId a, NodeId b, const BeamSection& section, double density,
+                       NodalInertia inertia = NodalInertia::ball);
+
+  /// Adds a facet of a thin sheet between nodes, at rest as they are now, with a third of its mass
+  /// to each: m += 1/3 rho t A, and inertia += 2/5 of that times (t / 2)² (area mode). It only
+  /// resists: what touches it needs a facet of geometry on the same nodes.
+  /// @param density  kg/m³, >= 0; 0 where the mass is given in another way, as by add_edge_mass
+  /// @returns  its place in sheet_facets
+  std::size_t add_sheet_facet(const std::array<NodeId, 3>& nodes, const SheetSection& section,
+                              double density, NodalInertia inertia = NodalInertia::ball);
+
+  /// @throws std::invalid_argument listing every problem: arrays of different lengths, ids out of
+  ///         range, a node without mass that is not held, a value that is not finite, a structure
+  ///         of several materials, a facet without area, a cylinder without length, a sphere on a
+  ///         node of another element, loads that cannot be applied (loads/loads_check.hpp).
+  void check() const;
+};
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/model/scene_figures.hpp"
+
+#include "geometry/base/problems.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace plekton::dynamics {
+namespace {
+
+template <class Elements>
+double smallest_radius(const Elements& elements, double so_far) {
+  for (const auto& element : elements) so_far = std::min(so_far, element.radius);
+  return so_far;
+}
+
+double smallest_radius(const geometry::Elements& elements) {
+  const double spheres = smallest_radius(elements.spheres, std::numeric_limits<double>::infinity());
+  return smallest_radius(elements.facets, smallest_radius(elements.cylinders, spheres));
+}
+
+}  // namespace
+
+std::vector<double> furthest_in_a_step(const Scene& scene) {
+  double radius = 0.0;
+  for (const auto& sphere : scene.elements.spheres) radius = std::max(radius, sphere.radius);
+  for (const auto& cylinder : scene.elements.cylinders) radius = std::max(radius, cylinder.radius);
+  for (const auto& facet : scene.elements.facets) radius = std::max(radius, facet.radius);
+  std::vector<double> furthest(scene.state.size(),
+                               radius > 0.0 ? radius : std::numeric_limits<double>::infinity());
+  for (const auto& sphere : scene.elements.spheres)
+    furthest[index_of(sphere.nodes[0])] = sphere.radius;
+  return furthest;
+}
+
+double pace_radius(const geometry::Elements& elements) {
+  if (elements.spheres.empty()) return smallest_radius(elements);
+  return smallest_radius(elements.spheres, std::numeric_limits<double>::infinity());
+}
+
+double chosen_skin(const Scene& scene, double asked) {
+  if (asked > 0.0) return asked;
+  const double radius = pace_radius(scene.elements);
+  return std::isfinite(radius) ? 0.2 * radius : 1.0;
+}
+
+std::vector<double> node_radii(const Scene& scene, const geometry::Surface& surface) {
+  std::vector<double> radii(scene.state.size(), 0.0);
+  for (std::size_t n = 0; n < radii.size(); ++n) {
+    const auto structure = surface.structure_of(geometry::id_at<NodeId>(n));
+    if (structure != geometry::StructureId{-1}) radii[n] = surface.radius(structure);
+  }
+  for (const geometry::Sphere& sphere : scene.elements.spheres)
+    radii[index_of(sphere.nodes[0])] = sphere.radius;
+  return radii;
+}
+
+std::vector<bool> free_nodes(const NodeProperties& properties) {
+  std::vector<bool> is_free(properties.size());
+  for (std::size_t i = 0; i < is_free.size(); ++i)
+    is_free[i] = !holds_translation(properties.held[i]);
+  return is_free;
+}
+
+Scene held_as_prescribed(Scene scene) {
+  scene.properties.held = held_with_motions(std::move(scene.properties.held), scene.loads.motions);
+  return scene;
+}
+
+double kinetic_energy(const NodeState& state, const NodeProperties& properties) {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Held held = properties.held[i];
+    const Vec3 velocity = free_axes(held).cwiseProduct(state.velocity[i]);
+    const Vec3 spin = free_turns(held).cwiseProduct(state.angular_velocity[i]);
+    energy += 0.5 * properties.mass[i] * velocity.squaredNorm();
+    energy += 0.5 * properties.inertia[i] * spin.squaredNorm();
+  }
+  return energy;
+}
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/model/scene.hpp"
+
+#include <vector>
+
+/// What a simulation has to know of its scene before the first step, whatever its contact law.
+namespace plekton::dynamics {
+
+/// m, by node: what it may move in one step before nothing could notice it any more. A sphere its
+/// own radius, so that it cannot jump over what it should touch; nodes of structures the largest
+/// radius; nodes without elements what they like.
+std::vector<double> furthest_in_a_step(const Scene& scene);
+
+/// Smallest radius (m) of what moves past others: of the spheres where there are some. Infinite if
+/// there are no elements.
+double pace_radius(const geometry::Elements& elements);
+
+/// m, of the lists: what was asked for, or else a fifth of the pace radius.
+/// @param asked  m; 0: choose
+double chosen_skin(const Scene& scene, double asked);
+
+/// Radius (m) of the ball around each node; 0 where there is none.
+std::vector<double> node_radii(const Scene& scene, const geometry::Surface& surface);
+
+/// By node. One that is held in place does not have to be kept out of walls.
+std::vector<bool> free_nodes(const NodeProperties& properties);
+
+/// The scene with prescribed motions held.
+Scene held_as_prescribed(Scene scene);
+
+/// J, of what is free.
+double kinetic_energy(const NodeState& state, const NodeProperties& properties);
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/state/contact_springs.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace plekton::dynamics {
+
+void ContactSprings::clear() noexcept {
+  contacts_ = 0;
+  springs_.clear();
+  ends_.clear();
+  single_.clear();
+}
+
+void ContactSprings::add_spring(const ContactStiffness& contact, std::span<const SpringEnd> ends,
+                                Kind kind) {
+  Spring spring{contact, ends_.size(), 0, kind};
+  for (const SpringEnd& end : ends) {
+    if (end.weight != 0.0) ends_.push_back(end);
+  }
+  spring.end_count = ends_.size() - spring.first_end;
+  springs_.push_back(spring);
+  if (kind != Kind::turning) ++contacts_;
+}
+
+void ContactSprings::add_pair(NodeId a, NodeId b, const ContactStiffness& contact) {
+  add_spring(contact,
+             std::array{SpringEnd{a, -1.0, contact.arm_a}, SpringEnd{b, 1.0, -contact.arm_b}},
+             Kind::of_ball);
+}
+
+void ContactSprings::add_on_surface(NodeId ball, const geometry::CorePoint& core,
+                                    const ContactStiffness& contact,
+                                    const SurfaceTurning& turning) {
+  add_spring(contact, surface_ends(ball, core, contact), Kind::on_surface);
+  const TurningSpring spring = turning_spring(ball, core, contact.normal, turning);
+  if (spring.contact.normal_stiffness > 0.0) add_spring(spring.contact, spring.ends, Kind::turning);
+}
+
+void ContactSprings::add_to_wall(NodeId ball, const ContactStiffness& contact) {
+  add_spring(contact, std::array{SpringEnd{ball, -1.0, contact.arm_a}}, Kind::of_ball);
+}
+
+void ContactSprings::add(NodeId node, const IsotropicStiffness& springs) {
+  single_.push_back({node, springs});
+}
+
+double ContactSprings::collision_step(const NodeState& state,
+                                      const NodeProperties& properties) const noexcept {
+  double energy = 0.0;  // J
+  double rated = 0.0;   // J/s², energy times omega²
+  for (const Spring& spring : springs_) {
+    if (spring.kind != Kind::on_surface) continue;
+    double mobility = 0.0;  // 1/kg, sum of w² / m
+    double speed = 0.0;     // m/s
+    for (const SpringEnd& end : ends().subspan(spring.first_end, spring.end_count)) {
+      const std::size_t node = index_of(end.node);
+      speed += end.weight * spring.contact.normal.dot(state.velocity[node]);
+      if (!holds_translation(properties.held[node]))
+        mobility += end.weight * end.weight / properties.mass[node];
+    }
+    if (!(mobility > 0.0)) continue;
+    const double stiffness = spring.contact.normal_stiffness;
+    const double overlap = spring.contact.overlap;
+    const double own = 0.5 * (stiffness * overlap * overlap + speed * speed / mobility);
+    energy += own;
+    rated += own * stiffness * mobility;
+  }
+  return rated > 0.0 ? 0.5 * std::sqrt(energy / rated) : std::numeric_limits<double>::infinity();
+}
+
+void ContactSprings::resist(const std::vector<Vec3>& shift, const std::vector<Vec3>& turn,
+                            NodeForces& forces) const {
+  for (const Spring& spring : springs_) {
+    if (spring.kind == Kind::turning) continue;
+    const Vec3& n = spring.contact.normal;
+    Vec3 way = Vec3::Zero();  // m, of the contact point on b less that on a
+    for (std::size_t i = spring.first_end; i < spring.first_end + spring.end_count; ++i) {
+      const SpringEnd& end = ends_[i];
+      way += end.weight *
+             (shift[index_of(end.node)] + turn[index_of(end.node)].cross(Vec3(end.arm * n)));
+    }
+    const Vec3 along = n.dot(way) * n;
+    const Vec3 force = spring.contact.normal_stiffness * along +
+                       spring.contact.tangential_stiffness * (way - along);
+    for (std::size_t i = spring.first_end; i < spring.first_end + spring.end_count; ++i) {
+      const SpringEnd& end = ends_[i];
+      forces.force[index_of(end.node)] -= end.weight * force;
+      forces.torque[index_of(end.node)] -= end.weight * Vec3(end.arm * n).cross(force);
+    }
+  }
+  for (const Single& single : single_) {
+    const std::size_t node = index_of(single.node);
+    forces.force[node] -= single.springs.translation * shift[node];
+    forces.torque[node] -= single.springs.rotation * turn[node];
+  }
+}
+
+}  // namespace plekton::dynamics

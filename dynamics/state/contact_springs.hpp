@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/state/nodal_stiffness.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plekton::dynamics {
+
+/// The springs of contacts as they couple their nodes; NodalStiffness, with functions of the same
+/// names, only has their sums around each node.
+class ContactSprings {
+ public:
+  /// Forgets all of them; keeps the space.
+  void clear() noexcept;
+
+  /// A contact between two balls.
+  void add_pair(NodeId a, NodeId b, const ContactStiffness& contact);
+  /// A contact between a ball and a surface, whose nodes share in it by the weights of the core
+  /// point.
+  /// @param turning  as a spring of its own; it is for bounds, and no part of resist()
+  void add_on_surface(NodeId ball, const geometry::CorePoint& core, const ContactStiffness& contact,
+                      const SurfaceTurning& turning = {});
+  /// A contact between a ball and a wall, which does not yield. arm_b has no meaning here.
+  void add_to_wall(NodeId ball, const ContactStiffness& contact);
+  /// Springs that hold a single node.
+  void add(NodeId node, const IsotropicStiffness& springs);
+
+  /// Number of contacts between balls, surfaces and walls.
+  std::size_t size() const noexcept { return contacts_; }
+  bool empty() const noexcept { return springs_.empty() && single_.empty(); }
+
+  /// Leaves out the springs against turning of the balls for which a function says so: what they
+  /// resist is known in another way.
+  template <class Chosen>
+  void leave_out_turning(const Chosen& is_chosen) {
+    for (Spring& spring : springs_) {
+      if (spring.kind == Kind::turning && is_chosen(ends_[spring.first_end].node))
+        spring.contact.normal_stiffness = spring.contact.tangential_stiffness = 0.0;
+    }
+  }
+  /// Calls visit(contact, its ends) for those on surfaces.
+  template <class Visit>
+  void for_each_on_surface(Visit&& visit) const {
+    for (const Spring& spring : springs_) {
+      if (spring.kind == Kind::on_surface)
+        visit(spring.contact, ends().subspan(spring.first_end, spring.end_count));
+    }
+  }
+
+  /// Ends of all springs but the single ones, spring by spring.
+  std::span<const SpringEnd> ends() const noexcept { return ends_; }
+  /// Calls visit(contact, its ends, place of the first of these in ends()).
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (const Spring& spring : springs_)
+      visit(spring.contact, ends().subspan(spring.first_end, spring.end_count), spring.first_end);
+  }
+  /// Calls visit(node, springs).
+  template <class Visit>
+  void for_each_single(Visit&& visit) const {
+    for (const Single& single : single_) visit(single.node, single.springs);
+  }
+
+  /// Step (s) that follows the collisions of balls with surfaces; infinite if there is nothing in
+  /// them.
+  ///
+  /// As it begins and ends within a step a contact loses and gains between 0 and (omega dt)² / 4 of
+  /// the energy of what collides, omega² = k sum w² / m, a sixth of the squared product on average
+  /// (with a first overlap of u v dt it is k (v dt)² u (1 - u) / 2). With the energy of each,
+  /// E = 1/2 k overlap² + 1/2 v² / sum (w² / m), v the speed along the normal, this is the step at
+  /// which the mean of (omega dt)² by energy is 1/4: at most 1/16 of the energy of all collisions
+  /// with surfaces.
+  double collision_step(const NodeState& state, const NodeProperties& properties) const noexcept;
+
+  /// Takes from the forces (N, N m) what the springs do against small motions.
+  /// @param shift  m, by NodeId
+  /// @param turn   rad, by NodeId
+  void resist(const std::vector<Vec3>& shift, const std::vector<Vec3>& turn,
+              NodeForces& forces) const;
+
+ private:
+  enum class Kind : std::uint8_t { of_ball, on_surface, turning };
+  struct Spring {
+    ContactStiffness contact;
+    std::size_t first_end;
+    std::size_t end_count;
+    Kind kind;
+  };
+  struct Single {
+    NodeId node;
+    IsotropicStiffness springs;
+  };
+
+  void add_spring(const ContactStiffness& contact, std::span<const SpringEnd> ends, Kind kind);
+
+  std::size_t contacts_ = 0;
+  std::vector<Spring> springs_;
+  std::vector<SpringEnd> ends_;
+  std::vector<Single> single_;
+};
+
+}  // namespace plekton::dynamics

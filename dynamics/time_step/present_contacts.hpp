@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/contacts.hpp"
+#include "dynamics/state/contact_springs.hpp"
+#include "dynamics/state/nodal_stiffness.hpp"
+#include "geometry/primitives/elements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace plekton::dynamics {
+
+/// Contacts as springs on nodes: those that act, and those that bodies may come to have once they
+/// are nearer.
+///
+/// Springs may be ContactSprings, NodalStiffness, StiffestPart: what has add_pair(),
+/// add_on_surface(), add_to_wall() and add() of a node.
+struct PresentContacts {
+  const contact::Contacts& contacts;
+  std::span<const contact::Plane> planes;
+  std::span<const double> radii;  ///< m, of the ball around each node
+
+  /// Every touching pair, as it is now.
+  /// @param further  m, by how much contacts may get deeper
+  /// @param x        m, where the nodes were when the forces were found
+  template <class Springs>
+  void add_to(Springs& springs, double further, geometry::Positions x) const {
+    contacts.for_each_sphere_pair(
+        [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
+          add_spheres(springs, a, b, pair, gap - further, x);
+        });
+    add_on_surfaces_to(springs, further, x);
+    contacts.for_each_plane_pair(
+        [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
+          add_to_plane(springs, ball, plane, pair, gap - further);
+        });
+  }
+
+  /// What touches, and what may touch once bodies are nearer by a margin (m); of structures, only
+  /// what touches.
+  template <class Springs>
+  void add_near_to(Springs& springs, double margin, geometry::Positions x) const {
+    contacts.for_each_near_sphere_pair(
+        margin, x, [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
+          add_spheres(springs, a, b, pair, gap - margin, x);
+        });
+    add_on_surfaces_to(springs, margin, x);
+    contacts.for_each_coming_surface_term(
+        margin, x,
+        [&](NodeId ball, const geometry::CorePoint& core, const contact::PairSprings& pair,
+            double range, double) {
+          add_on_surface(springs, {ball, core, range, 0.0}, pair, margin, x);
+        });
+    contacts.for_each_near_plane_pair(
+        margin, planes, x,
+        [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
+          add_to_plane(springs, ball, plane, pair, gap - margin);
+        });
+  }
+
+ private:
+  /// A part of a contact of a ball with a surface.
+  struct OnSurface {
+    NodeId ball;
+    const geometry::CorePoint& core;
+    double range;  ///< m, radius of the ball and of the surface
+    double force;  ///< N, elastic; of rings it may be more than one contact has
+  };
+
+  ContactStiffness stiffness_of(const Vec3& normal, const contact::PairSprings& pair, double gap,
+                                NodeId a, NodeId b) const {
+    return {normal, pair.normal_stiffness(gap), pair.tangential_stiffness(gap), radii[index_of(a)],
+            radii[index_of(b)]};
+  }
+
+  template <class Springs>
+  void add_spheres(Springs& springs, NodeId a, NodeId b, const contact::PairSprings& pair,
+                   double gap, geometry::Positions x) const {
+    const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
+    springs.add_pair(a, b, stiffness_of(normal, pair, gap, a, b));
+  }
+
+  template <class Springs>
+  void add_to_plane(Springs& springs, NodeId ball, std::size_t plane,
+                    const contact::PairSprings& pair, double gap) const {
+    springs.add_to_wall(ball, stiffness_of(planes[plane].normal, pair, gap, ball, ball));
+  }
+
+  /// Those with surfaces and between structures.
+  template <class Springs>
+  void add_on_surfaces_to(Springs& springs, double further, geometry::Positions x) const {
+    contacts.for_each_surface_term([&](NodeId ball, const geometry::CorePoint& core,
+                                       const contact::PairSprings& pair, double range,
+                                       double force) {
+      add_on_surface(springs, {ball, core, range, force}, pair, further, x);
+    });
+    contacts.for_each_structure_stiffness(
+        [&](NodeId node, double normal, double tangential, double radius) {
+          springs.add(node, from_all_sides(2.0 * normal, 2.0 * tangential, radius));
+        });
+  }
+
+  /// @param x  m, where the nodes were when the force was found: a contact that is about to end has
+  ///           little of it left a drift later, and would look like many
+  template <class Springs>
+  void add_on_surface(Springs& springs, const OnSurface& part, const contact::PairSprings& pair,
+                      double further, geometry::Positions x) const {
+    const Vec3 to_core = geometry::position(part.core, x) - x[index_of(part.ball)];
+    const double distance = to_core.norm();
+    const Vec3 normal = distance > 0.0 ? Vec3(to_core / distance) : Vec3(Vec3::UnitZ());
+    const double gap = distance - part.range;
+    ContactStiffness contact =
+        stiffness_of(normal, pair, gap - further, part.ball, part.core.nodes[0]);
+    const double of_one = pair.normal_force(gap);
+    const double weight = of_one > 0.0 ? part.force / of_one : 1.0;
+    contact.weight = weight;
+    contact.normal_stiffness *= std::max(1.0, std::abs(weight));
+    contact.overlap = std::max(0.0, -gap);
+    const double deeper = weight * pair.normal_force(gap - further);
+    springs.add_on_surface(part.ball, part.core, contact,
+                           surface_turning(part.core, deeper, distance, x));
+  }
+};
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/time_step/step_chooser.hpp"
+
+#include "dynamics/model/scene_figures.hpp"
+#include "dynamics/time_step/expected_contacts.hpp"
+#include "dynamics/time_step/motion_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plekton::dynamics {
+
+/// rad, a node turns at most by this in a chosen step. From half a turn on nobody could tell which
+/// way it turned (Diverged). The step is chosen for half of it, so that a node which spins ever
+/// faster is not looked at in every step.
+constexpr double kLargestTurn = 1.0;
+
+StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
+    : of_(of), limits_(&limits), pace_radius_(pace_radius(of.scene.elements)), spread_(of.surface) {
+  const ExpectedContacts expected(of.scene, of.surface, of.contacts);
+  collision_step_ = expected.collision_step();
+  if (of.surface.structure_count() == 0) return;
+  of_structures_ = expected.of_structures();
+  is_counted_.resize(of.scene.state.size());
+}
+
+double StepChooser::first(double critical, NodalStiffness space, const Pace& pace) {
+  space_ = std::move(space);
+  // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
+  if (!std::isfinite(critical)) return critical;
+  const double dt = choose(kSafety * critical, pace);
+  return std::isfinite(dt) ? dt : stable_step_ = kSafety * critical;
+}
+
+bool StepChooser::is_due(std::int64_t steps, double dt, double spin) const noexcept {
+  const bool is_regular = steps > 0 && steps % kStepsBetweenLooks == 0;
+  // The drift that begins now, as fast as the last one was and faster by as much again.
+  const double next = 2.0 * way_in_a_step_;
+  return is_regular || of_.contacts.list_count() != look_.lists ||
+         look_.way + next > look_.longest_way || spin * dt > kLargestTurn;
+}
+
+void StepChooser::moved(double way) noexcept {
+  way_in_a_step_ = way;
+  look_.way += way;
+}
+
+double StepChooser::choose(double dt, const Pace& pace) {
+  const double motion = longest_step(pace.speed, pace.gravity, pace_radius_);
+  const double step = std::min(kGrowth * dt, motion);
+  const auto steps = static_cast<double>(kStepsBetweenLooks);
+  const double usual = steps * step * (pace.speed + steps * step * pace.gravity);
+  look_ = {of_.contacts.list_count(), 0.0,
+           std::max(std::min(usual, kLongestWay * pace_radius_), pace.speed * step)};
+  const double critical = near(2.0 * look_.longest_way).dt;
+  const double stable =
+      std::min(kSafety * critical, springs_.collision_step(of_.scene.state, of_.scene.properties));
+  const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
+  stable_step_ = std::min({stable, collision_step_, (may_grow ? kGrowth : 1.0) * stable_step_});
+  double chosen = std::min(stable_step_, motion);
+  double spin = 0.0;  // rad²/s²
+  for (const Vec3& turning : of_.scene.state.angular_velocity)
+    spin = std::max(spin, turning.squaredNorm());
+  if (spin > 0.0) chosen = std::min(chosen, 0.5 * kLargestTurn / std::sqrt(spin));
+  return chosen;
+}
+
+/// Critical step with the contacts of now and those that are nearer than a margin (m).
+CriticalStep StepChooser::near(double margin) {
+  space_.begin_at(0);
+  springs_.clear();
+  limits_->add_structures(space_);
+  limits_->add_near_contacts(springs_, margin);
+  add_near_structures(margin);
+  limits_->add_spread(space_, springs_, spread_, of_.scene.state.position);
+  shares_.add(springs_, of_.scene.properties, space_);
+  CriticalStep step = space_.critical_step(of_.scene.properties);
+  step.dt = of_.loads.critical_step(step.dt, of_.scene);
+  return step;
+}
+
+/// Nodes of structures that another one may come to lie on, and that nothing of the kind touches
+/// yet: with what expected_contacts.hpp says of that.
+void StepChooser::add_near_structures(double margin) {
+  if (of_structures_.empty()) return;
+  std::fill(is_counted_.begin(), is_counted_.end(), char{0});
+  of_.contacts.for_each_structure_stiffness(
+      [&](NodeId node, double, double, double) { is_counted_[index_of(node)] = 1; });
+  of_.contacts.for_each_near_cell_pair(margin, [&](const geometry::CellPair& cells) {
+    for (const geometry::CellId cell : {cells.a, cells.b}) {
+      for (const NodeId node : of_.surface.nodes_of(cell)) {
+        if (is_counted_[index_of(node)]) continue;
+        is_counted_[index_of(node)] = 1;
+        springs_.add(node, of_structures_[index_of(node)]);
+      }
+    }
+  });
+}
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dynamics/state/contact_springs.hpp"
+#include "dynamics/state/spring_shares.hpp"
+#include "dynamics/time_step/spread_stiffness.hpp"
+#include "dynamics/time_step/step_limits.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+/// How a simulation chooses its time step.
+///
+/// What counts is what holds the nodes now and what may come to hold them until the step is looked
+/// at again. Two bodies that are g apart touch only after one of them has moved by g / 2. So at a
+/// look a way is fixed that nodes and planes may go until the next one; contacts that are nearer
+/// than twice that way count as if they touched, and laws that get stiffer with the overlap as if
+/// they were deeper by that. The next look comes before any of them has gone so far, by what the
+/// fastest went in each step, after kStepsBetweenLooks steps at the latest, and whenever a list of
+/// pairs is made anew: what is not in a list cannot touch before the next one. It comes after the
+/// contacts of a step are known and before they act. So no kick and no drift is chosen without a
+/// contact that acts in it.
+///
+/// What remains until the next look is how much the weights of the nodes of a facet change as a
+/// contact slides on it, and what tension does: kSafety leaves a factor of (kLargestStep /
+/// kSafety)² = 1.5 in the stiffness for these. In a search over some hundred random scenes
+/// (near_step_test.cpp) no step was above 0.65 of the limit of its moment, so that nothing of it
+/// was used.
+///
+/// Beside what is stable a chosen step follows collisions (ContactSprings::collision_step(),
+/// ExpectedContacts::collision_step()), motion (motion_step.hpp) and spin.
+namespace plekton::dynamics {
+
+/// A chosen step grows by no more than this in kStepsBetweenLooks steps: the leapfrog keeps
+/// energies while its step changes slowly.
+constexpr double kGrowth = 1.1;
+/// The way that nodes may go until a chosen step is looked at again is below this part of the
+/// smallest radius, unless a single step is longer. The longer it is the more contacts count that
+/// are still to come, and the shorter it is the more often they are counted.
+constexpr double kLongestWay = 0.05;
+
+/// How fast a simulation is.
+struct Pace {
+  std::int64_t steps;  ///< so far
+  double speed;        ///< m/s, of anything that moves, now or by what loads may say
+  double gravity;      ///< m/s², the largest there may be
+};
+
+class StepChooser {
+ public:
+  /// @param of, limits  must outlive this
+  StepChooser(const Resistance& of, const StepLimits& limits);
+
+  /// The first step (s).
+  /// @param critical  s, StepLimits::critical()
+  /// @param space     for all nodes
+  double first(double critical, NodalStiffness space, const Pace& pace);
+
+  /// Whether the step has to be looked at before the contacts of this step act.
+  /// @param dt    s, as it is
+  /// @param spin  rad/s, of the node that spins fastest
+  bool is_due(std::int64_t steps, double dt, double spin) const noexcept;
+  /// @param dt  s, the last one
+  /// @returns the next steps (s)
+  double choose(double dt, const Pace& pace);
+  /// @param way  m, of any node or plane in a step
+  void moved(double way) noexcept;
+
+ private:
+  CriticalStep near(double margin);
+  void add_near_structures(double margin);
+
+  Resistance of_;
+  const StepLimits* limits_;
+  double pace_radius_;       ///< m, against which the motion in a chosen step is measured
+  NodalStiffness space_{0};  ///< of all nodes, so that no look allocates
+  ContactSprings springs_;   ///< of the last look
+  SpringShares shares_;      ///< working space of a look
+  SpreadStiffness spread_;   ///< likewise; goes on from look to look
+  std::vector<IsotropicStiffness> of_structures_;  ///< by node, of a contact with another structure
+  std::vector<char> is_counted_;                   ///< by node, working space of a look
+  /// What is known from the last look to the next one.
+  struct LastLook {
+    std::int64_t lists = 0;    ///< of contact::Contacts::list_count()
+    double way = 0.0;          ///< m, no node or plane has gone further since
+    double longest_way = 0.0;  ///< m, for which it is good
+  };
+  LastLook look_;
+  double way_in_a_step_ = 0.0;                                    ///< m, the last one
+  double stable_step_ = std::numeric_limits<double>::infinity();  ///< s, see choose()
+  double collision_step_;                                         ///< s, ExpectedContacts
+};
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/contacts.hpp"
+#include "dynamics/loads/applied_loads.hpp"
+#include "dynamics/model/scene.hpp"
+#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/structure/beam_bond.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
+#include "dynamics/time_step/exact_step.hpp"
+#include "dynamics/time_step/present_contacts.hpp"
+#include "dynamics/time_step/spread_stiffness.hpp"
+#include "dynamics/time_step/step_cause.hpp"
+
+#include <vector>
+
+namespace plekton::dynamics {
+
+/// What resists in a simulation, as it is now: all of it belongs to the simulation.
+struct Resistance {
+  const Scene& scene;
+  const geometry::Surface& surface;
+  const contact::Contacts& contacts;
+  const BeamBonds& bonds;
+  const SheetFacets& sheet_facets;
+  const AppliedLoads& loads;
+};
+
+/// Critical time steps of a simulation as it is now.
+///
+/// Where positions x are asked for, they are those of the nodes when the forces of the last step
+/// were found (m).
+class StepLimits {
+ public:
+  /// @param of  must outlive this
+  explicit StepLimits(const Resistance& of);
+
+  /// Of the structures and contacts as they are now, or with the contacts that may come
+  /// (expected_contacts.hpp), whichever is shorter.
+  /// @param space  for some of the nodes or all; its contents are overwritten
+  CriticalStep critical(NodalStiffness& space, geometry::Positions x) const;
+  CriticalStep critical(geometry::Positions x) const;
+  /// Of the structures and contacts as they are now alone.
+  CriticalStep present(geometry::Positions x) const;
+  /// Of the structures as they are now and the contacts that may come alone.
+  CriticalStep coming(geometry::Positions x) const;
+  /// What limits critical().
+  StepCause cause(geometry::Positions x) const;
+  /// By the frequencies of the scene as a whole (exact_step.hpp).
+  /// @param time  s, at which loads are taken
+  ExactStep exact(geometry::Positions x, double time) const;
+
+  /// What a step is chosen for: contacts of now, and those of bodies that are nearer than a margin
+  /// (m), go into the springs.
+  void add_near_contacts(ContactSprings& springs, double margin) const;
+  void add_structures(NodalStiffness& stiffness) const;
+  /// What contacts that are more or less than one resist beside their springs
+  /// (spread_stiffness.hpp).
+  void add_spread(NodalStiffness& stiffness, ContactSprings& springs, SpreadStiffness& spread,
+                  geometry::Positions x) const;
+
+  /// Sum over all nodes, with the contacts that may come.
+  NodalStiffness::Total total_stiffness(NodalStiffness& space) const;
+
+ private:
+  template <class Look>
+  void for_each_piece(NodalStiffness& space, const Look& look) const;
+  CriticalStep with_loads(CriticalStep step) const;
+  CriticalStep structural(NodalStiffness& space, bool expected, geometry::Positions x) const;
+  CriticalStep present(NodalStiffness& space, geometry::Positions x) const;
+  void add_expected(NodalStiffness& stiffness) const;
+  void consider_structures(StiffestPart& parts) const;
+  PresentContacts contacts() const noexcept { return {of_.contacts, of_.scene.planes, radii_}; }
+
+  Resistance of_;
+  std::vector<double> radii_;                 ///< m, of the ball around each node; 0: none
+  std::vector<IsotropicStiffness> expected_;  ///< of the contacts that may come, by node
+  double pace_radius_;                        ///< m
+};
+
+}  // namespace plekton::dynamics

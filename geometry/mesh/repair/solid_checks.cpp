@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/repair/solid_checks.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/box_intersection_d.h>
+
+#include <algorithm>
+
+namespace plekton::geometry {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Facet3 = std::array<NodeId, 3>;
+
+std::vector<Kernel::Point_3> cgal_points(const Mesh& mesh) {
+  std::vector<Kernel::Point_3> points;
+  points.reserve(mesh.points.size());
+  for (const Vec3& p : mesh.points) points.emplace_back(p[0], p[1], p[2]);
+  return points;
+}
+
+/// Two facets, and whether they meet beyond what they share.
+class FacetPair {
+ public:
+  FacetPair(const std::vector<Kernel::Point_3>& points, Facet3 a, Facet3 b)
+      : points_(points), a_(a), b_(b) {
+    // Shared nodes to the front of both, in the same order.
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto found = std::find(b_.begin() + shared_, b_.end(), a_[i]);
+      if (found == b_.end()) continue;
+      std::iter_swap(b_.begin() + shared_, found);
+      std::swap(a_[static_cast<std::size_t>(shared_)], a_[i]);
+      ++shared_;
+    }
+  }
+
+  bool meet() const {
+    const Kernel::Triangle_3 ta(at(a_[0]), at(a_[1]), at(a_[2])),
+        tb(at(b_[0]), at(b_[1]), at(b_[2]));
+    switch (shared_) {
+      case 0:
+        return CGAL::do_intersect(ta, tb);
+      // The common part is connected and holds the shared node, so if it is more than that it
+      // reaches a far side.
+      case 1:
+        return CGAL::do_intersect(Kernel::Segment_3(at(a_[1]), at(a_[2])), tb) ||
+               CGAL::do_intersect(Kernel::Segment_3(at(b_[1]), at(b_[2])), ta);
+      // Two planes meet in the shared edge only; in one plane the far nodes must lie on different
+      // sides of it.
+      default:
+        return CGAL::coplanar(at(a_[0]), at(a_[1]), at(a_[2]), at(b_[2])) &&
+               CGAL::coplanar_orientation(at(a_[0]), at(a_[1]), at(a_[2]), at(b_[2])) ==
+                   CGAL::POSITIVE;
+    }
+  }
+
+ private:
+  const Kernel::Point_3& at(NodeId node) const { return points_[index_of(node)]; }
+
+  const std::vector<Kernel::Point_3>& points_;
+  Facet3 a_, b_;
+  std::ptrdiff_t shared_ = 0;
+};
+
+using FacetBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
+
+std::vector<FacetBox> boxes_of(const Mesh& mesh, const std::vector<Kernel::Point_3>& points) {
+  std::vector<FacetBox> boxes;
+  boxes.reserve(mesh.facets.size());
+  for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
+    CGAL::Bbox_3 box;
+    for (const NodeId node : mesh.facets[f]) box += points[index_of(node)].bbox();
+    boxes.emplace_back(box, f);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 2>> self_intersections(const Mesh& mesh) {
+  const auto points = cgal_points(mesh);
+  auto boxes = boxes_of(mesh, points);
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  CGAL::box_self_intersection_d(
+      boxes.begin(), boxes.end(), [&](const FacetBox& a, const FacetBox& b) {
+        const auto [low, high] =
+            std::minmax({a.info(), b.info()});  // By value: info() gives temporaries.
+        if (FacetPair(points, mesh.facets[low], mesh.facets[high]).meet())
+          pairs.push_back({low, high});
+      });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::optional<bool> bounds_volume(const Mesh& mesh) {
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  std::vector<std::array<std::size_t, 3>> triangles;
+  for (const auto& [a, b, c] : mesh.facets)
+    triangles.push_back({index_of(a), index_of(b), index_of(c)});
+  if (triangles.empty() || !PMP::is_polygon_soup_a_polygon_mesh(triangles)) return std::nullopt;
+
+  CGAL::Surface_mesh<Kernel::Point_3> surface;
+  PMP::polygon_soup_to_polygon_mesh(cgal_points(mesh), triangles, surface);
+  // does_bound_a_volume of CGAL 5.5 reads a wild index for a vertex without facets.
+  std::vector<CGAL::SM_Vertex_index> unused;
+  for (const auto vertex : surface.vertices())
+    if (surface.is_isolated(vertex)) unused.push_back(vertex);
+  for (const auto vertex : unused) surface.remove_vertex(vertex);
+  surface.collect_garbage();
+  if (!CGAL::is_closed(surface)) return std::nullopt;
+  return PMP::does_bound_a_volume(surface);
+}
+
+}  // namespace plekton::geometry

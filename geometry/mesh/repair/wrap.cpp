@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/repair/wrap.hpp"
+
+#include "geometry/mesh/repair/measures.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
+
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <vector>
+
+namespace plekton::geometry {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Triangle = std::array<std::size_t, 3>;
+
+constexpr double kOffsetRatio =
+    30.0;  // Recommended by CGAL's manual for meshes: alpha over offset.
+constexpr double kFinestRatio = 2000.0;
+constexpr double kCoarseRatio = 30.0;  // A wrap of this part of the size takes about a second.
+constexpr double kMostFacets = 1e6;
+
+double size_of(const Mesh& mesh) {
+  Vec3 lower = mesh.points.front(), upper = lower;
+  for (const Vec3& p : mesh.points) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  return (upper - lower).norm();
+}
+
+void require_wrappable(double size, double finest) {
+  const double least = size / kFinestRatio;
+  if (finest >= least && finest > 0.0 && std::isfinite(finest)) return;
+  std::ostringstream text;
+  text << "a wrap of " << finest << " m; expected a length of at least " << least
+       << " m, 1/2000 of the size of the mesh";
+  throw MeshError(text.str());
+}
+
+Mesh from_cgal(const SurfaceMesh& surface) {
+  std::vector<Kernel::Point_3> points;
+  std::vector<Triangle> triangles;
+  CGAL::Polygon_mesh_processing::polygon_mesh_to_polygon_soup(surface, points, triangles);
+  Mesh mesh;
+  for (const auto& p : points) mesh.points.emplace_back(p.x(), p.y(), p.z());
+  for (const auto& [a, b, c] : triangles)
+    mesh.facets.push_back({id_at<NodeId>(a), id_at<NodeId>(b), id_at<NodeId>(c)});
+  return mesh;
+}
+
+SurfaceMesh wrapped(const Mesh& mesh, double finest) {
+  std::vector<Kernel::Point_3> points;
+  for (const Vec3& p : mesh.points) points.emplace_back(p[0], p[1], p[2]);
+  std::vector<Triangle> triangles;
+  for (const auto& [a, b, c] : mesh.facets)
+    triangles.push_back({index_of(a), index_of(b), index_of(c)});
+  SurfaceMesh surface;
+  CGAL::alpha_wrap_3(points, triangles, finest, finest / kOffsetRatio, surface);
+  return surface;
+}
+
+/// The facets of a wrap are 2 to 8 to the square of its detail, as the body is thick or thin, on
+/// that part of the area which is outside. So a coarse wrap tells how many a fine one will have.
+void require_few_facets(const Mesh& mesh, double size, double finest) {
+  constexpr double kMostOfSquare = 16.0;  // on both sides of a sheet
+  const double coarse = size / kCoarseRatio;
+  if (finest >= coarse ||
+      kMostOfSquare * measure(mesh, false).area <= kMostFacets * finest * finest)
+    return;
+  const auto coarse_facets = static_cast<double>(wrapped(mesh, coarse).number_of_faces());
+  const double facets = coarse_facets * (coarse / finest) * (coarse / finest);
+  if (facets <= kMostFacets) return;
+  std::ostringstream text;
+  text << "a wrap of " << finest << " m would make about " << facets << " facets; expected at most "
+       << kMostFacets << "; use a length of at least " << std::setprecision(3)
+       << 1.005 * coarse * std::sqrt(coarse_facets / kMostFacets) << " m";  // rounded up
+  throw MeshError(text.str());
+}
+
+}  // namespace
+
+Mesh wrap(const Mesh& mesh, double finest) {
+  const double size = size_of(mesh);
+  require_wrappable(size, finest);
+  require_few_facets(mesh, size, finest);
+  return from_cgal(wrapped(mesh, finest));
+}
+
+}  // namespace plekton::geometry

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/neighbor/neighbours.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace plekton::geometry {
+namespace {
+
+/// Trees follow moving boxes well, and being made anew costs several times as much as following.
+constexpr std::int64_t kListsPerTree = 16;
+
+/// What the lists cost, in steps of a dense packing of spheres, and by what share of a step more it
+/// gets when the skin grows by a radius (measured: tests/benchmarks/README.md).
+constexpr double kCostOfLists = 9.0;
+constexpr double kCostOfSkin = 0.7;
+
+}  // namespace
+
+Neighbours::Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin,
+                       double reach)
+    : spheres_(spheres), surface_(&surface), skin_(skin), reach_(reach) {}
+
+bool Neighbours::update(Positions x, ThreadPool& pool, double way) {
+  ++steps_of_list_;
+  if (!skin_.may_need_rebuild(way) || !skin_.needs_rebuild(x, pool)) return false;
+  if (usual_radius_ > 0.0 && rebuild_count_ > 0) choose_skin();
+  // Without spheres the lists stay empty; that they are due is news for lists of other bodies.
+  if (!spheres_.empty()) rebuild(x, pool);
+  skin_.mark_built(x);
+  ++rebuild_count_;
+  steps_of_list_ = 0;
+  return true;
+}
+
+/// A list of skin s lasts s / w steps, where w is twice the way of the fastest in a step. The cost
+/// kCostOfLists w / s + kCostOfSkin s / radius is least at s^2 = kCostOfLists / kCostOfSkin * w *
+/// radius.
+void Neighbours::choose_skin() {
+  const double way = skin() / steps_of_list_;
+  const double best = std::sqrt(kCostOfLists / kCostOfSkin * way * usual_radius_);
+  const double near = std::clamp(best, 0.7 * skin(), 1.4 * skin());
+  skin_.set(std::clamp(near, 0.02 * usual_radius_, 0.8 * usual_radius_));
+}
+
+void Neighbours::fit(BroadPhase& tree) {
+  if (tree.size() == boxes_.size() && rebuild_count_ % kListsPerTree != 0) {
+    tree.refit(boxes_);
+  } else {
+    tree.rebuild(boxes_);
+  }
+}
+
+void Neighbours::rebuild(Positions x, ThreadPool& pool) {
+  const double margin = skin_.margin() + 0.5 * reach_;
+  boxes_.resize(spheres_.size());
+  pool.for_each_range(spheres_.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) boxes_[i] = box(spheres_[i], x, margin);
+  });
+  fit(sphere_tree_);
+  const auto is_near = [&](const IndexPair& pair) { return may_touch(pair, x); };
+  sphere_tree_.self_pairs(sphere_pairs_, pool, std::cref(is_near));
+
+  boxes_.clear();
+  for (std::size_t c = 0; c < surface_->cell_count(); ++c) {
+    const CellId cell = id_at<CellId>(c);
+    std::array<Vec3, 3> corners;
+    std::size_t count = 0;
+    for (const NodeId node : surface_->nodes_of(cell)) corners[count++] = x[index_of(node)];
+    const double radius = surface_->radius(surface_->structure_of(cell));
+    boxes_.push_back(bounding_box({corners.data(), count}, radius + margin));
+  }
+  fit(cell_tree_);
+  sphere_tree_.pairs_with(cell_tree_, sphere_cells_);
+  group_by_structure();
+}
+
+bool Neighbours::may_touch(const IndexPair& pair, Positions x) const noexcept {
+  const Sphere& a = spheres_[static_cast<std::size_t>(pair.a)];
+  const Sphere& b = spheres_[static_cast<std::size_t>(pair.b)];
+  // Squares and sums are within a few eps of their values; the factor pays for all of it.
+  const double range = (1.0 + 1e-12) * (a.radius + b.radius + reach_ + skin());
+  return !((x[index_of(a.nodes[0])] - x[index_of(b.nodes[0])]).squaredNorm() > range * range);
+}
+
+/// A side lies in the box of its facet.
+void Neighbours::follow(const SurfaceChange& change) {
+  surface_ = &change.after();
+  std::vector<IndexPair> left;
+  for (const IndexPair& pair : sphere_cells_) {
+    for (const CellId cell : change.left_of(CellId{pair.b}))
+      left.push_back({pair.a, static_cast<std::int32_t>(cell)});
+  }
+  std::sort(left.begin(), left.end());
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  sphere_cells_.swap(left);
+  cell_tree_ = BroadPhase();
+  group_by_structure();
+}
+
+void Neighbours::group_by_structure() {
+  const auto structure_of = [this](const IndexPair& pair) {
+    return surface_->structure_of(CellId{pair.b});
+  };
+  std::sort(sphere_cells_.begin(), sphere_cells_.end(),
+            [&](const IndexPair& p, const IndexPair& q) {
+              if (p.a != q.a) return p.a < q.a;
+              const StructureId sp = structure_of(p);
+              const StructureId sq = structure_of(q);
+              return sp != sq ? sp < sq : p.b < q.b;
+            });
+  sphere_structures_.clear();
+  near_cells_.clear();
+  cells_.clear();
+  for (const IndexPair& pair : sphere_cells_) {
+    const IndexPair key{pair.a, static_cast<std::int32_t>(structure_of(pair))};
+    if (sphere_structures_.empty() || sphere_structures_.back() != key) {
+      sphere_structures_.push_back(key);
+      near_cells_.push_back({static_cast<std::uint32_t>(cells_.size()), 0});
+    }
+    cells_.push_back(CellId{pair.b});
+    ++near_cells_.back().count;
+  }
+}
+
+}  // namespace plekton::geometry

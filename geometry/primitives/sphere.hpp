@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "geometry/primitives/box.hpp"
+
+#include <array>
+#include <numbers>
+
+namespace plekton::geometry {
+
+/// Ball around one node: the Minkowski sum of a point with a ball.
+struct Sphere {
+  std::array<NodeId, 1> nodes;
+  double radius;  ///< m, > 0
+};
+
+/// Corners of the core (m).
+inline std::array<Vec3, 1> core(const Sphere& sphere, Positions x) noexcept {
+  return {x[index_of(sphere.nodes[0])]};
+}
+
+/// Box that holds the element and everything nearer to it than a margin (m).
+inline Box box(const Sphere& sphere, Positions x, double margin = 0.0) noexcept {
+  return bounding_box(core(sphere, x), sphere.radius + margin);
+}
+
+/// Volume (m³).
+inline double volume(const Sphere& sphere) noexcept {
+  return 4.0 / 3.0 * std::numbers::pi * sphere.radius * sphere.radius * sphere.radius;
+}
+
+}  // namespace plekton::geometry

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/law/law_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+namespace plekton::contact {
+namespace {
+
+/// A parameter of several laws, as those of linear springs, is one and the same.
+TEST(LawList, NamesEveryLawAndParameterOnceAndSaysWhatItIs) {
+  ContactSettings settings;
+  std::set<std::string_view> laws;
+  std::map<std::string_view, const double*> places;
+  const auto take = [&](const LawParameter& parameter, std::set<std::string_view>& names) {
+    EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
+    EXPECT_FALSE(parameter.what.empty()) << parameter.name;
+    const double* const place = &parameter.in(settings);
+    EXPECT_EQ(places.try_emplace(parameter.name, place).first->second, place) << parameter.name;
+  };
+  for (const LawRow& law : contact_laws()) {
+    EXPECT_TRUE(laws.insert(law.name).second) << law.name;
+    EXPECT_FALSE(law.what.empty()) << law.name;
+    std::set<std::string_view> names;
+    for (const LawParameter& parameter : law.parameters) take(parameter, names);
+    for (const LawParameter& parameter : common_law_parameters()) take(parameter, names);
+  }
+}
+
+TEST(LawList, HasTheDefaultsThatSettingsHave) {
+  ContactSettings settings;
+  for (const LawRow& law : contact_laws()) {
+    for (const LawParameter& parameter : law.parameters)
+      EXPECT_EQ(parameter.in(settings), parameter.standard) << parameter.name;
+  }
+  for (const LawParameter& parameter : common_law_parameters())
+    EXPECT_EQ(parameter.in(settings), parameter.standard) << parameter.name;
+}
+
+TEST(LawList, GivesLinearSpringsTheStiffnessOfThePair) {
+  const Body body{{1e7, 0.3, 0.5, 0.25}, 0.01, 1.0};
+  for (const std::string_view name : {"linear_frictional", "cohesive_frictional"}) {
+    ContactSettings settings;
+    while (contact_laws()[settings.law].name != name) ++settings.law;
+    for (const LawParameter& parameter : contact_laws()[settings.law].parameters)
+      if (parameter.name == "normal_stiffness") parameter.in(settings) = 3e4;
+
+    const auto p = AnyLaw::combine(properties_of(settings), body, body);
+
+    EXPECT_DOUBLE_EQ(AnyLaw::normal_stiffness(p, -1e-5), 3e4) << name;
+    EXPECT_DOUBLE_EQ(AnyLaw::tangential_stiffness(p, -1e-5), 0.9e4) << name;
+  }
+}
+
+TEST(LawList, KnowsWhichPairsHaveLinearSpringsAlone) {
+  ContactSettings settings;
+  settings.springs.normal_stiffness = 3e4;
+  ASSERT_TRUE(linear_alone(settings));
+  EXPECT_EQ(linear_alone(settings)->normal_stiffness, 3e4);
+
+  ContactSettings damped = settings;
+  damped.restitution = 0.9;
+  ContactSettings rolling = settings;
+  rolling.rolling.rolling_stiffness = 0.1;
+  ContactSettings twisting = settings;
+  twisting.rolling.twisting_stiffness = 0.1;
+  ContactSettings other = settings;
+  other.law = 1;
+  for (const ContactSettings& more : {damped, rolling, twisting, other})
+    EXPECT_FALSE(linear_alone(more));
+}
+
+TEST(LawList, GivesEachNameItsLaw) {
+  const Body body{{1e7, 0.3, 0.5, 0.25}, 0.01, 1.0};
+  const auto force_of = [&](std::string_view name) {
+    ContactSettings settings;
+    while (contact_laws()[settings.law].name != name) ++settings.law;
+    const auto p = AnyLaw::combine(properties_of(settings), body, body);
+    return AnyLaw::elastic_normal_force(p, -1e-4);
+  };
+  const double linear =
+      LinearFrictional::elastic_normal_force(LinearFrictional::combine(body, body), -1e-4);
+  const double hertz = HertzMindlin::elastic_normal_force(HertzMindlin::combine(body, body), -1e-4);
+
+  EXPECT_EQ(force_of("linear_frictional"), linear);
+  EXPECT_EQ(force_of("cohesive_frictional"), linear);
+  EXPECT_EQ(force_of("hertz_mindlin"), hertz);
+  EXPECT_EQ(force_of("dmt_adhesion"), hertz);
+}
+
+}  // namespace
+}  // namespace plekton::contact

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/law/rolling_twisting.hpp"
+
+#include "contact/law/linear_frictional.hpp"
+#include "contact/law/sum.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plekton::contact {
+namespace {
+
+using Law = Sum<LinearFrictional, RollingTwisting>;
+const Body kBody{{1e6, 0.4, 0.5}, 0.1};
+const Body kLarger{{1e6, 0.4, 0.5}, 0.2};
+
+ContactForce turn(const Law::Parameters& p, const Vec3& rotation, Law::History& history) {
+  const double gap = -1e-3;
+  return Law::force(p,
+                    relative_motion(Vec3::UnitZ(), gap, Law::elastic_normal_force(p, gap),
+                                    Vec3::Zero(), rotation),
+                    history, 1.0);
+}
+
+TEST(RollingTwisting, IsASpringOfTheArmsTimesTheTangentialStiffness) {
+  const auto p = Law::combine({{}, {0.3, 0.7}}, kBody, kLarger);
+  const double stiffness = p.whole.tangential_stiffness * 0.1 * 0.2;
+  Law::History history{};
+
+  const ContactForce answer = turn(p, Vec3(1e-4, 0.0, 2e-4), history);
+
+  EXPECT_NEAR(answer.moment[0], -0.3 * stiffness * 1e-4, 1e-16 * stiffness);
+  EXPECT_NEAR(answer.moment[2], -0.7 * stiffness * 2e-4, 1e-16 * stiffness);
+  EXPECT_NEAR(answer.dissipated, 0.0, 1e-15 * stiffness * 4e-8);
+}
+
+TEST(RollingTwisting, SlidesAtTheLimitOfTheNormalForce) {
+  const auto p = Law::combine({{}, {0.3, 0.7, 0.05, 0.02}}, kBody, kLarger);
+  const double normal_force = Law::elastic_normal_force(p, -1e-3);
+  Law::History history{};
+
+  const ContactForce answer = turn(p, Vec3(1.0, 0.0, 1.0), history);
+
+  EXPECT_NEAR(answer.moment[0], -0.05 * 0.1 * normal_force, 1e-12 * normal_force);
+  EXPECT_NEAR(answer.moment[2], -0.02 * 0.1 * normal_force, 1e-12 * normal_force);
+  EXPECT_GT(answer.dissipated, 0.0);
+}
+
+TEST(RollingTwisting, TurnsItsMomentWithTheContactButNotTheTwist) {
+  const auto p = Law::combine({{}, {0.3, 0.7}}, kBody, kLarger);
+  Law::History history{};
+  const Vec3 before = turn(p, Vec3(1e-4, 0.0, 2e-4), history).moment;
+
+  Law::rotate(history, {Vec3::UnitZ(), Vec3::UnitX(), 0.0});  // z to x, so x to -z
+
+  EXPECT_NEAR(history.part.rolling[2], -before[0], 1e-15 * before.norm());
+  EXPECT_EQ(history.part.twisting, before[2]);
+}
+
+}  // namespace
+}  // namespace plekton::contact

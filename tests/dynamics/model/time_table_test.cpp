@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/model/time_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace plekton::dynamics {
+namespace {
+
+using testing::HasSubstr;
+
+/// 0 up to 1 s, then up to 4 at 3 s, then down to 2 at 4 s.
+TimeTable table() {
+  return TimeTable({{1.0, 0.0}, {3.0, 4.0}, {4.0, 2.0}});
+}
+
+std::string problems_of(const std::vector<TimeTable::Row>& rows) {
+  try {
+    const TimeTable made(rows);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TimeTable, IsStraightBetweenItsRowsAndConstantOutside) {
+  EXPECT_EQ(table().at(-5.0), 0.0);
+  EXPECT_EQ(table().at(1.0), 0.0);
+  EXPECT_EQ(table().at(1.5), 1.0);
+  EXPECT_EQ(table().at(3.0), 4.0);
+  EXPECT_EQ(table().at(3.25), 3.5);
+  EXPECT_EQ(table().at(4.0), 2.0);
+  EXPECT_EQ(table().at(100.0), 2.0);
+}
+
+TEST(TimeTable, KnowsItsIntegralFromTimeZero) {
+  EXPECT_EQ(table().integral(0.0), 0.0);
+  EXPECT_EQ(table().integral(2.0), 1.0);
+  EXPECT_EQ(table().integral(3.0), 4.0);
+  EXPECT_EQ(table().integral(4.0), 7.0);
+  EXPECT_EQ(table().integral(6.0), 11.0);
+  const TimeTable early({{-2.0, 1.0}, {2.0, 5.0}});
+  EXPECT_EQ(early.integral(0.0), 0.0);
+  EXPECT_EQ(early.integral(-2.0), -4.0);
+  EXPECT_EQ(early.integral(-4.0), -6.0);
+  EXPECT_EQ(early.integral(1.0), 3.5);
+}
+
+TEST(TimeTable, KnowsItsSlopeRightAfterATime) {
+  EXPECT_EQ(table().slope(0.0), 0.0);
+  EXPECT_EQ(table().slope(1.0), 2.0);
+  EXPECT_EQ(table().slope(3.0), -2.0);
+  EXPECT_EQ(table().slope(4.0), 0.0);
+  EXPECT_EQ(table().largest_slope(), 2.0);
+  EXPECT_EQ(table().largest(), 4.0);
+}
+
+TEST(TimeTable, MayBeOneNumberForEver) {
+  EXPECT_EQ(TimeTable(3.0).at(-1.0), 3.0);
+  EXPECT_EQ(TimeTable(3.0).at(1e9), 3.0);
+  EXPECT_EQ(TimeTable(3.0).integral(2.0), 6.0);
+  EXPECT_EQ(TimeTable().at(1.0), 1.0);
+}
+
+TEST(TimeTable, RefusesRowsWithoutAnOrderInTime) {
+  EXPECT_THAT(problems_of({{0.0, 1.0}, {2.0, 1.0}, {2.0, 3.0}}),
+              HasSubstr("row 2 is at 2 s, not after 2 s of the row before"));
+  EXPECT_THAT(problems_of({}), HasSubstr("has no rows"));
+  EXPECT_THAT(problems_of({{0.0, std::numeric_limits<double>::quiet_NaN()}}),
+              HasSubstr("row 0 (0 s, nan) is not finite"));
+}
+
+}  // namespace
+}  // namespace plekton::dynamics

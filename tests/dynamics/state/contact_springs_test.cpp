@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/state/contact_springs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+/// The step that follows collisions with surfaces: omega dt = 1/2 for the energy in them.
+namespace plekton::test {
+namespace {
+
+using dynamics::ContactSprings;
+using dynamics::ContactStiffness;
+using dynamics::Held;
+using dynamics::NodeProperties;
+using dynamics::Vec3;
+using geometry::NodeId;
+
+struct Collisions {
+  dynamics::NodeState state;
+  NodeProperties properties{{2.0, 0.5, 0.01}, {1.0, 1.0, 1.0}, {3, Held::nothing}};
+  ContactSprings springs;
+
+  Collisions() { state.position = state.velocity = state.angular_velocity = {3, Vec3::Zero()}; }
+  void add(NodeId node, double stiffness, double overlap) {
+    ContactStiffness contact{Vec3::UnitZ(), stiffness, 0.0, 0.1, 0.1};
+    contact.overlap = overlap;
+    springs.add_on_surface(NodeId{0}, geometry::core_point(node), contact);
+  }
+  double step() const { return springs.collision_step(state, properties); }
+};
+
+TEST(CollisionStep, OfOneContactIsHalfOfTheInverseOfItsFrequency) {
+  Collisions pressed;
+  pressed.add(NodeId{1}, 30.0, 0.001);
+  Collisions coming;
+  coming.add(NodeId{1}, 30.0, 0.0);
+  coming.state.velocity[0] = Vec3(3.0, 0.0, -1.0);
+  const double omega = std::sqrt(30.0 * (1.0 / 2.0 + 1.0 / 0.5));
+
+  EXPECT_NEAR(pressed.step(), 0.5 / omega, 1e-12);
+  EXPECT_NEAR(coming.step(), 0.5 / omega, 1e-12);
+}
+
+// E = 1/2 k overlap² = 15 and 60 uJ, omega² = k (1/2 + 1/m).
+TEST(CollisionStep, OfManyIsThatOfTheMeanByTheirEnergy) {
+  Collisions both;
+  both.add(NodeId{1}, 30.0, 0.001);
+  both.add(NodeId{2}, 30.0, 0.002);
+  const double mean = (15.0 * 30.0 * (0.5 + 2.0) + 60.0 * 30.0 * (0.5 + 100.0)) / 75.0;
+
+  EXPECT_NEAR(both.step(), 0.5 / std::sqrt(mean), 1e-12);
+}
+
+TEST(CollisionStep, IsInfiniteWhereNothingCollides) {
+  Collisions still;
+  EXPECT_TRUE(std::isinf(still.step()));
+  still.add(NodeId{1}, 30.0, 0.0);
+  EXPECT_TRUE(std::isinf(still.step()));
+}
+
+}  // namespace
+}  // namespace plekton::test
