@@ -8,7 +8,7 @@ import os
 import sys
 from pathlib import Path
 
-from rules import RULES, Source
+from rules import RULES, Source, forget_tree
 
 SUFFIXES = (".cpp", ".hpp", ".c", ".h", ".py", ".sh", ".cmake", ".cmake.in", "CMakeLists.txt", ".ci/run")
 NOT_OURS = ("build", "out", ".git")
@@ -29,6 +29,7 @@ def sources(root):
 
 def violations(root):
     """All violations in a tree, and the number of files that were read."""
+    forget_tree()
     found, count = [], 0
     for source in sources(root):
         count += 1

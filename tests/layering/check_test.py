@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 from check import violations
-from rules import CGAL_CORE_HEADERS, MAX_LINES, SPDX
+from rules import CGAL_CORE_HEADERS, SPDX
 
 TAG = f"// {SPDX}\n"
 CGAL_FOLDER = Path("/usr/include")
@@ -106,9 +106,19 @@ class SeededTree(unittest.TestCase):
     def test_a_licence_tag_may_follow_the_interpreter_line(self):
         self.assert_clean("apps/quickstart.sh", f"#!/bin/sh\n# {SPDX}\n")
 
-    def test_a_file_that_is_too_long_is_flagged(self):
-        self.assert_clean("geometry/primitives/box.cpp", TAG + "\n" * (MAX_LINES - 1))
-        self.assert_flagged("geometry/primitives/box.cpp", TAG + "\n" * MAX_LINES, "split it")
+    def test_files_that_include_each_other_are_flagged(self):
+        self.write("geometry/base/a.hpp", TAG + '#include "geometry/base/b.hpp"\n')
+        found = self.violations_of("geometry/base/b.hpp", TAG + '#include "geometry/base/a.hpp"\n')
+        self.assertEqual(len(found), 2, found)
+        self.assertIn("leads back to it", found[0])
+
+    def test_folders_that_include_each_other_are_flagged(self):
+        self.write("geometry/base/a.hpp", TAG)
+        self.write("geometry/query/b.hpp", TAG)
+        self.write("geometry/query/c.hpp", TAG + '#include "geometry/base/a.hpp"\n')
+        found = self.violations_of("geometry/base/d.hpp", TAG + '#include "geometry/query/b.hpp"\n')
+        self.assertEqual(len(found), 2, found)
+        self.assertIn("whose folder leads back to geometry/base", found[0])
 
     def test_build_folders_are_not_read(self):
         self.assert_clean("build/dev/generated.cpp", "no tag\n")

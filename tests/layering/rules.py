@@ -6,6 +6,7 @@ A violation is one line of text: where, what, and what to do about it.
 
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 LIBRARIES = ("geometry", "contact", "dynamics", "apps")
@@ -13,8 +14,6 @@ LIBRARIES = ("geometry", "contact", "dynamics", "apps")
 
 APP_FOLDERS = ("grains", "scenario", "scene", "run", "command_line")
 """The folders of apps, in the order of their arrow; main.cpp and the examples may include any."""
-
-MAX_LINES = 400
 
 ONLY_HOME = {"fcl": "geometry/neighbor/broad_phase.cpp", "ccd": "geometry/closest/deep.cpp"}
 """Package folder of the headers: the only file that may include them."""
@@ -60,6 +59,10 @@ class Source:
     @property
     def folder(self):
         return self.path.split("/")[0]
+
+    @property
+    def directory(self):
+        return self.path.rpartition("/")[0]
 
     @property
     def includes(self):
@@ -147,11 +150,54 @@ def licence_tag(source, root):
         yield f'{source.path}:1: no "{SPDX}" on the first line (after #!, the second)'
 
 
-def size(source, root):
-    """A file fits a sitting."""
-    lines = source.text.count("\n")
-    if lines > MAX_LINES:
-        yield f"{source.path}: {lines} lines, at most {MAX_LINES}; split it by topic"
+@lru_cache(maxsize=None)
+def _reached_from(root):
+    """For every file and every folder of the libraries: the files, and the folders, that its includes lead to."""
+    files, folders = {}, {}
+    for library in LIBRARIES:
+        for path in sorted((Path(root) / library).rglob("*.?pp")):
+            source = Source(path.relative_to(root).as_posix(), path.read_text(encoding="utf-8"))
+            targets = {include.header for include in source.includes if include.quoted}
+            files[source.path] = targets
+            folders.setdefault(source.directory, set()).update(
+                target.rpartition("/")[0] for target in targets if target.split("/")[0] in LIBRARIES
+            )
+    return {**_closure(files), **_closure(folders)}
 
 
-RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, size)
+def forget_tree():
+    """To be called before a tree is read again."""
+    _reached_from.cache_clear()
+
+
+def _closure(graph):
+    reached = {}
+    for start in graph:
+        found, open_ends = set(), list(graph[start])
+        while open_ends:
+            end = open_ends.pop()
+            if end not in found:
+                found.add(end)
+                open_ends.extend(graph.get(end, ()))
+        reached[start] = found
+    return reached
+
+
+def no_circles(source, root):
+    """No file, and no folder, includes itself by way of others: nothing is in parts that need each other.
+
+    The folders of apps have an order of their own.
+    """
+    if source.folder not in LIBRARIES:
+        return
+    reached = _reached_from(str(root))
+    for include in source.includes:
+        target = include.header.rpartition("/")[0]
+        where = f'{source.path}:{include.line}: includes "{include.header}"'
+        if source.path in reached.get(include.header, ()):
+            yield f"{where}, which leads back to it; one of them is a part of the other, or a third is missing"
+        elif source.folder != "apps" and target != source.directory and source.directory in reached.get(target, ()):
+            yield f"{where}, whose folder leads back to {source.directory}; put it into a folder below both"
+
+
+RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, no_circles)
