@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ball falls on a sheet of geotextile that is held at its rim. SI units throughout.
 #include <plekton/dynamics/simulation.hpp>
-#include <plekton/geometry/mesh/generators.hpp>
-#include <plekton/geometry/mesh/membrane.hpp>
+#include <plekton/geometry/mesh/generate/generators.hpp>
+#include <plekton/geometry/mesh/generate/membrane.hpp>
 
 #include <iostream>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes what the generators make to a folder, as Wavefront OBJ: facets of meshes, lines of nets.
-#include <plekton/geometry/mesh/generators.hpp>
-#include <plekton/geometry/mesh/lattice.hpp>
-#include <plekton/geometry/mesh/mesh_file.hpp>
+#include <plekton/geometry/mesh/generate/generators.hpp>
+#include <plekton/geometry/mesh/generate/lattice.hpp>
+#include <plekton/geometry/mesh/io/mesh_file.hpp>
 
 #include <filesystem>
 #include <fstream>

@@ -52,8 +52,8 @@ struct AnyLaw {
   struct Properties : Kept<16> {
     Properties() noexcept;  ///< LinearFrictional, with nothing beside its materials
   };
-  using Parameters = Kept<16>;
-  using History = Kept<20>;
+  using Parameters = Kept<18>;
+  using History = Kept<18>;
 
   /// What it knows of a law: the functions of ContactLaw, and those of what a law may have beside.
   struct Functions {

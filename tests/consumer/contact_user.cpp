@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <plekton/contact/laws/linear_frictional.hpp>
+#include <plekton/contact/law/linear_frictional.hpp>
 
 #include <iostream>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <plekton/geometry/box.hpp>
+#include <plekton/geometry/primitives/box.hpp>
 #include <plekton/geometry/version.hpp>
 
 #include <array>

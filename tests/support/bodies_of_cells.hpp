@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 /// Bodies made of cells, moved as rigid ones, and the contacts between them.
@@ -84,6 +85,17 @@ inline Body moved(Body body, const Vec3& turns, const Vec3& shift) {
 /// per contact.
 template <class Law>
 class MeetingUnder {
+  /// The laws that contacts are compiled for: the linear one, and any other as it is chosen at run
+  /// time.
+  static constexpr bool kIsLinear = std::is_same_v<Law, contact::LinearFrictional>;
+  using Compiled = std::conditional_t<kIsLinear, Law, contact::AnyLaw>;
+  static contact::PropertiesOf<Compiled> compiled(const contact::PropertiesOf<Law>& properties) {
+    if constexpr (kIsLinear)
+      return properties;
+    else
+      return contact::AnyLaw::of<Law>(properties);
+  }
+
  public:
   MeetingUnder(const Body& a, const Body& b, double range,
                const contact::PropertiesOf<Law>& properties = {}, double stiffness_ratio = 0.0,
@@ -91,11 +103,11 @@ class MeetingUnder {
       : count_a_(a.x.size()),
         stiffness_ratio_(stiffness_ratio),
         friction_(friction),
-        properties_{{{contact::MaterialId{0}, contact::MaterialId{0}}, properties}} {
+        properties_{{{contact::MaterialId{0}, contact::MaterialId{0}}, compiled(properties)}} {
     add(a, 0.5 * range);
     add(b, 0.5 * range);
     surface_ = std::make_unique<geometry::Surface>(cylinders_, facets_, x_.size());
-    contacts_ = std::make_unique<contact::StructureContacts<Law>>(*surface_);
+    contacts_ = std::make_unique<contact::StructureContacts<Compiled>>(*surface_);
     neighbours_ = std::make_unique<geometry::CellNeighbours>(*surface_, x_, 0.0, false);
   }
 
@@ -144,7 +156,7 @@ class MeetingUnder {
     if (neighbours_->update(x_, pool_)) {
       // k = 2 E R E R / (E R + E R) = E R: with E = 1 / R, 1 N/m.
       const double radius = surface_->radius(geometry::StructureId{0});
-      const contact::MaterialPairs<Law> materials(
+      const contact::MaterialPairs<Compiled> materials(
           {contact::Material{1.0 / radius, stiffness_ratio_, friction_}}, properties_);
       const std::vector<contact::MaterialId> of_structures(surface_->structure_count());
       contacts_->rebuild(neighbours_->pairs(), {materials, {}, of_structures});
@@ -158,13 +170,13 @@ class MeetingUnder {
   std::size_t count_a_;
   double stiffness_ratio_;
   double friction_;
-  contact::PairProperties<Law> properties_;
+  contact::PairProperties<Compiled> properties_;
   std::vector<Vec3> x_;
   std::vector<Facet> facets_;
   std::vector<Cylinder> cylinders_;
   geometry::ThreadPool pool_{1};
   std::unique_ptr<geometry::Surface> surface_;
-  std::unique_ptr<contact::StructureContacts<Law>> contacts_;
+  std::unique_ptr<contact::StructureContacts<Compiled>> contacts_;
   std::unique_ptr<geometry::CellNeighbours> neighbours_;
   NodeForces forces_{0};
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/repair/repair.hpp"
 
-#include "geometry/mesh/close_slits.hpp"
 #include "geometry/mesh/edge_table.hpp"
+#include "geometry/mesh/repair/close_slits.hpp"
 #include "geometry/mesh/repair/exact_signs.hpp"
 #include "geometry/mesh/repair/orientation.hpp"
 #include "geometry/mesh/repair/reshape.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/mesh/close_slits.hpp"
+#include "geometry/mesh/repair/close_slits.hpp"
 #include "geometry/mesh/edge_table.hpp"
 #include "geometry/mesh/repair/measures.hpp"
 
