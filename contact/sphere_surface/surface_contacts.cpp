@@ -499,7 +499,8 @@ void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> 
         [&](double gap) { return Law::elastic_normal_force(pair.parameters, gap); },
         [&](double gap) { return Law::elastic_normal_energy(pair.parameters, gap); },
         [&](const PatchTerm& term, double elastic) {
-          return HasReach<Law> ? term.weight * std::max(0.0, pair.reach - term.distance) : elastic;
+          return pair.reach > pair.range ? term.weight * std::max(0.0, pair.reach - term.distance)
+                                         : elastic;
         },
         term_forces));
     set_kinematics(worker.states.back(), pair.node, pair.radius, pair.range, terms, term_forces,

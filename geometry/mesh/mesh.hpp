@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/base/largest_coordinate.hpp"
 #include "geometry/base/types.hpp"
 
 #include <array>
@@ -37,9 +38,5 @@ struct MeshError : std::runtime_error {
 
 /// The same triangles as polygons.
 PolygonSoup to_soup(const Mesh& mesh);
-
-/// Coordinates (m) at or above this are refused: products of three lengths of this size still fit a
-/// double.
-inline constexpr double kLargestCoordinate = 1e75;
 
 }  // namespace plekton::geometry

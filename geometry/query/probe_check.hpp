@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/base/largest_coordinate.hpp"
 #include "geometry/closest/primitive_pairs.hpp"
 
 #include <ostream>
 
 namespace plekton::geometry {
-
-/// m, below which coordinates and radii must be for exact signs (predicates.hpp).
-constexpr double kLargestCoordinate = 1e75;
 
 /// A line for everything that keeps distances of a probe from being taken.
 inline void list_probe_problems(const Probe& probe, std::ostream& problems) {

@@ -86,7 +86,7 @@ bool has_gradient(const SpreadTouch& touch, Random& random) {
   const double scale = here.deepest * std::sqrt(static_cast<double>(here.terms));
   // Differences of the fourth order. Where a feature comes into range within a step the slope has a
   // kink, and a smaller step sees less of it, until distances are rounded.
-  for (const double part : {1e-4, 1e-5, 1e-6, 1e-7}) {
+  for (const double part : {1e-4, 1e-5, 1e-6, 1e-7, 3e-8}) {
     const double step = part * here.deepest;
     const double slope = (8.0 * (energy_at(step) - energy_at(-step)) -
                           (energy_at(2.0 * step) - energy_at(-2.0 * step))) /
