@@ -136,6 +136,8 @@ bool follows(const SpreadTouch& touch, Random& random) {
   const double width_over_bar = std::sqrt(2.0 * kRange * here.deepest) / least_bar(touch.complex);
   const double turn = 0.53 / contact::kTurn * width_over_bar * width_over_bar *
                       std::hypot(1.0, 0.375 * std::numbers::pi * width_over_bar);
+  // A step may lead through the core of a bar that the ball's centre lies next to.
+  if (!(1.001 * here.deepest < kRange)) return true;
   const double steepness = kRange / (kRange - 1.001 * here.deepest);
   const Vec3 direction = random.direction();
   for (const double part : {1e-3, 1e-4, 1e-5}) {
