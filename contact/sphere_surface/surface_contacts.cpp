@@ -179,7 +179,7 @@ double SurfaceContacts<Law>::keep_minima(const Pair& pair, const geometry::Surfa
 
 // Most balls in contact lie where they lay in the step before: on the inside of one facet, far
 // from its sides. These go side by side; all others, and those that turn out to have moved on, one
-// after the other (surface_contacts_step.hpp), in the order of the list.
+// after the other, in the order of the list.
 
 template <ContactLaw Law>
 EnergyLoss SurfaceContacts<Law>::advance_pairs(std::size_t begin, std::size_t end,

@@ -40,7 +40,7 @@ namespace plekton::contact {
 /// patch over the mesh. Facets that lie on each other have a spring for every pair of them instead
 /// (surface_surface/spread_contact.hpp), for the part of the elastic force that their overlap has, and so
 /// have bars on anything, for their shares of it. Under
-/// a law that glues, what is glued is held by bonds of its own (structure_contacts_bonds.hpp).
+/// a law that glues, what is glued is held by bonds of its own (structure_bond.hpp).
 template <ContactLaw Law>
 class StructureContacts {
  public:

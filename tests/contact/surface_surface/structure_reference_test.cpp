@@ -9,7 +9,7 @@
 
 /// Structure against structure where they touch at points, against the reference "cells minus
 /// seams": chains, folded sheets, corners of shells. Chains that bend around the other body keep
-/// more of their contacts than that (structure/wrapped_joints_test.cpp).
+/// more of their contacts than that (wrapped_joints_test.cpp).
 namespace plekton::test {
 namespace {
 

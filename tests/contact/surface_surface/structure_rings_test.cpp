@@ -72,7 +72,7 @@ TEST(StructureRings, PushAgainstTheGradientOfTheirEnergyWithAdhesion) {
 }
 
 // Bars that cross at 34 degrees touch at points. Nets give back up to a twelfth too much for every
-// mesh in range (ring_weights.hpp), and what bends of the wires keep besides (structure/wrap.hpp).
+// mesh in range (ring_weights.hpp), and what bends of the wires keep besides (wrap.hpp).
 TEST(StructureRings, OfBarsOnBarsNeverPushLessThanPieces) {
   Random random(5);
   const Body net = square_net_of(3, 0.06);
