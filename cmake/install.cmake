@@ -9,9 +9,9 @@ plekton_public_headers(public_headers
   contact/law/cohesive_frictional.hpp
   contact/law/dmt_adhesion.hpp
   contact/law/hertz_mindlin.hpp
-  contact/law/law_list.hpp
+  contact/law_list.hpp
   contact/models.hpp
-  contact/law/with_parts.hpp
+  contact/with_parts.hpp
   dynamics/output/csv_writer.hpp
   dynamics/output/pvd_series.hpp
   dynamics/output/scene_frame.hpp

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "contact/contact_model.hpp"
-#include "contact/law/any_law.hpp"
 #include "contact/law/linear_frictional.hpp"
 #include "contact/law/material_pairs.hpp"
+#include "contact/shipped_laws.hpp"
+#include "contact/law_table.hpp"
 
 namespace plekton::contact {
 
-/// LinearFrictional between all pairs: the fastest.
+/// LinearFrictional between all pairs.
 /// @param properties  of pairs of materials that say more than their materials do
 ContactModel linear_frictional(const PairProperties<LinearFrictional>& properties = {});
 

@@ -3,7 +3,7 @@
 
 #include "apps/command_line/list_outputs.hpp"
 #include "apps/scenario/key_list.hpp"
-#include "contact/law/law_list.hpp"
+#include "contact/law_list.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/key_meanings.hpp"
 
-#include "contact/law/law_list.hpp"
+#include "contact/law_list.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include "apps/scenario/load_settings.hpp"
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/shape_settings.hpp"
-#include "contact/law/law_list.hpp"
+#include "contact/law_list.hpp"
 #include "dynamics/structure/bond_strength.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
 #include "dynamics/structure/wire_curve.hpp"

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "contact/base/bodies.hpp"
-#include "contact/law/bonds.hpp"
-#include "contact/law/contact_law.hpp"
+#include "contact/law/any_law.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -19,15 +18,14 @@ template <class Law>
 using PairProperties = std::map<std::pair<MaterialId, MaterialId>, PropertiesOf<Law>>;
 
 /// The contact materials of a scene, and what their pairs do.
-template <ContactLaw Law>
 class MaterialPairs {
  public:
-  using Parameters = typename Law::Parameters;
+  using Parameters = AnyLaw::Parameters;
 
   /// @param others  properties of the pairs that have none of their own
   explicit MaterialPairs(std::vector<Material> materials = {},
-                         const PairProperties<Law>& properties = {},
-                         const PropertiesOf<Law>& others = {})
+                         const PairProperties<AnyLaw>& properties = {},
+                         const AnyLaw::Properties& others = {})
       : materials_(std::move(materials)), others_(others) {
     for (const auto& [pair, of_pair] : properties)
       properties_[std::minmax(pair.first, pair.second)] = of_pair;
@@ -37,24 +35,29 @@ class MaterialPairs {
     return combine(BodyPart{a.material, a.radius, a.mass}, BodyPart{b.material, b.radius, b.mass});
   }
   Parameters combine(const BodyPart& a, const BodyPart& b) const {
-    const auto own = properties_.find(std::minmax(a.material, b.material));
-    return contact::combine<Law>(own == properties_.end() ? others_ : own->second,
-                                 {at(a.material), a.radius, a.mass, a.shape},
-                                 {at(b.material), b.radius, b.mass, b.shape});
+    return AnyLaw::combine(properties(a.material, b.material),
+                           {at(a.material), a.radius, a.mass, a.shape},
+                           {at(b.material), b.radius, b.mass, b.shape});
   }
 
-  /// Whether a pair has other properties than one of which nothing is said.
-  bool has_properties(MaterialId a, MaterialId b) const {
+  const AnyLaw::Properties& properties(MaterialId a, MaterialId b) const {
     const auto own = properties_.find(std::minmax(a, b));
-    return own != properties_.end() && !(own->second == PropertiesOf<Law>{});
+    return own == properties_.end() ? others_ : own->second;
   }
 
   /// From now on contacts are not those of the first step (HasStart).
   /// @returns whether that changed any pair
   bool end_start() {
-    bool changed = contact::end_start<Law>(others_);
-    for (auto& [pair, properties] : properties_) changed |= contact::end_start<Law>(properties);
+    bool changed = AnyLaw::end_start(others_);
+    for (auto& [pair, properties] : properties_) changed |= AnyLaw::end_start(properties);
     return changed;
+  }
+
+  /// Whether any contact may go on over a distance (HasReach).
+  bool may_reach() const {
+    return others_.law->has_reach ||
+           std::any_of(properties_.begin(), properties_.end(),
+                       [](const auto& pair) { return pair.second.law->has_reach; });
   }
 
   std::size_t size() const noexcept { return materials_.size(); }
@@ -62,14 +65,13 @@ class MaterialPairs {
 
  private:
   std::vector<Material> materials_;
-  PairProperties<Law> properties_;
-  PropertiesOf<Law> others_;
+  PairProperties<AnyLaw> properties_;
+  AnyLaw::Properties others_;
 };
 
 /// What the bodies of a scene are made of, as far as contacts are concerned.
-template <ContactLaw Law>
 struct ContactMaterials {
-  MaterialPairs<Law> pairs;
+  MaterialPairs pairs;
   std::vector<MaterialId> of_spheres;     ///< by SphereId
   std::vector<MaterialId> of_structures;  ///< by StructureId
   /// kg, by NodeId, for laws that ask for masses; empty: all bodies count as held.

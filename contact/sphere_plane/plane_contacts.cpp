@@ -3,10 +3,9 @@
 
 namespace plekton::contact {
 
-template <ContactLaw Law>
-double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
+double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
                                    std::span<const Ball> balls, std::span<const Plane> planes,
-                                   const MaterialPairs<Law>& materials) {
+                                   const MaterialPairs& materials) {
   double lost = 0.0;
   const auto make = [&](std::size_t i, const Slot* old) {
     const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
@@ -21,15 +20,14 @@ double PlaneContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
     }
     return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}, 0};
   };
-  rekey_(slots_, keys, make, [&](Slot& old) { lost += forget<Law>(old.parameters, old.memory); });
+  rekey_(slots_, keys, make, [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.memory); });
   ball_count_ = slots_.empty() ? 0 : balls.size();
   return lost;
 }
 
 /// Threads share out the balls, not the contacts: those of a ball are all of one thread, which adds
 /// their forces at once, and most balls are of the thread that moves their nodes.
-template <ContactLaw Law>
-double PlaneContacts<Law>::advance(const Motion& motion, std::span<const Plane> planes, double dt,
+double PlaneContacts::advance(const Motion& motion, std::span<const Plane> planes, double dt,
                                    geometry::ThreadPool& pool, NodeForces& forces) {
   records_.reset(pool.thread_count());
   if (slots_.empty()) return 0.0;
@@ -42,98 +40,97 @@ double PlaneContacts<Law>::advance(const Motion& motion, std::span<const Plane> 
   });
 }
 
-template <ContactLaw Law>
-double PlaneContacts<Law>::advance_balls(std::size_t begin, std::size_t end, const Motion& motion,
+double PlaneContacts::advance_balls(std::size_t begin, std::size_t end, const Motion& motion,
                                          std::span<const Plane> planes, double dt,
                                          Records& records) {
   double dissipated = 0.0;
   Touching touching;
+  const auto flush = [&] {
+    if (touching.count > 0) dissipated += advance_touching(touching, motion, planes, dt, records);
+    touching.count = 0;
+    touching.all_have_images = true;
+  };
   const std::size_t last = rekey_.first_of(end);
   for (std::size_t i = rekey_.first_of(begin); i < last; ++i) {
     Slot& slot = slots_[i];
     const Plane& plane = planes[slot.plane];
     const double height = (motion.position[index_of(slot.node)] - plane.point).dot(plane.normal);
     if (height < slot.radius ||
-        goes_on<Law>(slot.parameters, slot.memory.history, height - slot.radius)) {
+        goes_on<AnyLaw>(slot.parameters, slot.memory.history, height - slot.radius)) {
+      if (slot.parameters.law != touching.law || touching.count == kBatchLanes) flush();
+      touching.law = slot.parameters.law;
       touching.slot[touching.count] = i;
       touching.height[touching.count++] = height;
       touching.all_have_images &= height + slot.radius > 0.0;
     } else if (!slot.memory.is_new()) {
-      dissipated += forget<Law>(slot.parameters, slot.memory);
+      dissipated += forget<AnyLaw>(slot.parameters, slot.memory);
       slot.id = 0;
     }
-    if (touching.count < kBatchLanes && i + 1 < last) continue;
-    dissipated += advance_touching(touching, motion, planes, dt, records);
-    touching.count = 0;
-    touching.all_have_images = true;
   }
+  flush();
   return dissipated;
 }
 
-template <ContactLaw Law>
-double PlaneContacts<Law>::advance_touching(const Touching& touching, const Motion& motion,
-                                            std::span<const Plane> planes, double dt,
-                                            Records& records) {
-  if constexpr (LaneLaw<Law>) {
-    BallBatch<Law> block;
-    gather(touching, motion, planes, block);
-    if (touching.all_have_images && advance_side_by_side(block, touching.count, dt))
-      return scatter(touching, block, records);
+double PlaneContacts::advance_touching(const Touching& touching, const Motion& motion,
+                                       std::span<const Plane> planes, double dt,
+                                       Records& records) {
+  if (touching.law->advance_batch && touching.all_have_images) {
+    BallBatch batch;
+    gather(touching, motion, planes, batch);
+    if (touching.law->advance_batch(batch, touching.count, dt))
+      return scatter(touching, batch, records);
   }
   double dissipated = 0.0;
-  for (std::size_t k = 0; k < touching.count; ++k) {
-    const std::size_t i = touching.slot[k];
-    dissipated += advance_one(i, touching.height[k], motion, planes, dt, records);
-  }
+  for (std::size_t k = 0; k < touching.count; ++k)
+    dissipated += advance_one(touching.slot[k], touching.height[k], motion, planes, dt, records);
   return dissipated;
 }
 
 /// To the kernel a plane is the mirror image of the ball, moving with the plane and without spin.
-template <ContactLaw Law>
-template <class Block>
-void PlaneContacts<Law>::gather(const Touching& touching, const Motion& motion,
-                                std::span<const Plane> planes, Block& block) const {
+void PlaneContacts::gather(const Touching& touching, const Motion& motion,
+                                std::span<const Plane> planes, BallBatch& batch) const {
   for (std::size_t k = 0; k < touching.count; ++k) {
     const Slot& slot = slots_[touching.slot[k]];
     const Plane& plane = planes[slot.plane];
     const std::size_t node = index_of(slot.node);
-    block.separation.set(k, Vec3(-(touching.height[k] + slot.radius) * plane.normal));
-    block.velocity.set(k, Vec3(plane.velocity - motion.velocity[node]));
-    block.spin_a.set(k, motion.angular_velocity[node]);
-    block.spin_b.set(k, Vec3(Vec3::Zero()));
-    block.radius_a.set(k, slot.radius);
-    block.radius_b.set(k, slot.radius);
-    block.parameters.set(k, slot.parameters);
-    block.history.set(k, slot.memory.history);
-    block.normal.set(k, slot.memory.normal);
+    batch.separation.set(k, Vec3(-(touching.height[k] + slot.radius) * plane.normal));
+    batch.velocity.set(k, Vec3(plane.velocity - motion.velocity[node]));
+    batch.spin_a.set(k, motion.angular_velocity[node]);
+    batch.spin_b.set(k, Vec3(Vec3::Zero()));
+    batch.radius_a.set(k, slot.radius);
+    batch.radius_b.set(k, slot.radius);
+    batch.parameters().set_numbers(k, slot.parameters.numbers.data(),
+                                   touching.law->parameter_numbers);
+    batch.history().set_numbers(k, slot.memory.history.numbers.data(),
+                                touching.law->history_numbers);
+    batch.normal.set(k, slot.memory.normal);
   }
 }
 
-template <ContactLaw Law>
-template <class Block>
-double PlaneContacts<Law>::scatter(const Touching& touching, const Block& block, Records& records) {
+double PlaneContacts::scatter(const Touching& touching, BallBatch& batch, Records& records) {
   double dissipated = 0.0;
   for (std::size_t k = 0; k < touching.count; ++k) {
     const std::size_t i = touching.slot[k];
     Slot& slot = slots_[i];
-    block.history.get(k, slot.memory.history);
-    block.normal.get(k, slot.memory.normal);
-    block.gap.get(k, slot.gap);
-    PlaneForce& record = records.add(block.overlap_ratio.number(k));
+    slot.memory.history.law = touching.law;
+    batch.history().get_numbers(k, slot.memory.history.numbers.data(),
+                                touching.law->history_numbers);
+    batch.normal.get(k, slot.memory.normal);
+    batch.gap.get(k, slot.gap);
+    PlaneForce& record = records.add(batch.overlap_ratio.number(k));
     record.a = slot.node;
     record.plane = slot.plane;
-    block.force.get(k, record.force);
-    block.torque_a.get(k, record.torque_a);
+    batch.force.get(k, record.force);
+    batch.torque_a.get(k, record.torque_a);
     record.contact = i;
-    dissipated += block.dissipated.number(k);
+    dissipated += batch.dissipated.number(k);
   }
   return dissipated;
 }
 
 /// The arithmetic of gather() and its kernel; beyond the mirror, where that has no image, the plane
 /// goes on pushing.
-template <ContactLaw Law>
-double PlaneContacts<Law>::advance_one(std::size_t i, double height, const Motion& motion,
+double PlaneContacts::advance_one(std::size_t i, double height, const Motion& motion,
                                        std::span<const Plane> planes, double dt, Records& records) {
   Slot& slot = slots_[i];
   const Plane& plane = planes[slot.plane];
@@ -149,9 +146,9 @@ double PlaneContacts<Law>::advance_one(std::size_t i, double height, const Motio
       Vec3::Zero(),
       slot.radius,
       slot.radius};
-  slot.memory = {carried_history<Law>(slot.memory, pair.normal, dt * pair.twist_rate()),
+  slot.memory = {carried_history<AnyLaw>(slot.memory, pair.normal, dt * pair.twist_rate()),
                  pair.normal};
-  const BallStepOf<double> step = ball_step<Law>(pair, slot.parameters, slot.memory.history, dt);
+  const BallStepOf<double> step = ball_step<AnyLaw>(pair, slot.parameters, slot.memory.history, dt);
   slot.gap = step.gap;
   records.add(
       {slot.node, slot.plane, step.force, step.arm_a * step.force_cross_normal - step.moment, i},
@@ -159,19 +156,17 @@ double PlaneContacts<Law>::advance_one(std::size_t i, double height, const Motio
   return step.dissipated;
 }
 
-template <ContactLaw Law>
-double PlaneContacts<Law>::elastic_energy() const {
+double PlaneContacts::elastic_energy() const {
   double energy = 0.0;
   records_.for_each([&](const PlaneForce& record) {
     const Slot& slot = slots_[record.contact];
-    energy += Law::elastic_normal_energy(slot.parameters, slot.gap) +
-              Law::history_energy(slot.parameters, slot.memory.history);
+    energy += AnyLaw::elastic_normal_energy(slot.parameters, slot.gap) +
+              AnyLaw::history_energy(slot.parameters, slot.memory.history);
   });
   return energy;
 }
 
-template <ContactLaw Law>
-Vec3 PlaneContacts<Law>::force_on(std::size_t plane) const {
+Vec3 PlaneContacts::force_on(std::size_t plane) const {
   Vec3 force = Vec3::Zero();
   records_.for_each([&](const PlaneForce& record) {
     if (record.plane == plane) force += record.force;
@@ -179,8 +174,7 @@ Vec3 PlaneContacts<Law>::force_on(std::size_t plane) const {
   return force;
 }
 
-template <ContactLaw Law>
-void PlaneContacts<Law>::for_each_row(Positions x, const geometry::Surface& surface,
+void PlaneContacts::for_each_row(Positions x, const geometry::Surface& surface,
                                       VisitRow visit) const {
   records_.for_each([&](const PlaneForce& record) {
     const Slot& slot = slots_[record.contact];
@@ -200,14 +194,11 @@ void PlaneContacts<Law>::for_each_row(Positions x, const geometry::Surface& surf
     row.point_b = row.point_a + (slot.radius + slot.gap) * row.normal;
     row.point = row.point_a + lever;
     set_force(row, record.force);
-    if constexpr (HasMoments<Law>) row.moment = -record.torque_a - lever.cross(record.force);
-    set_state<Law>(row, slot.parameters, slot.memory.history,
-                   Law::elastic_normal_force(slot.parameters, slot.gap));
+    row.moment = AnyLaw::moment(slot.memory.history, row.normal);
+    set_state<AnyLaw>(row, slot.parameters, slot.memory.history,
+                   AnyLaw::elastic_normal_force(slot.parameters, slot.gap));
     visit(row);
   });
 }
-
-template class PlaneContacts<LinearFrictional>;
-template class PlaneContacts<AnyLaw>;
 
 }  // namespace plekton::contact

@@ -2,8 +2,6 @@
 #pragma once
 
 #include "contact/base/bodies.hpp"
-#include "contact/law/any_law.hpp"
-#include "contact/law/linear_frictional.hpp"
 #include "contact/law/material_pairs.hpp"
 #include "contact/sphere_sphere/ball_batch.hpp"
 #include "contact/tracking/contact_memory.hpp"
@@ -21,13 +19,12 @@ namespace plekton::contact {
 
 /// Contacts of balls (a) with planes (b): one slot for each pair that may touch. A plane has the
 /// stiffness of a ball of its material and of the radius of the ball that touches it.
-template <ContactLaw Law>
 class PlaneContacts {
  public:
   /// Takes a new list of pairs (ball, plane), sorted; pairs in both lists keep their memory.
   /// @returns the energy (J) lost with contacts that left the list
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
-                 std::span<const Plane> planes, const MaterialPairs<Law>& materials);
+                 std::span<const Plane> planes, const MaterialPairs& materials);
 
   /// One step of all contacts; adds their forces to the nodes.
   /// @returns the energy (J) dissipated
@@ -65,7 +62,7 @@ class PlaneContacts {
     for (const Slot& slot : slots_) {
       const Plane& plane = planes[slot.plane];
       const double gap = (x[index_of(slot.node)] - plane.point).dot(plane.normal) - slot.radius;
-      if (gap < margin + reach_of<Law>(slot.parameters))
+      if (gap < margin + AnyLaw::reach(slot.parameters))
         visit(slot.node, slot.plane, slot.parameters, gap);
     }
   }
@@ -94,8 +91,8 @@ class PlaneContacts {
     std::size_t plane;
     double radius;
     double gap = 0.0;  ///< m, of the last step
-    typename Law::Parameters parameters;
-    ContactMemory<Law> memory;
+    AnyLaw::Parameters parameters;
+    ContactMemory<AnyLaw> memory;
     std::int64_t id = 0;  ///< 0: none yet
   };
 
@@ -106,21 +103,20 @@ class PlaneContacts {
     std::array<std::size_t, kBatchLanes> slot;
     std::array<double, kBatchLanes> height;
     std::size_t count = 0;
+    const AnyLaw::Functions* law = nullptr;  ///< of all of them
     bool all_have_images = true;  ///< none is so deep that it is beyond its mirror image
   };
 
-  /// One step of slots that touch, side by side if the law allows. @returns the energy (J)
+  /// One step of slots that touch, of one law, side by side if it allows. @returns the energy (J)
   /// dissipated
   double advance_touching(const Touching& touching, const Motion& motion,
                           std::span<const Plane> planes, double dt, Records& records);
   /// One step of all contacts of some balls.
   double advance_balls(std::size_t begin, std::size_t end, const Motion& motion,
                        std::span<const Plane> planes, double dt, Records& records);
-  template <class Block>
   void gather(const Touching& touching, const Motion& motion, std::span<const Plane> planes,
-              Block& block) const;
-  template <class Block>
-  double scatter(const Touching& touching, const Block& block, Records& records);
+              BallBatch& batch) const;
+  double scatter(const Touching& touching, BallBatch& batch, Records& records);
   double advance_one(std::size_t i, double height, const Motion& motion,
                      std::span<const Plane> planes, double dt, Records& records);
 
@@ -131,8 +127,5 @@ class PlaneContacts {
   geometry::ParallelSum<double> sum_;
 };
 
-/// Compiled once, in the library.
-extern template class PlaneContacts<LinearFrictional>;
-extern template class PlaneContacts<AnyLaw>;
 
 }  // namespace plekton::contact

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/law/any_law.hpp"
 #include "contact/law/lane_law.hpp"
 #include "contact/sphere_sphere/ball_kernel.hpp"
+#include "geometry/base/lane_rows.hpp"
 #include "geometry/base/rows.hpp"
 #include "geometry/base/vector_width.hpp"
 
-/// Touching pairs of balls in batches, so that a processor computes as many contacts at once as its
-/// vectors have lanes: pairs are gathered into rows of numbers, the kernel runs along the rows, and
-/// the results are taken out again.
+#include <array>
+
+/// Touching pairs of balls of one law in batches, so that a processor computes as many contacts at
+/// once as its vectors have lanes: pairs are gathered into rows of numbers, the kernel runs along
+/// the rows, and the results are taken out again.
 namespace plekton::contact {
 
 /// What a step of pairs side by side came to.
@@ -63,10 +67,10 @@ PLEKTON_INLINE LaneStepOf<Law, Real> advance_lanes(
 constexpr std::size_t kBatchLanes = 64;
 
 /// Up to kBatchLanes touching pairs.
-template <LaneLaw Law>
 struct BallBatch {
   template <class Thing>
   using RowsOf = geometry::RowsOf<Thing, kBatchLanes>;
+  using NumberRows = geometry::LaneRows<kBatchLanes>;
 
   // Filled in for each pair:
   RowsOf<Vec3> separation;  ///< m, from centre a to centre b, not zero
@@ -75,9 +79,9 @@ struct BallBatch {
   RowsOf<Vec3> spin_b;      ///< rad/s
   RowsOf<double> radius_a;  ///< m
   RowsOf<double> radius_b;  ///< m
-  RowsOf<typename Law::Parameters> parameters;
+  NumberRows parameters() noexcept { return NumberRows(parameters_.data()); }  ///< of the law
   // Filled in, and brought to the end of the step:
-  RowsOf<typename Law::History> history;
+  NumberRows history() noexcept { return NumberRows(history_.data()); }
   RowsOf<Vec3> normal;  ///< unit, of the last step; zero before the first
   // Answers:
   RowsOf<double> gap;            ///< m
@@ -90,33 +94,38 @@ struct BallBatch {
   /// One step of the first count pairs, W at a time; the lanes up to the next multiple of W hold
   /// any numbers.
   /// @returns whether all answers are right
-  template <int W>
+  template <LaneLaw Law, int W>
   PLEKTON_INLINE bool advance(std::size_t count, double dt) noexcept {
     for (std::size_t lane = 0; lane < count; lane += std::size_t{W})
-      advance_lanes<Pack<W>>(lane, dt);
+      advance_lanes<Law, W>(lane, dt);
     bool all_right = true;
     for (std::size_t lane = 0; lane < count; ++lane) all_right &= is_right.number(lane) > 0.0;
     return all_right;
   }
 
  private:
-  template <class Real>
+  template <LaneLaw Law, int W>
   PLEKTON_INLINE void advance_lanes(std::size_t lane, double dt) noexcept;
+
+  using Numbers = std::array<double, AnyLaw::kMostNumbers * kBatchLanes>;
+  alignas(64) Numbers parameters_;
+  alignas(64) Numbers history_;
 };
 
-template <LaneLaw Law>
-template <class Real>
-PLEKTON_INLINE void BallBatch<Law>::advance_lanes(std::size_t lane, double dt) noexcept {
+template <LaneLaw Law, int W>
+PLEKTON_INLINE void BallBatch::advance_lanes(std::size_t lane, double dt) noexcept {
+  using Real = Pack<W>;
   using Vector = Vec3Of<Real>;
   const BallMotionOf<Real> balls{
       separation.template load<Vector>(lane), velocity.template load<Vector>(lane),
       spin_a.template load<Vector>(lane),     spin_b.template load<Vector>(lane),
       radius_a.template load<Real>(lane),     radius_b.template load<Real>(lane)};
   const auto answer = contact::advance_lanes<Law, Real>(
-      balls, Real(1.0), parameters.template load<typename Law::template ParametersOf<Real>>(lane),
-      history.template load<typename Law::template HistoryOf<Real>>(lane),
+      balls, Real(1.0),
+      parameters().template load<typename Law::template ParametersOf<Real>, W>(lane),
+      history().template load<typename Law::template HistoryOf<Real>, W>(lane),
       normal.template load<Vector>(lane), dt);
-  history.store(lane, answer.history);
+  history().template store<W>(lane, answer.history);
   normal.store(lane, answer.normal);
   gap.store(lane, answer.step.gap);
   force.store(lane, answer.step.force);
@@ -130,10 +139,10 @@ PLEKTON_INLINE void BallBatch<Law>::advance_lanes(std::size_t lane, double dt) n
 
 /// BallBatch::advance with the widest vectors there are.
 template <LaneLaw Law>
-bool advance_side_by_side(BallBatch<Law>& batch, std::size_t count, double dt) noexcept {
+bool advance_batch(BallBatch& batch, std::size_t count, double dt) {
   bool all_right = false;
   geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
-    all_right = batch.template advance<width>(count, dt);
+    all_right = batch.template advance<Law, width>(count, dt);
   });
   return all_right;
 }

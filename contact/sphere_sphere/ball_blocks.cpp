@@ -36,7 +36,8 @@ void set_all(std::vector<Number>& list, std::size_t count, Number value) {
 }  // namespace
 
 void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
-                        geometry::ThreadPool& pool, Positions x) {
+                        std::span<const std::uint8_t> kinds, geometry::ThreadPool& pool,
+                        Positions x) {
   std::int32_t last = -1;
   for (const geometry::IndexPair& pair : pairs) last = std::max(last, pair.b);
   order_balls(balls.first(static_cast<std::size_t>(last + 1)), x);
@@ -47,13 +48,18 @@ void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<co
   const std::size_t count = first_places_.size() - 1;
   set_all(member_of_, order_.size(), 0U);
   set_all(slots_, pairs.size(), 0U);
-  make_room(pairs_, pairs.size() + 2 * kLanes * count);
+  const std::size_t groups =
+      2 * (kinds.empty() ? 1 : 1 + static_cast<std::size_t>(*std::ranges::max_element(kinds)));
+  group_sizes_.resize(groups);
+  group_stretches_.resize(groups);
+  make_room(pairs_, pairs.size() + groups * kLanes * count);
   blocks_.clear();
+  stretches_.clear();
   members_.clear();
   balls_.clear();
   pairs_.clear();
   largest_member_count_ = 0;
-  for (std::size_t k = 0; k < count; ++k) fill_block(k, pairs, balls);
+  for (std::size_t k = 0; k < count; ++k) fill_block(k, pairs, balls, kinds);
   find_loans();
   find_other_nodes(x.size());
 }
@@ -128,44 +134,48 @@ void BallBlocks::find_touching(std::span<const geometry::IndexPair> pairs,
   });
 }
 
-BallBlocks::Stretch BallBlocks::add_stretch(std::size_t pair_count) {
+void BallBlocks::add_stretch(std::size_t group, std::size_t pair_count) {
   const std::size_t rows = (pair_count + kLanes - 1) / kLanes;
-  const Stretch stretch{static_cast<std::uint32_t>(pairs_.size() / kLanes),
-                        static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(pair_count)};
-  pairs_.resize(pairs_.size() + stretch.slot_count());
-  return stretch;
+  stretches_.push_back({static_cast<std::uint32_t>(row_count()), static_cast<std::uint32_t>(rows),
+                        static_cast<std::uint32_t>(pair_count),
+                        static_cast<std::uint8_t>(group / 2), group % 2 == 1});
+  pairs_.resize(pairs_.size() + rows * kLanes);
 }
 
 void BallBlocks::fill_block(std::size_t k, std::span<const geometry::IndexPair> pairs,
-                            std::span<const Ball> balls) {
+                            std::span<const Ball> balls, std::span<const std::uint8_t> kinds) {
   const std::span<const std::uint32_t> own(sorted_.begin() + first_of_place_[first_places_[k]],
                                            sorted_.begin() + first_of_place_[first_places_[k + 1]]);
-  const auto touching = static_cast<std::size_t>(
-      std::ranges::count_if(own, [&](auto i) { return touches_[i] != 0; }));
   Block block{};
   block.first_member = static_cast<std::uint32_t>(members_.size());
   block.owned = first_places_[k + 1] - first_places_[k];
   if (!blocks_.empty())
     block.first_borrowed = blocks_.back().first_borrowed + blocks_.back().borrowed();
-  block.first_row = static_cast<std::uint32_t>(row_count());
-  block.stretches = {add_stretch(touching), add_stretch(own.size() - touching)};
-  block.row_count = static_cast<std::uint32_t>(row_count()) - block.first_row;
+  block.first_stretch = static_cast<std::uint32_t>(stretches_.size());
+  std::ranges::fill(group_sizes_, 0U);
+  for (const std::uint32_t i : own) ++group_sizes_[group_of(i, kinds)];
+  for (std::size_t group = 0; group < group_sizes_.size(); ++group) {
+    group_stretches_[group] = static_cast<std::uint32_t>(stretches_.size());
+    if (group_sizes_[group] > 0) add_stretch(group, group_sizes_[group]);
+  }
+  block.stretch_count = static_cast<std::uint32_t>(stretches_.size()) - block.first_stretch;
   for (std::size_t place = first_places_[k]; place < first_places_[k + 1]; ++place)
     add_member(order_[place], balls);
-  std::array<std::size_t, 2> filled{};
+  group_filled_.assign(group_sizes_.size(), 0U);
   for (const std::uint32_t i : own) {
-    const std::size_t which = touches_[i] != 0 ? 0 : 1;
-    slots_[i] = static_cast<std::uint32_t>(block.stretches[which].slot(filled[which]++));
+    const std::size_t group = group_of(i, kinds);
+    const Stretch& stretch = stretches_[group_stretches_[group]];
+    slots_[i] = static_cast<std::uint32_t>(stretch.slot(group_filled_[group]++));
     pairs_[slots_[i]] = {member(block, pairs[i].a, balls), member(block, pairs[i].b, balls)};
   }
   const auto none = static_cast<std::uint32_t>(members_.size() - block.first_member);
   members_.push_back({NodeId{-1}, 0.0});
   balls_.push_back(-1);
-  for (const Stretch& stretch : block.stretches) {
+  block.member_count = none + 1;
+  for (const Stretch& stretch : stretches(block)) {
     for (std::size_t n = stretch.pair_count; n < stretch.slot_count(); ++n)
       pairs_[stretch.slot(n)] = {none, none};
   }
-  block.member_count = none + 1;
   largest_member_count_ = std::max<std::size_t>(largest_member_count_, block.member_count);
   blocks_.push_back(block);
 }

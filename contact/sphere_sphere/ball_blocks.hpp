@@ -34,6 +34,8 @@ class BallBlocks {
     std::uint32_t first_row;
     std::uint32_t row_count;
     std::uint32_t pair_count;
+    std::uint8_t kind;  ///< of all its pairs
+    bool was_apart;     ///< none of its pairs touched when the list was made
 
     /// Row and lane of its pair n.
     std::size_t slot(std::size_t n) const noexcept {
@@ -47,10 +49,8 @@ class BallBlocks {
     std::uint32_t owned;         ///< how many it owns
     std::uint32_t member_count;
     std::uint32_t first_borrowed;  ///< those that it borrows, counted over all blocks
-    std::uint32_t first_row;
-    std::uint32_t row_count;
-    /// Of pairs that touched when the list was made, and of the others: rows follow each other.
-    std::array<Stretch, 2> stretches;
+    std::uint32_t first_stretch;   ///< of each kind those that touched, then those that did not
+    std::uint32_t stretch_count;
 
     std::uint32_t borrowed() const noexcept { return member_count - 1 - owned; }
   };
@@ -74,10 +74,11 @@ class BallBlocks {
 
   /// Takes a new list. Allocates only for a longer one than ever before.
   /// @param pairs  of balls, a < b, sorted; balls after the last of them are left out
+  /// @param kinds  by pair, so that pairs of a kind lie together; empty: all are of kind 0
   /// @param x      m, of nodes; empty: the balls are in order already, and there are no nodes after
   ///               those of the balls
   void assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
-              geometry::ThreadPool& pool, Positions x);
+              std::span<const std::uint8_t> kinds, geometry::ThreadPool& pool, Positions x);
 
   std::span<const Block> blocks() const noexcept { return blocks_; }
   /// How many balls there are in blocks.
@@ -91,6 +92,10 @@ class BallBlocks {
   std::size_t row_count() const noexcept { return pairs_.size() / kLanes; }
   std::size_t largest_member_count() const noexcept { return largest_member_count_; }
 
+  std::span<const Stretch> stretches(const Block& block) const noexcept {
+    return std::span(stretches_).subspan(block.first_stretch, block.stretch_count);
+  }
+  std::span<const Stretch> stretches() const noexcept { return stretches_; }
   std::span<const Member> members(const Block& block) const noexcept {
     return {&members_[block.first_member], block.member_count};
   }
@@ -127,9 +132,14 @@ class BallBlocks {
   void cut_order();
   void find_touching(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
                      Positions x, geometry::ThreadPool& pool);
-  Stretch add_stretch(std::size_t pair_count);
+  void add_stretch(std::size_t group, std::size_t pair_count);
+  /// Which stretch of a block a pair goes to: by kind, those that touch first.
+  std::size_t group_of(std::size_t pair, std::span<const std::uint8_t> kinds) const noexcept {
+    const std::size_t kind = kinds.empty() ? 0 : kinds[pair];
+    return 2 * kind + (touches_[pair] != 0 ? 0 : 1);
+  }
   void fill_block(std::size_t block, std::span<const geometry::IndexPair> pairs,
-                  std::span<const Ball> balls);
+                  std::span<const Ball> balls, std::span<const std::uint8_t> kinds);
   /// The member, within its block, that a ball is; borrows it if need be.
   std::uint32_t member(const Block& block, std::int32_t ball, std::span<const Ball> balls);
   void add_member(std::int32_t ball, std::span<const Ball> balls);
@@ -145,6 +155,10 @@ class BallBlocks {
   std::vector<std::uint8_t> touches_;          ///< by pair, 1 or 0, when the list was made
   std::vector<std::uint32_t> member_of_;  ///< by ball: which member of the last block it was in
   std::vector<Block> blocks_;
+  std::vector<Stretch> stretches_;
+  std::vector<std::uint32_t> group_sizes_;     ///< pairs of the last block, by group
+  std::vector<std::uint32_t> group_stretches_; ///< the stretch of each group
+  std::vector<std::uint32_t> group_filled_;
   std::vector<Member> members_;
   std::vector<std::int32_t> balls_;  ///< by member
   std::vector<Pair> pairs_;          ///< by slot

@@ -10,13 +10,12 @@
 
 namespace plekton::contact {
 
-template <ContactLaw Law>
-double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
+double SurfaceContacts::rebuild(std::span<const geometry::IndexPair> keys,
                                      std::span<const NearCells> near,
                                      std::span<const geometry::CellId> cells,
                                      std::span<const Ball> balls,
                                      std::span<const MaterialId> materials_of_structures,
-                                     const MaterialPairs<Law>& materials) {
+                                     const MaterialPairs& materials) {
   double lost = 0.0;
   const auto make = [&](std::size_t i, const Pair* old) {
     const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
@@ -27,9 +26,11 @@ double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
         {ball.material, ball.radius, ball.mass},
         {.material = material_b, .radius = radius_b, .shape = shape_of(*surface_, structure)});
     const double range = ball.radius + radius_b;
-    return Pair{{ball.radius, range, parameters},
+    return Pair{ball.radius,
+                range,
+                parameters,
                 ball.node,
-                range + reach_of<Law>(parameters),
+                range + AnyLaw::reach(parameters),
                 near[i],
                 old ? old->contacts : Range{},
                 old ? old->lone_face : kNoFace,
@@ -40,18 +41,16 @@ double SurfaceContacts<Law>::rebuild(std::span<const geometry::IndexPair> keys,
   return lost;
 }
 
-template <ContactLaw Law>
-double SurfaceContacts<Law>::drop(const Pair& pair) const {
+double SurfaceContacts::drop(const Pair& pair) const {
   if (pair.contacts.count == 0) return 0.0;
   double lost = 0.0;
   for (const Contact& contact : contacts_of(pair, current_)) {
-    lost += Law::history_energy(pair.parameters, contact.memory.history);
+    lost += AnyLaw::history_energy(pair.parameters, contact.memory.history);
   }
   return lost;
 }
 
-template <ContactLaw Law>
-EnergyLoss SurfaceContacts<Law>::advance(const Motion& motion, double dt,
+EnergyLoss SurfaceContacts::advance(const Motion& motion, double dt,
                                          geometry::ThreadPool& pool) {
   const auto worker_count = static_cast<std::size_t>(pool.thread_count());
   while (workers_.size() < worker_count) workers_.emplace_back(*surface_);
@@ -73,28 +72,25 @@ EnergyLoss SurfaceContacts<Law>::advance(const Motion& motion, double dt,
   });
 }
 
-template <ContactLaw Law>
-std::int64_t SurfaceContacts<Law>::pass_throughs() const noexcept {
+std::int64_t SurfaceContacts::pass_throughs() const noexcept {
   std::int64_t count = 0;
   for (const Worker& worker : workers_) count += worker.pass_throughs;
   return count;
 }
 
-template <ContactLaw Law>
-std::size_t SurfaceContacts<Law>::touching() const noexcept {
+std::size_t SurfaceContacts::touching() const noexcept {
   std::size_t count = 0;
   for (const Lists& lists : current_) count += lists.contacts.size();
   return count;
 }
 
-template <ContactLaw Law>
-double SurfaceContacts<Law>::elastic_energy() const {
+double SurfaceContacts::elastic_energy() const {
   double energy = 0.0;
   for (const Pair& pair : pairs_) {
     if (pair.contacts.count == 0) continue;
     for (const Contact& contact : contacts_of(pair, current_)) {
       energy +=
-          contact.elastic_energy + Law::history_energy(pair.parameters, contact.memory.history);
+          contact.elastic_energy + AnyLaw::history_energy(pair.parameters, contact.memory.history);
     }
   }
   return energy;
@@ -102,8 +98,7 @@ double SurfaceContacts<Law>::elastic_energy() const {
 
 // What becomes of the contacts of balls with a surface that loses some of its elements.
 
-template <ContactLaw Law>
-double SurfaceContacts<Law>::follow(const geometry::SurfaceChange& change,
+double SurfaceContacts::follow(const geometry::SurfaceChange& change,
                                     std::span<const geometry::CellId> cells, Positions at) {
   double lost = released_by(change, cells, at);
   for (Pair& pair : pairs_) {
@@ -119,8 +114,7 @@ double SurfaceContacts<Law>::follow(const geometry::SurfaceChange& change,
 /// Elastic energy (J) of normal forces before, minus what it is afterwards, where the nodes are at
 /// a moment. Only pairs with a cell that is gone have changed: a feature in range has all its cells
 /// in the list.
-template <ContactLaw Law>
-double SurfaceContacts<Law>::released_by(const geometry::SurfaceChange& change,
+double SurfaceContacts::released_by(const geometry::SurfaceChange& change,
                                          std::span<const geometry::CellId> cells,
                                          Positions at) const {
   PatchFinder before(change.before());
@@ -144,8 +138,7 @@ double SurfaceContacts<Law>::released_by(const geometry::SurfaceChange& change,
   return released;
 }
 
-template <ContactLaw Law>
-double SurfaceContacts<Law>::normal_energy(const Pair& pair, PatchFinder& finder,
+double SurfaceContacts::normal_energy(const Pair& pair, PatchFinder& finder,
                                            std::span<const geometry::CellId> cells, Positions x) {
   if (cells.empty()) return 0.0;
   const NormalPart one{&pair};
@@ -160,8 +153,7 @@ double SurfaceContacts<Law>::normal_energy(const Pair& pair, PatchFinder& finder
 
 /// A contact goes on from the minima that are left; without any nothing follows it. @returns the
 /// energy (J) of the histories that are lost
-template <ContactLaw Law>
-double SurfaceContacts<Law>::keep_minima(const Pair& pair, const geometry::SurfaceChange& change) {
+double SurfaceContacts::keep_minima(const Pair& pair, const geometry::SurfaceChange& change) {
   double lost = 0.0;
   Lists& lists = current_[static_cast<std::size_t>(pair.contacts.worker)];
   for (std::uint32_t i = 0; i < pair.contacts.count; ++i) {
@@ -172,7 +164,7 @@ double SurfaceContacts<Law>::keep_minima(const Pair& pair, const geometry::Surfa
       if (const auto minimum = change.now(minima[m])) minima[left++] = *minimum;
     }
     contact.minimum_count = left;
-    if (left == 0) lost += forget<Law>(pair.parameters, contact.memory);
+    if (left == 0) lost += forget<AnyLaw>(pair.parameters, contact.memory);
   }
   return lost;
 }
@@ -181,25 +173,22 @@ double SurfaceContacts<Law>::keep_minima(const Pair& pair, const geometry::Surfa
 // from its sides. These go side by side; all others, and those that turn out to have moved on, one
 // after the other, in the order of the list.
 
-template <ContactLaw Law>
-EnergyLoss SurfaceContacts<Law>::advance_pairs(std::size_t begin, std::size_t end,
+EnergyLoss SurfaceContacts::advance_pairs(std::size_t begin, std::size_t end,
                                                const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   EnergyLoss loss;
   while (begin < end) {
     begin = find_jobs(begin, end, motion, worker);
-    if constexpr (LaneLaw<Law>) advance_side_by_side(worker.lone.block, motion, dt);
+    worker.lone.advance(motion, dt);
     for (const Job& job : worker.jobs) {
       Pair& pair = pairs_[job.pair];
-      if constexpr (LaneLaw<Law>) {
-        if (job.lane != kNoLane && worker.lone.block.is_right(job.lane)) {
-          loss.dissipated += keep_lone(pair, job.lane, worker_index);
-          continue;
-        }
+      if (job.lane != kNoLane && worker.lone.answer(job.lane).is_right()) {
+        loss.dissipated += keep_lone(pair, job.lane, worker_index);
+        continue;
       }
       loss += advance_pair(pair, {worker.cells.data() + job.first_cell, job.cell_count}, motion, dt,
                            worker_index);
-      if constexpr (LaneLaw<Law>) pair.lone_face = lone_face_of(pair, current_);
+      pair.lone_face = lone_face_of(pair, current_);
     }
   }
   return loss;
@@ -207,13 +196,12 @@ EnergyLoss SurfaceContacts<Law>::advance_pairs(std::size_t begin, std::size_t en
 
 /// Finds the pairs that are awake, as long as there are lanes for those that may go side by side.
 /// @returns the first pair that was not looked at
-template <ContactLaw Law>
-std::size_t SurfaceContacts<Law>::find_jobs(std::size_t begin, std::size_t end,
+std::size_t SurfaceContacts::find_jobs(std::size_t begin, std::size_t end,
                                             const Motion& motion, Worker& worker) {
   worker.jobs.clear();
   worker.cells.clear();
   make_room(worker.jobs, end - begin);
-  if constexpr (LaneLaw<Law>) worker.lone.block.clear();
+  worker.lone.clear();
   std::size_t i = begin;
   for (; i < end; ++i) {
     Pair& pair = pairs_[i];
@@ -221,15 +209,11 @@ std::size_t SurfaceContacts<Law>::find_jobs(std::size_t begin, std::size_t end,
     Job job{i, worker.cells.size(), 0, kNoLane};
     SideFlags sides = kNoSides;
     if (may_be_lone(pair, motion, job, sides, worker)) {
-      if constexpr (LaneLaw<Law>) {
-        job.lane = worker.lone.block.count();
-        add_lane(pair, sides, worker);
-      }
+      job.lane = worker.lone.count();
+      add_lane(pair, sides, worker);
     }
     if (job.cell_count > 0 || pair.contacts.count > 0) worker.jobs.push_back(job);
-    if constexpr (LaneLaw<Law>) {
-      if (worker.lone.block.count() == kLoneLanes) return i + 1;
-    }
+    if (worker.lone.count() == kLoneLanes) return i + 1;
   }
   return i;
 }
@@ -237,8 +221,7 @@ std::size_t SurfaceContacts<Law>::find_jobs(std::size_t begin, std::size_t end,
 /// Lists the cells that may be in range. @returns whether the pair is likely to touch the inside of
 /// the same facet as in the last step, alone
 /// @param sides  kNoSides; see are_beside()
-template <ContactLaw Law>
-bool SurfaceContacts<Law>::may_be_lone(Pair& pair, const Motion& motion, Job& job, SideFlags& sides,
+bool SurfaceContacts::may_be_lone(Pair& pair, const Motion& motion, Job& job, SideFlags& sides,
                                        Worker& worker) {
   if (pair.lone_face != kNoFace && watch_.is_known(pair.awake) && pair.awake.count == 1) {
     worker.cells.push_back(geometry::id_at<geometry::CellId>(index_of(pair.lone_face)));
@@ -254,12 +237,12 @@ bool SurfaceContacts<Law>::may_be_lone(Pair& pair, const Motion& motion, Job& jo
                     motion.position, sides);
 }
 
-/// The facet whose inside is the only contact of a pair; none if there is no such facet.
+/// The facet whose inside is the only contact of a pair; none if there is no such facet, or the law
+/// is not written for contacts side by side.
 /// @param lists  with the contacts of the pair
-template <ContactLaw Law>
-geometry::FaceId SurfaceContacts<Law>::lone_face_of(
+geometry::FaceId SurfaceContacts::lone_face_of(
     const Pair& pair, const std::vector<Lists>& lists) const noexcept {
-  if (pair.contacts.count != 1) return kNoFace;
+  if (pair.contacts.count != 1 || !pair.parameters.law->advance_lone) return kNoFace;
   const Contact& contact = contacts_of(pair, lists)[0];
   if (contact.minimum_count != 1) return kNoFace;
   const Feature minimum =
@@ -267,58 +250,52 @@ geometry::FaceId SurfaceContacts<Law>::lone_face_of(
   return minimum.kind == geometry::FeatureKind::face ? geometry::FaceId{minimum.id} : kNoFace;
 }
 
-template <ContactLaw Law>
-void SurfaceContacts<Law>::add_lane(const Pair& pair, const SideFlags& sides,
-                                    Worker& worker) const requires LaneLaw<Law> {
-  LonePairs<Law>& lone = worker.lone;
+void SurfaceContacts::add_lane(const Pair& pair, const SideFlags& sides, Worker& worker) const {
   const auto& corners = surface_->nodes_of(pair.lone_face);
-  lone.face[lone.block.count()] = pair.lone_face;
-  const Contact& last = contacts_of(pair, previous_)[0];
-  static_assert(sizeof(Pair) >= LoneBlock<Law>::kReadOfPair * sizeof(double));
-  static_assert(sizeof(Contact) >= LoneBlock<Law>::kReadOfMemory * sizeof(double));
-  lone.block.add({pair.node, corners[0], corners[1], corners[2]},
-                 reinterpret_cast<const double*>(&pair),
-                 reinterpret_cast<const double*>(&last.memory), sides);
+  worker.lone_faces[worker.lone.count()] = pair.lone_face;
+  worker.lone.add({{pair.node, corners[0], corners[1], corners[2]},
+                   pair.radius,
+                   pair.range,
+                   &pair.parameters,
+                   &contacts_of(pair, previous_)[0].memory,
+                   sides});
 }
 
 /// Keeps the contact and its forces. @returns the energy (J) dissipated
-template <ContactLaw Law>
-double SurfaceContacts<Law>::keep_lone(Pair& pair, std::size_t lane,
-                                       int worker_index) requires LaneLaw<Law> {
-  const LonePairs<Law>& lone = workers_[static_cast<std::size_t>(worker_index)].lone;
-  const geometry::FaceId face = lone.face[lane];
-  const auto& answer = lone.block.answer(lane);
-  const double gap = answer.gap;
+double SurfaceContacts::keep_lone(Pair& pair, std::size_t lane, int worker_index) {
+  const Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
+  const geometry::FaceId face = worker.lone_faces[lane];
+  const LoneAnswer& answer = worker.lone.answer(lane);
+  const double gap = answer.gap();
   SurfaceForce& record = records_.of_worker(worker_index).add(-gap / pair.radius);
   record.a = pair.node;
-  record.core = {surface_->nodes_of(face), answer.weights, Feature(face)};
-  record.force = answer.force_b;
-  record.torque_a = answer.torque_a;
-  record.torque_b = answer.torque_b;
-  record.elastic = Law::elastic_normal_force(pair.parameters, gap);
+  record.core = {surface_->nodes_of(face), answer.weights(), Feature(face)};
+  record.force = answer.force_b();
+  record.torque_a = answer.torque_a();
+  record.torque_b = answer.torque_b();
+  record.elastic = AnyLaw::elastic_normal_force(pair.parameters, gap);
   record.pair = static_cast<std::uint32_t>(&pair - pairs_.data());
 
   const std::int64_t id = contacts_of(pair, previous_)[0].id;
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   pair.contacts = {worker_index, static_cast<std::uint32_t>(lists.contacts.size()), 1};
   record.contact = pair.contacts.first;
-  lists.contacts.push_back({{answer.memory.history, answer.memory.normal},
-                            answer.foot,
+  lists.contacts.push_back({{answer.history(*pair.parameters.law), answer.normal()},
+                            answer.foot(),
                             gap,
                             record.elastic,
-                            Law::elastic_normal_energy(pair.parameters, gap),
+                            AnyLaw::elastic_normal_energy(pair.parameters, gap),
                             id,
                             static_cast<std::uint32_t>(lists.minima.size()),
                             1});
   lists.minima.push_back(record.core.feature);
-  return answer.dissipated;
+  return answer.dissipated();
 }
 
 // What a step looks at before contacts of balls with surfaces begin, and their forces as a
 // function of the positions alone.
 
-template <ContactLaw Law>
-void SurfaceContacts<Law>::for_each_coming(double margin, std::span<const geometry::CellId> cells,
+void SurfaceContacts::for_each_coming(double margin, std::span<const geometry::CellId> cells,
                                            Positions x, VisitComing visit) const {
   for (const Pair& pair : pairs_) {
     const Vec3& centre = x[index_of(pair.node)];
@@ -342,8 +319,7 @@ void SurfaceContacts<Law>::for_each_coming(double margin, std::span<const geomet
   }
 }
 
-template <ContactLaw Law>
-void SurfaceContacts<Law>::add_elastic_forces(std::span<const geometry::CellId> cells, Positions x,
+void SurfaceContacts::add_elastic_forces(std::span<const geometry::CellId> cells, Positions x,
                                               NodeForces& forces, PatchFinder& finder,
                                               geometry::FunctionRef<bool(NodeId)> wants) const {
   for (const Pair& pair : pairs_) {
@@ -364,8 +340,7 @@ void SurfaceContacts<Law>::add_elastic_forces(std::span<const geometry::CellId> 
 
 // One step of the contacts of one ball with one surface.
 
-template <ContactLaw Law>
-EnergyLoss SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geometry::CellId> cells,
+EnergyLoss SurfaceContacts::advance_pair(Pair& pair, std::span<const geometry::CellId> cells,
                                               const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
@@ -399,13 +374,12 @@ EnergyLoss SurfaceContacts<Law>::advance_pair(Pair& pair, std::span<const geomet
 }
 
 /// Asks the law, and keeps the contact and its forces. @returns the energy (J) dissipated
-template <ContactLaw Law>
-double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const PatchTerm> terms,
+double SurfaceContacts::add_contact(const Pair& pair, std::span<const PatchTerm> terms,
                                          const PatchState& state,
                                          std::span<const PatchTermForce> term_forces,
                                          const Inherited& inherited, double dt, int worker_index) {
-  if (HasReach<Law> && !(state.gap < 0.0) && !holds<Law>(inherited.history))
-    return Law::history_energy(pair.parameters, inherited.history);
+  if (!(state.gap < 0.0) && !AnyLaw::holds(inherited.history))
+    return AnyLaw::history_energy(pair.parameters, inherited.history);
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const RelativeMotion relative = relative_motion(state.normal, state.gap, state.elastic_force,
                                                   state.relative_velocity, state.relative_spin);
@@ -413,8 +387,8 @@ double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const Patch
   for (const PatchTerm& term : terms) {
     if (term.is_minimum) lists.minima.push_back(term.core.feature);
   }
-  typename Law::History next = inherited.history;
-  const ContactForce result = Law::force(pair.parameters, relative, next, dt);
+  AnyLaw::History next = inherited.history;
+  const ContactForce result = AnyLaw::force(pair.parameters, relative, next, dt);
   lists.contacts.push_back({{next, state.normal},
                             state.foot,
                             state.gap,
@@ -428,17 +402,16 @@ double SurfaceContacts<Law>::add_contact(const Pair& pair, std::span<const Patch
 }
 
 /// One patch of one term that follows at most one contact: the same as the general way.
-template <ContactLaw Law>
-EnergyLoss SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& patch,
+EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
                                                const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   const PatchTerm& term = worker.patches.terms(patch)[0];
   const PatchState state =
-      lone_state<Law>(term, pair.parameters, pair.node, pair.radius, pair.range, motion);
+      lone_state<AnyLaw>(term, pair.parameters, pair.node, pair.radius, pair.range, motion);
   Inherited inherited;
   EnergyLoss loss;
   for (const Contact& old : contacts_of(pair, previous_)) {
-    const double stored = Law::history_energy(pair.parameters, old.memory.history);
+    const double stored = AnyLaw::history_energy(pair.parameters, old.memory.history);
     const Feature* minima =
         previous_[static_cast<std::size_t>(pair.contacts.worker)].minima.data() + old.first_minimum;
     const bool stays = old.minimum_count == 1 && *minima == term.core.feature;
@@ -451,11 +424,11 @@ EnergyLoss SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& pa
     }
     loss.tracking = stored;
     worker.pass_throughs += is_turned_over(old.memory.normal, state.normal);
-    Law::add_share(inherited.history,
-                   carried_history<Law>(old.memory, state.normal, dt * state.twist_rate), 1.0);
+    AnyLaw::add_share(inherited.history,
+                   carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), 1.0);
     inherited.id = old.id;
   }
-  loss.tracking -= Law::history_energy(pair.parameters, inherited.history);
+  loss.tracking -= AnyLaw::history_energy(pair.parameters, inherited.history);
   const PatchTermForce term_force{state.elastic_force, 1.0};
   loss.dissipated +=
       add_contact(pair, {&term, 1}, state, {&term_force, 1}, inherited, dt, worker_index);
@@ -464,8 +437,7 @@ EnergyLoss SurfaceContacts<Law>::advance_alone(const Pair& pair, const Patch& pa
 
 /// Where a ball's centre lies on the surface itself, the contact of the last step says on which
 /// side it is.
-template <ContactLaw Law>
-void SurfaceContacts<Law>::keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x,
+void SurfaceContacts::keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x,
                                       Worker& worker) {
   for (std::size_t j = 0; j < patches.size(); ++j) {
     const std::span<PatchTerm> terms = worker.patches.terms(patches[j]);
@@ -484,8 +456,7 @@ void SurfaceContacts<Law>::keep_sides(const Pair& pair, std::span<const Patch> p
   }
 }
 
-template <ContactLaw Law>
-void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> patches,
+void SurfaceContacts::find_states(const Pair& pair, std::span<const Patch> patches,
                                        const Motion& motion, Worker& worker) {
   worker.states.clear();
   worker.term_forces.clear();
@@ -496,8 +467,8 @@ void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> 
                                                 terms.size()};
     worker.states.push_back(patch_state(
         patch, terms, pair.range,
-        [&](double gap) { return Law::elastic_normal_force(pair.parameters, gap); },
-        [&](double gap) { return Law::elastic_normal_energy(pair.parameters, gap); },
+        [&](double gap) { return AnyLaw::elastic_normal_force(pair.parameters, gap); },
+        [&](double gap) { return AnyLaw::elastic_normal_energy(pair.parameters, gap); },
         [&](const PatchTerm& term, double elastic) {
           return pair.reach > pair.range ? term.weight * std::max(0.0, pair.reach - term.distance)
                                          : elastic;
@@ -512,8 +483,7 @@ void SurfaceContacts<Law>::find_states(const Pair& pair, std::span<const Patch> 
 /// shares its history in proportion to the elastic forces, and its number goes to the patch with
 /// the largest; of contacts that merge the one with the largest hands its number on. What a contact
 /// stored that nothing follows is dissipated.
-template <ContactLaw Law>
-EnergyLoss SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch> patches,
+EnergyLoss SurfaceContacts::inherit(const Pair& pair, std::span<const Patch> patches,
                                          const Motion& motion, double dt, Worker& worker) {
   worker.inherited.assign(patches.size(), Inherited{});
   EnergyLoss loss;
@@ -524,7 +494,7 @@ EnergyLoss SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch
                                          motion.position[index_of(pair.node)], motion.position,
                                          patches, worker.patches);
     (heirs.empty() ? loss.dissipated : loss.tracking) +=
-        Law::history_energy(pair.parameters, old.memory.history);
+        AnyLaw::history_energy(pair.parameters, old.memory.history);
     double total = 0.0;
     for (const std::uint32_t heir : heirs) total += worker.states[heir].elastic_force;
     hand_on_number(old, heirs, worker);
@@ -538,17 +508,16 @@ EnergyLoss SurfaceContacts<Law>::inherit(const Pair& pair, std::span<const Patch
       const PatchState& state = worker.states[heir];
       const double share =
           total > 0.0 ? state.elastic_force / total : 1.0 / static_cast<double>(heirs.size());
-      Law::add_share(worker.inherited[heir].history,
-                     carried_history<Law>(old.memory, state.normal, dt * state.twist_rate), share);
+      AnyLaw::add_share(worker.inherited[heir].history,
+                     carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), share);
     }
   }
   for (const Inherited& inherited : worker.inherited)
-    loss.tracking -= Law::history_energy(pair.parameters, inherited.history);
+    loss.tracking -= AnyLaw::history_energy(pair.parameters, inherited.history);
   return loss;
 }
 
-template <ContactLaw Law>
-void SurfaceContacts<Law>::hand_on_number(const Contact& old, std::span<const std::uint32_t> heirs,
+void SurfaceContacts::hand_on_number(const Contact& old, std::span<const std::uint32_t> heirs,
                                           Worker& worker) {
   if (heirs.empty()) return;
   const std::uint32_t largest =
@@ -561,8 +530,7 @@ void SurfaceContacts<Law>::hand_on_number(const Contact& old, std::span<const st
   inherited.from = old.elastic_force;
 }
 
-template <ContactLaw Law>
-void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchTerm> terms,
+void SurfaceContacts::write_forces(const Pair& pair, std::span<const PatchTerm> terms,
                                         const PatchState& state, const ContactForce& answer,
                                         std::span<const PatchTermForce> term_forces, int worker) {
   auto& records = records_.of_worker(worker);
@@ -583,8 +551,7 @@ void SurfaceContacts<Law>::write_forces(const Pair& pair, std::span<const PatchT
 
 // Contacts of balls with surfaces as they are reported.
 
-template <ContactLaw Law>
-void SurfaceContacts<Law>::number(std::int64_t& last) {
+void SurfaceContacts::number(std::int64_t& last) {
   for (Lists& lists : current_) {
     for (Contact& contact : lists.contacts) {
       if (contact.id == 0) contact.id = ++last;
@@ -592,8 +559,7 @@ void SurfaceContacts<Law>::number(std::int64_t& last) {
   }
 }
 
-template <ContactLaw Law>
-void SurfaceContacts<Law>::for_each_row(Positions x, VisitRow visit) const {
+void SurfaceContacts::for_each_row(Positions x, VisitRow visit) const {
   for (std::size_t w = 0; w < records_.lists().size(); ++w) {
     const auto& list = records_.lists()[w];
     const std::span<const SurfaceForce> records{list.records.data(), list.count};
@@ -609,8 +575,7 @@ void SurfaceContacts<Law>::for_each_row(Positions x, VisitRow visit) const {
 
 /// The sum of what its terms do, so that all rows together do what has been done to the nodes.
 /// @param records  of the contact; the first is that of the deepest minimum
-template <ContactLaw Law>
-ContactRow SurfaceContacts<Law>::row_of(std::span<const SurfaceForce> records,
+ContactRow SurfaceContacts::row_of(std::span<const SurfaceForce> records,
                                         const Contact& contact, Positions x) const {
   const SurfaceForce& deepest = records.front();
   const Pair& pair = pairs_[deepest.pair];
@@ -636,12 +601,10 @@ ContactRow SurfaceContacts<Law>::row_of(std::span<const SurfaceForce> records,
   row.normal = contact.memory.normal;
   row.gap = contact.gap;
   set_force(row, force);
-  if (HasMoments<Law> || records.size() > 1) row.moment = -torque - lever.cross(force);
-  set_state<Law>(row, pair.parameters, contact.memory.history, contact.elastic_force);
+  row.moment = records.size() > 1 ? Vec3(-torque - lever.cross(force))
+                                  : AnyLaw::moment(contact.memory.history, row.normal);
+  set_state<AnyLaw>(row, pair.parameters, contact.memory.history, contact.elastic_force);
   return row;
 }
-
-template class SurfaceContacts<LinearFrictional>;
-template class SurfaceContacts<AnyLaw>;
 
 }  // namespace plekton::contact

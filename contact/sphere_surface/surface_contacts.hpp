@@ -2,12 +2,10 @@
 #pragma once
 
 #include "contact/base/bodies.hpp"
-#include "contact/law/any_law.hpp"
-#include "contact/law/linear_frictional.hpp"
 #include "contact/law/material_pairs.hpp"
 #include "contact/sphere_surface/cell_watch.hpp"
 #include "contact/sphere_surface/last_side.hpp"
-#include "contact/sphere_surface/lone_block.hpp"
+#include "contact/sphere_surface/lone_batch.hpp"
 #include "contact/sphere_surface/lone_contact.hpp"
 #include "contact/sphere_surface/patch.hpp"
 #include "contact/sphere_surface/patch_force.hpp"
@@ -23,6 +21,7 @@
 #include "geometry/primitives/surface_change.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -33,7 +32,6 @@ using geometry::NearCells;
 
 /// Contacts of balls (a) with deformable surfaces (b). A contact belongs to a ball and a structure,
 /// never to a pair of elements: it lives on a patch (patch.hpp), and follows it over the surface.
-template <ContactLaw Law>
 class SurfaceContacts {
  public:
   explicit SurfaceContacts(const geometry::Surface& surface)
@@ -46,7 +44,7 @@ class SurfaceContacts {
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const NearCells> near,
                  std::span<const geometry::CellId> cells, std::span<const Ball> balls,
                  std::span<const MaterialId> materials_of_structures,
-                 const MaterialPairs<Law>& materials);
+                 const MaterialPairs& materials);
 
   /// Goes on with what is left of the surface: contacts keep their histories on the minima that are
   /// left, and one without any is over. A new list has to follow.
@@ -95,7 +93,7 @@ class SurfaceContacts {
   /// @param margin  m, at most the skin of the list
   /// @param cells   of the present list, as rebuild() took them
   using VisitComing = geometry::FunctionRef<void(NodeId, const geometry::CorePoint&,
-                                                 const typename Law::Parameters&, double)>;
+                                                 const AnyLaw::Parameters&, double)>;
   void for_each_coming(double margin, std::span<const geometry::CellId> cells, Positions x,
                        VisitComing visit) const;
 
@@ -116,7 +114,7 @@ class SurfaceContacts {
  private:
   /// A contact as it is kept for the next step.
   struct Contact {
-    ContactMemory<Law> memory;
+    ContactMemory<AnyLaw> memory;
     Vec3 foot;                    ///< m, from the ball's centre to the representative point
     double gap;                   ///< m, of the deepest minimum
     double elastic_force;         ///< N, magnitude of the sum of the normal forces
@@ -135,7 +133,10 @@ class SurfaceContacts {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
   };
-  struct Pair : LonePair<Law> {
+  struct Pair {
+    double radius;  ///< m, of the ball
+    double range;   ///< m, radius of ball + radius of surface
+    AnyLaw::Parameters parameters;
     NodeId node;
     double reach;  ///< m, the range and the law's reach
     NearCells near;
@@ -153,7 +154,7 @@ class SurfaceContacts {
   };
   /// What a contact has from those of the last step.
   struct Inherited {
-    typename Law::History history{};
+    AnyLaw::History history{};
     std::int64_t id = 0;
     double from = -1.0;  ///< N, elastic force of the contact that the id is from
   };
@@ -168,16 +169,17 @@ class SurfaceContacts {
     std::vector<PatchTermForce> term_forces;  ///< in the order of the patches and their terms
     std::vector<Inherited> inherited;         ///< by patch
     std::int64_t pass_throughs = 0;           ///< in this step
-    LonePairs<Law> lone;
+    /// Pairs of a ball with the inside of one facet, as far as one can tell beforehand.
+    LoneBatch lone;
+    std::array<geometry::FaceId, kLoneLanes> lone_faces;
   };
 
   EnergyLoss advance_pairs(std::size_t begin, std::size_t end, const Motion& motion, double dt,
                            int worker);
   std::size_t find_jobs(std::size_t begin, std::size_t end, const Motion& motion, Worker& worker);
   bool may_be_lone(Pair& pair, const Motion& motion, Job& job, SideFlags& sides, Worker& worker);
-  void add_lane(const Pair& pair, const SideFlags& sides,
-                Worker& worker) const requires LaneLaw<Law>;
-  double keep_lone(Pair& pair, std::size_t lane, int worker) requires LaneLaw<Law>;
+  void add_lane(const Pair& pair, const SideFlags& sides, Worker& worker) const;
+  double keep_lone(Pair& pair, std::size_t lane, int worker);
   geometry::FaceId lone_face_of(const Pair& pair, const std::vector<Lists>& lists) const noexcept;
   EnergyLoss advance_pair(Pair& pair, std::span<const geometry::CellId> cells, const Motion& motion,
                           double dt, int worker);
@@ -205,10 +207,10 @@ class SurfaceContacts {
   struct NormalPart {
     const Pair* pair;
     double energy(double distance) const {
-      return Law::elastic_normal_energy(pair->parameters, distance - pair->range);
+      return AnyLaw::elastic_normal_energy(pair->parameters, distance - pair->range);
     }
     double force(double distance) const {
-      return Law::elastic_normal_force(pair->parameters, distance - pair->range);
+      return AnyLaw::elastic_normal_force(pair->parameters, distance - pair->range);
     }
   };
   static double normal_energy(const Pair& pair, PatchFinder& finder,
@@ -231,8 +233,5 @@ class SurfaceContacts {
   geometry::ParallelSum<EnergyLoss> sum_;
 };
 
-/// Compiled once, in the library.
-extern template class SurfaceContacts<LinearFrictional>;
-extern template class SurfaceContacts<AnyLaw>;
 
 }  // namespace plekton::contact

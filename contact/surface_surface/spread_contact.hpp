@@ -23,7 +23,6 @@ namespace plekton::contact::structure {
 /// to count for more contacts keeps its force, one that counts for less keeps its stretch: neither
 /// gains energy. Of bars, what a spring counts for less is handed to those beside it that come to
 /// count for more (structure_contacts.cpp).
-template <ContactLaw Law>
 struct SpreadContact {
   /// One facet: its corners, and their shares of the elastic force.
   struct Side {
@@ -82,7 +81,7 @@ struct SpreadContact {
   double normal_force = 0.0;          ///< N, its magnitude
   double gap = 0.0;                   ///< m, mean over the forces
   double count = 0.0;                 ///< of contacts
-  ContactMemory<Law> memory;
+  ContactMemory<AnyLaw> memory;
   double energy = 0.0;              ///< J, of the history
   double dissipated = 0.0;          ///< J, in the last step
   Vec3 other_force = Vec3::Zero();  ///< N, on b: all but the elastic force
@@ -90,13 +89,13 @@ struct SpreadContact {
 
   /// Sets where and how hard a term of two facets presses by its extent.
   /// @returns whether it does
-  bool locate(const PairTerm& term, const PairForces& spread, const Meeting<Law>& bodies,
+  bool locate(const PairTerm& term, const PairForces& spread, const Meeting& bodies,
               Positions x) {
     elastic_force = spread.on_b[0] + spread.on_b[1] + spread.on_b[2];
     normal_force = elastic_force.norm();
     if (!(normal_force > 0.0) || !(spread.energy > 0.0)) return false;
     gap = -2.0 * spread.energy / normal_force;
-    const double one = Law::elastic_normal_force(bodies.parameters, gap);
+    const double one = AnyLaw::elastic_normal_force(bodies.parameters, gap);
     if (!(one > 0.0)) return false;
     count = normal_force / one;
     a.nodes = term.a.ids;
@@ -116,11 +115,11 @@ struct SpreadContact {
   };
   /// Sets where a term with a bar in it presses.
   /// @returns whether it does
-  bool locate_bar(const PairTerm& term, const Pressed& pressed, const Meeting<Law>& bodies,
+  bool locate_bar(const PairTerm& term, const Pressed& pressed, const Meeting& bodies,
                   Positions x) {
     const Vec3 force = term.forces.on_b[0] + term.forces.on_b[1] + term.forces.on_b[2];
     const double size = force.norm();
-    const double one = Law::elastic_normal_force(bodies.parameters, -pressed.mean_overlap);
+    const double one = AnyLaw::elastic_normal_force(bodies.parameters, -pressed.mean_overlap);
     if (!(size > 0.0) || !(one > 0.0)) return false;
     const Vec3 direction = pressed.towards + pressed.own / size * force;
     if (!(direction.norm() > 0.0)) return false;
@@ -151,8 +150,8 @@ struct SpreadContact {
 
   Vec3 normal() const { return elastic_force / normal_force; }
   /// @param free_part  of the tangential force, that no bonds carry
-  typename Law::Parameters parameters(const Meeting<Law>& bodies, double free_part) const {
-    return beside_bonds<Law>(Law::multiplied(bodies.parameters, count), free_part);
+  AnyLaw::Parameters parameters(const Meeting& bodies, double free_part) const {
+    return AnyLaw::beside_bonds(AnyLaw::multiplied(bodies.parameters, count), free_part);
   }
 
   /// Adds the history of a spread contact of the last step.
@@ -162,12 +161,12 @@ struct SpreadContact {
     const double sign = old.memory.normal.dot(normal()) < 0.0 && old.pair != pair ? -1.0 : 1.0;
     const Vec3 onto = sign * normal();
     const Vec3 spin = 0.5 * (a.angular_velocity(motion) + b.angular_velocity(motion));
-    const auto carried = carried_history<Law>(old.memory, onto, dt * spin.dot(onto));
-    Law::add_share(memory.history, carried, sign * contacts / count);
+    const auto carried = carried_history<AnyLaw>(old.memory, onto, dt * spin.dot(onto));
+    AnyLaw::add_share(memory.history, carried, sign * contacts / count);
   }
 
   /// One step of the law.
-  void apply_law(const Meeting<Law>& bodies, double free_part, const Motion& motion, double dt) {
+  void apply_law(const Meeting& bodies, double free_part, const Motion& motion, double dt) {
     const auto of_all = parameters(bodies, free_part);
     memory.normal = normal();
     const Vec3 velocity =
@@ -175,26 +174,26 @@ struct SpreadContact {
     const RelativeMotion relative =
         relative_motion(memory.normal, gap, normal_force, velocity,
                         b.angular_velocity(motion) - a.angular_velocity(motion));
-    const ContactForce result = Law::force(of_all, relative, memory.history, dt);
+    const ContactForce result = AnyLaw::force(of_all, relative, memory.history, dt);
     other_force = result.force - elastic_force;
     moment = result.moment;
     dissipated = result.dissipated;
     find_energy(bodies, free_part);
   }
-  void find_energy(const Meeting<Law>& bodies, double free_part) {
-    energy = Law::history_energy(parameters(bodies, free_part), memory.history);
+  void find_energy(const Meeting& bodies, double free_part) {
+    energy = AnyLaw::history_energy(parameters(bodies, free_part), memory.history);
   }
 
-  void add_forces(const Meeting<Law>& bodies, NodeForces& forces) const {
+  void add_forces(const Meeting& bodies, NodeForces& forces) const {
     a.add_force_at(lever_a(bodies), -other_force, -moment, forces);
     b.add_force_at(lever_b(bodies), other_force, moment, forces);
   }
 
   /// m. The contact point lies between the two points on which the elastic force acts.
-  Vec3 lever_a(const Meeting<Law>& bodies) const {
+  Vec3 lever_a(const Meeting& bodies) const {
     return bodies.radius_first / (bodies.radius_first + bodies.radius_second) * (b.point - a.point);
   }
-  Vec3 lever_b(const Meeting<Law>& bodies) const {
+  Vec3 lever_b(const Meeting& bodies) const {
     return bodies.radius_second / (bodies.radius_first + bodies.radius_second) *
            (a.point - b.point);
   }

@@ -20,7 +20,6 @@ namespace plekton::contact::structure {
 /// tangential force and what has yielded. Further apart the bond pulls along the line through both
 /// points. Its force acts at one point for both sides, so both momenta are kept to round-off; as
 /// the points do not slide, it does not jump where the contact passes from cell to cell.
-template <ContactLaw Law>
 struct StructureBond {
   geometry::CellPair cells{};  ///< that it belongs to
   bool is_turned = false;      ///< point a is on the second of them
@@ -28,7 +27,7 @@ struct StructureBond {
   geometry::CorePoint a{};  ///< on the lower structure
   geometry::CorePoint b{};
   double count = 0.0;  ///< of contacts
-  ContactMemory<Law> memory;
+  ContactMemory<AnyLaw> memory;
   std::int32_t pair = -1;          ///< of the listed cells, -1: not listed
   std::int32_t patch = -1;         ///< which it is part of; -1: none touches
   std::int64_t id = 0;             ///< 0: none yet
@@ -41,56 +40,54 @@ struct StructureBond {
   Vec3 other_force = Vec3::Zero();  ///< N, on b: all but that part
   Vec3 moment = Vec3::Zero();       ///< N m, on b
 
-  typename Law::Parameters parameters(const Meeting<Law>& bodies) const {
-    return of_bond<Law>(Law::multiplied(bodies.parameters, count));
+  AnyLaw::Parameters parameters(const Meeting& bodies) const {
+    return AnyLaw::of_bond(AnyLaw::multiplied(bodies.parameters, count));
   }
-  double history_energy(const Meeting<Law>& bodies) const {
-    return Law::history_energy(parameters(bodies), memory.history);
+  double history_energy(const Meeting& bodies) const {
+    return AnyLaw::history_energy(parameters(bodies), memory.history);
   }
 
   /// Finds the gap, and the part of the elastic force that is pressing here.
-  void locate(const Meeting<Law>& bodies, Positions x) {
+  void locate(const Meeting& bodies, Positions x) {
     separation = position(b, x) - position(a, x);
     const double distance = separation.norm();
     normal = distance > 0.0 ? Vec3(separation / distance) : memory.normal;
     gap = distance - (bodies.radius_first + bodies.radius_second);
-    pressing = Law::elastic_normal_force(parameters(bodies), gap);
+    pressing = AnyLaw::elastic_normal_force(parameters(bodies), gap);
   }
 
   /// One step of the law, after locate().
-  void apply_law(const Meeting<Law>& bodies, const Motion& motion, double dt) {
+  void apply_law(const Meeting& bodies, const Motion& motion, double dt) {
     const Vec3 spin_a = angular_velocity_at(a, motion);
     const Vec3 spin_b = angular_velocity_at(b, motion);
     const Vec3 velocity =
         velocity_at(b, lever_b(bodies), motion) - velocity_at(a, lever_a(bodies), motion);
     const auto of_bond = parameters(bodies);
     const double before = history_energy(bodies);
-    memory.history = carried_history<Law>(memory, normal, 0.5 * dt * (spin_a + spin_b).dot(normal));
+    memory.history = carried_history<AnyLaw>(memory, normal, 0.5 * dt * (spin_a + spin_b).dot(normal));
     memory.normal = normal;
     const double lost = before - history_energy(bodies);
     const ContactForce result =
-        Law::force(of_bond, relative_motion(normal, gap, pressing, velocity, spin_b - spin_a),
+        AnyLaw::force(of_bond, relative_motion(normal, gap, pressing, velocity, spin_b - spin_a),
                    memory.history, dt);
     other_force = result.force - pressing * normal;
     moment = result.moment;
     dissipated = lost + result.dissipated;
-    is_broken = !holds<Law>(memory.history);
+    is_broken = !AnyLaw::holds(memory.history);
   }
 
-  void add_forces(const Meeting<Law>& bodies, NodeForces& forces) const {
+  void add_forces(const Meeting& bodies, NodeForces& forces) const {
     add_force_at(a, lever_a(bodies), -other_force, forces);
     add_force_at(b, lever_b(bodies), other_force, forces);
-    if constexpr (HasMoments<Law>) {
-      add_moment(a, -moment, forces);
-      add_moment(b, moment, forces);
-    }
+    add_moment(a, -moment, forces);
+    add_moment(b, moment, forces);
   }
 
   /// More of the contact is glued, at points where it presses. The bond moves to the mean of both:
   /// the force is the same, and acts there. Does nothing where that would take energy: the bond has
   /// yielded, or is open.
   /// @returns the energy (J) that is lost
-  double grow(const Meeting<Law>& bodies, const PressedPoints& at, double more, Positions x) {
+  double grow(const Meeting& bodies, const PressedPoints& at, double more, Positions x) {
     StructureBond grown = *this;
     grown.count += more;
     grown.a.weights = (count * a.weights + more * at.a.weights) / grown.count;
@@ -103,10 +100,10 @@ struct StructureBond {
   }
 
   /// The point where the forces act lies between the material points.
-  Vec3 lever_a(const Meeting<Law>& bodies) const {
+  Vec3 lever_a(const Meeting& bodies) const {
     return bodies.radius_first / (bodies.radius_first + bodies.radius_second) * separation;
   }
-  Vec3 lever_b(const Meeting<Law>& bodies) const {
+  Vec3 lever_b(const Meeting& bodies) const {
     return -bodies.radius_second / (bodies.radius_first + bodies.radius_second) * separation;
   }
 
@@ -118,17 +115,16 @@ struct StructureBond {
 };
 
 /// A bond of a pair of cells that presses, without force yet; none if the points do not press.
-template <ContactLaw Law>
-std::optional<StructureBond<Law>> new_bond(const Meeting<Law>& bodies, const PressedPoints& at,
+inline std::optional<StructureBond> new_bond(const Meeting& bodies, const PressedPoints& at,
                                            double count, Positions x) {
-  StructureBond<Law> bond;
+  StructureBond bond;
   bond.a = at.a;
   bond.b = at.b;
   bond.count = count;
   bond.locate(bodies, x);
   if (!(bond.gap < 0.0)) return {};
   bond.memory.normal = bond.normal;
-  glue<Law>(bond.parameters(bodies), bond.memory.history);
+  AnyLaw::glue(bond.parameters(bodies), bond.memory.history);
   return bond;
 }
 

@@ -9,9 +9,8 @@
 
 namespace plekton::contact {
 
-template <ContactLaw Law>
-double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs,
-                                       const ContactMaterials<Law>& materials) {
+double StructureContacts::rebuild(std::span<const geometry::CellPair> pairs,
+                                       const ContactMaterials& materials) {
   std::vector<PairOfCells> listed;
   std::vector<char> lives(patches_.size(), 0);
   auto old = pairs_.begin();
@@ -34,8 +33,7 @@ double StructureContacts<Law>::rebuild(std::span<const geometry::CellPair> pairs
   return lost;
 }
 
-template <ContactLaw Law>
-EnergyLoss StructureContacts<Law>::advance(const Motion& motion, double dt,
+EnergyLoss StructureContacts::advance(const Motion& motion, double dt,
                                            geometry::ThreadPool& pool) {
   if (terms_.empty() && patches_.empty() && bonds_.empty()) return {};
   terms_.evaluate(springs_, motion, pool);
@@ -64,9 +62,8 @@ EnergyLoss StructureContacts<Law>::advance(const Motion& motion, double dt,
 
 // Which structures may touch, and with which parameters.
 
-template <ContactLaw Law>
-std::vector<structure::Meeting<Law>> StructureContacts<Law>::find_meetings(
-    const ContactMaterials<Law>& materials) const {
+std::vector<structure::Meeting> StructureContacts::find_meetings(
+    const ContactMaterials& materials) const {
   std::vector<Meeting> meetings;
   const std::vector<double> masses = structure::mean_node_masses(*surface_, materials);
   const auto part = [&](std::size_t i) {
@@ -76,39 +73,36 @@ std::vector<structure::Meeting<Law>> StructureContacts<Law>::find_meetings(
   };
   for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
     for (std::size_t k = i; k < surface_->structure_count(); ++k) {
-      const typename Law::Parameters parameters = materials.pairs.combine(part(i), part(k));
-      meetings.push_back({without_attraction<Law>(parameters), part(i).radius, part(k).radius,
-                          attraction_of<Law>(parameters)});
+      const AnyLaw::Parameters parameters = materials.pairs.combine(part(i), part(k));
+      meetings.push_back({AnyLaw::without_attraction(parameters), part(i).radius, part(k).radius,
+                          AnyLaw::attraction(parameters)});
     }
   }
   return meetings;
 }
 
-template <ContactLaw Law>
-void StructureContacts<Law>::make_meetings(const ContactMaterials<Law>& materials) {
+void StructureContacts::make_meetings(const ContactMaterials& materials) {
   meetings_ = find_meetings(materials);
   take_parameters(materials);
   for (const Meeting& meeting : meetings_) {
-    springs_.push_back(structure::NormalSpring::of<Law>(
+    springs_.push_back(structure::NormalSpring::of<AnyLaw>(
         meeting.parameters, meeting.radius_first + meeting.radius_second, &meeting.attraction));
   }
 }
 
-template <ContactLaw Law>
-void StructureContacts<Law>::take_parameters(const ContactMaterials<Law>& materials) {
+void StructureContacts::take_parameters(const ContactMaterials& materials) {
   if (meetings_.empty()) return;
   std::vector<Meeting> meetings = find_meetings(materials);
   for (std::size_t i = 0; i < meetings.size(); ++i)
     meetings_[i] = meetings[i];  // springs point there
   glues_ = std::any_of(meetings_.begin(), meetings_.end(),
-                       [](const Meeting& of) { return glues<Law>(of.parameters); });
+                       [](const Meeting& of) { return AnyLaw::glues(of.parameters); });
 }
 
 // Which pairs of cells are one patch, and where their forces act.
 
 /// Pairs of cells hang together where they share a feature that acts.
-template <ContactLaw Law>
-void StructureContacts<Law>::find_patches() {
+void StructureContacts::find_patches() {
   for (PairOfCells& pair : pairs_) {
     pair.old_patch = pair.patch;
     pair.was_turned = pair.is_turned;
@@ -127,8 +121,7 @@ void StructureContacts<Law>::find_patches() {
   number_patches();
 }
 
-template <ContactLaw Law>
-void StructureContacts<Law>::number_patches() {
+void StructureContacts::number_patches() {
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     if (pairs_[i].patch < 0) continue;
@@ -141,8 +134,7 @@ void StructureContacts<Law>::number_patches() {
   patches_.resize(count);
 }
 
-template <ContactLaw Law>
-void StructureContacts<Law>::find_places() {
+void StructureContacts::find_places() {
   for (Patch& patch : patches_) {
     patch.first.clear();
     patch.second.clear();
@@ -176,8 +168,7 @@ void StructureContacts<Law>::find_places() {
 
 // What patches of one step leave to those of the next.
 
-template <ContactLaw Law>
-void StructureContacts<Law>::find_heirs() {
+void StructureContacts::find_heirs() {
   heirs_.clear();
   if (!terms_.acting_changed()) {
     for (std::uint32_t i = 0; i < patches_.size(); ++i) heirs_.push_back({i, i, false});
@@ -199,8 +190,7 @@ void StructureContacts<Law>::find_heirs() {
 /// Hands the histories of the last step's patches to this step's. A spring that comes to count for
 /// more contacts keeps its force, one that counts for less keeps its stretch: neither gains energy.
 /// What a patch stored that nothing follows is dissipated.
-template <ContactLaw Law>
-EnergyLoss StructureContacts<Law>::inherit(const Motion& motion, double dt) {
+EnergyLoss StructureContacts::inherit(const Motion& motion, double dt) {
   EnergyLoss loss;
   for (const Legacy& old : previous_) loss.dissipated += old.energy;
   for (const Heir& heir : heirs_) {
@@ -223,9 +213,9 @@ EnergyLoss StructureContacts<Law>::inherit(const Motion& motion, double dt) {
       const Vec3 normal = sign / patch.normal_force * patch.elastic_force;
       const Vec3 spin =
           0.5 * (patch.first.angular_velocity(motion) + patch.second.angular_velocity(motion));
-      const auto carried = carried_history<Law>(old.memory, normal, dt * spin.dot(normal));
+      const auto carried = carried_history<AnyLaw>(old.memory, normal, dt * spin.dot(normal));
       const double share = patch.normal_force / total * old.count / patch.point_count();
-      Law::add_share(patch.memory.history, carried, sign * std::min(1.0, share));
+      AnyLaw::add_share(patch.memory.history, carried, sign * std::min(1.0, share));
     }
     begin = end;
   }
@@ -235,8 +225,7 @@ EnergyLoss StructureContacts<Law>::inherit(const Motion& motion, double dt) {
 
 /// To the heir that pushes most; of patches that merge, the number of the one that pushed most goes
 /// on.
-template <ContactLaw Law>
-void StructureContacts<Law>::hand_on_number(const Legacy& old, std::span<const Heir> heirs) {
+void StructureContacts::hand_on_number(const Legacy& old, std::span<const Heir> heirs) {
   const Heir& largest =
       *std::max_element(heirs.begin(), heirs.end(), [&](const Heir& p, const Heir& q) {
         return patches_[p.patch].normal_force < patches_[q.patch].normal_force;
@@ -252,8 +241,7 @@ void StructureContacts<Law>::hand_on_number(const Legacy& old, std::span<const H
 /// How hard every pair of cells with a bar in it presses: its part of what all terms do that it
 /// has, of each as much as every other pair has that has it. That is the rule of inclusion and
 /// exclusion again: the joints of a chain take from the bars beside them what these have together.
-template <ContactLaw Law>
-void StructureContacts<Law>::share_pushes() {
+void StructureContacts::share_pushes() {
   bar_push_.assign(pairs_.size(), 0.0);
   pressing_.assign(patches_.size(), {});
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -283,8 +271,7 @@ void StructureContacts<Law>::share_pushes() {
 }
 
 /// Finds what presses by its extent or has a bar in it.
-template <ContactLaw Law>
-void StructureContacts<Law>::find_spreads(Positions x) {
+void StructureContacts::find_spreads(Positions x) {
   share_pushes();
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     const Pressing& of = pressing_[i];
@@ -318,8 +305,7 @@ void StructureContacts<Law>::find_spreads(Positions x) {
 /// What pairs push less than nothing is taken from the others of their patch. Pairs of a patch that
 /// is one contact have its normal, so that their springs add up to one.
 /// @returns whether it presses
-template <ContactLaw Law>
-bool StructureContacts<Law>::locate_bar(const PairTerm& term, Spread& spread, Positions x) const {
+bool StructureContacts::locate_bar(const PairTerm& term, Spread& spread, Positions x) const {
   const Pressing& of = pressing_[spread.patch];
   const Patch& patch = patches_[spread.patch];
   const double push = bar_push_[spread.pair];
@@ -336,8 +322,7 @@ bool StructureContacts<Law>::locate_bar(const PairTerm& term, Spread& spread, Po
 /// Hands the histories of the last step over: to the same pairs, and, of bars, what these count for
 /// less to those beside them that come to count for more, so that a contact that moves over a joint
 /// keeps its force. What nothing takes over is dissipated.
-template <ContactLaw Law>
-EnergyLoss StructureContacts<Law>::carry_spreads(const Motion& motion, double dt) {
+EnergyLoss StructureContacts::carry_spreads(const Motion& motion, double dt) {
   EnergyLoss loss;
   spread_at_.assign(pairs_.size(), -1);
   for (std::size_t i = 0; i < spreads_.size(); ++i)
@@ -368,8 +353,7 @@ EnergyLoss StructureContacts<Law>::carry_spreads(const Motion& motion, double dt
 
 /// From pairs that count for less than in the last step to those that share a term with them and
 /// count for more: what is given is no more than either has less or more.
-template <ContactLaw Law>
-void StructureContacts<Law>::find_transfers() {
+void StructureContacts::find_transfers() {
   transfers_.clear();
   const auto before = [&](std::uint32_t pair) {
     const std::int32_t at = pairs_[pair].spread;
@@ -413,9 +397,8 @@ void StructureContacts<Law>::find_transfers() {
 
 /// From pairs that press no more, and so have no term with others either: to those beside them in
 /// the patches that follow theirs.
-template <ContactLaw Law>
 template <class Now, class Before>
-void StructureContacts<Law>::find_transfers_of_gone(Now now, Before before) {
+void StructureContacts::find_transfers_of_gone(Now now, Before before) {
   goes_on_.assign(previous_spreads_.size(), 0);
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     if (pairs_[i].spread >= 0 && spread_at_[i] >= 0)
@@ -446,8 +429,7 @@ void StructureContacts<Law>::find_transfers_of_gone(Now now, Before before) {
 }
 
 /// @returns the energy (J) dissipated
-template <ContactLaw Law>
-double StructureContacts<Law>::advance_spreads(const Motion& motion, double dt,
+double StructureContacts::advance_spreads(const Motion& motion, double dt,
                                                geometry::ThreadPool& pool) {
   pool.for_each_range(spreads_.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -461,8 +443,7 @@ double StructureContacts<Law>::advance_spreads(const Motion& motion, double dt,
 }
 
 /// By patch, what its spread contacts do to its second side about the point of its row.
-template <ContactLaw Law>
-std::vector<typename StructureContacts<Law>::SpreadSum> StructureContacts<Law>::sum_spreads()
+std::vector<StructureContacts::SpreadSum> StructureContacts::sum_spreads()
     const {
   std::vector<SpreadSum> sums(patches_.size());
   for (const Spread& spread : spreads_) {
@@ -477,7 +458,7 @@ std::vector<typename StructureContacts<Law>::SpreadSum> StructureContacts<Law>::
     sum.moment += sign * spread.moment + (point - about).cross(force);
     const Vec3 along =
         spread.other_force - spread.other_force.dot(spread.memory.normal) * spread.memory.normal;
-    sum.sticks = sum.sticks || !is_at_limit<Law>(spread.parameters(meeting, patch.free_part),
+    sum.sticks = sum.sticks || !is_at_limit<AnyLaw>(spread.parameters(meeting, patch.free_part),
                                                  spread.memory.history, spread.normal_force, along);
   }
   return sums;
@@ -491,8 +472,7 @@ std::vector<typename StructureContacts<Law>::SpreadSum> StructureContacts<Law>::
 // patch forms no others: what slides or comes back is held by friction alone until it has parted.
 
 /// Finds where all bonds are, and forms new ones. @returns the energy (J) lost
-template <ContactLaw Law>
-double StructureContacts<Law>::prepare_bonds(const Motion& motion, geometry::ThreadPool& pool) {
+double StructureContacts::prepare_bonds(const Motion& motion, geometry::ThreadPool& pool) {
   if (bonds_.empty() && !glues_) return 0.0;
   for (const Heir& heir : heirs_) patches_[heir.patch].is_torn |= previous_[heir.old_patch].is_torn;
   for (Bond& bond : bonds_) bond.patch = patch_of(bond);
@@ -513,8 +493,7 @@ double StructureContacts<Law>::prepare_bonds(const Motion& motion, geometry::Thr
 }
 
 /// That of its cells, or one that follows the patch of the last step; -1: there is none.
-template <ContactLaw Law>
-std::int32_t StructureContacts<Law>::patch_of(const Bond& bond) const {
+std::int32_t StructureContacts::patch_of(const Bond& bond) const {
   if (bond.pair >= 0) {
     const PairOfCells& pair = pairs_[static_cast<std::size_t>(bond.pair)];
     if (pair.patch >= 0) return pair.patch;
@@ -529,8 +508,7 @@ std::int32_t StructureContacts<Law>::patch_of(const Bond& bond) const {
 }
 
 /// Glues what patches count for beyond their bonds. @returns the energy (J) lost
-template <ContactLaw Law>
-double StructureContacts<Law>::form_bonds(Positions x) {
+double StructureContacts::form_bonds(Positions x) {
   constexpr double kLeastGrowth = 1e-6;  // part of a patch that is worth the time
   gluing_.assign(patches_.size(), {});
   for (const Bond& bond : bonds_) {
@@ -557,21 +535,20 @@ double StructureContacts<Law>::form_bonds(Positions x) {
 
 /// Pairs of cells in patches that may have bonds, and how many contacts they count for: as many as
 /// give their force along the patch's normal at its mean overlap.
-template <ContactLaw Law>
-void StructureContacts<Law>::list_pressed_pairs() {
+void StructureContacts::list_pressed_pairs() {
   pressed_.clear();
   near_push_.assign(pairs_.size(), 0.0);
   for (const std::uint32_t acting : terms_.acting()) add_near_push(terms_[acting]);
   for (const std::uint32_t acting : terms_.acting()) {
     const PairTerm& term = terms_[acting];
-    if (!term.is_of_cells || !glues<Law>(meetings_[term.spring].parameters)) continue;
+    if (!term.is_of_cells || !AnyLaw::glues(meetings_[term.spring].parameters)) continue;
     const structure::Holder& holder = terms_.holders(term).front();
     const auto patch = static_cast<std::uint32_t>(pairs_[holder.pair].patch);
     if (patches_[patch].is_torn || !patches_[patch].pushes()) continue;
     const double push = std::abs(structure::force_on_a(term).dot(patches_[patch].normal()));
     const double deepest =
         springs_[term.spring].force(springs_[term.spring].range() - term.overlap);
-    const double one = Law::elastic_normal_force(
+    const double one = AnyLaw::elastic_normal_force(
         meetings_[term.spring].parameters, push > 0.0 ? -2.0 * term.forces.energy / push : 0.0);
     if (!(one > 0.0) || !(deepest > 0.0)) continue;
     const double near = near_push_[holder.pair] / deepest;
@@ -586,8 +563,7 @@ void StructureContacts<Law>::list_pressed_pairs() {
 /// Gives what a term does at its nearest points to the pairs of cells that have these: what is
 /// taken off for a side goes to the cell that is nearest there, and leaves nothing of it. Of a pass
 /// between two cells each has an equal part.
-template <ContactLaw Law>
-void StructureContacts<Law>::add_near_push(const PairTerm& term) {
+void StructureContacts::add_near_push(const PairTerm& term) {
   const structure::NormalSpring& spring = springs_[term.spring];
   const double push = term.point_share * term.weight * spring.force(spring.range() - term.overlap);
   const auto holders = terms_.holders(term);
@@ -602,8 +578,7 @@ void StructureContacts<Law>::add_near_push(const PairTerm& term) {
 }
 
 /// @returns the energy (J) lost
-template <ContactLaw Law>
-double StructureContacts<Law>::glue_pair(const Pressed& pressed, double count, Positions x) {
+double StructureContacts::glue_pair(const Pressed& pressed, double count, Positions x) {
   PairOfCells& pair = pairs_[pressed.pair];
   const PairTerm& term = terms_[pressed.term];
   const Meeting& bodies = meetings_[term.spring];
@@ -623,8 +598,7 @@ double StructureContacts<Law>::glue_pair(const Pressed& pressed, double count, P
 
 /// One step of the law for all bonds, after that for the patches.
 /// @returns the energy (J) dissipated
-template <ContactLaw Law>
-double StructureContacts<Law>::advance_bonds(const Motion& motion, double dt,
+double StructureContacts::advance_bonds(const Motion& motion, double dt,
                                              geometry::ThreadPool& pool) {
   pool.for_each_range(bonds_.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i)
@@ -640,8 +614,7 @@ double StructureContacts<Law>::advance_bonds(const Motion& motion, double dt,
 
 /// What a broken bond still holds goes to the facets or the patch of its cells, if they touch.
 /// @returns the energy (J) lost
-template <ContactLaw Law>
-double StructureContacts<Law>::hand_to_patch(Bond& bond) {
+double StructureContacts::hand_to_patch(Bond& bond) {
   double lost = bond.history_energy(meetings_[bond.meeting]);
   if (bond.patch >= 0) {
     Patch& patch = patches_[static_cast<std::size_t>(bond.patch)];
@@ -652,8 +625,8 @@ double StructureContacts<Law>::hand_to_patch(Bond& bond) {
     } else if (bond.pair >= 0 && pairs_[pair].patch >= 0 && patch.pushes()) {
       const double sign = bond.is_turned != pairs_[pair].is_turned ? -1.0 : 1.0;
       lost += history_energy(patch);
-      Law::add_share(patch.memory.history,
-                     carried_history<Law>(bond.memory, sign * patch.memory.normal, 0.0), sign);
+      AnyLaw::add_share(patch.memory.history,
+                     carried_history<AnyLaw>(bond.memory, sign * patch.memory.normal, 0.0), sign);
       lost -= history_energy(patch);
     }
   }
@@ -662,26 +635,23 @@ double StructureContacts<Law>::hand_to_patch(Bond& bond) {
 }
 
 /// The bond's points a and b are on the facets a and b. @returns the energy (J) lost
-template <ContactLaw Law>
-double StructureContacts<Law>::hand_to_spread(const Bond& bond, Spread& spread) {
+double StructureContacts::hand_to_spread(const Bond& bond, Spread& spread) {
   const double before = spread.energy;
-  const auto carried = carried_history<Law>(bond.memory, spread.memory.normal, 0.0);
-  Law::add_share(spread.memory.history, carried, std::min(1.0, bond.count / spread.count));
+  const auto carried = carried_history<AnyLaw>(bond.memory, spread.memory.normal, 0.0);
+  AnyLaw::add_share(spread.memory.history, carried, std::min(1.0, bond.count / spread.count));
   const auto parameters =
       spread.parameters(meetings_[spread.meeting], patches_[spread.patch].free_part);
-  spread.energy = Law::history_energy(parameters, spread.memory.history);
+  spread.energy = AnyLaw::history_energy(parameters, spread.memory.history);
   return before - spread.energy;
 }
 
 /// Takes out those that broke in the last step.
-template <ContactLaw Law>
-void StructureContacts<Law>::drop_broken_bonds() {
+void StructureContacts::drop_broken_bonds() {
   if (std::erase_if(bonds_, [](const Bond& bond) { return bond.is_broken; }) > 0) match_bonds();
 }
 
 /// Which pair of cells in the list each bond belongs to.
-template <ContactLaw Law>
-void StructureContacts<Law>::match_bonds() {
+void StructureContacts::match_bonds() {
   for (PairOfCells& pair : pairs_) pair.bond = -1;
   for (std::size_t i = 0; i < bonds_.size(); ++i) {
     Bond& bond = bonds_[i];
@@ -695,8 +665,7 @@ void StructureContacts<Law>::match_bonds() {
 }
 
 /// Bonds on cells that have broken away are gone. @returns the energy (J) lost with them
-template <ContactLaw Law>
-double StructureContacts<Law>::keep_bonds(const geometry::SurfaceChange& change) {
+double StructureContacts::keep_bonds(const geometry::SurfaceChange& change) {
   double lost = 0.0;
   std::erase_if(bonds_, [&](Bond& bond) {
     const auto a = change.now(bond.cells.a);
@@ -717,10 +686,9 @@ double StructureContacts<Law>::keep_bonds(const geometry::SurfaceChange& change)
 
 // What becomes of the contacts of structures that lose some of their elements.
 
-template <ContactLaw Law>
-double StructureContacts<Law>::follow(const geometry::SurfaceChange& change,
+double StructureContacts::follow(const geometry::SurfaceChange& change,
                                       std::span<const geometry::CellPair> pairs,
-                                      const ContactMaterials<Law>& materials, const Motion& at,
+                                      const ContactMaterials& materials, const Motion& at,
                                       geometry::ThreadPool& pool) {
   double lost = 0.0;
   const bool had_pairs = !pairs_.empty();
@@ -740,8 +708,7 @@ double StructureContacts<Law>::follow(const geometry::SurfaceChange& change,
 }
 
 /// J, of the elastic normal forces and of the attraction where the nodes are at a moment.
-template <ContactLaw Law>
-double StructureContacts<Law>::normal_energy(const geometry::Surface& surface,
+double StructureContacts::normal_energy(const geometry::Surface& surface,
                                              std::span<const geometry::CellPair> pairs,
                                              const Motion& at, geometry::ThreadPool& pool) const {
   structure::PairTerms terms(surface);
@@ -757,8 +724,7 @@ double StructureContacts<Law>::normal_energy(const geometry::Surface& surface,
 
 /// Pairs of cells keep their patches. Those of a torn facet go to its sides that hold the nearest
 /// points: there the contact goes on.
-template <ContactLaw Law>
-void StructureContacts<Law>::renumber(const geometry::SurfaceChange& change) {
+void StructureContacts::renumber(const geometry::SurfaceChange& change) {
   std::vector<PairOfCells> left;
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     const PairOfCells& pair = pairs_[i];
@@ -781,8 +747,7 @@ void StructureContacts<Law>::renumber(const geometry::SurfaceChange& change) {
 }
 
 /// @param carriers  corners of the features of both cells that hold the nearest points
-template <ContactLaw Law>
-void StructureContacts<Law>::hand_to_sides(const PairOfCells& pair,
+void StructureContacts::hand_to_sides(const PairOfCells& pair,
                                            const std::array<geometry::FeatureNodes, 2>& carriers,
                                            const geometry::SurfaceChange& change,
                                            std::vector<PairOfCells>& left) const {
@@ -806,8 +771,7 @@ void StructureContacts<Law>::hand_to_sides(const PairOfCells& pair,
 
 // What all contacts of structures come to.
 
-template <ContactLaw Law>
-void StructureContacts<Law>::add_up_patches(Positions x) {
+void StructureContacts::add_up_patches(Positions x) {
   largest_overlap_ratio_ = 0.0;
   for (Patch& patch : patches_) patch.reset();
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -842,15 +806,13 @@ void StructureContacts<Law>::add_up_patches(Positions x) {
   for (Patch& patch : patches_) patch.find_totals(meeting_of(patch), x);
 }
 
-template <ContactLaw Law>
-void StructureContacts<Law>::add_forces(NodeForces& forces) const {
+void StructureContacts::add_forces(NodeForces& forces) const {
   for (const Patch& patch : patches_) patch.add_forces(meeting_of(patch), forces);
   for (const Spread& spread : spreads_) spread.add_forces(meetings_[spread.meeting], forces);
   for (const Bond& bond : bonds_) bond.add_forces(meetings_[bond.meeting], forces);
 }
 
-template <ContactLaw Law>
-double StructureContacts<Law>::elastic_energy() const {
+double StructureContacts::elastic_energy() const {
   double energy = 0.0;
   for (const Patch& patch : patches_)
     energy += patch.energy + patch.attraction_energy + history_energy(patch);
@@ -859,8 +821,7 @@ double StructureContacts<Law>::elastic_energy() const {
   return energy;
 }
 
-template <ContactLaw Law>
-void StructureContacts<Law>::for_each_stiffness(
+void StructureContacts::for_each_stiffness(
     geometry::FunctionRef<void(NodeId, double, double, double)> visit) const {
   for (const Patch& patch : patches_) {
     if (!(patch.normal_force > 0.0)) continue;
@@ -869,8 +830,8 @@ void StructureContacts<Law>::for_each_stiffness(
     const auto on = [&](double radius) {
       return [&, radius](NodeId node, double share) {
         const double part = (1.0 - patch.bar_part) * std::abs(share);
-        visit(node, part * Law::normal_stiffness(parameters, patch.gap),
-              part * Law::tangential_stiffness(parameters, patch.gap), radius);
+        visit(node, part * AnyLaw::normal_stiffness(parameters, patch.gap),
+              part * AnyLaw::tangential_stiffness(parameters, patch.gap), radius);
       };
     };
     if (patch.bar_part == 1.0) continue;
@@ -882,11 +843,11 @@ void StructureContacts<Law>::for_each_stiffness(
     const Meeting& meeting = meetings_[spread.meeting];
     // Joints in a wrap move one by one, against the whole spring of a bar.
     const double contacts = spread.is_wrapped ? std::max(1.0, spread.count) : spread.count;
-    const auto parameters = Law::multiplied(meeting.parameters, contacts);
+    const auto parameters = AnyLaw::multiplied(meeting.parameters, contacts);
     const auto on = [&](const typename Spread::Side& side, double radius) {
       for (std::size_t i = 0; i < 3; ++i)
-        visit(side.nodes[i], side.shares[i] * Law::normal_stiffness(parameters, spread.gap),
-              side.shares[i] * Law::tangential_stiffness(parameters, spread.gap), radius);
+        visit(side.nodes[i], side.shares[i] * AnyLaw::normal_stiffness(parameters, spread.gap),
+              side.shares[i] * AnyLaw::tangential_stiffness(parameters, spread.gap), radius);
     };
     on(spread.a, meeting.radius_first);
     on(spread.b, meeting.radius_second);
@@ -898,8 +859,8 @@ void StructureContacts<Law>::for_each_stiffness(
     const auto on = [&](const geometry::CorePoint& core, double radius) {
       for (std::size_t i = 0; i < 3; ++i) {
         const double share = core.weights[static_cast<int>(i)];
-        visit(core.nodes[i], share * Law::normal_stiffness(parameters, 0.0),
-              share * Law::tangential_stiffness(parameters, 0.0), radius);
+        visit(core.nodes[i], share * AnyLaw::normal_stiffness(parameters, 0.0),
+              share * AnyLaw::tangential_stiffness(parameters, 0.0), radius);
       }
     };
     on(bond.a, meeting.radius_first);
@@ -910,8 +871,7 @@ void StructureContacts<Law>::for_each_stiffness(
 // Contacts of structures as they are reported.
 
 /// By patch, which of the acting terms overlaps most.
-template <ContactLaw Law>
-std::vector<std::uint32_t> StructureContacts<Law>::deepest_places() const {
+std::vector<std::uint32_t> StructureContacts::deepest_places() const {
   constexpr std::uint32_t kNone = ~std::uint32_t{0};
   std::vector<std::uint32_t> deepest(patches_.size(), kNone);
   const auto overlap = [&](std::uint32_t i) { return terms_[terms_.acting()[i]].overlap; };
@@ -922,8 +882,7 @@ std::vector<std::uint32_t> StructureContacts<Law>::deepest_places() const {
   return deepest;
 }
 
-template <ContactLaw Law>
-void StructureContacts<Law>::for_each_row(Positions x, VisitRow visit) const {
+void StructureContacts::for_each_row(Positions x, VisitRow visit) const {
   const std::vector<std::uint32_t> deepest = deepest_places();
   const std::vector<SpreadSum> spreads = sum_spreads();
   for (std::size_t i = 0; i < patches_.size(); ++i) {
@@ -938,8 +897,7 @@ void StructureContacts<Law>::for_each_row(Positions x, VisitRow visit) const {
   }
 }
 
-template <ContactLaw Law>
-void StructureContacts<Law>::for_each_row_on(NodeId node, Positions x, VisitRowOn visit) const {
+void StructureContacts::for_each_row_on(NodeId node, Positions x, VisitRowOn visit) const {
   NodeForces forces(x.size());
   Vec3& force = forces.force[index_of(node)];
   Vec3& torque = forces.torque[index_of(node)];
@@ -964,8 +922,7 @@ void StructureContacts<Law>::for_each_row_on(NodeId node, Positions x, VisitRowO
 }
 
 /// All but its points.
-template <ContactLaw Law>
-ContactRow StructureContacts<Law>::row_of(const Bond& bond) const {
+ContactRow StructureContacts::row_of(const Bond& bond) const {
   const auto body = [&](const geometry::CorePoint& core) {
     return ContactBody{BodyKind::structure,
                        static_cast<std::int32_t>(surface_->structure_of(core.nodes[0])),
@@ -979,12 +936,11 @@ ContactRow StructureContacts<Law>::row_of(const Bond& bond) const {
   row.gap = bond.gap;
   set_force(row, bond.other_force);
   row.moment = bond.moment;
-  set_state<Law>(row, bond.parameters(meetings_[bond.meeting]), bond.memory.history, bond.pressing);
+  set_state<AnyLaw>(row, bond.parameters(meetings_[bond.meeting]), bond.memory.history, bond.pressing);
   return row;
 }
 
-template <ContactLaw Law>
-ContactRow StructureContacts<Law>::row_of(const Patch& patch, const SpreadSum& spread,
+ContactRow StructureContacts::row_of(const Patch& patch, const SpreadSum& spread,
                                           std::uint32_t deepest, Positions x) const {
   const Meeting& meeting = meeting_of(patch);
   const PairTerm& term = terms_[terms_.acting()[deepest]];
@@ -1005,17 +961,14 @@ ContactRow StructureContacts<Law>::row_of(const Patch& patch, const SpreadSum& s
   row.gap = patch.gap;
   const double point_force = patch.point_part * patch.normal_force;
   set_force(row, patch.other_force);
-  set_state<Law>(row, patch.parameters(meeting), patch.memory.history, point_force);
+  set_state<AnyLaw>(row, patch.parameters(meeting), patch.memory.history, point_force);
   row.is_slipping = row.is_slipping && !spread.sticks;
   row.elastic_force = patch.normal_force;
   set_force(row, patch.elastic_force + patch.second.total_attraction() + patch.other_force +
                      spread.force);
   row.moment = patch.second.moment_about(row.point, x) + spread.moment;
-  if constexpr (HasMoments<Law>) row.moment += patch.moment;
+  row.moment += patch.moment;
   return row;
 }
-
-template class StructureContacts<LinearFrictional>;
-template class StructureContacts<AnyLaw>;
 
 }  // namespace plekton::contact

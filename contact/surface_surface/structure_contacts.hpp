@@ -41,7 +41,6 @@ namespace plekton::contact {
 /// (surface_surface/spread_contact.hpp), for the part of the elastic force that their overlap has, and so
 /// have bars on anything, for their shares of it. Under
 /// a law that glues, what is glued is held by bonds of its own (structure_bond.hpp).
-template <ContactLaw Law>
 class StructureContacts {
  public:
   explicit StructureContacts(const geometry::Surface& surface)
@@ -50,18 +49,18 @@ class StructureContacts {
 
   /// Takes a new list of cells that may touch, sorted; pairs in both lists keep their patches.
   /// @returns the energy (J) lost with patches that left the list
-  double rebuild(std::span<const geometry::CellPair> pairs, const ContactMaterials<Law>& materials);
+  double rebuild(std::span<const geometry::CellPair> pairs, const ContactMaterials& materials);
 
   /// Goes on with what is left of the surface and a new list of its cells: patches keep their
   /// histories as long as one of the features in contact is left.
   /// @param at  where the elastic energy of before and after is compared
   /// @returns the energy (J) lost, of histories and of elastic forces
   double follow(const geometry::SurfaceChange& change, std::span<const geometry::CellPair> pairs,
-                const ContactMaterials<Law>& materials, const Motion& at,
+                const ContactMaterials& materials, const Motion& at,
                 geometry::ThreadPool& pool);
 
   /// Goes on with other parameters of the same materials.
-  void take_parameters(const ContactMaterials<Law>& materials);
+  void take_parameters(const ContactMaterials& materials);
 
   /// One step of all contacts: forces are found, not yet added.
   EnergyLoss advance(const Motion& motion, double dt, geometry::ThreadPool& pool);
@@ -124,10 +123,10 @@ class StructureContacts {
 
  private:
   using PairTerm = structure::PairTerm;
-  using Meeting = structure::Meeting<Law>;
-  using Patch = structure::StructurePatch<Law>;
-  using Bond = structure::StructureBond<Law>;
-  using Spread = structure::SpreadContact<Law>;
+  using Meeting = structure::Meeting;
+  using Patch = structure::StructurePatch;
+  using Bond = structure::StructureBond;
+  using Spread = structure::SpreadContact;
 
   struct PairOfCells {
     geometry::CellPair cells;
@@ -174,7 +173,7 @@ class StructureContacts {
   };
   /// What a patch of the last step leaves to those of this one.
   struct Legacy {
-    ContactMemory<Law> memory;
+    ContactMemory<AnyLaw> memory;
     std::uint32_t meeting;
     double count;
     double energy;  ///< J, of the history
@@ -225,8 +224,8 @@ class StructureContacts {
     friend constexpr auto operator<=>(const Heir&, const Heir&) = default;
   };
 
-  std::vector<Meeting> find_meetings(const ContactMaterials<Law>& materials) const;
-  void make_meetings(const ContactMaterials<Law>& materials);
+  std::vector<Meeting> find_meetings(const ContactMaterials& materials) const;
+  void make_meetings(const ContactMaterials& materials);
   double normal_energy(const geometry::Surface& surface, std::span<const geometry::CellPair> pairs,
                        const Motion& at, geometry::ThreadPool& pool) const;
   void renumber(const geometry::SurfaceChange& change);
@@ -296,8 +295,5 @@ class StructureContacts {
   double largest_overlap_ratio_ = 0.0;
 };
 
-/// Compiled once, in the library.
-extern template class StructureContacts<LinearFrictional>;
-extern template class StructureContacts<AnyLaw>;
 
 }  // namespace plekton::contact

@@ -11,9 +11,8 @@
 namespace plekton::contact::structure {
 
 /// Two structures that may touch, or one that may touch itself.
-template <ContactLaw Law>
 struct Meeting {
-  typename Law::Parameters parameters;  ///< without the attraction
+  AnyLaw::Parameters parameters;  ///< without the attraction
   double radius_first;                  ///< m, of the lower structure
   double radius_second;
   double attraction;  ///< N, of one contact
@@ -21,7 +20,6 @@ struct Meeting {
 
 /// A part of the contact region of two structures that hangs together: one contact, as far as the
 /// law is concerned, as stiff as the contacts it counts.
-template <ContactLaw Law>
 struct StructurePatch {
   std::uint32_t meeting = 0;
   double energy = 0.0;                ///< J, elastic
@@ -37,7 +35,7 @@ struct StructurePatch {
                             ///< they have friction of their own (spread_contact.hpp)
   double bar_part = 0.0;    ///< of its elastic force, that pairs with a bar carry: likewise
   bool is_torn = false;     ///< a bond has broken in it: it forms no others
-  ContactMemory<Law> memory;
+  ContactMemory<AnyLaw> memory;
   std::int64_t id = 0;    ///< 0: none yet
   double id_from = -1.0;  ///< N, normal force of the patch of the last step that the id is from
   Vec3 other_force = Vec3::Zero();  ///< N, on the second side: all but that and attraction
@@ -65,7 +63,7 @@ struct StructurePatch {
   Vec3 normal() const { return elastic_force / normal_force; }
 
   /// What the forces on the nodes come to.
-  void find_totals(const Meeting<Law>& bodies, Positions x) {
+  void find_totals(const Meeting& bodies, Positions x) {
     elastic_force = second.total_force();
     find_mean(bodies);
     if (!pushes()) return;
@@ -75,30 +73,30 @@ struct StructurePatch {
   }
 
   /// Mean overlap, that of a linear spring with this force and energy; how many springs that are.
-  void find_mean(const Meeting<Law>& bodies) {
+  void find_mean(const Meeting& bodies) {
     normal_force = elastic_force.norm();
     gap = pushes() ? -2.0 * energy / normal_force : 0.0;
-    const double one = Law::elastic_normal_force(bodies.parameters, gap);
+    const double one = AnyLaw::elastic_normal_force(bodies.parameters, gap);
     count = one > 0.0 ? normal_force / one : 0.0;
   }
 
   /// Of the contact as a whole.
-  typename Law::Parameters whole_parameters(const Meeting<Law>& bodies) const {
-    return Law::multiplied(bodies.parameters, count);
+  AnyLaw::Parameters whole_parameters(const Meeting& bodies) const {
+    return AnyLaw::multiplied(bodies.parameters, count);
   }
   /// How many contacts it has a history for.
   double point_count() const noexcept { return point_part * count; }
   /// Of those, what they have beside bonds.
-  typename Law::Parameters parameters(const Meeting<Law>& bodies) const {
-    return beside_bonds<Law>(Law::multiplied(bodies.parameters, point_count()), free_part);
+  AnyLaw::Parameters parameters(const Meeting& bodies) const {
+    return AnyLaw::beside_bonds(AnyLaw::multiplied(bodies.parameters, point_count()), free_part);
   }
 
-  double history_energy(const Meeting<Law>& bodies) const {
-    return Law::history_energy(parameters(bodies), memory.history);
+  double history_energy(const Meeting& bodies) const {
+    return AnyLaw::history_energy(parameters(bodies), memory.history);
   }
 
   /// @returns the energy (J) dissipated
-  double apply_law(const Meeting<Law>& bodies, const Motion& motion, double dt) {
+  double apply_law(const Meeting& bodies, const Motion& motion, double dt) {
     if (!pushes()) return 0.0;
     memory.normal = normal();
     if (!(point_part > 0.0)) return 0.0;
@@ -107,34 +105,32 @@ struct StructurePatch {
     const RelativeMotion relative =
         relative_motion(memory.normal, gap, point_part * normal_force, velocity,
                         second.angular_velocity(motion) - first.angular_velocity(motion));
-    const ContactForce result = Law::force(parameters(bodies), relative, memory.history, dt);
+    const ContactForce result = AnyLaw::force(parameters(bodies), relative, memory.history, dt);
     other_force = result.force - point_part * elastic_force;
     moment = result.moment;
     return result.dissipated;
   }
 
-  void add_forces(const Meeting<Law>& bodies, NodeForces& forces) const {
+  void add_forces(const Meeting& bodies, NodeForces& forces) const {
     first.add_normal_forces(forces);
     second.add_normal_forces(forces);
     if (!pushes()) return;
     first.add_force_at(lever_of_first(bodies), -other_force, forces);
     second.add_force_at(lever_of_second(bodies), other_force, forces);
-    if constexpr (HasMoments<Law>) {
-      first.add_moment(-moment, forces);
-      second.add_moment(moment, forces);
-    }
+    first.add_moment(-moment, forces);
+    second.add_moment(moment, forces);
   }
 
   /// The contact point lies between the two points on which the elastic force acts.
-  Vec3 lever_of_first(const Meeting<Law>& bodies) const {
+  Vec3 lever_of_first(const Meeting& bodies) const {
     return bodies.radius_first / range(bodies) * (second.point() - first.point());
   }
-  Vec3 lever_of_second(const Meeting<Law>& bodies) const {
+  Vec3 lever_of_second(const Meeting& bodies) const {
     return bodies.radius_second / range(bodies) * (first.point() - second.point());
   }
 
  private:
-  static double range(const Meeting<Law>& bodies) {
+  static double range(const Meeting& bodies) {
     return bodies.radius_first + bodies.radius_second;
   }
 };

@@ -12,8 +12,8 @@ namespace plekton::contact {
 
 /// Makes room for a number of things, and for a quarter more if there is less: a list whose length
 /// varies a little soon has the room it needs.
-template <class Thing>
-void make_room(std::vector<Thing>& list, std::size_t count) {
+template <class List>
+void make_room(List& list, std::size_t count) {
   if (count > list.capacity()) list.reserve(count + count / 4);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/contacts_under.hpp"
+#include "contact/scene_contacts.hpp"
 #include "contact/law/linear_frictional.hpp"
 
 #include <array>

@@ -6,7 +6,7 @@
 #include "contact/law/hertz_mindlin.hpp"
 #include "contact/law/linear_frictional.hpp"
 #include "contact/law/restitution.hpp"
-#include "contact/law/with_parts.hpp"
+#include "contact/with_parts.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // A flat sheet on a flat slope, both of many facets, with mu = 0.5 (26.57 degrees): at 26 degrees
 // it rests, at 27.5 and 35 degrees it slides with a = g (sin b - mu cos b), whatever its facets lie
 // on.
-#include "contact/law/law_list.hpp"
+#include "contact/law_list.hpp"
 #include "dynamics/simulation.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/membrane.hpp"

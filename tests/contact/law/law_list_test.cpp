@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/law/law_list.hpp"
+#include "contact/law_list.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/lone_block.hpp"
+#include "contact/sphere_surface/lone_batch.hpp"
 
 #include "contact/sphere_surface/lone_contact.hpp"
 #include "geometry/primitives/cell_clearance.hpp"

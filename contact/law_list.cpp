@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/law/law_list.hpp"
+#include "contact/law_list.hpp"
 
 #include "contact/law/dashpot.hpp"
 #include "contact/law/hertz_mindlin.hpp"
 #include "contact/law/restitution.hpp"
-#include "contact/law/with_parts.hpp"
+#include "contact/with_parts.hpp"
 
 #include <array>
 #include <limits>

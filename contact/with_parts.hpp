@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/law/any_law.hpp"
 #include "contact/law/dashpot.hpp"
 #include "contact/law/rolling_twisting.hpp"
 #include "contact/law/sum.hpp"
+#include "contact/law_table.hpp"
 
 namespace plekton::contact {
 

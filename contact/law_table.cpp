@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/law/any_law.hpp"
+#include "contact/law_table.hpp"
 
 #include "contact/law/linear_frictional.hpp"
+#include "contact/shipped_laws.hpp"
 
 namespace plekton::contact {
 
@@ -10,7 +11,7 @@ static_assert(ContactLaw<AnyLaw> && HasMoments<AnyLaw> && HasReach<AnyLaw> &&
               TellsTangentialLimit<AnyLaw>);
 
 AnyLaw::Properties::Properties() noexcept {
-  keep(Table<LinearFrictional>::functions, LinearFrictional::Properties{});
+  keep(LawTable<LinearFrictional>::functions, LinearFrictional::Properties{});
 }
 
 }  // namespace plekton::contact

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/law/any_law.hpp"
+#include "contact/law_loops.hpp"
+
+#include <limits>
+
+namespace plekton::contact {
+
+/// The functions of one law, on their numbers.
+template <class Law>
+struct LawTable {
+  using Properties = AnyLaw::Properties;
+  using Parameters = AnyLaw::Parameters;
+  using History = AnyLaw::History;
+  using ForceOfState = decltype(AnyLaw::Functions::force_of_state);
+  using LawParameters = typename Law::Parameters;
+  using LawHistory = typename Law::History;
+
+  /// How many numbers a type takes, its last one maybe in part.
+  template <class Typed>
+  static constexpr std::size_t number_count() noexcept {
+    return (sizeof(Typed) + sizeof(double) - 1) / sizeof(double);
+  }
+  static LawParameters of(const Parameters& p) noexcept { return p.as<LawParameters>(); }
+  static Parameters kept(const LawParameters& p) noexcept {
+    Parameters parameters;
+    parameters.keep(functions, p);
+    return parameters;
+  }
+  /// Of another law, or none: a new one.
+  static LawHistory own(const History& history) noexcept {
+    return history.law == &functions ? history.as<LawHistory>() : LawHistory{};
+  }
+  static const AnyLaw::Functions& self() noexcept { return functions; }
+  template <class Change>
+  static void change(History& history, const Change& to) {
+    LawHistory typed = own(history);
+    to(typed);
+    history.keep(functions, typed);
+  }
+
+  static constexpr AnyLaw::Functions functions{
+      .name = Law::name,
+      .parameter_numbers = number_count<LawParameters>(),
+      .history_numbers = number_count<LawHistory>(),
+      .has_reach = HasReach<Law>,
+      .combine =
+          [](const Properties& properties, const Body& a, const Body& b) {
+            return kept(contact::combine<Law>(properties.as<PropertiesOf<Law>>(), a, b));
+          },
+      .multiplied = [](const Parameters& p,
+                       double count) { return kept(Law::multiplied(of(p), count)); },
+      .elastic_normal_force = [](const Parameters& p, double gap) -> double {
+        return Law::elastic_normal_force(of(p), gap);
+      },
+      .elastic_normal_energy = [](const Parameters& p,
+                                  double gap) { return Law::elastic_normal_energy(of(p), gap); },
+      .normal_stiffness = [](const Parameters& p,
+                             double gap) { return Law::normal_stiffness(of(p), gap); },
+      .tangential_stiffness = [](const Parameters& p,
+                                 double gap) { return Law::tangential_stiffness(of(p), gap); },
+      .reach = [](const Parameters& p) { return reach_of<Law>(of(p)); },
+      .attraction = [](const Parameters& p) { return attraction_of<Law>(of(p)); },
+      .without_attraction =
+          [](const Parameters& p) { return kept(contact::without_attraction<Law>(of(p))); },
+      .end_start =
+          [](Properties& properties) {
+            auto typed = properties.as<PropertiesOf<Law>>();
+            const bool changed = contact::end_start<Law>(typed);
+            properties.keep(self(), typed);
+            return changed;
+          },
+      .glues = [](const Parameters& p) { return contact::glues<Law>(of(p)); },
+      .glue =
+          [](const Parameters& p, History& history) {
+            change(history, [&](LawHistory& typed) { contact::glue<Law>(of(p), typed); });
+          },
+      .of_bond = [](const Parameters& p) { return kept(contact::of_bond<Law>(of(p))); },
+      .beside_bonds = [](const Parameters& p,
+                         double part) { return kept(contact::beside_bonds<Law>(of(p), part)); },
+      .force =
+          [](const Parameters& p, const RelativeMotion& motion, History& history, double dt) {
+            LawHistory typed = own(history);
+            const ContactForce answer = Law::force(of(p), motion, typed, dt);
+            history.keep(self(), typed);
+            return answer;
+          },
+      .tangential_limit =
+          [](const Parameters& p, double elastic_force, const History& history) {
+            if constexpr (TellsTangentialLimit<Law>)
+              return Law::tangential_limit(of(p), elastic_force, own(history));
+            return std::numeric_limits<double>::infinity();
+          },
+      .history_energy = [](const Parameters& p, const History& history) -> double {
+        return Law::history_energy(of(p), own(history));
+      },
+      .holds = [](const History& history) { return contact::holds<Law>(own(history)); },
+      .moment = [](const History& history, const Vec3& normal) -> Vec3 {
+        if constexpr (HasMoments<Law>) return Law::moment(own(history), normal);
+        return Vec3::Zero();
+      },
+      .rotate =
+          [](History& history, const FrameRotation& rotation) {
+            change(history, [&](LawHistory& typed) { Law::rotate(typed, rotation); });
+          },
+      .add_share =
+          [](History& history, const History& other, double share) {
+            change(history, [&](LawHistory& typed) { Law::add_share(typed, own(other), share); });
+          },
+      .force_of_state = []() -> ForceOfState {
+        if constexpr (TellsForce<Law>)
+          return [](const Parameters& p, double gap, const Vec3& normal, const History& history) {
+            return Law::force_of_state(of(p), gap, normal, own(history));
+          };
+        return nullptr;
+      }(),
+      .combines_radii = [](const Properties& properties) -> bool {
+        if constexpr (CombinesRadii<Law>)
+          return properties.as<PropertiesOf<Law>>() == PropertiesOf<Law>{};
+        return false;
+      },
+      .advance_balls = LawLoops<Law>::balls,
+      .advance_batch = LawLoops<Law>::batch(),
+      .advance_lone = LawLoops<Law>::lone()};
+};
+
+template <ContactLaw Law>
+AnyLaw::Properties AnyLaw::of(const PropertiesOf<Law>& properties) {
+  Properties kept;
+  kept.keep(LawTable<Law>::functions, properties);
+  return kept;
+}
+
+}  // namespace plekton::contact

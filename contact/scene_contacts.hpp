@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/sphere_sphere/ball_contacts.hpp"
+#include "contact/contact_model.hpp"
+#include "contact/sphere_plane/plane_contacts.hpp"
+#include "contact/sphere_plane/plane_neighbours.hpp"
+#include "contact/surface_surface/structure_contacts.hpp"
+#include "contact/sphere_surface/surface_contacts.hpp"
+#include "geometry/neighbor/cell_neighbours.hpp"
+#include "geometry/neighbor/neighbours.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plekton::contact {
+
+/// All contacts of a scene.
+class SceneContacts final : public Contacts {
+ public:
+  /// @param spheres, surface  must outlive this
+  /// @param skin  m, how far a pair may be apart when it is listed as a candidate
+  /// @param meets_planes  by NodeId: which nodes of the surface touch planes; empty: all of them
+  /// @param rest  m, of all nodes, for structures that may touch themselves; empty: they do not
+  SceneContacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
+                ContactMaterials materials, double skin,
+                const std::vector<bool>& meets_planes = {}, Positions rest = {});
+
+  void tune_skin(double radius) noexcept override { neighbours_.tune_skin(radius); }
+  void choose_skin_of_structures() override { cell_neighbours_.choose_skin(); }
+
+  void advance(const Motion& motion, std::span<const Plane> planes, double dt,
+               geometry::ThreadPool& pool, NodeForces& forces) override;
+  void follow(const geometry::SurfaceChange& change, const Motion& motion, Positions at,
+              geometry::ThreadPool& pool) override;
+
+  ContactCounts counts() const noexcept override {
+    return {with_spheres_.touching(), with_surfaces_.touching(), between_structures_.touching(),
+            with_planes_.touching()};
+  }
+  double elastic_energy() const override {
+    return with_spheres_.elastic_energy() + with_surfaces_.elastic_energy() +
+           between_structures_.elastic_energy() + with_planes_.elastic_energy();
+  }
+  double dissipated() const noexcept override { return dissipated_; }
+  double tracking_loss() const noexcept override { return tracking_loss_; }
+  double largest_overlap_ratio() const noexcept override {
+    return std::max({with_spheres_.largest_overlap_ratio(), with_surfaces_.largest_overlap_ratio(),
+                     between_structures_.largest_overlap_ratio(),
+                     with_planes_.largest_overlap_ratio()});
+  }
+  std::int64_t pass_throughs() const noexcept override { return with_surfaces_.pass_throughs(); }
+  std::size_t crossings() const noexcept override { return between_structures_.crossings(); }
+
+  void number() override {
+    with_spheres_.number(last_number_);
+    with_surfaces_.number(last_number_);
+    between_structures_.number(last_number_);
+    with_planes_.number(last_number_);
+  }
+  void for_each_row(Positions x, Visit<const ContactRow&> visit) const override {
+    with_spheres_.for_each_row(x, visit);
+    with_surfaces_.for_each_row(x, visit);
+    between_structures_.for_each_row(x, visit);
+    with_planes_.for_each_row(x, *surface_, visit);
+  }
+  void for_each_plane_row(Positions x, Visit<const ContactRow&> visit) const override {
+    with_planes_.for_each_row(x, *surface_, visit);
+  }
+  void for_each_structure_row_on(
+      NodeId node, Positions x,
+      Visit<const ContactRow&, const Vec3&, const Vec3&> visit) const override {
+    between_structures_.for_each_row_on(node, x, visit);
+  }
+
+  void add_surface_forces(NodeForces& forces, geometry::ThreadPool& pool) const override {
+    with_surfaces_.add_forces(forces, pool);
+    between_structures_.add_forces(forces);
+    with_planes_.add_forces(forces, pool);
+  }
+  void add_sphere_surface_forces(NodeForces& forces, geometry::ThreadPool& pool) const override {
+    with_surfaces_.add_forces(forces, pool);
+  }
+  Vec3 force_on_plane(std::size_t plane) const override { return with_planes_.force_on(plane); }
+  void for_each_plane_force(Visit<std::size_t, const Vec3&> visit) const override {
+    with_planes_.for_each_force(visit);
+  }
+  std::size_t structure_bond_count() const override { return between_structures_.bond_count(); }
+
+  void for_each_sphere_pair(VisitSpheres visit) const override {
+    with_spheres_.for_each_touching(visit);
+  }
+  void for_each_near_sphere_pair(double margin, Positions x, VisitSpheres visit) const override {
+    with_spheres_.for_each_near(margin, x, visit);
+  }
+  void for_each_surface_term(VisitSphereOnSurface visit) const override {
+    with_surfaces_.for_each_touching(visit);
+  }
+  void for_each_coming_surface_term(double margin, Positions x,
+                                    VisitSphereOnSurface visit) const override {
+    with_surfaces_.for_each_coming(
+        margin, neighbours_.cells(), x,
+        [&](NodeId ball, const geometry::CorePoint& core, const auto& parameters, double range) {
+          visit(ball, core, parameters, range, 0.0);
+        });
+  }
+  void add_elastic_forces(Positions x, NodeForces& forces, PatchFinder& finder,
+                          geometry::FunctionRef<bool(NodeId)> of) const override {
+    with_surfaces_.add_elastic_forces(neighbours_.cells(), x, forces, finder, of);
+  }
+  void for_each_structure_stiffness(Visit<NodeId, double, double, double> visit) const override {
+    between_structures_.for_each_stiffness(visit);
+  }
+  void for_each_near_cell_pair(double margin,
+                               Visit<const geometry::CellPair&> visit) const override {
+    between_structures_.for_each_near(margin, visit);
+  }
+  void for_each_plane_pair(VisitPlane visit) const override {
+    with_planes_.for_each_touching(visit);
+  }
+  void for_each_near_plane_pair(double margin, std::span<const Plane> planes, Positions x,
+                                VisitPlane visit) const override {
+    with_planes_.for_each_near(margin, planes, x, visit);
+  }
+  PairStiffness stiffness(const BodyPart& a, const BodyPart& b, double gap,
+                          double count) const override {
+    const auto parameters = AnyLaw::multiplied(materials_.pairs.combine(a, b), count);
+    return {AnyLaw::normal_stiffness(parameters, gap), AnyLaw::tangential_stiffness(parameters, gap)};
+  }
+
+  std::int64_t list_count() const noexcept override { return list_count_; }
+  const geometry::Neighbours& neighbours() const noexcept override { return neighbours_; }
+  const geometry::CellNeighbours& cell_neighbours() const noexcept override {
+    return cell_neighbours_;
+  }
+
+  const BallContacts& with_spheres() const noexcept { return with_spheres_; }
+  const SurfaceContacts& with_surfaces() const noexcept { return with_surfaces_; }
+  const StructureContacts& between_structures() const noexcept { return between_structures_; }
+  const PlaneContacts& with_planes() const noexcept { return with_planes_; }
+
+ private:
+  double list_on_surfaces();
+  void add(const EnergyLoss& loss) noexcept {
+    dissipated_ += loss.dissipated;
+    tracking_loss_ += loss.tracking;
+  }
+  void end_start(std::span<const Plane> planes, Positions x, geometry::ThreadPool& pool);
+
+  ContactMaterials materials_;
+  std::vector<Ball> balls_;  ///< the spheres, then the nodes of the surface
+  geometry::Neighbours neighbours_;
+  geometry::CellNeighbours cell_neighbours_;
+  PlaneNeighbours plane_neighbours_;
+  BallContacts with_spheres_;
+  SurfaceContacts with_surfaces_;
+  StructureContacts between_structures_;
+  PlaneContacts with_planes_;
+  const geometry::Surface* surface_;
+  double dissipated_ = 0.0;
+  double tracking_loss_ = 0.0;
+  std::int64_t last_number_ = 0;
+  std::int64_t list_count_ = 0;
+  enum class Start { ahead, now, over } start_ = Start::ahead;
+};
+
+}  // namespace plekton::contact
