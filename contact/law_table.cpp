@@ -2,7 +2,6 @@
 #include "contact/law_table.hpp"
 
 #include "contact/law/linear_frictional.hpp"
-#include "contact/shipped_laws.hpp"
 
 namespace plekton::contact {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/law/any_law.hpp"
-#include "contact/law_loops.hpp"
+#include "contact/shipped_laws.hpp"
 
 #include <limits>
 

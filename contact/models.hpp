@@ -4,7 +4,6 @@
 #include "contact/contact_model.hpp"
 #include "contact/law/linear_frictional.hpp"
 #include "contact/law/material_pairs.hpp"
-#include "contact/shipped_laws.hpp"
 #include "contact/law_table.hpp"
 
 namespace plekton::contact {

@@ -161,10 +161,10 @@ class SheetOnSheet {
     for (std::size_t i = first_of_small_; i < complex_.x.size(); ++i)
       complex_.x[i] += Vec3(-0.83, -0.41, 0.19);  // both are 0.2 thick
     surface_ = complex_.surface();
-    contacts_ = std::make_unique<ContactsUnder<LinearFrictional>>(
+    contacts_ = std::make_unique<SceneContacts>(
         std::span<const Sphere>(), surface_,
-        ContactMaterials<LinearFrictional>{
-            MaterialPairs<LinearFrictional>({Material{1e6, 0.5, 0.3}}),
+        ContactMaterials{
+            MaterialPairs({Material{1e6, 0.5, 0.3}}),
             {},
             {MaterialId{0}, MaterialId{0}}},
         0.05);
@@ -192,7 +192,7 @@ class SheetOnSheet {
   Complex complex_;
   std::size_t first_of_small_ = 0;
   Surface surface_;
-  std::unique_ptr<ContactsUnder<LinearFrictional>> contacts_;
+  std::unique_ptr<SceneContacts> contacts_;
   geometry::ThreadPool pool_;
 };
 

@@ -34,7 +34,7 @@ class BallOnSurface {
 
   double range() const { return ball_.radius + 0.1; }
   const Law::Parameters& parameters() const { return parameters_; }
-  const SurfaceContacts<Law>& contacts() const { return contacts_; }
+  const SurfaceContacts& contacts() const { return contacts_; }
   const NodeForces& forces() const { return forces_; }
   const Surface& surface() const { return surface_; }
   std::vector<Vec3>& x() { return x_; }
@@ -109,9 +109,9 @@ class BallOnSurface {
   std::vector<Vec3> velocity_;
   std::vector<Vec3> spin_;
   Ball ball_;
-  MaterialPairs<Law> materials_;
+  MaterialPairs materials_;
   Law::Parameters parameters_;
-  SurfaceContacts<Law> contacts_;
+  SurfaceContacts contacts_;
   NodeForces forces_;
   geometry::ThreadPool pool_;
   double dissipated_ = 0.0;

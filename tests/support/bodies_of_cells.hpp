@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/law/linear_frictional.hpp"
+#include "contact/law_table.hpp"
 #include "contact/surface_surface/structure_contacts.hpp"
 #include "geometry/neighbor/cell_neighbours.hpp"
 #include "geometry/primitives/elements.hpp"
@@ -10,7 +11,6 @@
 
 #include <memory>
 #include <random>
-#include <type_traits>
 #include <vector>
 
 /// Bodies made of cells, moved as rigid ones, and the contacts between them.
@@ -85,17 +85,6 @@ inline Body moved(Body body, const Vec3& turns, const Vec3& shift) {
 /// per contact.
 template <class Law>
 class MeetingUnder {
-  /// The laws that contacts are compiled for: the linear one, and any other as it is chosen at run
-  /// time.
-  static constexpr bool kIsLinear = std::is_same_v<Law, contact::LinearFrictional>;
-  using Compiled = std::conditional_t<kIsLinear, Law, contact::AnyLaw>;
-  static contact::PropertiesOf<Compiled> compiled(const contact::PropertiesOf<Law>& properties) {
-    if constexpr (kIsLinear)
-      return properties;
-    else
-      return contact::AnyLaw::of<Law>(properties);
-  }
-
  public:
   MeetingUnder(const Body& a, const Body& b, double range,
                const contact::PropertiesOf<Law>& properties = {}, double stiffness_ratio = 0.0,
@@ -103,11 +92,11 @@ class MeetingUnder {
       : count_a_(a.x.size()),
         stiffness_ratio_(stiffness_ratio),
         friction_(friction),
-        properties_{{{contact::MaterialId{0}, contact::MaterialId{0}}, compiled(properties)}} {
+        properties_{{{contact::MaterialId{0}, contact::MaterialId{0}}, contact::AnyLaw::of<Law>(properties)}} {
     add(a, 0.5 * range);
     add(b, 0.5 * range);
     surface_ = std::make_unique<geometry::Surface>(cylinders_, facets_, x_.size());
-    contacts_ = std::make_unique<contact::StructureContacts<Compiled>>(*surface_);
+    contacts_ = std::make_unique<contact::StructureContacts>(*surface_);
     neighbours_ = std::make_unique<geometry::CellNeighbours>(*surface_, x_, 0.0, false);
   }
 
@@ -156,7 +145,7 @@ class MeetingUnder {
     if (neighbours_->update(x_, pool_)) {
       // k = 2 E R E R / (E R + E R) = E R: with E = 1 / R, 1 N/m.
       const double radius = surface_->radius(geometry::StructureId{0});
-      const contact::MaterialPairs<Compiled> materials(
+      const contact::MaterialPairs materials(
           {contact::Material{1.0 / radius, stiffness_ratio_, friction_}}, properties_);
       const std::vector<contact::MaterialId> of_structures(surface_->structure_count());
       contacts_->rebuild(neighbours_->pairs(), {materials, {}, of_structures});
@@ -170,13 +159,13 @@ class MeetingUnder {
   std::size_t count_a_;
   double stiffness_ratio_;
   double friction_;
-  contact::PairProperties<Compiled> properties_;
+  contact::PairProperties<contact::AnyLaw> properties_;
   std::vector<Vec3> x_;
   std::vector<Facet> facets_;
   std::vector<Cylinder> cylinders_;
   geometry::ThreadPool pool_{1};
   std::unique_ptr<geometry::Surface> surface_;
-  std::unique_ptr<contact::StructureContacts<Compiled>> contacts_;
+  std::unique_ptr<contact::StructureContacts> contacts_;
   std::unique_ptr<geometry::CellNeighbours> neighbours_;
   NodeForces forces_{0};
 };

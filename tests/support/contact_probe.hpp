@@ -53,7 +53,7 @@ class ContactProbe {
         spin_(surface.nodes.size() + 1, Vec3::Zero()),
         parameters_(LinearFrictional::combine({material, ball_radius}, {material, surface.radius})),
         contacts_(spheres_, surface_,
-                  {contact::MaterialPairs<LinearFrictional>({material}),
+                  {contact::MaterialPairs({material}),
                    {MaterialId{0}},
                    std::vector<MaterialId>(surface_.structure_count(), MaterialId{0})},
                   0.2 * ball_radius),
@@ -65,7 +65,7 @@ class ContactProbe {
 
   const LinearFrictional::Parameters& parameters() const { return parameters_; }
   const NodeForces& forces() const { return forces_; }
-  const contact::ContactsUnder<LinearFrictional>& contacts() const { return contacts_; }
+  const contact::SceneContacts& contacts() const { return contacts_; }
   const std::vector<Vec3>& positions() const { return position_; }
 
   /// Puts the nodes elsewhere; the ball is the last.
@@ -121,7 +121,7 @@ class ContactProbe {
   std::vector<Vec3> velocity_;
   std::vector<Vec3> spin_;
   LinearFrictional::Parameters parameters_;
-  contact::ContactsUnder<LinearFrictional> contacts_;
+  contact::SceneContacts contacts_;
   NodeForces forces_;
   geometry::ThreadPool pool_;
 };

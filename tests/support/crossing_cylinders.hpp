@@ -50,8 +50,8 @@ inline Felt drag_over_joint(double angle) {
                                         {{NodeId{1}, NodeId{2}}, kRadius},
                                         {{NodeId{3}, NodeId{4}}, kRadius}};
   const geometry::Surface surface(cylinders, {}, x.size());
-  contact::StructureContacts<contact::LinearFrictional> contacts(surface);
-  const contact::MaterialPairs<contact::LinearFrictional> materials(
+  contact::StructureContacts contacts(surface);
+  const contact::MaterialPairs materials(
       {contact::Material{kModulus, 0.3, 1e6}});
   const std::vector<contact::MaterialId> of_structures(surface.structure_count());
   geometry::ThreadPool pool(1);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "contact/scene_contacts.hpp"
-#include "contact/law/linear_frictional.hpp"
 #include "tests/support/contact_surfaces.hpp"
 
 #include <memory>
@@ -11,12 +10,11 @@ namespace plekton::test {
 
 /// Many spheres in prescribed motion over a rough sheet, a net and a plane, touching each other
 /// too.
-template <contact::ContactLaw Law>
-class MovingSceneOf {
+class MovingScene {
  public:
   /// @param properties  of the one material that all have
-  MovingSceneOf(int sphere_count, double skin, std::uint64_t seed, int threads,
-                const contact::PropertiesOf<Law>& properties = {})
+  MovingScene(int sphere_count, double skin, std::uint64_t seed, int threads,
+                const contact::AnyLaw::Properties& properties = {})
       : pool_(threads) {
     Random random(seed);
     const Complex sheet_part = roughened(centred(sheet(12), 12, 0.5), 0.5, 0.02, random);
@@ -38,13 +36,13 @@ class MovingSceneOf {
       if (is_sphere) velocity_[i][2] *= 0.1;
       spin_[i] = random.in_cube(1.0);
     }
-    ContactMaterials<Law> materials{
-        MaterialPairs<Law>({Material{1e6, 0.5, 0.4}},
+    ContactMaterials materials{
+        MaterialPairs({Material{1e6, 0.5, 0.4}},
                            {{{MaterialId{0}, MaterialId{0}}, properties}}),
         std::vector<MaterialId>(spheres_.size(), MaterialId{0}),
         std::vector<MaterialId>(surface_.structure_count(), MaterialId{0})};
     contacts_ =
-        std::make_unique<ContactsUnder<Law>>(spheres_, surface_, std::move(materials), skin);
+        std::make_unique<SceneContacts>(spheres_, surface_, std::move(materials), skin);
     forces_ = NodeForces(complex_.x.size());
   }
 
@@ -53,7 +51,7 @@ class MovingSceneOf {
     contacts_->advance({complex_.x, velocity_, spin_}, planes_, dt, pool_, forces_);
   }
 
-  const ContactsUnder<Law>& contacts() const { return *contacts_; }
+  const SceneContacts& contacts() const { return *contacts_; }
 
   /// Contacts of the last step, numbered.
   std::vector<ContactRow> list() {
@@ -80,10 +78,9 @@ class MovingSceneOf {
   std::vector<Plane> planes_;
   std::vector<Vec3> velocity_;
   std::vector<Vec3> spin_;
-  std::unique_ptr<ContactsUnder<Law>> contacts_;
+  std::unique_ptr<SceneContacts> contacts_;
   NodeForces forces_;
   geometry::ThreadPool pool_;
 };
-using MovingScene = MovingSceneOf<LinearFrictional>;
 
 }  // namespace plekton::test

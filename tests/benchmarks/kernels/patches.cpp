@@ -108,7 +108,7 @@ class SlidingBalls {
       balls.push_back({sphere.nodes[0], sphere.radius, MaterialId{0}});
     const std::vector<MaterialId> of_structures(surface_.structure_count(), MaterialId{0});
     contacts_.rebuild(neighbours.sphere_structures(), neighbours.near_cells(), neighbours.cells(),
-                      balls, of_structures, contact::MaterialPairs<Law>({{1e6, 0.5, 0.4}}));
+                      balls, of_structures, contact::MaterialPairs({{1e6, 0.5, 0.4}}));
   }
 
   std::vector<Vec3> x_;  ///< m, the balls are the last nodes
@@ -116,7 +116,7 @@ class SlidingBalls {
   std::vector<Vec3> spin_;
   std::vector<geometry::Sphere> spheres_;
   geometry::Surface surface_;
-  contact::SurfaceContacts<Law> contacts_;
+  contact::SurfaceContacts contacts_;
   double way_;  ///< m, of every ball in a step
   contact::NodeForces forces_;
   geometry::ThreadPool pool_;

@@ -14,7 +14,7 @@ using Law = AnyLaw;
 const std::vector<Material> kMaterials{{1e6, 0.5, 0.4, 0.2}, {2e6, 0.3, 0.3, 0.3}};
 
 TEST(AnyLaw, HasTheLawOfEachPairOfMaterialsInAnyOrder) {
-  const MaterialPairs<Law> pairs(kMaterials,
+  const MaterialPairs pairs(kMaterials,
                                  {{{MaterialId{1}, MaterialId{0}}, Law::of<HertzMindlin>()}});
   const auto force = [&](int a, int b) {
     return Law::elastic_normal_force(pairs.combine({MaterialId{a}, 0.1}, {MaterialId{b}, 0.1}),

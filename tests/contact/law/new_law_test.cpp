@@ -7,6 +7,7 @@
 #include "geometry/base/rows.hpp"
 #include "geometry/base/vector_width.hpp"
 #include "tests/support/complexes.hpp"
+#include "tests/support/one_at_a_time.hpp"
 #include "tests/support/seeded_random.hpp"
 #include "tests/support/weakening_slider.hpp"
 
@@ -63,12 +64,13 @@ struct Outcome {
   ContactCounts counts;
 };
 
+template <class Law = WeakeningSlider>
 Outcome outcome_of(int threads) {
   Place place;
   std::vector<Vec3>& x = place.complex.x;
   const Surface surface = place.complex.surface();
   const MaterialId stone{0};
-  const auto contacts = model_of<WeakeningSlider>()(
+  const auto contacts = model_of<Law>()(
       {.spheres = place.spheres,
        .surface = surface,
        .materials = {Material{1e6, 0.5, 0.4}},
@@ -118,6 +120,13 @@ TEST(NewLaw, HasTheSameBitsForAnyNumberOfThreads) {
   const Outcome of_one = outcome_of(1);
 
   for (const int threads : {2, 4}) expect_same_bits(outcome_of(threads), of_one);
+}
+
+TEST(NewLaw, HasTheSameBitsWrittenForOneContactAtATime) {
+  using PlainLaw = test::OneAtATime<WeakeningSlider>;
+  static_assert(ContactLaw<PlainLaw> && !LaneLaw<PlainLaw>);
+
+  expect_same_bits(outcome_of<PlainLaw>(1), outcome_of(1));
 }
 
 template <class Width>

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace plekton::contact {
@@ -37,62 +38,87 @@ struct Crowd {
   std::vector<IndexPair> pairs;
 };
 
-class BallBlocksOf : public testing::TestWithParam<std::int32_t> {
+struct Given {
+  std::int32_t balls;
+  int kinds;
+};
+
+class BallBlocksOf : public testing::TestWithParam<Given> {
  protected:
-  BallBlocksOf() : crowd_(GetParam()) {
-    blocks_.assign(crowd_.pairs, crowd_.balls, pool_, crowd_.x);
+  BallBlocksOf() : crowd_(GetParam().balls) {
+    if (GetParam().kinds > 1) {
+      for (std::size_t i = 0; i < crowd_.pairs.size(); ++i)
+        kinds_.push_back(static_cast<std::uint8_t>(i * i % 7 % std::size_t(GetParam().kinds)));
+    }
+    blocks_.assign(crowd_.pairs, crowd_.balls, kinds_, pool_, crowd_.x);
+  }
+
+  /// Calls visit(pair of the list, its row) for the pairs in a stretch.
+  template <class Visit>
+  void for_each_pair(const BallBlocks::Stretch& stretch, const Visit& visit) const {
+    for (std::size_t i = 0; i < crowd_.pairs.size(); ++i) {
+      const std::size_t row = blocks_.slot(i) / BallBlocks::kLanes;
+      if (row >= stretch.first_row && row < stretch.first_row + stretch.row_count) visit(i, row);
+    }
   }
 
   Crowd crowd_;
+  std::vector<std::uint8_t> kinds_;
   geometry::ThreadPool pool_{2};
   BallBlocks blocks_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Crowds, BallBlocksOf, testing::Values(3, 100, 1279, 1280, 6000),
-                         testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(Crowds, BallBlocksOf,
+                         testing::Values(Given{3, 1}, Given{100, 1}, Given{1279, 1}, Given{1280, 1},
+                                         Given{6000, 1}, Given{3, 3}, Given{1280, 3}),
+                         [](const auto& given) {
+                           return std::to_string(given.param.balls) + "_of_" +
+                                  std::to_string(given.param.kinds);
+                         });
 
 TEST_P(BallBlocksOf, HoldEveryPairOnce) {
   std::set<std::uint32_t> slots;
   for (const BallBlocks::Block& block : blocks_.blocks()) {
     const auto members = blocks_.members(block);
-    for (std::size_t i = 0; i < crowd_.pairs.size(); ++i) {
-      const std::uint32_t slot = blocks_.slot(i);
-      const std::size_t row = slot / BallBlocks::kLanes;
-      if (row < block.first_row || row >= block.first_row + block.row_count) continue;
-      EXPECT_TRUE(slots.insert(slot).second);
-      const BallBlocks::Pair& pair = blocks_.row(row)[slot % BallBlocks::kLanes];
-      const auto& a = crowd_.balls[static_cast<std::size_t>(crowd_.pairs[i].a)];
-      const auto& b = crowd_.balls[static_cast<std::size_t>(crowd_.pairs[i].b)];
-      EXPECT_EQ(members[pair.a].node, a.node);
-      EXPECT_EQ(members[pair.b].node, b.node);
-      EXPECT_EQ(members[pair.a].radius, a.radius);
+    for (const BallBlocks::Stretch& stretch : blocks_.stretches(block)) {
+      for_each_pair(stretch, [&](std::size_t i, std::size_t row) {
+        const std::uint32_t slot = blocks_.slot(i);
+        EXPECT_TRUE(slots.insert(slot).second);
+        const BallBlocks::Pair& pair = blocks_.row(row)[slot % BallBlocks::kLanes];
+        const auto& a = crowd_.balls[static_cast<std::size_t>(crowd_.pairs[i].a)];
+        const auto& b = crowd_.balls[static_cast<std::size_t>(crowd_.pairs[i].b)];
+        EXPECT_EQ(members[pair.a].node, a.node);
+        EXPECT_EQ(members[pair.b].node, b.node);
+        EXPECT_EQ(members[pair.a].radius, a.radius);
+      });
     }
   }
   EXPECT_EQ(slots.size(), crowd_.pairs.size());
 }
 
-TEST_P(BallBlocksOf, HavePairsThatTouchInRowsOfTheirOwn) {
-  for (const BallBlocks::Block& block : blocks_.blocks()) {
-    ASSERT_EQ(block.stretches[0].first_row, block.first_row);
-    const std::size_t first_apart = block.stretches[1].first_row;
-    EXPECT_EQ(first_apart, block.first_row + block.stretches[0].row_count);
-    for (std::size_t i = 0; i < crowd_.pairs.size(); ++i) {
-      const std::size_t row = blocks_.slot(i) / BallBlocks::kLanes;
-      if (row < block.first_row || row >= block.first_row + block.row_count) continue;
+TEST_P(BallBlocksOf, HavePairsOfAKindThatTouchInRowsOfTheirOwn) {
+  std::size_t rows = 0;
+  for (const BallBlocks::Stretch& stretch : blocks_.stretches()) {
+    EXPECT_EQ(stretch.first_row, rows);
+    rows += stretch.row_count;
+    for_each_pair(stretch, [&](std::size_t i, std::size_t) {
       const auto& [a, b] = crowd_.pairs[i];
       const double radii = crowd_.balls[static_cast<std::size_t>(a)].radius +
                            crowd_.balls[static_cast<std::size_t>(b)].radius;
-      EXPECT_EQ(row < first_apart, (crowd_.at(a) - crowd_.at(b)).norm() < radii);
-    }
+      EXPECT_EQ(stretch.was_apart, !((crowd_.at(a) - crowd_.at(b)).norm() < radii));
+      EXPECT_EQ(stretch.kind, kinds_.empty() ? 0 : kinds_[i]);
+    });
   }
+  EXPECT_EQ(rows, blocks_.row_count());
 }
 
 TEST_P(BallBlocksOf, FillLanesWithoutAPairWithTheBallOfNoSize) {
   for (const BallBlocks::Block& block : blocks_.blocks()) {
-    std::size_t real = 0;
-    for (std::size_t row = block.first_row; row < block.first_row + block.row_count; ++row) {
-      for (std::size_t lane = 0; lane < BallBlocks::kLanes; ++lane) {
-        const BallBlocks::Pair& pair = blocks_.row(row)[lane];
+    for (const BallBlocks::Stretch& stretch : blocks_.stretches(block)) {
+      std::size_t real = 0;
+      for (std::size_t slot = 0; slot < stretch.slot_count(); ++slot) {
+        const BallBlocks::Pair& pair =
+            blocks_.row(stretch.first_row + slot / BallBlocks::kLanes)[slot % BallBlocks::kLanes];
         if (pair.a == block.member_count - 1) {
           EXPECT_EQ(pair.b, pair.a);
           EXPECT_EQ(blocks_.members(block)[pair.a].radius, 0.0);
@@ -100,8 +126,9 @@ TEST_P(BallBlocksOf, FillLanesWithoutAPairWithTheBallOfNoSize) {
           ++real;
         }
       }
+      EXPECT_EQ(real, stretch.pair_count);
+      EXPECT_GT(real + BallBlocks::kLanes, stretch.slot_count());
     }
-    EXPECT_GT(real + 2 * BallBlocks::kLanes, block.row_count * BallBlocks::kLanes);
   }
 }
 
@@ -147,7 +174,7 @@ TEST(BallBlocks, BorrowFewBallsWhereNeighboursAreNearInSpace) {
   geometry::ThreadPool pool;
   BallBlocks blocks;
 
-  blocks.assign(crowd.pairs, crowd.balls, pool, crowd.x);
+  blocks.assign(crowd.pairs, crowd.balls, {}, pool, crowd.x);
 
   ASSERT_EQ(blocks.blocks().size(), 16u);
   // A cube of n balls has 6 n^(2/3) at its faces; half of what is beyond them is borrowed, and the
@@ -159,12 +186,12 @@ TEST(BallBlocks, TakeANewListInTheirOldOrder) {
   const Crowd crowd(3000);
   geometry::ThreadPool pool;
   BallBlocks blocks;
-  blocks.assign(crowd.pairs, crowd.balls, pool, crowd.x);
+  blocks.assign(crowd.pairs, crowd.balls, {}, pool, crowd.x);
   std::vector<IndexPair> fewer;
   for (std::size_t i = 0; i < crowd.pairs.size(); i += 2) fewer.push_back(crowd.pairs[i]);
 
   for (int list = 0; list < 20; ++list) {
-    blocks.assign(list % 2 == 0 ? fewer : crowd.pairs, crowd.balls, pool, crowd.x);
+    blocks.assign(list % 2 == 0 ? fewer : crowd.pairs, crowd.balls, {}, pool, crowd.x);
     const auto& pairs = list % 2 == 0 ? fewer : crowd.pairs;
     std::set<std::uint32_t> slots;
     for (std::size_t i = 0; i < pairs.size(); ++i) slots.insert(blocks.slot(i));
@@ -177,7 +204,7 @@ TEST(BallBlocks, OfNoPairsHaveNoRows) {
   geometry::ThreadPool pool;
   BallBlocks blocks;
 
-  blocks.assign({}, crowd.balls, pool, crowd.x);
+  blocks.assign({}, crowd.balls, {}, pool, crowd.x);
 
   EXPECT_EQ(blocks.row_count(), 0u);
   EXPECT_EQ(blocks.ball_count(), 0u);

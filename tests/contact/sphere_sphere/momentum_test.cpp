@@ -41,9 +41,9 @@ TEST(Momentum, BalancesBetweenBalls) {
   for (int trial = 0; trial < 500; ++trial) {
     const std::vector<Ball> balls{{NodeId{0}, 0.5, MaterialId{0}}, {NodeId{1}, 0.3, MaterialId{0}}};
     const std::vector<geometry::IndexPair> pairs{{0, 1}};
-    BallContacts<Law> contacts;
+    BallContacts contacts;
     geometry::ThreadPool pool;
-    contacts.rebuild(pairs, balls, MaterialPairs<Law>({kMaterial}), pool);
+    contacts.rebuild(pairs, balls, MaterialPairs({kMaterial}), pool);
     const Vec3 place = random.in_cube(5.0);
     std::vector<Vec3> x{place, place + random.uniform(0.7, 0.799) * random.direction()};
     for (int step = 0; step < 5; ++step) {
@@ -66,8 +66,8 @@ TEST(Momentum, IsHandedFromBallToPlaneAtTheContactPoint) {
     const Plane plane{random.in_cube(5.0), random.direction(), random.in_cube(0.1), MaterialId{0}};
     const std::vector<Plane> planes{plane};
     const std::vector<geometry::IndexPair> pairs{{0, 0}};
-    PlaneContacts<Law> contacts;
-    contacts.rebuild(pairs, balls, planes, MaterialPairs<Law>({kMaterial}));
+    PlaneContacts contacts;
+    contacts.rebuild(pairs, balls, planes, MaterialPairs({kMaterial}));
     const double height = random.uniform(0.4, 0.499);
     const std::vector<Vec3> x{plane.point + 2.0 * plane.normal.unitOrthogonal() +
                               height * plane.normal};

@@ -128,12 +128,12 @@ std::vector<NodeForces> forces_over(const Complex& ground, double way) {
   ThreadPool pool;
   Neighbours neighbours(crowd.spheres, surface, kSkin);
   neighbours.update(crowd.x, pool);
-  SurfaceContacts<Law> contacts(surface);
+  SurfaceContacts contacts(surface);
   std::vector<Ball> balls;
   for (const auto& sphere : crowd.spheres) balls.push_back({sphere.nodes[0], kBall, MaterialId{0}});
   contacts.rebuild(neighbours.sphere_structures(), neighbours.near_cells(), neighbours.cells(),
                    balls, std::vector<MaterialId>(surface.structure_count(), MaterialId{0}),
-                   MaterialPairs<Law>({{1e6, 0.5, 0.4}}));
+                   MaterialPairs({{1e6, 0.5, 0.4}}));
   std::vector<NodeForces> forces;
   for (int step = 0; step < kSteps; ++step) {
     crowd.move(step);

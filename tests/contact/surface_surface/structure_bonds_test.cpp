@@ -291,8 +291,8 @@ std::array<double, 2> forces_of_folded(const CohesiveFrictional::Properties& pro
   const geometry::Surface surface({}, facets, strip.x.size());
   geometry::ThreadPool pool;
   geometry::CellNeighbours neighbours(surface, strip.x, 0.0, true);
-  contact::StructureContacts<contact::AnyLaw> contacts(surface);
-  const contact::MaterialPairs<contact::AnyLaw> materials(
+  contact::StructureContacts contacts(surface);
+  const contact::MaterialPairs materials(
       {contact::Material{2.0 / kRange, 0.0, 0.0}},
       {{{contact::MaterialId{0}, contact::MaterialId{0}},
         contact::AnyLaw::of<CohesiveFrictional>(properties)}});

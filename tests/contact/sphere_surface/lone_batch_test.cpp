@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_surface/lone_batch.hpp"
 
+#include "contact/law_table.hpp"
 #include "contact/sphere_surface/lone_contact.hpp"
 #include "geometry/primitives/cell_clearance.hpp"
 #include "tests/support/contact_laws.hpp"
 #include "tests/support/contact_surfaces.hpp"
+#include "tests/support/vector_width.hpp"
 
 #include <gtest/gtest.h>
 
@@ -100,20 +102,17 @@ Case<Law> random_case_with_neighbours(Random& random) {
   return c;
 }
 
-/// Cases as a block reads them.
+/// Cases as a batch reads them.
 template <class Law>
 struct Cases {
-  struct Padded {
-    LonePair<Law> pair;
-    std::array<double, 8> rest;
-  };
-  struct Memory {
-    ContactMemory<Law> memory;
-    std::array<double, 8> rest;
+  struct Pair {
+    double radius;
+    double range;
+    AnyLaw::Parameters parameters;
+    ContactMemory<AnyLaw> memory;
   };
   std::vector<Vec3> position, velocity, spin;
-  std::vector<Padded> pairs;
-  std::vector<Memory> memories;
+  std::vector<Pair> pairs;
   std::vector<SideFlags> sides;
   std::vector<std::size_t> first_nodes;
 
@@ -123,24 +122,30 @@ struct Cases {
     position.insert(position.end(), c.complex.x.begin(), c.complex.x.end());
     velocity.insert(velocity.end(), c.velocity.begin(), c.velocity.end());
     spin.insert(spin.end(), c.spin.begin(), c.spin.end());
-    pairs.push_back({{c.radius, c.range, c.parameters}, {}});
-    memories.push_back({c.memory, {}});
+    Pair& pair = pairs.emplace_back(Pair{c.radius, c.range, {}, {}});
+    const AnyLaw::Functions& law = LawTable<Law>::functions;
+    pair.parameters.keep(law, c.parameters);
+    pair.memory.history.keep(law, c.memory.history);
+    pair.memory.normal = c.memory.normal;
   }
-  template <int W>
-  void advance(LoneBlock<Law>& block) const {
+  void advance(LoneBatch& batch) const {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto first = static_cast<std::int32_t>(first_nodes[k]);
-      block.add({NodeId{first + 3}, NodeId{first}, NodeId{first + 1}, NodeId{first + 2}},
-                &pairs[k].pair.radius, reinterpret_cast<const double*>(&memories[k].memory),
-                sides[k]);
+      const Pair& pair = pairs[k];
+      batch.add({{NodeId{first + 3}, NodeId{first}, NodeId{first + 1}, NodeId{first + 2}},
+                 pair.radius,
+                 pair.range,
+                 &pair.parameters,
+                 &pair.memory,
+                 sides[k]});
     }
-    block.template advance<W>({position, velocity, spin}, kStep);
+    batch.advance({position, velocity, spin}, kStep);
   }
 };
 
 /// That the general way finds the inside of the facet alone, and makes the same of it.
 template <class Law>
-void expect_general(const Case<Law>& c, const LoneBlock<Law>& block, std::size_t lane) {
+void expect_general(const Case<Law>& c, const LoneBatch& block, std::size_t lane) {
   const typename Law::Parameters& parameters = c.parameters;
   const Surface surface = c.complex.surface();
   PatchFinder finder(surface);
@@ -163,24 +168,25 @@ void expect_general(const Case<Law>& c, const LoneBlock<Law>& block, std::size_t
   const Vec3 lever_b = state.lever_a - term.distance * term.normal;
 
   const auto& found = block.answer(lane);
-  EXPECT_EQ(found.weights, term.core.weights);
-  EXPECT_EQ(found.memory.normal, term.normal);
-  EXPECT_EQ(std::memcmp(&found.memory.history, &history, sizeof(history)), 0);
-  EXPECT_EQ(found.gap, state.gap);
-  EXPECT_EQ(found.foot, state.foot);
-  EXPECT_EQ(found.force_b, state.elastic_force * term.normal + other);
-  EXPECT_EQ(found.torque_a, -state.lever_a.cross(other) - answer.moment);
-  EXPECT_EQ(found.torque_b, lever_b.cross(other) + answer.moment);
-  EXPECT_EQ(found.dissipated, lost + answer.dissipated);
+  EXPECT_EQ(found.weights(), term.core.weights);
+  EXPECT_EQ(found.normal(), term.normal);
+  EXPECT_EQ(std::memcmp(found.history(LawTable<Law>::functions).numbers.data(), &history, sizeof(history)), 0);
+  EXPECT_EQ(found.gap(), state.gap);
+  EXPECT_EQ(found.foot(), state.foot);
+  EXPECT_EQ(found.force_b(), state.elastic_force * term.normal + other);
+  EXPECT_EQ(found.torque_a(), -state.lever_a.cross(other) - answer.moment);
+  EXPECT_EQ(found.torque_b(), lever_b.cross(other) + answer.moment);
+  EXPECT_EQ(found.dissipated(), lost + answer.dissipated);
 }
 
 template <class Law>
-class LoneBlockUnder : public testing::Test {};
-TYPED_TEST_SUITE(LoneBlockUnder, LaneLaws);
+class LoneBatchUnder : public testing::Test {};
+TYPED_TEST_SUITE(LoneBatchUnder, LaneLaws);
 
 /// @returns how many answers were right
-template <int W, class Law>
-int compare_with_general(Case<Law> (*make)(Random&)) {
+template <class Law>
+int compare_with_general(int width, Case<Law> (*make)(Random&)) {
+  const VectorWidth vectors(width);
   Random random(1);
   int right = 0;
   for (int trial = 0; trial < 400; ++trial) {
@@ -188,12 +194,12 @@ int compare_with_general(Case<Law> (*make)(Random&)) {
     std::vector<Case<Law>> cases;
     Cases<Law> all;
     for (std::size_t k = 0; k < count; ++k) all.add(cases.emplace_back(make(random)));
-    LoneBlock<Law> block;
+    LoneBatch block;
 
-    all.template advance<W>(block);
+    all.advance(block);
 
     for (std::size_t k = 0; k < count; ++k) {
-      if (!block.is_right(k) || !cases[k].may_be_alone) continue;
+      if (!block.answer(k).is_right() || !cases[k].may_be_alone) continue;
       ++right;
       expect_general(cases[k], block, k);
       if (testing::Test::HasFailure()) return trial;
@@ -202,22 +208,21 @@ int compare_with_general(Case<Law> (*make)(Random&)) {
   return right;
 }
 
-TYPED_TEST(LoneBlockUnder, GivesTheBitsOfTheGeneralWayOrSaysThatItDoesNotKnow) {
-  EXPECT_GT(compare_with_general<2>(random_case<TypeParam>), 1000);
-  EXPECT_GT(compare_with_general<4>(random_case<TypeParam>), 1000);
-  EXPECT_GT(compare_with_general<8>(random_case<TypeParam>), 1000);
+TYPED_TEST(LoneBatchUnder, GivesTheBitsOfTheGeneralWayOrSaysThatItDoesNotKnow) {
+  for (const int width : vector_widths())
+    EXPECT_GT(compare_with_general(width, random_case<TypeParam>), 1000);
 }
 
-TYPED_TEST(LoneBlockUnder, GivesTheBitsOfTheGeneralWayBesideOtherFacets) {
-  EXPECT_GT(compare_with_general<2>(random_case_with_neighbours<TypeParam>), 1000);
-  EXPECT_GT(compare_with_general<4>(random_case_with_neighbours<TypeParam>), 1000);
-  EXPECT_GT(compare_with_general<8>(random_case_with_neighbours<TypeParam>), 1000);
+TYPED_TEST(LoneBatchUnder, GivesTheBitsOfTheGeneralWayBesideOtherFacets) {
+  for (const int width : vector_widths())
+    EXPECT_GT(compare_with_general(width, random_case_with_neighbours<TypeParam>), 1000);
 }
 
-template <class Width>
-class LoneBlockOf : public testing::Test {};
-using Widths = testing::Types<geometry::Width<2>, geometry::Width<4>, geometry::Width<8>>;
-TYPED_TEST_SUITE(LoneBlockOf, Widths);
+class LoneBatchOf : public testing::TestWithParam<int> {
+  VectorWidth vectors_{GetParam()};
+};
+INSTANTIATE_TEST_SUITE_P(Widths, LoneBatchOf, testing::ValuesIn(vector_widths()),
+                         testing::PrintToStringParamName());
 
 /// One side of the facet is in range, and another facet beyond it.
 Case<LinearLaw> case_beside(double fold) {
@@ -237,13 +242,13 @@ Case<LinearLaw> case_beside(double fold) {
   return c;
 }
 
-TYPED_TEST(LoneBlockOf, KnowsASideThatDoesNotTouchByItself) {
+TEST_P(LoneBatchOf, KnowsASideThatDoesNotTouchByItself) {
   const auto knows = [](const Case<LinearLaw>& c) {
     Cases<LinearLaw> all;
     all.add(c);
-    LoneBlock<LinearLaw> block;
-    all.template advance<TypeParam::value>(block);
-    return c.may_be_alone && block.is_right(0);
+    LoneBatch block;
+    all.advance(block);
+    return c.may_be_alone && block.answer(0).is_right();
   };
   EXPECT_TRUE(knows(case_beside(0.0)));
   EXPECT_TRUE(knows(case_beside(-0.2)));
@@ -262,20 +267,19 @@ Case<LinearLaw> ordinary_case() {
   return c;
 }
 
-template <class Width>
 bool is_right(const Case<LinearLaw>& c) {
   Cases<LinearLaw> all;
   for (int k = 0; k < 5; ++k) all.add(c);
-  LoneBlock<LinearLaw> block;
-  all.template advance<Width::value>(block);
-  return block.is_right(3);
+  LoneBatch block;
+  all.advance(block);
+  return block.answer(3).is_right();
 }
 
-TYPED_TEST(LoneBlockOf, LeavesToTheGeneralWayWhatIsNotCertain) {
+TEST_P(LoneBatchOf, LeavesToTheGeneralWayWhatIsNotCertain) {
   const auto with = [](auto change) {
     Case<LinearLaw> c = ordinary_case();
     change(c);
-    return is_right<TypeParam>(c);
+    return is_right(c);
   };
   EXPECT_TRUE(with([](Case<LinearLaw>&) {}));
   EXPECT_FALSE(
