@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/law/any_law.hpp"
+#include "contact/law_table.hpp"
 #include "contact/law/cohesive_frictional.hpp"
 #include "contact/law/dashpot.hpp"
 #include "contact/law/dmt_adhesion.hpp"

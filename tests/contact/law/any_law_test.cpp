@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/law/any_law.hpp"
+#include "contact/law_table.hpp"
 
 #include "contact/law/hertz_mindlin.hpp"
 #include "contact/law/linear_frictional.hpp"
