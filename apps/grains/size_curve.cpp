@@ -2,6 +2,7 @@
 #include "apps/grains/size_curve.hpp"
 
 #include "apps/grains/random.hpp"
+#include "geometry/base/elementary.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -17,7 +18,7 @@ constexpr double kBall = std::numbers::pi / 6.0;  // volume of a ball over the c
 }  // namespace
 
 SizeCurve::SizeCurve(double diameter) : bins_{{diameter, diameter, 1.0}} {
-  mean_volume_ = kBall * std::pow(diameter, 3);
+  mean_volume_ = kBall * elementary::pow(diameter, 3);
 }
 
 SizeCurve::SizeCurve(std::span<const Sieve> sieves, PassingBy by) : by_(by) {

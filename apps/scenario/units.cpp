@@ -2,6 +2,7 @@
 #include "apps/scenario/units.hpp"
 
 #include "apps/scenario/closest_word.hpp"
+#include "geometry/base/elementary.hpp"
 
 #include <fmt/format.h>
 
@@ -123,8 +124,8 @@ class UnitParser {
     rest_.remove_prefix(name.size());
 
     const int power = sign * take_power();
-    const double up = std::pow(found->multiplier, std::abs(power));
-    const double down = std::pow(found->divisor, std::abs(power));
+    const double up = elementary::pow(found->multiplier, std::abs(power));
+    const double down = elementary::pow(found->divisor, std::abs(power));
     unit.multiplier *= power > 0 ? up : down;
     unit.divisor *= power > 0 ? down : up;
     for (std::size_t i = 0; i < unit.powers.size(); ++i) unit.powers[i] += power * found->powers[i];

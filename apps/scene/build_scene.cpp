@@ -5,6 +5,7 @@
 #include "apps/scene/build_reactions.hpp"
 #include "apps/scene/grain_generator.hpp"
 #include "apps/scene/membrane_builder.hpp"
+#include "geometry/base/elementary.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/neighbor/space_order.hpp"
 
@@ -22,7 +23,7 @@ using geometry::index_of;
 void add_materials_and_planes(const Scenario& scenario, dynamics::Scene& scene) {
   for (const MaterialSettings& material : scenario.materials) {
     scene.materials.push_back({material.young_modulus, material.stiffness_ratio,
-                               std::tan(material.friction_angle), material.poisson_ratio});
+                               elementary::tan(material.friction_angle), material.poisson_ratio});
   }
   for (const PlaneSettings& plane : scenario.planes) {
     scene.planes.push_back({plane.point, plane.normal, plane.velocity,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/membrane_body.hpp"
 
+#include "geometry/base/rotation_about.hpp"
 #include "geometry/mesh/edge_table.hpp"
 #include "geometry/mesh/io/import.hpp"
 
@@ -20,8 +21,7 @@ using geometry::Mesh;
 using geometry::NodeId;
 
 void put_in_place(std::vector<Vec3>& points, const Placement& placement) {
-  const geometry::Mat3 rotation =
-      Eigen::AngleAxisd(placement.angle, placement.axis).toRotationMatrix();
+  const geometry::Mat3 rotation = geometry::rotation_about(placement.axis, placement.angle);
   for (Vec3& point : points) point = rotation * (placement.scale * point) + placement.translation;
 }
 

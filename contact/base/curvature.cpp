@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/base/curvature.hpp"
 
+#include "geometry/base/elementary.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -45,10 +47,10 @@ EllipticIntegrals elliptic_integrals(double q) noexcept {
 /// b/a of the ellipse: R'/R'' = (K - D) / (q² D), which is Johnson (4.28) without what cancels.
 /// @param ratio  R'/R'' > 1
 double axis_ratio(double ratio) noexcept {
-  const double log_ratio = std::log(ratio);
+  const double log_ratio = elementary::log(ratio);
   const auto error = [&](double log_q) {
-    const auto [first, difference] = elliptic_integrals(std::exp(log_q));
-    return 2.0 * log_q + log_ratio - std::log(first / difference - 1.0);
+    const auto [first, difference] = elliptic_integrals(elementary::exp(log_q));
+    return 2.0 * log_q + log_ratio - elementary::log(first / difference - 1.0);
   };
   // About (R''/R')^(2/3); the slope of the error is between 1.5, for a circle, and 2.
   double log_q = -2.0 / 3.0 * log_ratio;
@@ -61,7 +63,7 @@ double axis_ratio(double ratio) noexcept {
     step *= now / (before - now);
     before = now;
   }
-  return std::exp(log_q);
+  return elementary::exp(log_q);
 }
 
 double reduced(double a, double b) noexcept {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_surface/wrap.hpp"
 
+#include "geometry/base/elementary.hpp"
+
 #include <Eigen/LU>
 
 #include <array>
@@ -52,7 +54,7 @@ Seen seen(double h) noexcept {
   if (size > kFar) {
     of = seen_from_afar(size);
   } else {
-    const double angle = std::atan(size);
+    const double angle = elementary::atan(size);
     const double rest = 0.5 * std::numbers::pi - angle;
     const double square = size * size;
     of.value = inv_pi * (angle + size * (5.0 / 3.0 + square) - square * (2.0 + square) * rest);

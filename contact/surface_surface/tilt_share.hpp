@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/base/dual.hpp"
+#include "geometry/base/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,7 @@ geometry::PackVec3<Number> unit(const geometry::PackVec3<Number>& v) {
 inline Real strip_area(const Real& x) {
   const double inside = std::clamp(x.value, -1.0, 1.0);
   const double half_chord = std::sqrt(1.0 - inside * inside);
-  return geometry::chain(x, inside * half_chord + std::asin(inside), 2.0 * half_chord);
+  return geometry::chain(x, inside * half_chord + elementary::asin(inside), 2.0 * half_chord);
 }
 
 /// Share of the tilts under which a line of this slope rises.

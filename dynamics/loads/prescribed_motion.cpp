@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/prescribed_motion.hpp"
 
+#include "geometry/base/rotation_about.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -23,7 +25,7 @@ Vec3 MovedNodes::displacement(double time) const noexcept {
 Mat3 MovedNodes::rotation(double time) const {
   if (!motion_.turn) return Mat3::Identity();
   const double share = motion_.factor.at(time) - motion_.factor.at(0.0);
-  return Eigen::AngleAxisd(share * motion_.turn->angle, motion_.turn->axis).toRotationMatrix();
+  return geometry::rotation_about(motion_.turn->axis, share * motion_.turn->angle);
 }
 
 /// m, of the node at a place in motion_.nodes.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/surface_pressure.hpp"
 
+#include "geometry/base/elementary.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -82,7 +84,8 @@ double PressedSurface::pressure_at(double time, double volume) const {
   const double pressure = load_.factor.at(time) * load_.pressure;
   if (!load_.gas) return pressure;
   const double outside = load_.gas->outside_pressure;
-  return (outside + pressure) * std::pow(start_volume_ / volume, load_.gas->exponent) - outside;
+  return (outside + pressure) * elementary::pow(start_volume_ / volume, load_.gas->exponent) -
+         outside;
 }
 
 /// Pa, over the outside: of the table at any time, or of now if the gas has been compressed.

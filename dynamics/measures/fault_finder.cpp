@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/measures/fault_finder.hpp"
 
+#include "geometry/base/elementary.hpp"
 #include "geometry/critical/product_features.hpp"
 
 #include <algorithm>
@@ -122,8 +123,8 @@ std::string FaultFinder::strongest_action(const Divergence& divergence, const No
     if (of_.bonds.is_broken(i) || (nodes[0] != node && nodes[1] != node)) continue;
     const BondForces forces = of_.bonds.forces_of(i, state);
     const Vec3& moment = nodes[0] == node ? forces.moment_a : forces.moment_b;
-    action.consider(std::hypot(forces.tension, forces.shear.norm()),
-                    std::hypot(moment.norm(), forces.torque), [&](std::ostream& text) {
+    action.consider(elementary::hypot(forces.tension, forces.shear.norm()),
+                    elementary::hypot(moment.norm(), forces.torque), [&](std::ostream& text) {
                       text << "bond " << i << " (nodes " << index_of(nodes[0]) << ", "
                            << index_of(nodes[1]) << ")";
                     });

@@ -2,6 +2,7 @@
 #include "dynamics/state/nodal_stiffness.hpp"
 
 #include "dynamics/state/spring_shares.hpp"
+#include "geometry/base/elementary.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -58,7 +59,8 @@ TurningSpring turning_spring(NodeId ball, const geometry::CorePoint& core, const
                        surface_ends(ball, core, {normal, 0.0, 0.0, 0.0, 0.0})};
   for (std::size_t i = 0; i < 3; ++i) {
     double& weight = spring.ends[i + 1].weight;
-    weight = std::hypot(turning.distance * turning.gradients[static_cast<Eigen::Index>(i)], weight);
+    weight = elementary::hypot(turning.distance * turning.gradients[static_cast<Eigen::Index>(i)],
+                               weight);
   }
   return spring;
 }

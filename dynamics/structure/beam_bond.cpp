@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/beam_bond.hpp"
 
+#include "geometry/base/elementary.hpp"
 #include "geometry/base/problems.hpp"
 #include "geometry/base/vector_width.hpp"
 
@@ -23,7 +24,7 @@ Quat frame_along(const Vec3& chord) {
   const Vec3 direction = chord.stableNormalized();
   const double x = direction[0], y = direction[1], z = direction[2];
   if (x >= 0.0) return Quat(1.0 + x, 0.0, -z, y).normalized();
-  const double r = std::hypot(y, z);
+  const double r = elementary::hypot(y, z);
   if (r == 0.0) return {0.0, 0.0, 0.0, 1.0};
   return Quat(r / (1.0 - x), 0.0, -z / r, y / r).normalized();
 }

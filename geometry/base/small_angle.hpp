@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/base/elementary.hpp"
 #include "geometry/base/pack.hpp"
 
 #include <cmath>
@@ -32,11 +33,11 @@ PLEKTON_INLINE CosineAndSincOf<Real> cosine_and_sinc_of_small(const Real& y) noe
 }
 
 /// From x² (rad²), so that no square root is needed for the small angles of a time step: for larger
-/// ones the mathematical library.
+/// ones the elementary functions.
 inline CosineAndSinc cosine_and_sinc(double x_squared) noexcept {
   if (x_squared < kSmallAngleSquared) return cosine_and_sinc_of_small(x_squared);
   const double x = std::sqrt(x_squared);
-  return {std::cos(x), std::sin(x) / x};
+  return {elementary::cos(x), elementary::sin(x) / x};
 }
 
 /// Side by side, for small angles only.

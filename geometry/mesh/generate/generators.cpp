@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/generate/generators.hpp"
 
+#include "geometry/base/elementary.hpp"
 #include "geometry/mesh/generate/generator_checks.hpp"
 
 #include <algorithm>
@@ -148,7 +149,7 @@ Mesh tube(const Tube& tube) {
   for (int j = 0; j <= tube.along; ++j) {
     for (int i = 0; i < tube.around; ++i) {
       const double angle = 2.0 * std::numbers::pi * (i + 0.5 * (j % 2)) / tube.around;
-      add_point(mesh, {tube.radius * std::cos(angle), tube.radius * std::sin(angle),
+      add_point(mesh, {tube.radius * elementary::cos(angle), tube.radius * elementary::sin(angle),
                        tube.length * j / tube.along});
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/generate/membrane.hpp"
 
+#include "geometry/base/elementary.hpp"
 #include "geometry/mesh/edge_table.hpp"
 
 #include <algorithm>
@@ -56,7 +57,7 @@ double fold_radius(const Mesh& mesh, const std::array<NodeId, 2>& edge, NodeId f
   const Vec3 a = height_of(far_a), b = height_of(far_b);
   // The fold angle is the angle between one height and the continuation of the other; the sheet
   // turns by it within half the height of either facet.
-  const double fold = std::atan2(a.cross(b).norm(), -a.dot(b));
+  const double fold = elementary::atan2(a.cross(b).norm(), -a.dot(b));
   return fold > 0.0 ? 0.5 * (a.norm() + b.norm()) / fold : std::numeric_limits<double>::infinity();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/repair/measures.hpp"
 
+#include "geometry/base/elementary.hpp"
 #include "geometry/mesh/disjoint_sets.hpp"
 #include "geometry/mesh/repair/orientation.hpp"
 #include "geometry/mesh/repair/solid_checks.hpp"
@@ -90,7 +91,7 @@ std::size_t count_non_manifold_nodes(const Mesh& mesh) {
 }
 
 double angle_degrees(const Vec3& u, const Vec3& v) {
-  return std::atan2(u.cross(v).norm(), u.dot(v)) * 180.0 / std::numbers::pi;
+  return elementary::atan2(u.cross(v).norm(), u.dot(v)) * 180.0 / std::numbers::pi;
 }
 
 void measure_facets(const Mesh& mesh, MeshMeasures& m) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/repair/remesh.hpp"
 
+#include "geometry/base/elementary.hpp"
 #include "geometry/mesh/repair/measures.hpp"
 #include "geometry/mesh/repair/solid_checks.hpp"
 
@@ -93,7 +94,7 @@ bool is_corner(const SurfaceMesh& surface, SurfaceMesh::Vertex_index node, const
     if (features.kept[surface.edge(halfedge)]) ways.push_back(way_along(surface, halfedge));
   if (ways.empty()) return false;
   if (ways.size() != 2) return true;
-  const double turn = std::atan2(ways[0].cross(ways[1]).norm(), -ways[0].dot(ways[1]));
+  const double turn = elementary::atan2(ways[0].cross(ways[1]).norm(), -ways[0].dot(ways[1]));
   return turn * 2.0 * target_edge > 0.5 * (ways[0].norm() + ways[1].norm());
 }
 
