@@ -3,12 +3,29 @@
 # plekton_library(name PUBLIC libraries... PRIVATE libraries...): the library plekton::<name> from the sources of the
 #   current folder, static or shared as BUILD_SHARED_LIBS says.
 
+# GCC 12 makes fused operations of sums and differences side by side (vfmaddsub) where the processor has them, -ffp-contract=off
+# or not: its vectoriser of straight code does not ask.
+include(CheckCXXSourceCompiles)
+if(PLEKTON_NATIVE)
+  set(CMAKE_REQUIRED_FLAGS -march=native)
+else()
+  set(CMAKE_REQUIRED_FLAGS "")
+endif()
+check_cxx_source_compiles("#if !defined(__FMA__) && !defined(__AVX512F__)
+#error
+#endif
+int main() {}" PLEKTON_HAS_FUSED_OPERATIONS)
+unset(CMAKE_REQUIRED_FLAGS)
+
 function(plekton_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # Public, because headers hold arithmetic too: an inline function compiled with fused multiply-add in a user's file and
   # without in ours would give results that depend on which copy the linker keeps.
   # Nobody reads errno after a square root; with it none could be taken side by side.
   target_compile_options(${target} PUBLIC "$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-fno-math-errno>")
+  if(PLEKTON_HAS_FUSED_OPERATIONS)
+    target_compile_options(${target} PUBLIC $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-tree-slp-vectorize>)
+  endif()
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # GCC 12 reports it for std::string's operator+ at -O3, wrongly (GCC bug 105651)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>  # notes on how vectors of lanes are passed; they never leave one file

@@ -157,8 +157,11 @@ struct PackVec3 {
 
   PLEKTON_INLINE static PackVec3 Zero() noexcept { return {0.0, 0.0, 0.0}; }
 
-  /// Added in the order in which Eigen adds the components of a Vec3.
-  PLEKTON_INLINE Real dot(const PackVec3& v) const noexcept { return x * v.x + y * v.y + z * v.z; }
+  /// Added in the order in which Eigen adds the components of a Vec3 where it does not vectorise
+  /// (types.hpp).
+  PLEKTON_INLINE Real dot(const PackVec3& v) const noexcept {
+    return x * v.x + (y * v.y + z * v.z);
+  }
   PLEKTON_INLINE PackVec3 cross(const PackVec3& v) const noexcept {
     return {y * v.z - z * v.y, z * v.x - x * v.z, x * v.y - y * v.x};
   }

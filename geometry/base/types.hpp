@@ -8,6 +8,15 @@
 #include <cstdint>
 #include <span>
 
+// Eigen's own vectors have an order of sums and fused operations of their own on each processor, in
+// scalar products, products of matrices and of quaternions; without them it has one order. What is
+// worth it goes side by side in packs (pack.hpp).
+#if defined(EIGEN_VECTORIZE)
+#error \
+    "Plekton needs Eigen without vectorisation, for the same bits on every processor: compile with \
+EIGEN_DONT_VECTORIZE and EIGEN_MAX_STATIC_ALIGN_BYTES=16, as plekton's CMake targets and pkg-config do."
+#endif
+
 /// Exact proximity between spheres, cylinders and thick facets: Minkowski sums of a point, a
 /// segment or a triangle with a ball.
 namespace plekton::geometry {
