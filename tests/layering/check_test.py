@@ -120,6 +120,45 @@ class SeededTree(unittest.TestCase):
         self.assertEqual(len(found), 2, found)
         self.assertIn("whose folder leads back to geometry/base", found[0])
 
+    def test_functions_that_differ_between_processors_are_flagged(self):
+        for code, reason in (
+            ("double a = std::sin(x);", "std::sin depends on the processor"),
+            ("double a = atan2 (y, x);", "atan2 depends on the processor"),
+            ("double a = 2.0*::pow(x, 3);", "::pow depends on the processor"),
+            ("float a = expf(x);", "expf depends on the processor"),
+            ("auto a = values.array().exp2(b);", "exp2 depends on the processor"),
+            ("double a = Eigen::numext::log(x);", "depends on the processor"),
+            ("Eigen::AngleAxisd turn(angle, axis);", "rotation_about"),
+            ("auto q = p.slerp(0.5, r);", "rotation_about"),
+            ("std::normal_distribution<double> normal;", "random.hpp"),
+            ("long double sum = 0;", "double_double.hpp"),
+            ("auto v = _mm256_fmadd_pd(a, b, c);", "pack.hpp"),
+        ):
+            with self.subTest(code=code):
+                self.assert_flagged("dynamics/model/scene.cpp", TAG + code + "\n", reason)
+
+    def test_functions_with_the_same_bits_everywhere_are_clean(self):
+        self.assert_clean(
+            "dynamics/model/scene.cpp",
+            TAG + '// std::sin(x) in a comment\nconst char* text = "pow(x, 2)";\n'
+            "double a = elementary::sin(x) + std::sqrt(y) + std::abs(z) + std::floor(z) + std::fmod(x, y);\n"
+            "double cosine(double x); double b = cosine(x) + expected(x) + catalog(x) + hash.log_of(3);\n",
+        )
+        self.assert_clean("geometry/base/elementary.cpp", TAG + "double sin(double x) noexcept { return x; }\n")
+        self.assert_clean("tests/geometry/base/elementary_test.cpp", TAG + "double a = std::sin(x);\n")
+
+    def test_flags_that_let_the_compiler_reorder_are_flagged(self):
+        tag = f"# {SPDX}\n"
+        self.assert_flagged("cmake/options.cmake", tag + "add_compile_options(-O3 -ffast-math)\n", "-ffast-math")
+        self.assert_flagged("cmake/options.cmake", tag + "add_compile_options(-ffp-contract=fast)\n", "-ffp-contract=fast")
+        self.assert_clean("cmake/options.cmake", tag + "add_compile_options(-ffp-contract=off)\n")
+
+    def test_eigen_without_the_file_that_refuses_its_vectors_is_flagged(self):
+        self.write("geometry/base/types.hpp", TAG + "#include <Eigen/Core>\n")
+        self.write("geometry/primitives/box.hpp", TAG + '#include "geometry/base/types.hpp"\n')
+        self.assert_clean("geometry/primitives/box.cpp", TAG + '#include "geometry/primitives/box.hpp"\n#include <Eigen/LU>\n')
+        self.assert_flagged("geometry/primitives/ball.cpp", TAG + "#include <Eigen/LU>\n", "same bits everywhere")
+
     def test_build_folders_are_not_read(self):
         self.assert_clean("build/dev/generated.cpp", "no tag\n")
 

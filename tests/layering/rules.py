@@ -200,4 +200,70 @@ def no_circles(source, root):
             yield f"{where}, whose folder leads back to {source.directory}; put it into a folder below both"
 
 
-RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, no_circles)
+ELEMENTARY_HOMES = ("geometry/base/elementary.hpp", "geometry/base/elementary.cpp")
+"""The only files that may have elementary functions of their own."""
+
+_ELEMENTARY = (
+    "pow|exp|exp2|expm1|log|log2|log10|log1p|sin|cos|tan|sincos|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh"
+    "|cbrt|hypot|erf|erfc|tgamma|lgamma"
+)
+FORBIDDEN_BITS = (
+    (
+        re.compile(rf"(?<![\w:])(?:(?:std|Eigen|Eigen::numext|numext)?::)?(?:{_ELEMENTARY})[fl]?\s*\((?!\))"),
+        "depends on the processor; take it from geometry/base/elementary.hpp",
+    ),
+    (
+        re.compile(r"\b(?:AngleAxis\w*|Rotation2D\w*|(?:angularDistance|slerp|eulerAngles|computeDirect)(?=\s*\())"),
+        "has sines and angles of the C library; take rotation_about() or geometry/base/elementary.hpp",
+    ),
+    (re.compile(r"\bstd::\w+_distribution\b"), "differs from library to library; see apps/grains/random.hpp"),
+    (re.compile(r"\blong\s+double\b"), "has another size on other processors; see geometry/base/double_double.hpp"),
+    (re.compile(r"\b_mm\d*_\w+"), "is of one processor; see geometry/base/pack.hpp"),
+)
+"""What in a library or program may give other bits on another processor, and what to take instead."""
+
+FORBIDDEN_FLAGS = re.compile(
+    r"-ffast-math|-Ofast|-funsafe-math-optimizations|-fassociative-math|-freciprocal-math|-ffp-contract=(?!off)\w+"
+)
+_COMMENTS_AND_TEXTS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+
+
+def _code_of(text):
+    """The text with comments and literal texts blank, on the same lines."""
+    return _COMMENTS_AND_TEXTS.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
+
+
+def same_bits_on_every_processor(source, root):
+    """Nothing in the libraries and the program takes functions that differ from processor to processor."""
+    if source.path.endswith(("CMakeLists.txt", ".cmake", "CMakePresets.json")):
+        for match in FORBIDDEN_FLAGS.finditer(source.text):
+            line = source.text.count("\n", 0, match.start()) + 1
+            yield f"{source.path}:{line}: {match[0]} lets the compiler give other bits on other processors; leave it out"
+    is_code = source.path.endswith((".cpp", ".hpp")) and not source.path.startswith("apps/examples/")
+    if source.folder not in LIBRARIES or source.path in ELEMENTARY_HOMES or not is_code:
+        return
+    code = _code_of(source.text)
+    for pattern, advice in FORBIDDEN_BITS:
+        for match in pattern.finditer(code):
+            line = code.count("\n", 0, match.start()) + 1
+            yield f"{source.path}:{line}: {match[0].rstrip('(').strip()} {advice}"
+
+
+EIGEN_HOME = "geometry/base/types.hpp"
+"""Where the compiler is stopped if Eigen vectorises."""
+
+
+def eigen_does_not_vectorise(source, root):
+    """Whoever includes Eigen includes the file that refuses an Eigen that vectorises: its sums and products have another
+    order, and fused operations, on each processor."""
+    if source.folder not in LIBRARIES or source.path == EIGEN_HOME:
+        return
+    includes = [include for include in source.includes if include.header.startswith("Eigen/")]
+    if not includes:
+        return
+    reached = _reached_from(str(root)).get(source.path, ())
+    if EIGEN_HOME not in reached:
+        yield f'{source.path}:{includes[0].line}: includes Eigen without "{EIGEN_HOME}", which sees to the same bits everywhere'
+
+
+RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, no_circles, same_bits_on_every_processor, eigen_does_not_vectorise)
