@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/simulation.hpp"
 
+#include "dynamics/broken_elements.hpp"
 #include "dynamics/measures/fault_finder.hpp"
 #include "dynamics/measures/unbalanced_force.hpp"
 #include "dynamics/model/require_index.hpp"
 #include "dynamics/model/scene_figures.hpp"
 #include "dynamics/time_step/step_chooser.hpp"
 #include "dynamics/time_step/step_limits.hpp"
-#include "dynamics/broken_elements.hpp"
-#include "geometry/primitives/node_sets.hpp"
+#include "geometry/base/elementary.hpp"
 #include "geometry/base/problems.hpp"
+#include "geometry/base/vector_width.hpp"
+#include "geometry/primitives/node_sets.hpp"
 
 #include <algorithm>
 #include <array>
@@ -58,9 +60,11 @@ contact::ContactScene contact_scene(const Scene& scene, const geometry::Surface&
 }
 
 /// @returns the scene
-/// @throws std::invalid_argument listing every problem of the scene or the options
+/// @throws std::invalid_argument listing every problem of the scene or the options, or about the
+///         width of vectors (geometry/base/vector_width.hpp)
 const Scene& checked(const Scene& scene, const SimulationOptions& options) {
   scene.check();
+  geometry::vector_width();  // asked for in a way that cannot be: said here, not within a kernel
   std::ostringstream problems;
   if (!(options.time_step >= 0.0))
     problems << "time step " << options.time_step << " s: must be 0 (choose) or more\n";
@@ -566,7 +570,7 @@ double Simulation::unbalanced_force_ratio() const {
   for (std::size_t i = 0; i < bonds_.size(); ++i) {
     if (bonds_.is_broken(i)) continue;
     const BondForces forces = bond_forces(i);
-    carried.add(std::hypot(forces.tension, forces.shear.norm()));
+    carried.add(elementary::hypot(forces.tension, forces.shear.norm()));
   }
   for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
     if (sheet_facets_.is_broken(i)) continue;

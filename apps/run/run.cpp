@@ -11,6 +11,7 @@
 #include "apps/run/run_warnings.hpp"
 #include "apps/run/scenario_copy.hpp"
 #include "dynamics/output/file.hpp"
+#include "geometry/base/vector_width.hpp"
 
 #include <fmt/format.h>
 
@@ -63,6 +64,7 @@ class Run {
         pressures_(settings.out, scenario),
         progress_(settings.progress, settings.style, scenario.simulation.duration) {
     report_.warnings = prepared.built.warnings;
+    report_.states = StateHashes(scenario.output.hash_interval);
     if (reactions_.empty()) next_reactions_ = std::numeric_limits<double>::infinity();
     describe();
   }
@@ -92,6 +94,7 @@ class Run {
     watch_time_step();
     watch_motion();
     write_due(0.0);
+    report_.states.look(simulation_);
     report_.start_up_time = seconds_since(settings_.began);
     while (simulation_.step_until(scenario_.simulation.duration)) {
       if (simulation_.largest_overlap_ratio() > next_overlap_) look_at_overlaps();
@@ -101,6 +104,7 @@ class Run {
       // Where a chosen step has just been looked at, so that it is seen as it was chosen.
       if (simulation_.steps() % dynamics::kStepsBetweenLooks == 0) watch_motion();
       write_due(simulation_.time());
+      report_.states.look(simulation_);
       if (looks) progress_.update(simulation_.time(), simulation_.steps());
       if (settings_.is_interrupted()) return RunStatus::interrupted;
       if (looks && is_at_rest()) return RunStatus::at_rest;
@@ -174,6 +178,7 @@ class Run {
   /// The state at the end, however it came about.
   void write_last() {
     look_at_grains();
+    report_.states.take(simulation_);
     const TimeInto output(report_.output_time);
     if (last_row_step_ != simulation_.steps()) add_row();
     if (!reactions_.empty() && last_reactions_step_ != simulation_.steps()) add_reactions();
@@ -212,6 +217,7 @@ class Run {
   void describe() {
     report_.date = date_of_now();
     report_.host = name_of_host();
+    report_.vector_width = geometry::vector_width();
     report_.scenario = scenario_.file.string();
     report_.overrides = scenario_.overrides;
     report_.duration = scenario_.simulation.duration;

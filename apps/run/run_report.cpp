@@ -5,9 +5,11 @@
 #include "dynamics/output/file.hpp"
 #include "geometry/version.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <utility>
 
 namespace plekton::apps {
 namespace {
@@ -69,6 +71,19 @@ Json energy_of(const dynamics::Energy& energy) {
           {"turnover_J", energy.turnover()}};
 }
 
+std::string hash_text(std::uint64_t hash) {
+  return fmt::format("{:016x}", hash);
+}
+
+Json states_of(const StateHashes& states) {
+  Json hashes = Json::array();
+  for (const StateHash& state : states.all())
+    hashes.push_back({state.step, state.time, hash_text(state.hash)});
+  return {{"interval_steps", states.interval()},
+          {"chain", hash_text(states.chain())},
+          {"step_time_hash", std::move(hashes)}};
+}
+
 }  // namespace
 
 std::string_view name_of(RunStatus status) noexcept {
@@ -93,6 +108,7 @@ std::string to_json(const RunReport& report) {
   Json json = {{"plekton", kVersion},
                {"revision", build.revision},
                {"compiler", build.compiler},
+               {"vector_width", report.vector_width},
                {"date", report.date},
                {"host", report.host},
                {"status", name_of(report.status)},
@@ -114,6 +130,7 @@ std::string to_json(const RunReport& report) {
   json["lost_grains"] = report.lost_grains;
   json["lost"] = {{"through_membranes", report.lost_through_membranes},
                   {"out_of_bounds", report.lost_out_of_bounds}};
+  json["states"] = states_of(report.states);
   json["warnings"] = report.warnings;
   // A path need not be UTF-8; what is not becomes a replacement character.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';

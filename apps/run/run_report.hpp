@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/run/state_hashes.hpp"
 #include "apps/scene/build_scene.hpp"
 #include "dynamics/measures/energy.hpp"
 
@@ -47,8 +48,9 @@ struct RunReport {
   RunStatus status = RunStatus::finished;
   std::string message;  ///< of the error, if failed
 
-  std::string date;  ///< when it began, as in "2026-05-01T12:00:00Z"
-  std::string host;  ///< name of the machine
+  int vector_width = 2;  ///< numbers in the vectors of the kernels
+  std::string date;      ///< when it began, as in "2026-05-01T12:00:00Z"
+  std::string host;      ///< name of the machine
   std::string scenario;
   std::vector<std::string> overrides;
   double duration = 0.0;  ///< s, asked for
@@ -91,6 +93,7 @@ struct RunReport {
   std::size_t lost_grains = 0;
   std::size_t lost_through_membranes = 0;
   std::size_t lost_out_of_bounds = 0;
+  StateHashes states;
   std::vector<std::string> warnings;
 };
 

@@ -58,6 +58,10 @@ ReactionSettings read_reaction(Section section, const Scenario& scenario,
   return reaction;
 }
 
+/// Between hashes of the state: few enough entries in run.json for any run, and no time to speak of.
+constexpr std::int64_t kHashInterval = 10000;
+constexpr std::int64_t kLongestHashInterval = 1'000'000'000'000;
+
 }  // namespace
 
 OutputSettings read_output(Section section, const Scenario& scenario) {
@@ -71,6 +75,7 @@ OutputSettings read_output(Section section, const Scenario& scenario) {
       section.quantity("history_interval", {kTime, kPositive}, duration / 1000.0);
   output.reactions_interval =
       section.quantity("reactions_interval", {kTime, kPositive}, output.history_interval);
+  output.hash_interval = section.integer("hash_interval", 1, kLongestHashInterval, kHashInterval);
   output.grains = section.truth("grains", output.grains);
   output.membranes = section.truth("membranes", output.membranes);
   output.contacts = section.truth("contacts", output.contacts);

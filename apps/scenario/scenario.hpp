@@ -9,9 +9,9 @@
 #include "dynamics/structure/bond_strength.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
 #include "dynamics/structure/wire_curve.hpp"
-#include "geometry/primitives/box.hpp"
-#include "geometry/mesh/repair/repair.hpp"
 #include "geometry/base/types.hpp"
+#include "geometry/mesh/repair/repair.hpp"
+#include "geometry/primitives/box.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -164,6 +164,7 @@ struct OutputSettings {
   double interval = 0.0;            ///< s, between frames
   double history_interval = 0.0;    ///< s, between rows of energy.csv
   double reactions_interval = 0.0;  ///< s, between rows of reactions.csv
+  std::int64_t hash_interval = 0;   ///< steps, between hashes of the state in run.json
   bool grains = true;
   bool membranes = true;
   bool contacts = true;
