@@ -2,15 +2,15 @@
 #pragma once
 
 #include "contact/base/bodies.hpp"
-#include "contact/tracking/contact_row.hpp"
 #include "contact/base/motion.hpp"
 #include "contact/law/pair_springs.hpp"
-#include "geometry/neighbor/cell_neighbours.hpp"
+#include "contact/tracking/contact_record.hpp"
 #include "geometry/base/function_ref.hpp"
+#include "geometry/base/thread_pool.hpp"
+#include "geometry/neighbor/cell_neighbours.hpp"
 #include "geometry/neighbor/neighbours.hpp"
 #include "geometry/primitives/proximity.hpp"
 #include "geometry/primitives/surface_change.hpp"
-#include "geometry/base/thread_pool.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -84,7 +84,7 @@ class Contacts {
   /// histories are handed from patch to patch, on lists that change, and with elements that break.
   virtual double tracking_loss() const noexcept = 0;
 
-  /// Largest overlap of the last step over the radius of the smaller ball.
+  /// Largest overlap of the last step over the radius of the smaller sphere.
   virtual double largest_overlap_ratio() const noexcept = 0;
   /// How many spheres' centres went through a facet or a cylinder in the last step.
   virtual std::int64_t pass_throughs() const noexcept = 0;
@@ -95,18 +95,19 @@ class Contacts {
   /// the same numbers for any number of threads, and none given twice. A contact keeps its number
   /// as long as it lasts, from element to element, whoever asks for it in between. Where a patch
   /// splits, the part that pushes most keeps it; where some merge, the one that pushed most.
-  virtual void number() = 0;
+  virtual void assign_ids() = 0;
 
   /// Calls visit for every contact of the last step, in a fixed order. Together the rows hold all
   /// that contacts did to the nodes.
   /// @param x  m, where the nodes were in that step
-  virtual void for_each_row(Positions x, Visit<const ContactRow&> visit) const = 0;
+  virtual void for_each_record(Positions x, Visit<const ContactRecord&> visit) const = 0;
   /// The same of contacts with planes alone.
-  virtual void for_each_plane_row(Positions x, Visit<const ContactRow&> visit) const = 0;
+  virtual void for_each_plane_record(Positions x, Visit<const ContactRecord&> visit) const = 0;
   /// Calls visit(row, force (N), torque (N m)) for contacts between structures, with what each did
   /// to one node.
-  virtual void for_each_structure_row_on(
-      NodeId node, Positions x, Visit<const ContactRow&, const Vec3&, const Vec3&> visit) const = 0;
+  virtual void for_each_structure_record_on(
+      NodeId node, Positions x,
+      Visit<const ContactRecord&, const Vec3&, const Vec3&> visit) const = 0;
 
   /// Adds what contacts did in the last step to the nodes of surfaces: forces of spheres on each
   /// other are left out.
@@ -156,7 +157,7 @@ class Contacts {
   virtual void for_each_near_cell_pair(double margin,
                                        Visit<const geometry::CellPair&> visit) const = 0;
 
-  /// Calls visit(node, plane, springs, gap) for every ball that touches a plane.
+  /// Calls visit(node, plane, springs, gap) for every sphere that touches a plane.
   virtual void for_each_plane_pair(VisitPlane visit) const = 0;
   /// The same for every listed pair that is nearer than a margin (m) with the bodies where they are
   /// now.

@@ -112,7 +112,7 @@ constexpr std::array kCommon{
                  "pulls; 1: none",
                  [](ContactSettings& s) -> double& { return s.restitution; }}};
 
-constexpr std::array<LawRow, 4> kLaws{
+constexpr std::array<LawEntry, 4> kLaws{
     {{LinearFrictional::name, "linear springs, Coulomb friction (Cundall & Strack 1979)", kSprings,
       kSpringChoices},
      {HertzMindlin::name,
@@ -127,7 +127,7 @@ constexpr std::array<LawRow, 4> kLaws{
 
 }  // namespace
 
-std::span<const LawRow> contact_laws() noexcept {
+std::span<const LawEntry> contact_laws() noexcept {
   return kLaws;
 }
 

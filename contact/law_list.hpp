@@ -47,7 +47,7 @@ struct LawChoice {
   void (*choose)(ContactSettings&, std::size_t word);
 };
 
-struct LawRow {
+struct LawEntry {
   std::string_view name;
   std::string_view what;
   std::span<const LawParameter> parameters;
@@ -55,7 +55,7 @@ struct LawRow {
 };
 
 /// The first one is that of pairs of which nothing is said.
-std::span<const LawRow> contact_laws() noexcept;
+std::span<const LawEntry> contact_laws() noexcept;
 
 /// Parameters that go with every law.
 std::span<const LawParameter> common_law_parameters() noexcept;

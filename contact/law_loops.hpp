@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/sphere_sphere/ball_stretch.hpp"
-#include "contact/sphere_surface/lone_batch.hpp"
+#include "contact/sphere_sphere/sphere_range.hpp"
+#include "contact/sphere_surface/single_feature_batch.hpp"
 
 namespace plekton::contact {
 
@@ -10,21 +10,22 @@ namespace plekton::contact {
 /// (shipped_laws.hpp), and by its user for a law of one's own.
 template <ContactLaw Law>
 struct LawLoops {
-  static void balls(const BallStretch& stretch, BallWork& work) {
-    advance_balls<Law>(stretch, work);
+  static void spheres(const SphereRange& stretch, SphereWork& work) {
+    advance_spheres<Law>(stretch, work);
   }
-  static bool touching(BallBatch& batch, std::size_t count, double dt) requires LaneLaw<Law> {
+  static bool touching(SphereBatch& batch, std::size_t count, double dt) requires LaneLaw<Law> {
     return advance_batch<Law>(batch, count, dt);
   }
-  static void on_facets(LoneBatch& batch, const Motion& motion, double dt) requires LaneLaw<Law> {
-    advance_lone<Law>(batch, motion, dt);
+  static void on_facets(SingleFeatureBatch& batch, const Motion& motion,
+                        double dt) requires LaneLaw<Law> {
+    advance_single_feature<Law>(batch, motion, dt);
   }
 
   static constexpr decltype(AnyLaw::Functions::advance_batch) batch() noexcept {
     if constexpr (LaneLaw<Law>) return touching;
     return nullptr;
   }
-  static constexpr decltype(AnyLaw::Functions::advance_lone) lone() noexcept {
+  static constexpr decltype(AnyLaw::Functions::advance_single_feature) lone() noexcept {
     if constexpr (LaneLaw<Law>) return on_facets;
     return nullptr;
   }

@@ -5,7 +5,7 @@
 
 namespace plekton::contact {
 
-static_assert(ContactLaw<AnyLaw> && HasMoments<AnyLaw> && HasReach<AnyLaw> &&
+static_assert(ContactLaw<AnyLaw> && HasMoments<AnyLaw> && HasInteractionRange<AnyLaw> &&
               HasAttraction<AnyLaw> && HasBonds<AnyLaw> && HasStart<AnyLaw> &&
               TellsTangentialLimit<AnyLaw>);
 

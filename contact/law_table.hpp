@@ -45,13 +45,12 @@ struct LawTable {
       .name = Law::name,
       .parameter_numbers = number_count<LawParameters>(),
       .history_numbers = number_count<LawHistory>(),
-      .has_reach = HasReach<Law>,
+      .has_interaction_range = HasInteractionRange<Law>,
       .combine =
           [](const Properties& properties, const Body& a, const Body& b) {
             return kept(contact::combine<Law>(properties.as<PropertiesOf<Law>>(), a, b));
           },
-      .multiplied = [](const Parameters& p,
-                       double count) { return kept(Law::multiplied(of(p), count)); },
+      .scaled = [](const Parameters& p, double count) { return kept(Law::scaled(of(p), count)); },
       .elastic_normal_force = [](const Parameters& p, double gap) -> double {
         return Law::elastic_normal_force(of(p), gap);
       },
@@ -61,7 +60,7 @@ struct LawTable {
                              double gap) { return Law::normal_stiffness(of(p), gap); },
       .tangential_stiffness = [](const Parameters& p,
                                  double gap) { return Law::tangential_stiffness(of(p), gap); },
-      .reach = [](const Parameters& p) { return reach_of<Law>(of(p)); },
+      .interaction_range = [](const Parameters& p) { return interaction_range_of<Law>(of(p)); },
       .attraction = [](const Parameters& p) { return attraction_of<Law>(of(p)); },
       .without_attraction =
           [](const Parameters& p) { return kept(contact::without_attraction<Law>(of(p))); },
@@ -72,14 +71,14 @@ struct LawTable {
             properties.keep(self(), typed);
             return changed;
           },
-      .glues = [](const Parameters& p) { return contact::glues<Law>(of(p)); },
-      .glue =
+      .cements = [](const Parameters& p) { return contact::cements<Law>(of(p)); },
+      .cement =
           [](const Parameters& p, History& history) {
-            change(history, [&](LawHistory& typed) { contact::glue<Law>(of(p), typed); });
+            change(history, [&](LawHistory& typed) { contact::cement<Law>(of(p), typed); });
           },
       .of_bond = [](const Parameters& p) { return kept(contact::of_bond<Law>(of(p))); },
-      .beside_bonds = [](const Parameters& p,
-                         double part) { return kept(contact::beside_bonds<Law>(of(p), part)); },
+      .unbonded_part = [](const Parameters& p,
+                          double part) { return kept(contact::unbonded_part<Law>(of(p), part)); },
       .force =
           [](const Parameters& p, const RelativeMotion& motion, History& history, double dt) {
             LawHistory typed = own(history);
@@ -105,9 +104,10 @@ struct LawTable {
           [](History& history, const FrameRotation& rotation) {
             change(history, [&](LawHistory& typed) { Law::rotate(typed, rotation); });
           },
-      .add_share =
+      .accumulate_history =
           [](History& history, const History& other, double share) {
-            change(history, [&](LawHistory& typed) { Law::add_share(typed, own(other), share); });
+            change(history,
+                   [&](LawHistory& typed) { Law::accumulate_history(typed, own(other), share); });
           },
       .force_of_state = []() -> ForceOfState {
         if constexpr (TellsForce<Law>)
@@ -121,9 +121,9 @@ struct LawTable {
           return properties.as<PropertiesOf<Law>>() == PropertiesOf<Law>{};
         return false;
       },
-      .advance_balls = LawLoops<Law>::balls,
+      .advance_spheres = LawLoops<Law>::spheres,
       .advance_batch = LawLoops<Law>::batch(),
-      .advance_lone = LawLoops<Law>::lone()};
+      .advance_single_feature = LawLoops<Law>::lone()};
 };
 
 template <ContactLaw Law>

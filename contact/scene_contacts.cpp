@@ -19,9 +19,10 @@ double skin_of_structures(const geometry::Surface& surface, double skin) {
 
 /// m, over which bodies of a scene may stick to each other; of laws whose reach grows with the
 /// radii of both bodies, or with the smaller one's.
-double largest_reach(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
-                     const ContactMaterials& materials) {
-  if (!materials.pairs.may_reach()) return 0.0;
+double largest_interaction_range(std::span<const geometry::Sphere> spheres,
+                                 const geometry::Surface& surface,
+                                 const ContactMaterials& materials) {
+  if (!materials.pairs.may_act_at_a_distance()) return 0.0;
   std::map<MaterialId, double> largest;  // m, radius of the bodies of a material
   const auto add = [&](MaterialId material, double radius) {
     largest[material] = std::max(largest[material], radius);
@@ -36,8 +37,8 @@ double largest_reach(std::span<const geometry::Sphere> spheres, const geometry::
       const auto other = largest.find(material_b);
       const double radius_b = other == largest.end() ? radius_a : other->second;
       for (const double radius : {radius_a, radius_b}) {
-        reach = std::max(reach, AnyLaw::reach(materials.pairs.combine({material_a, radius_a},
-                                                                      {material_b, radius})));
+        reach = std::max(reach, AnyLaw::interaction_range(materials.pairs.combine(
+                                    {material_a, radius_a}, {material_b, radius})));
       }
     }
   }
@@ -47,48 +48,48 @@ double largest_reach(std::span<const geometry::Sphere> spheres, const geometry::
 }  // namespace
 
 SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
-                                  const geometry::Surface& surface, ContactMaterials materials,
-                                  double skin, const std::vector<bool>& meets_planes,
-                                  Positions rest)
+                             const geometry::Surface& surface, ContactMaterials materials,
+                             double skin, const std::vector<bool>& meets_planes, Positions rest)
     : materials_(std::move(materials)),
-      neighbours_(spheres, surface, skin, largest_reach(spheres, surface, materials_)),
+      neighbours_(spheres, surface, skin, largest_interaction_range(spheres, surface, materials_)),
       cell_neighbours_(surface, rest, skin_of_structures(surface, skin), !rest.empty()),
-      plane_neighbours_(skin, largest_reach(spheres, surface, materials_)),
+      plane_neighbours_(skin, largest_interaction_range(spheres, surface, materials_)),
       with_surfaces_(surface),
       between_structures_(surface),
       surface_(&surface) {
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const NodeId node = spheres[i].nodes[0];
-    balls_.push_back({node, spheres[i].radius, materials_.of_spheres[i], materials_.mass_of(node)});
+    spheres_.push_back(
+        {node, spheres[i].radius, materials_.of_spheres[i], materials_.mass_of(node)});
   }
   for (std::size_t n = 0; n < surface.node_count(); ++n) {
     const auto structure = surface.structure_of(geometry::id_at<NodeId>(n));
     if (structure == geometry::StructureId{-1} || (!meets_planes.empty() && !meets_planes[n]))
       continue;
     const NodeId node = geometry::id_at<NodeId>(n);
-    balls_.push_back({node, surface.radius(structure),
-                      materials_.of_structures[index_of(structure)], materials_.mass_of(node)});
+    spheres_.push_back({node, surface.radius(structure),
+                        materials_.of_structures[index_of(structure)], materials_.mass_of(node)});
   }
 }
 
 void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes, double dt,
-                                 geometry::ThreadPool& pool, NodeForces& forces) {
+                            geometry::ThreadPool& pool, NodeForces& forces) {
   if (start_ == Start::now) end_start(planes, motion.position, pool);
   if (start_ == Start::ahead) start_ = Start::now;
-  if (neighbours_.update(motion.position, pool, motion.way)) {
-    tracking_loss_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs,
+  if (neighbours_.update(motion.position, pool, motion.max_displacement)) {
+    tracking_loss_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), spheres_, materials_.pairs,
                                             pool, motion.position);
     tracking_loss_ += list_on_surfaces();
     plane_neighbours_.expire(neighbours_.skin());
     ++list_count_;
   }
-  if (cell_neighbours_.update(motion.position, pool, motion.way)) {
+  if (cell_neighbours_.update(motion.position, pool, motion.max_displacement)) {
     tracking_loss_ += between_structures_.rebuild(cell_neighbours_.pairs(), materials_);
     ++list_count_;
   }
-  if (plane_neighbours_.update(balls_, planes, motion.position)) {
+  if (plane_neighbours_.update(spheres_, planes, motion.position)) {
     tracking_loss_ +=
-        with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
+        with_planes_.rebuild(plane_neighbours_.pairs(), spheres_, planes, materials_.pairs);
     ++list_count_;
   }
   dissipated_ += with_spheres_.advance(motion, dt, pool, forces);
@@ -101,25 +102,25 @@ void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes,
 
 /// The first step is over: the contacts listed go on with the parameters of later ones.
 void SceneContacts::end_start(std::span<const Plane> planes, Positions x,
-                                   geometry::ThreadPool& pool) {
+                              geometry::ThreadPool& pool) {
   start_ = Start::over;
   if (!materials_.pairs.end_start()) return;
   ++list_count_;
-  with_spheres_.rebuild(neighbours_.sphere_pairs(), balls_, materials_.pairs, pool, x);
+  with_spheres_.rebuild(neighbours_.sphere_pairs(), spheres_, materials_.pairs, pool, x);
   list_on_surfaces();
   between_structures_.take_parameters(materials_);
-  with_planes_.rebuild(plane_neighbours_.pairs(), balls_, planes, materials_.pairs);
+  with_planes_.rebuild(plane_neighbours_.pairs(), spheres_, planes, materials_.pairs);
 }
 
 /// @returns the energy (J) lost with contacts that left the list
 double SceneContacts::list_on_surfaces() {
   return with_surfaces_.rebuild(neighbours_.sphere_structures(), neighbours_.near_cells(),
-                                neighbours_.cells(), balls_, materials_.of_structures,
+                                neighbours_.cells(), spheres_, materials_.of_structures,
                                 materials_.pairs);
 }
 
 void SceneContacts::follow(const geometry::SurfaceChange& change, const Motion& motion,
-                                Positions at, geometry::ThreadPool& pool) {
+                           Positions at, geometry::ThreadPool& pool) {
   ++list_count_;
   tracking_loss_ += with_surfaces_.follow(change, neighbours_.cells(), at);
   neighbours_.follow(change);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/sphere_sphere/ball_contacts.hpp"
 #include "contact/contact_model.hpp"
 #include "contact/sphere_plane/plane_contacts.hpp"
 #include "contact/sphere_plane/plane_neighbours.hpp"
-#include "contact/surface_surface/structure_contacts.hpp"
+#include "contact/sphere_sphere/sphere_contacts.hpp"
 #include "contact/sphere_surface/surface_contacts.hpp"
+#include "contact/surface_surface/structure_contacts.hpp"
 #include "geometry/neighbor/cell_neighbours.hpp"
 #include "geometry/neighbor/neighbours.hpp"
 
@@ -24,8 +24,8 @@ class SceneContacts final : public Contacts {
   /// @param meets_planes  by NodeId: which nodes of the surface touch planes; empty: all of them
   /// @param rest  m, of all nodes, for structures that may touch themselves; empty: they do not
   SceneContacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
-                ContactMaterials materials, double skin,
-                const std::vector<bool>& meets_planes = {}, Positions rest = {});
+                ContactMaterials materials, double skin, const std::vector<bool>& meets_planes = {},
+                Positions rest = {});
 
   void tune_skin(double radius) noexcept override { neighbours_.tune_skin(radius); }
   void choose_skin_of_structures() override { cell_neighbours_.choose_skin(); }
@@ -53,25 +53,25 @@ class SceneContacts final : public Contacts {
   std::int64_t pass_throughs() const noexcept override { return with_surfaces_.pass_throughs(); }
   std::size_t crossings() const noexcept override { return between_structures_.crossings(); }
 
-  void number() override {
-    with_spheres_.number(last_number_);
-    with_surfaces_.number(last_number_);
-    between_structures_.number(last_number_);
-    with_planes_.number(last_number_);
+  void assign_ids() override {
+    with_spheres_.assign_ids(last_number_);
+    with_surfaces_.assign_ids(last_number_);
+    between_structures_.assign_ids(last_number_);
+    with_planes_.assign_ids(last_number_);
   }
-  void for_each_row(Positions x, Visit<const ContactRow&> visit) const override {
-    with_spheres_.for_each_row(x, visit);
-    with_surfaces_.for_each_row(x, visit);
-    between_structures_.for_each_row(x, visit);
-    with_planes_.for_each_row(x, *surface_, visit);
+  void for_each_record(Positions x, Visit<const ContactRecord&> visit) const override {
+    with_spheres_.for_each_record(x, visit);
+    with_surfaces_.for_each_record(x, visit);
+    between_structures_.for_each_record(x, visit);
+    with_planes_.for_each_record(x, *surface_, visit);
   }
-  void for_each_plane_row(Positions x, Visit<const ContactRow&> visit) const override {
-    with_planes_.for_each_row(x, *surface_, visit);
+  void for_each_plane_record(Positions x, Visit<const ContactRecord&> visit) const override {
+    with_planes_.for_each_record(x, *surface_, visit);
   }
-  void for_each_structure_row_on(
+  void for_each_structure_record_on(
       NodeId node, Positions x,
-      Visit<const ContactRow&, const Vec3&, const Vec3&> visit) const override {
-    between_structures_.for_each_row_on(node, x, visit);
+      Visit<const ContactRecord&, const Vec3&, const Vec3&> visit) const override {
+    between_structures_.for_each_record_on(node, x, visit);
   }
 
   void add_surface_forces(NodeForces& forces, geometry::ThreadPool& pool) const override {
@@ -101,8 +101,8 @@ class SceneContacts final : public Contacts {
                                     VisitSphereOnSurface visit) const override {
     with_surfaces_.for_each_coming(
         margin, neighbours_.cells(), x,
-        [&](NodeId ball, const geometry::CorePoint& core, const auto& parameters, double range) {
-          visit(ball, core, parameters, range, 0.0);
+        [&](NodeId sphere, const geometry::CorePoint& core, const auto& parameters, double range) {
+          visit(sphere, core, parameters, range, 0.0);
         });
   }
   void add_elastic_forces(Positions x, NodeForces& forces, PatchFinder& finder,
@@ -125,8 +125,9 @@ class SceneContacts final : public Contacts {
   }
   PairStiffness stiffness(const BodyPart& a, const BodyPart& b, double gap,
                           double count) const override {
-    const auto parameters = AnyLaw::multiplied(materials_.pairs.combine(a, b), count);
-    return {AnyLaw::normal_stiffness(parameters, gap), AnyLaw::tangential_stiffness(parameters, gap)};
+    const auto parameters = AnyLaw::scaled(materials_.pairs.combine(a, b), count);
+    return {AnyLaw::normal_stiffness(parameters, gap),
+            AnyLaw::tangential_stiffness(parameters, gap)};
   }
 
   std::int64_t list_count() const noexcept override { return list_count_; }
@@ -135,7 +136,7 @@ class SceneContacts final : public Contacts {
     return cell_neighbours_;
   }
 
-  const BallContacts& with_spheres() const noexcept { return with_spheres_; }
+  const SphereContacts& with_spheres() const noexcept { return with_spheres_; }
   const SurfaceContacts& with_surfaces() const noexcept { return with_surfaces_; }
   const StructureContacts& between_structures() const noexcept { return between_structures_; }
   const PlaneContacts& with_planes() const noexcept { return with_planes_; }
@@ -149,11 +150,11 @@ class SceneContacts final : public Contacts {
   void end_start(std::span<const Plane> planes, Positions x, geometry::ThreadPool& pool);
 
   ContactMaterials materials_;
-  std::vector<Ball> balls_;  ///< the spheres, then the nodes of the surface
+  std::vector<SphereBody> spheres_;  ///< the spheres, then the nodes of the surface
   geometry::Neighbours neighbours_;
   geometry::CellNeighbours cell_neighbours_;
   PlaneNeighbours plane_neighbours_;
-  BallContacts with_spheres_;
+  SphereContacts with_spheres_;
   SurfaceContacts with_surfaces_;
   StructureContacts between_structures_;
   PlaneContacts with_planes_;

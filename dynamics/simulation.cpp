@@ -192,7 +192,7 @@ Pace Simulation::pace() const noexcept {
 /// Nodes have drifted with the velocities after the last kick.
 contact::Motion Simulation::motion() const noexcept {
   contact::Motion motion = scene_.state.motion();
-  motion.way = fastest_ * last_drift_;
+  motion.max_displacement = fastest_ * last_drift_;
   return motion;
 }
 
@@ -531,15 +531,15 @@ Vec3 Simulation::force_point(std::size_t plane) const {
   return scene_.planes[plane].point - last_drift_ * scene_.planes[plane].velocity;
 }
 
-std::vector<contact::ContactRow> Simulation::list_contacts() {
-  contacts_->number();
+std::vector<contact::ContactRecord> Simulation::list_contacts() {
+  contacts_->assign_ids();
   return contact_rows();
 }
 
-std::vector<contact::ContactRow> Simulation::contact_rows() const {
-  std::vector<contact::ContactRow> rows;
-  contacts_->for_each_row(force_positions(),
-                          [&](const contact::ContactRow& row) { rows.push_back(row); });
+std::vector<contact::ContactRecord> Simulation::contact_rows() const {
+  std::vector<contact::ContactRecord> rows;
+  contacts_->for_each_record(force_positions(),
+                             [&](const contact::ContactRecord& row) { rows.push_back(row); });
   return rows;
 }
 
@@ -547,7 +547,7 @@ ForceAndMoment Simulation::plane_reaction(std::size_t plane) const {
   require_index("plane_reaction", "plane", plane, scene_.planes.size());
   const Vec3 about = force_point(plane);
   ForceAndMoment sum;
-  contacts_->for_each_plane_row(force_positions(), [&](const contact::ContactRow& row) {
+  contacts_->for_each_plane_record(force_positions(), [&](const contact::ContactRecord& row) {
     if (static_cast<std::size_t>(row.b.index) == plane)
       sum.add(row.point - about, row.force(), row.moment);
   });
@@ -565,8 +565,8 @@ ForceAndMoment Simulation::support_reaction(std::span<const NodeId> nodes,
 double Simulation::unbalanced_force_ratio() const {
   const std::vector<Vec3> positions = force_positions();
   MeanMagnitude carried;
-  contacts_->for_each_row(positions,
-                          [&](const contact::ContactRow& row) { carried.add(row.force().norm()); });
+  contacts_->for_each_record(
+      positions, [&](const contact::ContactRecord& row) { carried.add(row.force().norm()); });
   for (std::size_t i = 0; i < bonds_.size(); ++i) {
     if (bonds_.is_broken(i)) continue;
     const BondForces forces = bond_forces(i);

@@ -2,23 +2,23 @@
 #pragma once
 
 #include "contact/models.hpp"
-#include "dynamics/measures/diverged.hpp"
-#include "dynamics/measures/energy.hpp"
-#include "dynamics/time_step/exact_step.hpp"
+#include "dynamics/broken_elements.hpp"
 #include "dynamics/integrators/leapfrog.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/loads/plane_servo.hpp"
-#include "dynamics/time_step/motion_step.hpp"
 #include "dynamics/measures/bond_stress.hpp"
+#include "dynamics/measures/diverged.hpp"
+#include "dynamics/measures/energy.hpp"
 #include "dynamics/measures/facet_traction.hpp"
 #include "dynamics/measures/reactions.hpp"
 #include "dynamics/model/scene.hpp"
-#include "dynamics/time_step/step_cause.hpp"
+#include "dynamics/state/nodal_stiffness.hpp"
 #include "dynamics/structure/beam_bond.hpp"
-#include "dynamics/broken_elements.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/yielding_bonds.hpp"
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/time_step/exact_step.hpp"
+#include "dynamics/time_step/motion_step.hpp"
+#include "dynamics/time_step/step_cause.hpp"
 
 #include <array>
 #include <cstdint>
@@ -131,9 +131,9 @@ class Simulation {
   Vec3 force_point(std::size_t plane) const;
   /// All contacts of the last step with all that they did to the nodes. Those that have no number
   /// get one (contact::Contacts::number).
-  std::vector<contact::ContactRow> list_contacts();
+  std::vector<contact::ContactRecord> list_contacts();
   /// The same without giving numbers.
-  std::vector<contact::ContactRow> contact_rows() const;
+  std::vector<contact::ContactRecord> contact_rows() const;
   /// What bodies do to a plane, about force_point(plane).
   ForceAndMoment plane_reaction(std::size_t plane) const;
   /// What the supports of nodes bear: measures/reactions.hpp. Of grains, membranes and any other

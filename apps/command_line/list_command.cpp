@@ -69,7 +69,7 @@ void list_keys(const KeyGroup& group, std::ostream& out) {
 
 void list_choices(std::ostream& out) {
   out << "Contact laws, for `law` in [[contacts]]; parameters with unit, default and meaning\n";
-  for (const contact::LawRow& law : contact::contact_laws()) {
+  for (const contact::LawEntry& law : contact::contact_laws()) {
     out << fmt::format("  {:<22} {}\n", law.name, law.what);
     list_parameters(law.parameters, out);
     list_words(law.choices, out);

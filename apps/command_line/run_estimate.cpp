@@ -89,7 +89,7 @@ Bounds frame_bytes(const Scenario& scenario, PreparedRun& prepared, double most_
   }
   if (scenario.output.contacts) {
     // One more of them is as large as the first.
-    const std::vector<contact::ContactRow> one(1);
+    const std::vector<contact::ContactRecord> one(1);
     const std::vector<dynamics::ContactLabels> labels(1);
     const auto with = vtp_size(dynamics::contacts_frame(one, 0.0, labels)).unpacked;
     const auto without = vtp_size(dynamics::contacts_frame({}, 0.0)).unpacked;

@@ -25,7 +25,7 @@ struct WaltonBraun {
   static Parameters combine(const contact::Body& a, const contact::Body& b) {
     return {std::min(a.material.young_modulus * a.radius, b.material.young_modulus * b.radius)};
   }
-  static Parameters multiplied(const Parameters& p, double count) { return {count * p.loading}; }
+  static Parameters scaled(const Parameters& p, double count) { return {count * p.loading}; }
 
   // The elastic part, by the gap alone: Plekton counts it over the features of a surface.
   static double elastic_normal_force(const Parameters& p, double gap) {
@@ -56,7 +56,7 @@ struct WaltonBraun {
 
   // How histories turn with the contact, split and merge.
   static void rotate(History&, const contact::FrameRotation&) {}
-  static void add_share(History& history, const History& other, double share) {
+  static void accumulate_history(History& history, const History& other, double share) {
     history.deepest = std::max(history.deepest, other.deepest);
     history.pull += share * other.pull;
   }

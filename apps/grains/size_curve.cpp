@@ -13,12 +13,13 @@
 namespace plekton::apps {
 namespace {
 
-constexpr double kBall = std::numbers::pi / 6.0;  // volume of a ball over the cube of its diameter
+constexpr double kSphere =
+    std::numbers::pi / 6.0;  // volume of a ball over the cube of its diameter
 
 }  // namespace
 
 SizeCurve::SizeCurve(double diameter) : bins_{{diameter, diameter, 1.0}} {
-  mean_volume_ = kBall * elementary::pow(diameter, 3);
+  mean_volume_ = kSphere * elementary::pow(diameter, 3);
 }
 
 SizeCurve::SizeCurve(std::span<const Sieve> sieves, PassingBy by) : by_(by) {
@@ -30,7 +31,7 @@ SizeCurve::SizeCurve(std::span<const Sieve> sieves, PassingBy by) : by_(by) {
     if (share <= 0.0) continue;
     // By mass: share / (high - low) per metre and over kBall d³ for the number; its integral over
     // the bin.
-    const double per_volume = (low + high) / (2.0 * low * low * high * high) / kBall;
+    const double per_volume = (low + high) / (2.0 * low * low * high * high) / kSphere;
     bins_.push_back({low, high, by == PassingBy::mass ? share * per_volume : share});
   }
   normalise();
@@ -45,7 +46,7 @@ void SizeCurve::normalise() {
     // Mean of d³ with a uniform density of d, or with one proportional to d^-3.
     const double mean_cube =
         by_ == PassingBy::number ? 0.25 * (a + b) * (a * a + b * b) : 2.0 * a * a * b * b / (a + b);
-    mean_volume_ += bin.share * kBall * mean_cube;
+    mean_volume_ += bin.share * kSphere * mean_cube;
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include "apps/scenario/scenario.hpp"
 #include "apps/scene/build_scene.hpp"
-#include "contact/tracking/contact_row.hpp"
+#include "contact/tracking/contact_record.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <array>

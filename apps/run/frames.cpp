@@ -91,11 +91,11 @@ std::vector<Vec3> node_forces(const dynamics::Simulation& simulation) {
   return forces;
 }
 
-std::vector<dynamics::ContactLabels> labels_of(const std::vector<contact::ContactRow>& contacts,
+std::vector<dynamics::ContactLabels> labels_of(const std::vector<contact::ContactRecord>& contacts,
                                                const BodyTables& bodies) {
   std::vector<dynamics::ContactLabels> labels;
   labels.reserve(contacts.size());
-  for (const contact::ContactRow& contact : contacts) {
+  for (const contact::ContactRecord& contact : contacts) {
     const BodyTable a = bodies.table_of(contact.a);
     const BodyTable b = bodies.table_of(contact.b);
     labels.push_back({static_cast<std::int32_t>(a.number), static_cast<std::int32_t>(b.number),
@@ -137,7 +137,7 @@ OutputSettings settings_for(OutputSettings settings, const dynamics::Simulation&
 
 std::vector<FramePart> frame_of(const OutputSettings& settings, dynamics::Simulation& simulation,
                                 const BodyTables& bodies,
-                                const std::vector<contact::ContactRow>& contacts) {
+                                const std::vector<contact::ContactRecord>& contacts) {
   const dynamics::NodeState& state = simulation.state();
   const std::vector<Vec3> forces = node_forces(simulation);
   const dynamics::NodesView nodes{state.position, state.velocity,  state.angular_velocity,
@@ -164,7 +164,7 @@ Frames::Frames(const fs::path& folder, const OutputSettings& settings,
   }
 }
 
-void Frames::list_contacts(double time, const std::vector<contact::ContactRow>& contacts) {
+void Frames::list_contacts(double time, const std::vector<contact::ContactRecord>& contacts) {
   const std::vector<dynamics::ContactLabels> labels = labels_of(contacts, bodies_);
   std::vector<double> row;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -175,7 +175,7 @@ void Frames::list_contacts(double time, const std::vector<contact::ContactRow>& 
 }
 
 void Frames::write(dynamics::Simulation& simulation) {
-  std::vector<contact::ContactRow> contacts;
+  std::vector<contact::ContactRecord> contacts;
   if (settings_.contacts || contact_list_) contacts = simulation.list_contacts();
   for (const auto& [name, data] : frame_of(settings_, simulation, bodies_, contacts)) {
     const fs::path file = folder_ / "frames" / fmt::format("{}_{:05}.vtp", name, count_);

@@ -31,7 +31,7 @@ OutputSettings settings_for(OutputSettings settings, const dynamics::Simulation&
 /// @param contacts  those of the last step, where they are asked for
 std::vector<FramePart> frame_of(const OutputSettings& settings, dynamics::Simulation& simulation,
                                 const BodyTables& bodies,
-                                const std::vector<contact::ContactRow>& contacts);
+                                const std::vector<contact::ContactRecord>& contacts);
 
 /// Writes what a simulation looks like for ParaView: the time series grains.pvd, membranes.pvd and
 /// contacts.pvd in a folder, their data sets in its folder frames. The series are valid after every
@@ -50,7 +50,7 @@ class Frames {
   std::size_t count() const noexcept { return count_; }
 
  private:
-  void list_contacts(double time, const std::vector<contact::ContactRow>& contacts);
+  void list_contacts(double time, const std::vector<contact::ContactRecord>& contacts);
 
   std::filesystem::path folder_;
   OutputSettings settings_;

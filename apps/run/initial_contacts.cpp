@@ -13,16 +13,16 @@
 namespace plekton::apps {
 namespace {
 
-using contact::ContactRow;
+using contact::ContactRecord;
 
 /// How many of some contacts are bonds, by table [[contacts]].
-std::vector<std::size_t> count_bonds(std::span<const ContactRow> rows, const BodyTables& bodies,
+std::vector<std::size_t> count_bonds(std::span<const ContactRecord> rows, const BodyTables& bodies,
                                      const std::vector<PairSettings>& tables) {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> table_of;
   for (std::size_t i = 0; i < tables.size(); ++i)
     table_of.emplace(std::pair(tables[i].first, tables[i].second), i);
   std::vector<std::size_t> counts(tables.size());
-  for (const ContactRow& row : rows) {
+  for (const ContactRecord& row : rows) {
     if (!row.is_bonded) continue;
     const auto table = table_of.find(std::minmax(
         {bodies.material_of(bodies.table_of(row.a)), bodies.material_of(bodies.table_of(row.b))}));
@@ -80,9 +80,9 @@ InitialContacts initial_contacts(const Scenario& scenario, const BuiltScene& bui
                                  const dynamics::Simulation& simulation) {
   const BodyTables bodies(scenario, built, simulation);
   InitialContacts contacts;
-  const std::vector<ContactRow> rows = simulation.contact_rows();
+  const std::vector<ContactRecord> rows = simulation.contact_rows();
   contacts.bonds = count_bonds(rows, bodies, scenario.contacts);
-  for (const ContactRow& row : rows) {
+  for (const ContactRecord& row : rows) {
     if (const auto overlap = overlap_of(row, bodies, simulation))
       contacts.overlaps.push_back(*overlap);
   }

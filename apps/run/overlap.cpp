@@ -16,7 +16,7 @@ namespace {
 
 using contact::BodyKind;
 using contact::ContactBody;
-using contact::ContactRow;
+using contact::ContactRecord;
 using geometry::index_of;
 
 /// m; nothing for a plane.
@@ -37,7 +37,7 @@ geometry::Core core_of(const ContactBody& body, const dynamics::Simulation& simu
 
 /// m. Where structures touch over an area the gap of their contact stands for all of it; how far
 /// they are in each other is seen where they are deepest.
-double depth_of(const ContactRow& row, const dynamics::Simulation& simulation) {
+double depth_of(const ContactRecord& row, const dynamics::Simulation& simulation) {
   if (row.a.kind != BodyKind::structure || row.b.kind != BodyKind::structure) return -row.gap;
   const double distance =
       closest_points(core_of(row.a, simulation), core_of(row.b, simulation)).distance;
@@ -45,12 +45,12 @@ double depth_of(const ContactRow& row, const dynamics::Simulation& simulation) {
 }
 
 /// Between structures a bond has a row of its own beside that of the contact.
-bool is_bond_alone(const ContactRow& row) {
+bool is_bond_alone(const ContactRecord& row) {
   return row.is_bonded && row.a.kind == BodyKind::structure && row.b.kind == BodyKind::structure;
 }
 
 /// What a depth may be off by (m): centres and their distance are rounded.
-double rounding_of(const ContactRow& row) {
+double rounding_of(const ContactRecord& row) {
   constexpr double kRoundings = 8.0;
   const double furthest =
       std::max(row.point_a.cwiseAbs().maxCoeff(), row.point_b.cwiseAbs().maxCoeff());
@@ -59,7 +59,7 @@ double rounding_of(const ContactRow& row) {
 
 }  // namespace
 
-std::optional<BodyOverlap> overlap_of(const ContactRow& row, const BodyTables& bodies,
+std::optional<BodyOverlap> overlap_of(const ContactRecord& row, const BodyTables& bodies,
                                       const dynamics::Simulation& simulation) {
   const double depth = depth_of(row, simulation);
   if (is_bond_alone(row) || !(depth > rounding_of(row))) return std::nullopt;
@@ -81,11 +81,11 @@ std::optional<BodyOverlap> overlap_of(const ContactRow& row, const BodyTables& b
   return overlap;
 }
 
-std::optional<BodyOverlap> deepest_overlap(std::span<const ContactRow> rows,
+std::optional<BodyOverlap> deepest_overlap(std::span<const ContactRecord> rows,
                                            const BodyTables& bodies,
                                            const dynamics::Simulation& simulation) {
   std::optional<BodyOverlap> deepest;
-  for (const ContactRow& row : rows) {
+  for (const ContactRecord& row : rows) {
     const auto overlap = overlap_of(row, bodies, simulation);
     if (overlap && (!deepest || overlap->ratio > deepest->ratio)) deepest = overlap;
   }

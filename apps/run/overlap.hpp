@@ -25,11 +25,11 @@ struct BodyOverlap {
 
 /// Of a contact of the last step, or nothing where its bodies do not overlap by more than what may
 /// be rounding of coordinates, or where it is a bond without a contact.
-std::optional<BodyOverlap> overlap_of(const contact::ContactRow& row, const BodyTables& bodies,
+std::optional<BodyOverlap> overlap_of(const contact::ContactRecord& row, const BodyTables& bodies,
                                       const dynamics::Simulation& simulation);
 
 /// The one of these contacts with the largest ratio; nothing if no bodies overlap.
-std::optional<BodyOverlap> deepest_overlap(std::span<const contact::ContactRow> rows,
+std::optional<BodyOverlap> deepest_overlap(std::span<const contact::ContactRecord> rows,
                                            const BodyTables& bodies,
                                            const dynamics::Simulation& simulation);
 

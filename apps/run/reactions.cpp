@@ -61,7 +61,7 @@ Vec3 about(const BuiltReaction& reaction) {
 }
 
 ForceAndMoment of_contacts(const BuiltReaction& reaction,
-                           std::span<const contact::ContactRow> contacts,
+                           std::span<const contact::ContactRecord> contacts,
                            const dynamics::Simulation& simulation) {
   const BodySet bodies = bodies_of(reaction, simulation);
   return dynamics::contact_force_on(
@@ -120,7 +120,7 @@ Reactions::Reactions(const std::filesystem::path& folder,
 }
 
 void Reactions::add(dynamics::Simulation& simulation) {
-  std::vector<contact::ContactRow> contacts;
+  std::vector<contact::ContactRecord> contacts;
   if (lists_contacts_) contacts = simulation.list_contacts();
   std::vector<double> row{simulation.time()};
   for (const BuiltReaction& reaction : reactions_) {

@@ -173,7 +173,7 @@ std::string_view meaning_of_parameter(std::string_view name) {
     if (found != parameters.end()) meaning = found->what;
   };
   look(contact::common_law_parameters());
-  for (const contact::LawRow& law : contact::contact_laws()) {
+  for (const contact::LawEntry& law : contact::contact_laws()) {
     look(law.parameters);
     look(law.choices);
   }

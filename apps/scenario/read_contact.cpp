@@ -44,14 +44,14 @@ void read_choices(std::span<const contact::LawChoice> choices, Section& section,
 }
 
 /// The keys that go with a law, and not with all of them.
-std::vector<std::string_view> keys_of(const contact::LawRow& law) {
+std::vector<std::string_view> keys_of(const contact::LawEntry& law) {
   std::vector<std::string_view> keys;
   for (const LawParameter& parameter : law.parameters) keys.push_back(parameter.name);
   for (const contact::LawChoice& choice : law.choices) keys.push_back(choice.name);
   return keys;
 }
 
-bool has_key(const contact::LawRow& law, std::string_view key) {
+bool has_key(const contact::LawEntry& law, std::string_view key) {
   const std::vector<std::string_view> keys = keys_of(law);
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
@@ -59,16 +59,16 @@ bool has_key(const contact::LawRow& law, std::string_view key) {
 /// As in "\"this\" or \"that\"".
 std::string laws_with(std::string_view key) {
   std::string names;
-  for (const contact::LawRow& law : contact::contact_laws()) {
+  for (const contact::LawEntry& law : contact::contact_laws()) {
     if (has_key(law, key)) names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", law.name);
   }
   return names;
 }
 
 /// Complains about parameters of laws that were not chosen.
-void refuse_others(const contact::LawRow& chosen, Section& section) {
+void refuse_others(const contact::LawEntry& chosen, Section& section) {
   std::set<std::string_view> refused;
-  for (const contact::LawRow& law : contact::contact_laws()) {
+  for (const contact::LawEntry& law : contact::contact_laws()) {
     for (const std::string_view key : keys_of(law)) {
       if (has_key(chosen, key) || !section.has(key) || !refused.insert(key).second) continue;
       section.complain(key, fmt::format("goes with law = {}, but this pair has \"{}\"; change the "
@@ -89,13 +89,13 @@ void refuse_two_stiffnesses(const contact::LinearFrictional::Properties& springs
 
 /// For a law that is not known: any parameter may be one of its.
 void announce_all(Section& section) {
-  for (const contact::LawRow& law : contact::contact_laws())
+  for (const contact::LawEntry& law : contact::contact_laws())
     for (const std::string_view key : keys_of(law)) section.has(key);
 }
 
 std::vector<std::string_view> names_of_laws() {
   std::vector<std::string_view> names;
-  for (const contact::LawRow& law : contact::contact_laws()) names.push_back(law.name);
+  for (const contact::LawEntry& law : contact::contact_laws()) names.push_back(law.name);
   return names;
 }
 
@@ -109,7 +109,7 @@ PairSettings read_contact(Section section, const Known& known, MaterialPairSet& 
   const std::vector<std::string_view> names = names_of_laws();
   const auto chosen = section.known_choice("law", names, 0);
   pair.contact.law = chosen.value_or(0);
-  const contact::LawRow& law = contact::contact_laws()[pair.contact.law];
+  const contact::LawEntry& law = contact::contact_laws()[pair.contact.law];
   read_parameters(law.parameters, section, pair.contact);
   read_choices(law.choices, section, pair.contact);
   read_parameters(contact::common_law_parameters(), section, pair.contact);

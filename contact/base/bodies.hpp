@@ -10,8 +10,8 @@
 
 namespace plekton::contact {
 
-/// A ball that touches other things: a sphere, or a node of a structure where it meets a plane.
-struct Ball {
+/// A sphere that touches other things: a sphere, or a node of a structure where it meets a plane.
+struct SphereBody {
   NodeId node;
   double radius;  ///< m
   MaterialId material;

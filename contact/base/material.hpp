@@ -32,7 +32,7 @@ enum class Shape : std::uint8_t {
 struct Body {
   Material material;
   double radius;  ///< m; of a facet half its thickness, of a plane that of what meets it
-  /// kg; infinite for what is held, for planes, and for a surface that a ball meets.
+  /// kg; infinite for what is held, for planes, and for a surface that a sphere meets.
   double mass = std::numeric_limits<double>::infinity();
   Shape shape = Shape::sphere;
 };

@@ -25,7 +25,7 @@ struct Motion {
   std::span<const Vec3> velocity;          ///< m/s
   std::span<const Vec3> angular_velocity;  ///< rad/s
   /// m, how far any node has moved at most since the last step, if that is known.
-  double way = std::numeric_limits<double>::infinity();
+  double max_displacement = std::numeric_limits<double>::infinity();
 };
 
 /// Forces (N) and torques (N m) that act on the nodes.

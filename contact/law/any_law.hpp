@@ -12,10 +12,10 @@
 
 namespace plekton::contact {
 
-class LoneBatch;
-struct BallBatch;
-struct BallStretch;
-struct BallWork;
+class SingleFeatureBatch;
+struct SphereBatch;
+struct SphereRange;
+struct SphereWork;
 
 /// A law that is chosen at run time, for each pair of materials its own: those that come with the
 /// library, in any combination, and any other.
@@ -67,28 +67,28 @@ struct AnyLaw {
     std::string_view name;
     std::size_t parameter_numbers;  ///< how many numbers its parameters are
     std::size_t history_numbers;
-    bool has_reach;  ///< see HasReach
+    bool has_interaction_range;  ///< see HasInteractionRange
     Parameters (*combine)(const Properties&, const Body&, const Body&);
-    Parameters (*multiplied)(const Parameters&, double);
+    Parameters (*scaled)(const Parameters&, double);
     double (*elastic_normal_force)(const Parameters&, double);
     double (*elastic_normal_energy)(const Parameters&, double);
     double (*normal_stiffness)(const Parameters&, double);
     double (*tangential_stiffness)(const Parameters&, double);
-    double (*reach)(const Parameters&);
+    double (*interaction_range)(const Parameters&);
     double (*attraction)(const Parameters&);
     Parameters (*without_attraction)(const Parameters&);
     bool (*end_start)(Properties&);
-    bool (*glues)(const Parameters&);
-    void (*glue)(const Parameters&, History&);
+    bool (*cements)(const Parameters&);
+    void (*cement)(const Parameters&, History&);
     Parameters (*of_bond)(const Parameters&);
-    Parameters (*beside_bonds)(const Parameters&, double);
+    Parameters (*unbonded_part)(const Parameters&, double);
     ContactForce (*force)(const Parameters&, const RelativeMotion&, History&, double);
     double (*tangential_limit)(const Parameters&, double, const History&);
     double (*history_energy)(const Parameters&, const History&);
     bool (*holds)(const History&);
     Vec3 (*moment)(const History&, const Vec3&);
     void (*rotate)(History&, const FrameRotation&);
-    void (*add_share)(History&, const History&, double);
+    void (*accumulate_history)(History&, const History&, double);
     /// See TellsForce; null of a law that does not tell it.
     Vec3 (*force_of_state)(const Parameters&, double, const Vec3&, const History&);
     /// Whether its parameters follow from materials and radii alone; see CombinesRadii.
@@ -96,9 +96,9 @@ struct AnyLaw {
 
     // Loops with the law known as a type; null of a law that is not written for contacts side by
     // side, but for the first one.
-    void (*advance_balls)(const BallStretch&, BallWork&);
-    bool (*advance_batch)(BallBatch&, std::size_t, double);
-    void (*advance_lone)(LoneBatch&, const Motion&, double);
+    void (*advance_spheres)(const SphereRange&, SphereWork&);
+    bool (*advance_batch)(SphereBatch&, std::size_t, double);
+    void (*advance_single_feature)(SingleFeatureBatch&, const Motion&, double);
   };
 
   /// A law, with its properties for a pair of materials (contact/law_table.hpp).
@@ -108,9 +108,7 @@ struct AnyLaw {
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) {
     return properties.law->combine(properties, a, b);
   }
-  static Parameters multiplied(const Parameters& p, double count) {
-    return p.law->multiplied(p, count);
-  }
+  static Parameters scaled(const Parameters& p, double count) { return p.law->scaled(p, count); }
   static double elastic_normal_force(const Parameters& p, double gap) {
     return p.law->elastic_normal_force(p, gap);
   }
@@ -124,8 +122,8 @@ struct AnyLaw {
     return p.law->tangential_stiffness(p, gap);
   }
 
-  /// See HasReach.
-  static double reach(const Parameters& p) { return p.law->reach(p); }
+  /// See HasInteractionRange.
+  static double interaction_range(const Parameters& p) { return p.law->interaction_range(p); }
   static bool holds(const History& history) {
     return history.law != nullptr && history.law->holds(history);
   }
@@ -136,11 +134,11 @@ struct AnyLaw {
 
   /// See HasStart and HasBonds.
   static bool end_start(Properties& properties) { return properties.law->end_start(properties); }
-  static bool glues(const Parameters& p) { return p.law->glues(p); }
-  static void glue(const Parameters& p, History& history) { p.law->glue(p, history); }
+  static bool cements(const Parameters& p) { return p.law->cements(p); }
+  static void cement(const Parameters& p, History& history) { p.law->cement(p, history); }
   static Parameters of_bond(const Parameters& p) { return p.law->of_bond(p); }
-  static Parameters beside_bonds(const Parameters& p, double part) {
-    return p.law->beside_bonds(p, part);
+  static Parameters unbonded_part(const Parameters& p, double part) {
+    return p.law->unbonded_part(p, part);
   }
 
   static ContactForce force(const Parameters& p, const RelativeMotion& motion, History& history,
@@ -163,8 +161,8 @@ struct AnyLaw {
   static void rotate(History& history, const FrameRotation& rotation) {
     if (history.law != nullptr) history.law->rotate(history, rotation);
   }
-  static void add_share(History& history, const History& other, double share) {
-    if (other.law != nullptr) other.law->add_share(history, other, share);
+  static void accumulate_history(History& history, const History& other, double share) {
+    if (other.law != nullptr) other.law->accumulate_history(history, other, share);
   }
 };
 

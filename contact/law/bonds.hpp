@@ -17,17 +17,17 @@ enum class Bonds {
 /// A law that glues bodies. Between structures a bond is a spring of its own between two material
 /// points (surface_surface/structure_bond.hpp), and the rest of their contact has what it has beside.
 ///
-/// glues(parameters): whether bodies that come to touch stick; glue(parameters, history): the
+/// cements(parameters): whether bodies that come to touch stick; cement(parameters, history): the
 /// history of ones that do now; of_bond(parameters): what a bond has of a law with parts;
-/// beside_bonds(parameters, part): what is left of a contact of which bonds carry all but that part
+/// unbonded_part(parameters, part): what is left of a contact of which bonds carry all but that part
 /// of the tangential force.
 template <class Law>
 concept HasBonds = requires(const typename Law::Parameters& parameters,
                             typename Law::History& history, double part) {
-  { Law::glues(parameters) } -> std::same_as<bool>;
-  { Law::glue(parameters, history) } -> std::same_as<void>;
+  { Law::cements(parameters) } -> std::same_as<bool>;
+  { Law::cement(parameters, history) } -> std::same_as<void>;
   { Law::of_bond(parameters) } -> std::same_as<typename Law::Parameters>;
-  { Law::beside_bonds(parameters, part) } -> std::same_as<typename Law::Parameters>;
+  { Law::unbonded_part(parameters, part) } -> std::same_as<typename Law::Parameters>;
 };
 
 /// A law whose contacts of the first step are not like later ones. end_start(properties) makes
@@ -38,17 +38,17 @@ concept HasStart = requires(PropertiesOf<Law>& properties) {
 };
 
 template <class Law>
-bool glues(const typename Law::Parameters& parameters) {
+bool cements(const typename Law::Parameters& parameters) {
   if constexpr (HasBonds<Law>) {
-    return Law::glues(parameters);
+    return Law::cements(parameters);
   } else {
     return false;
   }
 }
 
 template <class Law>
-void glue(const typename Law::Parameters& parameters, typename Law::History& history) {
-  if constexpr (HasBonds<Law>) Law::glue(parameters, history);
+void cement(const typename Law::Parameters& parameters, typename Law::History& history) {
+  if constexpr (HasBonds<Law>) Law::cement(parameters, history);
 }
 
 template <class Law>
@@ -61,9 +61,9 @@ typename Law::Parameters of_bond(const typename Law::Parameters& parameters) {
 }
 
 template <class Law>
-typename Law::Parameters beside_bonds(const typename Law::Parameters& parameters, double part) {
+typename Law::Parameters unbonded_part(const typename Law::Parameters& parameters, double part) {
   if constexpr (HasBonds<Law>) {
-    return Law::beside_bonds(parameters, part);
+    return Law::unbonded_part(parameters, part);
   } else {
     return parameters;
   }

@@ -20,7 +20,7 @@ namespace plekton::contact {
 /// friction alone, until the bodies have parted: then they may be glued anew. A ductile one yields
 /// instead: u_p follows, and it breaks once it has yielded by the rupture distance.
 ///
-/// On a surface a ball has one bond for every contact, at its representative point. Between
+/// On a surface a sphere has one bond for every contact, at its representative point. Between
 /// structures the bonds of a contact together are as many as the contacts it counts for, each a
 /// spring between two material points (surface_surface/structure_bond.hpp).
 struct CohesiveFrictional {
@@ -67,8 +67,8 @@ struct CohesiveFrictional {
                             properties.rupture_distance,
                             properties.bonds != Bonds::none ? 1.0 : 0.0, 0.0});
   }
-  static Parameters multiplied(const Parameters& p, double count) noexcept {
-    return with_compliance({LinearFrictional::multiplied(p.elastic, count), count * p.tension,
+  static Parameters scaled(const Parameters& p, double count) noexcept {
+    return with_compliance({LinearFrictional::scaled(p.elastic, count), count * p.tension,
                             count * p.shear, p.rupture_distance, p.glues, 0.0});
   }
 
@@ -83,7 +83,7 @@ struct CohesiveFrictional {
 
   /// How far apart (m) bodies may be that are still glued.
   template <class Real>
-  PLEKTON_INLINE static Real reach(const ParametersOf<Real>& p) noexcept {
+  PLEKTON_INLINE static Real interaction_range(const ParametersOf<Real>& p) noexcept {
     const Real& k = p.elastic.normal_stiffness;
     return geometry::select(k > Real(0.0), Real(p.rupture_distance + p.tension * p.compliance),
                             Real(0.0));
@@ -104,12 +104,12 @@ struct CohesiveFrictional {
   }
 
   /// See HasBonds. A bond without strength is none.
-  static bool glues(const Parameters& p) noexcept {
+  static bool cements(const Parameters& p) noexcept {
     return p.glues > 0.0 && (p.tension > 0.0 || p.shear > 0.0);
   }
-  static void glue(const Parameters&, History& history) noexcept { history.bond = kHolds; }
+  static void cement(const Parameters&, History& history) noexcept { history.bond = kHolds; }
   static Parameters of_bond(const Parameters& p) noexcept { return p; }
-  static Parameters beside_bonds(const Parameters& p, double part) noexcept {
+  static Parameters unbonded_part(const Parameters& p, double part) noexcept {
     const LinearFrictional::Parameters& e = p.elastic;
     return with_compliance({{e.normal_stiffness, part * e.tangential_stiffness, part * e.friction},
                             0.0,
@@ -176,8 +176,8 @@ struct CohesiveFrictional {
     history.spring.force = rotation(history.spring.force);
   }
   /// A bond is one: what comes together has yielded as much as the part that has most.
-  static void add_share(History& history, const History& other, double share) noexcept {
-    history.spring.add_share(other.spring, share);
+  static void accumulate_history(History& history, const History& other, double share) noexcept {
+    history.spring.accumulate_history(other.spring, share);
     history.overlap = other.overlap;
     history.yielded = std::min(history.yielded, other.yielded);
     history.pull += share * other.pull;

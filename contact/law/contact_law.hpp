@@ -68,7 +68,7 @@ concept ContactLaw = requires(const typename Law::Parameters& parameters,
   /// Parameters of a pair of bodies. A law with a type Properties takes them first.
   { combine<Law>(PropertiesOf<Law>{}, body, body) } -> std::same_as<typename Law::Parameters>;
   /// Parameters of that many equal contacts side by side.
-  { Law::multiplied(parameters, number) } -> std::same_as<typename Law::Parameters>;
+  { Law::scaled(parameters, number) } -> std::same_as<typename Law::Parameters>;
   /// Elastic normal force (N) of one feature at a gap (m); 0 for a gap >= 0.
   { Law::elastic_normal_force(parameters, number) } -> std::same_as<double>;
   /// Energy (J) stored by that force.
@@ -83,7 +83,7 @@ concept ContactLaw = requires(const typename Law::Parameters& parameters,
   /// Turns the history with the contact frame.
   { Law::rotate(history, rotation) } -> std::same_as<void>;
   /// Adds a share of another contact's history: how contacts split and merge.
-  { Law::add_share(history, other, number) } -> std::same_as<void>;
+  { Law::accumulate_history(history, other, number) } -> std::same_as<void>;
 };
 
 /// A law whose force after a step follows from the gap (m), the normal and the history then: it
@@ -104,19 +104,19 @@ concept TellsTangentialLimit = requires(const typename Law::Parameters& paramete
 
 /// A law whose contacts may go on over a distance, because the bodies stick to each other.
 ///
-/// reach(parameters): how far apart (m) the surfaces may be; holds(history): whether they stick.
+/// interaction_range(parameters): how far apart (m) the surfaces may be; holds(history): whether they stick.
 template <class Law>
-concept HasReach = requires(const typename Law::Parameters& parameters,
-                            const typename Law::History& history) {
-  { Law::reach(parameters) } -> std::same_as<double>;
+concept HasInteractionRange = requires(const typename Law::Parameters& parameters,
+                                       const typename Law::History& history) {
+  { Law::interaction_range(parameters) } -> std::same_as<double>;
   { Law::holds(history) } -> std::same_as<bool>;
 };
 
 /// m, 0 for laws that only push.
 template <class Law>
-double reach_of(const typename Law::Parameters& parameters) {
-  if constexpr (HasReach<Law>) {
-    return Law::reach(parameters);
+double interaction_range_of(const typename Law::Parameters& parameters) {
+  if constexpr (HasInteractionRange<Law>) {
+    return Law::interaction_range(parameters);
   } else {
     return 0.0;
   }
@@ -156,7 +156,7 @@ typename Law::Parameters without_attraction(const typename Law::Parameters& para
 /// Whether bodies with this history stick to each other.
 template <class Law>
 bool holds(const typename Law::History& history) {
-  if constexpr (HasReach<Law>) {
+  if constexpr (HasInteractionRange<Law>) {
     return Law::holds(history);
   } else {
     return false;
@@ -167,7 +167,7 @@ bool holds(const typename Law::History& history) {
 template <class Law>
 bool goes_on(const typename Law::Parameters& parameters, const typename Law::History& history,
              double gap) {
-  return holds<Law>(history) && gap < reach_of<Law>(parameters);
+  return holds<Law>(history) && gap < interaction_range_of<Law>(parameters);
 }
 
 }  // namespace plekton::contact

@@ -24,7 +24,7 @@ concept ContactPart = requires(const typename Part::Properties& properties,
                                const FrameRotation& rotation, double number) {
   { Part::name } -> std::convertible_to<std::string_view>;
   { Part::combine(properties, body, body) } -> std::same_as<typename Part::Parameters>;
-  { Part::multiplied(parameters, number) } -> std::same_as<typename Part::Parameters>;
+  { Part::scaled(parameters, number) } -> std::same_as<typename Part::Parameters>;
   /// What is added to the law's answer, of a step of the given length (s).
   { Part::force(parameters, motion, stiffness, history, number) } -> std::same_as<ContactForce>;
   /// Energy (J) stored by the history.
@@ -32,7 +32,7 @@ concept ContactPart = requires(const typename Part::Properties& properties,
   /// The stiffness that a time step has to be safe for, of a law that has this one.
   { Part::effective(parameters, stiffness) } -> std::same_as<ContactStiffness>;
   { Part::rotate(history, rotation) } -> std::same_as<void>;
-  { Part::add_share(history, other, number) } -> std::same_as<void>;
+  { Part::accumulate_history(history, other, number) } -> std::same_as<void>;
 };
 
 /// A part whose force after a step follows from its history and the normal then (TellsForce).
@@ -52,10 +52,9 @@ typename Part::Parameters part_of_bond(const typename Part::Parameters& paramete
   }
 }
 template <ContactPart Part>
-typename Part::Parameters part_beside_bonds(const typename Part::Parameters& parameters,
-                                            double part) {
-  if constexpr (requires { Part::beside_bonds(parameters, part); }) {
-    return Part::beside_bonds(parameters, part);
+typename Part::Parameters part_unbonded(const typename Part::Parameters& parameters, double part) {
+  if constexpr (requires { Part::unbonded_part(parameters, part); }) {
+    return Part::unbonded_part(parameters, part);
   } else {
     return parameters;
   }

@@ -11,7 +11,7 @@ namespace plekton::contact {
 /// reduced mass m of both bodies, the present stiffness k, and the damping ratio xi of
 /// restitution.hpp. It never makes the contact pull.
 ///
-/// A surface that a ball meets counts as held: of a light free membrane the restitution is lower.
+/// A surface that a sphere meets counts as held: of a light free membrane the restitution is lower.
 struct Dashpot {
   static constexpr std::string_view name = "dashpot";
 
@@ -37,7 +37,7 @@ struct Dashpot {
     return {xi, std::isfinite(mass) ? 2.0 * xi * std::sqrt(mass) : 0.0};
   }
   /// Springs side by side carry one mass.
-  static Parameters multiplied(const Parameters& p, double) noexcept { return p; }
+  static Parameters scaled(const Parameters& p, double) noexcept { return p; }
 
   /// The dashpot is one for a contact as a whole, not for its bonds.
   static Parameters of_bond(const Parameters& p) noexcept { return {p.damping_ratio, 0.0}; }
@@ -77,7 +77,7 @@ struct Dashpot {
 
   template <class Real>
   PLEKTON_INLINE static void rotate(HistoryOf<Real>&, const FrameRotationOf<Real>&) noexcept {}
-  static void add_share(History& history, const History& other, double share) noexcept {
+  static void accumulate_history(History& history, const History& other, double share) noexcept {
     history.push += share * other.push;
   }
 };

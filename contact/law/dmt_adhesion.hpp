@@ -14,7 +14,7 @@ namespace plekton::contact {
 /// tan(phi) times the elastic force, what presses the surfaces together: it is there at zero load
 /// too (Derjaguin, 1934).
 ///
-/// The attraction acts once on every contact, as it counts: a ball on a flat sheet has one, however
+/// The attraction acts once on every contact, as it counts: a sphere on a flat sheet has one, however
 /// many facets there are. Between structures, whose contacts count for more the longer they lie
 /// side by side, it is part of the energy that is summed over the region: -(2 pi w R) per contact
 /// and overlap, so that it also pulls towards more of it, and an overlap of 0 stores nothing.
@@ -46,8 +46,8 @@ struct DmtAdhesion {
     return {HertzMindlin::combine(a, b), 2.0 * std::numbers::pi * properties.work_of_adhesion *
                                              relative_radii(a, b).equivalent()};
   }
-  static Parameters multiplied(const Parameters& p, double count) noexcept {
-    return {HertzMindlin::multiplied(p.elastic, count), count * p.attraction};
+  static Parameters scaled(const Parameters& p, double count) noexcept {
+    return {HertzMindlin::scaled(p.elastic, count), count * p.attraction};
   }
 
   template <class Real>
@@ -110,8 +110,8 @@ struct DmtAdhesion {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     HertzMindlin::rotate(history.elastic, rotation);
   }
-  static void add_share(History& history, const History& other, double share) noexcept {
-    HertzMindlin::add_share(history.elastic, other.elastic, share);
+  static void accumulate_history(History& history, const History& other, double share) noexcept {
+    HertzMindlin::accumulate_history(history.elastic, other.elastic, share);
     history.overlap += share * other.overlap;
   }
 

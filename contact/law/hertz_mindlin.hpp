@@ -50,7 +50,7 @@ struct HertzMindlin {
             std::min(m.friction, n.friction)};
   }
 
-  static Parameters multiplied(const Parameters& p, double count) noexcept {
+  static Parameters scaled(const Parameters& p, double count) noexcept {
     return {count * p.modulus, count * p.shear_modulus, p.radius, p.friction};
   }
 
@@ -109,8 +109,8 @@ struct HertzMindlin {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     history.spring.force = rotation(history.spring.force);
   }
-  static void add_share(History& history, const History& other, double share) noexcept {
-    history.spring.add_share(other.spring, share);
+  static void accumulate_history(History& history, const History& other, double share) noexcept {
+    history.spring.accumulate_history(other.spring, share);
   }
 
  private:

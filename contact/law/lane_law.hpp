@@ -13,9 +13,10 @@ using geometry::Pack;
 /// A law with a reach that tells it of contacts side by side as well, and who holds: hold(history)
 /// is positive where bodies stick to each other.
 template <class Law>
-concept HasLaneReach = requires(const typename Law::template ParametersOf<Pack<2>>& parameters,
-                                const typename Law::template HistoryOf<Pack<2>>& history) {
-  { Law::reach(parameters) } -> std::same_as<Pack<2>>;
+concept HasLaneInteractionRange =
+    requires(const typename Law::template ParametersOf<Pack<2>>& parameters,
+             const typename Law::template HistoryOf<Pack<2>>& history) {
+  { Law::interaction_range(parameters) } -> std::same_as<Pack<2>>;
   { Law::hold(history) } -> std::same_as<Pack<2>>;
 };
 
@@ -27,11 +28,10 @@ concept HasLaneReach = requires(const typename Law::template ParametersOf<Pack<2
 /// linear in what it turns.
 template <class Law>
 concept LaneLaw = ContactLaw<Law> &&
-    (!HasReach<Law> ||
-     HasLaneReach<Law>)&&requires(const typename Law::template ParametersOf<Pack<2>>& parameters,
-                                  const RelativeMotionOf<Pack<2>>& motion,
-                                  typename Law::template HistoryOf<Pack<2>>& history,
-                                  const FrameRotationOf<Pack<2>>& rotation, const Pack<2>& gap) {
+    (!HasInteractionRange<Law> || HasLaneInteractionRange<Law>)&&requires(
+        const typename Law::template ParametersOf<Pack<2>>& parameters,
+        const RelativeMotionOf<Pack<2>>& motion, typename Law::template HistoryOf<Pack<2>>& history,
+        const FrameRotationOf<Pack<2>>& rotation, const Pack<2>& gap) {
   requires std::same_as < typename Law::template ParametersOf<double>,
   typename Law::Parameters > ;
   requires std::same_as < typename Law::template HistoryOf<double>,
@@ -47,11 +47,11 @@ concept LaneLaw = ContactLaw<Law> &&
 /// goes_on() side by side: positive where a contact with this history goes on at a gap (m) that is
 /// not negative.
 template <LaneLaw Law, class Real>
-requires HasReach<Law> PLEKTON_INLINE Real
+requires HasInteractionRange<Law> PLEKTON_INLINE Real
 goes_on_side_by_side(const typename Law::template ParametersOf<Real>& parameters,
                      const typename Law::template HistoryOf<Real>& history, const Real& gap)
 noexcept {
-  return geometry::smaller_of(Real(Law::reach(parameters) - gap), Law::hold(history));
+  return geometry::smaller_of(Real(Law::interaction_range(parameters) - gap), Law::hold(history));
 }
 
 /// A law whose parameters follow from materials and radii (m) alone, of spheres whose materials

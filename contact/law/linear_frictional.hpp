@@ -76,7 +76,7 @@ struct LinearFrictional {
   /// Of materials that say no more.
   static Parameters combine(const Body& a, const Body& b) noexcept { return combine({}, a, b); }
 
-  static Parameters multiplied(const Parameters& p, double count) noexcept {
+  static Parameters scaled(const Parameters& p, double count) noexcept {
     return {count * p.normal_stiffness, count * p.tangential_stiffness, p.friction};
   }
 
@@ -146,7 +146,7 @@ struct LinearFrictional {
     history.elastic_slip = rotation(history.elastic_slip);
   }
 
-  static void add_share(History& history, const History& other, double share) noexcept {
+  static void accumulate_history(History& history, const History& other, double share) noexcept {
     history.elastic_slip += share * other.elastic_slip;
   }
 

@@ -31,7 +31,7 @@ class MaterialPairs {
       properties_[std::minmax(pair.first, pair.second)] = of_pair;
   }
 
-  Parameters combine(const Ball& a, const Ball& b) const {
+  Parameters combine(const SphereBody& a, const SphereBody& b) const {
     return combine(BodyPart{a.material, a.radius, a.mass}, BodyPart{b.material, b.radius, b.mass});
   }
   Parameters combine(const BodyPart& a, const BodyPart& b) const {
@@ -53,11 +53,11 @@ class MaterialPairs {
     return changed;
   }
 
-  /// Whether any contact may go on over a distance (HasReach).
-  bool may_reach() const {
-    return others_.law->has_reach ||
+  /// Whether any contact may go on over a distance (HasInteractionRange).
+  bool may_act_at_a_distance() const {
+    return others_.law->has_interaction_range ||
            std::any_of(properties_.begin(), properties_.end(),
-                       [](const auto& pair) { return pair.second.law->has_reach; });
+                       [](const auto& pair) { return pair.second.law->has_interaction_range; });
   }
 
   std::size_t size() const noexcept { return materials_.size(); }

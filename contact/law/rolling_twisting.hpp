@@ -59,10 +59,10 @@ struct RollingTwisting {
             inverse_of(twisting_arms)};
   }
   /// The stiffness that comes with the contact is multiplied already.
-  static Parameters multiplied(const Parameters& p, double) noexcept { return p; }
+  static Parameters scaled(const Parameters& p, double) noexcept { return p; }
 
   /// Beside bonds that carry all but a part; infinity times 0 is no number.
-  static Parameters beside_bonds(const Parameters& p, double part) noexcept {
+  static Parameters unbonded_part(const Parameters& p, double part) noexcept {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     const auto limit = [&](double arm) { return arm < kNone ? part * arm : arm; };
     Parameters beside = p;
@@ -122,7 +122,7 @@ struct RollingTwisting {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     history.rolling = rotation(history.rolling);
   }
-  static void add_share(History& history, const History& other, double share) noexcept {
+  static void accumulate_history(History& history, const History& other, double share) noexcept {
     history.rolling += share * other.rolling;
     history.twisting += share * other.twisting;
     history.compliance = compliance_beside(history.compliance, other.compliance, share);

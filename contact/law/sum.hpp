@@ -65,8 +65,8 @@ struct Sum {
   static Parameters combine(const Properties& properties, const Body& a, const Body& b) noexcept {
     return {contact::combine<Whole>(properties.whole, a, b), Part::combine(properties.part, a, b)};
   }
-  static Parameters multiplied(const Parameters& p, double count) noexcept {
-    return {Whole::multiplied(p.whole, count), Part::multiplied(p.part, count)};
+  static Parameters scaled(const Parameters& p, double count) noexcept {
+    return {Whole::scaled(p.whole, count), Part::scaled(p.part, count)};
   }
 
   template <class Real>
@@ -79,14 +79,16 @@ struct Sum {
   }
 
   template <class Real>
-  PLEKTON_INLINE static Real reach(const ParametersOf<Real>& p) requires HasReach<Whole> {
-    return Whole::reach(p.whole);
+  PLEKTON_INLINE static Real interaction_range(const ParametersOf<Real>& p) requires
+      HasInteractionRange<Whole> {
+    return Whole::interaction_range(p.whole);
   }
-  static bool holds(const History& history) requires HasReach<Whole> {
+  static bool holds(const History& history) requires HasInteractionRange<Whole> {
     return Whole::holds(history.whole);
   }
   template <class Real>
-  PLEKTON_INLINE static Real hold(const HistoryOf<Real>& history) requires HasReach<Whole> {
+  PLEKTON_INLINE static Real hold(const HistoryOf<Real>& history) requires
+      HasInteractionRange<Whole> {
     return Whole::hold(history.whole);
   }
 
@@ -100,15 +102,15 @@ struct Sum {
   static bool end_start(Properties& properties) {
     return contact::end_start<Whole>(properties.whole);
   }
-  static bool glues(const Parameters& p) { return contact::glues<Whole>(p.whole); }
-  static void glue(const Parameters& p, History& history) {
-    contact::glue<Whole>(p.whole, history.whole);
+  static bool cements(const Parameters& p) { return contact::cements<Whole>(p.whole); }
+  static void cement(const Parameters& p, History& history) {
+    contact::cement<Whole>(p.whole, history.whole);
   }
   static Parameters of_bond(const Parameters& p) {
     return {contact::of_bond<Whole>(p.whole), part_of_bond<Part>(p.part)};
   }
-  static Parameters beside_bonds(const Parameters& p, double part) {
-    return {contact::beside_bonds<Whole>(p.whole, part), part_beside_bonds<Part>(p.part, part)};
+  static Parameters unbonded_part(const Parameters& p, double part) {
+    return {contact::unbonded_part<Whole>(p.whole, part), part_unbonded<Part>(p.part, part)};
   }
 
   template <class Real>
@@ -168,9 +170,9 @@ struct Sum {
     Whole::rotate(history.whole, rotation);
     Part::rotate(history.part, rotation);
   }
-  static void add_share(History& history, const History& other, double share) noexcept {
-    Whole::add_share(history.whole, other.whole, share);
-    Part::add_share(history.part, other.part, share);
+  static void accumulate_history(History& history, const History& other, double share) noexcept {
+    Whole::accumulate_history(history.whole, other.whole, share);
+    Part::accumulate_history(history.part, other.part, share);
   }
 
  private:

@@ -140,7 +140,7 @@ struct TangentialSpringOf {
   }
 
   /// Contacts that merge are springs side by side; one that splits leaves each part a share.
-  void add_share(const TangentialSpringOf& other, double share) noexcept {
+  void accumulate_history(const TangentialSpringOf& other, double share) noexcept {
     force += share * other.force;
     compliance = compliance_beside(compliance, other.compliance, share);
   }

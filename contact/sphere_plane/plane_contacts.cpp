@@ -4,45 +4,45 @@
 namespace plekton::contact {
 
 double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
-                                   std::span<const Ball> balls, std::span<const Plane> planes,
-                                   const MaterialPairs& materials) {
+                              std::span<const SphereBody> spheres, std::span<const Plane> planes,
+                              const MaterialPairs& materials) {
   double lost = 0.0;
   const auto make = [&](std::size_t i, const Slot* old) {
-    const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
+    const SphereBody& sphere = spheres[static_cast<std::size_t>(keys[i].a)];
     const auto plane = static_cast<std::size_t>(keys[i].b);
     const auto parameters = materials.combine(
-        {ball.material, ball.radius, ball.mass},
-        {.material = planes[plane].material, .radius = ball.radius, .shape = Shape::flat});
+        {sphere.material, sphere.radius, sphere.mass},
+        {.material = planes[plane].material, .radius = sphere.radius, .shape = Shape::flat});
     if (old) {
       Slot kept = *old;
       kept.parameters = parameters;
       return kept;
     }
-    return Slot{ball.node, plane, ball.radius, 0.0, parameters, {}, 0};
+    return Slot{sphere.node, plane, sphere.radius, 0.0, parameters, {}, 0};
   };
-  rekey_(slots_, keys, make, [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.memory); });
-  ball_count_ = slots_.empty() ? 0 : balls.size();
+  rekey_(slots_, keys, make,
+         [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.memory); });
+  sphere_count_ = slots_.empty() ? 0 : spheres.size();
   return lost;
 }
 
-/// Threads share out the balls, not the contacts: those of a ball are all of one thread, which adds
-/// their forces at once, and most balls are of the thread that moves their nodes.
+/// Threads share out the spheres, not the contacts: those of a sphere are all of one thread, which adds
+/// their forces at once, and most spheres are of the thread that moves their nodes.
 double PlaneContacts::advance(const Motion& motion, std::span<const Plane> planes, double dt,
-                                   geometry::ThreadPool& pool, NodeForces& forces) {
+                              geometry::ThreadPool& pool, NodeForces& forces) {
   records_.reset(pool.thread_count());
   if (slots_.empty()) return 0.0;
-  return sum_(ball_count_, pool, [&](std::size_t begin, std::size_t end, int worker) {
+  return sum_(sphere_count_, pool, [&](std::size_t begin, std::size_t end, int worker) {
     Records& records = records_.of_worker(worker);
     const std::size_t old = records.count;
-    const double dissipated = advance_balls(begin, end, motion, planes, dt, records);
+    const double dissipated = advance_spheres(begin, end, motion, planes, dt, records);
     for (std::size_t i = old; i < records.count; ++i) records.records[i].add_to(forces);
     return dissipated;
   });
 }
 
-double PlaneContacts::advance_balls(std::size_t begin, std::size_t end, const Motion& motion,
-                                         std::span<const Plane> planes, double dt,
-                                         Records& records) {
+double PlaneContacts::advance_spheres(std::size_t begin, std::size_t end, const Motion& motion,
+                                      std::span<const Plane> planes, double dt, Records& records) {
   double dissipated = 0.0;
   Touching touching;
   const auto flush = [&] {
@@ -72,10 +72,9 @@ double PlaneContacts::advance_balls(std::size_t begin, std::size_t end, const Mo
 }
 
 double PlaneContacts::advance_touching(const Touching& touching, const Motion& motion,
-                                       std::span<const Plane> planes, double dt,
-                                       Records& records) {
+                                       std::span<const Plane> planes, double dt, Records& records) {
   if (touching.law->advance_batch && touching.all_have_images) {
-    BallBatch batch;
+    SphereBatch batch;
     gather(touching, motion, planes, batch);
     if (touching.law->advance_batch(batch, touching.count, dt))
       return scatter(touching, batch, records);
@@ -86,9 +85,9 @@ double PlaneContacts::advance_touching(const Touching& touching, const Motion& m
   return dissipated;
 }
 
-/// To the kernel a plane is the mirror image of the ball, moving with the plane and without spin.
+/// To the kernel a plane is the mirror image of the sphere, moving with the plane and without spin.
 void PlaneContacts::gather(const Touching& touching, const Motion& motion,
-                                std::span<const Plane> planes, BallBatch& batch) const {
+                           std::span<const Plane> planes, SphereBatch& batch) const {
   for (std::size_t k = 0; k < touching.count; ++k) {
     const Slot& slot = slots_[touching.slot[k]];
     const Plane& plane = planes[slot.plane];
@@ -107,7 +106,7 @@ void PlaneContacts::gather(const Touching& touching, const Motion& motion,
   }
 }
 
-double PlaneContacts::scatter(const Touching& touching, BallBatch& batch, Records& records) {
+double PlaneContacts::scatter(const Touching& touching, SphereBatch& batch, Records& records) {
   double dissipated = 0.0;
   for (std::size_t k = 0; k < touching.count; ++k) {
     const std::size_t i = touching.slot[k];
@@ -131,14 +130,14 @@ double PlaneContacts::scatter(const Touching& touching, BallBatch& batch, Record
 /// The arithmetic of gather() and its kernel; beyond the mirror, where that has no image, the plane
 /// goes on pushing.
 double PlaneContacts::advance_one(std::size_t i, double height, const Motion& motion,
-                                       std::span<const Plane> planes, double dt, Records& records) {
+                                  std::span<const Plane> planes, double dt, Records& records) {
   Slot& slot = slots_[i];
   const Plane& plane = planes[slot.plane];
   const std::size_t node = index_of(slot.node);
   const Vec3 separation = -(height + slot.radius) * plane.normal;
   const bool is_before = height + slot.radius > 0.0;
   const double distance = is_before ? separation.norm() : height + slot.radius;
-  const BallPairOf<double> pair{
+  const SpherePairOf<double> pair{
       is_before ? Vec3((1.0 / distance) * separation) : Vec3(-plane.normal),
       distance,
       plane.velocity - motion.velocity[node],
@@ -148,7 +147,8 @@ double PlaneContacts::advance_one(std::size_t i, double height, const Motion& mo
       slot.radius};
   slot.memory = {carried_history<AnyLaw>(slot.memory, pair.normal, dt * pair.twist_rate()),
                  pair.normal};
-  const BallStepOf<double> step = ball_step<AnyLaw>(pair, slot.parameters, slot.memory.history, dt);
+  const SphereStepOf<double> step =
+      sphere_step<AnyLaw>(pair, slot.parameters, slot.memory.history, dt);
   slot.gap = step.gap;
   records.add(
       {slot.node, slot.plane, step.force, step.arm_a * step.force_cross_normal - step.moment, i},
@@ -174,15 +174,15 @@ Vec3 PlaneContacts::force_on(std::size_t plane) const {
   return force;
 }
 
-void PlaneContacts::for_each_row(Positions x, const geometry::Surface& surface,
-                                      VisitRow visit) const {
+void PlaneContacts::for_each_record(Positions x, const geometry::Surface& surface,
+                                    VisitRecord visit) const {
   records_.for_each([&](const PlaneForce& record) {
     const Slot& slot = slots_[record.contact];
     const geometry::Feature node(slot.node);
     const geometry::StructureId structure = surface.structure_of(slot.node);
-    ContactRow row;
+    ContactRecord row;
     row.id = slot.id;
-    // Spheres come first among the balls.
+    // Spheres come first among the spheres.
     row.a = structure == geometry::StructureId{-1}
                 ? ContactBody{BodyKind::sphere, rekey_.key(record.contact).a, node}
                 : ContactBody{BodyKind::structure, static_cast<std::int32_t>(structure), node};
@@ -196,7 +196,7 @@ void PlaneContacts::for_each_row(Positions x, const geometry::Surface& surface,
     set_force(row, record.force);
     row.moment = AnyLaw::moment(slot.memory.history, row.normal);
     set_state<AnyLaw>(row, slot.parameters, slot.memory.history,
-                   AnyLaw::elastic_normal_force(slot.parameters, slot.gap));
+                      AnyLaw::elastic_normal_force(slot.parameters, slot.gap));
     visit(row);
   });
 }

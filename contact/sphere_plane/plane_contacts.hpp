@@ -3,7 +3,7 @@
 
 #include "contact/base/bodies.hpp"
 #include "contact/law/material_pairs.hpp"
-#include "contact/sphere_sphere/ball_batch.hpp"
+#include "contact/sphere_sphere/sphere_batch.hpp"
 #include "contact/tracking/contact_memory.hpp"
 #include "contact/tracking/force_records.hpp"
 #include "contact/tracking/rekey.hpp"
@@ -17,13 +17,13 @@
 
 namespace plekton::contact {
 
-/// Contacts of balls (a) with planes (b): one slot for each pair that may touch. A plane has the
-/// stiffness of a ball of its material and of the radius of the ball that touches it.
+/// Contacts of spheres (a) with planes (b): one slot for each pair that may touch. A plane has the
+/// stiffness of a sphere of its material and of the radius of the sphere that touches it.
 class PlaneContacts {
  public:
-  /// Takes a new list of pairs (ball, plane), sorted; pairs in both lists keep their memory.
+  /// Takes a new list of pairs (sphere, plane), sorted; pairs in both lists keep their memory.
   /// @returns the energy (J) lost with contacts that left the list
-  double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+  double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const SphereBody> spheres,
                  std::span<const Plane> planes, const MaterialPairs& materials);
 
   /// One step of all contacts; adds their forces to the nodes.
@@ -36,7 +36,7 @@ class PlaneContacts {
     records_.add_to(forces, pool);
   }
   std::size_t touching() const noexcept { return records_.size(); }
-  /// Largest overlap of the last step over the radius of the smaller ball.
+  /// Largest overlap of the last step over the radius of the smaller sphere.
   double largest_overlap_ratio() const noexcept { return records_.deepest(); }
 
   /// Energy (J) stored in all contacts, at the positions of the last step.
@@ -45,7 +45,7 @@ class PlaneContacts {
   /// Force (N) of all bodies on a plane in the last step.
   Vec3 force_on(std::size_t plane) const;
 
-  /// Calls visit(ball's node, plane, parameters, gap) for every touching pair.
+  /// Calls visit(sphere's node, plane, parameters, gap) for every touching pair.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
     records_.for_each([&](const PlaneForce& record) {
@@ -54,7 +54,7 @@ class PlaneContacts {
     });
   }
 
-  /// Calls visit(ball's node, plane, parameters, gap) for every listed pair that is nearer than a
+  /// Calls visit(sphere's node, plane, parameters, gap) for every listed pair that is nearer than a
   /// margin (m) with the bodies where they are now.
   template <class Visit>
   void for_each_near(double margin, std::span<const Plane> planes, Positions x,
@@ -62,7 +62,7 @@ class PlaneContacts {
     for (const Slot& slot : slots_) {
       const Plane& plane = planes[slot.plane];
       const double gap = (x[index_of(slot.node)] - plane.point).dot(plane.normal) - slot.radius;
-      if (gap < margin + AnyLaw::reach(slot.parameters))
+      if (gap < margin + AnyLaw::interaction_range(slot.parameters))
         visit(slot.node, slot.plane, slot.parameters, gap);
     }
   }
@@ -75,15 +75,15 @@ class PlaneContacts {
   }
 
   /// Gives a number after the last one to every contact that has none.
-  void number(std::int64_t& last) {
+  void assign_ids(std::int64_t& last) {
     for (Slot& slot : slots_) {
       if (!slot.memory.is_new() && slot.id == 0) slot.id = ++last;
     }
   }
 
-  /// Calls visit(ContactRow) for every touching pair of the last step, in the order of the list.
-  /// @param surface  of whose nodes some of the balls are
-  void for_each_row(Positions x, const geometry::Surface& surface, VisitRow visit) const;
+  /// Calls visit(ContactRecord) for every touching pair of the last step, in the order of the list.
+  /// @param surface  of whose nodes some of the spheres are
+  void for_each_record(Positions x, const geometry::Surface& surface, VisitRecord visit) const;
 
  private:
   struct Slot {
@@ -104,28 +104,27 @@ class PlaneContacts {
     std::array<double, kBatchLanes> height;
     std::size_t count = 0;
     const AnyLaw::Functions* law = nullptr;  ///< of all of them
-    bool all_have_images = true;  ///< none is so deep that it is beyond its mirror image
+    bool all_have_images = true;             ///< none is so deep that it is beyond its mirror image
   };
 
   /// One step of slots that touch, of one law, side by side if it allows. @returns the energy (J)
   /// dissipated
   double advance_touching(const Touching& touching, const Motion& motion,
                           std::span<const Plane> planes, double dt, Records& records);
-  /// One step of all contacts of some balls.
-  double advance_balls(std::size_t begin, std::size_t end, const Motion& motion,
-                       std::span<const Plane> planes, double dt, Records& records);
+  /// One step of all contacts of some spheres.
+  double advance_spheres(std::size_t begin, std::size_t end, const Motion& motion,
+                         std::span<const Plane> planes, double dt, Records& records);
   void gather(const Touching& touching, const Motion& motion, std::span<const Plane> planes,
-              BallBatch& batch) const;
-  double scatter(const Touching& touching, BallBatch& batch, Records& records);
+              SphereBatch& batch) const;
+  double scatter(const Touching& touching, SphereBatch& batch, Records& records);
   double advance_one(std::size_t i, double height, const Motion& motion,
                      std::span<const Plane> planes, double dt, Records& records);
 
   std::vector<Slot> slots_;
-  std::size_t ball_count_ = 0;
+  std::size_t sphere_count_ = 0;
   ForceRecords<PlaneForce> records_;
   Rekey<Slot> rekey_;
   geometry::ParallelSum<double> sum_;
 };
-
 
 }  // namespace plekton::contact

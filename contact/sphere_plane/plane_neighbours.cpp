@@ -5,7 +5,7 @@
 
 namespace plekton::contact {
 
-bool PlaneNeighbours::update(std::span<const Ball> balls, std::span<const Plane> planes,
+bool PlaneNeighbours::update(std::span<const SphereBody> spheres, std::span<const Plane> planes,
                              Positions x) {
   const auto has_moved = [this](const Plane& now, const Plane& then) {
     return now.normal != then.normal ||
@@ -17,10 +17,10 @@ bool PlaneNeighbours::update(std::span<const Ball> balls, std::span<const Plane>
   if (!expired_ && !planes_moved) return false;
 
   pairs_.clear();
-  for (std::size_t i = 0; i < balls.size(); ++i) {
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
     for (std::size_t p = 0; p < planes.size(); ++p) {
-      const double height = (x[index_of(balls[i].node)] - planes[p].point).dot(planes[p].normal);
-      if (height < balls[i].radius + reach_ + 1.5 * skin_) {
+      const double height = (x[index_of(spheres[i].node)] - planes[p].point).dot(planes[p].normal);
+      if (height < spheres[i].radius + reach_ + 1.5 * skin_) {
         pairs_.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(p)});
       }
     }

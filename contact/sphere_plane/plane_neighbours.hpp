@@ -9,11 +9,11 @@
 
 namespace plekton::contact {
 
-/// Which balls may touch which planes.
+/// Which spheres may touch which planes.
 ///
-/// Whoever owns the list lets it expire before a ball has moved by more than half the skin since
+/// Whoever owns the list lets it expire before a sphere has moved by more than half the skin since
 /// the last time; the list itself sees to the planes, and is made anew when one of them has moved
-/// by half the skin. Then the balls stand anywhere within half the skin of where they were at the
+/// by half the skin. Then the spheres stand anywhere within half the skin of where they were at the
 /// last expiry, and may still move to anywhere within it: by the whole skin. So everything nearer
 /// than one and a half skins is listed.
 class PlaneNeighbours {
@@ -23,7 +23,7 @@ class PlaneNeighbours {
   explicit PlaneNeighbours(double skin, double reach = 0.0) : skin_(skin), reach_(reach) {}
 
   /// Has the list made anew at the next update.
-  /// @param skin  m, of which balls move by no more than half before the next expiry
+  /// @param skin  m, of which spheres move by no more than half before the next expiry
   void expire(double skin) noexcept {
     skin_ = skin;
     expired_ = true;
@@ -31,9 +31,9 @@ class PlaneNeighbours {
 
   /// Makes the list anew if it has expired or a plane has moved by more than half the skin.
   /// @returns whether it did
-  bool update(std::span<const Ball> balls, std::span<const Plane> planes, Positions x);
+  bool update(std::span<const SphereBody> spheres, std::span<const Plane> planes, Positions x);
 
-  /// Pairs (ball, plane), sorted.
+  /// Pairs (sphere, plane), sorted.
   std::span<const geometry::IndexPair> pairs() const noexcept { return pairs_; }
 
  private:

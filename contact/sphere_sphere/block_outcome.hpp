@@ -13,7 +13,7 @@ template <std::size_t kLanes>
 struct BlockOutcome {
   std::array<double, kLanes> dissipated;  ///< J
   std::array<double, kLanes> overlap;     ///< m, of the pair with the largest ratio of
-  std::array<double, kLanes> radius;      ///< m, of its smaller ball
+  std::array<double, kLanes> radius;      ///< m, of its smaller sphere
   std::size_t touching = 0;
 
   BlockOutcome() {
@@ -26,7 +26,7 @@ struct BlockOutcome {
     for (const double of_lane : dissipated) total += of_lane;
     return total;
   }
-  /// Of overlap to the radius of the smaller ball.
+  /// Of overlap to the radius of the smaller sphere.
   double largest_ratio() const noexcept {
     double largest = 0.0;
     for (std::size_t lane = 0; lane < kLanes; ++lane)

@@ -8,7 +8,7 @@
 
 namespace plekton::contact {
 
-/// Numbers of pairs of balls, in the order of the pairs.
+/// Numbers of pairs of spheres, in the order of the pairs.
 class PairNumbers {
   struct Row {
     geometry::IndexPair pair;

@@ -14,8 +14,8 @@ namespace plekton::contact {
 using SideFlags = std::array<double, 4>;
 constexpr SideFlags kNoSides{-1.0, -1.0, -1.0, -1.0};
 
-/// Whether all cells in range of a ball over the inside of a facet, but that facet, are facets
-/// beside it, over which the ball is not: their feet are certainly across the side that they share
+/// Whether all cells in range of a sphere over the inside of a facet, but that facet, are facets
+/// beside it, over which the sphere is not: their feet are certainly across the side that they share
 /// with it, and their other sides out of range. Such a side and what is beyond it do not touch:
 /// from its nearest point on, the surface comes nearer towards the inside of the facet, and goes
 /// away on the other side.

@@ -5,7 +5,7 @@
 
 namespace plekton::contact {
 
-/// Normal of a term whose core point is the ball's centre itself, to the last bit. There the
+/// Normal of a term whose core point is the sphere's centre itself, to the last bit. There the
 /// surface leaves the side open (on a face) or any direction across (on an edge, on a node): the
 /// contact stays on the side where it was.
 /// @param last  unit, the contact's normal in the last step

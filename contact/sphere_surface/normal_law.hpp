@@ -3,7 +3,7 @@
 
 namespace plekton::contact {
 
-/// The elastic normal part of one contact over the distance of a ball's centre from a core, for
+/// The elastic normal part of one contact over the distance of a sphere's centre from a core, for
 /// code that does not know the law. Refers to an object, which must live as long.
 class NormalLaw {
  public:

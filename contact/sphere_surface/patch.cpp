@@ -26,7 +26,7 @@ PatchTerm term_of(const geometry::CriticalFeature& feature, double weight) noexc
           0.0,          feature.is_minimum()};
 }
 
-/// A force on one node and none on anything else but the ball.
+/// A force on one node and none on anything else but the sphere.
 PatchTerm inner_term(geometry::NodeId node, const Vec3& force) noexcept {
   const double size = force.norm();
   return {geometry::core_point(node), Vec3(force / size), 0.0, 0.0, size, 0.0, false, true};

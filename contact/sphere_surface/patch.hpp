@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-/// Contact of a ball with a surface: features in range that hang together are one patch, and a
+/// Contact of a sphere with a surface: features in range that hang together are one patch, and a
 /// patch is one contact.
 ///
 /// The energy of a patch counts pieces: the part of the surface nearer than s has so many pieces,
@@ -21,10 +21,10 @@
 /// sides, and the force is continuous in between, with no tolerance: the natural scale is the
 /// overlap itself. A pass that closes a ring joins nothing; what it takes too much is given back,
 /// smoothly (ring_weights.hpp). Tops, which fill rings or shut hollows, count for nothing. What a
-/// wire or a net that wraps the ball loses as its bars hang together is given back as far as it
+/// wire or a net that wraps the sphere loses as its bars hang together is given back as far as it
 /// turns around it (wrap.hpp).
 ///
-/// The energy depends on the places of the ball and of the nodes alone, and the force on each of
+/// The energy depends on the places of the sphere and of the nodes alone, and the force on each of
 /// them is its gradient, for every law: no energy is gained in any closed cycle, however the
 /// surface deforms.
 namespace plekton::contact {
@@ -36,10 +36,10 @@ using geometry::Positions;
 class NearComplex;
 class RingWeights;
 
-/// What one critical feature adds to a patch. Side a is the ball, side b the surface.
+/// What one critical feature adds to a patch. Side a is the sphere, side b the surface.
 struct PatchTerm {
   geometry::CorePoint core;  ///< on b
-  Vec3 normal;               ///< unit, from the ball's centre to the core point
+  Vec3 normal;               ///< unit, from the sphere's centre to the core point
   double distance;           ///< m
   double weight;             ///< of the energy of one contact at this distance
   double slope;              ///< N, what the force has beside weight * force of one contact: on
@@ -47,11 +47,11 @@ struct PatchTerm {
   double energy;             ///< J, what the energy has beside weight * energy of one contact
   bool is_minimum;
   bool is_inner = false;  ///< a force between nodes of the surface, along any direction: those of a
-                          ///< patch cancel on the ball or go with the push of a node, and hold
+                          ///< patch cancel on the sphere or go with the push of a node, and hold
                           ///< nothing else (wrap.hpp)
 };
 
-/// One contact of a ball with a surface.
+/// One contact of a sphere with a surface.
 struct Patch {
   Feature root;  ///< its deepest minimum; of equals the lowest feature
   std::uint32_t first_term;
@@ -66,9 +66,9 @@ class PatchFinder {
   PatchFinder& operator=(PatchFinder&&) noexcept;
   ~PatchFinder();
 
-  /// Patches of a ball on the surface's cells.
-  /// @param centre  m, of the ball
-  /// @param range   m, ball's radius + radius of the cells: what counts as in range
+  /// Patches of a sphere on the surface's cells.
+  /// @param centre  m, of the sphere
+  /// @param range   m, sphere's radius + radius of the cells: what counts as in range
   /// @param cells   ascending; every cell nearer than range, all of one radius
   /// @param law     of one contact: slopes of rings depend on it, and wraps, nothing else
   /// @returns       sorted by root; valid until the next call

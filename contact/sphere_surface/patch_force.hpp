@@ -9,16 +9,16 @@
 
 namespace plekton::contact {
 
-/// A patch as one contact of a ball (a) with a surface (b).
+/// A patch as one contact of a sphere (a) with a surface (b).
 struct PatchState {
   Feature root;
   Vec3 normal = Vec3::Zero();   ///< unit, direction of the elastic force on b
   double gap = 0.0;             ///< m, of the deepest minimum
   double elastic_force = 0.0;   ///< N, the terms' elastic forces added as vectors
   double elastic_energy = 0.0;  ///< J, of these
-  Vec3 foot = Vec3::Zero();     ///< m, from the ball's centre to the representative point:
+  Vec3 foot = Vec3::Zero();     ///< m, from the sphere's centre to the representative point:
                                 ///< force-weighted mean of the feet
-  Vec3 lever_a = Vec3::Zero();  ///< m, from the ball's centre to the contact point
+  Vec3 lever_a = Vec3::Zero();  ///< m, from the sphere's centre to the contact point
   Vec3 relative_velocity = Vec3::Zero();  ///< m/s, of b relative to a at the contact point
   Vec3 relative_spin = Vec3::Zero();      ///< rad/s, of b relative to a
   double twist_rate = 0.0;  ///< rad/s, mean angular velocity of both bodies about the normal
@@ -30,7 +30,7 @@ struct PatchTermForce {
   double share;    ///< of every other force of the patch; the shares of a patch add up to 1
 };
 
-/// Adds up the elastic forces of a patch. Each term pushes at its own foot, through the ball's
+/// Adds up the elastic forces of a patch. Each term pushes at its own foot, through the sphere's
 /// centre.
 /// @param elastic_force   gap -> N, of one feature
 /// @param elastic_energy  gap -> J
@@ -78,7 +78,7 @@ PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, dou
 /// Places the contact point and finds the relative motion there. Any point would balance the
 /// momenta, as long as both sides use the same; this one is half the gap away from either surface,
 /// on the line to the representative point.
-inline void set_kinematics(PatchState& state, NodeId ball, double radius, double range,
+inline void set_kinematics(PatchState& state, NodeId sphere, double radius, double range,
                            std::span<const PatchTerm> terms,
                            std::span<const PatchTermForce> term_forces, const Motion& motion) {
   const double distance = range + state.gap;
@@ -91,9 +91,9 @@ inline void set_kinematics(PatchState& state, NodeId ball, double radius, double
     velocity += term_forces[i].share * velocity_at(terms[i].core, lever, motion);
     spin += term_forces[i].share * angular_velocity_at(terms[i].core, motion);
   }
-  const Vec3& spin_a = motion.angular_velocity[index_of(ball)];
+  const Vec3& spin_a = motion.angular_velocity[index_of(sphere)];
   state.relative_velocity =
-      velocity - motion.velocity[index_of(ball)] - spin_a.cross(state.lever_a);
+      velocity - motion.velocity[index_of(sphere)] - spin_a.cross(state.lever_a);
   state.relative_spin = spin - spin_a;
   state.twist_rate = 0.5 * (spin_a + spin).dot(state.normal);
 }

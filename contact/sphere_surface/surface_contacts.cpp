@@ -11,29 +11,29 @@
 namespace plekton::contact {
 
 double SurfaceContacts::rebuild(std::span<const geometry::IndexPair> keys,
-                                     std::span<const NearCells> near,
-                                     std::span<const geometry::CellId> cells,
-                                     std::span<const Ball> balls,
-                                     std::span<const MaterialId> materials_of_structures,
-                                     const MaterialPairs& materials) {
+                                std::span<const NearCells> near,
+                                std::span<const geometry::CellId> cells,
+                                std::span<const SphereBody> spheres,
+                                std::span<const MaterialId> materials_of_structures,
+                                const MaterialPairs& materials) {
   double lost = 0.0;
   const auto make = [&](std::size_t i, const Pair* old) {
-    const Ball& ball = balls[static_cast<std::size_t>(keys[i].a)];
+    const SphereBody& sphere = spheres[static_cast<std::size_t>(keys[i].a)];
     const geometry::StructureId structure{keys[i].b};
     const double radius_b = surface_->radius(structure);
     const MaterialId material_b = materials_of_structures[index_of(structure)];
     const auto parameters = materials.combine(
-        {ball.material, ball.radius, ball.mass},
+        {sphere.material, sphere.radius, sphere.mass},
         {.material = material_b, .radius = radius_b, .shape = shape_of(*surface_, structure)});
-    const double range = ball.radius + radius_b;
-    return Pair{ball.radius,
+    const double range = sphere.radius + radius_b;
+    return Pair{sphere.radius,
                 range,
                 parameters,
-                ball.node,
-                range + AnyLaw::reach(parameters),
+                sphere.node,
+                range + AnyLaw::interaction_range(parameters),
                 near[i],
                 old ? old->contacts : Range{},
-                old ? old->lone_face : kNoFace,
+                old ? old->single_face : kNoFace,
                 {}};
   };
   rekey_(pairs_, keys, make, [&](const Pair& old) { lost += drop(old); });
@@ -50,8 +50,7 @@ double SurfaceContacts::drop(const Pair& pair) const {
   return lost;
 }
 
-EnergyLoss SurfaceContacts::advance(const Motion& motion, double dt,
-                                         geometry::ThreadPool& pool) {
+EnergyLoss SurfaceContacts::advance(const Motion& motion, double dt, geometry::ThreadPool& pool) {
   const auto worker_count = static_cast<std::size_t>(pool.thread_count());
   while (workers_.size() < worker_count) workers_.emplace_back(*surface_);
   current_.swap(previous_);
@@ -96,17 +95,17 @@ double SurfaceContacts::elastic_energy() const {
   return energy;
 }
 
-// What becomes of the contacts of balls with a surface that loses some of its elements.
+// What becomes of the contacts of spheres with a surface that loses some of its elements.
 
 double SurfaceContacts::follow(const geometry::SurfaceChange& change,
-                                    std::span<const geometry::CellId> cells, Positions at) {
+                               std::span<const geometry::CellId> cells, Positions at) {
   double lost = released_by(change, cells, at);
   for (Pair& pair : pairs_) {
-    pair.lone_face = kNoFace;
+    pair.single_face = kNoFace;
     if (pair.contacts.count > 0) lost += keep_minima(pair, change);
   }
   surface_ = &change.after();
-  watch_ = CellWatch(*surface_);
+  watch_ = DeferredPairs(*surface_);
   workers_.clear();
   return lost;
 }
@@ -115,8 +114,7 @@ double SurfaceContacts::follow(const geometry::SurfaceChange& change,
 /// a moment. Only pairs with a cell that is gone have changed: a feature in range has all its cells
 /// in the list.
 double SurfaceContacts::released_by(const geometry::SurfaceChange& change,
-                                         std::span<const geometry::CellId> cells,
-                                         Positions at) const {
+                                    std::span<const geometry::CellId> cells, Positions at) const {
   PatchFinder before(change.before());
   PatchFinder after(change.after());
   double released = 0.0;
@@ -139,7 +137,7 @@ double SurfaceContacts::released_by(const geometry::SurfaceChange& change,
 }
 
 double SurfaceContacts::normal_energy(const Pair& pair, PatchFinder& finder,
-                                           std::span<const geometry::CellId> cells, Positions x) {
+                                      std::span<const geometry::CellId> cells, Positions x) {
   if (cells.empty()) return 0.0;
   const NormalPart one{&pair};
   const Vec3& centre = x[index_of(pair.node)];
@@ -169,12 +167,12 @@ double SurfaceContacts::keep_minima(const Pair& pair, const geometry::SurfaceCha
   return lost;
 }
 
-// Most balls in contact lie where they lay in the step before: on the inside of one facet, far
+// Most spheres in contact lie where they lay in the step before: on the inside of one facet, far
 // from its sides. These go side by side; all others, and those that turn out to have moved on, one
 // after the other, in the order of the list.
 
-EnergyLoss SurfaceContacts::advance_pairs(std::size_t begin, std::size_t end,
-                                               const Motion& motion, double dt, int worker_index) {
+EnergyLoss SurfaceContacts::advance_pairs(std::size_t begin, std::size_t end, const Motion& motion,
+                                          double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   EnergyLoss loss;
   while (begin < end) {
@@ -183,12 +181,12 @@ EnergyLoss SurfaceContacts::advance_pairs(std::size_t begin, std::size_t end,
     for (const Job& job : worker.jobs) {
       Pair& pair = pairs_[job.pair];
       if (job.lane != kNoLane && worker.lone.answer(job.lane).is_right()) {
-        loss.dissipated += keep_lone(pair, job.lane, worker_index);
+        loss.dissipated += keep_single_feature(pair, job.lane, worker_index);
         continue;
       }
       loss += advance_pair(pair, {worker.cells.data() + job.first_cell, job.cell_count}, motion, dt,
                            worker_index);
-      pair.lone_face = lone_face_of(pair, current_);
+      pair.single_face = single_face_of(pair, current_);
     }
   }
   return loss;
@@ -196,8 +194,8 @@ EnergyLoss SurfaceContacts::advance_pairs(std::size_t begin, std::size_t end,
 
 /// Finds the pairs that are awake, as long as there are lanes for those that may go side by side.
 /// @returns the first pair that was not looked at
-std::size_t SurfaceContacts::find_jobs(std::size_t begin, std::size_t end,
-                                            const Motion& motion, Worker& worker) {
+std::size_t SurfaceContacts::find_jobs(std::size_t begin, std::size_t end, const Motion& motion,
+                                       Worker& worker) {
   worker.jobs.clear();
   worker.cells.clear();
   make_room(worker.jobs, end - begin);
@@ -205,15 +203,15 @@ std::size_t SurfaceContacts::find_jobs(std::size_t begin, std::size_t end,
   std::size_t i = begin;
   for (; i < end; ++i) {
     Pair& pair = pairs_[i];
-    if (watch_.is_asleep(pair.awake)) continue;
+    if (watch_.is_deferred(pair.next_check)) continue;
     Job job{i, worker.cells.size(), 0, kNoLane};
     SideFlags sides = kNoSides;
-    if (may_be_lone(pair, motion, job, sides, worker)) {
+    if (may_be_single_feature(pair, motion, job, sides, worker)) {
       job.lane = worker.lone.count();
       add_lane(pair, sides, worker);
     }
     if (job.cell_count > 0 || pair.contacts.count > 0) worker.jobs.push_back(job);
-    if (worker.lone.count() == kLoneLanes) return i + 1;
+    if (worker.lone.count() == kSingleFeatureLanes) return i + 1;
   }
   return i;
 }
@@ -221,18 +219,19 @@ std::size_t SurfaceContacts::find_jobs(std::size_t begin, std::size_t end,
 /// Lists the cells that may be in range. @returns whether the pair is likely to touch the inside of
 /// the same facet as in the last step, alone
 /// @param sides  kNoSides; see are_beside()
-bool SurfaceContacts::may_be_lone(Pair& pair, const Motion& motion, Job& job, SideFlags& sides,
-                                       Worker& worker) {
-  if (pair.lone_face != kNoFace && watch_.is_known(pair.awake) && pair.awake.count == 1) {
-    worker.cells.push_back(geometry::id_at<geometry::CellId>(index_of(pair.lone_face)));
+bool SurfaceContacts::may_be_single_feature(Pair& pair, const Motion& motion, Job& job,
+                                            SideFlags& sides, Worker& worker) {
+  if (pair.single_face != kNoFace && watch_.is_known(pair.next_check) &&
+      pair.next_check.count == 1) {
+    worker.cells.push_back(geometry::id_at<geometry::CellId>(index_of(pair.single_face)));
     job.cell_count = 1;
     return true;
   }
   const Vec3& centre = motion.position[index_of(pair.node)];
-  watch_.find(pair.near, centre, pair.reach, motion.position, pair.awake, worker.cells);
+  watch_.find(pair.near, centre, pair.reach, motion.position, pair.next_check, worker.cells);
   job.cell_count = worker.cells.size() - job.first_cell;
-  return pair.lone_face != kNoFace &&
-         are_beside(*surface_, pair.lone_face,
+  return pair.single_face != kNoFace &&
+         are_beside(*surface_, pair.single_face,
                     {worker.cells.data() + job.first_cell, job.cell_count}, centre, pair.reach,
                     motion.position, sides);
 }
@@ -240,9 +239,9 @@ bool SurfaceContacts::may_be_lone(Pair& pair, const Motion& motion, Job& job, Si
 /// The facet whose inside is the only contact of a pair; none if there is no such facet, or the law
 /// is not written for contacts side by side.
 /// @param lists  with the contacts of the pair
-geometry::FaceId SurfaceContacts::lone_face_of(
-    const Pair& pair, const std::vector<Lists>& lists) const noexcept {
-  if (pair.contacts.count != 1 || !pair.parameters.law->advance_lone) return kNoFace;
+geometry::FaceId SurfaceContacts::single_face_of(const Pair& pair,
+                                                 const std::vector<Lists>& lists) const noexcept {
+  if (pair.contacts.count != 1 || !pair.parameters.law->advance_single_feature) return kNoFace;
   const Contact& contact = contacts_of(pair, lists)[0];
   if (contact.minimum_count != 1) return kNoFace;
   const Feature minimum =
@@ -251,8 +250,8 @@ geometry::FaceId SurfaceContacts::lone_face_of(
 }
 
 void SurfaceContacts::add_lane(const Pair& pair, const SideFlags& sides, Worker& worker) const {
-  const auto& corners = surface_->nodes_of(pair.lone_face);
-  worker.lone_faces[worker.lone.count()] = pair.lone_face;
+  const auto& corners = surface_->nodes_of(pair.single_face);
+  worker.single_faces[worker.lone.count()] = pair.single_face;
   worker.lone.add({{pair.node, corners[0], corners[1], corners[2]},
                    pair.radius,
                    pair.range,
@@ -262,10 +261,10 @@ void SurfaceContacts::add_lane(const Pair& pair, const SideFlags& sides, Worker&
 }
 
 /// Keeps the contact and its forces. @returns the energy (J) dissipated
-double SurfaceContacts::keep_lone(Pair& pair, std::size_t lane, int worker_index) {
+double SurfaceContacts::keep_single_feature(Pair& pair, std::size_t lane, int worker_index) {
   const Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
-  const geometry::FaceId face = worker.lone_faces[lane];
-  const LoneAnswer& answer = worker.lone.answer(lane);
+  const geometry::FaceId face = worker.single_faces[lane];
+  const SingleFeatureAnswer& answer = worker.lone.answer(lane);
   const double gap = answer.gap();
   SurfaceForce& record = records_.of_worker(worker_index).add(-gap / pair.radius);
   record.a = pair.node;
@@ -292,11 +291,11 @@ double SurfaceContacts::keep_lone(Pair& pair, std::size_t lane, int worker_index
   return answer.dissipated();
 }
 
-// What a step looks at before contacts of balls with surfaces begin, and their forces as a
+// What a step looks at before contacts of spheres with surfaces begin, and their forces as a
 // function of the positions alone.
 
 void SurfaceContacts::for_each_coming(double margin, std::span<const geometry::CellId> cells,
-                                           Positions x, VisitComing visit) const {
+                                      Positions x, VisitComing visit) const {
   for (const Pair& pair : pairs_) {
     const Vec3& centre = x[index_of(pair.node)];
     const double range = pair.reach + margin;
@@ -320,8 +319,8 @@ void SurfaceContacts::for_each_coming(double margin, std::span<const geometry::C
 }
 
 void SurfaceContacts::add_elastic_forces(std::span<const geometry::CellId> cells, Positions x,
-                                              NodeForces& forces, PatchFinder& finder,
-                                              geometry::FunctionRef<bool(NodeId)> wants) const {
+                                         NodeForces& forces, PatchFinder& finder,
+                                         geometry::FunctionRef<bool(NodeId)> wants) const {
   for (const Pair& pair : pairs_) {
     if (pair.contacts.count == 0 || !wants(pair.node)) continue;
     const NormalPart one{&pair};
@@ -338,10 +337,10 @@ void SurfaceContacts::add_elastic_forces(std::span<const geometry::CellId> cells
   }
 }
 
-// One step of the contacts of one ball with one surface.
+// One step of the contacts of one sphere with one surface.
 
 EnergyLoss SurfaceContacts::advance_pair(Pair& pair, std::span<const geometry::CellId> cells,
-                                              const Motion& motion, double dt, int worker_index) {
+                                         const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const Vec3& centre = motion.position[index_of(pair.node)];
@@ -352,18 +351,18 @@ EnergyLoss SurfaceContacts::advance_pair(Pair& pair, std::span<const geometry::C
   const std::size_t first = lists.contacts.size();
   EnergyLoss loss;
   if (patches.size() == 1 && pair.contacts.count <= 1 &&
-      is_lone(worker.patches.terms(patches.front()))) {
+      is_single_feature(worker.patches.terms(patches.front()))) {
     loss = advance_alone(pair, patches[0], motion, dt, worker_index);
   } else {
     keep_sides(pair, patches, motion.position, worker);
     find_states(pair, patches, motion, worker);
-    loss = inherit(pair, patches, motion, dt, worker);
+    loss = transfer(pair, patches, motion, dt, worker);
     for (std::size_t j = 0; j < patches.size(); ++j) {
       const auto terms = worker.patches.terms(patches[j]);
       loss.dissipated +=
           add_contact(pair, terms, worker.states[j],
                       {worker.term_forces.data() + patches[j].first_term, terms.size()},
-                      worker.inherited[j], dt, worker_index);
+                      worker.transferred[j], dt, worker_index);
     }
   }
   const std::size_t count = lists.contacts.size() - first;
@@ -375,11 +374,11 @@ EnergyLoss SurfaceContacts::advance_pair(Pair& pair, std::span<const geometry::C
 
 /// Asks the law, and keeps the contact and its forces. @returns the energy (J) dissipated
 double SurfaceContacts::add_contact(const Pair& pair, std::span<const PatchTerm> terms,
-                                         const PatchState& state,
-                                         std::span<const PatchTermForce> term_forces,
-                                         const Inherited& inherited, double dt, int worker_index) {
-  if (!(state.gap < 0.0) && !AnyLaw::holds(inherited.history))
-    return AnyLaw::history_energy(pair.parameters, inherited.history);
+                                    const PatchState& state,
+                                    std::span<const PatchTermForce> term_forces,
+                                    const Transferred& transferred, double dt, int worker_index) {
+  if (!(state.gap < 0.0) && !AnyLaw::holds(transferred.history))
+    return AnyLaw::history_energy(pair.parameters, transferred.history);
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const RelativeMotion relative = relative_motion(state.normal, state.gap, state.elastic_force,
                                                   state.relative_velocity, state.relative_spin);
@@ -387,14 +386,14 @@ double SurfaceContacts::add_contact(const Pair& pair, std::span<const PatchTerm>
   for (const PatchTerm& term : terms) {
     if (term.is_minimum) lists.minima.push_back(term.core.feature);
   }
-  AnyLaw::History next = inherited.history;
+  AnyLaw::History next = transferred.history;
   const ContactForce result = AnyLaw::force(pair.parameters, relative, next, dt);
   lists.contacts.push_back({{next, state.normal},
                             state.foot,
                             state.gap,
                             state.elastic_force,
                             state.elastic_energy,
-                            inherited.id,
+                            transferred.id,
                             first_minimum,
                             static_cast<std::uint32_t>(lists.minima.size()) - first_minimum});
   write_forces(pair, terms, state, result, term_forces, worker_index);
@@ -403,19 +402,19 @@ double SurfaceContacts::add_contact(const Pair& pair, std::span<const PatchTerm>
 
 /// One patch of one term that follows at most one contact: the same as the general way.
 EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
-                                               const Motion& motion, double dt, int worker_index) {
+                                          const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   const PatchTerm& term = worker.patches.terms(patch)[0];
-  const PatchState state =
-      lone_state<AnyLaw>(term, pair.parameters, pair.node, pair.radius, pair.range, motion);
-  Inherited inherited;
+  const PatchState state = single_feature_state<AnyLaw>(term, pair.parameters, pair.node,
+                                                        pair.radius, pair.range, motion);
+  Transferred transferred;
   EnergyLoss loss;
   for (const Contact& old : contacts_of(pair, previous_)) {
     const double stored = AnyLaw::history_energy(pair.parameters, old.memory.history);
     const Feature* minima =
         previous_[static_cast<std::size_t>(pair.contacts.worker)].minima.data() + old.first_minimum;
     const bool stays = old.minimum_count == 1 && *minima == term.core.feature;
-    if (!stays && worker.heirs
+    if (!stays && worker.successors
                       .find({minima, old.minimum_count}, motion.position[index_of(pair.node)],
                             motion.position, {&patch, 1}, worker.patches)
                       .empty()) {
@@ -424,29 +423,31 @@ EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
     }
     loss.tracking = stored;
     worker.pass_throughs += is_turned_over(old.memory.normal, state.normal);
-    AnyLaw::add_share(inherited.history,
-                   carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), 1.0);
-    inherited.id = old.id;
+    AnyLaw::accumulate_history(
+        transferred.history,
+        carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), 1.0);
+    transferred.id = old.id;
   }
-  loss.tracking -= AnyLaw::history_energy(pair.parameters, inherited.history);
+  loss.tracking -= AnyLaw::history_energy(pair.parameters, transferred.history);
   const PatchTermForce term_force{state.elastic_force, 1.0};
   loss.dissipated +=
-      add_contact(pair, {&term, 1}, state, {&term_force, 1}, inherited, dt, worker_index);
+      add_contact(pair, {&term, 1}, state, {&term_force, 1}, transferred, dt, worker_index);
   return loss;
 }
 
-/// Where a ball's centre lies on the surface itself, the contact of the last step says on which
+/// Where a sphere's centre lies on the surface itself, the contact of the last step says on which
 /// side it is.
 void SurfaceContacts::keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x,
-                                      Worker& worker) {
+                                 Worker& worker) {
   for (std::size_t j = 0; j < patches.size(); ++j) {
     const std::span<PatchTerm> terms = worker.patches.terms(patches[j]);
     if (terms[0].distance > 0.0 || pair.contacts.count == 0) continue;  // the first is the nearest
     const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
     for (const Contact& old : contacts_of(pair, previous_)) {
-      const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
-                                           x[index_of(pair.node)], x, patches, worker.patches);
-      if (std::find(heirs.begin(), heirs.end(), j) == heirs.end()) continue;
+      const auto successors =
+          worker.successors.find({minima.data() + old.first_minimum, old.minimum_count},
+                                 x[index_of(pair.node)], x, patches, worker.patches);
+      if (std::find(successors.begin(), successors.end(), j) == successors.end()) continue;
       for (PatchTerm& term : terms) {
         const bool is_on_the_surface = term.distance == 0.0 && !term.is_inner;
         if (is_on_the_surface) term.normal = normal_on_last_side(term, old.memory.normal, x);
@@ -457,7 +458,7 @@ void SurfaceContacts::keep_sides(const Pair& pair, std::span<const Patch> patche
 }
 
 void SurfaceContacts::find_states(const Pair& pair, std::span<const Patch> patches,
-                                       const Motion& motion, Worker& worker) {
+                                  const Motion& motion, Worker& worker) {
   worker.states.clear();
   worker.term_forces.clear();
   for (const Patch& patch : patches) {
@@ -483,56 +484,59 @@ void SurfaceContacts::find_states(const Pair& pair, std::span<const Patch> patch
 /// shares its history in proportion to the elastic forces, and its number goes to the patch with
 /// the largest; of contacts that merge the one with the largest hands its number on. What a contact
 /// stored that nothing follows is dissipated.
-EnergyLoss SurfaceContacts::inherit(const Pair& pair, std::span<const Patch> patches,
-                                         const Motion& motion, double dt, Worker& worker) {
-  worker.inherited.assign(patches.size(), Inherited{});
+EnergyLoss SurfaceContacts::transfer(const Pair& pair, std::span<const Patch> patches,
+                                     const Motion& motion, double dt, Worker& worker) {
+  worker.transferred.assign(patches.size(), Transferred{});
   EnergyLoss loss;
   if (pair.contacts.count == 0) return loss;
   const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
   for (const Contact& old : contacts_of(pair, previous_)) {
-    const auto heirs = worker.heirs.find({minima.data() + old.first_minimum, old.minimum_count},
-                                         motion.position[index_of(pair.node)], motion.position,
-                                         patches, worker.patches);
-    (heirs.empty() ? loss.dissipated : loss.tracking) +=
+    const auto successors = worker.successors.find(
+        {minima.data() + old.first_minimum, old.minimum_count},
+        motion.position[index_of(pair.node)], motion.position, patches, worker.patches);
+    (successors.empty() ? loss.dissipated : loss.tracking) +=
         AnyLaw::history_energy(pair.parameters, old.memory.history);
     double total = 0.0;
-    for (const std::uint32_t heir : heirs) total += worker.states[heir].elastic_force;
-    hand_on_number(old, heirs, worker);
-    // A ball rolls around an edge little by little: a normal that turns over in one step has gone
+    for (const std::uint32_t successor : successors)
+      total += worker.states[successor].elastic_force;
+    hand_on_number(old, successors, worker);
+    // A sphere rolls around an edge little by little: a normal that turns over in one step has gone
     // through the surface.
     worker.pass_throughs +=
-        !heirs.empty() && std::all_of(heirs.begin(), heirs.end(), [&](std::uint32_t heir) {
-          return is_turned_over(old.memory.normal, worker.states[heir].normal);
+        !successors.empty() &&
+        std::all_of(successors.begin(), successors.end(), [&](std::uint32_t successor) {
+          return is_turned_over(old.memory.normal, worker.states[successor].normal);
         });
-    for (const std::uint32_t heir : heirs) {
-      const PatchState& state = worker.states[heir];
+    for (const std::uint32_t successor : successors) {
+      const PatchState& state = worker.states[successor];
       const double share =
-          total > 0.0 ? state.elastic_force / total : 1.0 / static_cast<double>(heirs.size());
-      AnyLaw::add_share(worker.inherited[heir].history,
-                     carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), share);
+          total > 0.0 ? state.elastic_force / total : 1.0 / static_cast<double>(successors.size());
+      AnyLaw::accumulate_history(
+          worker.transferred[successor].history,
+          carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), share);
     }
   }
-  for (const Inherited& inherited : worker.inherited)
-    loss.tracking -= AnyLaw::history_energy(pair.parameters, inherited.history);
+  for (const Transferred& transferred : worker.transferred)
+    loss.tracking -= AnyLaw::history_energy(pair.parameters, transferred.history);
   return loss;
 }
 
-void SurfaceContacts::hand_on_number(const Contact& old, std::span<const std::uint32_t> heirs,
-                                          Worker& worker) {
-  if (heirs.empty()) return;
-  const std::uint32_t largest =
-      *std::max_element(heirs.begin(), heirs.end(), [&](std::uint32_t p, std::uint32_t q) {
+void SurfaceContacts::hand_on_number(const Contact& old, std::span<const std::uint32_t> successors,
+                                     Worker& worker) {
+  if (successors.empty()) return;
+  const std::uint32_t largest = *std::max_element(
+      successors.begin(), successors.end(), [&](std::uint32_t p, std::uint32_t q) {
         return worker.states[p].elastic_force < worker.states[q].elastic_force;
       });
-  Inherited& inherited = worker.inherited[largest];
-  if (!(old.elastic_force > inherited.from)) return;
-  inherited.id = old.id;
-  inherited.from = old.elastic_force;
+  Transferred& transferred = worker.transferred[largest];
+  if (!(old.elastic_force > transferred.from)) return;
+  transferred.id = old.id;
+  transferred.from = old.elastic_force;
 }
 
 void SurfaceContacts::write_forces(const Pair& pair, std::span<const PatchTerm> terms,
-                                        const PatchState& state, const ContactForce& answer,
-                                        std::span<const PatchTermForce> term_forces, int worker) {
+                                   const PatchState& state, const ContactForce& answer,
+                                   std::span<const PatchTermForce> term_forces, int worker) {
   auto& records = records_.of_worker(worker);
   const auto contact =
       static_cast<std::uint32_t>(current_[static_cast<std::size_t>(worker)].contacts.size() - 1);
@@ -549,9 +553,9 @@ void SurfaceContacts::write_forces(const Pair& pair, std::span<const PatchTerm> 
   }
 }
 
-// Contacts of balls with surfaces as they are reported.
+// Contacts of spheres with surfaces as they are reported.
 
-void SurfaceContacts::number(std::int64_t& last) {
+void SurfaceContacts::assign_ids(std::int64_t& last) {
   for (Lists& lists : current_) {
     for (Contact& contact : lists.contacts) {
       if (contact.id == 0) contact.id = ++last;
@@ -559,7 +563,7 @@ void SurfaceContacts::number(std::int64_t& last) {
   }
 }
 
-void SurfaceContacts::for_each_row(Positions x, VisitRow visit) const {
+void SurfaceContacts::for_each_record(Positions x, VisitRecord visit) const {
   for (std::size_t w = 0; w < records_.lists().size(); ++w) {
     const auto& list = records_.lists()[w];
     const std::span<const SurfaceForce> records{list.records.data(), list.count};
@@ -575,13 +579,13 @@ void SurfaceContacts::for_each_row(Positions x, VisitRow visit) const {
 
 /// The sum of what its terms do, so that all rows together do what has been done to the nodes.
 /// @param records  of the contact; the first is that of the deepest minimum
-ContactRow SurfaceContacts::row_of(std::span<const SurfaceForce> records,
-                                        const Contact& contact, Positions x) const {
+ContactRecord SurfaceContacts::row_of(std::span<const SurfaceForce> records, const Contact& contact,
+                                      Positions x) const {
   const SurfaceForce& deepest = records.front();
   const Pair& pair = pairs_[deepest.pair];
   const geometry::IndexPair& key = rekey_.key(deepest.pair);
   Vec3 force = Vec3::Zero();
-  Vec3 torque = Vec3::Zero();  // on the ball, about its centre
+  Vec3 torque = Vec3::Zero();  // on the sphere, about its centre
   for (const SurfaceForce& record : records) {
     force += record.force;
     torque += record.torque_a;
@@ -591,7 +595,7 @@ ContactRow SurfaceContacts::row_of(std::span<const SurfaceForce> records,
                          ? Vec3((pair.radius + 0.5 * contact.gap) / distance * contact.foot)
                          : Vec3(Vec3::Zero());
   const Vec3& centre = x[index_of(pair.node)];
-  ContactRow row;
+  ContactRecord row;
   row.id = contact.id;
   row.a = {BodyKind::sphere, key.a, Feature(pair.node)};
   row.b = {BodyKind::structure, key.b, deepest.core.feature};

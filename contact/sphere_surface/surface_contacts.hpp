@@ -3,15 +3,15 @@
 
 #include "contact/base/bodies.hpp"
 #include "contact/law/material_pairs.hpp"
-#include "contact/sphere_surface/cell_watch.hpp"
+#include "contact/sphere_surface/deferred_pairs.hpp"
 #include "contact/sphere_surface/last_side.hpp"
-#include "contact/sphere_surface/lone_batch.hpp"
-#include "contact/sphere_surface/lone_contact.hpp"
 #include "contact/sphere_surface/patch.hpp"
 #include "contact/sphere_surface/patch_force.hpp"
-#include "contact/sphere_surface/patch_heirs.hpp"
+#include "contact/sphere_surface/patch_successors.hpp"
+#include "contact/sphere_surface/single_feature_batch.hpp"
+#include "contact/sphere_surface/single_feature_contact.hpp"
 #include "contact/tracking/contact_memory.hpp"
-#include "contact/tracking/contact_row.hpp"
+#include "contact/tracking/contact_record.hpp"
 #include "contact/tracking/energy_loss.hpp"
 #include "contact/tracking/force_records.hpp"
 #include "contact/tracking/rekey.hpp"
@@ -30,19 +30,19 @@ namespace plekton::contact {
 
 using geometry::NearCells;
 
-/// Contacts of balls (a) with deformable surfaces (b). A contact belongs to a ball and a structure,
+/// Contacts of spheres (a) with deformable surfaces (b). A contact belongs to a sphere and a structure,
 /// never to a pair of elements: it lives on a patch (patch.hpp), and follows it over the surface.
 class SurfaceContacts {
  public:
   explicit SurfaceContacts(const geometry::Surface& surface)
       : surface_(&surface), watch_(surface) {}
 
-  /// Takes a new list of pairs (ball, structure), sorted, with their cells in ascending order;
+  /// Takes a new list of pairs (sphere, structure), sorted, with their cells in ascending order;
   /// pairs in both lists keep their patches.
   /// @param materials_of_structures  by StructureId
   /// @returns the energy (J) lost with contacts that left the list
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const NearCells> near,
-                 std::span<const geometry::CellId> cells, std::span<const Ball> balls,
+                 std::span<const geometry::CellId> cells, std::span<const SphereBody> spheres,
                  std::span<const MaterialId> materials_of_structures,
                  const MaterialPairs& materials);
 
@@ -63,10 +63,10 @@ class SurfaceContacts {
     records_.add_to(forces, pool);
   }
 
-  /// Largest overlap of the last step over the radius of the ball.
+  /// Largest overlap of the last step over the radius of the sphere.
   double largest_overlap_ratio() const noexcept { return records_.deepest(); }
 
-  /// How many balls had their centre on the other side of a surface than in the step before: they
+  /// How many spheres had their centre on the other side of a surface than in the step before: they
   /// pass through it. In the last step.
   std::int64_t pass_throughs() const noexcept;
 
@@ -76,7 +76,7 @@ class SurfaceContacts {
   /// Energy (J) stored in all contacts, at the positions of the last step.
   double elastic_energy() const;
 
-  /// Calls visit(ball's node, core point of a term, parameters, range (m): radius of the ball and
+  /// Calls visit(sphere's node, core point of a term, parameters, range (m): radius of the sphere and
   /// of the surface, elastic force (N) of the term) for every term of every patch.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
@@ -86,9 +86,9 @@ class SurfaceContacts {
     });
   }
 
-  /// Calls visit(ball's node, core point, parameters, range (m)) for what is not in contact but may
+  /// Calls visit(sphere's node, core point, parameters, range (m)) for what is not in contact but may
   /// be as soon as bodies come nearer by a margin: the nearest point of every cell whose inside
-  /// holds it, and of a surface that the ball does not touch the nearest one of all, since a
+  /// holds it, and of a surface that the sphere does not touch the nearest one of all, since a
   /// contact begins there.
   /// @param margin  m, at most the skin of the list
   /// @param cells   of the present list, as rebuild() took them
@@ -101,21 +101,21 @@ class SurfaceContacts {
   /// step: what the contacts' energy gives, without friction and whatever else has a history.
   /// @param cells   of the present list, as rebuild() took them
   /// @param finder  working space, of this surface
-  /// @param wants   (ball's node) -> whether its contacts count
+  /// @param wants   (sphere's node) -> whether its contacts count
   void add_elastic_forces(std::span<const geometry::CellId> cells, Positions x, NodeForces& forces,
                           PatchFinder& finder, geometry::FunctionRef<bool(NodeId)> wants) const;
 
   /// Gives a number after the last one to every contact that has none.
-  void number(std::int64_t& last);
+  void assign_ids(std::int64_t& last);
 
-  /// Calls visit(ContactRow) for every contact of the last step, in the order of the list.
-  void for_each_row(Positions x, VisitRow visit) const;
+  /// Calls visit(ContactRecord) for every contact of the last step, in the order of the list.
+  void for_each_record(Positions x, VisitRecord visit) const;
 
  private:
   /// A contact as it is kept for the next step.
   struct Contact {
     ContactMemory<AnyLaw> memory;
-    Vec3 foot;                    ///< m, from the ball's centre to the representative point
+    Vec3 foot;                    ///< m, from the sphere's centre to the representative point
     double gap;                   ///< m, of the deepest minimum
     double elastic_force;         ///< N, magnitude of the sum of the normal forces
     double elastic_energy;        ///< J, of the normal forces
@@ -134,15 +134,15 @@ class SurfaceContacts {
     std::uint32_t count = 0;
   };
   struct Pair {
-    double radius;  ///< m, of the ball
-    double range;   ///< m, radius of ball + radius of surface
+    double radius;  ///< m, of the sphere
+    double range;   ///< m, radius of sphere + radius of surface
     AnyLaw::Parameters parameters;
     NodeId node;
     double reach;  ///< m, the range and the law's reach
     NearCells near;
     Range contacts;
-    geometry::FaceId lone_face;  ///< whose inside was the only contact in the last step; or none
-    CellWatch::Awake awake;
+    geometry::FaceId single_face;  ///< whose inside was the only contact in the last step; or none
+    DeferredPairs::NextCheck next_check;
   };
   static constexpr geometry::FaceId kNoFace{-1};
   /// A pair that is awake, with the cells that may be in range.
@@ -150,57 +150,58 @@ class SurfaceContacts {
     std::size_t pair;
     std::size_t first_cell;  ///< in Worker::cells
     std::size_t cell_count;
-    std::size_t lane;  ///< in Worker::lone; kNoLane: to be computed by itself
+    std::size_t lane;  ///< in Worker::single-feature; kNoLane: to be computed by itself
   };
   /// What a contact has from those of the last step.
-  struct Inherited {
+  struct Transferred {
     AnyLaw::History history{};
     std::int64_t id = 0;
     double from = -1.0;  ///< N, elastic force of the contact that the id is from
   };
   static constexpr std::size_t kNoLane = std::numeric_limits<std::size_t>::max();
   struct Worker {
-    explicit Worker(const geometry::Surface& surface) : patches(surface), heirs(surface) {}
+    explicit Worker(const geometry::Surface& surface) : patches(surface), successors(surface) {}
     PatchFinder patches;
-    PatchHeirs heirs;
+    PatchSuccessors successors;
     std::vector<Job> jobs;
     std::vector<geometry::CellId> cells;  ///< of the jobs
     std::vector<PatchState> states;
     std::vector<PatchTermForce> term_forces;  ///< in the order of the patches and their terms
-    std::vector<Inherited> inherited;         ///< by patch
+    std::vector<Transferred> transferred;     ///< by patch
     std::int64_t pass_throughs = 0;           ///< in this step
-    /// Pairs of a ball with the inside of one facet, as far as one can tell beforehand.
-    LoneBatch lone;
-    std::array<geometry::FaceId, kLoneLanes> lone_faces;
+    /// Pairs of a sphere with the inside of one facet, as far as one can tell beforehand.
+    SingleFeatureBatch lone;
+    std::array<geometry::FaceId, kSingleFeatureLanes> single_faces;
   };
 
   EnergyLoss advance_pairs(std::size_t begin, std::size_t end, const Motion& motion, double dt,
                            int worker);
   std::size_t find_jobs(std::size_t begin, std::size_t end, const Motion& motion, Worker& worker);
-  bool may_be_lone(Pair& pair, const Motion& motion, Job& job, SideFlags& sides, Worker& worker);
+  bool may_be_single_feature(Pair& pair, const Motion& motion, Job& job, SideFlags& sides,
+                             Worker& worker);
   void add_lane(const Pair& pair, const SideFlags& sides, Worker& worker) const;
-  double keep_lone(Pair& pair, std::size_t lane, int worker);
-  geometry::FaceId lone_face_of(const Pair& pair, const std::vector<Lists>& lists) const noexcept;
+  double keep_single_feature(Pair& pair, std::size_t lane, int worker);
+  geometry::FaceId single_face_of(const Pair& pair, const std::vector<Lists>& lists) const noexcept;
   EnergyLoss advance_pair(Pair& pair, std::span<const geometry::CellId> cells, const Motion& motion,
                           double dt, int worker);
   EnergyLoss advance_alone(const Pair& pair, const Patch& patch, const Motion& motion, double dt,
                            int worker);
   double add_contact(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
-                     std::span<const PatchTermForce> term_forces, const Inherited& inherited,
+                     std::span<const PatchTermForce> term_forces, const Transferred& transferred,
                      double dt, int worker);
   void keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x, Worker& worker);
   void find_states(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
                    Worker& worker);
-  EnergyLoss inherit(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
-                     double dt, Worker& worker);
+  EnergyLoss transfer(const Pair& pair, std::span<const Patch> patches, const Motion& motion,
+                      double dt, Worker& worker);
   void write_forces(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
                     const ContactForce& answer, std::span<const PatchTermForce> term_forces,
                     int worker);
-  static void hand_on_number(const Contact& old, std::span<const std::uint32_t> heirs,
+  static void hand_on_number(const Contact& old, std::span<const std::uint32_t> successors,
                              Worker& worker);
   double drop(const Pair& pair) const;
-  ContactRow row_of(std::span<const SurfaceForce> records, const Contact& contact,
-                    Positions x) const;
+  ContactRecord row_of(std::span<const SurfaceForce> records, const Contact& contact,
+                       Positions x) const;
   double released_by(const geometry::SurfaceChange& change, std::span<const geometry::CellId> cells,
                      Positions at) const;
   /// Of one contact of a pair, by distance (m).
@@ -224,7 +225,7 @@ class SurfaceContacts {
 
   const geometry::Surface* surface_;
   std::vector<Pair> pairs_;
-  CellWatch watch_;
+  DeferredPairs watch_;
   std::vector<Lists> current_;   ///< by worker
   std::vector<Lists> previous_;  ///< by worker
   std::vector<Worker> workers_;
@@ -232,6 +233,5 @@ class SurfaceContacts {
   Rekey<Pair> rekey_;
   geometry::ParallelSum<EnergyLoss> sum_;
 };
-
 
 }  // namespace plekton::contact

@@ -5,7 +5,7 @@
 
 #include <span>
 
-/// What bars that wrap around something get back, a ball or another structure, because what hangs
+/// What bars that wrap around something get back, a sphere or another structure, because what hangs
 /// together in range is one contact (patch.hpp, surface_surface/nearest.hpp): each node that comes into
 /// range takes from its bars what they have together, and a wrap would give way.
 ///
@@ -28,7 +28,7 @@
 /// Bars count in it as far as they hold each other in balance along the surface: by the weights w
 /// with the least |sum of w p|^2 + c sum of (w - 1)^2, where p are their directions along it. So a
 /// node counts all bars of a straight wire, a crossing and a junction of three even wires, and not
-/// what ends on a wire beside it, or the bars of a corner: a ball that rolls over one feels no
+/// what ends on a wire beside it, or the bars of a corner: a sphere that rolls over one feels no
 /// bump.
 ///
 ///     x = sum of w a(y / T);    W = phi(d) (1 + c^2) x^3 / (x^2 + c^2 X^2)  for x > 0,

@@ -47,7 +47,7 @@ Simplex simplex_at(const geometry::FeatureNodes& nodes, const std::array<bool, 3
 
 /// Of the range. Cores nearer than that meet, up to what matters: side by side has no meaning, and
 /// the direction is that of the nearest points.
-constexpr double kMeeting = 1e-6;
+constexpr double kStructurePair = 1e-6;
 
 /// How far the boxes of two simplices are apart along the axis along which they are furthest apart;
 /// negative if they overlap. No points of theirs are nearer.
@@ -114,7 +114,7 @@ PairTerm pair_term(const geometry::Surface& surface, const geometry::FeaturePair
 }
 
 TermProximity proximity(const PairTerm& term, double range, geometry::Positions x, bool was_near,
-                        const geometry::closest::Carriers& last) {
+                        const geometry::closest::WitnessFeatures& last) {
   const Simplex a = simplex_at(term.a, term.is_seam_a, x);
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
   TermProximity found{};
@@ -173,7 +173,7 @@ void add_nearest(const PairTerm& term, const PairForces& nearest, const CoreProx
 TermForces term_forces(const PairTerm& term, const TermProximity& found, const PointShare& share,
                        const NormalSpring& spring, geometry::Positions x) {
   TermForces result;
-  if (found.cores.signed_distance < kMeeting * spring.range()) {
+  if (found.cores.signed_distance < kStructurePair * spring.range()) {
     add(at_nearest_points(found.cores, spring), term.weight, term, result.forces);
     return result;
   }

@@ -44,7 +44,7 @@ struct TermProximity {
 
 /// @param was_near  whether the term was in range a moment ago, and last says where
 TermProximity proximity(const PairTerm& term, double range, geometry::Positions x, bool was_near,
-                        const geometry::closest::Carriers& last);
+                        const geometry::closest::WitnessFeatures& last);
 
 /// Nearest points of a term whose features are faces of those of another, where these points lie in
 /// the smaller features: they are the same.

@@ -59,7 +59,8 @@ PairForces scaled(const PairForces& forces, double by) {
 
 }  // namespace
 
-std::array<geometry::FeatureNodes, 2> PairTerms::carriers(std::uint32_t pair) const noexcept {
+std::array<geometry::FeatureNodes, 2> PairTerms::witness_features(
+    std::uint32_t pair) const noexcept {
   const PairTerm& term = terms_[term_of_pair_[pair]];
   const geometry::ClosestPoints& points = proximity_[pair].cores.points;
   const auto a = some_of(term.a, points.corners_a);
@@ -136,7 +137,7 @@ void PairTerms::find_near_pairs(std::span<const NormalSpring> springs, const Mot
   if (terms_are_new_) {
     clearances_.reset(term_of_pair_.size(), motion.position);
   } else {
-    clearances_.move(motion.way, motion.position);
+    clearances_.move(motion.max_displacement, motion.position);
   }
   due_.clear();
   clearances_.for_each_due([&](std::size_t i) { due_.push_back(static_cast<std::uint32_t>(i)); });
@@ -144,8 +145,8 @@ void PairTerms::find_near_pairs(std::span<const NormalSpring> springs, const Mot
     const std::uint32_t pair = due_[i];
     const PairTerm& term = terms_[term_of_pair_[pair]];
     TermProximity& found = proximity_[pair];
-    const geometry::closest::Carriers last{found.cores.points.corners_a,
-                                           found.cores.points.corners_b};
+    const geometry::closest::WitnessFeatures last{found.cores.points.corners_a,
+                                                  found.cores.points.corners_b};
     found =
         proximity(term, springs[term.spring].range(), motion.position, is_near_[pair] != 0, last);
   });

@@ -94,7 +94,7 @@ class PairTerms {
 
   /// Of a pair of cells in range at the last evaluate(): the corners of the features that hold its
   /// nearest points, of its first cell and of its second.
-  std::array<geometry::FeatureNodes, 2> carriers(std::uint32_t pair) const noexcept;
+  std::array<geometry::FeatureNodes, 2> witness_features(std::uint32_t pair) const noexcept;
 
   /// Whether a pair of cells may be in range, or so much (m) out of it.
   bool may_be_within(std::uint32_t pair, double margin) const noexcept {

@@ -74,7 +74,7 @@ struct SpreadContact {
   bool is_turned = false;   ///< side a is on the patch's second side
   bool is_of_bar = false;   ///< one of its cells at least is a cylinder
   bool is_wrapped = false;  ///< in a patch that wraps around something
-  std::uint32_t meeting = 0;
+  std::uint32_t structure_pair = 0;
   Side a;
   Side b;
   Vec3 elastic_force = Vec3::Zero();  ///< N, on b
@@ -89,7 +89,7 @@ struct SpreadContact {
 
   /// Sets where and how hard a term of two facets presses by its extent.
   /// @returns whether it does
-  bool locate(const PairTerm& term, const PairForces& spread, const Meeting& bodies,
+  bool locate(const PairTerm& term, const PairForces& spread, const StructurePair& bodies,
               Positions x) {
     elastic_force = spread.on_b[0] + spread.on_b[1] + spread.on_b[2];
     normal_force = elastic_force.norm();
@@ -115,7 +115,7 @@ struct SpreadContact {
   };
   /// Sets where a term with a bar in it presses.
   /// @returns whether it does
-  bool locate_bar(const PairTerm& term, const Pressed& pressed, const Meeting& bodies,
+  bool locate_bar(const PairTerm& term, const Pressed& pressed, const StructurePair& bodies,
                   Positions x) {
     const Vec3 force = term.forces.on_b[0] + term.forces.on_b[1] + term.forces.on_b[2];
     const double size = force.norm();
@@ -150,8 +150,8 @@ struct SpreadContact {
 
   Vec3 normal() const { return elastic_force / normal_force; }
   /// @param free_part  of the tangential force, that no bonds carry
-  AnyLaw::Parameters parameters(const Meeting& bodies, double free_part) const {
-    return AnyLaw::beside_bonds(AnyLaw::multiplied(bodies.parameters, count), free_part);
+  AnyLaw::Parameters parameters(const StructurePair& bodies, double free_part) const {
+    return AnyLaw::unbonded_part(AnyLaw::scaled(bodies.parameters, count), free_part);
   }
 
   /// Adds the history of a spread contact of the last step.
@@ -162,11 +162,11 @@ struct SpreadContact {
     const Vec3 onto = sign * normal();
     const Vec3 spin = 0.5 * (a.angular_velocity(motion) + b.angular_velocity(motion));
     const auto carried = carried_history<AnyLaw>(old.memory, onto, dt * spin.dot(onto));
-    AnyLaw::add_share(memory.history, carried, sign * contacts / count);
+    AnyLaw::accumulate_history(memory.history, carried, sign * contacts / count);
   }
 
   /// One step of the law.
-  void apply_law(const Meeting& bodies, double free_part, const Motion& motion, double dt) {
+  void apply_law(const StructurePair& bodies, double free_part, const Motion& motion, double dt) {
     const auto of_all = parameters(bodies, free_part);
     memory.normal = normal();
     const Vec3 velocity =
@@ -180,20 +180,20 @@ struct SpreadContact {
     dissipated = result.dissipated;
     find_energy(bodies, free_part);
   }
-  void find_energy(const Meeting& bodies, double free_part) {
+  void find_energy(const StructurePair& bodies, double free_part) {
     energy = AnyLaw::history_energy(parameters(bodies, free_part), memory.history);
   }
 
-  void add_forces(const Meeting& bodies, NodeForces& forces) const {
+  void add_forces(const StructurePair& bodies, NodeForces& forces) const {
     a.add_force_at(lever_a(bodies), -other_force, -moment, forces);
     b.add_force_at(lever_b(bodies), other_force, moment, forces);
   }
 
   /// m. The contact point lies between the two points on which the elastic force acts.
-  Vec3 lever_a(const Meeting& bodies) const {
+  Vec3 lever_a(const StructurePair& bodies) const {
     return bodies.radius_first / (bodies.radius_first + bodies.radius_second) * (b.point - a.point);
   }
-  Vec3 lever_b(const Meeting& bodies) const {
+  Vec3 lever_b(const StructurePair& bodies) const {
     return bodies.radius_second / (bodies.radius_first + bodies.radius_second) *
            (a.point - b.point);
   }

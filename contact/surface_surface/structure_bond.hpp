@@ -23,7 +23,7 @@ namespace plekton::contact::structure {
 struct StructureBond {
   geometry::CellPair cells{};  ///< that it belongs to
   bool is_turned = false;      ///< point a is on the second of them
-  std::uint32_t meeting = 0;
+  std::uint32_t structure_pair = 0;
   geometry::CorePoint a{};  ///< on the lower structure
   geometry::CorePoint b{};
   double count = 0.0;  ///< of contacts
@@ -40,15 +40,15 @@ struct StructureBond {
   Vec3 other_force = Vec3::Zero();  ///< N, on b: all but that part
   Vec3 moment = Vec3::Zero();       ///< N m, on b
 
-  AnyLaw::Parameters parameters(const Meeting& bodies) const {
-    return AnyLaw::of_bond(AnyLaw::multiplied(bodies.parameters, count));
+  AnyLaw::Parameters parameters(const StructurePair& bodies) const {
+    return AnyLaw::of_bond(AnyLaw::scaled(bodies.parameters, count));
   }
-  double history_energy(const Meeting& bodies) const {
+  double history_energy(const StructurePair& bodies) const {
     return AnyLaw::history_energy(parameters(bodies), memory.history);
   }
 
   /// Finds the gap, and the part of the elastic force that is pressing here.
-  void locate(const Meeting& bodies, Positions x) {
+  void locate(const StructurePair& bodies, Positions x) {
     separation = position(b, x) - position(a, x);
     const double distance = separation.norm();
     normal = distance > 0.0 ? Vec3(separation / distance) : memory.normal;
@@ -57,26 +57,27 @@ struct StructureBond {
   }
 
   /// One step of the law, after locate().
-  void apply_law(const Meeting& bodies, const Motion& motion, double dt) {
+  void apply_law(const StructurePair& bodies, const Motion& motion, double dt) {
     const Vec3 spin_a = angular_velocity_at(a, motion);
     const Vec3 spin_b = angular_velocity_at(b, motion);
     const Vec3 velocity =
         velocity_at(b, lever_b(bodies), motion) - velocity_at(a, lever_a(bodies), motion);
     const auto of_bond = parameters(bodies);
     const double before = history_energy(bodies);
-    memory.history = carried_history<AnyLaw>(memory, normal, 0.5 * dt * (spin_a + spin_b).dot(normal));
+    memory.history =
+        carried_history<AnyLaw>(memory, normal, 0.5 * dt * (spin_a + spin_b).dot(normal));
     memory.normal = normal;
     const double lost = before - history_energy(bodies);
     const ContactForce result =
         AnyLaw::force(of_bond, relative_motion(normal, gap, pressing, velocity, spin_b - spin_a),
-                   memory.history, dt);
+                      memory.history, dt);
     other_force = result.force - pressing * normal;
     moment = result.moment;
     dissipated = lost + result.dissipated;
     is_broken = !AnyLaw::holds(memory.history);
   }
 
-  void add_forces(const Meeting& bodies, NodeForces& forces) const {
+  void add_forces(const StructurePair& bodies, NodeForces& forces) const {
     add_force_at(a, lever_a(bodies), -other_force, forces);
     add_force_at(b, lever_b(bodies), other_force, forces);
     add_moment(a, -moment, forces);
@@ -87,7 +88,7 @@ struct StructureBond {
   /// the force is the same, and acts there. Does nothing where that would take energy: the bond has
   /// yielded, or is open.
   /// @returns the energy (J) that is lost
-  double grow(const Meeting& bodies, const PressedPoints& at, double more, Positions x) {
+  double grow(const StructurePair& bodies, const PressedPoints& at, double more, Positions x) {
     StructureBond grown = *this;
     grown.count += more;
     grown.a.weights = (count * a.weights + more * at.a.weights) / grown.count;
@@ -100,10 +101,10 @@ struct StructureBond {
   }
 
   /// The point where the forces act lies between the material points.
-  Vec3 lever_a(const Meeting& bodies) const {
+  Vec3 lever_a(const StructurePair& bodies) const {
     return bodies.radius_first / (bodies.radius_first + bodies.radius_second) * separation;
   }
-  Vec3 lever_b(const Meeting& bodies) const {
+  Vec3 lever_b(const StructurePair& bodies) const {
     return -bodies.radius_second / (bodies.radius_first + bodies.radius_second) * separation;
   }
 
@@ -115,8 +116,8 @@ struct StructureBond {
 };
 
 /// A bond of a pair of cells that presses, without force yet; none if the points do not press.
-inline std::optional<StructureBond> new_bond(const Meeting& bodies, const PressedPoints& at,
-                                           double count, Positions x) {
+inline std::optional<StructureBond> new_bond(const StructurePair& bodies, const PressedPoints& at,
+                                             double count, Positions x) {
   StructureBond bond;
   bond.a = at.a;
   bond.b = at.b;
@@ -124,7 +125,7 @@ inline std::optional<StructureBond> new_bond(const Meeting& bodies, const Presse
   bond.locate(bodies, x);
   if (!(bond.gap < 0.0)) return {};
   bond.memory.normal = bond.normal;
-  AnyLaw::glue(bond.parameters(bodies), bond.memory.history);
+  AnyLaw::cement(bond.parameters(bodies), bond.memory.history);
   return bond;
 }
 

@@ -10,7 +10,7 @@
 namespace plekton::contact {
 
 double StructureContacts::rebuild(std::span<const geometry::CellPair> pairs,
-                                       const ContactMaterials& materials) {
+                                  const ContactMaterials& materials) {
   std::vector<PairOfCells> listed;
   std::vector<char> lives(patches_.size(), 0);
   auto old = pairs_.begin();
@@ -22,7 +22,7 @@ double StructureContacts::rebuild(std::span<const geometry::CellPair> pairs,
   }
   pairs_.swap(listed);
   if (!bonds_.empty()) match_bonds();
-  if (meetings_.empty()) make_meetings(materials);
+  if (structure_pairs_.empty()) make_structure_pairs(materials);
   terms_.rebuild(pairs);
   double lost = 0.0;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
@@ -33,28 +33,28 @@ double StructureContacts::rebuild(std::span<const geometry::CellPair> pairs,
   return lost;
 }
 
-EnergyLoss StructureContacts::advance(const Motion& motion, double dt,
-                                           geometry::ThreadPool& pool) {
+EnergyLoss StructureContacts::advance(const Motion& motion, double dt, geometry::ThreadPool& pool) {
   if (terms_.empty() && patches_.empty() && bonds_.empty()) return {};
   terms_.evaluate(springs_, motion, pool);
   previous_.clear();
   for (const Patch& patch : patches_) {
-    previous_.push_back({patch.memory, patch.meeting, patch.point_count(), history_energy(patch),
-                         patch.id, patch.normal_force, patch.is_torn});
+    previous_.push_back({patch.memory, patch.structure_pair, patch.point_count(),
+                         history_energy(patch), patch.id, patch.normal_force, patch.is_torn});
   }
   drop_broken_bonds();
   if (terms_.acting_changed()) {
     find_patches();
     find_places();
   }
-  find_heirs();
+  find_successors();
   add_up_patches(motion.position);
   find_spreads(motion.position);
   EnergyLoss loss;
   loss.tracking = prepare_bonds(motion, pool);
-  loss += inherit(motion, dt);
+  loss += transfer(motion, dt);
   loss += carry_spreads(motion, dt);
-  for (Patch& patch : patches_) loss.dissipated += patch.apply_law(meeting_of(patch), motion, dt);
+  for (Patch& patch : patches_)
+    loss.dissipated += patch.apply_law(structure_pair_of(patch), motion, dt);
   loss.dissipated += advance_spreads(motion, dt, pool);
   loss.dissipated += advance_bonds(motion, dt, pool);
   return loss;
@@ -62,9 +62,9 @@ EnergyLoss StructureContacts::advance(const Motion& motion, double dt,
 
 // Which structures may touch, and with which parameters.
 
-std::vector<structure::Meeting> StructureContacts::find_meetings(
+std::vector<structure::StructurePair> StructureContacts::find_structure_pairs(
     const ContactMaterials& materials) const {
-  std::vector<Meeting> meetings;
+  std::vector<StructurePair> structure_pairs;
   const std::vector<double> masses = structure::mean_node_masses(*surface_, materials);
   const auto part = [&](std::size_t i) {
     const auto id = geometry::id_at<geometry::StructureId>(i);
@@ -74,29 +74,30 @@ std::vector<structure::Meeting> StructureContacts::find_meetings(
   for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
     for (std::size_t k = i; k < surface_->structure_count(); ++k) {
       const AnyLaw::Parameters parameters = materials.pairs.combine(part(i), part(k));
-      meetings.push_back({AnyLaw::without_attraction(parameters), part(i).radius, part(k).radius,
-                          AnyLaw::attraction(parameters)});
+      structure_pairs.push_back({AnyLaw::without_attraction(parameters), part(i).radius,
+                                 part(k).radius, AnyLaw::attraction(parameters)});
     }
   }
-  return meetings;
+  return structure_pairs;
 }
 
-void StructureContacts::make_meetings(const ContactMaterials& materials) {
-  meetings_ = find_meetings(materials);
+void StructureContacts::make_structure_pairs(const ContactMaterials& materials) {
+  structure_pairs_ = find_structure_pairs(materials);
   take_parameters(materials);
-  for (const Meeting& meeting : meetings_) {
+  for (const StructurePair& structure_pair : structure_pairs_) {
     springs_.push_back(structure::NormalSpring::of<AnyLaw>(
-        meeting.parameters, meeting.radius_first + meeting.radius_second, &meeting.attraction));
+        structure_pair.parameters, structure_pair.radius_first + structure_pair.radius_second,
+        &structure_pair.attraction));
   }
 }
 
 void StructureContacts::take_parameters(const ContactMaterials& materials) {
-  if (meetings_.empty()) return;
-  std::vector<Meeting> meetings = find_meetings(materials);
-  for (std::size_t i = 0; i < meetings.size(); ++i)
-    meetings_[i] = meetings[i];  // springs point there
-  glues_ = std::any_of(meetings_.begin(), meetings_.end(),
-                       [](const Meeting& of) { return AnyLaw::glues(of.parameters); });
+  if (structure_pairs_.empty()) return;
+  std::vector<StructurePair> structure_pairs = find_structure_pairs(materials);
+  for (std::size_t i = 0; i < structure_pairs.size(); ++i)
+    structure_pairs_[i] = structure_pairs[i];  // springs point there
+  glues_ = std::any_of(structure_pairs_.begin(), structure_pairs_.end(),
+                       [](const StructurePair& of) { return AnyLaw::cements(of.parameters); });
 }
 
 // Which pairs of cells are one patch, and where their forces act.
@@ -147,7 +148,7 @@ void StructureContacts::find_places() {
     const bool is_turned = holder.is_turned != pair.is_turned;
     places_.push_back({static_cast<std::uint32_t>(pair.patch), is_turned, {}, {}});
     Patch& patch = patches_[places_.back().patch];
-    patch.meeting = term.spring;
+    patch.structure_pair = term.spring;
     for (const NodeId node : term.a) (is_turned ? patch.second : patch.first).add(node);
     for (const NodeId node : term.b) (is_turned ? patch.first : patch.second).add(node);
   }
@@ -168,54 +169,57 @@ void StructureContacts::find_places() {
 
 // What patches of one step leave to those of the next.
 
-void StructureContacts::find_heirs() {
-  heirs_.clear();
+void StructureContacts::find_successors() {
+  successors_.clear();
   if (!terms_.acting_changed()) {
-    for (std::uint32_t i = 0; i < patches_.size(); ++i) heirs_.push_back({i, i, false});
+    for (std::uint32_t i = 0; i < patches_.size(); ++i) successors_.push_back({i, i, false});
     return;
   }
   for (const PairOfCells& pair : pairs_) {
     if (pair.old_patch < 0 || pair.patch < 0) continue;
-    heirs_.push_back({static_cast<std::uint32_t>(pair.old_patch),
-                      static_cast<std::uint32_t>(pair.patch), pair.was_turned != pair.is_turned});
+    successors_.push_back({static_cast<std::uint32_t>(pair.old_patch),
+                           static_cast<std::uint32_t>(pair.patch),
+                           pair.was_turned != pair.is_turned});
   }
-  std::sort(heirs_.begin(), heirs_.end());
-  heirs_.erase(std::unique(heirs_.begin(), heirs_.end(),
-                           [](const Heir& p, const Heir& q) {
-                             return p.old_patch == q.old_patch && p.patch == q.patch;
-                           }),
-               heirs_.end());
+  std::sort(successors_.begin(), successors_.end());
+  successors_.erase(std::unique(successors_.begin(), successors_.end(),
+                                [](const Successor& p, const Successor& q) {
+                                  return p.old_patch == q.old_patch && p.patch == q.patch;
+                                }),
+                    successors_.end());
 }
 
 /// Hands the histories of the last step's patches to this step's. A spring that comes to count for
 /// more contacts keeps its force, one that counts for less keeps its stretch: neither gains energy.
 /// What a patch stored that nothing follows is dissipated.
-EnergyLoss StructureContacts::inherit(const Motion& motion, double dt) {
+EnergyLoss StructureContacts::transfer(const Motion& motion, double dt) {
   EnergyLoss loss;
-  for (const Legacy& old : previous_) loss.dissipated += old.energy;
-  for (const Heir& heir : heirs_) {
-    if (&heir == heirs_.data() || (&heir - 1)->old_patch != heir.old_patch) {
-      loss.dissipated -= previous_[heir.old_patch].energy;
-      loss.tracking += previous_[heir.old_patch].energy;
+  for (const Predecessor& old : previous_) loss.dissipated += old.energy;
+  for (const Successor& successor : successors_) {
+    if (&successor == successors_.data() || (&successor - 1)->old_patch != successor.old_patch) {
+      loss.dissipated -= previous_[successor.old_patch].energy;
+      loss.tracking += previous_[successor.old_patch].energy;
     }
   }
-  for (auto begin = heirs_.begin(); begin != heirs_.end();) {
-    const auto end = std::find_if(
-        begin, heirs_.end(), [&](const Heir& heir) { return heir.old_patch != begin->old_patch; });
-    const Legacy& old = previous_[begin->old_patch];
+  for (auto begin = successors_.begin(); begin != successors_.end();) {
+    const auto end = std::find_if(begin, successors_.end(), [&](const Successor& successor) {
+      return successor.old_patch != begin->old_patch;
+    });
+    const Predecessor& old = previous_[begin->old_patch];
     hand_on_number(old, {begin, end});
     double total = 0.0;
-    for (auto heir = begin; heir != end; ++heir) total += patches_[heir->patch].normal_force;
-    for (auto heir = begin; heir != end && total > 0.0; ++heir) {
-      Patch& patch = patches_[heir->patch];
+    for (auto successor = begin; successor != end; ++successor)
+      total += patches_[successor->patch].normal_force;
+    for (auto successor = begin; successor != end && total > 0.0; ++successor) {
+      Patch& patch = patches_[successor->patch];
       if (!(patch.normal_force > 0.0) || !(patch.point_part > 0.0)) continue;
-      const double sign = heir->is_turned ? -1.0 : 1.0;
+      const double sign = successor->is_turned ? -1.0 : 1.0;
       const Vec3 normal = sign / patch.normal_force * patch.elastic_force;
       const Vec3 spin =
           0.5 * (patch.first.angular_velocity(motion) + patch.second.angular_velocity(motion));
       const auto carried = carried_history<AnyLaw>(old.memory, normal, dt * spin.dot(normal));
       const double share = patch.normal_force / total * old.count / patch.point_count();
-      AnyLaw::add_share(patch.memory.history, carried, sign * std::min(1.0, share));
+      AnyLaw::accumulate_history(patch.memory.history, carried, sign * std::min(1.0, share));
     }
     begin = end;
   }
@@ -223,11 +227,12 @@ EnergyLoss StructureContacts::inherit(const Motion& motion, double dt) {
   return loss;
 }
 
-/// To the heir that pushes most; of patches that merge, the number of the one that pushed most goes
+/// To the successor that pushes most; of patches that merge, the number of the one that pushed most goes
 /// on.
-void StructureContacts::hand_on_number(const Legacy& old, std::span<const Heir> heirs) {
-  const Heir& largest =
-      *std::max_element(heirs.begin(), heirs.end(), [&](const Heir& p, const Heir& q) {
+void StructureContacts::hand_on_number(const Predecessor& old,
+                                       std::span<const Successor> successors) {
+  const Successor& largest = *std::max_element(
+      successors.begin(), successors.end(), [&](const Successor& p, const Successor& q) {
         return patches_[p.patch].normal_force < patches_[q.patch].normal_force;
       });
   Patch& patch = patches_[largest.patch];
@@ -289,10 +294,10 @@ void StructureContacts::find_spreads(Positions x) {
     spread.pair = terms_.holders(term).front().pair;
     spread.patch = places_[i].patch;
     spread.is_turned = places_[i].is_turned;
-    spread.meeting = term.spring;
+    spread.structure_pair = term.spring;
     Patch& patch = patches_[spread.patch];
     if (const structure::PairForces* const extent = terms_.spread(acting)) {
-      if (!spread.locate(term, *extent, meetings_[term.spring], x)) continue;
+      if (!spread.locate(term, *extent, structure_pairs_[term.spring], x)) continue;
       if (patch.pushes()) patch.point_part -= spread.normal_force / patch.normal_force;
     } else if (!locate_bar(term, spread, x)) {
       continue;
@@ -316,7 +321,7 @@ bool StructureContacts::locate_bar(const PairTerm& term, Spread& spread, Positio
   if (patch.pushes()) towards /= patch.normal_force;
   return spread.locate_bar(
       term, {push * std::min(1.0, of.bars / of.positive), 2.0 * of.energy / of.bars, towards, own},
-      meetings_[term.spring], x);
+      structure_pairs_[term.spring], x);
 }
 
 /// Hands the histories of the last step over: to the same pairs, and, of bars, what these count for
@@ -344,7 +349,7 @@ EnergyLoss StructureContacts::carry_spreads(const Motion& motion, double dt) {
   for (const Spread& old : previous_spreads_) loss.dissipated += old.energy;
   for (Spread& spread : spreads_) {
     spread.memory.normal = spread.normal();
-    spread.find_energy(meetings_[spread.meeting], patches_[spread.patch].free_part);
+    spread.find_energy(structure_pairs_[spread.structure_pair], patches_[spread.patch].free_part);
     loss.tracking -= spread.energy;
   }
   for (std::size_t i = 0; i < pairs_.size(); ++i) pairs_[i].spread = spread_at_[i];
@@ -412,13 +417,13 @@ void StructureContacts::find_transfers_of_gone(Now now, Before before) {
         if (spreads_[i].is_of_bar) by_patch_.push_back({spreads_[i].patch, i});
       std::sort(by_patch_.begin(), by_patch_.end());
     }
-    auto heir =
-        std::lower_bound(heirs_.begin(), heirs_.end(), old.patch,
-                         [](const Heir& of, std::uint32_t patch) { return of.old_patch < patch; });
-    for (; heir != heirs_.end() && heir->old_patch == old.patch; ++heir) {
+    auto successor = std::lower_bound(
+        successors_.begin(), successors_.end(), old.patch,
+        [](const Successor& of, std::uint32_t patch) { return of.old_patch < patch; });
+    for (; successor != successors_.end() && successor->old_patch == old.patch; ++successor) {
       auto at = std::lower_bound(by_patch_.begin(), by_patch_.end(),
-                                 std::pair{heir->patch, std::uint32_t{0}});
-      for (; at != by_patch_.end() && at->first == heir->patch; ++at) {
+                                 std::pair{successor->patch, std::uint32_t{0}});
+      for (; at != by_patch_.end() && at->first == successor->patch; ++at) {
         const Spread& to = spreads_[at->second];
         const double more = now(to.pair) - before(to.pair);
         if (more > 0.0 && to.is_beside(old))
@@ -430,11 +435,12 @@ void StructureContacts::find_transfers_of_gone(Now now, Before before) {
 
 /// @returns the energy (J) dissipated
 double StructureContacts::advance_spreads(const Motion& motion, double dt,
-                                               geometry::ThreadPool& pool) {
+                                          geometry::ThreadPool& pool) {
   pool.for_each_range(spreads_.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
       Spread& spread = spreads_[i];
-      spread.apply_law(meetings_[spread.meeting], patches_[spread.patch].free_part, motion, dt);
+      spread.apply_law(structure_pairs_[spread.structure_pair], patches_[spread.patch].free_part,
+                       motion, dt);
     }
   });
   double dissipated = 0.0;
@@ -443,23 +449,23 @@ double StructureContacts::advance_spreads(const Motion& motion, double dt,
 }
 
 /// By patch, what its spread contacts do to its second side about the point of its row.
-std::vector<StructureContacts::SpreadSum> StructureContacts::sum_spreads()
-    const {
+std::vector<StructureContacts::SpreadSum> StructureContacts::sum_spreads() const {
   std::vector<SpreadSum> sums(patches_.size());
   for (const Spread& spread : spreads_) {
-    const Meeting& meeting = meetings_[spread.meeting];
+    const StructurePair& structure_pair = structure_pairs_[spread.structure_pair];
     const Patch& patch = patches_[spread.patch];
     const double sign = spread.is_turned ? -1.0 : 1.0;
     const Vec3 force = sign * spread.other_force;
-    const Vec3 about = patch.second.point() + patch.lever_of_second(meeting);
-    const Vec3 point = spread.b.point + spread.lever_b(meeting);
+    const Vec3 about = patch.second.point() + patch.lever_of_second(structure_pair);
+    const Vec3 point = spread.b.point + spread.lever_b(structure_pair);
     SpreadSum& sum = sums[spread.patch];
     sum.force += force;
     sum.moment += sign * spread.moment + (point - about).cross(force);
     const Vec3 along =
         spread.other_force - spread.other_force.dot(spread.memory.normal) * spread.memory.normal;
-    sum.sticks = sum.sticks || !is_at_limit<AnyLaw>(spread.parameters(meeting, patch.free_part),
-                                                 spread.memory.history, spread.normal_force, along);
+    sum.sticks =
+        sum.sticks || !is_at_limit<AnyLaw>(spread.parameters(structure_pair, patch.free_part),
+                                           spread.memory.history, spread.normal_force, along);
   }
   return sums;
 }
@@ -474,11 +480,12 @@ std::vector<StructureContacts::SpreadSum> StructureContacts::sum_spreads()
 /// Finds where all bonds are, and forms new ones. @returns the energy (J) lost
 double StructureContacts::prepare_bonds(const Motion& motion, geometry::ThreadPool& pool) {
   if (bonds_.empty() && !glues_) return 0.0;
-  for (const Heir& heir : heirs_) patches_[heir.patch].is_torn |= previous_[heir.old_patch].is_torn;
+  for (const Successor& successor : successors_)
+    patches_[successor.patch].is_torn |= previous_[successor.old_patch].is_torn;
   for (Bond& bond : bonds_) bond.patch = patch_of(bond);
   pool.for_each_range(bonds_.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i)
-      bonds_[i].locate(meetings_[bonds_[i].meeting], motion.position);
+      bonds_[i].locate(structure_pairs_[bonds_[i].structure_pair], motion.position);
   });
   const double lost = form_bonds(motion.position);
   for (Gluing& of : gluing_) of.pressing = 0.0;
@@ -500,11 +507,11 @@ std::int32_t StructureContacts::patch_of(const Bond& bond) const {
   }
   if (bond.patch < 0) return -1;
   const auto old = static_cast<std::uint32_t>(bond.patch);
-  const auto heir =
-      std::lower_bound(heirs_.begin(), heirs_.end(), old,
-                       [](const Heir& of, std::uint32_t patch) { return of.old_patch < patch; });
-  const bool is_followed = heir != heirs_.end() && heir->old_patch == old;
-  return is_followed ? static_cast<std::int32_t>(heir->patch) : -1;
+  const auto successor = std::lower_bound(
+      successors_.begin(), successors_.end(), old,
+      [](const Successor& of, std::uint32_t patch) { return of.old_patch < patch; });
+  const bool is_followed = successor != successors_.end() && successor->old_patch == old;
+  return is_followed ? static_cast<std::int32_t>(successor->patch) : -1;
 }
 
 /// Glues what patches count for beyond their bonds. @returns the energy (J) lost
@@ -541,15 +548,16 @@ void StructureContacts::list_pressed_pairs() {
   for (const std::uint32_t acting : terms_.acting()) add_near_push(terms_[acting]);
   for (const std::uint32_t acting : terms_.acting()) {
     const PairTerm& term = terms_[acting];
-    if (!term.is_of_cells || !AnyLaw::glues(meetings_[term.spring].parameters)) continue;
+    if (!term.is_of_cells || !AnyLaw::cements(structure_pairs_[term.spring].parameters)) continue;
     const structure::Holder& holder = terms_.holders(term).front();
     const auto patch = static_cast<std::uint32_t>(pairs_[holder.pair].patch);
     if (patches_[patch].is_torn || !patches_[patch].pushes()) continue;
     const double push = std::abs(structure::force_on_a(term).dot(patches_[patch].normal()));
     const double deepest =
         springs_[term.spring].force(springs_[term.spring].range() - term.overlap);
-    const double one = AnyLaw::elastic_normal_force(
-        meetings_[term.spring].parameters, push > 0.0 ? -2.0 * term.forces.energy / push : 0.0);
+    const double one =
+        AnyLaw::elastic_normal_force(structure_pairs_[term.spring].parameters,
+                                     push > 0.0 ? -2.0 * term.forces.energy / push : 0.0);
     if (!(one > 0.0) || !(deepest > 0.0)) continue;
     const double near = near_push_[holder.pair] / deepest;
     const double wide = std::max(0.0, push - term.point_share * term.weight * deepest) / one;
@@ -581,14 +589,14 @@ void StructureContacts::add_near_push(const PairTerm& term) {
 double StructureContacts::glue_pair(const Pressed& pressed, double count, Positions x) {
   PairOfCells& pair = pairs_[pressed.pair];
   const PairTerm& term = terms_[pressed.term];
-  const Meeting& bodies = meetings_[term.spring];
+  const StructurePair& bodies = structure_pairs_[term.spring];
   const auto at = structure::pressed_points(*surface_, term, springs_[term.spring].range(), x);
   if (pair.bond >= 0) return bonds_[static_cast<std::size_t>(pair.bond)].grow(bodies, at, count, x);
   std::optional<Bond> bond = structure::new_bond(bodies, at, count, x);
   if (!bond) return 0.0;
   bond->cells = pair.cells;
   bond->is_turned = pressed.is_turned;
-  bond->meeting = term.spring;
+  bond->structure_pair = term.spring;
   bond->pair = static_cast<std::int32_t>(pressed.pair);
   bond->patch = static_cast<std::int32_t>(pressed.patch);
   pair.bond = static_cast<std::int32_t>(bonds_.size());
@@ -599,10 +607,10 @@ double StructureContacts::glue_pair(const Pressed& pressed, double count, Positi
 /// One step of the law for all bonds, after that for the patches.
 /// @returns the energy (J) dissipated
 double StructureContacts::advance_bonds(const Motion& motion, double dt,
-                                             geometry::ThreadPool& pool) {
+                                        geometry::ThreadPool& pool) {
   pool.for_each_range(bonds_.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i)
-      bonds_[i].apply_law(meetings_[bonds_[i].meeting], motion, dt);
+      bonds_[i].apply_law(structure_pairs_[bonds_[i].structure_pair], motion, dt);
   });
   double dissipated = 0.0;
   for (Bond& bond : bonds_) {
@@ -615,7 +623,7 @@ double StructureContacts::advance_bonds(const Motion& motion, double dt,
 /// What a broken bond still holds goes to the facets or the patch of its cells, if they touch.
 /// @returns the energy (J) lost
 double StructureContacts::hand_to_patch(Bond& bond) {
-  double lost = bond.history_energy(meetings_[bond.meeting]);
+  double lost = bond.history_energy(structure_pairs_[bond.structure_pair]);
   if (bond.patch >= 0) {
     Patch& patch = patches_[static_cast<std::size_t>(bond.patch)];
     patch.is_torn = true;
@@ -625,8 +633,9 @@ double StructureContacts::hand_to_patch(Bond& bond) {
     } else if (bond.pair >= 0 && pairs_[pair].patch >= 0 && patch.pushes()) {
       const double sign = bond.is_turned != pairs_[pair].is_turned ? -1.0 : 1.0;
       lost += history_energy(patch);
-      AnyLaw::add_share(patch.memory.history,
-                     carried_history<AnyLaw>(bond.memory, sign * patch.memory.normal, 0.0), sign);
+      AnyLaw::accumulate_history(
+          patch.memory.history,
+          carried_history<AnyLaw>(bond.memory, sign * patch.memory.normal, 0.0), sign);
       lost -= history_energy(patch);
     }
   }
@@ -638,9 +647,10 @@ double StructureContacts::hand_to_patch(Bond& bond) {
 double StructureContacts::hand_to_spread(const Bond& bond, Spread& spread) {
   const double before = spread.energy;
   const auto carried = carried_history<AnyLaw>(bond.memory, spread.memory.normal, 0.0);
-  AnyLaw::add_share(spread.memory.history, carried, std::min(1.0, bond.count / spread.count));
+  AnyLaw::accumulate_history(spread.memory.history, carried,
+                             std::min(1.0, bond.count / spread.count));
   const auto parameters =
-      spread.parameters(meetings_[spread.meeting], patches_[spread.patch].free_part);
+      spread.parameters(structure_pairs_[spread.structure_pair], patches_[spread.patch].free_part);
   spread.energy = AnyLaw::history_energy(parameters, spread.memory.history);
   return before - spread.energy;
 }
@@ -676,7 +686,7 @@ double StructureContacts::keep_bonds(const geometry::SurfaceChange& change) {
       bond.a.feature = *change.now(bond.a.feature);
       bond.b.feature = *change.now(bond.b.feature);
     } else {
-      lost += bond.history_energy(meetings_[bond.meeting]);
+      lost += bond.history_energy(structure_pairs_[bond.structure_pair]);
     }
     return !is_left;
   });
@@ -687,9 +697,9 @@ double StructureContacts::keep_bonds(const geometry::SurfaceChange& change) {
 // What becomes of the contacts of structures that lose some of their elements.
 
 double StructureContacts::follow(const geometry::SurfaceChange& change,
-                                      std::span<const geometry::CellPair> pairs,
-                                      const ContactMaterials& materials, const Motion& at,
-                                      geometry::ThreadPool& pool) {
+                                 std::span<const geometry::CellPair> pairs,
+                                 const ContactMaterials& materials, const Motion& at,
+                                 geometry::ThreadPool& pool) {
   double lost = 0.0;
   const bool had_pairs = !pairs_.empty();
   if (had_pairs) {
@@ -709,8 +719,8 @@ double StructureContacts::follow(const geometry::SurfaceChange& change,
 
 /// J, of the elastic normal forces and of the attraction where the nodes are at a moment.
 double StructureContacts::normal_energy(const geometry::Surface& surface,
-                                             std::span<const geometry::CellPair> pairs,
-                                             const Motion& at, geometry::ThreadPool& pool) const {
+                                        std::span<const geometry::CellPair> pairs, const Motion& at,
+                                        geometry::ThreadPool& pool) const {
   structure::PairTerms terms(surface);
   terms.rebuild(pairs);
   terms.evaluate(springs_, at, pool);
@@ -734,7 +744,7 @@ void StructureContacts::renumber(const geometry::SurfaceChange& change) {
       left.push_back({{*a, *b}, pair.patch, pair.is_turned});
       left.back().spread = pair.spread;
     } else if (pair.patch >= 0) {
-      hand_to_sides(pair, terms_.carriers(i), change, left);
+      hand_to_sides(pair, terms_.witness_features(i), change, left);
     }
   }
   std::stable_sort(left.begin(), left.end(),
@@ -746,11 +756,11 @@ void StructureContacts::renumber(const geometry::SurfaceChange& change) {
   pairs_.swap(left);
 }
 
-/// @param carriers  corners of the features of both cells that hold the nearest points
+/// @param witness features  corners of the features of both cells that hold the nearest points
 void StructureContacts::hand_to_sides(const PairOfCells& pair,
-                                           const std::array<geometry::FeatureNodes, 2>& carriers,
-                                           const geometry::SurfaceChange& change,
-                                           std::vector<PairOfCells>& left) const {
+                                      const std::array<geometry::FeatureNodes, 2>& witness_features,
+                                      const geometry::SurfaceChange& change,
+                                      std::vector<PairOfCells>& left) const {
   const auto has = [&](geometry::CellId cell, const geometry::FeatureNodes& feature) {
     const auto nodes = change.after().nodes_of(cell);
     return std::all_of(feature.begin(), feature.end(), [&](NodeId node) {
@@ -761,7 +771,7 @@ void StructureContacts::hand_to_sides(const PairOfCells& pair,
       change.before().structure_of(pair.cells.a) == change.before().structure_of(pair.cells.b);
   for (const geometry::CellId a : change.left_of(pair.cells.a)) {
     for (const geometry::CellId b : change.left_of(pair.cells.b)) {
-      if (!has(a, carriers[0]) || !has(b, carriers[1])) continue;
+      if (!has(a, witness_features[0]) || !has(b, witness_features[1])) continue;
       const bool swaps = is_of_one && b < a;  // within one structure the lower cell comes first
       left.push_back({swaps ? geometry::CellPair{b, a} : geometry::CellPair{a, b}, pair.patch,
                       pair.is_turned != swaps});
@@ -777,8 +787,8 @@ void StructureContacts::add_up_patches(Positions x) {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const PairTerm& term = terms_[terms_.acting()[i]];
     const Places& places = places_[i];
-    const Meeting& meeting = meetings_[term.spring];
-    const double radius = std::min(meeting.radius_first, meeting.radius_second);
+    const StructurePair& structure_pair = structure_pairs_[term.spring];
+    const double radius = std::min(structure_pair.radius_first, structure_pair.radius_second);
     largest_overlap_ratio_ = std::max(largest_overlap_ratio_, term.overlap / radius);
     Patch& patch = patches_[places.patch];
     patch.energy += term.forces.energy;
@@ -803,13 +813,14 @@ void StructureContacts::add_up_patches(Positions x) {
     attract(terms_.attraction(terms_.acting()[i]));
     attract(terms_.attraction_at_ends(terms_.acting()[i]));
   }
-  for (Patch& patch : patches_) patch.find_totals(meeting_of(patch), x);
+  for (Patch& patch : patches_) patch.find_totals(structure_pair_of(patch), x);
 }
 
 void StructureContacts::add_forces(NodeForces& forces) const {
-  for (const Patch& patch : patches_) patch.add_forces(meeting_of(patch), forces);
-  for (const Spread& spread : spreads_) spread.add_forces(meetings_[spread.meeting], forces);
-  for (const Bond& bond : bonds_) bond.add_forces(meetings_[bond.meeting], forces);
+  for (const Patch& patch : patches_) patch.add_forces(structure_pair_of(patch), forces);
+  for (const Spread& spread : spreads_)
+    spread.add_forces(structure_pairs_[spread.structure_pair], forces);
+  for (const Bond& bond : bonds_) bond.add_forces(structure_pairs_[bond.structure_pair], forces);
 }
 
 double StructureContacts::elastic_energy() const {
@@ -817,7 +828,8 @@ double StructureContacts::elastic_energy() const {
   for (const Patch& patch : patches_)
     energy += patch.energy + patch.attraction_energy + history_energy(patch);
   for (const Spread& spread : spreads_) energy += spread.energy;
-  for (const Bond& bond : bonds_) energy += bond.history_energy(meetings_[bond.meeting]);
+  for (const Bond& bond : bonds_)
+    energy += bond.history_energy(structure_pairs_[bond.structure_pair]);
   return energy;
 }
 
@@ -825,8 +837,8 @@ void StructureContacts::for_each_stiffness(
     geometry::FunctionRef<void(NodeId, double, double, double)> visit) const {
   for (const Patch& patch : patches_) {
     if (!(patch.normal_force > 0.0)) continue;
-    const Meeting& meeting = meeting_of(patch);
-    const auto parameters = patch.whole_parameters(meeting);
+    const StructurePair& structure_pair = structure_pair_of(patch);
+    const auto parameters = patch.whole_parameters(structure_pair);
     const auto on = [&](double radius) {
       return [&, radius](NodeId node, double share) {
         const double part = (1.0 - patch.bar_part) * std::abs(share);
@@ -835,27 +847,27 @@ void StructureContacts::for_each_stiffness(
       };
     };
     if (patch.bar_part == 1.0) continue;
-    patch.first.for_each_share(on(meeting.radius_first));
-    patch.second.for_each_share(on(meeting.radius_second));
+    patch.first.for_each_share(on(structure_pair.radius_first));
+    patch.second.for_each_share(on(structure_pair.radius_second));
   }
   for (const Spread& spread : spreads_) {
     if (!spread.is_of_bar) continue;  // the patch tells that of facets
-    const Meeting& meeting = meetings_[spread.meeting];
+    const StructurePair& structure_pair = structure_pairs_[spread.structure_pair];
     // Joints in a wrap move one by one, against the whole spring of a bar.
     const double contacts = spread.is_wrapped ? std::max(1.0, spread.count) : spread.count;
-    const auto parameters = AnyLaw::multiplied(meeting.parameters, contacts);
+    const auto parameters = AnyLaw::scaled(structure_pair.parameters, contacts);
     const auto on = [&](const typename Spread::Side& side, double radius) {
       for (std::size_t i = 0; i < 3; ++i)
         visit(side.nodes[i], side.shares[i] * AnyLaw::normal_stiffness(parameters, spread.gap),
               side.shares[i] * AnyLaw::tangential_stiffness(parameters, spread.gap), radius);
     };
-    on(spread.a, meeting.radius_first);
-    on(spread.b, meeting.radius_second);
+    on(spread.a, structure_pair.radius_first);
+    on(spread.b, structure_pair.radius_second);
   }
   for (const Bond& bond : bonds_) {
     if (bond.gap < 0.0 || bond.is_broken) continue;  // the patch tells that of what touches
-    const Meeting& meeting = meetings_[bond.meeting];
-    const auto parameters = bond.parameters(meeting);
+    const StructurePair& structure_pair = structure_pairs_[bond.structure_pair];
+    const auto parameters = bond.parameters(structure_pair);
     const auto on = [&](const geometry::CorePoint& core, double radius) {
       for (std::size_t i = 0; i < 3; ++i) {
         const double share = core.weights[static_cast<int>(i)];
@@ -863,8 +875,8 @@ void StructureContacts::for_each_stiffness(
               share * AnyLaw::tangential_stiffness(parameters, 0.0), radius);
       }
     };
-    on(bond.a, meeting.radius_first);
-    on(bond.b, meeting.radius_second);
+    on(bond.a, structure_pair.radius_first);
+    on(bond.b, structure_pair.radius_second);
   }
 }
 
@@ -882,39 +894,40 @@ std::vector<std::uint32_t> StructureContacts::deepest_places() const {
   return deepest;
 }
 
-void StructureContacts::for_each_row(Positions x, VisitRow visit) const {
+void StructureContacts::for_each_record(Positions x, VisitRecord visit) const {
   const std::vector<std::uint32_t> deepest = deepest_places();
   const std::vector<SpreadSum> spreads = sum_spreads();
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     if (patches_[i].pushes()) visit(row_of(patches_[i], spreads[i], deepest[i], x));
   }
   for (const Bond& bond : bonds_) {
-    ContactRow row = row_of(bond);
+    ContactRecord row = row_of(bond);
     row.point_a = position(bond.a, x);
     row.point_b = position(bond.b, x);
-    row.point = row.point_b + bond.lever_b(meetings_[bond.meeting]);
+    row.point = row.point_b + bond.lever_b(structure_pairs_[bond.structure_pair]);
     visit(row);
   }
 }
 
-void StructureContacts::for_each_row_on(NodeId node, Positions x, VisitRowOn visit) const {
+void StructureContacts::for_each_record_on(NodeId node, Positions x, VisitRecordOn visit) const {
   NodeForces forces(x.size());
   Vec3& force = forces.force[index_of(node)];
   Vec3& torque = forces.torque[index_of(node)];
   auto patch = patches_.begin();
   auto bond = bonds_.begin();
-  for_each_row(x, [&](const ContactRow& row) {
+  for_each_record(x, [&](const ContactRecord& row) {
     force = torque = Vec3::Zero();
     while (patch != patches_.end() && !patch->pushes()) ++patch;
     if (patch != patches_.end()) {
-      patch->add_forces(meeting_of(*patch), forces);
+      patch->add_forces(structure_pair_of(*patch), forces);
       const auto place = static_cast<std::uint32_t>(patch - patches_.begin());
       for (const Spread& spread : spreads_) {
-        if (spread.patch == place) spread.add_forces(meetings_[spread.meeting], forces);
+        if (spread.patch == place)
+          spread.add_forces(structure_pairs_[spread.structure_pair], forces);
       }
       ++patch;
     } else {
-      bond->add_forces(meetings_[bond->meeting], forces);
+      bond->add_forces(structure_pairs_[bond->structure_pair], forces);
       ++bond;
     }
     visit(row, force, torque);
@@ -922,13 +935,13 @@ void StructureContacts::for_each_row_on(NodeId node, Positions x, VisitRowOn vis
 }
 
 /// All but its points.
-ContactRow StructureContacts::row_of(const Bond& bond) const {
+ContactRecord StructureContacts::row_of(const Bond& bond) const {
   const auto body = [&](const geometry::CorePoint& core) {
     return ContactBody{BodyKind::structure,
                        static_cast<std::int32_t>(surface_->structure_of(core.nodes[0])),
                        core.feature};
   };
-  ContactRow row;
+  ContactRecord row;
   row.id = bond.id;
   row.a = body(bond.a);
   row.b = body(bond.b);
@@ -936,13 +949,14 @@ ContactRow StructureContacts::row_of(const Bond& bond) const {
   row.gap = bond.gap;
   set_force(row, bond.other_force);
   row.moment = bond.moment;
-  set_state<AnyLaw>(row, bond.parameters(meetings_[bond.meeting]), bond.memory.history, bond.pressing);
+  set_state<AnyLaw>(row, bond.parameters(structure_pairs_[bond.structure_pair]),
+                    bond.memory.history, bond.pressing);
   return row;
 }
 
-ContactRow StructureContacts::row_of(const Patch& patch, const SpreadSum& spread,
-                                          std::uint32_t deepest, Positions x) const {
-  const Meeting& meeting = meeting_of(patch);
+ContactRecord StructureContacts::row_of(const Patch& patch, const SpreadSum& spread,
+                                        std::uint32_t deepest, Positions x) const {
+  const StructurePair& structure_pair = structure_pair_of(patch);
   const PairTerm& term = terms_[terms_.acting()[deepest]];
   const bool is_turned = places_[deepest].is_turned;
   const auto body = [&](const geometry::FeatureNodes& nodes) {
@@ -950,18 +964,18 @@ ContactRow StructureContacts::row_of(const Patch& patch, const SpreadSum& spread
                        static_cast<std::int32_t>(surface_->structure_of(nodes.ids[0])),
                        geometry::feature_of(*surface_, nodes)};
   };
-  ContactRow row;
+  ContactRecord row;
   row.id = patch.id;
   row.a = body(is_turned ? term.b : term.a);
   row.b = body(is_turned ? term.a : term.b);
   row.point_a = patch.first.point();
   row.point_b = patch.second.point();
-  row.point = row.point_b + patch.lever_of_second(meeting);
+  row.point = row.point_b + patch.lever_of_second(structure_pair);
   row.normal = patch.memory.normal;
   row.gap = patch.gap;
   const double point_force = patch.point_part * patch.normal_force;
   set_force(row, patch.other_force);
-  set_state<AnyLaw>(row, patch.parameters(meeting), patch.memory.history, point_force);
+  set_state<AnyLaw>(row, patch.parameters(structure_pair), patch.memory.history, point_force);
   row.is_slipping = row.is_slipping && !spread.sticks;
   row.elastic_force = patch.normal_force;
   set_force(row, patch.elastic_force + patch.second.total_attraction() + patch.other_force +

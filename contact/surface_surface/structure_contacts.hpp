@@ -11,7 +11,7 @@
 #include "contact/surface_surface/structure_bond.hpp"
 #include "contact/surface_surface/structure_patch.hpp"
 #include "contact/surface_surface/touching_patches.hpp"
-#include "contact/tracking/contact_row.hpp"
+#include "contact/tracking/contact_record.hpp"
 #include "contact/tracking/energy_loss.hpp"
 #include "geometry/base/function_ref.hpp"
 #include "geometry/base/parallel_sum.hpp"
@@ -56,8 +56,7 @@ class StructureContacts {
   /// @param at  where the elastic energy of before and after is compared
   /// @returns the energy (J) lost, of histories and of elastic forces
   double follow(const geometry::SurfaceChange& change, std::span<const geometry::CellPair> pairs,
-                const ContactMaterials& materials, const Motion& at,
-                geometry::ThreadPool& pool);
+                const ContactMaterials& materials, const Motion& at, geometry::ThreadPool& pool);
 
   /// Goes on with other parameters of the same materials.
   void take_parameters(const ContactMaterials& materials);
@@ -103,7 +102,7 @@ class StructureContacts {
   }
 
   /// Gives a number after the last one to every patch that has none.
-  void number(std::int64_t& last) {
+  void assign_ids(std::int64_t& last) {
     for (Patch& patch : patches_) {
       if (patch.id == 0) patch.id = ++last;
     }
@@ -112,18 +111,18 @@ class StructureContacts {
     }
   }
 
-  /// Calls visit(ContactRow) for every patch that pushed in the last step, in the order of the
+  /// Calls visit(ContactRecord) for every patch that pushed in the last step, in the order of the
   /// list, then for every bond.
-  void for_each_row(Positions x, VisitRow visit) const;
+  void for_each_record(Positions x, VisitRecord visit) const;
 
-  /// Calls visit(ContactRow, force (N), torque (N m)) for the same rows, with what each did to one
+  /// Calls visit(ContactRecord, force (N), torque (N m)) for the same rows, with what each did to one
   /// node: exactly, wherever in the patch that is. Linear in the nodes of the scene.
-  using VisitRowOn = geometry::FunctionRef<void(const ContactRow&, const Vec3&, const Vec3&)>;
-  void for_each_row_on(NodeId node, Positions x, VisitRowOn visit) const;
+  using VisitRecordOn = geometry::FunctionRef<void(const ContactRecord&, const Vec3&, const Vec3&)>;
+  void for_each_record_on(NodeId node, Positions x, VisitRecordOn visit) const;
 
  private:
   using PairTerm = structure::PairTerm;
-  using Meeting = structure::Meeting;
+  using StructurePair = structure::StructurePair;
   using Patch = structure::StructurePatch;
   using Bond = structure::StructureBond;
   using Spread = structure::SpreadContact;
@@ -172,9 +171,9 @@ class StructureContacts {
     std::array<std::uint32_t, 3> b;
   };
   /// What a patch of the last step leaves to those of this one.
-  struct Legacy {
+  struct Predecessor {
     ContactMemory<AnyLaw> memory;
-    std::uint32_t meeting;
+    std::uint32_t structure_pair;
     double count;
     double energy;  ///< J, of the history
     std::int64_t id;
@@ -217,27 +216,28 @@ class StructureContacts {
     }
   };
   /// A patch of the last step that lives on in one of this.
-  struct Heir {
+  struct Successor {
     std::uint32_t old_patch;
     std::uint32_t patch;
     bool is_turned;
-    friend constexpr auto operator<=>(const Heir&, const Heir&) = default;
+    friend constexpr auto operator<=>(const Successor&, const Successor&) = default;
   };
 
-  std::vector<Meeting> find_meetings(const ContactMaterials& materials) const;
-  void make_meetings(const ContactMaterials& materials);
+  std::vector<StructurePair> find_structure_pairs(const ContactMaterials& materials) const;
+  void make_structure_pairs(const ContactMaterials& materials);
   double normal_energy(const geometry::Surface& surface, std::span<const geometry::CellPair> pairs,
                        const Motion& at, geometry::ThreadPool& pool) const;
   void renumber(const geometry::SurfaceChange& change);
-  void hand_to_sides(const PairOfCells& pair, const std::array<geometry::FeatureNodes, 2>& carriers,
+  void hand_to_sides(const PairOfCells& pair,
+                     const std::array<geometry::FeatureNodes, 2>& witness_features,
                      const geometry::SurfaceChange& change, std::vector<PairOfCells>& left) const;
   void find_patches();
   void number_patches();
   void find_places();
-  void find_heirs();
+  void find_successors();
   void add_up_patches(Positions x);
-  EnergyLoss inherit(const Motion& motion, double dt);
-  void hand_on_number(const Legacy& old, std::span<const Heir> heirs);
+  EnergyLoss transfer(const Motion& motion, double dt);
+  void hand_on_number(const Predecessor& old, std::span<const Successor> successors);
   void share_pushes();
   void find_spreads(Positions x);
   bool locate_bar(const PairTerm& term, Spread& spread, Positions x) const;
@@ -259,24 +259,26 @@ class StructureContacts {
   void drop_broken_bonds();
   void match_bonds();
   double keep_bonds(const geometry::SurfaceChange& change);
-  ContactRow row_of(const Bond& bond) const;
+  ContactRecord row_of(const Bond& bond) const;
   std::vector<std::uint32_t> deepest_places() const;
-  ContactRow row_of(const Patch& patch, const SpreadSum& spread, std::uint32_t deepest,
-                    Positions x) const;
-  const Meeting& meeting_of(const Patch& patch) const { return meetings_[patch.meeting]; }
+  ContactRecord row_of(const Patch& patch, const SpreadSum& spread, std::uint32_t deepest,
+                       Positions x) const;
+  const StructurePair& structure_pair_of(const Patch& patch) const {
+    return structure_pairs_[patch.structure_pair];
+  }
   double history_energy(const Patch& patch) const {
-    return patch.history_energy(meeting_of(patch));
+    return patch.history_energy(structure_pair_of(patch));
   }
   const geometry::Surface* surface_;
   std::vector<PairOfCells> pairs_;
-  std::vector<Meeting> meetings_;                 ///< of all structures that may ever meet
-  std::vector<structure::NormalSpring> springs_;  ///< of the meetings
+  std::vector<StructurePair> structure_pairs_;    ///< of all structures that may ever meet
+  std::vector<structure::NormalSpring> springs_;  ///< of the structure pairs
   structure::PairTerms terms_;
   std::vector<Places> places_;  ///< of the acting terms
   structure::TouchingPatches connected_;
   std::vector<Patch> patches_;
-  std::vector<Legacy> previous_;
-  std::vector<Heir> heirs_;
+  std::vector<Predecessor> previous_;
+  std::vector<Successor> successors_;
   std::vector<Spread> spreads_;  ///< by term
   std::vector<Spread> previous_spreads_;
   std::vector<double> bar_push_;         ///< N, by pair of cells
@@ -294,6 +296,5 @@ class StructureContacts {
   std::vector<double> near_push_;  ///< N, by pair of cells
   double largest_overlap_ratio_ = 0.0;
 };
-
 
 }  // namespace plekton::contact

@@ -11,9 +11,9 @@
 namespace plekton::contact::structure {
 
 /// Two structures that may touch, or one that may touch itself.
-struct Meeting {
+struct StructurePair {
   AnyLaw::Parameters parameters;  ///< without the attraction
-  double radius_first;                  ///< m, of the lower structure
+  double radius_first;            ///< m, of the lower structure
   double radius_second;
   double attraction;  ///< N, of one contact
 };
@@ -21,7 +21,7 @@ struct Meeting {
 /// A part of the contact region of two structures that hangs together: one contact, as far as the
 /// law is concerned, as stiff as the contacts it counts.
 struct StructurePatch {
-  std::uint32_t meeting = 0;
+  std::uint32_t structure_pair = 0;
   double energy = 0.0;                ///< J, elastic
   double attraction_energy = 0.0;     ///< J, <= 0 but for what counts as negative
   Vec3 elastic_force = Vec3::Zero();  ///< N, on the second side
@@ -63,7 +63,7 @@ struct StructurePatch {
   Vec3 normal() const { return elastic_force / normal_force; }
 
   /// What the forces on the nodes come to.
-  void find_totals(const Meeting& bodies, Positions x) {
+  void find_totals(const StructurePair& bodies, Positions x) {
     elastic_force = second.total_force();
     find_mean(bodies);
     if (!pushes()) return;
@@ -73,7 +73,7 @@ struct StructurePatch {
   }
 
   /// Mean overlap, that of a linear spring with this force and energy; how many springs that are.
-  void find_mean(const Meeting& bodies) {
+  void find_mean(const StructurePair& bodies) {
     normal_force = elastic_force.norm();
     gap = pushes() ? -2.0 * energy / normal_force : 0.0;
     const double one = AnyLaw::elastic_normal_force(bodies.parameters, gap);
@@ -81,22 +81,22 @@ struct StructurePatch {
   }
 
   /// Of the contact as a whole.
-  AnyLaw::Parameters whole_parameters(const Meeting& bodies) const {
-    return AnyLaw::multiplied(bodies.parameters, count);
+  AnyLaw::Parameters whole_parameters(const StructurePair& bodies) const {
+    return AnyLaw::scaled(bodies.parameters, count);
   }
   /// How many contacts it has a history for.
   double point_count() const noexcept { return point_part * count; }
   /// Of those, what they have beside bonds.
-  AnyLaw::Parameters parameters(const Meeting& bodies) const {
-    return AnyLaw::beside_bonds(AnyLaw::multiplied(bodies.parameters, point_count()), free_part);
+  AnyLaw::Parameters parameters(const StructurePair& bodies) const {
+    return AnyLaw::unbonded_part(AnyLaw::scaled(bodies.parameters, point_count()), free_part);
   }
 
-  double history_energy(const Meeting& bodies) const {
+  double history_energy(const StructurePair& bodies) const {
     return AnyLaw::history_energy(parameters(bodies), memory.history);
   }
 
   /// @returns the energy (J) dissipated
-  double apply_law(const Meeting& bodies, const Motion& motion, double dt) {
+  double apply_law(const StructurePair& bodies, const Motion& motion, double dt) {
     if (!pushes()) return 0.0;
     memory.normal = normal();
     if (!(point_part > 0.0)) return 0.0;
@@ -111,7 +111,7 @@ struct StructurePatch {
     return result.dissipated;
   }
 
-  void add_forces(const Meeting& bodies, NodeForces& forces) const {
+  void add_forces(const StructurePair& bodies, NodeForces& forces) const {
     first.add_normal_forces(forces);
     second.add_normal_forces(forces);
     if (!pushes()) return;
@@ -122,15 +122,15 @@ struct StructurePatch {
   }
 
   /// The contact point lies between the two points on which the elastic force acts.
-  Vec3 lever_of_first(const Meeting& bodies) const {
+  Vec3 lever_of_first(const StructurePair& bodies) const {
     return bodies.radius_first / range(bodies) * (second.point() - first.point());
   }
-  Vec3 lever_of_second(const Meeting& bodies) const {
+  Vec3 lever_of_second(const StructurePair& bodies) const {
     return bodies.radius_second / range(bodies) * (first.point() - second.point());
   }
 
  private:
-  static double range(const Meeting& bodies) {
+  static double range(const StructurePair& bodies) {
     return bodies.radius_first + bodies.radius_second;
   }
 };

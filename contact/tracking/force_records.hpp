@@ -12,7 +12,7 @@
 /// the order of the contacts: the sums have the same bits for any number of threads.
 namespace plekton::contact {
 
-/// Force of one term of a patch: on a ball (a) and at a core point of a surface (b).
+/// Force of one term of a patch: on a sphere (a) and at a core point of a surface (b).
 struct SurfaceForce {
   NodeId a;
   geometry::CorePoint core;
@@ -21,7 +21,7 @@ struct SurfaceForce {
   Vec3 torque_b;          ///< N m, on b, shared by its nodes by weight
   double elastic;         ///< N, part of the force along the line of a and the core point, on b;
                           ///< negative for a pass
-  std::uint32_t pair;     ///< of ball and structure
+  std::uint32_t pair;     ///< of sphere and structure
   std::uint32_t contact;  ///< among those of the worker
 
   template <class Owns>
@@ -40,7 +40,7 @@ struct SurfaceForce {
   }
 };
 
-/// Force of a plane on a ball.
+/// Force of a plane on a sphere.
 struct PlaneForce {
   NodeId a;
   std::size_t plane;
@@ -67,7 +67,7 @@ class ForceRecords {
   struct alignas(64) List {
     std::vector<Record> records;  ///< the first count of them
     std::size_t count = 0;
-    double deepest = 0.0;  ///< largest overlap over the radius of the smaller ball
+    double deepest = 0.0;  ///< largest overlap over the radius of the smaller sphere
 
     /// @returns a record to be filled in; before that it holds anything
     Record& add(double overlap_ratio) {
@@ -105,7 +105,7 @@ class ForceRecords {
     return count;
   }
 
-  /// Largest overlap over the radius of the smaller ball.
+  /// Largest overlap over the radius of the smaller sphere.
   double deepest() const noexcept {
     double deepest = 0.0;
     for (const List& list : lists_) deepest = std::max(deepest, list.deepest);

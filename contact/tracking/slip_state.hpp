@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/law/contact_law.hpp"
-#include "contact/tracking/contact_row.hpp"
+#include "contact/tracking/contact_record.hpp"
 
 namespace plekton::contact {
 
@@ -27,7 +27,7 @@ bool is_at_limit(const typename Law::Parameters& parameters, const typename Law:
 /// slips.
 /// @param elastic_force  N, magnitude of the elastic normal force
 template <ContactLaw Law>
-void set_state(ContactRow& row, const typename Law::Parameters& parameters,
+void set_state(ContactRecord& row, const typename Law::Parameters& parameters,
                const typename Law::History& history, double elastic_force) {
   row.elastic_force = elastic_force;
   row.is_bonded = holds<Law>(history);

@@ -147,18 +147,18 @@ std::string FaultFinder::strongest_action(const Divergence& divergence, const No
 /// Of a patch of a sphere on a surface that has the node elsewhere than where it is deepest, what
 /// it does to the node is not known: it is at most that of all of these together.
 void FaultFinder::consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action) {
-  const auto describe_row = [this](const contact::ContactRow& row) {
+  const auto describe_row = [this](const contact::ContactRecord& row) {
     return [this, &row](std::ostream& text) { describe(row, text); };
   };
-  of_.contacts.for_each_structure_row_on(
-      node, x, [&](const contact::ContactRow& row, const Vec3& force, const Vec3& torque) {
+  of_.contacts.for_each_structure_record_on(
+      node, x, [&](const contact::ContactRecord& row, const Vec3& force, const Vec3& torque) {
         action.consider(force.norm(), torque.norm(), describe_row(row));
       });
   NodeForces all(state_->size());
   of_.contacts.add_sphere_surface_forces(all, *pool_);
   const double most_force = all.force[index_of(node)].norm();
   const double most_torque = all.torque[index_of(node)].norm();
-  const auto consider = [&](const contact::ContactRow& row) {
+  const auto consider = [&](const contact::ContactRecord& row) {
     constexpr auto kStructure = contact::BodyKind::structure;
     if (row.a.kind == kStructure && row.b.kind == kStructure) return;
     const double force = row.force().norm();
@@ -170,7 +170,7 @@ void FaultFinder::consider_contacts(NodeId node, geometry::Positions x, Stronges
       action.consider(std::min(force, most_force), std::min(torque, most_torque),
                       describe_row(row));
   };
-  of_.contacts.for_each_row(x, consider);
+  of_.contacts.for_each_record(x, consider);
 }
 
 bool FaultFinder::is_of_structure(const contact::ContactBody& body, NodeId node) const {
@@ -188,7 +188,7 @@ bool FaultFinder::has_node(const contact::ContactBody& body, NodeId node) const 
 
 /// As in "the contact of sphere 3 (node 40) with the edge (nodes 7, 8) of structure 0 at (0 0 1) m,
 /// 0.002 m deep".
-void FaultFinder::describe(const contact::ContactRow& row, std::ostream& text) const {
+void FaultFinder::describe(const contact::ContactRecord& row, std::ostream& text) const {
   const auto name = [&](const contact::ContactBody& body) {
     if (body.kind == contact::BodyKind::plane) {
       text << "plane " << body.index;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/tracking/contact_row.hpp"
+#include "contact/tracking/contact_record.hpp"
 #include "dynamics/measures/diverged.hpp"
 #include "dynamics/time_step/step_limits.hpp"
 
@@ -54,7 +54,7 @@ class FaultFinder {
   void consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action);
   bool has_node(const contact::ContactBody& body, NodeId node) const;
   bool is_of_structure(const contact::ContactBody& body, NodeId node) const;
-  void describe(const contact::ContactRow& row, std::ostream& text) const;
+  void describe(const contact::ContactRecord& row, std::ostream& text) const;
 
   Resistance of_;
   const StepLimits* limits_;

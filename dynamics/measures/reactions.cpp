@@ -3,11 +3,11 @@
 
 namespace plekton::dynamics {
 
-ForceAndMoment contact_force_on(std::span<const contact::ContactRow> contacts,
+ForceAndMoment contact_force_on(std::span<const contact::ContactRecord> contacts,
                                 const std::function<bool(const contact::ContactBody&)>& is_one,
                                 const Vec3& about) {
   ForceAndMoment sum;
-  for (const contact::ContactRow& contact : contacts) {
+  for (const contact::ContactRecord& contact : contacts) {
     const bool on_a = is_one(contact.a);
     if (on_a == is_one(contact.b)) continue;
     const double sign = on_a ? -1.0 : 1.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/tracking/contact_row.hpp"
+#include "contact/tracking/contact_record.hpp"
 #include "dynamics/measures/force_and_moment.hpp"
 #include "dynamics/state/node_state.hpp"
 
@@ -18,7 +18,7 @@ using contact::NodeForces;
 /// @param is_one    whether a body is one of those that are meant; what they do to each other
 /// cancels
 /// @param about     m, point of the moment
-ForceAndMoment contact_force_on(std::span<const contact::ContactRow> contacts,
+ForceAndMoment contact_force_on(std::span<const contact::ContactRecord> contacts,
                                 const std::function<bool(const contact::ContactBody&)>& is_one,
                                 const Vec3& about);
 

@@ -8,7 +8,7 @@ namespace plekton::dynamics {
 
 using contact::BodyKind;
 using contact::ContactBody;
-using contact::ContactRow;
+using contact::ContactRecord;
 using geometry::Vec3;
 
 namespace {
@@ -23,34 +23,35 @@ std::int64_t kind_of(const ContactBody& body) {
 
 const std::array<ContactField, 21> kFields = {{
     {{"id", "", "number that a contact keeps as long as it lasts; none is given twice"},
-     [](const ContactRow& c) { return c.id; }},
-    {{"kind_a", "", kKinds}, [](const ContactRow& c) { return kind_of(c.a); }},
+     [](const ContactRecord& c) { return c.id; }},
+    {{"kind_a", "", kKinds}, [](const ContactRecord& c) { return kind_of(c.a); }},
     {{"body_a", "", "number of the sphere, connected structure or plane"},
-     [](const ContactRow& c) { return std::int64_t{c.a.index}; }},
+     [](const ContactRecord& c) { return std::int64_t{c.a.index}; }},
     {{"feature_a", "", "number of the node, edge or facet that is deepest; -1 of a plane"},
-     [](const ContactRow& c) { return std::int64_t{c.a.feature.id}; }},
-    {{"kind_b", "", kKinds}, [](const ContactRow& c) { return kind_of(c.b); }},
-    {{"body_b", "", "likewise of b"}, [](const ContactRow& c) { return std::int64_t{c.b.index}; }},
+     [](const ContactRecord& c) { return std::int64_t{c.a.feature.id}; }},
+    {{"kind_b", "", kKinds}, [](const ContactRecord& c) { return kind_of(c.b); }},
+    {{"body_b", "", "likewise of b"},
+     [](const ContactRecord& c) { return std::int64_t{c.b.index}; }},
     {{"feature_b", "", "likewise of b"},
-     [](const ContactRow& c) { return std::int64_t{c.b.feature.id}; }},
+     [](const ContactRecord& c) { return std::int64_t{c.b.feature.id}; }},
     {{"point", "m", "contact point, where the forces act"},
-     [](const ContactRow& c) { return c.point; }},
-    {{"normal", "", "unit vector from a to b"}, [](const ContactRow& c) { return c.normal; }},
-    {{"gap", "m", "negative: overlap"}, [](const ContactRow& c) { return c.gap; }},
-    {{"normal_force", "N", "on b"}, [](const ContactRow& c) { return c.normal_force; }},
+     [](const ContactRecord& c) { return c.point; }},
+    {{"normal", "", "unit vector from a to b"}, [](const ContactRecord& c) { return c.normal; }},
+    {{"gap", "m", "negative: overlap"}, [](const ContactRecord& c) { return c.gap; }},
+    {{"normal_force", "N", "on b"}, [](const ContactRecord& c) { return c.normal_force; }},
     {{"normal_force_magnitude", "N", "its magnitude"},
-     [](const ContactRow& c) { return c.normal_force.norm(); }},
-    {{"tangential_force", "N", "on b"}, [](const ContactRow& c) { return c.tangential_force; }},
+     [](const ContactRecord& c) { return c.normal_force.norm(); }},
+    {{"tangential_force", "N", "on b"}, [](const ContactRecord& c) { return c.tangential_force; }},
     {{"tangential_force_magnitude", "N", "its magnitude"},
-     [](const ContactRow& c) { return c.tangential_force.norm(); }},
+     [](const ContactRecord& c) { return c.tangential_force.norm(); }},
     {{"moment", "N m", "on b about the contact point, of rolling and twisting"},
-     [](const ContactRow& c) { return c.moment; }},
+     [](const ContactRecord& c) { return c.moment; }},
     {{"is_bonded", "",
       "1: the bodies stick to each other; between structures every bond has a row of its own, "
       "with what it carries beside the elastic force of their contact"},
-     [](const ContactRow& c) { return std::int64_t{c.is_bonded}; }},
+     [](const ContactRecord& c) { return std::int64_t{c.is_bonded}; }},
     {{"is_slipping", "", "1: the tangential force is at its limit"},
-     [](const ContactRow& c) { return std::int64_t{c.is_slipping}; }},
+     [](const ContactRecord& c) { return std::int64_t{c.is_slipping}; }},
     {{"group_a", "",
       "number of the table [[grains]], [[membranes]] or [[planes]], from 0; run.json has the "
       "names"},
@@ -80,7 +81,7 @@ std::vector<CsvColumn> contact_columns() {
   return columns;
 }
 
-void fill_contact_row(double time, const ContactRow& contact, const ContactLabels& labels,
+void fill_contact_row(double time, const ContactRecord& contact, const ContactLabels& labels,
                       std::vector<double>& row) {
   row.assign(1, time);
   for (const ContactField& field : kFields) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/tracking/contact_row.hpp"
+#include "contact/tracking/contact_record.hpp"
 #include "dynamics/output/csv_writer.hpp"
 #include "dynamics/output/output_field.hpp"
 
@@ -22,9 +22,9 @@ struct ContactLabels {
 
 /// Something that is told of every contact.
 struct ContactField : OutputField {
-  using Number = double (*)(const contact::ContactRow&);
-  using Vector = geometry::Vec3 (*)(const contact::ContactRow&);
-  using Whole = std::int64_t (*)(const contact::ContactRow&);
+  using Number = double (*)(const contact::ContactRecord&);
+  using Vector = geometry::Vec3 (*)(const contact::ContactRecord&);
+  using Whole = std::int64_t (*)(const contact::ContactRecord&);
 
   using Label = std::int32_t ContactLabels::*;
 
@@ -39,7 +39,7 @@ std::vector<CsvColumn> contact_columns();
 /// What stands in them.
 /// @param time  s
 /// @param row   is overwritten
-void fill_contact_row(double time, const contact::ContactRow& contact, const ContactLabels& labels,
-                      std::vector<double>& row);
+void fill_contact_row(double time, const contact::ContactRecord& contact,
+                      const ContactLabels& labels, std::vector<double>& row);
 
 }  // namespace plekton::dynamics

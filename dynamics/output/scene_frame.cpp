@@ -243,13 +243,13 @@ PolyData surface_frame(const SurfaceView& surface, double time) {
   return data;
 }
 
-PolyData contacts_frame(std::span<const contact::ContactRow> contacts, double time,
+PolyData contacts_frame(std::span<const contact::ContactRecord> contacts, double time,
                         std::span<const ContactLabels> labels_of) {
   const std::size_t count = contacts.size();
   PolyData data;
   data.time = time;
   data.points.reserve(2 * count);
-  for (const contact::ContactRow& contact : contacts) {
+  for (const contact::ContactRecord& contact : contacts) {
     const auto first = static_cast<std::int32_t>(data.points.size());
     data.points.push_back(contact.point_a);
     data.points.push_back(contact.point_b);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/tracking/contact_row.hpp"
-#include "dynamics/output/contact_fields.hpp"
-#include "dynamics/output/vtk_writer.hpp"
+#include "contact/tracking/contact_record.hpp"
 #include "dynamics/measures/bond_stress.hpp"
 #include "dynamics/measures/facet_traction.hpp"
+#include "dynamics/output/contact_fields.hpp"
+#include "dynamics/output/vtk_writer.hpp"
 #include "dynamics/structure/membrane_force.hpp"
 #include "geometry/primitives/cylinder.hpp"
 #include "geometry/primitives/facet.hpp"
@@ -62,7 +62,7 @@ PolyData surface_frame(const SurfaceView& surface, double time);
 /// A line for each contact, from core point a to core point b; of no length where the cores touch.
 /// Cell arrays: contact_fields().
 /// @param labels  one for each contact, or none; then there are no arrays of them
-PolyData contacts_frame(std::span<const contact::ContactRow> contacts, double time,
+PolyData contacts_frame(std::span<const contact::ContactRecord> contacts, double time,
                         std::span<const ContactLabels> labels = {});
 
 }  // namespace plekton::dynamics

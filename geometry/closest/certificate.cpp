@@ -41,15 +41,15 @@ bool all_others(Corners x, unsigned feature, Holds holds) {
   return true;
 }
 
-Verdict corner_corner(Corners a, Corners b, Carriers carriers) {
-  const Vec3& p = a[first_of(carriers.a)];
-  const Vec3& q = b[first_of(carriers.b)];
-  if (p == q) return Verdict::meeting;
+Verdict corner_corner(Corners a, Corners b, WitnessFeatures witness_features) {
+  const Vec3& p = a[first_of(witness_features.a)];
+  const Vec3& q = b[first_of(witness_features.b)];
+  if (p == q) return Verdict::structure_pair;
   Conditions conditions;
   const bool holds =
-      all_others(a, carriers.a,
+      all_others(a, witness_features.a,
                  [&](const Vec3& x) { return conditions.add(sign_past_vertex(p, x, q)); }) &&
-      all_others(b, carriers.b,
+      all_others(b, witness_features.b,
                  [&](const Vec3& x) { return conditions.add(sign_past_vertex(q, x, p)); });
   return holds ? conditions.verdict() : Verdict::refuted;
 }
@@ -76,7 +76,7 @@ Verdict corner_side(Corners a, unsigned corner, Corners b, unsigned side) {
   if (!all_others(a, corner, stays_behind) || !all_others(b, side, stays_beyond))
     return Verdict::refuted;
   const bool may_meet = !conditions.is_strict() || a.size() + b.size() == 3;
-  if (may_meet && sign_of_crosses({c, d}, {c, p}, {c, p}) == 0) return Verdict::meeting;
+  if (may_meet && sign_of_crosses({c, d}, {c, p}, {c, p}) == 0) return Verdict::structure_pair;
   return conditions.verdict();
 }
 
@@ -89,7 +89,7 @@ Verdict corner_face(Corners a, unsigned corner, Corners b) {
   const Arrow u{b[0], b[1]};
   const Arrow v{b[0], b[2]};
   const int above = sign_of_volume(u, v, {b[0], p});
-  if (above == 0) return Verdict::meeting;
+  if (above == 0) return Verdict::structure_pair;
   Conditions conditions;
   const bool holds = all_others(a, corner, [&](const Vec3& x) {
     return conditions.add(-above * sign_of_volume(u, v, {p, x}));
@@ -103,22 +103,22 @@ bool ends_inside(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return sign_of_crosses({c, d}, {a, c}, {a, b}) > 0 && sign_of_crosses({c, d}, {b, c}, {b, a}) > 0;
 }
 
-Verdict side_side(Corners a, Corners b, Carriers carriers) {
-  const Vec3& a0 = a[first_of(carriers.a)];
-  const Vec3& a1 = a[last_of(carriers.a)];
-  const Vec3& b0 = b[first_of(carriers.b)];
-  const Vec3& b1 = b[last_of(carriers.b)];
+Verdict side_side(Corners a, Corners b, WitnessFeatures witness_features) {
+  const Vec3& a0 = a[first_of(witness_features.a)];
+  const Vec3& a1 = a[last_of(witness_features.a)];
+  const Vec3& b0 = b[first_of(witness_features.b)];
+  const Vec3& b1 = b[last_of(witness_features.b)];
   if (!ends_inside(a0, a1, b0, b1) || !ends_inside(b0, b1, a0, a1)) return Verdict::refuted;
   const Arrow u{a0, a1};
   const Arrow v{b0, b1};
   const int above = sign_of_volume(u, v, {a0, b0});
-  if (above == 0) return Verdict::meeting;
+  if (above == 0) return Verdict::structure_pair;
   Conditions conditions;
-  const bool holds = all_others(a, carriers.a,
+  const bool holds = all_others(a, witness_features.a,
                                 [&](const Vec3& x) {
                                   return conditions.add(above * sign_of_volume(u, v, {a0, x}));
                                 }) &&
-                     all_others(b, carriers.b, [&](const Vec3& x) {
+                     all_others(b, witness_features.b, [&](const Vec3& x) {
                        return conditions.add(-above * sign_of_volume(u, v, {b0, x}));
                      });
   return holds ? conditions.verdict() : Verdict::refuted;
@@ -126,17 +126,19 @@ Verdict side_side(Corners a, Corners b, Carriers carriers) {
 
 }  // namespace
 
-Verdict certify(Corners a, Corners b, Carriers carriers) noexcept {
-  const int count_a = std::popcount(carriers.a);
-  const int count_b = std::popcount(carriers.b);
-  if (count_a == 1 && count_b == 1) return corner_corner(a, b, carriers);
-  if (count_a == 1 && count_b == 2) return corner_side(a, carriers.a, b, carriers.b);
-  if (count_a == 2 && count_b == 1) return corner_side(b, carriers.b, a, carriers.a);
-  if (count_a == 1) return corner_face(a, carriers.a, b);
-  if (count_b == 1) return corner_face(b, carriers.b, a);
+Verdict certify(Corners a, Corners b, WitnessFeatures witness_features) noexcept {
+  const int count_a = std::popcount(witness_features.a);
+  const int count_b = std::popcount(witness_features.b);
+  if (count_a == 1 && count_b == 1) return corner_corner(a, b, witness_features);
+  if (count_a == 1 && count_b == 2)
+    return corner_side(a, witness_features.a, b, witness_features.b);
+  if (count_a == 2 && count_b == 1)
+    return corner_side(b, witness_features.b, a, witness_features.a);
+  if (count_a == 1) return corner_face(a, witness_features.a, b);
+  if (count_b == 1) return corner_face(b, witness_features.b, a);
   // A side and a face, as of cores that crossed: where they are apart, lower features are nearest.
   if (count_a + count_b > 4) return Verdict::refuted;
-  return side_side(a, b, carriers);
+  return side_side(a, b, witness_features);
 }
 
 bool crosses(Corners segment, unsigned side, Corners triangle) noexcept {

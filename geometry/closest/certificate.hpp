@@ -14,23 +14,23 @@ namespace plekton::geometry::closest {
 using Corners = std::span<const Vec3>;
 
 /// A feature of each side; bit k: corner k spans it.
-struct Carriers {
+struct WitnessFeatures {
   unsigned a;
   unsigned b;
 
-  friend constexpr bool operator==(const Carriers&, const Carriers&) = default;
+  friend constexpr bool operator==(const WitnessFeatures&, const WitnessFeatures&) = default;
 };
 
 enum class Verdict {
-  refuted,  ///< the features have no foot points inside, or there are nearer points
-  tied,     ///< they carry nearest points, and others may too
-  unique,   ///< they carry the nearest points, and nothing else does
-  meeting   ///< they have one point in common
+  refuted,        ///< the features have no foot points inside, or there are nearer points
+  tied,           ///< they carry nearest points, and others may too
+  unique,         ///< they carry the nearest points, and nothing else does
+  structure_pair  ///< they have one point in common
 };
 
 /// Decided exactly, for corner and corner, corner and side, corner and face, and side and side.
 /// Sides and faces without extent are refuted.
-Verdict certify(Corners a, Corners b, Carriers carriers) noexcept;
+Verdict certify(Corners a, Corners b, WitnessFeatures witness_features) noexcept;
 
 /// Whether the inside of a side and the inside of a face cross, in one point that is on neither
 /// one's plane or line alone. Exact.

@@ -79,7 +79,7 @@ CoreProximity core_proximity(const Core& a, const Core& b, const Vec3& side) noe
 }
 
 CoreProximity core_proximity(const Core& a, const Core& b,
-                             const closest::Carriers& guess) noexcept {
+                             const closest::WitnessFeatures& guess) noexcept {
   const bool holds = closest::certify(a.corners(), b.corners(), guess) == closest::Verdict::unique;
   const ClosestPoints points =
       holds ? closest::evaluate(a.corners(), b.corners(), {guess, Relation::apart})

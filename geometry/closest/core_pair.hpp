@@ -36,6 +36,7 @@ CoreProximity core_proximity(const Core& a, const Core& b,
 
 /// The same, bit for bit, and sooner if a guess is right.
 /// @param guess  features that may carry the nearest points, such as those of a moment ago
-CoreProximity core_proximity(const Core& a, const Core& b, const closest::Carriers& guess) noexcept;
+CoreProximity core_proximity(const Core& a, const Core& b,
+                             const closest::WitnessFeatures& guess) noexcept;
 
 }  // namespace plekton::geometry

@@ -36,8 +36,9 @@ std::optional<Decision> search(Corners a, std::size_t dimension_a, Corners b,
     for (const unsigned of_b : features(dimension_b, b)) {
       const Verdict verdict = certify(a, b, {of_a, of_b});
       if (verdict == Verdict::refuted) continue;
-      const bool is_meeting = verdict == Verdict::meeting;
-      return Decision{{of_a, of_b}, is_meeting ? Relation::touching_or_crossing : Relation::apart};
+      const bool is_structure_pair = verdict == Verdict::structure_pair;
+      return Decision{{of_a, of_b},
+                      is_structure_pair ? Relation::touching_or_crossing : Relation::apart};
     }
   }
   return std::nullopt;
@@ -104,7 +105,7 @@ std::optional<Decision> search_beside(Corners a, Corners b, unsigned guess) {
 Decision enumerate(Corners a, Corners b) noexcept {
   if (is_lower_side(b, a)) {
     const Decision swapped = enumerate(b, a);
-    return {{swapped.carriers.b, swapped.carriers.a}, swapped.relation};
+    return {{swapped.witness_features.b, swapped.witness_features.a}, swapped.relation};
   }
   ++closest_counters().enumerated;
   constexpr std::array<std::array<std::size_t, 2>, 6> kDimensions{
@@ -123,8 +124,8 @@ Decision decide_for_point(Corners a, Corners b, unsigned guess) noexcept {
     if (const auto found = search_beside(a, b, guess)) return *found;
   }
   if (verdict == Verdict::refuted || has_rivals(b, guess)) return enumerate(a, b);
-  const bool is_meeting = verdict == Verdict::meeting;
-  return {{1U, guess}, is_meeting ? Relation::touching_or_crossing : Relation::apart};
+  const bool is_structure_pair = verdict == Verdict::structure_pair;
+  return {{1U, guess}, is_structure_pair ? Relation::touching_or_crossing : Relation::apart};
 }
 
 }  // namespace closest

@@ -8,7 +8,7 @@ namespace plekton::geometry::closest {
 
 /// The features that carry the nearest points, exact and with the rule for ties.
 struct Decision {
-  Carriers carriers;
+  WitnessFeatures witness_features;
   Relation relation;
 };
 
@@ -16,7 +16,7 @@ struct Decision {
 Decision enumerate(Corners a, Corners b) noexcept;
 
 /// Takes a guess if it is certain and unique, else enumerates.
-inline Decision decide(Corners a, Corners b, Carriers guess) noexcept {
+inline Decision decide(Corners a, Corners b, WitnessFeatures guess) noexcept {
   if (certify(a, b, guess) == Verdict::unique) return {guess, Relation::apart};
   return enumerate(a, b);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/base/predicates.hpp"
 #include "geometry/closest/decide.hpp"
 #include "geometry/closest/foot_point.hpp"
-#include "geometry/base/predicates.hpp"
 
 #include <algorithm>
 #include <array>
@@ -49,7 +49,7 @@ bool is_short(double distance, double size, Relation relation) {
 }
 
 Points corner_side(Corners a, Corners b, const Decision& decision) {
-  const auto [corner, side] = decision.carriers;
+  const auto [corner, side] = decision.witness_features;
   const Vec3& p = a[first_of(corner)];
   const Vec3& c = b[first_of(side)];
   const Vec3& d = b[last_of(side)];
@@ -62,7 +62,7 @@ Points corner_side(Corners a, Corners b, const Decision& decision) {
 }
 
 Points corner_face(Corners a, Corners b, const Decision& decision) {
-  const unsigned corner = decision.carriers.a;
+  const unsigned corner = decision.witness_features.a;
   const Vec3& p = a[first_of(corner)];
   const FootPoint foot = foot_on_face(p, {b[0], b[1], b[2]});
   Points points{corner_weights(corner), foot.weights, foot.distance * foot.direction};
@@ -90,11 +90,11 @@ Vec3 part_across(const Vec3& w, const Vec3& v, double v_squared) {
 /// the error of u' over the length of u'. Sides whose angle is below kShortest get exact points.
 /// Where s leads past an end of v the points face each other at that end.
 Points side_side(Corners a, Corners b, const Decision& decision) {
-  const Carriers& carriers = decision.carriers;
-  const Vec3& a0 = a[first_of(carriers.a)];
-  const Vec3& a1 = a[last_of(carriers.a)];
-  const Vec3& b0 = b[first_of(carriers.b)];
-  const Vec3& b1 = b[last_of(carriers.b)];
+  const WitnessFeatures& witness_features = decision.witness_features;
+  const Vec3& a0 = a[first_of(witness_features.a)];
+  const Vec3& a1 = a[last_of(witness_features.a)];
+  const Vec3& b0 = b[first_of(witness_features.b)];
+  const Vec3& b1 = b[last_of(witness_features.b)];
   const Vec3 u = a1 - a0;
   const Vec3 v = b1 - b0;
   const Vec3 w = b0 - a0;
@@ -108,21 +108,21 @@ Points side_side(Corners a, Corners b, const Decision& decision) {
   const double free_t = (s * u - w).dot(v) / vv;
   const double t = std::clamp(free_t, 0.0, 1.0);
   if (t != free_t) s = std::clamp((t * v + w).dot(u) / uu, 0.0, 1.0);
-  Points points{side_weights(carriers.a, s), side_weights(carriers.b, t), residual};
+  Points points{side_weights(witness_features.a, s), side_weights(witness_features.b, t), residual};
   const double size = std::sqrt(std::max({uu, vv, w.squaredNorm()}));
   const bool is_slight = across < kShortest * kShortest * uu;
   if (is_short(points.separation.norm(), size, decision.relation) || is_slight)
     points.separation = exact_part_along_normal({a0, b0}, {a0, a1}, {b0, b1});
   if (is_slight) {
     const Vec3 shares = exact_shares({a0, b0}, {a0, a1}, {b0, b1});
-    points.weights_a = side_weights(carriers.a, shares[1]);
-    points.weights_b = side_weights(carriers.b, -shares[2]);
+    points.weights_a = side_weights(witness_features.a, shares[1]);
+    points.weights_b = side_weights(witness_features.b, -shares[2]);
   }
   return points;
 }
 
 Decision reversed(const Decision& decision) {
-  return {{decision.carriers.b, decision.carriers.a}, decision.relation};
+  return {{decision.witness_features.b, decision.witness_features.a}, decision.relation};
 }
 Points reversed(const Points& points) {
   return {points.weights_b, points.weights_a, -points.separation};
@@ -134,8 +134,8 @@ Points side_side_in_order(Corners a, Corners b, const Decision& decision) {
   const auto ends = [](Corners x, unsigned side) {
     return std::array{x[first_of(side)], x[last_of(side)]};
   };
-  const auto ends_a = ends(a, decision.carriers.a);
-  const auto ends_b = ends(b, decision.carriers.b);
+  const auto ends_a = ends(a, decision.witness_features.a);
+  const auto ends_b = ends(b, decision.witness_features.b);
   const double length_a = (ends_a[1] - ends_a[0]).squaredNorm();
   const double length_b = (ends_b[1] - ends_b[0]).squaredNorm();
   const bool keeps =
@@ -145,13 +145,13 @@ Points side_side_in_order(Corners a, Corners b, const Decision& decision) {
 
 /// Of all but a side that goes through a face.
 Points at_feet(Corners a, Corners b, const Decision& decision) {
-  const int count_a = std::popcount(decision.carriers.a);
-  const int count_b = std::popcount(decision.carriers.b);
+  const int count_a = std::popcount(decision.witness_features.a);
+  const int count_b = std::popcount(decision.witness_features.b);
   if (count_a == 2 && count_b == 2) return side_side_in_order(a, b, decision);
   if (count_a > 1) return reversed(at_feet(b, a, reversed(decision)));
   if (count_b == 3) return corner_face(a, b, decision);
   if (count_b == 2) return corner_side(a, b, decision);
-  const auto [corner_a, corner_b] = decision.carriers;
+  const auto [corner_a, corner_b] = decision.witness_features;
   return {corner_weights(corner_a), corner_weights(corner_b),
           b[first_of(corner_b)] - a[first_of(corner_a)]};
 }
@@ -178,7 +178,7 @@ Points crossing(Corners a, unsigned side, Corners b) {
 }
 
 Points points_of(Corners a, Corners b, const Decision& decision) {
-  const auto [of_a, of_b] = decision.carriers;
+  const auto [of_a, of_b] = decision.witness_features;
   if (of_a == 7U && std::popcount(of_b) == 2) return reversed(crossing(b, of_b, a));
   if (of_b == 7U && std::popcount(of_a) == 2) return crossing(a, of_a, b);
   return at_feet(a, b, decision);
@@ -193,18 +193,18 @@ Vec3 equal_weights(unsigned corners) {
 }
 
 /// Of features so small (below 1e-150 m) that the squares of their lengths vanish.
-Points of_vanishing_features(Corners a, Corners b, Carriers carriers) {
-  const int count_a = std::popcount(carriers.a);
-  const int count_b = std::popcount(carriers.b);
-  const Arrow w{a[first_of(carriers.a)], b[first_of(carriers.b)]};
-  const Arrow u{w.from, a[last_of(carriers.a)]};
-  const Arrow v{w.to, b[last_of(carriers.b)]};
+Points of_vanishing_features(Corners a, Corners b, WitnessFeatures witness_features) {
+  const int count_a = std::popcount(witness_features.a);
+  const int count_b = std::popcount(witness_features.b);
+  const Arrow w{a[first_of(witness_features.a)], b[first_of(witness_features.b)]};
+  const Arrow u{w.from, a[last_of(witness_features.a)]};
+  const Arrow v{w.to, b[last_of(witness_features.b)]};
   Vec3 separation = w.rounded();
   if (count_a + count_b == 3) separation = exact_part_across(w, count_a == 2 ? u : v);
   if (count_a == 2 && count_b == 2) separation = exact_part_along_normal(w, u, v);
   if (count_a == 3) separation = exact_part_along_normal(w, {a[0], a[1]}, {a[0], a[2]});
   if (count_b == 3) separation = exact_part_along_normal(w, {b[0], b[1]}, {b[0], b[2]});
-  return {equal_weights(carriers.a), equal_weights(carriers.b), separation};
+  return {equal_weights(witness_features.a), equal_weights(witness_features.b), separation};
 }
 
 }  // namespace
@@ -223,10 +223,15 @@ double length_of(const Vec3& v) {
 ClosestPoints evaluate(Corners a, Corners b, const Decision& decision) noexcept {
   Points points = points_of(a, b, decision);
   if (!std::isfinite((points.weights_a + points.weights_b + points.separation).sum()))
-    points = of_vanishing_features(a, b, decision.carriers);
+    points = of_vanishing_features(a, b, decision.witness_features);
   if (decision.relation != Relation::apart) points.separation.setZero();
-  return {points.weights_a,    points.weights_b,    points.separation, length_of(points.separation),
-          decision.carriers.a, decision.carriers.b, decision.relation};
+  return {points.weights_a,
+          points.weights_b,
+          points.separation,
+          length_of(points.separation),
+          decision.witness_features.a,
+          decision.witness_features.b,
+          decision.relation};
 }
 
 }  // namespace plekton::geometry::closest

@@ -14,7 +14,7 @@ namespace plekton::geometry::closest {
 /// (m²).
 struct Foot {
   double squared;
-  unsigned carriers;
+  unsigned witness_features;
 };
 
 inline Foot guess_foot(const Vec3& p, const std::array<Vec3, 2>& x) noexcept {
@@ -75,21 +75,22 @@ inline double guess_lines(const Vec3& u, const Vec3& v, const Vec3& w) noexcept 
 constexpr std::array<unsigned, 3> kSides{3U, 6U, 5U};  ///< side k joins corners k and k + 1
 
 template <std::size_t kCountA, std::size_t kCountB>
-Carriers guess(const std::array<Vec3, kCountA>& a, const std::array<Vec3, kCountB>& b) noexcept {
+WitnessFeatures guess(const std::array<Vec3, kCountA>& a,
+                      const std::array<Vec3, kCountB>& b) noexcept {
   double least = std::numeric_limits<double>::infinity();
-  Carriers best{1U, 1U};
-  const auto offer = [&](double squared, Carriers carriers) {
+  WitnessFeatures best{1U, 1U};
+  const auto offer = [&](double squared, WitnessFeatures witness_features) {
     if (!(squared < least)) return;
     least = squared;
-    best = carriers;
+    best = witness_features;
   };
   for (std::size_t i = 0; i < kCountA; ++i) {
     const Foot foot = guess_foot(a[i], b);
-    offer(foot.squared, {1U << i, foot.carriers});
+    offer(foot.squared, {1U << i, foot.witness_features});
   }
   for (std::size_t i = 0; i < kCountB; ++i) {
     const Foot foot = guess_foot(b[i], a);
-    offer(foot.squared, {foot.carriers, 1U << i});
+    offer(foot.squared, {foot.witness_features, 1U << i});
   }
   for (std::size_t i = 0; i < (kCountA == 2 ? 1 : 3); ++i) {
     const Vec3 u = a[(i + 1) % kCountA] - a[i];

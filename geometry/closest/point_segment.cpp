@@ -9,8 +9,8 @@ namespace plekton::geometry {
 ClosestPoints point_segment(const Vec3& p, const std::array<Vec3, 2>& b) noexcept {
   ++closest_counters().pairs;
   const closest::Corners a(&p, 1);
-  return closest::evaluate(a, b,
-                           closest::decide_for_point(a, b, closest::guess_foot(p, b).carriers));
+  return closest::evaluate(
+      a, b, closest::decide_for_point(a, b, closest::guess_foot(p, b).witness_features));
 }
 
 }  // namespace plekton::geometry

@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kListsPerTree = 64;
 
 /// m, of two cells: both radii and the skin.
-double reach_of(const Surface& surface, CellId a, CellId b, double margin) {
+double interaction_range_of(const Surface& surface, CellId a, CellId b, double margin) {
   const double radii =
       surface.radius(surface.structure_of(a)) + surface.radius(surface.structure_of(b));
   return (1.0 + 1e-12) * (radii + 2.0 * margin);
@@ -39,7 +39,7 @@ struct Part {
 template <class Visit>
 void for_each_close_pair(const Surface& surface, const Part& a, const Part& b, Positions x,
                          double margin, const Visit& visit) {
-  const double reach = reach_of(surface, a.cells.front(), b.cells.front(), margin);
+  const double reach = interaction_range_of(surface, a.cells.front(), b.cells.front(), margin);
   for (const CellId one : a.cells) {
     const Box box_of_one = box(surface, one, x, margin);
     if (!are_close(box_of_one, b.box, reach)) continue;
@@ -177,7 +177,8 @@ bool CellNeighbours::are_distant(CellId a, CellId b, Positions x) const {
     for (const NodeId node : surface_->nodes_of(cell)) found.x[found.count++] = x[index_of(node)];
     return found;
   };
-  return closest_points(core(a), core(b)).distance > reach_of(*surface_, a, b, skin_.margin());
+  return closest_points(core(a), core(b)).distance >
+         interaction_range_of(*surface_, a, b, skin_.margin());
 }
 
 bool CellNeighbours::update(Positions x, ThreadPool& pool, double way) {

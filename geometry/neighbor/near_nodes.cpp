@@ -97,7 +97,7 @@ std::vector<NodeId> make_groups(const Surface& surface, EdgeWays& ways,
 }
 
 /// m, within which nodes are near each other.
-double reach_of(const Surface& surface, NodeId centre) {
+double interaction_range_of(const Surface& surface, NodeId centre) {
   return kSharpestFold * surface.radius(surface.structure_of(centre));
 }
 
@@ -111,7 +111,7 @@ void require_few_pairs(const Surface& surface, std::span<const NodeId> centres,
   const std::size_t stride = std::max<std::size_t>(1, centres.size() / 100);
   double sampled = 0.0, near = 0.0, longest_reach = 0.0;
   for (std::size_t i = 0; i < centres.size(); i += stride) {
-    const double reach = reach_of(surface, centres[i]);
+    const double reach = interaction_range_of(surface, centres[i]);
     for (const NodeId node : ways.within(reach, centres[i])) {
       const auto group = static_cast<std::size_t>(group_of[index_of(node)]);
       if (centres[group] == node) near += 1.0;
@@ -138,7 +138,7 @@ NearNodes::NearNodes(const Surface& surface, Positions rest, std::size_t most_pa
   first_.reserve(centres.size() + 1);
   first_.push_back(0);
   for (const NodeId centre : centres) {
-    for (const NodeId node : ways.within(reach_of(surface, centre), centre)) {
+    for (const NodeId node : ways.within(interaction_range_of(surface, centre), centre)) {
       const std::int32_t group = group_[index_of(node)];
       if (centres[static_cast<std::size_t>(group)] == node) near_.push_back(group);
     }

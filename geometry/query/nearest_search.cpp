@@ -43,7 +43,7 @@ Box box_of(const Core& core) {
 }
 
 /// How far apart (m) cores may be for a pair of these radii to have a gap as small as one.
-double reach_of(double gap, double radius_a, double radius_b) {
+double interaction_range_of(double gap, double radius_a, double radius_b) {
   const double radii = radius_a + radius_b;
   return gap + radii + kRounding * (std::abs(gap) + radii);
 }
@@ -132,8 +132,8 @@ class Search {
  private:
   /// m, up to which cores of a cell of this radius may be nearest.
   double reach(double radius) const {
-    if constexpr (kMeasure == Measure::core_distance) return reach_of(least_, 0.0, 0.0);
-    return reach_of(least_, probe_.radius, radius);
+    if constexpr (kMeasure == Measure::core_distance) return interaction_range_of(least_, 0.0, 0.0);
+    return interaction_range_of(least_, probe_.radius, radius);
   }
   bool is_beyond(double squared, double radius) const { return are_beyond(squared, reach(radius)); }
 
@@ -213,7 +213,7 @@ class PairSearch {
   }
 
   double reach(const EntryPair& pair) const {
-    return reach_of(best_.proximity.gap, pair.radius_a, pair.radius_b);
+    return interaction_range_of(best_.proximity.gap, pair.radius_a, pair.radius_b);
   }
   bool is_beyond(const EntryPair& pair) const { return are_beyond(pair.squared, reach(pair)); }
 

@@ -104,7 +104,7 @@ std::vector<double> heights_of_example() {
   return heights;
 }
 
-TEST(FirstSteps, LetTheBallFallAndTheSheetCatchIt) {
+TEST(FirstSteps, LetTheSphereFallAndTheSheetCatchIt) {
   const std::vector<double> heights = heights_of_example();
 
   ASSERT_EQ(heights.size(), 11u);

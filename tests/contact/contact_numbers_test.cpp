@@ -15,27 +15,27 @@ namespace {
 constexpr double kStep = 0.02;  // s
 constexpr int kSteps = 140;
 
-std::set<std::int64_t> ids_of(const std::vector<ContactRow>& rows) {
+std::set<std::int64_t> ids_of(const std::vector<ContactRecord>& rows) {
   std::set<std::int64_t> ids;
-  for (const ContactRow& row : rows) ids.insert(row.id);
+  for (const ContactRecord& row : rows) ids.insert(row.id);
   return ids;
 }
 
 TEST(ContactNumbers, AreTheSameFromElementToElement) {
-  BallOnSurface ball(centred(sheet(16), 16, 0.25), 0.9, Material{1e6, 0.5, 0.3});
+  SphereOnSurface ball(centred(sheet(16), 16, 0.25), 0.9, Material{1e6, 0.5, 0.3});
   ball.put(Vec3(-0.8, -0.31, 0.95));
 
   for (int k = 0; k < 40; ++k) {
     ball.move(Vec3(0.04, 0.013, 0));
     if (k == 20) ball.rebuild();
-    const std::vector<ContactRow> rows = ball.numbered_rows();
+    const std::vector<ContactRecord> rows = ball.numbered_rows();
     ASSERT_EQ(rows.size(), 1u);
     ASSERT_EQ(rows[0].id, 1);
   }
 }
 
 TEST(ContactNumbers, AreNewWhenBodiesMeetAgain) {
-  BallOnSurface ball(centred(sheet(4), 4, 0.5), 0.9, Material{1e6, 0.5, 0.3});
+  SphereOnSurface ball(centred(sheet(4), 4, 0.5), 0.9, Material{1e6, 0.5, 0.3});
   ball.put(Vec3(0.1, 0.05, 0.95));
   EXPECT_EQ(ball.numbered_rows().at(0).id, 1);
 
@@ -63,7 +63,7 @@ Complex valley(double angle) {
 
 // Deep in the valley the crease is in range, and both sides are one patch; higher up they are two.
 TEST(ContactNumbers, GoToTheLargerPartOfWhatSplitsAndStayThatOfTheLargerWhereTheyMerge) {
-  BallOnSurface ball(valley(0.35), 0.9, Material{1e6, 0.5, 0.3});
+  SphereOnSurface ball(valley(0.35), 0.9, Material{1e6, 0.5, 0.3});
   const double range = ball.range();
   const Vec3 low(0, 0.1, 0.99 * range), high(0, 0.1, 1.03 * range);
   const Vec3 left(-0.01, 0, 0);
@@ -71,14 +71,14 @@ TEST(ContactNumbers, GoToTheLargerPartOfWhatSplitsAndStayThatOfTheLargerWhereThe
   ASSERT_EQ(ball.numbered_rows().size(), 1u);
 
   ball.put(high + left);
-  const std::vector<ContactRow> split = ball.numbered_rows();
+  const std::vector<ContactRecord> split = ball.numbered_rows();
   ASSERT_EQ(split.size(), 2u);
-  for (const ContactRow& row : split) EXPECT_EQ(row.id, row.normal[0] < 0.0 ? 1 : 2);
+  for (const ContactRecord& row : split) EXPECT_EQ(row.id, row.normal[0] < 0.0 ? 1 : 2);
 
   ball.put(high - left);  // now the right side pushes more
   EXPECT_EQ(ids_of(ball.numbered_rows()), (std::set<std::int64_t>{1, 2}));
   ball.put(low - left);
-  const std::vector<ContactRow> merged = ball.numbered_rows();
+  const std::vector<ContactRecord> merged = ball.numbered_rows();
   ASSERT_EQ(merged.size(), 1u);
   EXPECT_EQ(merged[0].id, 2);
 }
@@ -89,13 +89,13 @@ TEST(ContactNumbers, AreGivenOnceAndEndWithTheContact) {
   std::map<std::int64_t, std::pair<ContactBody, ContactBody>> bodies;
   for (int k = 0; k < kSteps; ++k) {
     scene.step(kStep);
-    const std::vector<ContactRow> rows = scene.list();
+    const std::vector<ContactRecord> rows = scene.list();
     const std::set<std::int64_t> now = ids_of(rows);
     ASSERT_EQ(now.size(), rows.size());
     ASSERT_EQ(now.count(0), 0u);
     for (const std::int64_t id : last)
       if (now.count(id) == 0) ended.insert(id);
-    for (const ContactRow& row : rows) {
+    for (const ContactRecord& row : rows) {
       ASSERT_EQ(ended.count(row.id), 0u);
       const auto& [first, is_new] = bodies.try_emplace(row.id, row.a, row.b);
       ASSERT_EQ(first->second.first.index, row.a.index);
@@ -115,9 +115,9 @@ TEST(ContactNumbers, MeanTheSameContactsHoweverOftenTheyAreAskedFor) {
   for (int k = 0; k < kSteps; ++k) {
     often.step(kStep);
     rarely.step(kStep);
-    const std::vector<ContactRow> rows = often.list();
+    const std::vector<ContactRecord> rows = often.list();
     if (k % 9 != 0) continue;
-    const std::vector<ContactRow> others = rarely.list();
+    const std::vector<ContactRecord> others = rarely.list();
     ASSERT_EQ(rows.size(), others.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       ASSERT_EQ(to.try_emplace(rows[i].id, others[i].id).first->second, others[i].id);
@@ -137,9 +137,9 @@ TEST(ContactNumbers, DoNotDependOnTheNumberOfThreads) {
     one.step(kStep);
     for (auto& other : others) other->step(kStep);
     if (k % 4 != 0) continue;
-    const std::vector<ContactRow> rows = one.list();
+    const std::vector<ContactRecord> rows = one.list();
     for (auto& other : others) {
-      const std::vector<ContactRow> same = other->list();
+      const std::vector<ContactRecord> same = other->list();
       ASSERT_EQ(rows.size(), same.size());
       for (std::size_t i = 0; i < rows.size(); ++i) {
         ASSERT_EQ(rows[i].id, same[i].id);
@@ -164,19 +164,17 @@ class SheetOnSheet {
     contacts_ = std::make_unique<SceneContacts>(
         std::span<const Sphere>(), surface_,
         ContactMaterials{
-            MaterialPairs({Material{1e6, 0.5, 0.3}}),
-            {},
-            {MaterialId{0}, MaterialId{0}}},
+            MaterialPairs({Material{1e6, 0.5, 0.3}}), {}, {MaterialId{0}, MaterialId{0}}},
         0.05);
   }
-  std::vector<ContactRow> move(const Vec3& way) {
+  std::vector<ContactRecord> move(const Vec3& way) {
     const std::vector<Vec3> still(complex_.x.size(), Vec3::Zero());
     for (std::size_t i = first_of_small_; i < complex_.x.size(); ++i) complex_.x[i] += way;
     NodeForces forces(complex_.x.size());
     contacts_->advance({complex_.x, still, still}, {}, 1.0, pool_, forces);
-    contacts_->number();
-    std::vector<ContactRow> rows;
-    contacts_->for_each_row(complex_.x, [&](const ContactRow& row) { rows.push_back(row); });
+    contacts_->assign_ids();
+    std::vector<ContactRecord> rows;
+    contacts_->for_each_record(complex_.x, [&](const ContactRecord& row) { rows.push_back(row); });
     return rows;
   }
 
@@ -200,7 +198,7 @@ TEST(ContactNumbers, OfStructuresLastAsTheySlideAndEndWhereTheyPart) {
   SheetOnSheet sheets;
   std::set<geometry::Feature> features;
   for (int k = 0; k < 60; ++k) {
-    const std::vector<ContactRow> rows = sheets.move(Vec3(0.021, 0.013, 0));
+    const std::vector<ContactRecord> rows = sheets.move(Vec3(0.021, 0.013, 0));
     ASSERT_EQ(rows.size(), 1u);
     ASSERT_EQ(rows[0].id, 1);
     features.insert(rows[0].a.feature);
@@ -211,9 +209,9 @@ TEST(ContactNumbers, OfStructuresLastAsTheySlideAndEndWhereTheyPart) {
   EXPECT_EQ(sheets.move(Vec3(0, 0, -0.1)).at(0).id, 2);
 }
 
-TEST(ContactRow, SaysWhetherAContactSlips) {
+TEST(ContactRecord, SaysWhetherAContactSlips) {
   const Material material{1e6, 0.5, 0.3};
-  BallOnSurface ball(centred(sheet(8), 8, 0.5), 0.9, material);
+  SphereOnSurface ball(centred(sheet(8), 8, 0.5), 0.9, material);
   ball.put(Vec3(0.03, 0.02, 0.95));
   const double overlap = ball.range() - 0.95;
   // k_s = k_n / 2, so it slips beyond twice the friction times the overlap.

@@ -66,8 +66,7 @@ TEST(Contacts, LoadOneSpringWhileASphereSlidesOnAPlane) {
   const std::vector<Sphere> spheres{{{NodeId{0}}, 0.5}};
   const Surface surface({}, {}, 1);
   const Material material{1e6, 0.5, 1e3};
-  SceneContacts contacts(
-      spheres, surface, {MaterialPairs({material}), {MaterialId{0}}, {}}, 0.05);
+  SceneContacts contacts(spheres, surface, {MaterialPairs({material}), {MaterialId{0}}, {}}, 0.05);
   const std::vector<Plane> planes{{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}}};
   std::vector<Vec3> x{Vec3(0, 0, 0.49)};
   const std::vector<Vec3> v{Vec3(0.01, 0.02, 0)};
@@ -86,8 +85,8 @@ TEST(Contacts, LoadOneSpringWhileASphereSlidesOnAPlane) {
 
 /// A body sinks towards a floor at z = 0 in small steps of which the length is known.
 template <class Bodies>
-void expect_the_floor_is_touched_at_once(SceneContacts& contacts, Bodies& x,
-                                         double radius, double step) {
+void expect_the_floor_is_touched_at_once(SceneContacts& contacts, Bodies& x, double radius,
+                                         double step) {
   const std::vector<Plane> planes{{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}}};
   const std::vector<Vec3> zero(x.size(), Vec3::Zero());
   geometry::ThreadPool pool;
@@ -104,20 +103,18 @@ TEST(Contacts, SeeWhereAStructureMeetsAPlaneThoughThereAreNoSpheres) {
   const std::vector<geometry::Facet> facets{{{NodeId{0}, NodeId{1}, NodeId{2}}, 0.1}};
   const Surface surface({}, facets, 3);
   const std::vector<Sphere> no_spheres;
-  SceneContacts contacts(
-      no_spheres, surface,
-      {MaterialPairs({Material{1e6, 0.5, 0.4}}), {}, {MaterialId{0}}}, 0.02);
+  SceneContacts contacts(no_spheres, surface,
+                         {MaterialPairs({Material{1e6, 0.5, 0.4}}), {}, {MaterialId{0}}}, 0.02);
 
   expect_the_floor_is_touched_at_once(contacts, x, 0.1, 1e-3);
 }
 
-TEST(Contacts, SeeWhereABallMeetsAPlaneThoughTheSkinHasGrown) {
+TEST(Contacts, SeeWhereASphereMeetsAPlaneThoughTheSkinHasGrown) {
   std::vector<Vec3> x{Vec3(0, 0, 40)};
   const std::vector<Sphere> spheres{{{NodeId{0}}, 1.0}};
   const Surface surface({}, {}, 1);
-  SceneContacts contacts(
-      spheres, surface,
-      {MaterialPairs({Material{1e6, 0.5, 0.4}}), {MaterialId{0}}, {}}, 0.02);
+  SceneContacts contacts(spheres, surface,
+                         {MaterialPairs({Material{1e6, 0.5, 0.4}}), {MaterialId{0}}, {}}, 0.02);
   contacts.tune_skin(1.0);
 
   expect_the_floor_is_touched_at_once(contacts, x, 1.0, 0.04);
@@ -125,7 +122,7 @@ TEST(Contacts, SeeWhereABallMeetsAPlaneThoughTheSkinHasGrown) {
   EXPECT_GT(contacts.neighbours().skin(), 0.3);
 }
 
-TEST(Contacts, PushABallOutHoweverDeepItStartsBehindAPlane) {
+TEST(Contacts, PushASphereOutHoweverDeepItStartsBehindAPlane) {
   std::vector<Vec3> x{Vec3(0, 0, 0)};
   const std::vector<Sphere> spheres{{{NodeId{0}}, 1.0}};
   const Surface surface({}, {}, 1);
@@ -133,9 +130,8 @@ TEST(Contacts, PushABallOutHoweverDeepItStartsBehindAPlane) {
   const std::vector<Vec3> still(1, Vec3::Zero());
   geometry::ThreadPool pool(1);
   for (const double height : {0.5, -0.5, -1.0, -1.5, -4.0}) {
-    SceneContacts contacts(
-        spheres, surface,
-        {MaterialPairs({Material{1e6, 0.5, 0.4}}), {MaterialId{0}}, {}}, 0.02);
+    SceneContacts contacts(spheres, surface,
+                           {MaterialPairs({Material{1e6, 0.5, 0.4}}), {MaterialId{0}}, {}}, 0.02);
     x[0].z() = height;
     NodeForces forces(1);
     contacts.advance({x, still, still}, floor, 1e-3, pool, forces);

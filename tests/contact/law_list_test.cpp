@@ -22,7 +22,7 @@ TEST(LawList, NamesEveryLawAndParameterOnceAndSaysWhatItIs) {
     const double* const place = &parameter.in(settings);
     EXPECT_EQ(places.try_emplace(parameter.name, place).first->second, place) << parameter.name;
   };
-  for (const LawRow& law : contact_laws()) {
+  for (const LawEntry& law : contact_laws()) {
     EXPECT_TRUE(laws.insert(law.name).second) << law.name;
     EXPECT_FALSE(law.what.empty()) << law.name;
     std::set<std::string_view> names;
@@ -33,7 +33,7 @@ TEST(LawList, NamesEveryLawAndParameterOnceAndSaysWhatItIs) {
 
 TEST(LawList, HasTheDefaultsThatSettingsHave) {
   ContactSettings settings;
-  for (const LawRow& law : contact_laws()) {
+  for (const LawEntry& law : contact_laws()) {
     for (const LawParameter& parameter : law.parameters)
       EXPECT_EQ(parameter.in(settings), parameter.standard) << parameter.name;
   }

@@ -36,7 +36,7 @@ double closure_of_fall(const NetOptions& net, double step) {
   return error / stored;
 }
 
-TEST(EnergyOfABallOnRings, IsKeptToTheSecondOrderOfTheStep) {
+TEST(EnergyOfASphereOnRings, IsKeptToTheSecondOrderOfTheStep) {
   for (const bool has_facets : {false, true}) {
     SCOPED_TRACE(has_facets ? "membrane" : "net");
     NetOptions net;

@@ -35,7 +35,7 @@ Scene ball_over_sheet(double sheet_radius, double ball_radius, double contact_mo
   return scene;
 }
 
-TEST(Simulation, ChoosesAStepThatStaysSafeWhenAStiffBallLandsOnALightSheet) {
+TEST(Simulation, ChoosesAStepThatStaysSafeWhenAStiffSphereLandsOnALightSheet) {
   Simulation simulation(ball_over_sheet(0.001, 0.03, 1e9), {.motion = {.gravity = kGravity}});
   double largest = 0.0;
 

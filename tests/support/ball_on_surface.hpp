@@ -11,12 +11,12 @@ namespace plekton::test {
 
 /// A ball that is moved over a surface of radius 0.1 m by hand, and what it feels. The surface
 /// stays where it is unless its nodes are given a velocity. Ball and surface are of one material.
-class BallOnSurface {
+class SphereOnSurface {
  public:
   using Law = LinearFrictional;
 
   /// @param ball_radius  m; range is this + 0.1
-  BallOnSurface(const Complex& complex, double ball_radius, const Material& material)
+  SphereOnSurface(const Complex& complex, double ball_radius, const Material& material)
       : surface_(complex.cylinders, complex.facets, complex.x.size() + 1),
         x_(complex.x),
         velocity_(complex.x.size() + 1, Vec3::Zero()),
@@ -29,8 +29,8 @@ class BallOnSurface {
     x_.push_back(Vec3::Constant(1e3));
     rebuild();
   }
-  BallOnSurface(const BallOnSurface&) = delete;
-  BallOnSurface& operator=(const BallOnSurface&) = delete;
+  SphereOnSurface(const SphereOnSurface&) = delete;
+  SphereOnSurface& operator=(const SphereOnSurface&) = delete;
 
   double range() const { return ball_.radius + 0.1; }
   const Law::Parameters& parameters() const { return parameters_; }
@@ -56,7 +56,7 @@ class BallOnSurface {
         ++near.back().count;
       }
     }
-    const std::vector<Ball> balls{ball_};
+    const std::vector<SphereBody> balls{ball_};
     const std::vector<MaterialId> of_structures(surface_.structure_count(), MaterialId{0});
     contacts_.rebuild(pairs, near, cells, balls, of_structures, materials_);
   }
@@ -82,15 +82,15 @@ class BallOnSurface {
     return advance(dt);
   }
 
-  std::vector<ContactRow> rows() const {
-    std::vector<ContactRow> rows;
-    contacts_.for_each_row(x_, [&](const ContactRow& row) { rows.push_back(row); });
+  std::vector<ContactRecord> rows() const {
+    std::vector<ContactRecord> rows;
+    contacts_.for_each_record(x_, [&](const ContactRecord& row) { rows.push_back(row); });
     return rows;
   }
 
   /// Rows with their numbers.
-  std::vector<ContactRow> numbered_rows() {
-    contacts_.number(last_number_);
+  std::vector<ContactRecord> numbered_rows() {
+    contacts_.assign_ids(last_number_);
     return rows();
   }
 
@@ -108,7 +108,7 @@ class BallOnSurface {
   std::vector<Vec3> x_;  ///< the ball is the last node
   std::vector<Vec3> velocity_;
   std::vector<Vec3> spin_;
-  Ball ball_;
+  SphereBody ball_;
   MaterialPairs materials_;
   Law::Parameters parameters_;
   SurfaceContacts contacts_;

@@ -84,15 +84,16 @@ inline Body moved(Body body, const Vec3& turns, const Vec3& shift) {
 /// Contact of two bodies of radius r / 2 each, without friction; of a linear law a spring of 1 N/m
 /// per contact.
 template <class Law>
-class MeetingUnder {
+class StructurePairUnder {
  public:
-  MeetingUnder(const Body& a, const Body& b, double range,
-               const contact::PropertiesOf<Law>& properties = {}, double stiffness_ratio = 0.0,
-               double friction = 0.0)
+  StructurePairUnder(const Body& a, const Body& b, double range,
+                     const contact::PropertiesOf<Law>& properties = {},
+                     double stiffness_ratio = 0.0, double friction = 0.0)
       : count_a_(a.x.size()),
         stiffness_ratio_(stiffness_ratio),
         friction_(friction),
-        properties_{{{contact::MaterialId{0}, contact::MaterialId{0}}, contact::AnyLaw::of<Law>(properties)}} {
+        properties_{{{contact::MaterialId{0}, contact::MaterialId{0}},
+                     contact::AnyLaw::of<Law>(properties)}} {
     add(a, 0.5 * range);
     add(b, 0.5 * range);
     surface_ = std::make_unique<geometry::Surface>(cylinders_, facets_, x_.size());
@@ -170,6 +171,6 @@ class MeetingUnder {
   NodeForces forces_{0};
 };
 
-using Meeting = MeetingUnder<contact::LinearFrictional>;
+using StructurePair = StructurePairUnder<contact::LinearFrictional>;
 
 }  // namespace plekton::test

@@ -65,11 +65,11 @@ void expect_the_lowest_of_ties(Kernel kernel, std::uint64_t seed, int per_family
     for (int trial = 0; trial < per_family; ++trial) {
       const auto [a, b] = families.draw(kPairFamilies[f]);
       const bool is_swapped = geometry::closest::is_lower_side(b, a);
-      const auto all = is_swapped ? all_carriers(b, a) : all_carriers(a, b);
+      const auto all = is_swapped ? all_witness_features(b, a) : all_witness_features(a, b);
       const ClosestPoints found = kernel(a, b);
-      std::array<unsigned, 2> carriers{found.corners_a, found.corners_b};
-      if (is_swapped) std::swap(carriers[0], carriers[1]);
-      wrong += all.empty() || all.front() != carriers;
+      std::array<unsigned, 2> witness_features{found.corners_a, found.corners_b};
+      if (is_swapped) std::swap(witness_features[0], witness_features[1]);
+      wrong += all.empty() || all.front() != witness_features;
       ties += all.size() > 1;
     }
     EXPECT_EQ(wrong, 0) << kPairFamilyNames[f];

@@ -98,7 +98,7 @@ struct ExactFoot {
   int exponent;
 
   /// Bit k: corner k carries weight. One bit is a node, two an edge, three the face.
-  unsigned carriers() const {
+  unsigned witness_features() const {
     unsigned bits = 0;
     for (unsigned k = 0; k < 3; ++k) bits |= static_cast<unsigned>(weights[k] != 0) << k;
     return bits;

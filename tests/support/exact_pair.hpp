@@ -212,7 +212,7 @@ class ExactPair {
 /// What is wrong with an answer.
 struct Judgement {
   bool wrong_region = false;    ///< other features hold the nearest points, or it is no answer
-  bool wrong_relation = false;  ///< apart or meeting is not true
+  bool wrong_relation = false;  ///< apart or structure pair is not true
   bool not_a_number = false;
   double relative_error = 0.0;  ///< of the distance and of the separation, over the distance
   double mismatch =
@@ -266,8 +266,8 @@ inline Judgement judge(std::span<const Vec3> a, std::span<const Vec3> b,
 
 /// All pairs of features that carry nearest points, in the order in which a tie is decided if a is
 /// the lower side.
-inline std::vector<std::array<unsigned, 2>> all_carriers(std::span<const Vec3> a,
-                                                         std::span<const Vec3> b) {
+inline std::vector<std::array<unsigned, 2>> all_witness_features(std::span<const Vec3> a,
+                                                                 std::span<const Vec3> b) {
   constexpr std::array<std::array<int, 2>, 8> kCounts{
       {{1, 1}, {1, 2}, {2, 1}, {1, 3}, {3, 1}, {2, 2}, {2, 3}, {3, 2}}};
   const ExactPair pair(a, b);

@@ -39,7 +39,7 @@ inline constexpr double kCollisionTimeStep = 1e-7;  // s
 
 /// The structure's nodes, then the ball, 0.1 mm away from it.
 inline Scene collision_scene(const Collision& collision) {
-  constexpr double kBall = 0.05;       // m
+  constexpr double kSphere = 0.05;     // m
   constexpr double kStructure = 0.02;  // m
   constexpr double kDensity = 1000.0;  // kg/m³
   constexpr contact::MaterialId kMaterial{0};
@@ -50,7 +50,7 @@ inline Scene collision_scene(const Collision& collision) {
     scene.add_beam(a, b, section, kDensity);
     scene.add_cylinder(a, b, kStructure, kMaterial);
   };
-  Vec3 place(0.05, 0.005, kBall + kStructure + 1e-4);
+  Vec3 place(0.05, 0.005, kSphere + kStructure + 1e-4);
   if (collision.target == Target::facet) {
     const NodeId a = scene.add_node(Vec3(-0.2, -0.1, 0));
     const NodeId b = scene.add_node(Vec3(0.2, -0.12, 0));
@@ -67,7 +67,7 @@ inline Scene collision_scene(const Collision& collision) {
     beam(a, scene.add_node(Vec3(half, 0, 0)));
     if (is_short) place.x() = 0.005;
   }
-  scene.add_sphere(place, kBall, kDensity, kMaterial);
+  scene.add_sphere(place, kSphere, kDensity, kMaterial);
   scene.state.velocity.back() = collision.velocity;
   scene.state.angular_velocity.back() = Vec3(3, -5, 7);
   return scene;

@@ -44,7 +44,7 @@ inline void expect_change_in_proportion(const ProbedSurface& star, const Vec3& f
                                         const Vec3& to) {
   double last = 0.0;
   for (const int steps : {6000, 24000, 96000}) {
-    ContactProbe probe(star, kBallRadius, frictionless());
+    ContactProbe probe(star, kSphereRadius, frictionless());
     const double jump = largest_jump(sweep(probe, path_over(star, from, to, steps)));
     // k_n times the way, twice at most: two overlaps change, each by at most the way.
     EXPECT_LE(jump, 2.0 * kNormalStiffness * (to - from).norm() / steps) << steps << " steps";

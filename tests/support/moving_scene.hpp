@@ -14,7 +14,7 @@ class MovingScene {
  public:
   /// @param properties  of the one material that all have
   MovingScene(int sphere_count, double skin, std::uint64_t seed, int threads,
-                const contact::AnyLaw::Properties& properties = {})
+              const contact::AnyLaw::Properties& properties = {})
       : pool_(threads) {
     Random random(seed);
     const Complex sheet_part = roughened(centred(sheet(12), 12, 0.5), 0.5, 0.02, random);
@@ -37,12 +37,10 @@ class MovingScene {
       spin_[i] = random.in_cube(1.0);
     }
     ContactMaterials materials{
-        MaterialPairs({Material{1e6, 0.5, 0.4}},
-                           {{{MaterialId{0}, MaterialId{0}}, properties}}),
+        MaterialPairs({Material{1e6, 0.5, 0.4}}, {{{MaterialId{0}, MaterialId{0}}, properties}}),
         std::vector<MaterialId>(spheres_.size(), MaterialId{0}),
         std::vector<MaterialId>(surface_.structure_count(), MaterialId{0})};
-    contacts_ =
-        std::make_unique<SceneContacts>(spheres_, surface_, std::move(materials), skin);
+    contacts_ = std::make_unique<SceneContacts>(spheres_, surface_, std::move(materials), skin);
     forces_ = NodeForces(complex_.x.size());
   }
 
@@ -54,10 +52,10 @@ class MovingScene {
   const SceneContacts& contacts() const { return *contacts_; }
 
   /// Contacts of the last step, numbered.
-  std::vector<ContactRow> list() {
-    contacts_->number();
-    std::vector<ContactRow> rows;
-    contacts_->for_each_row(complex_.x, [&](const ContactRow& row) { rows.push_back(row); });
+  std::vector<ContactRecord> list() {
+    contacts_->assign_ids();
+    std::vector<ContactRecord> rows;
+    contacts_->for_each_record(complex_.x, [&](const ContactRecord& row) { rows.push_back(row); });
     return rows;
   }
   const NodeForces& forces() const { return forces_; }

@@ -74,7 +74,7 @@ inline std::map<NodeList, int> weighted_simplices(const Body& body) {
   return weights;
 }
 
-struct ReferenceMeeting {
+struct ReferenceStructurePair {
   Vec3 force = Vec3::Zero();  ///< on b, for f(overlap) = overlap
   double energy = 0.0;        ///< of these, as pieces count
   int components = 0;
@@ -128,8 +128,8 @@ inline bool bends_around(const Body& chain, int node, const Body& other, double 
 
 /// Pieces alone, and nothing of rings and wraps.
 /// @param levels  m, gets the number of pieces integrated over the levels
-inline ReferenceMeeting reference_pieces(const Body& a, const Body& b, double range,
-                                         double* levels = nullptr) {
+inline ReferenceStructurePair reference_pieces(const Body& a, const Body& b, double range,
+                                               double* levels = nullptr) {
   struct Pair {
     NodeList a;
     NodeList b;
@@ -139,7 +139,7 @@ inline ReferenceMeeting reference_pieces(const Body& a, const Body& b, double ra
     std::size_t i;
     std::size_t k;
   };
-  ReferenceMeeting result;
+  ReferenceStructurePair result;
   double pieces = 0.0;  // m, their number integrated over the levels
   std::vector<Pair> pairs;
   for (const NodeList& cell_a : cells_of(a)) {
@@ -191,9 +191,9 @@ inline ReferenceMeeting reference_pieces(const Body& a, const Body& b, double ra
   return result;
 }
 
-inline ReferenceMeeting reference_meeting(const Body& a, const Body& b, double range) {
+inline ReferenceStructurePair reference_structure_pair(const Body& a, const Body& b, double range) {
   double pieces = 0.0;
-  ReferenceMeeting result = reference_pieces(a, b, range, &pieces);
+  ReferenceStructurePair result = reference_pieces(a, b, range, &pieces);
   if (result.pairs == 0) return result;
   const auto wraps = [range](const Body& chain, const Body& other) {
     for (std::size_t node = 0; node < chain.x.size(); ++node)

@@ -10,15 +10,15 @@
 /// sweeps of the acceptance checks share these parameters.
 namespace plekton::test::dragged {
 
-constexpr double kBallRadius = 0.1;                                    // m
-constexpr double kSurfaceRadius = 0.02;                                // m
-constexpr double kOverlap = 0.002;                                     // m
-constexpr double kDistance = kBallRadius + kSurfaceRadius - kOverlap;  // m, between the cores
-constexpr double kYoungModulus = 1e6;                                  // Pa
+constexpr double kSphereRadius = 0.1;                                    // m
+constexpr double kSurfaceRadius = 0.02;                                  // m
+constexpr double kOverlap = 0.002;                                       // m
+constexpr double kDistance = kSphereRadius + kSurfaceRadius - kOverlap;  // m, between the cores
+constexpr double kYoungModulus = 1e6;                                    // Pa
 constexpr double kStiffnessRatio = 0.3;
 // Springs E R of both bodies in series: 100000/3 N/m, so the normal force is 200/3 N.
 constexpr double kNormalStiffness =
-    2.0 * kYoungModulus * kBallRadius * kSurfaceRadius / (kBallRadius + kSurfaceRadius);
+    2.0 * kYoungModulus * kSphereRadius * kSurfaceRadius / (kSphereRadius + kSurfaceRadius);
 constexpr double kTangentialStiffness = kStiffnessRatio * kNormalStiffness;
 constexpr double kNormalForce = kNormalStiffness * kOverlap;
 

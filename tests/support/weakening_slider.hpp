@@ -44,7 +44,7 @@ struct WeakeningSlider {
             std::min(m.friction, n.friction), 0.01 * smaller};
   }
 
-  static Parameters multiplied(const Parameters& p, double count) noexcept {
+  static Parameters scaled(const Parameters& p, double count) noexcept {
     return {count * p.normal_stiffness, count * p.stiffening, count * p.tangential_stiffness,
             p.friction, p.polishing_way};
   }
@@ -101,7 +101,7 @@ struct WeakeningSlider {
     history.elastic_slip = rotation(history.elastic_slip);
   }
 
-  static void add_share(History& history, const History& other, double share) noexcept {
+  static void accumulate_history(History& history, const History& other, double share) noexcept {
     history.elastic_slip += share * other.elastic_slip;
     history.way_slid += share * other.way_slid;
   }

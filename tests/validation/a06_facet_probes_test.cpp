@@ -12,9 +12,9 @@
 namespace plekton::test {
 namespace {
 
-constexpr double kBallRadius = 0.1;    // m
+constexpr double kSphereRadius = 0.1;  // m
 constexpr double kFacetRadius = 0.05;  // m
-constexpr double kReach = kBallRadius + kFacetRadius;
+constexpr double kReach = kSphereRadius + kFacetRadius;
 constexpr double kTolerance = 1e-9;
 const std::array<Vec3, 3> kCorners{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.35, 0.8, 0)};
 
@@ -35,7 +35,7 @@ bool expect_closest_point_force(const Vec3& upper) {
   if (distance >= kReach) return false;
   std::array<int, 3> order{0, 1, 2};
   do {
-    ContactProbe probe(facet_in_order(order), kBallRadius, {1e6, 0.3, 0.5});
+    ContactProbe probe(facet_in_order(order), kSphereRadius, {1e6, 0.3, 0.5});
     for (const double side : {1.0, -1.0}) {
       const Vec3 mirror(1.0, 1.0, side);
       const Vec3 centre = mirror.cwiseProduct(upper);

@@ -49,7 +49,7 @@ Crossings count_crossings(const ProbedSurface& sheet, std::span<const Vec3> path
 
 /// Drags the ball along a straight path over a flat sheet. @returns what was crossed
 Crossings expect_one_spring(const ProbedSurface& sheet, std::span<const Vec3> path) {
-  ContactProbe probe(sheet, kBallRadius, no_slip());
+  ContactProbe probe(sheet, kSphereRadius, no_slip());
   const auto felt = sweep(probe, path);
   double worst_normal = 0.0;
   double worst_tangential = 0.0;

@@ -24,7 +24,7 @@ std::vector<RidgePoint> path_over_ridge() {
 
 TEST(A08Ridge, PushesWithTheSameForceOnBothSidesAndInTheWedge) {
   const auto path = path_over_ridge();
-  ContactProbe probe(folded_strip(kAngle), kBallRadius, frictionless());
+  ContactProbe probe(folded_strip(kAngle), kSphereRadius, frictionless());
 
   const auto felt = sweep(probe, centres(path));
 
@@ -47,7 +47,7 @@ TEST(A08Ridge, PushesWithTheSameForceOnBothSidesAndInTheWedge) {
 // normal.
 TEST(A08Ridge, HandsTheSpringOverTheWedgeWithoutSlip) {
   const auto path = over_ridge(kAngle, 0.8, kSteps);
-  ContactProbe probe(folded_strip(kAngle), kBallRadius, no_slip());
+  ContactProbe probe(folded_strip(kAngle), kSphereRadius, no_slip());
 
   const auto felt = sweep(probe, centres(path));
 

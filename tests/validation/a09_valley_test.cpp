@@ -30,7 +30,7 @@ Vec3 exact_force(const Vec3& centre) {
   Vec3 force = Vec3::Zero();
   for (const double side : {-1.0, 1.0}) {
     const Vec3 normal(-side * std::sin(kAngle), 0.0, std::cos(kAngle));
-    const double overlap = kBallRadius + kSurfaceRadius - centre.dot(normal);
+    const double overlap = kSphereRadius + kSurfaceRadius - centre.dot(normal);
     force += kNormalStiffness * std::max(overlap, 0.0) * normal;
   }
   return force;
@@ -38,7 +38,7 @@ Vec3 exact_force(const Vec3& centre) {
 
 TEST(A09Valley, PushesFromOneSideAndFromBothAtTheBottom) {
   const auto path = path_through_valley(0.80137, 7994);
-  ContactProbe probe(folded_strip(-kAngle), kBallRadius, frictionless());
+  ContactProbe probe(folded_strip(-kAngle), kSphereRadius, frictionless());
 
   const auto felt = sweep(probe, path);
 
@@ -66,7 +66,7 @@ TEST(A09Valley, PushesFromOneSideAndFromBothAtTheBottom) {
 TEST(A09Valley, TheSecondSideComesInWithoutAJump) {
   for (const int steps : {200, 2000, 20000}) {
     const auto path = path_through_valley(0.02, steps);
-    ContactProbe probe(folded_strip(-kAngle), kBallRadius, frictionless());
+    ContactProbe probe(folded_strip(-kAngle), kSphereRadius, frictionless());
 
     const auto felt = sweep(probe, path);
 

@@ -38,7 +38,7 @@ std::vector<RidgePoint> along_straight_chain() {
 }
 
 void expect_constant_normal_force(const ProbedSurface& chain, std::span<const RidgePoint> path) {
-  ContactProbe probe(chain, kBallRadius, frictionless());
+  ContactProbe probe(chain, kSphereRadius, frictionless());
 
   const auto felt = sweep(probe, centres(path));
 
@@ -52,7 +52,7 @@ void expect_constant_normal_force(const ProbedSurface& chain, std::span<const Ri
 
 /// @returns the tangential force (N) at the end
 double expect_one_spring(const ProbedSurface& chain, std::span<const RidgePoint> path) {
-  ContactProbe probe(chain, kBallRadius, no_slip());
+  ContactProbe probe(chain, kSphereRadius, no_slip());
 
   const auto felt = sweep(probe, centres(path));
 

@@ -35,7 +35,7 @@ TEST_P(A12Momentum, IsKeptThroughAFreeCollision) {
   EXPECT_LE(worst_angular, kTolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(BallOn, A12Momentum, testing::ValuesIn(kCollisions),
+INSTANTIATE_TEST_SUITE_P(SphereOn, A12Momentum, testing::ValuesIn(kCollisions),
                          [](const auto& collision) { return collision.param.name; });
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST_P(A13Energy, IsKeptWithoutFrictionAndNeverGained) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(BallOn, A13Energy, testing::ValuesIn(kCollisions),
+INSTANTIATE_TEST_SUITE_P(SphereOn, A13Energy, testing::ValuesIn(kCollisions),
                          [](const auto& collision) { return collision.param.name; });
 
 }  // namespace

@@ -13,13 +13,13 @@ using namespace dragged;
 
 constexpr double kTolerance = 1e-10;  // m/s
 
-TEST(A14CoRotation, ABallOnACylinderOfAnyLengthDoesNotSlip) {
+TEST(A14CoRotation, ASphereOnACylinderOfAnyLengthDoesNotSlip) {
   for (const double length : {0.1, 0.5, 1.0, 3.0}) {
     for (const double place : {0.0, 0.3}) {
       const auto cylinder =
           chain_of_cylinders({Vec3(-0.5 * length, 0, 0), Vec3(0.5 * length, 0, 0)});
       for (const Vec3& spin : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0.6, -0.7, 0.5)}) {
-        ContactProbe probe(cylinder, kBallRadius, no_slip());
+        ContactProbe probe(cylinder, kSphereRadius, no_slip());
         probe.put(Vec3(place * length, 0, kDistance));
         turn_rigidly(probe, spin);
 
@@ -30,8 +30,8 @@ TEST(A14CoRotation, ABallOnACylinderOfAnyLengthDoesNotSlip) {
   }
 }
 
-TEST(A14CoRotation, ABallOnAFacetDoesNotSlip) {
-  ContactProbe probe(folded_strip(0.0), kBallRadius, no_slip());
+TEST(A14CoRotation, ASphereOnAFacetDoesNotSlip) {
+  ContactProbe probe(folded_strip(0.0), kSphereRadius, no_slip());
   probe.put(Vec3(0.21, 0.13, kDistance));
   turn_rigidly(probe, Vec3(0.6, -0.7, 0.5));
 
@@ -39,13 +39,13 @@ TEST(A14CoRotation, ABallOnAFacetDoesNotSlip) {
 }
 
 // So that the checks above cannot pass by a probe that feels nothing.
-TEST(A14CoRotation, ABallThatTurnsAloneSlips) {
-  ContactProbe probe(chain_of_cylinders({Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)}), kBallRadius,
+TEST(A14CoRotation, ASphereThatTurnsAloneSlips) {
+  ContactProbe probe(chain_of_cylinders({Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)}), kSphereRadius,
                      no_slip());
   probe.put(Vec3(0, 0, kDistance));
   probe.spin().back() = Vec3(0, 0.01, 0);
 
-  EXPECT_NEAR(slip_velocity(probe, Vec3::UnitZ()), 0.01 * (kBallRadius - 0.5 * kOverlap),
+  EXPECT_NEAR(slip_velocity(probe, Vec3::UnitZ()), 0.01 * (kSphereRadius - 0.5 * kOverlap),
               kTolerance);
 }
 

@@ -17,7 +17,7 @@ using dynamics::Simulation;
 using geometry::NodeId;
 using geometry::Vec3;
 
-constexpr double kBall = 0.05;        // m
+constexpr double kSphere = 0.05;      // m
 constexpr double kSurface = 0.01;     // m
 constexpr double kYoung = 1e7;        // Pa
 constexpr double kDensity = 2500.0;   // kg/m³
@@ -25,8 +25,8 @@ constexpr double kGravity = 9.81;     // m/s²
 constexpr double kTime = 0.6;         // s
 constexpr double kRailOffset = 0.03;  // m, of each rail from the middle
 constexpr double kTolerance = 2e-3;
-constexpr double kMass = kDensity * 4.0 / 3.0 * std::numbers::pi * kBall * kBall * kBall;
-constexpr double kStiffness = 2.0 * kYoung * kBall * kSurface / (kBall + kSurface);  // N/m
+constexpr double kMass = kDensity * 4.0 / 3.0 * std::numbers::pi * kSphere * kSphere * kSphere;
+constexpr double kStiffness = 2.0 * kYoung * kSphere * kSurface / (kSphere + kSurface);  // N/m
 constexpr contact::MaterialId kMaterial{0};
 
 constexpr double radians(double degrees) {
@@ -69,7 +69,7 @@ void add_rail(Scene& scene, double y) {
 /// Releases the ball from a place and measures its mean acceleration (m/s²) along x, 2 s / t². The
 /// start counts: until the tangential spring is loaded there is less friction, 0.11 % on the slide.
 double acceleration_from(const Vec3& start, Scene scene, double slope) {
-  scene.add_sphere(start, kBall, kDensity, kMaterial);
+  scene.add_sphere(start, kSphere, kDensity, kMaterial);
   dynamics::SimulationOptions options;
   options.time_step = 0.1 * std::sqrt(kMass / kStiffness);
   options.motion.gravity = kGravity * Vec3(std::sin(slope), 0, -std::cos(slope));
@@ -83,11 +83,11 @@ double acceleration_from(const Vec3& start, Scene scene, double slope) {
 /// Place on the sheet where its push carries the ball.
 Vec3 resting_place(double slope) {
   const double overlap = kMass * kGravity * std::cos(slope) / kStiffness;
-  return Vec3(0.07, 0.013, kBall + kSurface - overlap);
+  return Vec3(0.07, 0.013, kSphere + kSurface - overlap);
 }
 
 // a = 5/7 g sin(slope) = 1.21678 m/s²: a full ball with the inertia 2/5 m R².
-TEST(A17Rolling, ABallRollsDownASheetOfManyFacets) {
+TEST(A17Rolling, ASphereRollsDownASheetOfManyFacets) {
   const double slope = radians(10.0);
   Scene scene = scene_with_friction(radians(30.0));
   add_sheet(scene, 14, 0.2);
@@ -98,7 +98,7 @@ TEST(A17Rolling, ABallRollsDownASheetOfManyFacets) {
   EXPECT_NEAR(acceleration / 1.21678, 1.0, kTolerance);
 }
 
-TEST(A17Rolling, ABallRollsDownASheetOfFewFacets) {
+TEST(A17Rolling, ASphereRollsDownASheetOfFewFacets) {
   const double slope = radians(10.0);
   Scene scene = scene_with_friction(radians(30.0));
   add_sheet(scene, 1, 2.8);
@@ -109,7 +109,7 @@ TEST(A17Rolling, ABallRollsDownASheetOfFewFacets) {
 }
 
 // a = g (sin(slope) - tan(phi) cos(slope)) = 4.16172 m/s².
-TEST(A17Rolling, ABallSlidesDownASmoothSheet) {
+TEST(A17Rolling, ASphereSlidesDownASmoothSheet) {
   const double slope = radians(30.0);
   const double friction_angle = radians(5.0);
   Scene scene = scene_with_friction(friction_angle);
@@ -124,19 +124,20 @@ TEST(A17Rolling, ABallSlidesDownASmoothSheet) {
 
 // a = g sin(slope) / (1 + 2/5 R² / h²) = 1.11097 m/s², h the height of the centre over the contact
 // points.
-TEST(A17Rolling, ABallRollsDownTwoRails) {
+TEST(A17Rolling, ASphereRollsDownTwoRails) {
   const double slope = radians(10.0);
   Scene scene = scene_with_friction(radians(30.0));
   add_rail(scene, -kRailOffset);
   add_rail(scene, kRailOffset);
-  const double reach = kBall + kSurface;
+  const double reach = kSphere + kSurface;
   const Vec3 start(0.07, 0.0, std::sqrt(reach * reach - kRailOffset * kRailOffset));
 
   const double acceleration = acceleration_from(start, std::move(scene), slope);
 
-  const double height_squared = kBall * kBall * (1.0 - kRailOffset * kRailOffset / (reach * reach));
-  EXPECT_NEAR(kGravity * std::sin(slope) / (1.0 + 0.4 * kBall * kBall / height_squared), 1.11097,
-              1e-5);
+  const double height_squared =
+      kSphere * kSphere * (1.0 - kRailOffset * kRailOffset / (reach * reach));
+  EXPECT_NEAR(kGravity * std::sin(slope) / (1.0 + 0.4 * kSphere * kSphere / height_squared),
+              1.11097, 1e-5);
   EXPECT_NEAR(acceleration / 1.11097, 1.0, kTolerance);
 }
 

@@ -17,7 +17,7 @@ using namespace dragged;
 
 TEST(A23Junction, IsOneContactAlongABranchAndThroughTheNode) {
   const ProbedSurface star = junction(4, 0.0);
-  ContactProbe probe(star, kBallRadius, frictionless());
+  ContactProbe probe(star, kSphereRadius, frictionless());
 
   const auto felt = sweep(probe, path_over(star, Vec3(-0.6, 0, 0), Vec3(0.61, 0, 0), 6007));
 
@@ -29,7 +29,7 @@ TEST(A23Junction, IsOneContactAlongABranchAndThroughTheNode) {
 
 TEST(A23Junction, IsOneContactOverTheNodeOfAnyNumberOfBranches) {
   for (int branches = 1; branches <= 8; ++branches) {
-    ContactProbe probe(junction(branches, 0.1), kBallRadius, frictionless());
+    ContactProbe probe(junction(branches, 0.1), kSphereRadius, frictionless());
 
     const Felt felt = probe.put(Vec3(0, 0, kDistance));
 
@@ -42,12 +42,12 @@ TEST(A23Junction, IsOneContactOverTheNodeOfAnyNumberOfBranches) {
 // range, s = sqrt((R + r)² - D²) = 22 mm, the ball on one branch rests on both neighbours as well,
 // at a distance of sqrt(D² + 3/4 s²). All three push: |F| = 1.49 F_n.
 TEST(A23Junction, RestsOnThreeOfSixBranchesBesideTheNode) {
-  constexpr double kReach = kBallRadius + kSurfaceRadius;
+  constexpr double kReach = kSphereRadius + kSurfaceRadius;
   const double beside = std::sqrt(kReach * kReach - kDistance * kDistance);
   const double distance = std::sqrt(kDistance * kDistance + 0.75 * beside * beside);
   const double push = 2.0 * kNormalStiffness * (kReach - distance) / distance;
   const Vec3 exact(0.75 * beside * push, 0.0, kNormalForce + kDistance * push);
-  ContactProbe probe(junction(6, 0.0), kBallRadius, frictionless());
+  ContactProbe probe(junction(6, 0.0), kSphereRadius, frictionless());
 
   const Felt felt = probe.put(Vec3(beside, 0, kDistance));
 
@@ -58,7 +58,7 @@ TEST(A23Junction, RestsOnThreeOfSixBranchesBesideTheNode) {
 TEST(A23Junction, GoesFromOneContactToTwoBetweenBranchesAsThePassLeavesTheRange) {
   const ProbedSurface star = junction(4, 0.0);
   for (const double y : {0.001, 0.002, 0.003, 0.004}) {
-    ContactProbe probe(star, kBallRadius, frictionless());
+    ContactProbe probe(star, kSphereRadius, frictionless());
     const Vec3 between(y, y, 0);
     const Felt felt = probe.put(between + height_over(star, between) * Vec3::UnitZ());
 

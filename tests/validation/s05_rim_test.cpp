@@ -48,32 +48,32 @@ Feels sphere_on(const Body& plate, double overlap) {
   return feels;
 }
 
-TEST(S05Rim, CarriesAHollowBallHarderTheDeeperItSinks) {
+TEST(S05Rim, CarriesAHollowSphereHarderTheDeeperItSinks) {
   const Body plate = plate_with_hole_of(kCorners, kRim, 4.0);
   const Body ball = moved(hollow_ball(16), {0.3, 0.2, 0.1}, Vec3::Zero());
-  Meeting meeting(plate, ball, kRange);
+  StructurePair structure_pair(plate, ball, kRange);
   double last = 0.0;
   for (double overlap = 0.01; overlap < 0.0601; overlap += 0.005) {
-    meeting.place(moved(ball, Vec3::Zero(), {0.0, 0.0, height(overlap)}));
-    const double force = meeting.force_on_b().z();
+    structure_pair.place(moved(ball, Vec3::Zero(), {0.0, 0.0, height(overlap)}));
+    const double force = structure_pair.force_on_b().z();
     EXPECT_GT(force, last) << overlap;
     last = force;
   }
 }
 
 // The ball's facets lie inside of the sphere by up to 0.3 % of R, their sagitta.
-TEST(S05Rim, CarriesAHollowBallAsASphere) {
+TEST(S05Rim, CarriesAHollowSphereAsASphere) {
   const double sagitta = 0.003;
   const Body plate = plate_with_hole_of(kCorners, kRim, 4.0);
   for (const double turn : {0.1, 0.5, 0.9}) {
     const Body ball = moved(hollow_ball(16), {0.3, 0.2, turn}, Vec3::Zero());
-    Meeting meeting(plate, ball, kRange);
+    StructurePair structure_pair(plate, ball, kRange);
     for (const double overlap : {0.02, 0.03, 0.04, 0.05, 0.06}) {
-      meeting.place(moved(ball, Vec3::Zero(), {0.0, 0.0, height(overlap)}));
+      structure_pair.place(moved(ball, Vec3::Zero(), {0.0, 0.0, height(overlap)}));
       const Feels sphere = sphere_on(plate, overlap);
-      EXPECT_GT(meeting.energy(), sphere_on(plate, overlap - sagitta).energy) << overlap;
-      EXPECT_NEAR(meeting.energy(), sphere.energy, 0.1 * sphere.energy) << overlap;
-      EXPECT_NEAR(meeting.force_on_b().z(), sphere.force, 0.2 * sphere.force) << overlap;
+      EXPECT_GT(structure_pair.energy(), sphere_on(plate, overlap - sagitta).energy) << overlap;
+      EXPECT_NEAR(structure_pair.energy(), sphere.energy, 0.1 * sphere.energy) << overlap;
+      EXPECT_NEAR(structure_pair.force_on_b().z(), sphere.force, 0.2 * sphere.force) << overlap;
     }
   }
 }
@@ -85,12 +85,12 @@ TEST(S05Rim, NeverCarriesLessThanThePiecesOfTheRegionOfContact) {
     for (const double overlap : {0.012, 0.03, 0.05}) {
       const Body ball = moved(moved(hollow_ball(16), {0.3, 0.2, turn}, Vec3::Zero()), Vec3::Zero(),
                               {0.0, 0.0, height(overlap)});
-      Meeting meeting(plate, ball, kRange);
-      meeting.place(ball);
+      StructurePair structure_pair(plate, ball, kRange);
+      structure_pair.place(ball);
       const double pieces = reference_pieces(plate, ball, kRange).energy;
       const double one = 0.5 * overlap * overlap;
-      EXPECT_GT(meeting.energy(), (1.0 - 1e-9) * pieces) << overlap;
-      EXPECT_LT(meeting.energy(), pieces + 0.064 * one) << overlap;
+      EXPECT_GT(structure_pair.energy(), (1.0 - 1e-9) * pieces) << overlap;
+      EXPECT_LT(structure_pair.energy(), pieces + 0.064 * one) << overlap;
     }
   }
 }

@@ -134,7 +134,7 @@ Bodies plane() {
   return bodies;
 }
 
-TEST(ContactRadius, OfABallOnAPlaneIsTheBalls) {
+TEST(ContactRadius, OfASphereOnAPlaneIsTheBalls) {
   const double expected = hertz_force(kRadius);
 
   const double force = on_ball<HertzMindlin>(plane(), above(0.1, 0.2));
@@ -142,7 +142,7 @@ TEST(ContactRadius, OfABallOnAPlaneIsTheBalls) {
   EXPECT_NEAR(force, expected, kRounding * expected);
 }
 
-TEST(ContactRadius, OfABallOnAThinSheetIsTheBalls) {
+TEST(ContactRadius, OfASphereOnAThinSheetIsTheBalls) {
   const double expected = hertz_force(kRadius);
 
   const double force = on_ball<HertzMindlin>(sheet(), above(0.1, 0.2));
@@ -151,7 +151,7 @@ TEST(ContactRadius, OfABallOnAThinSheetIsTheBalls) {
 }
 
 /// From a face over a seam onto the other, onto the rim, and around it and a corner: one energy.
-TEST(ContactRadius, StaysAsABallRollsFromFacetToFacetAndOverTheRim) {
+TEST(ContactRadius, StaysAsASphereRollsFromFacetToFacetAndOverTheRim) {
   const double expected = hertz_force(kRadius);
   const double range = kRadius + kHalfThickness - kOverlap;
   const Vec3 down(0.0, 0.0, -kHalfThickness);
@@ -171,7 +171,7 @@ TEST(ContactRadius, StaysAsABallRollsFromFacetToFacetAndOverTheRim) {
 }
 
 /// 1/R' = 1/R, 1/R'' = 1/R + 1/r.
-TEST(ContactRadius, OfABallOnACylinderIsThatOfAnEllipse) {
+TEST(ContactRadius, OfASphereOnACylinderIsThatOfAnEllipse) {
   const double across = kRadius * kWire / (kRadius + kWire);
   const double expected = elliptic_force(kRadius, across);
   EXPECT_GT(expected, 1.05 * hertz_force(across));

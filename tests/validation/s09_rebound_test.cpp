@@ -64,7 +64,7 @@ const test::NamedLaw kGiven =
 const test::NamedLaw kCurvature = damped<LinearFrictional>(
     "Curvature", {.radius = LinearFrictional::StiffnessRadius::curvature}, SpringKind::linear);
 
-TEST(Rebound, IsTheRestitutionThatWasAskedForWhateverABallFallsOn) {
+TEST(Rebound, IsTheRestitutionThatWasAskedForWhateverASphereFallsOn) {
   for (const test::NamedLaw& law : {kHertz, kGiven, kCurvature}) {
     for (const Ground& ground : kGrounds) {
       Scene scene = ball_above(ground, 1e-6);

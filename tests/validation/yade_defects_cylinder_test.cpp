@@ -23,7 +23,7 @@ TEST(D05_SpinOfCylinders, IsThatOfARigidBodyForAnyLength) {
   for (const double length : {0.01, 0.1, 0.9, 10.0, 100.0}) {
     for (const double place : {-0.45, 0.0, 0.2}) {
       ContactProbe probe(chain_of_cylinders({Vec3(-0.5 * length, 0, 0), Vec3(0.5 * length, 0, 0)}),
-                         kBallRadius, no_slip());
+                         kSphereRadius, no_slip());
       probe.put(Vec3(place * length, 0, kDistance));
       turn_rigidly(probe, spin);
       // Rounding of velocities of up to L omega, with a margin of ten.
@@ -53,12 +53,12 @@ TEST(D05_SpinOfCylinders, MakesNoEnergyInCollisionsWithFriction) {
 // they are sqrt((R + r)² - D²) away.
 TEST(D08_Junctions, PushOnceAlongEveryBranchAndOverTheNode) {
   using namespace dragged;
-  constexpr double kReach = kBallRadius + kSurfaceRadius;
+  constexpr double kReach = kSphereRadius + kSurfaceRadius;
   const double beside = std::sqrt(kReach * kReach - kDistance * kDistance);
   for (int branches = 3; branches <= 7; ++branches) {
     const ProbedSurface star = junction(branches, 0.0);
     const double alone = branches <= 4 ? 0.0 : beside / std::sin(2.0 * std::numbers::pi / branches);
-    ContactProbe probe(star, kBallRadius, frictionless());
+    ContactProbe probe(star, kSphereRadius, frictionless());
     for (const Felt& felt : sweep(probe, path_over(star, Vec3(0.5, 0, 0), Vec3(alone, 0, 0), 2000)))
       ASSERT_NEAR(felt.force.norm() / kNormalForce, 1.0, 1e-9) << branches;
     EXPECT_NEAR(probe.put(Vec3(0, 0, kDistance)).force.norm() / kNormalForce, 1.0, 1e-9);
@@ -87,10 +87,10 @@ constexpr double kOverlap = 0.005;  // m
 /// N, between two squares that lie on each other, 0.4 m on 1 m, turned by an angle (rad).
 double force_of_squares(const Body& lower, const Body& upper, double angle) {
   const Body placed = moved(upper, {0.0, 0.0, angle}, {0.03, 0.02, kRange - kOverlap});
-  Meeting meeting(lower, placed, kRange);
-  meeting.place(placed);
-  EXPECT_EQ(meeting.patches(), 1u);
-  return meeting.force_on_b().z();
+  StructurePair structure_pair(lower, placed, kRange);
+  structure_pair.place(placed);
+  EXPECT_EQ(structure_pair.patches(), 1u);
+  return structure_pair.force_on_b().z();
 }
 
 // YADE: 7 contacts of two squares of two facets each, and more the finer they are.
@@ -112,9 +112,9 @@ TEST(D10_FacetsOnFacets, PushTheSameWhereTheirMeshesFallTogether) {
   const auto force = [](int cells, double turn) {
     const Body upper =
         moved(sheet(cells, cells, 0.5, 0.5), {0.0, 0.0, turn}, {0.0, 0.0, kRange - kOverlap});
-    Meeting meeting(sheet(cells, cells, 0.5, 0.5), upper, kRange);
-    meeting.place(upper);
-    return meeting.force_on_b().z();
+    StructurePair structure_pair(sheet(cells, cells, 0.5, 0.5), upper, kRange);
+    structure_pair.place(upper);
+    return structure_pair.force_on_b().z();
   };
   for (const double turn : {0.0, 1e-8}) {
     EXPECT_NEAR(force(5, turn) / force(1, turn), 1.0, 1e-6) << turn;
@@ -127,9 +127,9 @@ TEST(D10_FacetsOnFacets, ACylinderPushesTheSameAcrossSeams) {
   std::vector<double> forces;
   for (const int cells : {1, 2, 5}) {
     const Body cylinder = moved(chain(1, 0.5), {0.0, 0.0, 0.1}, {0.0, 0.1, kRange - kOverlap});
-    Meeting meeting(sheet(cells, cells, 1.0, 1.0), cylinder, kRange);
-    meeting.place(cylinder);
-    forces.push_back(meeting.force_on_b().z());
+    StructurePair structure_pair(sheet(cells, cells, 1.0, 1.0), cylinder, kRange);
+    structure_pair.place(cylinder);
+    forces.push_back(structure_pair.force_on_b().z());
     EXPECT_NEAR(forces.back() / forces.front(), 1.0, 1e-6) << cells;
   }
 }
@@ -149,9 +149,9 @@ TEST(D11_ParallelSides, HideNoContactOfAnUprightFacet) {
   const auto force = [](double turn) {
     const Body upright = moved(sheet(1, 1, 0.4, 0.4), {0.5 * std::numbers::pi, 0, turn},
                                {0.03, 0.02, 0.2 + kRange - kOverlap});
-    Meeting meeting(sheet(1, 1, 1.0, 1.0), upright, kRange);
-    meeting.place(upright);
-    return meeting.force_on_b().z();
+    StructurePair structure_pair(sheet(1, 1, 1.0, 1.0), upright, kRange);
+    structure_pair.place(upright);
+    return structure_pair.force_on_b().z();
   };
   const double turned = force(0.3);
   EXPECT_GE(turned, kOverlap * (1.0 - 1e-9));
@@ -168,12 +168,12 @@ TEST(D13_DegenerateCylinders, PushWithFiniteForcesThatBalance) {
   for (const Vec3& shift : poses) {
     for (const double turn : {0.0, 1e-16, 1e-8, std::numbers::pi}) {
       const Body upper = moved(chain(2, 1.0), {0, 0, turn}, shift);
-      Meeting meeting(lower, upper, kRange);
-      meeting.place(upper);
-      for (const Vec3& force : meeting.forces()) ASSERT_TRUE(force.allFinite());
-      const Vec3 left = meeting.force_on_a() + meeting.force_on_b();
-      EXPECT_LE(left.norm(), 1e-12 * meeting.force_on_b().norm()) << shift.transpose();
-      EXPECT_GT(meeting.energy(), 0.0) << shift.transpose();
+      StructurePair structure_pair(lower, upper, kRange);
+      structure_pair.place(upper);
+      for (const Vec3& force : structure_pair.forces()) ASSERT_TRUE(force.allFinite());
+      const Vec3 left = structure_pair.force_on_a() + structure_pair.force_on_b();
+      EXPECT_LE(left.norm(), 1e-12 * structure_pair.force_on_b().norm()) << shift.transpose();
+      EXPECT_GT(structure_pair.energy(), 0.0) << shift.transpose();
     }
   }
 }

@@ -70,7 +70,7 @@ TEST(D14_TurningContacts, KeepTheirTangentialForceThroughRevolutions) {
   const auto flat = folded_strip(0.0);
   const auto path = line(Vec3(0, 0, kDistance), Vec3(1e-4, 2e-4, kDistance), 4);
   for (const bool about_normal : {false, true}) {
-    ContactProbe probe(flat, kBallRadius, no_slip());
+    ContactProbe probe(flat, kSphereRadius, no_slip());
     const Vec3 before = sweep(probe, path).back().force;
     std::vector<Vec3> x = probe.positions();
     for (int revolution = 0; revolution < 3; ++revolution) {

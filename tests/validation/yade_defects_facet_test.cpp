@@ -19,7 +19,7 @@ namespace {
 
 using namespace dragged;
 
-constexpr double kReach = kBallRadius + kSurfaceRadius;
+constexpr double kReach = kSphereRadius + kSurfaceRadius;
 using Corners = std::array<Vec3, 3>;
 
 /// A needle, an obtuse and a nearly equilateral facet: no two sides of any are alike.
@@ -35,14 +35,14 @@ ProbedSurface facet_of(const Corners& corners) {
 TEST(D01_FacetWeights, ArePermutedNeitherInForcesNorInVelocities) {
   for (const Corners& corners : kFacets) {
     for (const Vec3& weights : {Vec3(0.5, 0.3, 0.2), Vec3(0.2, 0.5, 0.3), Vec3(0.25, 0.15, 0.6)}) {
-      ContactProbe probe(facet_of(corners), kBallRadius, no_slip());
+      ContactProbe probe(facet_of(corners), kSphereRadius, no_slip());
       const Vec3 place = at_weights(corners, weights) + kDistance * Vec3::UnitZ();
       const Felt felt = probe.put(place);
       for (std::size_t i = 0; i < 3; ++i) {
         const int k = static_cast<int>(i);
         EXPECT_NEAR(-probe.forces().force[i].z(), weights[k] * kNormalForce, 1e-9 * kNormalForce);
 
-        ContactProbe moving(facet_of(corners), kBallRadius, no_slip());
+        ContactProbe moving(facet_of(corners), kSphereRadius, no_slip());
         moving.put(place);
         moving.velocity()[i] = Vec3(1e-3, 0, 0);  // m/s, of this node alone, for 1 s
         const double slip = moving.feel().force.x() / kTangentialStiffness;
@@ -58,7 +58,7 @@ bool expect_force_of_closest_point(const Corners& corners, const Vec3& place) {
   const Vec3 weights = closest_weights(corners, place);
   const Vec3 away = place - at_weights(corners, weights);
   if (away.norm() >= kReach) return false;
-  ContactProbe probe(facet_of(corners), kBallRadius, frictionless());
+  ContactProbe probe(facet_of(corners), kSphereRadius, frictionless());
   const Vec3 exact = kNormalStiffness * (kReach - away.norm()) * away.normalized();
 
   const Felt felt = probe.put(place);
@@ -70,7 +70,7 @@ bool expect_force_of_closest_point(const Corners& corners, const Vec3& place) {
 
 // YADE tests a ball beside side (1,2) against side (1,3), and so on: none of 9 balls beside a facet
 // touches it.
-TEST(D02_FacetEdges, ABallBesideEverySideOfAFacetTouches) {
+TEST(D02_FacetEdges, ASphereBesideEverySideOfAFacetTouches) {
   for (const Corners& corners : kFacets) {
     for (const Vec3& place : places_beside_edges(corners, {0.02, 0.11}))
       EXPECT_TRUE(expect_force_of_closest_point(corners, place));
@@ -94,7 +94,7 @@ TEST(D02_FacetEdges, NoneOf116BallsOutsideAFacetIsMissed) {
 TEST(D02a_Ridge, PushesInTheWedgeAboveItHoweverSharp) {
   for (const double angle : {5.0, 45.0, 80.0}) {
     const auto path = over_ridge(radians(angle), 0.05, 2000);
-    ContactProbe probe(folded_strip(radians(angle)), kBallRadius, frictionless());
+    ContactProbe probe(folded_strip(radians(angle)), kSphereRadius, frictionless());
     const auto felt = sweep(probe, centres(path));
     for (std::size_t k = 0; k < felt.size(); ++k) {
       ASSERT_EQ(felt[k].contacts, 1u) << angle << " degrees, step " << k;
@@ -119,7 +119,7 @@ TEST(D02b_FlatEdges, HandOverTheTangentialForceInAnyOrderOfFacetsAndNodes) {
       sheet.facets = {{order[0], order[1], order[2]}, {order[0], order[2], order[3]}};
       if (swapped) std::swap(sheet.facets[0], sheet.facets[1]);
       for (const auto& path : {there, back}) {
-        ContactProbe probe(sheet, kBallRadius, no_slip());
+        ContactProbe probe(sheet, kSphereRadius, no_slip());
         const Felt end = sweep(probe, path).back();
         const Vec3 exact = -kTangentialStiffness * (path.back() - path.front());
         EXPECT_LE((end.force.head<2>() - exact.head<2>()).norm(), 1e-9 * exact.norm());
@@ -136,7 +136,7 @@ TEST(D03_LeftFace, LeavesNoShareWithNodesOfTheFace) {
       const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
       const Vec3 outward = (corners[i] - middle).normalized();
       const Vec3 height = (kReach - 0.001) * Vec3::UnitZ();
-      ContactProbe probe(facet_of(corners), kBallRadius, frictionless());
+      ContactProbe probe(facet_of(corners), kSphereRadius, frictionless());
       for (const Vec3& centre :
            line(corners[i] - 0.02 * outward + height, corners[i] + 0.01 * outward + height, 300)) {
         const Felt felt = probe.drag(centre);
@@ -157,11 +157,11 @@ TEST(D03_LeftFace, LeavesNoShareWithNodesOfTheFace) {
 
 // YADE gives the nodes of a facet no torque of the tangential force: (r - u/2) n x F_s is missing
 // from the sum, 0.11 F_n R here.
-TEST(D04_FrictionOnFacets, LeavesNoMomentOfBallAndFacet) {
+TEST(D04_FrictionOnFacets, LeavesNoMomentOfSphereAndFacet) {
   const double missing_in_yade =
       (kSurfaceRadius - 0.5 * kOverlap) * std::tan(radians(20.0)) * kNormalForce;
   for (const Corners& corners : kFacets) {
-    ContactProbe probe(facet_of(corners), kBallRadius, material(20.0));
+    ContactProbe probe(facet_of(corners), kSphereRadius, material(20.0));
     const Vec3 from = at_weights(corners, Vec3(0.4, 0.3, 0.3)) + kDistance * Vec3::UnitZ();
     const auto felt = sweep(probe, line(from, from + Vec3(0.05, 0.02, 0), 50));
     EXPECT_NEAR(felt.back().force.head<2>().norm(), std::tan(radians(20.0)) * kNormalForce,
@@ -194,13 +194,13 @@ TEST(D07_CohesionOnFacets, PullsAtAllNodesOfTheFacet) {
 
 // YADE puts the contact point of a ball on a facet at the facet's radius from the ball's centre.
 TEST(D15_ContactPoint, IsInTheMiddleOfTheOverlapForUnlikeRadii) {
-  ContactProbe probe(facet_of(kFacets[2]), kBallRadius, no_slip());
+  ContactProbe probe(facet_of(kFacets[2]), kSphereRadius, no_slip());
   const Vec3 from = at_weights(kFacets[2], Vec3(0.4, 0.3, 0.3)) + kDistance * Vec3::UnitZ();
   const Felt felt = sweep(probe, line(from, from + Vec3(0.01, 0, 0), 10)).back();
-  const double arm = kBallRadius - 0.5 * kOverlap;
+  const double arm = kSphereRadius - 0.5 * kOverlap;
   EXPECT_NEAR(felt.torque.y(), -arm * felt.force.x(), 1e-9 * arm * std::abs(felt.force.x()));
 
-  ContactProbe spinning(facet_of(kFacets[2]), kBallRadius, no_slip());
+  ContactProbe spinning(facet_of(kFacets[2]), kSphereRadius, no_slip());
   spinning.put(from);
   spinning.spin().back() = Vec3(0, 1e-3, 0);
   EXPECT_NEAR(spinning.feel().force.x(), arm * 1e-3 * kTangentialStiffness,
@@ -217,10 +217,10 @@ TEST(D15_CylinderOnFacet, TouchesInsideTheFaceAlone) {
     Body cylinder = moved(chain(1, 0.5), {0.0, tilt, 0.7}, Vec3::Zero());
     const double lowest = std::min(cylinder.x[0].z(), cylinder.x[1].z());
     for (Vec3& x : cylinder.x) x.z() += 0.95 * kRange - lowest;
-    Meeting meeting(facet, cylinder, kRange);
-    meeting.place(cylinder);
-    EXPECT_EQ(meeting.patches(), 1u) << tilt;
-    EXPECT_GE(meeting.force_on_b().z(), 0.05 * kRange * (1.0 - 1e-9)) << tilt;  // k = 1 N/m
+    StructurePair structure_pair(facet, cylinder, kRange);
+    structure_pair.place(cylinder);
+    EXPECT_EQ(structure_pair.patches(), 1u) << tilt;
+    EXPECT_GE(structure_pair.force_on_b().z(), 0.05 * kRange * (1.0 - 1e-9)) << tilt;  // k = 1 N/m
   }
 }
 

@@ -50,7 +50,7 @@ class Loads : public Command {
  protected:
   /// The loads are added to them.
   static std::string bodies() {
-    return std::string(kSheetAndBall) + std::string(kOthers) + std::string(kLid);
+    return std::string(kSheetAndSphere) + std::string(kOthers) + std::string(kLid);
   }
 
   /// `plekton check` of the bodies with these tables [[loads]].

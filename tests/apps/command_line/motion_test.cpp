@@ -40,7 +40,7 @@ TEST_F(FastMotion, IsWarnedOfWhereTheStepIsGiven) {
 }
 
 // A ball is dropped and comes to its highest point again, where nothing is left but its weight.
-TEST_F(FastMotion, OfABallEndsAtItsTimeWithAnErrorOverWhatWentThrough) {
+TEST_F(FastMotion, OfASphereEndsAtItsTimeWithAnErrorOverWhatWentThrough) {
   test::write_bytes(folder_ / "ball.toml", R"([simulation]
 duration = "0.2 s"
 [materials.rock]

@@ -6,7 +6,7 @@
 namespace plekton::apps {
 
 /// The beginning of a scenario: a sheet and a closed ball above it.
-inline constexpr std::string_view kSheetAndBall = R"([simulation]
+inline constexpr std::string_view kSheetAndSphere = R"([simulation]
 duration = "2 ms"
 [materials.stone]
 density = "2650 kg/m3"

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 /// A sheet, a closed ball and a lid; the mistakes are added below.
-const std::string kSound = std::string(kSheetAndBall) + std::string(kLid);
+const std::string kSound = std::string(kSheetAndSphere) + std::string(kLid);
 
 /// One mistake.
 struct Mistake {

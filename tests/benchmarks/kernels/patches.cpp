@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Balls that slide over a surface: which features push, patches, what they inherit, the law and the
+// Balls that slide over a surface: which features push, patches, what they transfer, the law and the
 // forces; all of contact/sphere_surface/surface_contacts.hpp between two lists of neighbours.
 #include "contact/law/linear_frictional.hpp"
 #include "contact/sphere_surface/surface_contacts.hpp"
@@ -103,7 +103,7 @@ class SlidingBalls {
   void list_neighbours(double radius) {
     geometry::Neighbours neighbours(spheres_, surface_, 2.1 * kStepsOneWay * kWay * radius);
     neighbours.update(x_, pool_);
-    std::vector<contact::Ball> balls;
+    std::vector<contact::SphereBody> balls;
     for (const auto& sphere : spheres_)
       balls.push_back({sphere.nodes[0], sphere.radius, MaterialId{0}});
     const std::vector<MaterialId> of_structures(surface_.structure_count(), MaterialId{0});

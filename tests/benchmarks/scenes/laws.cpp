@@ -28,7 +28,7 @@ contact::ContactSettings settings_of(std::size_t law, bool has_parts) {
 
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
-  for (const contact::LawRow& law : contact::contact_laws()) {
+  for (const contact::LawEntry& law : contact::contact_laws()) {
     names.emplace_back(law.name);
     names.push_back(names.back() + std::string(kParts));
   }

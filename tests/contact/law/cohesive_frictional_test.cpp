@@ -41,7 +41,7 @@ TEST(CohesiveFrictional, CarriesTensionUpToItsStrengthAndNoFurther) {
   EXPECT_TRUE(CohesiveFrictional::holds(pair.history));
   EXPECT_EQ(pair.move_to(limit * (1.0 + 1e-9)).force[2], 0.0);
   EXPECT_FALSE(CohesiveFrictional::holds(pair.history));
-  EXPECT_DOUBLE_EQ(CohesiveFrictional::reach(pair.parameters), limit);
+  EXPECT_DOUBLE_EQ(CohesiveFrictional::interaction_range(pair.parameters), limit);
 }
 
 TEST(CohesiveFrictional, DoesNotPullAtWhatItHasNotTouched) {

@@ -74,9 +74,9 @@ class LaneLawOf : public testing::Test {
     out.energy_after = Law::history_energy(c.parameters, c.history);
     out.history = c.history;
     out.hold = out.reach = Real(0.0);
-    if constexpr (HasReach<Law>) {
+    if constexpr (HasInteractionRange<Law>) {
       out.hold = Law::hold(c.history);
-      out.reach = Law::reach(c.parameters);
+      out.reach = Law::interaction_range(c.parameters);
     }
     return out;
   }

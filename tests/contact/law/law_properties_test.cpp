@@ -170,7 +170,7 @@ TYPED_TEST(LawProperties, TheTangentialForceIsTheSlopeOfItsEnergyWhileNothingSli
     auto history = this->random_history(p, normal);
     // From the cone to well inside it.
     typename Law::History inside{};
-    Law::add_share(inside, history, 0.5);
+    Law::accumulate_history(inside, history, 0.5);
     const Vec3 force = this->tangential_force(p, normal, inside);
     const Vec3 slip = normal.cross(this->random_.direction());
     typename Law::History moved = inside;
@@ -235,8 +235,8 @@ TYPED_TEST(LawProperties, SharesOfAHistoryAddUpToIt) {
     const Vec3 normal = this->random_.direction();
     const auto whole = this->random_history(p, normal);
     typename Law::History sum{};
-    Law::add_share(sum, whole, 0.3);
-    Law::add_share(sum, whole, 0.7);
+    Law::accumulate_history(sum, whole, 0.3);
+    Law::accumulate_history(sum, whole, 0.7);
 
     const Vec3 expected = this->tangential_force(p, normal, whole);
     EXPECT_NEAR((this->tangential_force(p, normal, sum) - expected).norm(), 0.0,

@@ -68,7 +68,7 @@ TEST(LinearFrictional, GivesBondsTheStiffnessOfThePairToo) {
 
   EXPECT_EQ(p.elastic.normal_stiffness, 5e4);
   EXPECT_EQ(p.elastic.tangential_stiffness, 2e4);
-  EXPECT_DOUBLE_EQ(CohesiveFrictional::reach(p), 2e4 * 0.001 * 0.001 / 5e4);
+  EXPECT_DOUBLE_EQ(CohesiveFrictional::interaction_range(p), 2e4 * 0.001 * 0.001 / 5e4);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 // there are lanes. (Its properties are tested with those of all laws, law_properties_test.cpp.)
 #include "contact/law/lane_law.hpp"
 #include "contact/models.hpp"
-#include "contact/sphere_sphere/ball_kernel.hpp"
+#include "contact/sphere_sphere/sphere_kernel.hpp"
 #include "geometry/base/rows.hpp"
 #include "geometry/base/vector_width.hpp"
 #include "tests/support/complexes.hpp"
@@ -70,16 +70,16 @@ Outcome outcome_of(int threads) {
   std::vector<Vec3>& x = place.complex.x;
   const Surface surface = place.complex.surface();
   const MaterialId stone{0};
-  const auto contacts = model_of<Law>()(
-      {.spheres = place.spheres,
-       .surface = surface,
-       .materials = {Material{1e6, 0.5, 0.4}},
-       .of_spheres = std::vector<MaterialId>(place.spheres.size(), stone),
-       .of_structures = std::vector<MaterialId>(surface.structure_count(), stone),
-       .masses = {},
-       .skin = 0.05,
-       .meets_planes = {},
-       .rest = {}});
+  const auto contacts =
+      model_of<Law>()({.spheres = place.spheres,
+                       .surface = surface,
+                       .materials = {Material{1e6, 0.5, 0.4}},
+                       .of_spheres = std::vector<MaterialId>(place.spheres.size(), stone),
+                       .of_structures = std::vector<MaterialId>(surface.structure_count(), stone),
+                       .masses = {},
+                       .skin = 0.05,
+                       .meets_planes = {},
+                       .rest = {}});
   geometry::ThreadPool pool(threads);
   Outcome outcome{NodeForces(x.size()), 0.0, 0.0, {}};
   for (int step = 0; step < 30; ++step) {

@@ -12,7 +12,7 @@ namespace {
 
 using test::Random;
 
-std::vector<geometry::IndexPair> touching(std::span<const Ball> balls,
+std::vector<geometry::IndexPair> touching(std::span<const SphereBody> balls,
                                           std::span<const Plane> planes, Positions x) {
   std::vector<geometry::IndexPair> pairs;
   for (std::size_t i = 0; i < balls.size(); ++i) {
@@ -28,7 +28,7 @@ std::vector<geometry::IndexPair> touching(std::span<const Ball> balls,
 TEST(PlaneNeighbours, ListEveryPairThatTouchesWhileBallsAndPlanesMove) {
   Random random(1);
   const double skin = 0.1;
-  std::vector<Ball> balls;
+  std::vector<SphereBody> balls;
   std::vector<Vec3> x;
   for (std::int32_t i = 0; i < 50; ++i) {
     balls.push_back({NodeId{i}, random.uniform(0.05, 0.3), MaterialId{0}});
@@ -66,7 +66,7 @@ TEST(PlaneNeighbours, ListEveryPairThatTouchesWhileBallsAndPlanesMove) {
 }
 
 TEST(PlaneNeighbours, StayWhileNothingMovesAcrossAPlane) {
-  const std::vector<Ball> balls{{NodeId{0}, 0.1, MaterialId{0}}};
+  const std::vector<SphereBody> balls{{NodeId{0}, 0.1, MaterialId{0}}};
   const std::vector<Vec3> x{Vec3(0, 0, 0.1)};
   std::vector<Plane> planes{{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}}};
   PlaneNeighbours neighbours(0.1);

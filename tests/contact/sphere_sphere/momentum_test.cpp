@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_plane/plane_contacts.hpp"
-#include "contact/sphere_sphere/ball_contacts.hpp"
+#include "contact/sphere_sphere/sphere_contacts.hpp"
 #include "tests/support/ball_on_surface.hpp"
 
 #include <gtest/gtest.h>
@@ -39,9 +39,9 @@ void expect_balanced(const Balance& balance) {
 TEST(Momentum, BalancesBetweenBalls) {
   Random random(1);
   for (int trial = 0; trial < 500; ++trial) {
-    const std::vector<Ball> balls{{NodeId{0}, 0.5, MaterialId{0}}, {NodeId{1}, 0.3, MaterialId{0}}};
+    const std::vector<SphereBody> balls{{NodeId{0}, 0.5, MaterialId{0}}, {NodeId{1}, 0.3, MaterialId{0}}};
     const std::vector<geometry::IndexPair> pairs{{0, 1}};
-    BallContacts contacts;
+    SphereContacts contacts;
     geometry::ThreadPool pool;
     contacts.rebuild(pairs, balls, MaterialPairs({kMaterial}), pool);
     const Vec3 place = random.in_cube(5.0);
@@ -59,10 +59,10 @@ TEST(Momentum, BalancesBetweenBalls) {
   }
 }
 
-TEST(Momentum, IsHandedFromBallToPlaneAtTheContactPoint) {
+TEST(Momentum, IsHandedFromSphereToPlaneAtTheContactPoint) {
   Random random(2);
   for (int trial = 0; trial < 500; ++trial) {
-    const std::vector<Ball> balls{{NodeId{0}, 0.5, MaterialId{0}}};
+    const std::vector<SphereBody> balls{{NodeId{0}, 0.5, MaterialId{0}}};
     const Plane plane{random.in_cube(5.0), random.direction(), random.in_cube(0.1), MaterialId{0}};
     const std::vector<Plane> planes{plane};
     const std::vector<geometry::IndexPair> pairs{{0, 0}};
@@ -100,11 +100,11 @@ std::vector<Complex> surfaces_of_many_terms(Random& random) {
   return surfaces;
 }
 
-TEST(Momentum, BalancesBetweenABallAndASurface) {
+TEST(Momentum, BalancesBetweenASphereAndASurface) {
   Random random(3);
   int several_terms = 0;
   for (const Complex& complex : surfaces_of_many_terms(random)) {
-    BallOnSurface ball(complex, 0.9, kMaterial);
+    SphereOnSurface ball(complex, 0.9, kMaterial);
     const auto cells = all_cells(ball.surface());
     const Vec3 direction = random.direction();
     for (Vec3& v : ball.velocity()) v = random.in_cube(0.02);
@@ -126,7 +126,7 @@ TEST(ElasticForce, IsTheGradientOfTheEnergyWhereNoRingCloses) {
   Random random(4);
   int several_terms = 0;
   for (const Complex& complex : surfaces_of_many_terms(random)) {
-    BallOnSurface ball(complex, 0.9, {1e6, 0.7, 0.0});
+    SphereOnSurface ball(complex, 0.9, {1e6, 0.7, 0.0});
     const auto cells = all_cells(ball.surface());
     const Vec3 place = random.uniform(0.7, 0.95) * random.direction();
     ball.put(place);

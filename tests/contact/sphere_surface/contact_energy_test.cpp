@@ -22,9 +22,9 @@ const std::array<Law, 2> kLaws{
       [](double o) { return 0.4 * std::pow(o, 2.5); }}}};
 
 /// A ball near a surface whose nodes may move.
-class Meeting {
+class StructurePair {
  public:
-  Meeting(const Complex& complex, const Vec3& centre, double range, const Law& law)
+  StructurePair(const Complex& complex, const Vec3& centre, double range, const Law& law)
       : x_(complex.x),
         surface_(complex.surface()),
         cells_(cells_near(surface_, centre, range + kMargin, x_)),
@@ -102,8 +102,9 @@ class Meeting {
 };
 
 /// Along random ways of all nodes and the ball, of the ball alone, and of single nodes.
-void expect_gradient(Meeting& meeting, std::size_t nodes, const Law& law, Random& random) {
-  const double deepest = meeting.deepest();
+void expect_gradient(StructurePair& structure_pair, std::size_t nodes, const Law& law,
+                     Random& random) {
+  const double deepest = structure_pair.deepest();
   for (int k = 0; k < 8; ++k) {
     std::vector<Vec3> ways(nodes, Vec3::Zero());
     Vec3 way = Vec3::Zero();
@@ -116,11 +117,12 @@ void expect_gradient(Meeting& meeting, std::size_t nodes, const Law& law, Random
     // The difference rounds to some 1e-16 / 1e-7 of the deepest, and has an error of second order
     // in the step, or of first order where a feature comes into range within it: the best of three
     // steps.
-    const double power = meeting.power(ways, way) / law.force(deepest);
+    const double power = structure_pair.power(ways, way) / law.force(deepest);
     double error = std::numeric_limits<double>::infinity();
     for (const double step : {1e-5 * deepest, 1e-6 * deepest, 1e-7 * deepest}) {
       const double slope =
-          (meeting.energy(ways, way, step) - meeting.energy(ways, way, -step)) / (2.0 * step);
+          (structure_pair.energy(ways, way, step) - structure_pair.energy(ways, way, -step)) /
+          (2.0 * step);
       error = std::min(error, std::abs(slope / law.force(deepest) + power));
     }
     ASSERT_LT(error, 2e-6) << law.name << ", way " << k << ", power " << power;
@@ -128,7 +130,7 @@ void expect_gradient(Meeting& meeting, std::size_t nodes, const Law& law, Random
 }
 
 struct Seen {
-  int several = 0;  ///< meetings with several terms
+  int several = 0;  ///< structure pairs with several terms
   int rings = 0;    ///< with rings or hollows
 };
 
@@ -140,12 +142,12 @@ Seen check(const std::function<Complex(Random&)>& surface,
     const Complex complex = surface(random);
     const Vec3 place = centre(random);
     for (const Law& law : kLaws) {
-      Meeting meeting(complex, place, 1.0, law);
-      if (!(meeting.deepest() > 1e-3)) continue;
-      expect_gradient(meeting, complex.x.size(), law, random);
+      StructurePair structure_pair(complex, place, 1.0, law);
+      if (!(structure_pair.deepest() > 1e-3)) continue;
+      expect_gradient(structure_pair, complex.x.size(), law, random);
       if (::testing::Test::HasFailure()) return seen;
-      seen.several += meeting.term_count() > 1;
-      seen.rings += meeting.has_rings();
+      seen.several += structure_pair.term_count() > 1;
+      seen.rings += structure_pair.has_rings();
     }
   }
   return seen;
@@ -202,7 +204,7 @@ TEST(ContactEnergy, HasTheForceAsItsGradientOnNetsAndAroundHoles) {
   EXPECT_GT(on_nets.rings + around.rings, 15);
 }
 
-TEST(ContactEnergy, HasTheForceAsItsGradientOnClosedBodiesInsideTheBall) {
+TEST(ContactEnergy, HasTheForceAsItsGradientOnClosedBodiesInsideTheSphere) {
   const Seen seen = check(
       [](Random& r) {
         return mapped(roughened(ball(1), 0.1, 0.02, r),

@@ -12,7 +12,7 @@ namespace {
 constexpr Material kRough{1e6, 0.5, 1e3};  // no sliding within the tests below
 
 /// The force of a contact in which the ball's centre lies on the surface.
-double deepest_force(const BallOnSurface& ball) {
+double deepest_force(const SphereOnSurface& ball) {
   return ball.parameters().normal_stiffness * ball.range();
 }
 
@@ -20,7 +20,7 @@ double deepest_force(const BallOnSurface& ball) {
 /// before: they differ by the stiffness times the way and by what the spring gains.
 void expect_same_side(const Complex& surface, const Vec3& place, const Vec3& side) {
   constexpr double kWay = 1.0 / 1024.0;  // m, exact, so that the ball arrives at the place itself
-  BallOnSurface ball(surface, 0.9, kRough);
+  SphereOnSurface ball(surface, 0.9, kRough);
   ball.put(place + kWay * side);
   const Vec3 before = ball.move(Vec3::Zero());
 
@@ -32,14 +32,14 @@ void expect_same_side(const Complex& surface, const Vec3& place, const Vec3& sid
   EXPECT_LE((there - before).norm(), 1.1 * ball.parameters().normal_stiffness * kWay);
 }
 
-TEST(BallCentredOnTheSurface, IsPushedBackToItsOwnSideOfAFacet) {
+TEST(SphereCentredOnTheSurface, IsPushedBackToItsOwnSideOfAFacet) {
   const Complex surface = centred(sheet(8), 8, 1.0);
   for (const double side : {1.0, -1.0}) {
     expect_same_side(surface, Vec3(0.25, 0.125, 0.0), side * Vec3::UnitZ());
   }
 }
 
-TEST(BallCentredOnTheSurface, IsPushedBackToItsOwnSideOfAnEdgeOrANodeBetweenFacets) {
+TEST(SphereCentredOnTheSurface, IsPushedBackToItsOwnSideOfAnEdgeOrANodeBetweenFacets) {
   const Complex surface = centred(sheet(8), 8, 1.0);
   for (const double side : {1.0, -1.0}) {
     expect_same_side(surface, Vec3(0.0, 0.5, 0.0), side * Vec3::UnitZ());
@@ -47,7 +47,7 @@ TEST(BallCentredOnTheSurface, IsPushedBackToItsOwnSideOfAnEdgeOrANodeBetweenFace
   }
 }
 
-TEST(BallCentredOnTheSurface, IsPushedBackToWhereItCameFromOnACylinder) {
+TEST(SphereCentredOnTheSurface, IsPushedBackToWhereItCameFromOnACylinder) {
   Complex wire;
   wire.node(Vec3(-4, 0, 0));
   wire.node(Vec3(4, 0, 0));
@@ -58,9 +58,9 @@ TEST(BallCentredOnTheSurface, IsPushedBackToWhereItCameFromOnACylinder) {
   expect_same_side(wire, Vec3(4, 0, 0), Vec3(1, 0, 0));
 }
 
-TEST(BallCentredOnTheSurface, KeepsItsSpring) {
+TEST(SphereCentredOnTheSurface, KeepsItsSpring) {
   for (const double side : {1.0, -1.0}) {
-    BallOnSurface ball(centred(sheet(8), 8, 1.0), 0.9, kRough);
+    SphereOnSurface ball(centred(sheet(8), 8, 1.0), 0.9, kRough);
     ball.put(Vec3(0.25, 0.125, side / 64.0));
     for (int k = 0; k < 4; ++k) ball.move(Vec3(1.0 / 64.0, 0, 0));
     const double along = ball.forces().force.back()[0];

@@ -42,7 +42,7 @@ const std::array<std::array<Vec3, 2>, 5> kPaths{{{Vec3(3, 6, 0), Vec3(9, 6, 0)},
                                                  {Vec3(3, 6 + 1e-13, 0), Vec3(9, 6 - 1e-13, 0)},
                                                  {Vec3(3.1, 4.2, 0), Vec3(8.7, 7.9, 0)}}};
 
-TEST(BallOnAFlatMesh, IsOneContactAtEveryStep) {
+TEST(SphereOnAFlatMesh, IsOneContactAtEveryStep) {
   const double range = 2.5;
   for (const FlatPlace& place : flat_places()) {
     SCOPED_TRACE(place.name);
@@ -105,7 +105,7 @@ void expect_no_jump(PatchFinder& finder, std::span<const CellId> cells, Position
   }
 }
 
-TEST(BallOnARoughMesh, FeelsAForceThatFollowsItsMotionWithoutAJump) {
+TEST(SphereOnARoughMesh, FeelsAForceThatFollowsItsMotionWithoutAJump) {
   Random random(2);
   const double spacing = 0.3;
   for (const double roughness : {1e-12, 1e-6, 1e-3, 1e-2, 0.05}) {
@@ -138,7 +138,7 @@ TotalContact on_hinge(double angle, double range, double height) {
   return total_contact(finder, Vec3(0, 0, height), range, all_cells(surface), hinge.x);
 }
 
-TEST(BallOnAHinge, FeelsNoJumpThroughFlat) {
+TEST(SphereOnAHinge, FeelsNoJumpThroughFlat) {
   const double range = 1.0;
   const double height = 0.98;
   const double flat = on_hinge(0.0, range, height).force[2];
@@ -154,7 +154,7 @@ TEST(BallOnAHinge, FeelsNoJumpThroughFlat) {
   }
 }
 
-TEST(BallOnAHinge, FeelsAForceThatIsLipschitzInTheAngle) {
+TEST(SphereOnAHinge, FeelsAForceThatIsLipschitzInTheAngle) {
   const double range = 1.0;
   const double height = 0.98;
   for (const int steps : {600, 6000}) {
@@ -176,7 +176,7 @@ double height_over_hinge(double angle, double x, double distance) {
   return std::abs(x) * std::tan(angle) + distance / std::cos(angle);
 }
 
-TEST(BallOnAHinge, FeelsAForceThatFollowsItWhenItSlidesAcrossAtAnyOfAThousandAngles) {
+TEST(SphereOnAHinge, FeelsAForceThatFollowsItWhenItSlidesAcrossAtAnyOfAThousandAngles) {
   const double range = 0.2;
   for (const double overlap : {0.001, 0.01}) {
     for (int k = 0; k < 1000; ++k) {
@@ -207,7 +207,7 @@ TEST(BallOnAHinge, FeelsAForceThatFollowsItWhenItSlidesAcrossAtAnyOfAThousandAng
   }
 }
 
-TEST(BallInACorner, IsTwoContactsWhenTheEdgeIsOutOfRange) {
+TEST(SphereInACorner, IsTwoContactsWhenTheEdgeIsOutOfRange) {
   const TotalContact corner = on_hinge(std::numbers::pi / 4.0, 1.0, 0.99 * std::numbers::sqrt2);
 
   EXPECT_EQ(corner.patches, 2);

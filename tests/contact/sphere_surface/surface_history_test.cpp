@@ -11,11 +11,11 @@ namespace {
 constexpr Material kRough{1e6, 0.5, 1e3};
 constexpr Material kSliding{1e6, 0.5, 0.3};
 
-Vec3 tangential(const ContactRow& row) {
+Vec3 tangential(const ContactRecord& row) {
   return row.tangential_force;
 }
 
-TEST(SlidingBall, LoadsOneSpringAllTheWayOverAFlatMesh) {
+TEST(SlidingSphere, LoadsOneSpringAllTheWayOverAFlatMesh) {
   // Without spin the contact point moves with the ball: F = k_s s, opposite to the motion.
   const double spacing = 0.25;
   const double height = 0.95;
@@ -23,7 +23,7 @@ TEST(SlidingBall, LoadsOneSpringAllTheWayOverAFlatMesh) {
     for (const double step : {0.004, 0.03, 0.6}) {
       SCOPED_TRACE(::testing::Message()
                    << "direction " << direction.transpose() << ", step " << step);
-      BallOnSurface ball(centred(sheet(16), 16, spacing), 0.9, kRough);
+      SphereOnSurface ball(centred(sheet(16), 16, spacing), 0.9, kRough);
       const Vec3 stride = step * direction.normalized();
       ball.put(Vec3(-0.9 * direction.normalized() + height * Vec3::UnitZ()));
       const int steps = static_cast<int>(1.8 / step);
@@ -39,11 +39,11 @@ TEST(SlidingBall, LoadsOneSpringAllTheWayOverAFlatMesh) {
   }
 }
 
-TEST(SlidingBall, KeepsItsSpringOverMeshesThatAreFlatButForRounding) {
+TEST(SlidingSphere, KeepsItsSpringOverMeshesThatAreFlatButForRounding) {
   Random random(1);
   for (int trial = 0; trial < 10; ++trial) {
     const Mat3 turn = random.rotation();
-    BallOnSurface ball(rotated(centred(sheet(16), 16, 0.25), turn), 0.9, kRough);
+    SphereOnSurface ball(rotated(centred(sheet(16), 16, 0.25), turn), 0.9, kRough);
     ball.put(turn * Vec3(-1.0, -0.75, 0.95));
     const Vec3 stride = turn * Vec3(0.01, 0, 0);  // along a line of edges
     for (int k = 1; k <= 180; ++k) {
@@ -56,8 +56,8 @@ TEST(SlidingBall, KeepsItsSpringOverMeshesThatAreFlatButForRounding) {
   }
 }
 
-TEST(SlidingBall, FeelsCoulombsForceAtEveryStepOnceItSlides) {
-  BallOnSurface ball(centred(sheet(16), 16, 0.25), 0.9, kSliding);
+TEST(SlidingSphere, FeelsCoulombsForceAtEveryStepOnceItSlides) {
+  SphereOnSurface ball(centred(sheet(16), 16, 0.25), 0.9, kSliding);
   ball.put(Vec3(-1.0, -1.0, 0.95));
   const Vec3 stride(0.01, 0.0063, 0);
   const double normal_force = ball.parameters().normal_stiffness * 0.05;
@@ -69,10 +69,10 @@ TEST(SlidingBall, FeelsCoulombsForceAtEveryStepOnceItSlides) {
   }
 }
 
-TEST(SlidingBall, KeepsItsSpringFromAFaceOverTheRimToTheOtherSide) {
+TEST(SlidingSphere, KeepsItsSpringFromAFaceOverTheRimToTheOtherSide) {
   // First along the rim, then around it; the spring along the rim is square to that motion and
   // stays as it is.
-  BallOnSurface ball(centred(sheet(8), 8, 0.25), 0.9, kRough);
+  SphereOnSurface ball(centred(sheet(8), 8, 0.25), 0.9, kRough);
   ball.put(Vec3(0.8, -0.3, 0.95));
   for (int k = 0; k < 60; ++k) ball.move(Vec3(0, 0.01, 0));
   const double along = ball.forces().force.back()[1];
@@ -103,8 +103,8 @@ Complex valley(double angle) {
   return result;
 }
 
-TEST(BallInAValley, SharesItsSpringByNormalForceWhenItsContactSplits) {
-  BallOnSurface ball(valley(0.35), 0.9, kRough);
+TEST(SphereInAValley, SharesItsSpringByNormalForceWhenItsContactSplits) {
+  SphereOnSurface ball(valley(0.35), 0.9, kRough);
   const Vec3 off_centre(0.01, 0, 0);
   ball.put(Vec3(0, -0.1, 0.9995) + off_centre);
   ASSERT_EQ(ball.contacts().touching(), 1u);
@@ -121,8 +121,8 @@ TEST(BallInAValley, SharesItsSpringByNormalForceWhenItsContactSplits) {
               rows[0].normal_force.norm() / rows[1].normal_force.norm(), 1e-9);
 }
 
-TEST(BallInAValley, AddsItsSpringsWhenItsContactsMerge) {
-  BallOnSurface ball(valley(0.35), 0.9, kRough);
+TEST(SphereInAValley, AddsItsSpringsWhenItsContactsMerge) {
+  SphereOnSurface ball(valley(0.35), 0.9, kRough);
   ball.put(Vec3(0.01, -0.1, 1.0005));
   ASSERT_EQ(ball.contacts().touching(), 2u);
   for (int k = 0; k < 10; ++k) ball.move(Vec3(0, 0.02, 0));
@@ -137,8 +137,8 @@ TEST(BallInAValley, AddsItsSpringsWhenItsContactsMerge) {
   EXPECT_NEAR(tangential(ball.rows()[0])[1], sum, 1e-9 * sum);
 }
 
-TEST(BallInAValley, StaysWithinCoulombsConeWhenItsContactsMerge) {
-  BallOnSurface ball(valley(0.35), 0.9, kSliding);
+TEST(SphereInAValley, StaysWithinCoulombsConeWhenItsContactsMerge) {
+  SphereOnSurface ball(valley(0.35), 0.9, kSliding);
   ball.put(Vec3(0.01, -0.1, 1.0005));
   for (int k = 0; k < 20; ++k) ball.move(Vec3(0, 0.02, 0));
   ball.move(Vec3(0, 0, -0.001));
@@ -160,7 +160,7 @@ TEST(Ball, StartsANewSpringWhereItTouchesElsewhere) {
   corner.facet(0, 3, 1);
   corner.facet(2, 4, 5);
   corner.facet(2, 5, 3);
-  BallOnSurface ball(corner, 0.9, kRough);
+  SphereOnSurface ball(corner, 0.9, kRough);
   ball.put(Vec3(0, 0, 0.99));
   double travelled = 0.0;
   while (ball.contacts().touching() == 1) {
@@ -179,7 +179,7 @@ TEST(Ball, StartsANewSpringWhereItTouchesElsewhere) {
 }
 
 TEST(Ball, LosesItsSpringWhenItLetsGo) {
-  BallOnSurface ball(centred(sheet(8), 8, 0.25), 0.9, kRough);
+  SphereOnSurface ball(centred(sheet(8), 8, 0.25), 0.9, kRough);
   ball.put(Vec3(0, 0, 0.99));
   ball.move(Vec3(0.1, 0, 0));
   const double energy = ball.contacts().elastic_energy();
@@ -200,8 +200,8 @@ TEST(Ball, FeelsTheSameWhateverTheOrderInWhichTheSurfaceWasCreated) {
     const double spacing = trial % 2 == 0 ? 0.4 : 0.1;
     const Complex complex =
         roughened(centred(sheet(16), 16, spacing), spacing, trial % 2 == 0 ? 0.05 : 0.01, random);
-    BallOnSurface first(complex, 0.9, kSliding);
-    BallOnSurface second(reordered(complex, random), 0.9, kSliding);
+    SphereOnSurface first(complex, 0.9, kSliding);
+    SphereOnSurface second(reordered(complex, random), 0.9, kSliding);
     const Vec3 start(-0.3, -0.3, 0.96);
     first.put(start);
     second.put(start);

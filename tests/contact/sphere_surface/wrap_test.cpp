@@ -74,7 +74,7 @@ Push push_of(const Complex& complex, const Vec3& centre = Vec3::Zero()) {
   return push;
 }
 
-TEST(BallInAHoop, IsPushedByEachBarUntilTheyHangTogetherAndNeverLessTheDeeperItIs) {
+TEST(SphereInAHoop, IsPushedByEachBarUntilTheyHangTogetherAndNeverLessTheDeeperItIs) {
   for (const int bars : {8, 20, 40}) {
     const double sagitta = 1.0 - std::cos(0.5 * std::numbers::pi / bars);
     const double outwards = std::cos(0.5 * std::numbers::pi / bars);  // of feet at their nodes
@@ -89,7 +89,7 @@ TEST(BallInAHoop, IsPushedByEachBarUntilTheyHangTogetherAndNeverLessTheDeeperItI
   }
 }
 
-TEST(BallInAHoop, IsPushedTheSameByFinerBarsOnceTheyHangTogether) {
+TEST(SphereInAHoop, IsPushedTheSameByFinerBarsOnceTheyHangTogether) {
   // What is asked of belts (S2): within 20 % once overlaps exceed the sagitta of the coarsest.
   constexpr int kCoarsest = 12;
   const double sagitta = 1.0 - std::cos(0.5 * std::numbers::pi / kCoarsest);
@@ -102,7 +102,7 @@ TEST(BallInAHoop, IsPushedTheSameByFinerBarsOnceTheyHangTogether) {
   }
 }
 
-TEST(BallInAHoop, IsPushedByWhatLevelsOfTheAdditiveRuleSay) {
+TEST(SphereInAHoop, IsPushedByWhatLevelsOfTheAdditiveRuleSay) {
   // At a level half a bar is seen from half the chord under an angle, and each node counts its two
   // angles over pi in the mean over the levels. 16 equal bars: 15 nodes, and the piece itself.
   constexpr int kBars = 16;
@@ -129,7 +129,7 @@ TEST(BallInAHoop, IsPushedByWhatLevelsOfTheAdditiveRuleSay) {
   EXPECT_NEAR(push_of(half_hoop(kBars, kOverlap)).energy, expected, 1e-5 * expected);
 }
 
-TEST(BallInANet, IsPushedByEveryNodeOutwards) {
+TEST(SphereInANet, IsPushedByEveryNodeOutwards) {
   for (const int meshes : {6, 10, 16}) {
     for (const double overlap : {0.003, 0.01, 0.03}) {
       const Push push = push_of(wrapped_net(meshes, overlap));
@@ -139,7 +139,7 @@ TEST(BallInANet, IsPushedByEveryNodeOutwards) {
   }
 }
 
-TEST(BallInANet, IsPushedHarderTheDeeperItIs) {
+TEST(SphereInANet, IsPushedHarderTheDeeperItIs) {
   for (const int meshes : {6, 12}) {
     double last = 0.0;
     for (double overlap = 0.001; overlap < 0.1; overlap *= 1.15) {
@@ -150,7 +150,7 @@ TEST(BallInANet, IsPushedHarderTheDeeperItIs) {
   }
 }
 
-TEST(BallOnAWire, FeelsNothingOfNodesWhereItIsStraightOrBendsAway) {
+TEST(SphereOnAWire, FeelsNothingOfNodesWhereItIsStraightOrBendsAway) {
   for (const double bend : {0.0, 0.01, 0.5}) {
     Complex wire;
     for (int i = -3; i <= 3; ++i) wire.node(Vec3(0.1 * i, 0.0, -0.1 * bend * std::abs(i)));
@@ -166,7 +166,7 @@ TEST(BallOnAWire, FeelsNothingOfNodesWhereItIsStraightOrBendsAway) {
   }
 }
 
-TEST(BallOnAKnot, RollsOverItWithoutABump) {
+TEST(SphereOnAKnot, RollsOverItWithoutABump) {
   Complex knot;
   const int middle = knot.node(Vec3::Zero());
   for (const Vec3& end :
@@ -181,7 +181,7 @@ TEST(BallOnAKnot, RollsOverItWithoutABump) {
   }
 }
 
-TEST(BallOnABend, FeelsForcesThatFollowWhereAWirePassesThroughStraight) {
+TEST(SphereOnABend, FeelsForcesThatFollowWhereAWirePassesThroughStraight) {
   // The node between two bars moves through their line, below the ball's middle and beside it.
   const auto forces = [](double x, double height) {
     Complex wire;

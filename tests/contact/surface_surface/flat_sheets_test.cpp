@@ -17,22 +17,24 @@ constexpr double kRange = 0.1;
 constexpr double kOverlap = 0.001;
 constexpr double kHeight = kRange - kOverlap;
 
-double largest_force_along_plane(const Meeting& meeting) {
+double largest_force_along_plane(const StructurePair& structure_pair) {
   double largest = 0.0;
-  for (const Vec3& force : meeting.forces()) largest = std::max(largest, force.head<2>().norm());
+  for (const Vec3& force : structure_pair.forces())
+    largest = std::max(largest, force.head<2>().norm());
   return largest;
 }
 
 TEST(FlatSheets, PushAtTheMiddleOfARegisteredSquareAtEveryAngle) {
   const Body b = sheet(8, 8, 0.4, 0.4);
   for (const double turn : {0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4}) {
-    Meeting meeting(sheet(20, 20, 1.0, 1.0), b, kRange);
-    meeting.place(moved(b, {0.0, 0.0, turn}, {0.0, 0.0, kHeight}));
-    EXPECT_NEAR(meeting.force_on_b().z() / kOverlap, 16.0, 1e-9) << turn;
-    const Vec3 moment = meeting.moment_on_b({0.0, 0.0, kHeight});
+    StructurePair structure_pair(sheet(20, 20, 1.0, 1.0), b, kRange);
+    structure_pair.place(moved(b, {0.0, 0.0, turn}, {0.0, 0.0, kHeight}));
+    EXPECT_NEAR(structure_pair.force_on_b().z() / kOverlap, 16.0, 1e-9) << turn;
+    const Vec3 moment = structure_pair.moment_on_b({0.0, 0.0, kHeight});
     // Edges that cross at 1e-12 do so at a place that rounding moves by 1e-4 of their length.
     const double part_of_side = turn == 1e-12 ? 1e-5 : 1e-6;
-    EXPECT_LT(moment.head<2>().norm(), part_of_side * 0.4 * meeting.force_on_b().norm()) << turn;
+    EXPECT_LT(moment.head<2>().norm(), part_of_side * 0.4 * structure_pair.force_on_b().norm())
+        << turn;
   }
 }
 
@@ -41,9 +43,10 @@ TEST(FlatSheets, HardlyPushNodesAlongThePlaneOfADish) {
     for (const double turn : {0.0, 1e-9, 1e-7, 1e-5}) {
       Body b = sheet(2, 2, 0.4, 0.4);
       for (Vec3& x : b.x) x.z() += slope * x.head<2>().norm();
-      Meeting meeting(sheet(2, 2, 0.4, 0.4), b, kRange);
-      meeting.place(moved(b, {0.0, 0.0, turn}, {0.0, 0.0, kHeight}));
-      EXPECT_LT(largest_force_along_plane(meeting), 1e-3 * meeting.force_on_b().norm())
+      StructurePair structure_pair(sheet(2, 2, 0.4, 0.4), b, kRange);
+      structure_pair.place(moved(b, {0.0, 0.0, turn}, {0.0, 0.0, kHeight}));
+      EXPECT_LT(largest_force_along_plane(structure_pair),
+                1e-3 * structure_pair.force_on_b().norm())
           << slope << ' ' << turn;
     }
   }
@@ -59,11 +62,11 @@ TEST(FlatSheets, PushNoHarderThanTheNormalForceWhereEdgesCoincide) {
     Body upper;
     upper.x = {{-d, -0.05, z}, {d, 0.05, z + 1e-5}, {-0.05, 0.01, z}, {0.05, -0.01, z}};
     upper.facets = {{0, 1, 2}, {0, 3, 1}};
-    Meeting meeting(lower, upper, 1e-2);
-    meeting.place(upper);
-    const double normal = meeting.force_on_b().z();
+    StructurePair structure_pair(lower, upper, 1e-2);
+    structure_pair.place(upper);
+    const double normal = structure_pair.force_on_b().z();
     EXPECT_GT(normal, 0.0);
-    for (const Vec3& force : meeting.forces()) {
+    for (const Vec3& force : structure_pair.forces()) {
       EXPECT_LT(force.norm(), normal) << d;
       EXPECT_LT(force.head<2>().norm(), 1e-2 * normal) << d;
     }
@@ -78,9 +81,9 @@ TEST(FlatSheets, PushANodeAlikeOnBothSidesOfFlat) {
   const auto force_at = [&](double height) {
     Body bent = moved(b, Vec3::Zero(), {0.0, 0.0, kHeight});
     bent.x[middle].z() += height;
-    Meeting meeting(a, b, kRange);
-    meeting.place(bent);
-    return meeting.forces()[meeting.first_node_of_b() + middle].z();
+    StructurePair structure_pair(a, b, kRange);
+    structure_pair.place(bent);
+    return structure_pair.forces()[structure_pair.first_node_of_b() + middle].z();
   };
   const double step = 1e-10;
   const double stiffness = 16.0;  // N/m, of the whole sheet: more than that of one node
@@ -104,7 +107,7 @@ TEST(FlatSheets, PushAgainstTheGradientOfTheirEnergyAlsoOntoTheirMirrorImage) {
     }
     b.facets = sheet(3, 3, 0.6, 0.6, Cut::alternating).facets;
     for (Vec3& x : b.x) x.z() = kHeight - x.z();
-    Meeting meeting(a, b, kRange);
+    StructurePair structure_pair(a, b, kRange);
     for (int trial = 0; trial < 10; ++trial) {
       std::vector<Vec3> direction;
       for (std::size_t i = 0; i < b.x.size(); ++i)
@@ -112,8 +115,8 @@ TEST(FlatSheets, PushAgainstTheGradientOfTheirEnergyAlsoOntoTheirMirrorImage) {
       const auto energy_at = [&](double step) {
         Body shifted = b;
         for (std::size_t i = 0; i < b.x.size(); ++i) shifted.x[i] += step * direction[i];
-        meeting.place(shifted);
-        return meeting.energy();
+        structure_pair.place(shifted);
+        return structure_pair.energy();
       };
       // Central differences; the third derivative is that of shares, k / overlap.
       constexpr double kStep = 1e-9;
@@ -121,7 +124,7 @@ TEST(FlatSheets, PushAgainstTheGradientOfTheirEnergyAlsoOntoTheirMirrorImage) {
       energy_at(0.0);
       double power = 0.0, scale = 0.0;
       for (std::size_t i = 0; i < b.x.size(); ++i) {
-        const Vec3& force = meeting.forces()[meeting.first_node_of_b() + i];
+        const Vec3& force = structure_pair.forces()[structure_pair.first_node_of_b() + i];
         power += force.dot(direction[i]);
         scale += force.norm() * direction[i].norm();
       }
@@ -148,17 +151,17 @@ TEST(FlatSheets, ChangeTheirForcesInProportionToTheStep) {
                              random.uniform(-1, 1));
     double last = 0.0;
     for (const double step : {1e-6, 1e-7, 1e-8}) {
-      Meeting meeting(a, b, kRange);
+      StructurePair structure_pair(a, b, kRange);
       double largest = 0.0;
       std::vector<Vec3> before;
       for (int i = -20; i <= 20; ++i) {
         Body placed = moved(b, Vec3::Zero(), {0.0, 0.0, kHeight});
         for (std::size_t n = 0; n < b.x.size(); ++n)
           placed.x[n] += (i - 0.37) * step * direction[n];
-        meeting.place(placed);
+        structure_pair.place(placed);
         for (std::size_t n = 0; n < before.size(); ++n)
-          largest = std::max(largest, (meeting.forces()[n] - before[n]).norm());
-        before = meeting.forces();
+          largest = std::max(largest, (structure_pair.forces()[n] - before[n]).norm());
+        before = structure_pair.forces();
       }
       if (last > 0.0) {
         EXPECT_LT(largest, std::max(0.15 * last, kFoldChange)) << bump << ' ' << step;

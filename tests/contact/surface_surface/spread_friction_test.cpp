@@ -52,18 +52,19 @@ struct Turned {
 /// A disc that lies flat on a sheet and is turned about an axis until all of it slips.
 Turned turn(double off_centre) {
   const Body b = disc(6, kRadius);
-  MeetingUnder<contact::LinearFrictional> meeting(sheet(5, 5, 1.4, 1.4, Cut::alternating, 3), b,
-                                                  kRange, {}, 1.0, kFriction);
+  StructurePairUnder<contact::LinearFrictional> structure_pair(
+      sheet(5, 5, 1.4, 1.4, Cut::alternating, 3), b, kRange, {}, 1.0, kFriction);
   const Vec3 axis(off_centre, 0.0, 0.0);
   const Vec3 lift(0.03, 0.02, kRange - kOverlap);
   const auto turned = [&](double angle) {
     Body placed = moved(b, Vec3::Zero(), -axis);
     return moved(placed, {0.0, 0.0, angle}, axis + lift);
   };
-  meeting.place(turned(0.0));
+  structure_pair.place(turned(0.0));
   // A spring slips after friction * overlap: everything but the axis itself is far beyond that.
-  for (int i = 1; i <= 200; ++i) meeting.slide(turned(1e-3 * i));
-  return {meeting.force_on_b().z(), meeting.force_on_b(), meeting.moment_on_b(axis + lift).z()};
+  for (int i = 1; i <= 200; ++i) structure_pair.slide(turned(1e-3 * i));
+  return {structure_pair.force_on_b().z(), structure_pair.force_on_b(),
+          structure_pair.moment_on_b(axis + lift).z()};
 }
 
 // Two thirds of the radius is the mean arm of a disc: torque 2/3 mu N R.
@@ -92,20 +93,20 @@ TEST(SpreadFriction, ResistsTheTurnOfADiscAboutAnAxisBesideItsCentre) {
 // Half of what would move it: nothing slips, and what is put in comes back.
 TEST(SpreadFriction, GivesBackWhatIsPutInBelowItsLimit) {
   const Body b = sheet(4, 4, 0.4, 0.4);
-  MeetingUnder<contact::LinearFrictional> meeting(sheet(5, 5, 1.4, 1.4, Cut::alternating, 3), b,
-                                                  kRange, {}, 1.0, kFriction);
+  StructurePairUnder<contact::LinearFrictional> structure_pair(
+      sheet(5, 5, 1.4, 1.4, Cut::alternating, 3), b, kRange, {}, 1.0, kFriction);
   const auto at = [&](double x) {
     return moved(b, {0.0, 0.0, 0.1}, {0.03 + x, 0.02, kRange - kOverlap});
   };
-  meeting.place(at(0.0));
-  const double energy = meeting.energy();
+  structure_pair.place(at(0.0));
+  const double energy = structure_pair.energy();
   const double contacts = 0.4 * 0.4 / (kRange * kRange);
   const double way = 0.5 * kFriction * kOverlap;
-  for (int i = 1; i <= 10; ++i) meeting.slide(at(0.1 * i * way));
-  EXPECT_NEAR(meeting.force_on_b().x(), -contacts * way, 1e-3 * contacts * way);
-  for (int i = 9; i >= 0; --i) meeting.slide(at(0.1 * i * way));
-  EXPECT_NEAR(meeting.energy(), energy, 1e-6 * energy);
-  EXPECT_LT(std::abs(meeting.force_on_b().x()), 1e-3 * contacts * way);
+  for (int i = 1; i <= 10; ++i) structure_pair.slide(at(0.1 * i * way));
+  EXPECT_NEAR(structure_pair.force_on_b().x(), -contacts * way, 1e-3 * contacts * way);
+  for (int i = 9; i >= 0; --i) structure_pair.slide(at(0.1 * i * way));
+  EXPECT_NEAR(structure_pair.energy(), energy, 1e-6 * energy);
+  EXPECT_LT(std::abs(structure_pair.force_on_b().x()), 1e-3 * contacts * way);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace plekton::test {
 namespace {
 
 using contact::DmtAdhesion;
-using Meeting = MeetingUnder<DmtAdhesion>;
+using StructurePair = StructurePairUnder<DmtAdhesion>;
 
 constexpr double kRange = 0.1;
 constexpr double kOverlap = 0.006;
@@ -35,7 +35,7 @@ TEST(StructureAttraction, IsOnePerContactOfASquareThatLiesFlat) {
   const double contacts = side * side / (kRange * kRange);
   const Body a = sheet(3, 3, 2.0, 2.0, Cut::alternating);
   const Body b = sheet(2, 2, side, side);
-  Meeting with(a, b, kRange, {kWork}), without(a, b, kRange, {0.0});
+  StructurePair with(a, b, kRange, {kWork}), without(a, b, kRange, {0.0});
 
   with.place(laid(b, {0, 0, 0.3}, {0.11, 0.07, 0}));
   without.place(laid(b, {0, 0, 0.3}, {0.11, 0.07, 0}));
@@ -59,12 +59,12 @@ TEST(StructureAttraction, PushesAgainstTheGradientOfItsEnergy) {
     std::vector<Vec3> direction;
     for (std::size_t i = 0; i < b.x.size(); ++i)
       direction.emplace_back(u(random), u(random), u(random));
-    Meeting meeting(a, b, kRange, {kWork});
+    StructurePair structure_pair(a, b, kRange, {kWork});
     const auto energy_at = [&](double step) {
       Body shifted = b;
       for (std::size_t i = 0; i < b.x.size(); ++i) shifted.x[i] += step * direction[i];
-      meeting.place(shifted);
-      return meeting.energy();
+      structure_pair.place(shifted);
+      return structure_pair.energy();
     };
     // A straight chain is where a wrap sets in (contact/sphere_surface/wrap.hpp): with the square of the bend on
     // one side only, which differences see as a slope in proportion to the step.
@@ -73,7 +73,7 @@ TEST(StructureAttraction, PushesAgainstTheGradientOfItsEnergy) {
     energy_at(0.0);
     double power = 0.0, scale = 0.0;
     for (std::size_t i = 0; i < b.x.size(); ++i) {
-      const Vec3& force = meeting.forces()[meeting.first_node_of_b() + i];
+      const Vec3& force = structure_pair.forces()[structure_pair.first_node_of_b() + i];
       power += force.dot(direction[i]);
       scale += force.norm() * direction[i].norm();
     }

@@ -15,7 +15,7 @@ namespace plekton::test {
 namespace {
 
 using contact::CohesiveFrictional;
-using Meeting = MeetingUnder<CohesiveFrictional>;
+using StructurePair = StructurePairUnder<CohesiveFrictional>;
 
 constexpr double kRange = 0.1;
 constexpr double kOverlap = 0.005;
@@ -76,22 +76,24 @@ Body lifted(const Lying& lying, double gap) {
 TEST(StructureBonds, PullWithTheContactsThatWereGluedUntilTheirStrength) {
   for (const Lying& lying : bodies_that_lie_on_each_other()) {
     SCOPED_TRACE(lying.name);
-    Meeting meeting(lying.a, lying.b, kRange, kFragile);
-    meeting.place(lifted(lying, -kOverlap));
+    StructurePair structure_pair(lying.a, lying.b, kRange, kFragile);
+    structure_pair.place(lifted(lying, -kOverlap));
     const double limit = lying.contacts * kLimit;
-    EXPECT_NEAR(meeting.force_on_b().z(), lying.contacts * kOverlap, kRounding * limit);
+    EXPECT_NEAR(structure_pair.force_on_b().z(), lying.contacts * kOverlap, kRounding * limit);
     for (const double part : {0.0, 0.3, 0.9999, 0.2, 0.9999}) {
-      meeting.place(lifted(lying, part * kLimit));
-      EXPECT_NEAR(meeting.force_on_b().z(), -part * limit, kRounding * limit) << part;
-      EXPECT_LT((meeting.force_on_a() + meeting.force_on_b()).norm(), 1e-15 * lying.contacts);
-      EXPECT_NEAR(meeting.energy(), 0.5 * part * part * kLimit * limit, kRounding * kLimit * limit);
+      structure_pair.place(lifted(lying, part * kLimit));
+      EXPECT_NEAR(structure_pair.force_on_b().z(), -part * limit, kRounding * limit) << part;
+      EXPECT_LT((structure_pair.force_on_a() + structure_pair.force_on_b()).norm(),
+                1e-15 * lying.contacts);
+      EXPECT_NEAR(structure_pair.energy(), 0.5 * part * part * kLimit * limit,
+                  kRounding * kLimit * limit);
     }
-    meeting.place(lifted(lying, 1.0001 * kLimit));
-    EXPECT_EQ(meeting.force_on_b().norm(), 0.0);
-    EXPECT_EQ(meeting.energy(), 0.0);
-    meeting.place(lifted(lying, 0.5 * kLimit));
-    EXPECT_EQ(meeting.force_on_b().norm(), 0.0);
-    EXPECT_EQ(meeting.patches(), 0u);
+    structure_pair.place(lifted(lying, 1.0001 * kLimit));
+    EXPECT_EQ(structure_pair.force_on_b().norm(), 0.0);
+    EXPECT_EQ(structure_pair.energy(), 0.0);
+    structure_pair.place(lifted(lying, 0.5 * kLimit));
+    EXPECT_EQ(structure_pair.force_on_b().norm(), 0.0);
+    EXPECT_EQ(structure_pair.patches(), 0u);
   }
 }
 
@@ -105,14 +107,14 @@ TEST(StructureBonds, ShearWithTheContactsThatWereGluedUntilTheirStrength) {
       // Chains that lie along each other would roll off sideways.
       const bool is_along = lying.turns.isZero();
       const Vec3 way = is_along ? Vec3::UnitX() : Vec3(std::cos(0.7), std::sin(0.7), 0.0);
-      Meeting meeting(lying.a, lying.b, kRange, {kStrength, 0.1 * kStrength, rupture_distance},
-                      kRatio);
-      meeting.place(lifted(lying, -kOverlap));
+      StructurePair structure_pair(lying.a, lying.b, kRange,
+                                   {kStrength, 0.1 * kStrength, rupture_distance}, kRatio);
+      structure_pair.place(lifted(lying, -kOverlap));
       double slid = 0.0;
       const auto slide_by = [&](double far) {
         slid += far;
-        meeting.slide(moved(lifted(lying, -kOverlap), Vec3::Zero(), slid * way));
-        return Vec3(meeting.force_on_b() / lying.contacts);
+        structure_pair.slide(moved(lifted(lying, -kOverlap), Vec3::Zero(), slid * way));
+        return Vec3(structure_pair.force_on_b() / lying.contacts);
       };
       for (const double far : {0.5 * kShear / kRatio, 0.4999 * kShear / kRatio}) {
         const Vec3 force = slide_by(far);
@@ -132,12 +134,12 @@ TEST(StructureBonds, YieldByTheRuptureDistance) {
   const CohesiveFrictional::Properties ductile{kStrength, 0.0, 0.5 * kLimit};
   for (const Lying& lying : bodies_that_lie_on_each_other()) {
     SCOPED_TRACE(lying.name);
-    Meeting meeting(lying.a, lying.b, kRange, ductile);
+    StructurePair structure_pair(lying.a, lying.b, kRange, ductile);
     const double limit = lying.contacts * kLimit;
-    meeting.place(lifted(lying, -kOverlap));
+    structure_pair.place(lifted(lying, -kOverlap));
     const auto force_at = [&](double gap) {
-      meeting.place(lifted(lying, gap * kLimit));
-      return meeting.force_on_b().z() / limit;
+      structure_pair.place(lifted(lying, gap * kLimit));
+      return structure_pair.force_on_b().z() / limit;
     };
     EXPECT_NEAR(force_at(0.5), -0.5, kRounding);
     EXPECT_NEAR(force_at(1.4), -1.0, kRounding);  // has yielded by 0.4
@@ -150,18 +152,18 @@ TEST(StructureBonds, YieldByTheRuptureDistance) {
 
 TEST(StructureBonds, DoNotHoldWhatHasNotTouched) {
   for (const Lying& lying : bodies_that_lie_on_each_other()) {
-    Meeting meeting(lying.a, lying.b, kRange, kFragile);
-    meeting.place(lifted(lying, 0.5 * kLimit));
-    EXPECT_EQ(meeting.force_on_b().norm(), 0.0) << lying.name;
+    StructurePair structure_pair(lying.a, lying.b, kRange, kFragile);
+    structure_pair.place(lifted(lying, 0.5 * kLimit));
+    EXPECT_EQ(structure_pair.force_on_b().norm(), 0.0) << lying.name;
   }
 }
 
 TEST(StructureBonds, AreFormedAnewWhereBodiesHaveParted) {
   for (const Lying& lying : bodies_that_lie_on_each_other()) {
-    Meeting meeting(lying.a, lying.b, kRange, kFragile);
+    StructurePair structure_pair(lying.a, lying.b, kRange, kFragile);
     for (const double gap : {-kOverlap, 2.0 * kLimit, -kOverlap, 0.5 * kLimit})
-      meeting.place(lifted(lying, gap));
-    EXPECT_NEAR(meeting.force_on_b().z(), -0.5 * kLimit * lying.contacts,
+      structure_pair.place(lifted(lying, gap));
+    EXPECT_NEAR(structure_pair.force_on_b().z(), -0.5 * kLimit * lying.contacts,
                 kRounding * kLimit * lying.contacts)
         << lying.name;
   }
@@ -196,12 +198,12 @@ TEST(StructureBonds, AreNotMoreWhereContactsSlideOverJointsAndFacets) {
        length * length / (kRange * kRange)}};
   for (const Lying& lying : all) {
     SCOPED_TRACE(lying.name);
-    Meeting meeting(lying.a, lying.b, kRange, strong);
+    StructurePair structure_pair(lying.a, lying.b, kRange, strong);
     const auto force_at = [&](double sideways, double gap) {
       Body b = lifted(lying, gap);
       for (Vec3& x : b.x) x.x() += sideways;
-      meeting.place(b);
-      return meeting.force_on_b().z();
+      structure_pair.place(b);
+      return structure_pair.force_on_b().z();
     };
     const double tolerance = 1e-6 * lying.contacts * kLimit;
     const double pressed = force_at(0.0, -kOverlap);
@@ -218,8 +220,8 @@ TEST(StructureBonds, PullAgainstTheGradientOfTheirEnergy) {
   Random random(7);
   for (const Lying& lying : bodies_that_lie_on_each_other()) {
     SCOPED_TRACE(lying.name);
-    Meeting meeting(lying.a, lying.b, kRange, {10.0 * kStrength, 0.0, 0.0});
-    meeting.place(lifted(lying, -kOverlap));
+    StructurePair structure_pair(lying.a, lying.b, kRange, {10.0 * kStrength, 0.0, 0.0});
+    structure_pair.place(lifted(lying, -kOverlap));
     Body off = lifted(lying, 0.5 * kLimit);
     for (Vec3& x : off.x) x.z() += 0.01 * (x.x() + 0.6) + 1e-4 * random.uniform(-1.0, 1.0);
     std::vector<Vec3> direction;
@@ -227,15 +229,15 @@ TEST(StructureBonds, PullAgainstTheGradientOfTheirEnergy) {
     const auto energy_at = [&](double step) {
       Body moved = off;
       for (std::size_t i = 0; i < off.x.size(); ++i) moved.x[i] += step * direction[i];
-      meeting.place(moved);
-      return meeting.energy();
+      structure_pair.place(moved);
+      return structure_pair.energy();
     };
     constexpr double kStep = 1e-7;
     const double change = (energy_at(kStep) - energy_at(-kStep)) / (2.0 * kStep);
     energy_at(0.0);
     double power = 0.0, scale = 0.0;
     for (std::size_t i = 0; i < off.x.size(); ++i) {
-      const Vec3& force = meeting.forces()[meeting.first_node_of_b() + i];
+      const Vec3& force = structure_pair.forces()[structure_pair.first_node_of_b() + i];
       power += force.dot(direction[i]);
       scale += force.norm() * direction[i].norm();
     }
@@ -243,8 +245,8 @@ TEST(StructureBonds, PullAgainstTheGradientOfTheirEnergy) {
     EXPECT_NEAR(power, -change, 1e-6 * scale);
     const Vec3 about = Vec3::Zero();
     Vec3 moment = Vec3::Zero();
-    for (std::size_t i = 0; i < meeting.positions().size(); ++i)
-      moment += (meeting.positions()[i] - about).cross(meeting.forces()[i]);
+    for (std::size_t i = 0; i < structure_pair.positions().size(); ++i)
+      moment += (structure_pair.positions()[i] - about).cross(structure_pair.forces()[i]);
     EXPECT_LT(moment.norm(), 1e-14 * scale);
   }
 }
@@ -253,8 +255,8 @@ TEST(StructureBonds, PullAgainstTheGradientOfTheirEnergy) {
 // only little by little.
 TEST(StructureBonds, OfAPlateThatPeelsOffBreakOneAfterTheOther) {
   const Lying lying = bodies_that_lie_on_each_other()[2];
-  Meeting meeting(lying.a, lying.b, kRange, kFragile);
-  meeting.place(lifted(lying, -kOverlap));
+  StructurePair structure_pair(lying.a, lying.b, kRange, kFragile);
+  structure_pair.place(lifted(lying, -kOverlap));
   const auto peeled = [&](double slope) {
     Body b = lifted(lying, -kOverlap);
     for (Vec3& x : b.x) x.z() += slope * (x.x() + 0.6);
@@ -262,12 +264,12 @@ TEST(StructureBonds, OfAPlateThatPeelsOffBreakOneAfterTheOther) {
   };
   std::vector<double> energies;
   for (double slope = 0.0; slope < 0.1; slope += 2e-4) {
-    meeting.place(peeled(slope));
-    energies.push_back(meeting.energy());
-    EXPECT_GT(meeting.force_on_b().z(), -0.5 * lying.contacts * kLimit);
+    structure_pair.place(peeled(slope));
+    energies.push_back(structure_pair.energy());
+    EXPECT_GT(structure_pair.force_on_b().z(), -0.5 * lying.contacts * kLimit);
   }
-  EXPECT_EQ(meeting.force_on_b().norm(), 0.0);
-  EXPECT_EQ(meeting.energy(), 0.0);
+  EXPECT_EQ(structure_pair.force_on_b().norm(), 0.0);
+  EXPECT_EQ(structure_pair.energy(), 0.0);
 }
 
 /// A strip that is folded over: its upper half lies on the lower one at a gap (m), 0.3 m beside the
@@ -292,10 +294,9 @@ std::array<double, 2> forces_of_folded(const CohesiveFrictional::Properties& pro
   geometry::ThreadPool pool;
   geometry::CellNeighbours neighbours(surface, strip.x, 0.0, true);
   contact::StructureContacts contacts(surface);
-  const contact::MaterialPairs materials(
-      {contact::Material{2.0 / kRange, 0.0, 0.0}},
-      {{{contact::MaterialId{0}, contact::MaterialId{0}},
-        contact::AnyLaw::of<CohesiveFrictional>(properties)}});
+  const contact::MaterialPairs materials({contact::Material{2.0 / kRange, 0.0, 0.0}},
+                                         {{{contact::MaterialId{0}, contact::MaterialId{0}},
+                                           contact::AnyLaw::of<CohesiveFrictional>(properties)}});
   const std::vector<Vec3> still(strip.x.size(), Vec3::Zero());
   NodeForces forces;
   for (const double now : {-kOverlap, gap}) {

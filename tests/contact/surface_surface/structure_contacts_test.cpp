@@ -29,18 +29,18 @@ struct Pose {
 };
 using Path = std::function<Pose(double)>;
 
-Resultant at(Meeting& meeting, const Body& b, const Pose& pose) {
-  meeting.place(moved(b, pose.turns, pose.shift));
-  return {meeting.force_on_b(), meeting.moment_on_b(pose.shift)};
+Resultant at(StructurePair& structure_pair, const Body& b, const Pose& pose) {
+  structure_pair.place(moved(b, pose.turns, pose.shift));
+  return {structure_pair.force_on_b(), structure_pair.moment_on_b(pose.shift)};
 }
 
 /// Largest change of force and moment in a step, over the largest force.
 Resultant largest_change(const Body& a, const Body& b, const Path& path, int steps) {
-  Meeting meeting(a, b, kRange);
-  Resultant before = at(meeting, b, path(0.0));
+  StructurePair structure_pair(a, b, kRange);
+  Resultant before = at(structure_pair, b, path(0.0));
   double force = 0.0, moment = 0.0, largest = before.force.norm();
   for (int i = 1; i <= steps; ++i) {
-    const Resultant now = at(meeting, b, path(static_cast<double>(i) / steps));
+    const Resultant now = at(structure_pair, b, path(static_cast<double>(i) / steps));
     force = std::max(force, (now.force - before.force).norm());
     moment = std::max(moment, (now.moment - before.moment).norm());
     largest = std::max(largest, now.force.norm());
@@ -71,13 +71,13 @@ TEST(StructureContacts, PressFlatSquaresAlikeInAnyTriangulation) {
     const Body a = sheet(cells_a, cells_a, 2.0, 2.0, Cut::alternating);
     for (const int cells_b : {1, 2, 4, 8}) {
       const Body b = sheet(cells_b, cells_b, side, side, Cut::one_way, 3);
-      Meeting meeting(a, b, kRange);
-      const Resultant found = at(meeting, b, pose);
+      StructurePair structure_pair(a, b, kRange);
+      const Resultant found = at(structure_pair, b, pose);
       const double force = contacts * kOverlap;
       EXPECT_NEAR(found.force.z(), force, 1e-6 * force) << cells_a << ' ' << cells_b;
       EXPECT_LT(found.force.head<2>().norm(), 1e-6 * force) << cells_a << ' ' << cells_b;
       EXPECT_LT(found.moment.norm(), 1e-6 * force * side) << cells_a << ' ' << cells_b;
-      EXPECT_EQ(meeting.patches(), 1u);
+      EXPECT_EQ(structure_pair.patches(), 1u);
     }
   }
 }
@@ -94,12 +94,12 @@ TEST(StructureContacts, CountSquaresOnceWhoseMeshesFallTogether) {
         Case{10, 11, 10, 0.02}, Case{10, 1, 10, 0.02}, Case{10, 2, 10, 0.02}}) {
     const Body b = sheet(columns_b, rows_b, 0.4, 0.4);
     for (const double turn : {0.0, 1e-14, 1e-10, 1e-8, 1e-6, 1e-5}) {
-      Meeting meeting(sheet(cells_a, cells_a, 1.0, 1.0), b, kRange);
-      const Resultant found = at(meeting, b, {{0.0, 0.0, turn}, {0.0, shift, kHeight}});
-      EXPECT_NEAR(meeting.energy() / (0.5 * kOverlap * kOverlap), 16.0, 1e-6) << cells_a;
+      StructurePair structure_pair(sheet(cells_a, cells_a, 1.0, 1.0), b, kRange);
+      const Resultant found = at(structure_pair, b, {{0.0, 0.0, turn}, {0.0, shift, kHeight}});
+      EXPECT_NEAR(structure_pair.energy() / (0.5 * kOverlap * kOverlap), 16.0, 1e-6) << cells_a;
       EXPECT_NEAR(found.force.z() / kOverlap, 16.0, 1e-6) << cells_a << ' ' << turn;
-      for (const Vec3& force : meeting.forces()) EXPECT_LT(force.norm(), 16.0 * kOverlap);
-      EXPECT_EQ(meeting.patches(), 1u);
+      for (const Vec3& force : structure_pair.forces()) EXPECT_LT(force.norm(), 16.0 * kOverlap);
+      EXPECT_EQ(structure_pair.patches(), 1u);
     }
   }
 }
@@ -108,8 +108,8 @@ TEST(StructureContacts, PressInProportionToTheAreaOfContact) {
   const Body a = sheet(3, 3, 2.0, 2.0, Cut::alternating, 5);
   const auto extent = [&](double width) {
     const Body b = sheet(2, 3, width, 0.6, Cut::one_way, 4);
-    Meeting meeting(a, b, kRange);
-    return at(meeting, b, {{0.0, 0.0, 0.2}, {0.05, 0.0, kHeight}}).force.z() / kOverlap;
+    StructurePair structure_pair(a, b, kRange);
+    return at(structure_pair, b, {{0.0, 0.0, 0.2}, {0.05, 0.0, kHeight}}).force.z() / kOverlap;
   };
   EXPECT_NEAR(extent(0.8) / extent(0.2), 4.0, 1e-6);
 }
@@ -118,9 +118,9 @@ TEST(StructureContacts, DoNotJumpToAnEndWhenTilted) {
   const Body a = sheet(3, 3, 2.0, 2.0, Cut::alternating, 5);
   for (const Body& b : {sheet(2, 2, 0.8, 0.8, Cut::one_way, 3), sheet(1, 1, 0.05, 0.05),
                         chain(3, 0.9), chain(1, 0.05)}) {
-    Meeting meeting(a, b, kRange);
+    StructurePair structure_pair(a, b, kRange);
     const double reach = 0.5 * (b.x.back() - b.x.front()).norm();
-    const Resultant tilted = at(meeting, b, {{1e-9, 1e-9, 0.3}, {0.05, 0.02, kHeight}});
+    const Resultant tilted = at(structure_pair, b, {{1e-9, 1e-9, 0.3}, {0.05, 0.02, kHeight}});
     // A level body is pushed at its centre; this tilt is a millionth of what a single corner takes.
     EXPECT_LT(tilted.moment.norm(), 1e-4 * reach * tilted.force.norm());
   }
@@ -179,8 +179,9 @@ TEST(StructureContacts, AreStifferInProportionToTheLengthOfContact) {
   const Body a = chain(4, 4.0);
   for (const double length : {0.3, 0.9, 2.7}) {
     const Body b = chain(3, length);
-    Meeting meeting(a, b, kRange);
-    const double contacts = at(meeting, b, {{0, 0, 0}, {0.03, 0, kHeight}}).force.z() / kOverlap;
+    StructurePair structure_pair(a, b, kRange);
+    const double contacts =
+        at(structure_pair, b, {{0, 0, 0}, {0.03, 0, kHeight}}).force.z() / kOverlap;
     // The length with both round ends, in diameters.
     EXPECT_NEAR(contacts, (length + kRange) / kRange, 1e-9 * contacts);
   }
@@ -191,8 +192,8 @@ TEST(StructureContacts, CountCrossedCylindersOnceAlsoAtJoints) {
   const Body b = chain(3, 0.9);
   for (int i = 0; i <= 400; ++i) {
     const double x = -0.3 + 0.6 * i / 400;
-    Meeting meeting(a, b, kRange);
-    const Resultant found = at(meeting, b, {{0, 0, 1.2}, {x, 0.01, kHeight}});
+    StructurePair structure_pair(a, b, kRange);
+    const Resultant found = at(structure_pair, b, {{0, 0, 1.2}, {x, 0.01, kHeight}});
     EXPECT_NEAR(found.force.z(), kOverlap, 1e-12 * kRange) << x;
     EXPECT_LT(found.force.head<2>().norm(), 1e-12 * kRange) << x;
   }
@@ -201,10 +202,11 @@ TEST(StructureContacts, CountCrossedCylindersOnceAlsoAtJoints) {
 TEST(StructureContacts, CarryALoweredSheetOnAllItsNodes) {
   const Body table = sheet(2, 2, 3.0, 3.0);
   const Body cloth = sheet(6, 6, 1.2, 1.2, Cut::alternating);
-  Meeting meeting(table, cloth, kRange);
-  meeting.place(moved(cloth, {0, 0, 0.2}, {0.1, 0.05, kHeight}));
-  for (std::size_t i = meeting.first_node_of_b(); i < meeting.positions().size(); ++i) {
-    EXPECT_GT(meeting.forces()[i].z(), 0.0) << "node " << i;
+  StructurePair structure_pair(table, cloth, kRange);
+  structure_pair.place(moved(cloth, {0, 0, 0.2}, {0.1, 0.05, kHeight}));
+  for (std::size_t i = structure_pair.first_node_of_b(); i < structure_pair.positions().size();
+       ++i) {
+    EXPECT_GT(structure_pair.forces()[i].z(), 0.0) << "node " << i;
   }
 }
 
@@ -213,8 +215,8 @@ TEST(StructureContacts, CountACylinderAlongASeamOnce) {
   const Body b = chain(3, 0.9);
   const double contacts = (0.9 + kRange) / kRange;
   for (const double y : {-1e-3, -1e-12, -1e-17, 0.0, 1e-17, 1e-12, 1e-3}) {
-    Meeting meeting(a, b, kRange);
-    const Resultant found = at(meeting, b, {{0, 0, 0}, {0.05, y, kHeight}});
+    StructurePair structure_pair(a, b, kRange);
+    const Resultant found = at(structure_pair, b, {{0, 0, 0}, {0.05, y, kHeight}});
     EXPECT_NEAR(found.force.z() / kOverlap, contacts, 1e-6 * contacts) << y;
   }
 }
@@ -227,11 +229,11 @@ TEST(StructureContacts, CountABarAcrossARidgeOnceWhicheverSideMostOfItIsOn) {
     Body bar;
     bar.x = {{0.1, -1.5, kRange - overlap}, {0.1, 0.3, kRange - overlap}};
     bar.cylinders = {{0, 1}};
-    Meeting meeting(ridge, bar, kRange);
-    meeting.place(bar);
+    StructurePair structure_pair(ridge, bar, kRange);
+    structure_pair.place(bar);
     // In range is what is nearer to the ridge than overlap / 0.2 on either side: 0.1 of a range.
-    EXPECT_GT(meeting.energy(), (1.0 - 1e-9) * 0.5 * overlap * overlap) << overlap;
-    EXPECT_LT(meeting.energy(), 1.1 * 0.5 * overlap * overlap) << overlap;
+    EXPECT_GT(structure_pair.energy(), (1.0 - 1e-9) * 0.5 * overlap * overlap) << overlap;
+    EXPECT_LT(structure_pair.energy(), 1.1 * 0.5 * overlap * overlap) << overlap;
   }
 }
 
@@ -244,10 +246,10 @@ TEST(StructureContacts, AnswerCoresThatMeetWithFiniteForces) {
     for (const Body& b :
          {sheet(2, 2, 1.0, 1.0), sheet(1, 1, 0.4, 0.4), chain(3, 1.2), chain(2, 1)}) {
       for (const Pose& pose : poses) {
-        Meeting meeting(a, b, kRange);
-        at(meeting, b, pose);
-        EXPECT_TRUE(std::isfinite(meeting.energy()));
-        for (const Vec3& force : meeting.forces()) EXPECT_TRUE(force.allFinite());
+        StructurePair structure_pair(a, b, kRange);
+        at(structure_pair, b, pose);
+        EXPECT_TRUE(std::isfinite(structure_pair.energy()));
+        for (const Vec3& force : structure_pair.forces()) EXPECT_TRUE(force.allFinite());
       }
     }
   }
@@ -255,7 +257,7 @@ TEST(StructureContacts, AnswerCoresThatMeetWithFiniteForces) {
 
 /// Random poses of random bodies, from parallel to steep, whose cores do not meet.
 template <class Visit>
-void for_each_random_meeting(int count, Visit visit) {
+void for_each_random_structure_pair(int count, Visit visit) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (int k = 0; k < count; ++k) {
@@ -275,16 +277,16 @@ void for_each_random_meeting(int count, Visit visit) {
 }
 
 TEST(StructureContacts, BalanceForcesAndMoments) {
-  for_each_random_meeting(60, [](const Body& a, const Body& b, int k) {
-    Meeting meeting(a, b, kRange);
-    meeting.place(b);
+  for_each_random_structure_pair(60, [](const Body& a, const Body& b, int k) {
+    StructurePair structure_pair(a, b, kRange);
+    structure_pair.place(b);
     Vec3 force = Vec3::Zero();
     Vec3 moment = Vec3::Zero();
     double scale = 0.0;
-    for (std::size_t i = 0; i < meeting.positions().size(); ++i) {
-      force += meeting.forces()[i];
-      moment += meeting.positions()[i].cross(meeting.forces()[i]);
-      scale += meeting.forces()[i].norm();
+    for (std::size_t i = 0; i < structure_pair.positions().size(); ++i) {
+      force += structure_pair.forces()[i];
+      moment += structure_pair.positions()[i].cross(structure_pair.forces()[i]);
+      scale += structure_pair.forces()[i].norm();
     }
     EXPECT_LE(force.norm(), 1e-12 * scale) << k;
     EXPECT_LE(moment.norm(), 1e-12 * scale) << k;
@@ -294,16 +296,16 @@ TEST(StructureContacts, BalanceForcesAndMoments) {
 TEST(StructureContacts, PushAgainstTheGradientOfTheirEnergy) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
-  for_each_random_meeting(60, [&](const Body& a, const Body& b, int k) {
-    Meeting meeting(a, b, kRange);
+  for_each_random_structure_pair(60, [&](const Body& a, const Body& b, int k) {
+    StructurePair structure_pair(a, b, kRange);
     std::vector<Vec3> direction;
     for (std::size_t i = 0; i < b.x.size(); ++i)
       direction.emplace_back(normal(random), normal(random), normal(random));
     const auto energy_at = [&](double step) {
       Body shifted = b;
       for (std::size_t i = 0; i < b.x.size(); ++i) shifted.x[i] += step * direction[i];
-      meeting.place(shifted);
-      return meeting.energy();
+      structure_pair.place(shifted);
+      return structure_pair.energy();
     };
     // Central differences: error of order h^2 times the third derivative, about (k / largest tilt)
     // / (largest tilt * size)^2 where bodies are nearly parallel.
@@ -312,7 +314,7 @@ TEST(StructureContacts, PushAgainstTheGradientOfTheirEnergy) {
     energy_at(0.0);
     double power = 0.0, scale = 0.0;
     for (std::size_t i = 0; i < b.x.size(); ++i) {
-      const Vec3& force = meeting.forces()[meeting.first_node_of_b() + i];
+      const Vec3& force = structure_pair.forces()[structure_pair.first_node_of_b() + i];
       power += force.dot(direction[i]);
       scale += force.norm() * direction[i].norm();
     }
@@ -323,7 +325,7 @@ TEST(StructureContacts, PushAgainstTheGradientOfTheirEnergy) {
 TEST(StructureContacts, GainNoEnergyInAClosedCycle) {
   const Body a = sheet(3, 3, 2.0, 2.0, Cut::alternating, 7);
   const Body b = sheet(2, 2, 0.5, 0.5, Cut::one_way, 3);
-  Meeting meeting(a, b, kRange);
+  StructurePair structure_pair(a, b, kRange);
   const auto pose = [](double s) {
     const double t = 2.0 * std::numbers::pi * s;
     return Pose{{0.01 * std::sin(t), 0.01 * std::cos(2 * t) - 0.01, 0.4 * std::sin(t)},
@@ -337,10 +339,11 @@ TEST(StructureContacts, GainNoEnergyInAClosedCycle) {
     const Body after = moved(b, now.turns, now.shift);
     Body middle = after;
     for (std::size_t n = 0; n < after.x.size(); ++n) middle.x[n] = 0.5 * (before.x[n] + after.x[n]);
-    meeting.place(middle);
+    structure_pair.place(middle);
     double step = 0.0;
     for (std::size_t n = 0; n < after.x.size(); ++n)
-      step += meeting.forces()[meeting.first_node_of_b() + n].dot(after.x[n] - before.x[n]);
+      step += structure_pair.forces()[structure_pair.first_node_of_b() + n].dot(after.x[n] -
+                                                                                before.x[n]);
     work += step;
     turned_over += std::abs(step);
     before = after;

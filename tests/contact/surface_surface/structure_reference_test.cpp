@@ -71,7 +71,7 @@ bool cores_meet(const Body& a, const Body& b) {
 
 struct Seen {
   int compared = 0;
-  int several_pairs = 0;  ///< compared meetings of more than one pair of cells
+  int several_pairs = 0;  ///< compared structure pairs of more than one pair of cells
   int several_parts = 0;  ///< and of more than one contact
 };
 
@@ -79,7 +79,7 @@ struct Seen {
 Seen compare(const Body& a, const Body& b, double reach, double largest_turn, bool is_upside_down,
              unsigned seed, int trials = 600) {
   Random random(seed);
-  Meeting meeting(a, b, kRange);
+  StructurePair structure_pair(a, b, kRange);
   Seen seen;
   for (int trial = 0; trial < trials; ++trial) {
     const Vec3 turns(
@@ -88,16 +88,16 @@ Seen compare(const Body& a, const Body& b, double reach, double largest_turn, bo
     const Vec3 shift(random.uniform(-reach, reach), random.uniform(-reach, reach),
                      random.uniform(-0.1, 0.12));
     const Body placed = moved(b, turns, shift);
-    const ReferenceMeeting expected = reference_meeting(a, placed, kRange);
+    const ReferenceStructurePair expected = reference_structure_pair(a, placed, kRange);
     if (expected.pairs == 0 || expected.has_rings || expected.has_wraps) continue;
     if (expected.most_parallel > kLargestCosine || cores_meet(a, placed)) continue;
 
-    meeting.place(placed);
+    structure_pair.place(placed);
 
     const double tolerance = 1e-10 * kRange * expected.pairs;
-    EXPECT_NEAR((meeting.force_on_b() - expected.force).norm(), 0.0, tolerance)
+    EXPECT_NEAR((structure_pair.force_on_b() - expected.force).norm(), 0.0, tolerance)
         << "trial " << trial;
-    EXPECT_EQ(meeting.patches(), static_cast<std::size_t>(expected.components));
+    EXPECT_EQ(structure_pair.patches(), static_cast<std::size_t>(expected.components));
     if (::testing::Test::HasFailure()) return seen;
     ++seen.compared;
     seen.several_pairs += expected.pairs > 1;

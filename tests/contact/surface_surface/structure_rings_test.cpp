@@ -15,21 +15,21 @@ constexpr double kRange = 0.1;
 
 /// Relative difference between the forces on b's nodes and the slope of the energy.
 template <class Law>
-double error_of_forces(MeetingUnder<Law>& meeting, const Body& b, Random& random) {
+double error_of_forces(StructurePairUnder<Law>& structure_pair, const Body& b, Random& random) {
   std::vector<Vec3> ways;
   for (std::size_t i = 0; i < b.x.size(); ++i) ways.push_back(random.in_cube(1.0));
-  meeting.place(b);
+  structure_pair.place(b);
   double slope = 0.0, scale = 0.0;
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    const Vec3& force = meeting.forces()[meeting.first_node_of_b() + i];
+    const Vec3& force = structure_pair.forces()[structure_pair.first_node_of_b() + i];
     slope -= force.dot(ways[i]);
     scale += force.norm() * ways[i].norm();
   }
   const auto energy_at = [&](double way) {
     Body there = b;
     for (std::size_t i = 0; i < ways.size(); ++i) there.x[i] += way * ways[i];
-    meeting.place(there);
-    return meeting.energy();
+    structure_pair.place(there);
+    return structure_pair.energy();
   };
   const auto difference = [&](double way) {
     return (8.0 * (energy_at(way) - energy_at(-way)) - energy_at(2.0 * way) +
@@ -46,9 +46,9 @@ void expect_gradients(const contact::PropertiesOf<Law>& properties) {
   Random random(4);
   const Body plate = plate_with_hole_of(12, 0.5, 2.0);
   const double across = 0.5 * std::cos(std::numbers::pi / 12);
-  MeetingUnder<Law> on_plate(plate, hollow_ball(8), kRange, properties);
+  StructurePairUnder<Law> on_plate(plate, hollow_ball(8), kRange, properties);
   const Body net = square_net_of(3, 0.07);
-  MeetingUnder<Law> on_net(net, net, kRange, properties);
+  StructurePairUnder<Law> on_net(net, net, kRange, properties);
   for (int trial = 0; trial < 10; ++trial) {
     const double distance = 1.0 + kRange - random.uniform(0.02, 0.05);
     const Body ball = moved(
@@ -76,16 +76,16 @@ TEST(StructureRings, PushAgainstTheGradientOfTheirEnergyWithAdhesion) {
 TEST(StructureRings, OfBarsOnBarsNeverPushLessThanPieces) {
   Random random(5);
   const Body net = square_net_of(3, 0.06);
-  Meeting meeting(net, net, kRange);
+  StructurePair structure_pair(net, net, kRange);
   int below_without = 0;
   for (int trial = 0; trial < 40; ++trial) {
     Body other = moved(net, {0.0, 0.0, 0.6}, Vec3(0.03 * random.unit(), 0.03 * random.unit(), 0.0));
     const double overlap = random.uniform(0.004, 0.02);
     for (Vec3& x : other.x) x += Vec3(0.0, 0.0, kRange - overlap) + random.in_cube(0.002);
-    const ReferenceMeeting pieces = reference_meeting(net, other, kRange);
-    meeting.place(other);
-    EXPECT_GT(meeting.energy(), (1.0 - 1e-9) * pieces.energy) << trial;
-    EXPECT_GT(meeting.force_on_b().z(), 0.0) << trial;
+    const ReferenceStructurePair pieces = reference_structure_pair(net, other, kRange);
+    structure_pair.place(other);
+    EXPECT_GT(structure_pair.energy(), (1.0 - 1e-9) * pieces.energy) << trial;
+    EXPECT_GT(structure_pair.force_on_b().z(), 0.0) << trial;
     below_without += pieces.has_rings;
   }
   EXPECT_GT(below_without, 20);

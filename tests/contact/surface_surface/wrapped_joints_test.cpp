@@ -41,19 +41,20 @@ Body drum(int parts) {
 
 /// N, sum of all forces away from the axis.
 template <class Law>
-double push(const MeetingUnder<Law>& meeting) {
+double push(const StructurePairUnder<Law>& structure_pair) {
   double sum = 0.0;
-  for (std::size_t i = meeting.first_node_of_b(); i < meeting.positions().size(); ++i) {
-    const Vec3& x = meeting.positions()[i];
-    sum += meeting.forces()[i].dot(Vec3(x.x(), x.y(), 0.0).normalized());
+  for (std::size_t i = structure_pair.first_node_of_b(); i < structure_pair.positions().size();
+       ++i) {
+    const Vec3& x = structure_pair.positions()[i];
+    sum += structure_pair.forces()[i].dot(Vec3(x.x(), x.y(), 0.0).normalized());
   }
   return sum;
 }
 
 double push_of_belt(int links, double overlap, int parts = 1) {
-  Meeting meeting(drum(parts), belt(links, overlap), kRange);
-  meeting.place(belt(links, overlap));
-  return push(meeting);
+  StructurePair structure_pair(drum(parts), belt(links, overlap), kRange);
+  structure_pair.place(belt(links, overlap));
+  return push(structure_pair);
 }
 
 /// J. Integral of w1 over a bar at a distance h from the axis, from its foot to a distance t along
@@ -126,14 +127,14 @@ TEST(Wrap, IsNothingWhereAChainIsStraightOrBendsAway) {
 /// the largest force.
 template <class Law>
 double gradient_error(const Body& a, const Body& b, double range, double step) {
-  MeetingUnder<Law> at(a, b, range);
+  StructurePairUnder<Law> at(a, b, range);
   at.place(b);
   double largest = 0.0, error = 0.0;
   for (const Vec3& force : at.forces()) largest = std::max(largest, force.norm());
   const auto energy = [&](bool of_a, std::size_t node, int axis, double way) {
     Body moved_a = a, moved_b = b;
     (of_a ? moved_a : moved_b).x[node][axis] += way;
-    MeetingUnder<Law> there(moved_a, moved_b, range);
+    StructurePairUnder<Law> there(moved_a, moved_b, range);
     there.place(moved_b);
     return there.energy();
   };
@@ -199,14 +200,14 @@ TEST(Wrap, PushesAllNodesOfFacetsToo) {
 TEST(Wrap, KeepsBothMomenta) {
   const Body around = crooked(belt(30, 0.02), 5, 0.01);
   const Body along = crooked(drum(3), 15, 0.01);
-  Meeting meeting(along, around, kRange);
-  meeting.place(around);
+  StructurePair structure_pair(along, around, kRange);
+  structure_pair.place(around);
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double size = 0.0;
-  for (std::size_t i = 0; i < meeting.positions().size(); ++i) {
-    force += meeting.forces()[i];
-    moment += meeting.positions()[i].cross(meeting.forces()[i]);
-    size += meeting.forces()[i].norm();
+  for (std::size_t i = 0; i < structure_pair.positions().size(); ++i) {
+    force += structure_pair.forces()[i];
+    moment += structure_pair.positions()[i].cross(structure_pair.forces()[i]);
+    size += structure_pair.forces()[i].norm();
   }
   EXPECT_LT(force.norm(), 1e-12 * size);
   EXPECT_LT(moment.norm(), 1e-12 * size);
@@ -224,15 +225,15 @@ TEST(Wrap, SetsInWithoutAJump) {
   Body across;
   across.x = {{0.0, -2.0, 0.0}, {0.0, 2.0, 0.0}};
   across.cylinders = {{0, 1}};
-  Meeting meeting(across, bent(0.0), kRange);
+  StructurePair structure_pair(across, bent(0.0), kRange);
   const auto largest_change = [&](double step) {
     double largest = 0.0;
     std::vector<Vec3> last;
     for (int i = -20; i <= 20; ++i) {
-      meeting.place(bent(step * i));
+      structure_pair.place(bent(step * i));
       for (std::size_t k = 0; k < last.size(); ++k)
-        largest = std::max(largest, (meeting.forces()[k] - last[k]).norm());
-      last = meeting.forces();
+        largest = std::max(largest, (structure_pair.forces()[k] - last[k]).norm());
+      last = structure_pair.forces();
     }
     return largest;
   };
@@ -247,14 +248,15 @@ TEST(Wrap, ResistsSlipByAllThatPresses) {
   constexpr double kFriction = 0.3;
   for (const int links : {20, 60, 160}) {
     for (const double overlap : {1e-3, 5e-3, 2e-2}) {
-      MeetingUnder<contact::LinearFrictional> meeting(drum(1), belt(links, overlap), kRange, {},
-                                                      1.0, kFriction);
-      meeting.place(belt(links, overlap));
-      for (int i = 1; i <= 100; ++i) meeting.slide(belt(links, overlap, 4e-4 * i));
-      const double torque = -meeting.moment_on_b(Vec3::Zero()).z();
+      StructurePairUnder<contact::LinearFrictional> structure_pair(drum(1), belt(links, overlap),
+                                                                   kRange, {}, 1.0, kFriction);
+      structure_pair.place(belt(links, overlap));
+      for (int i = 1; i <= 100; ++i) structure_pair.slide(belt(links, overlap, 4e-4 * i));
+      const double torque = -structure_pair.moment_on_b(Vec3::Zero()).z();
       // Forces act on the middle between both axes' surfaces; pushes and arms are less by the
       // overlap there.
-      EXPECT_NEAR(torque, kFriction * push(meeting), 0.02 * torque) << links << " at " << overlap;
+      EXPECT_NEAR(torque, kFriction * push(structure_pair), 0.02 * torque)
+          << links << " at " << overlap;
     }
   }
 }

@@ -120,7 +120,7 @@ void expect_spring_goes_on(const Scene& scene) {
   EXPECT_LE((simulation.forces().force[3] - before - 2.0 * growth).norm(), 1e-9 * before.norm());
 }
 
-TEST(BreakContacts, TheFrictionOfABallOnARimGoesOnWhenItsFacetIsTorn) {
+TEST(BreakContacts, TheFrictionOfASphereOnARimGoesOnWhenItsFacetIsTorn) {
   Scene scene = one_facet();
   scene.add_sphere(Vec3(0.2, -0.059, 0.0), 0.05, 1000.0, kWire);
   scene.properties.held.back() = Held::everything;

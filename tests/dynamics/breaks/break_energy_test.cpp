@@ -206,7 +206,7 @@ Scene ball_on_a_ring(double height) {
   return scene;
 }
 
-TEST(BreakEnergy, ALinkOfARingThatHoldsABallTakesItsOwnEnergyWithTheSignOfWhatIsLeft) {
+TEST(BreakEnergy, ALinkOfARingThatHoldsASphereTakesItsOwnEnergyWithTheSignOfWhatIsLeft) {
   // Nothing moves, so all that changes is what contacts store; the ledger says how much, and which
   // way. Of these two heights the break loses energy at one and makes it at the other, or does the
   // same at both: either way the sign is that of the contacts.

@@ -87,7 +87,7 @@ Scene wire_on(int branches) {
   return scene;
 }
 
-TEST(BreakJunction, D8ABallIsHeldByOneContactAndDraggedByOneSpringAcrossIt) {
+TEST(BreakJunction, D8ASphereIsHeldByOneContactAndDraggedByOneSpringAcrossIt) {
   const Crossing crossing = cross(ball_on, 1e-4);
   const Crossing finer = cross(ball_on, 1e-5);
 

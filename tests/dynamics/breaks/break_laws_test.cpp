@@ -58,7 +58,7 @@ TEST_P(BreakLaws, ABreakOutOfRangeChangesNoBit) {
   EXPECT_EQ(broken.surface().cell_count(), 5u);
 }
 
-TEST_P(BreakLaws, ABallLeavesABrokenCylinderFreelyAndTheLedgerCloses) {
+TEST_P(BreakLaws, ASphereLeavesABrokenCylinderFreelyAndTheLedgerCloses) {
   // Pressed into the wire from below, or glued to it.
   Simulation simulation(chain_and_ball(Vec3(0.25, 0.0, -0.0598)), options(), model());
   for (int i = 0; i < 50; ++i) simulation.step();

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// A lump of 2 kg on springs of 200 N/m, 800 N/m and none.
-Scene sprung_lump() {
+Scene grounded_lump() {
   Scene scene;
   GroundSprings springs;
   springs.nodes = {add_lump(scene, Vec3(1.0, 2.0, 3.0))};
@@ -28,7 +28,7 @@ Scene sprung_lump() {
 }
 
 TEST(GroundSprings, SwingWithTheirFrequencyAlongEachAxis) {
-  Scene scene = sprung_lump();
+  Scene scene = grounded_lump();
   scene.state.velocity[0] = Vec3(0.1, 0.1, 0.1);
   const double dt = 1e-4;
   auto simulation = simulation_of(scene, dt);
@@ -48,7 +48,7 @@ TEST(GroundSprings, SwingWithTheirFrequencyAlongEachAxis) {
 }
 
 TEST(GroundSprings, KeepTheEnergyToRounding) {
-  Scene scene = sprung_lump();
+  Scene scene = grounded_lump();
   scene.state.velocity[0] = Vec3(0.1, 0.3, 0.1);
   auto simulation = simulation_of(scene, 0.02);
 
@@ -59,13 +59,13 @@ TEST(GroundSprings, KeepTheEnergyToRounding) {
 }
 
 TEST(GroundSprings, SetTheCriticalStep) {
-  const LoadedSimulation simulation(sprung_lump(), {});
+  const LoadedSimulation simulation(grounded_lump(), {});
 
   EXPECT_DOUBLE_EQ(simulation.critical_step().dt, 2.0 / std::sqrt(800.0 / 2.0));
 }
 
 TEST(GroundSprings, AreRefusedWithNegativeStiffness) {
-  Scene scene = sprung_lump();
+  Scene scene = grounded_lump();
   scene.loads.ground_springs[0].stiffness.y() = -1.0;
 
   EXPECT_THAT(problems_of(scene), HasSubstr("ground springs 0: stiffness (200  -1   0) N/m must be "

@@ -153,7 +153,7 @@ TEST(Diverged, SaysThatASpinWasGiven) {
   EXPECT_THAT(error->what(), AllOf(HasSubstr("400000 rad/s"), HasSubstr("given or is prescribed")));
 }
 
-TEST(Diverged, IsNothingABallDoesThatFallsFromRestAndBounces) {
+TEST(Diverged, IsNothingASphereDoesThatFallsFromRestAndBounces) {
   Scene scene;
   scene.materials = {{1e6, 0.3, 0.4}};
   scene.add_sphere(Vec3(0.0, 0.0, 0.0501), 0.05, 1000.0, kMaterial);

@@ -9,7 +9,7 @@ namespace {
 
 using contact::BodyKind;
 using contact::ContactBody;
-using contact::ContactRow;
+using contact::ContactRecord;
 using dynamics::contact_force_on;
 using dynamics::ForceAndMoment;
 
@@ -60,7 +60,7 @@ class ThirdLaw : public testing::TestWithParam<NamedLaw> {
   ReportedScene reported_;
   dynamics::Simulation simulation_;
   std::vector<Vec3> x_;
-  std::vector<ContactRow> contacts_;
+  std::vector<ContactRecord> contacts_;
   Size size_;
 };
 
@@ -146,7 +146,7 @@ TEST_P(ThirdLaw, HoldsToTheBitForAnyNumberOfThreads) {
   for (const int threads : {2, 4}) {
     dynamics::Simulation other = reported_.simulation(GetParam(), threads);
     for (int k = 0; k < 10; ++k) other.step();
-    const std::vector<ContactRow> contacts = other.list_contacts();
+    const std::vector<ContactRecord> contacts = other.list_contacts();
     ASSERT_EQ(contacts.size(), contacts_.size());
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       EXPECT_EQ(contacts[i].id, contacts_[i].id);

@@ -51,7 +51,7 @@ TEST(Scene, FindsNothingWrongWithAnEmptyScene) {
   EXPECT_EQ(problems_of(Scene{}), "");
 }
 
-TEST(Scene, GivesASphereTheMassAndInertiaOfABall) {
+TEST(Scene, GivesASphereTheMassAndInertiaOfASphere) {
   Scene scene;
 
   const geometry::SphereId id = scene.add_sphere(Vec3(1.0, 2.0, 3.0), 0.5, 3000.0, MaterialId{2});

@@ -53,7 +53,7 @@ void write_surface(const TemporaryFolder& folder, double time, const std::string
 }
 
 void write_contacts(const TemporaryFolder& folder, double time, const std::string& name) {
-  contact::ContactRow contact;
+  contact::ContactRecord contact;
   contact.id = 7;
   contact.a = {contact::BodyKind::sphere, 3, geometry::Feature(NodeId{5})};
   contact.b = {contact::BodyKind::plane, 2, {}};

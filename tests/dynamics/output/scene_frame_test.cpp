@@ -166,9 +166,10 @@ TEST(SceneFrames, TellGroupAndMaterialOfGrainsAndOfCellsByTheirFirstNode) {
   EXPECT_THAT(whole(grains.point_arrays, "material"), ElementsAre(2));
 }
 
-contact::ContactRow contact_of(const Vec3& point_a, const Vec3& point_b, const Vec3& normal_force,
-                               const Vec3& tangential_force, double gap) {
-  contact::ContactRow row;
+contact::ContactRecord contact_of(const Vec3& point_a, const Vec3& point_b,
+                                  const Vec3& normal_force, const Vec3& tangential_force,
+                                  double gap) {
+  contact::ContactRecord row;
   row.point_a = point_a;
   row.point_b = point_b;
   row.point = 0.5 * (point_a + point_b);
@@ -216,7 +217,7 @@ TEST(SceneFrames, HaveTheArraysOfTheTablesInTheirOrder) {
 }
 
 TEST(ContactsFrame, DrawsEachContactBetweenItsCorePoints) {
-  std::array<contact::ContactRow, 2> contacts = {
+  std::array<contact::ContactRecord, 2> contacts = {
       contact_of(Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, 5), Vec3(3, 4, 0), -0.125),
       contact_of(Vec3(1, 0, 0), Vec3(1, 0, 2), Vec3(0, 0, 2), Vec3(0, 0, 0), -0.25)};
   contacts[1].id = 7'000'000'000;

@@ -167,7 +167,7 @@ TEST(TimeStep, OfOneContactBetweenEqualBallsIsExact) {
   EXPECT_EQ(wall.critical_step(properties).node, NodeId{1});
 }
 
-TEST(TimeStep, OfOneContactBetweenAHeavyAndALightBallIsExactWhereMassesAreKnown) {
+TEST(TimeStep, OfOneContactBetweenAHeavyAndALightSphereIsExactWhereMassesAreKnown) {
   const NodeProperties properties{{2.0, 0.01}, {0.1, 0.1}, {Held::nothing, Held::nothing}};
   NodalStiffness pair(2, &properties);
 
@@ -177,7 +177,7 @@ TEST(TimeStep, OfOneContactBetweenAHeavyAndALightBallIsExactWhereMassesAreKnown)
   EXPECT_NEAR(pair.critical_step(properties).dt, exact, 1e-12 * exact);
 }
 
-TEST(TimeStep, DoesNotDependOnWhichBallOfAPairIsNamedFirst) {
+TEST(TimeStep, DoesNotDependOnWhichSphereOfAPairIsNamedFirst) {
   const NodeProperties properties{
       {1.0, 9.0, 9.0}, {0.1, 9.0, 9.0}, std::vector<Held>(3, Held::nothing)};
   const Vec3 n(0.0, 0.6, 0.8);  // from ball 0 to both others, which lie on the same side of it

@@ -26,7 +26,7 @@ Eigen::MatrixXd ball_on_wall(double normal, double tangential) {
   return matrix;
 }
 
-TEST(LargestEigenvalue, IsThatOfABallOnAWallWhateverItsStiffness) {
+TEST(LargestEigenvalue, IsThatOfASphereOnAWallWhateverItsStiffness) {
   for (const double normal : {1e-8, 1.0, 1e8, 1e16}) {
     for (int k = 0; k < 1000; ++k) {
       const double tangential = normal * (0.1 + 1e-3 * k);

@@ -46,7 +46,7 @@ TEST(StepCause, HasTheStepThatIsEstimated) {
   EXPECT_GT(cause.without_gas_and_damping, 1.5 * cause.step.dt);
 }
 
-TEST(StepCause, OfAStiffBallOverALightChainIsTheContactThatMayCome) {
+TEST(StepCause, OfAStiffSphereOverALightChainIsTheContactThatMayCome) {
   Scene scene = chain(4, 0.4, dynamics::circular_section(0.002, 1e6, 0.3));
   scene.materials = {{1e9, 0.3, 0.5}};
   for (std::int32_t i = 0; i < 4; ++i) scene.add_cylinder(NodeId{i}, NodeId{i + 1}, 0.002, {});
@@ -60,7 +60,7 @@ TEST(StepCause, OfAStiffBallOverALightChainIsTheContactThatMayCome) {
   EXPECT_EQ(cause.part.partner.radius, 0.02);
 }
 
-TEST(StepCause, OfALightBallNamesThePlaneThatIsStiffest) {
+TEST(StepCause, OfALightSphereNamesThePlaneThatIsStiffest) {
   Scene scene;
   scene.materials = {{1e6, 0.3, 0.5}, {1e7, 0.3, 0.5}, {1e8, 0.3, 0.5}};
   scene.add_sphere(Vec3(0.1, 0.0, 0.1), 0.02, 2500.0, contact::MaterialId{0});

@@ -80,7 +80,8 @@ TEST(CoreProximity, GivesTheSameBitsWithAnyGuess) {
         crossings += plain.points.relation == Relation::touching_or_crossing;
         for (unsigned of_a = 1; of_a < 1U << a.count; ++of_a) {
           for (unsigned of_b = 1; of_b < 1U << b.count; ++of_b) {
-            const CoreProximity guessed = core_proximity(a, b, closest::Carriers{of_a, of_b});
+            const CoreProximity guessed =
+                core_proximity(a, b, closest::WitnessFeatures{of_a, of_b});
             EXPECT_EQ(guessed.points.relation, plain.points.relation);
             EXPECT_EQ(guessed.points.weights_a, plain.points.weights_a);
             EXPECT_EQ(guessed.points.weights_b, plain.points.weights_b);

@@ -30,7 +30,7 @@ Surface one_facet() {
 }
 
 /// Bit k: corner k carries the feature.
-unsigned carriers_of(Feature feature) {
+unsigned witness_features_of(Feature feature) {
   constexpr std::array<unsigned, 3> kEnds{0b011, 0b101, 0b110};
   if (feature.kind == FeatureKind::face) return 0b111;
   const auto id = static_cast<std::size_t>(feature.id);
@@ -119,7 +119,7 @@ TEST(PointTriangle, OneMillionAdversarialRegionQueriesAgainstExactRationalsAre0W
       const ExactFoot exact = test::exact_foot(query.p, query.x);
       const Feature feature = closest_feature(surface, Feature(FaceId{0}), query.p, query.x);
       const FootPoint foot = foot_on(surface, feature, query);
-      wrong += carriers_of(feature) != exact.carriers();
+      wrong += witness_features_of(feature) != exact.witness_features();
       not_a_number +=
           !(std::isfinite(foot.distance) && foot.direction.allFinite() && foot.weights.allFinite());
       expect_accurate(foot, exact, feature, query);
@@ -144,7 +144,7 @@ TEST(FootOnFace, StaysAccurateOnTrianglesThinnerThanTheRoundingError) {
     const PointTriangle query{turn * flat,
                               {Vec3(0, 0, 0), turn * Vec3(1, 0, 0), turn * Vec3(along, height, 0)}};
     const ExactFoot exact = test::exact_foot(query.p, query.x);
-    if (exact.carriers() != 0b111) continue;
+    if (exact.witness_features() != 0b111) continue;
     ++faces;
 
     const FootPoint foot = foot_on_face(query.p, query.x);

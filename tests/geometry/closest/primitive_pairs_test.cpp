@@ -20,7 +20,7 @@ std::vector<Vec3> corners_of(const Surface& surface, CellId cell, Positions x) {
 }
 
 /// The corners, of those of a cell, that span a feature.
-unsigned carriers_of(const Surface& surface, CellId cell, const Feature& feature) {
+unsigned witness_features_of(const Surface& surface, CellId cell, const Feature& feature) {
   unsigned bits = 0;
   const auto nodes = surface.nodes_of(cell);
   for (const NodeId node : test::nodes_of(surface, feature)) {
@@ -35,8 +35,8 @@ void expect_true(const Surface& surface, CellId a, CellId b, Positions x, const 
   const auto corners_a = corners_of(surface, a, x);
   const auto corners_b = corners_of(surface, b, x);
   const test::ExactPair pair(corners_a, corners_b);
-  const auto feet =
-      pair.feet(carriers_of(surface, a, p.a.feature), carriers_of(surface, b, p.b.feature));
+  const auto feet = pair.feet(witness_features_of(surface, a, p.a.feature),
+                              witness_features_of(surface, b, p.b.feature));
   ASSERT_TRUE(feet.has_value());
   EXPECT_TRUE(pair.are_nearest(*feet));
   const double distance = static_cast<double>(pair.distance(*feet));
@@ -131,7 +131,7 @@ TEST(ProximityOfCells, ReportsABarThroughASheetWithTheWayOut) {
   EXPECT_LE((position(p.a, complex.x) - position(p.b, complex.x)).norm(), 1e-15);
 }
 
-TEST(ProximityOfAProbe, IsTheGapOfABallThatNoNodeCarries) {
+TEST(ProximityOfAProbe, IsTheGapOfASphereThatNoNodeCarries) {
   const Complex complex = test::sheet(2);
   const Surface surface = complex.surface();
 

@@ -34,7 +34,7 @@ TEST(SegmentSegment, FindsTheCommonPerpendicularOfCrossedCylinders) {
   EXPECT_EQ(found.distance, 2.0);
 }
 
-TEST(SegmentSegment, ReportsSegmentsThatCrossInAPlaneAsMeeting) {
+TEST(SegmentSegment, ReportsSegmentsThatCrossInAPlaneAsStructurePair) {
   const ClosestPoints found =
       segment_segment({Vec3(-1, 0, 5), Vec3(1, 0, 5)}, {Vec3(0, -1, 5), Vec3(0, 3, 5)});
 

@@ -22,7 +22,7 @@ TEST(TriangleTriangle, IsTheSameFromBothSides) {
   test::expect_the_same_from_both_sides<3, 3>(triangle_triangle, triangle_triangle, 4, 5000);
 }
 
-TEST(TriangleTriangle, ReportsCoplanarTrianglesThatOverlapAsMeeting) {
+TEST(TriangleTriangle, ReportsCoplanarTrianglesThatOverlapAsStructurePair) {
   const std::array<Vec3, 3> a{Vec3(0, 0, 1), Vec3(4, 0, 1), Vec3(0, 4, 1)};
   const std::array<Vec3, 3> star{Vec3(1, -1, 1), Vec3(3, 3, 1), Vec3(-1, 1, 1)};
 

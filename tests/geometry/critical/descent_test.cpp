@@ -53,10 +53,11 @@ TEST(ClosestFeature, IsTheLowestThatHoldsTheExactNearestPointAlsoWithoutAreaAndI
     const Vec3 point = test::random_point(random, complex);
     const Feature cell = surface.feature_of(id_at<CellId>(random.index(surface.cell_count())));
     const auto corners = sorted(test::nodes_of(surface, cell));
-    const unsigned carriers = exact_foot(surface, cell, point, complex.x).carriers();
+    const unsigned witness_features =
+        exact_foot(surface, cell, point, complex.x).witness_features();
     std::vector<NodeId> expected;
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      if ((carriers >> k & 1U) != 0) expected.push_back(corners[k]);
+      if ((witness_features >> k & 1U) != 0) expected.push_back(corners[k]);
     }
 
     const Feature feature = closest_feature(surface, cell, point, complex.x);

@@ -23,7 +23,7 @@ using test::Random;
 using test::Strut;
 
 /// The corners that span a feature of a probe.
-unsigned carriers_of(const Feature& feature) {
+unsigned witness_features_of(const Feature& feature) {
   if (feature.kind == FeatureKind::face) return 7U;
   if (feature.kind == FeatureKind::node) return 1U << feature.id;
   return feature.id == 0 ? 3U : feature.id == 1 ? 6U : 5U;
@@ -32,7 +32,7 @@ unsigned carriers_of(const Feature& feature) {
 /// Judged in exact arithmetic, for the corners as they are rounded.
 void expect_true(const Probe& a, const Probe& b, const Proximity& p) {
   const test::ExactPair pair(a.core.corners(), b.core.corners());
-  const auto feet = pair.feet(carriers_of(p.a.feature), carriers_of(p.b.feature));
+  const auto feet = pair.feet(witness_features_of(p.a.feature), witness_features_of(p.b.feature));
   ASSERT_TRUE(feet.has_value());
   EXPECT_TRUE(pair.are_nearest(*feet));
   const double distance = static_cast<double>(pair.distance(*feet));

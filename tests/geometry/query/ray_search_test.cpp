@@ -50,7 +50,7 @@ TEST(AllHits, AreThoseOfAllCellsInTheOrderOfTheRay) {
   }
 }
 
-TEST(AllHits, OfASurfaceWithoutThicknessComeInPairsThroughABall) {
+TEST(AllHits, OfASurfaceWithoutThicknessComeInPairsThroughASphere) {
   test::Random random(2);
   Complex ball = test::ball(3);
   for (Facet& facet : ball.facets) facet.radius = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_sphere/ball_contacts.hpp"
+#include "contact/sphere_sphere/sphere_contacts.hpp"
 
 #include "contact/tracking/slip_state.hpp"
 
@@ -15,7 +15,7 @@ constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
-BallContacts::Kind::Kind(const AnyLaw::Functions& of, bool keeps) noexcept
+SphereContacts::Kind::Kind(const AnyLaw::Functions& of, bool keeps) noexcept
     : law(&of), keeps_parameters(keeps) {
   std::size_t rows = PairNumbersOfRow::kHistory + of.history_numbers;
   force = of.force_of_state ? 0 : rows;
@@ -26,14 +26,14 @@ BallContacts::Kind::Kind(const AnyLaw::Functions& of, bool keeps) noexcept
 }
 
 /// Numbers are 0 at first: nothing touches.
-void BallContacts::Table::assign(const BallBlocks& blocks) {
+void SphereContacts::Table::assign(const SphereBlocks& blocks) {
   make_room(places, blocks.row_count());
   places.clear();
   std::size_t line = 0;
-  for (const BallBlocks::Stretch& stretch : blocks.stretches()) {
-    for (std::uint32_t row = 0; row < stretch.row_count; ++row) {
-      places.push_back({static_cast<std::uint32_t>(line), stretch.kind});
-      line += kinds[stretch.kind].row_size / kLanes;
+  for (const SphereBlocks::Range& range : blocks.ranges()) {
+    for (std::uint32_t row = 0; row < range.row_count; ++row) {
+      places.push_back({static_cast<std::uint32_t>(line), range.kind});
+      line += kinds[range.kind].row_size / kLanes;
     }
   }
   make_room(numbers, line * kLanes);
@@ -42,7 +42,7 @@ void BallContacts::Table::assign(const BallBlocks& blocks) {
   touched.assign(places.size(), {});
 }
 
-ContactMemory<AnyLaw> BallContacts::Table::memory(std::size_t slot) const noexcept {
+ContactMemory<AnyLaw> SphereContacts::Table::memory(std::size_t slot) const noexcept {
   const ConstRows of_row = rows(slot);
   ContactMemory<AnyLaw> memory;
   memory.normal = of_row.from(PairNumbersOfRow::kNormal).at<Vec3>(slot % kLanes);
@@ -52,10 +52,10 @@ ContactMemory<AnyLaw> BallContacts::Table::memory(std::size_t slot) const noexce
   return memory;
 }
 
-double BallContacts::rebuild(std::span<const geometry::IndexPair> keys, std::span<const Ball> balls,
-                             const MaterialPairs& materials, geometry::ThreadPool& pool,
-                             Positions x) {
-  balls_ = balls;
+double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
+                               std::span<const SphereBody> spheres, const MaterialPairs& materials,
+                               geometry::ThreadPool& pool, Positions x) {
+  spheres_ = spheres;
   make_room(old_slots_, keys.size());
   old_slots_.assign(keys.size(), kNoSlot);
   double lost = 0.0;
@@ -67,31 +67,33 @@ double BallContacts::rebuild(std::span<const geometry::IndexPair> keys, std::spa
       [&](std::size_t old) {
         if (!table_.has_touched(blocks_.slot(old))) return;
         ContactMemory<AnyLaw> memory = table_.memory(blocks_.slot(old));
-        lost += forget<AnyLaw>(materials.combine(ball(keys_[old].a), ball(keys_[old].b)), memory);
+        lost +=
+            forget<AnyLaw>(materials.combine(sphere(keys_[old].a), sphere(keys_[old].b)), memory);
       });
   make_room(keys_, keys.size());
   keys_.assign(keys.begin(), keys.end());
   std::swap(table_, last_table_);
-  find_kinds(balls, materials);
-  blocks_.assign(keys, balls, kinds_, pool, x);
+  find_kinds(spheres, materials);
+  blocks_.assign(keys, spheres, kinds_, pool, x);
   table_.assign(blocks_);
   set_parameters(materials);
   move_memories(last_table_);
   return lost;
 }
 
-/// If all balls are of one material, with nothing said of it as a pair, and the law asks for no
+/// If all spheres are of one material, with nothing said of it as a pair, and the law asks for no
 /// more than radii, computing parameters anew takes less time than reading them would.
-void BallContacts::find_kinds(std::span<const Ball> balls, const MaterialPairs& materials) {
+void SphereContacts::find_kinds(std::span<const SphereBody> spheres,
+                                const MaterialPairs& materials) {
   table_.kinds.clear();
   kinds_.clear();
   common_.reset();
   if (keys_.empty()) return;
   std::int32_t last = 0;
   for (const geometry::IndexPair& key : keys_) last = std::max(last, key.b);
-  const MaterialId first = balls.front().material;
-  if (std::ranges::all_of(balls.first(static_cast<std::size_t>(last) + 1),
-                          [&](const Ball& ball) { return ball.material == first; })) {
+  const MaterialId first = spheres.front().material;
+  if (std::ranges::all_of(spheres.first(static_cast<std::size_t>(last) + 1),
+                          [&](const SphereBody& sphere) { return sphere.material == first; })) {
     const AnyLaw::Properties& properties = materials.properties(first, first);
     const bool keeps = !properties.law->combines_radii(properties);
     if (!keeps) common_ = {materials.at(first), properties};
@@ -101,7 +103,7 @@ void BallContacts::find_kinds(std::span<const Ball> balls, const MaterialPairs& 
   make_room(kinds_, keys_.size());
   for (const geometry::IndexPair& key : keys_) {
     const AnyLaw::Functions* const law =
-        materials.properties(ball(key.a).material, ball(key.b).material).law;
+        materials.properties(sphere(key.a).material, sphere(key.b).material).law;
     auto known = std::ranges::find(table_.kinds, law, &Kind::law);
     if (known == table_.kinds.end()) {
       table_.kinds.emplace_back(*law, true);
@@ -111,7 +113,7 @@ void BallContacts::find_kinds(std::span<const Ball> balls, const MaterialPairs& 
   }
 }
 
-void BallContacts::set_parameters(const MaterialPairs& materials) {
+void SphereContacts::set_parameters(const MaterialPairs& materials) {
   if (common_) return;
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     const std::uint32_t slot = blocks_.slot(i);
@@ -119,13 +121,13 @@ void BallContacts::set_parameters(const MaterialPairs& materials) {
     table_.rows(slot)
         .from(kind.parameters)
         .set_numbers(slot % kLanes,
-                     materials.combine(ball(keys_[i].a), ball(keys_[i].b)).numbers.data(),
+                     materials.combine(sphere(keys_[i].a), sphere(keys_[i].b)).numbers.data(),
                      kind.law->parameter_numbers);
   }
 }
 
 /// From the slots that pairs had in the list before, to those that they have now.
-void BallContacts::move_memories(const Table& old) {
+void SphereContacts::move_memories(const Table& old) {
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     if (old_slots_[i] == kNoSlot) continue;
     const std::uint32_t from = old_slots_[i], to = blocks_.slot(i);
@@ -135,16 +137,16 @@ void BallContacts::move_memories(const Table& old) {
     rows.from(PairNumbersOfRow::kHistory)
         .set_numbers(to % kLanes, memory.history.numbers.data(),
                      memory.history.law->history_numbers);
-    table_.touched[to / kLanes].set_moved(
-        to % kLanes, true, old.touched[from / kLanes].since_numbered(from % kLanes));
+    table_.touched[to / kLanes].set_moved(to % kLanes, true,
+                                          old.touched[from / kLanes].since_numbered(from % kLanes));
   }
 }
 
 /// Of pair i of the list.
-BallContacts::Parameters BallContacts::parameters(std::size_t i) const noexcept {
+SphereContacts::Parameters SphereContacts::parameters(std::size_t i) const noexcept {
   if (common_)
-    return AnyLaw::combine(common_->properties, {common_->material, ball(keys_[i].a).radius},
-                           {common_->material, ball(keys_[i].b).radius});
+    return AnyLaw::combine(common_->properties, {common_->material, sphere(keys_[i].a).radius},
+                           {common_->material, sphere(keys_[i].b).radius});
   const std::uint32_t slot = blocks_.slot(i);
   const Kind& kind = table_.kind(slot);
   Parameters kept;
@@ -156,7 +158,7 @@ BallContacts::Parameters BallContacts::parameters(std::size_t i) const noexcept 
 }
 
 /// N, of the last step.
-Vec3 BallContacts::force_on_b(const Touching& pair) const noexcept {
+Vec3 SphereContacts::force_on_b(const Touching& pair) const noexcept {
   const Kind& kind = table_.kind(pair.slot);
   if (kind.law->force_of_state)
     return kind.law->force_of_state(pair.parameters, pair.gap, pair.memory.normal,
@@ -164,68 +166,68 @@ Vec3 BallContacts::force_on_b(const Touching& pair) const noexcept {
   return table_.rows(pair.slot).from(kind.force).at<Vec3>(pair.slot % kLanes);
 }
 
-double BallContacts::advance(const Motion& motion, double dt, geometry::ThreadPool& pool,
-                             NodeForces& forces) {
-  const std::span<const BallBlocks::Block> blocks = blocks_.blocks();
-  make_room(lent_, blocks_.borrowed_count());
-  lent_.resize(blocks_.borrowed_count());
+double SphereContacts::advance(const Motion& motion, double dt, geometry::ThreadPool& pool,
+                               NodeForces& forces) {
+  const std::span<const SphereBlocks::Block> blocks = blocks_.blocks();
+  make_room(ghost_sums_, blocks_.ghost_count());
+  ghost_sums_.resize(blocks_.ghost_count());
   outcomes_.resize(blocks.size());
   work_.resize(static_cast<std::size_t>(pool.thread_count()));
-  for (BallWork& work : work_) {
-    work.balls.reserve(blocks_.largest_member_count());
+  for (SphereWork& work : work_) {
+    work.spheres.reserve(blocks_.largest_member_count());
     make_room(work.sums, blocks_.largest_member_count());
     work.sums.resize(blocks_.largest_member_count());
     work.dt = dt;
   }
   pool.for_each_shared(blocks.size(), [&](std::size_t k, int worker) {
-    BallWork& work = work_[static_cast<std::size_t>(worker)];
+    SphereWork& work = work_[static_cast<std::size_t>(worker)];
     work.outcome = {};
     advance_block(blocks[k], motion, work);
     outcomes_[k] = work.outcome;
     hand_over(blocks[k], work, forces);
   });
   set_others_zero(forces, pool);
-  return_loans(forces, pool);
+  add_ghost_sums(forces, pool);
   double dissipated = 0.0;
   for (const Outcome& outcome : outcomes_) dissipated += outcome.total_dissipated();
   return dissipated;
 }
 
-void BallContacts::advance_block(const BallBlocks::Block& block, const Motion& motion,
-                                 BallWork& work) {
-  work.balls.load(blocks_.members(block), motion);
-  std::fill_n(work.sums.data(), block.member_count, BallSum{Vec3::Zero(), Vec3::Zero(), {}});
-  for (const BallBlocks::Stretch& stretch : blocks_.stretches(block))
-    table_.kinds[stretch.kind].law->advance_balls(stretch_of(stretch), work);
+void SphereContacts::advance_block(const SphereBlocks::Block& block, const Motion& motion,
+                                   SphereWork& work) {
+  work.spheres.load(blocks_.members(block), motion);
+  std::fill_n(work.sums.data(), block.member_count, SphereSum{Vec3::Zero(), Vec3::Zero(), {}});
+  for (const SphereBlocks::Range& range : blocks_.ranges(block))
+    table_.kinds[range.kind].law->advance_spheres(range_of(range), work);
 }
 
-BallStretch BallContacts::stretch_of(const BallBlocks::Stretch& stretch) noexcept {
-  const Kind& kind = table_.kinds[stretch.kind];
-  const std::size_t first = stretch.first_row;
+SphereRange SphereContacts::range_of(const SphereBlocks::Range& range) noexcept {
+  const Kind& kind = table_.kinds[range.kind];
+  const std::size_t first = range.first_row;
   return {blocks_.row(first),
           table_.numbers.data() + kLanes * std::size_t{table_.places[first].first_line},
           &table_.touched[first],
-          stretch.row_count,
+          range.row_count,
           kind.row_size,
           kind.force,
           kind.parameters,
           common_ ? &common_->material : nullptr,
-          stretch.was_apart};
+          range.was_apart};
 }
 
-std::size_t BallContacts::touching() const noexcept {
+std::size_t SphereContacts::touching() const noexcept {
   std::size_t count = 0;
   for (const Outcome& outcome : outcomes_) count += outcome.touching;
   return count;
 }
 
-double BallContacts::largest_overlap_ratio() const noexcept {
+double SphereContacts::largest_overlap_ratio() const noexcept {
   double deepest = 0.0;
   for (const Outcome& outcome : outcomes_) deepest = std::max(deepest, outcome.largest_ratio());
   return deepest;
 }
 
-double BallContacts::elastic_energy() const {
+double SphereContacts::elastic_energy() const {
   double energy = 0.0;
   for_each_lane([&](const Touching& pair) {
     energy += AnyLaw::elastic_normal_energy(pair.parameters, pair.gap) +
@@ -234,7 +236,7 @@ double BallContacts::elastic_energy() const {
   return energy;
 }
 
-void BallContacts::number(std::int64_t& last) {
+void SphereContacts::assign_ids(std::int64_t& last) {
   PairNumbers::Reader known(numbers_);
   PairNumbers numbers;
   for_each_lane([&](const Touching& pair) {
@@ -245,11 +247,11 @@ void BallContacts::number(std::int64_t& last) {
   for (TouchedLanes& touched : table_.touched) touched.set_numbered();
 }
 
-void BallContacts::for_each_row(Positions x, VisitRow visit) const {
+void SphereContacts::for_each_record(Positions x, VisitRecord visit) const {
   PairNumbers::Reader numbers(numbers_);
   for_each_lane([&](const Touching& pair) {
-    const Ball &a = ball(pair.key.a), &b = ball(pair.key.b);
-    ContactRow row;
+    const SphereBody &a = sphere(pair.key.a), &b = sphere(pair.key.b);
+    ContactRecord row;
     if (table_.touched[pair.slot / kLanes].since_numbered(pair.slot % kLanes))
       row.id = numbers.of(pair.key);
     row.a = {BodyKind::sphere, pair.key.a, geometry::Feature(a.node)};
@@ -267,11 +269,11 @@ void BallContacts::for_each_row(Positions x, VisitRow visit) const {
   });
 }
 
-void BallContacts::hand_over(const BallBlocks::Block& block, const BallWork& work,
-                                  NodeForces& forces) {
+void SphereContacts::hand_over(const SphereBlocks::Block& block, const SphereWork& work,
+                               NodeForces& forces) {
   constexpr std::size_t kAhead = 16;
   const auto owned = blocks_.owned(block);
-  const BallSum* const sums = work.sums.data();
+  const SphereSum* const sums = work.sums.data();
   for (std::size_t m = 0; m < owned.size(); ++m) {
     const std::size_t ahead = index_of(owned[std::min(m + kAhead, owned.size() - 1)].node);
     __builtin_prefetch(&forces.force[ahead], 1);
@@ -279,13 +281,13 @@ void BallContacts::hand_over(const BallBlocks::Block& block, const BallWork& wor
     forces.force[index_of(owned[m].node)] = sums[m].force;
     forces.torque[index_of(owned[m].node)] = sums[m].torque;
   }
-  std::copy_n(sums + owned.size(), block.borrowed(), lent_.begin() + block.first_borrowed);
+  std::copy_n(sums + owned.size(), block.ghosts(), ghost_sums_.begin() + block.first_ghost);
 }
 
-void BallContacts::set_others_zero(NodeForces& forces, geometry::ThreadPool& pool) const {
+void SphereContacts::set_others_zero(NodeForces& forces, geometry::ThreadPool& pool) const {
   if (blocks_.other_nodes().empty()) return;
   pool.for_each_range(forces.force.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (const BallBlocks::NodeRange& range : blocks_.other_nodes()) {
+    for (const SphereBlocks::NodeRange& range : blocks_.other_nodes()) {
       const std::size_t first = std::max(begin, range.begin);
       const std::size_t last = std::min(end, range.end);
       if (first < last) forces.set_zero(first, last);
@@ -293,18 +295,18 @@ void BallContacts::set_others_zero(NodeForces& forces, geometry::ThreadPool& poo
   });
 }
 
-void BallContacts::return_loans(NodeForces& forces, geometry::ThreadPool& pool) const {
-  const auto add = [&](NodeId node, std::size_t borrowed) {
-    forces.force[index_of(node)] += lent_[borrowed].force;
-    forces.torque[index_of(node)] += lent_[borrowed].torque;
+void SphereContacts::add_ghost_sums(NodeForces& forces, geometry::ThreadPool& pool) const {
+  const auto add = [&](NodeId node, std::size_t ghost) {
+    forces.force[index_of(node)] += ghost_sums_[ghost].force;
+    forces.torque[index_of(node)] += ghost_sums_[ghost].torque;
   };
-  const auto ask = [&](NodeId node, std::size_t borrowed) {
-    __builtin_prefetch(&lent_[borrowed]);
+  const auto ask = [&](NodeId node, std::size_t ghost) {
+    __builtin_prefetch(&ghost_sums_[ghost]);
     __builtin_prefetch(&forces.force[index_of(node)]);
     __builtin_prefetch(&forces.torque[index_of(node)]);
   };
   pool.for_each_range(blocks_.blocks().size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t k = begin; k < end; ++k) blocks_.for_each_loan(k, add, ask);
+    for (std::size_t k = begin; k < end; ++k) blocks_.for_each_ghost(k, add, ask);
   });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_sphere/ball_blocks.hpp"
+#include "contact/sphere_sphere/sphere_blocks.hpp"
 
 #include "contact/tracking/rekey.hpp"
 #include "geometry/neighbor/space_order.hpp"
@@ -10,20 +10,20 @@
 namespace plekton::contact {
 namespace {
 
-/// Motions and sums of the members of a usual block, a third more than the balls that it owns, fill
+/// Motions and sums of the members of a usual block, a third more than the spheres that it owns, fill
 /// a part of a cache of the second level (512 KiB and more), and half of its pairs stay within it.
-constexpr std::size_t kUsualBalls = 640;
+constexpr std::size_t kUsualSpheres = 640;
 /// So that few threads get equal numbers of blocks.
 constexpr std::size_t kBlocksAtOnce = 8;
-/// To move a ball and add up what acts on it takes about as long as this many pairs.
-constexpr std::size_t kPairsPerBall = 2;
+/// To move a sphere and add up what acts on it takes about as long as this many pairs.
+constexpr std::size_t kPairsPerSphere = 2;
 /// Neighbours stay near each other in the order while many lists are made.
 constexpr int kListsPerOrder = 16;
 
-std::size_t block_count(std::size_t balls) {
-  if (balls < 2 * kUsualBalls) return 1;
+std::size_t block_count(std::size_t spheres) {
+  if (spheres < 2 * kUsualSpheres) return 1;
   const std::size_t groups =
-      (balls + kUsualBalls * kBlocksAtOnce - 1) / (kUsualBalls * kBlocksAtOnce);
+      (spheres + kUsualSpheres * kBlocksAtOnce - 1) / (kUsualSpheres * kBlocksAtOnce);
   return groups * kBlocksAtOnce;
 }
 
@@ -35,14 +35,14 @@ void set_all(std::vector<Number>& list, std::size_t count, Number value) {
 
 }  // namespace
 
-void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
-                        std::span<const std::uint8_t> kinds, geometry::ThreadPool& pool,
-                        Positions x) {
+void SphereBlocks::assign(std::span<const geometry::IndexPair> pairs,
+                          std::span<const SphereBody> spheres, std::span<const std::uint8_t> kinds,
+                          geometry::ThreadPool& pool, Positions x) {
   std::int32_t last = -1;
   for (const geometry::IndexPair& pair : pairs) last = std::max(last, pair.b);
-  order_balls(balls.first(static_cast<std::size_t>(last + 1)), x);
+  order_spheres(spheres.first(static_cast<std::size_t>(last + 1)), x);
   sort_pairs(pairs, pool);
-  find_touching(pairs, balls, x, pool);
+  find_touching(pairs, spheres, x, pool);
 
   cut_order();
   const std::size_t count = first_places_.size() - 1;
@@ -51,53 +51,53 @@ void BallBlocks::assign(std::span<const geometry::IndexPair> pairs, std::span<co
   const std::size_t groups =
       2 * (kinds.empty() ? 1 : 1 + static_cast<std::size_t>(*std::ranges::max_element(kinds)));
   group_sizes_.resize(groups);
-  group_stretches_.resize(groups);
+  group_ranges_.resize(groups);
   make_room(pairs_, pairs.size() + groups * kLanes * count);
   blocks_.clear();
-  stretches_.clear();
+  ranges_.clear();
   members_.clear();
-  balls_.clear();
+  spheres_.clear();
   pairs_.clear();
   largest_member_count_ = 0;
-  for (std::size_t k = 0; k < count; ++k) fill_block(k, pairs, balls, kinds);
-  find_loans();
+  for (std::size_t k = 0; k < count; ++k) fill_block(k, pairs, spheres, kinds);
+  find_ghosts();
   find_other_nodes(x.size());
 }
 
 /// Whoever takes part in no pair of a new list may be in it and did in an older one: only a change
 /// of their number, or age, asks for a new order.
-void BallBlocks::order_balls(std::span<const Ball> balls, Positions x) {
+void SphereBlocks::order_spheres(std::span<const SphereBody> spheres, Positions x) {
   nodes_.clear();
-  for (const Ball& ball : balls) nodes_.push_back(ball.node);
-  if (order_.size() == balls.size() && ++lists_in_order_ < kListsPerOrder) return;
+  for (const SphereBody& sphere : spheres) nodes_.push_back(sphere.node);
+  if (order_.size() == spheres.size() && ++lists_in_order_ < kListsPerOrder) return;
   lists_in_order_ = 0;
-  set_all(order_, balls.size(), 0);
+  set_all(order_, spheres.size(), 0);
   std::iota(order_.begin(), order_.end(), 0);
   if (!x.empty()) geometry::order_along_curve(x, nodes_, order_);
-  set_all(places_, balls.size(), 0U);
+  set_all(places_, spheres.size(), 0U);
   for (std::size_t place = 0; place < order_.size(); ++place)
     places_[static_cast<std::size_t>(order_[place])] = static_cast<std::uint32_t>(place);
 }
 
-/// Into blocks that take equally long. Pairs belong to their first balls, so the first blocks would
-/// have some percent more of them than the last if all had the same number of balls.
-void BallBlocks::cut_order() {
-  const std::size_t balls = order_.size();
+/// Into blocks that take equally long. Pairs belong to their first spheres, so the first blocks would
+/// have some percent more of them than the last if all had the same number of spheres.
+void SphereBlocks::cut_order() {
+  const std::size_t spheres = order_.size();
   const auto work_before = [&](std::size_t place) {
-    return kPairsPerBall * place + first_of_place_[place];
+    return kPairsPerSphere * place + first_of_place_[place];
   };
-  const std::size_t count = block_count(balls);
+  const std::size_t count = block_count(spheres);
   first_places_.assign(1, 0);
-  for (std::size_t place = 0; place <= balls; ++place) {
+  for (std::size_t place = 0; place <= spheres; ++place) {
     while (first_places_.size() <= count &&
-           work_before(place) * count >= first_places_.size() * work_before(balls))
+           work_before(place) * count >= first_places_.size() * work_before(spheres))
       first_places_.push_back(static_cast<std::uint32_t>(place));
   }
 }
 
-/// By counting, then within the few pairs of each ball.
-void BallBlocks::sort_pairs(std::span<const geometry::IndexPair> pairs,
-                            geometry::ThreadPool& pool) {
+/// By counting, then within the few pairs of each sphere.
+void SphereBlocks::sort_pairs(std::span<const geometry::IndexPair> pairs,
+                              geometry::ThreadPool& pool) {
   const auto places = [&](std::uint32_t i) {
     return std::minmax(places_[static_cast<std::size_t>(pairs[i].a)],
                        places_[static_cast<std::size_t>(pairs[i].b)]);
@@ -119,115 +119,115 @@ void BallBlocks::sort_pairs(std::span<const geometry::IndexPair> pairs,
   });
 }
 
-void BallBlocks::find_touching(std::span<const geometry::IndexPair> pairs,
-                               std::span<const Ball> balls, Positions x,
-                               geometry::ThreadPool& pool) {
+void SphereBlocks::find_touching(std::span<const geometry::IndexPair> pairs,
+                                 std::span<const SphereBody> spheres, Positions x,
+                                 geometry::ThreadPool& pool) {
   set_all<std::uint8_t>(touches_, pairs.size(), 0);
   if (x.empty()) return;
   pool.for_each_range(pairs.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Ball& a = balls[static_cast<std::size_t>(pairs[i].a)];
-      const Ball& b = balls[static_cast<std::size_t>(pairs[i].b)];
+      const SphereBody& a = spheres[static_cast<std::size_t>(pairs[i].a)];
+      const SphereBody& b = spheres[static_cast<std::size_t>(pairs[i].b)];
       const double range = a.radius + b.radius;
       touches_[i] = (x[index_of(b.node)] - x[index_of(a.node)]).squaredNorm() < range * range;
     }
   });
 }
 
-void BallBlocks::add_stretch(std::size_t group, std::size_t pair_count) {
+void SphereBlocks::add_range(std::size_t group, std::size_t pair_count) {
   const std::size_t rows = (pair_count + kLanes - 1) / kLanes;
-  stretches_.push_back({static_cast<std::uint32_t>(row_count()), static_cast<std::uint32_t>(rows),
-                        static_cast<std::uint32_t>(pair_count),
-                        static_cast<std::uint8_t>(group / 2), group % 2 == 1});
+  ranges_.push_back({static_cast<std::uint32_t>(row_count()), static_cast<std::uint32_t>(rows),
+                     static_cast<std::uint32_t>(pair_count), static_cast<std::uint8_t>(group / 2),
+                     group % 2 == 1});
   pairs_.resize(pairs_.size() + rows * kLanes);
 }
 
-void BallBlocks::fill_block(std::size_t k, std::span<const geometry::IndexPair> pairs,
-                            std::span<const Ball> balls, std::span<const std::uint8_t> kinds) {
+void SphereBlocks::fill_block(std::size_t k, std::span<const geometry::IndexPair> pairs,
+                              std::span<const SphereBody> spheres,
+                              std::span<const std::uint8_t> kinds) {
   const std::span<const std::uint32_t> own(sorted_.begin() + first_of_place_[first_places_[k]],
                                            sorted_.begin() + first_of_place_[first_places_[k + 1]]);
   Block block{};
   block.first_member = static_cast<std::uint32_t>(members_.size());
   block.owned = first_places_[k + 1] - first_places_[k];
-  if (!blocks_.empty())
-    block.first_borrowed = blocks_.back().first_borrowed + blocks_.back().borrowed();
-  block.first_stretch = static_cast<std::uint32_t>(stretches_.size());
+  if (!blocks_.empty()) block.first_ghost = blocks_.back().first_ghost + blocks_.back().ghosts();
+  block.first_range = static_cast<std::uint32_t>(ranges_.size());
   std::ranges::fill(group_sizes_, 0U);
   for (const std::uint32_t i : own) ++group_sizes_[group_of(i, kinds)];
   for (std::size_t group = 0; group < group_sizes_.size(); ++group) {
-    group_stretches_[group] = static_cast<std::uint32_t>(stretches_.size());
-    if (group_sizes_[group] > 0) add_stretch(group, group_sizes_[group]);
+    group_ranges_[group] = static_cast<std::uint32_t>(ranges_.size());
+    if (group_sizes_[group] > 0) add_range(group, group_sizes_[group]);
   }
-  block.stretch_count = static_cast<std::uint32_t>(stretches_.size()) - block.first_stretch;
+  block.range_count = static_cast<std::uint32_t>(ranges_.size()) - block.first_range;
   for (std::size_t place = first_places_[k]; place < first_places_[k + 1]; ++place)
-    add_member(order_[place], balls);
+    add_member(order_[place], spheres);
   group_filled_.assign(group_sizes_.size(), 0U);
   for (const std::uint32_t i : own) {
     const std::size_t group = group_of(i, kinds);
-    const Stretch& stretch = stretches_[group_stretches_[group]];
-    slots_[i] = static_cast<std::uint32_t>(stretch.slot(group_filled_[group]++));
-    pairs_[slots_[i]] = {member(block, pairs[i].a, balls), member(block, pairs[i].b, balls)};
+    const Range& range = ranges_[group_ranges_[group]];
+    slots_[i] = static_cast<std::uint32_t>(range.slot(group_filled_[group]++));
+    pairs_[slots_[i]] = {member(block, pairs[i].a, spheres), member(block, pairs[i].b, spheres)};
   }
   const auto none = static_cast<std::uint32_t>(members_.size() - block.first_member);
   members_.push_back({NodeId{-1}, 0.0});
-  balls_.push_back(-1);
+  spheres_.push_back(-1);
   block.member_count = none + 1;
-  for (const Stretch& stretch : stretches(block)) {
-    for (std::size_t n = stretch.pair_count; n < stretch.slot_count(); ++n)
-      pairs_[stretch.slot(n)] = {none, none};
+  for (const Range& range : ranges(block)) {
+    for (std::size_t n = range.pair_count; n < range.slot_count(); ++n)
+      pairs_[range.slot(n)] = {none, none};
   }
   largest_member_count_ = std::max<std::size_t>(largest_member_count_, block.member_count);
   blocks_.push_back(block);
 }
 
-void BallBlocks::add_member(std::int32_t ball, std::span<const Ball> balls) {
-  const auto b = static_cast<std::size_t>(ball);
+void SphereBlocks::add_member(std::int32_t sphere, std::span<const SphereBody> spheres) {
+  const auto b = static_cast<std::size_t>(sphere);
   member_of_[b] = static_cast<std::uint32_t>(members_.size());
-  members_.push_back({balls[b].node, balls[b].radius});
-  balls_.push_back(ball);
+  members_.push_back({spheres[b].node, spheres[b].radius});
+  spheres_.push_back(sphere);
 }
 
-std::uint32_t BallBlocks::member(const Block& block, std::int32_t ball,
-                                 std::span<const Ball> balls) {
-  const std::uint32_t& member = member_of_[static_cast<std::size_t>(ball)];
+std::uint32_t SphereBlocks::member(const Block& block, std::int32_t sphere,
+                                   std::span<const SphereBody> spheres) {
+  const std::uint32_t& member = member_of_[static_cast<std::size_t>(sphere)];
   const bool is_known =
-      member >= block.first_member && member < balls_.size() && balls_[member] == ball;
-  if (!is_known) add_member(ball, balls);
+      member >= block.first_member && member < spheres_.size() && spheres_[member] == sphere;
+  if (!is_known) add_member(sphere, spheres);
   return member - block.first_member;
 }
 
-std::size_t BallBlocks::block_of(std::int32_t ball) const noexcept {
-  const std::uint32_t place = places_[static_cast<std::size_t>(ball)];
+std::size_t SphereBlocks::block_of(std::int32_t sphere) const noexcept {
+  const std::uint32_t place = places_[static_cast<std::size_t>(sphere)];
   const auto after = std::upper_bound(first_places_.begin(), first_places_.end(), place);
   return static_cast<std::size_t>(after - first_places_.begin()) - 1;
 }
 
 /// By counting; borrowers in the order of the blocks.
-void BallBlocks::find_loans() {
-  const auto for_each_borrowed = [&](const auto& visit) {
+void SphereBlocks::find_ghosts() {
+  const auto for_each_ghost_of_blocks = [&](const auto& visit) {
     for (const Block& block : blocks_) {
       for (std::uint32_t m = block.owned; m + 1 < block.member_count; ++m)
-        visit(block.first_borrowed + m - block.owned, balls_[block.first_member + m]);
+        visit(block.first_ghost + m - block.owned, spheres_[block.first_member + m]);
     }
   };
-  set_all(first_loans_, blocks_.size() + 1, 0U);
-  std::uint32_t loans = 0;
-  for_each_borrowed([&](std::uint32_t, std::int32_t ball) {
-    ++first_loans_[block_of(ball)];
-    ++loans;
+  set_all(first_ghosts_, blocks_.size() + 1, 0U);
+  std::uint32_t ghost_count = 0;
+  for_each_ghost_of_blocks([&](std::uint32_t, std::int32_t sphere) {
+    ++first_ghosts_[block_of(sphere)];
+    ++ghost_count;
   });
-  std::exclusive_scan(first_loans_.begin(), first_loans_.end(), first_loans_.begin(), 0U);
-  make_room(loans_, loans);
-  loans_.resize(loans);
-  for_each_borrowed([&](std::uint32_t borrowed, std::int32_t ball) {
-    loans_[first_loans_[block_of(ball)]++] = {nodes_[static_cast<std::size_t>(ball)], borrowed};
+  std::exclusive_scan(first_ghosts_.begin(), first_ghosts_.end(), first_ghosts_.begin(), 0U);
+  make_room(ghosts_, ghost_count);
+  ghosts_.resize(ghost_count);
+  for_each_ghost_of_blocks([&](std::uint32_t ghost, std::int32_t sphere) {
+    ghosts_[first_ghosts_[block_of(sphere)]++] = {nodes_[static_cast<std::size_t>(sphere)], ghost};
   });
-  std::rotate(first_loans_.begin(), first_loans_.end() - 1, first_loans_.end());
-  first_loans_[0] = 0;
+  std::rotate(first_ghosts_.begin(), first_ghosts_.end() - 1, first_ghosts_.end());
+  first_ghosts_[0] = 0;
 }
 
-/// @param node_count  or fewer, if all after those belong to balls
-void BallBlocks::find_other_nodes(std::size_t node_count) {
+/// @param node_count  or fewer, if all after those belong to spheres
+void SphereBlocks::find_other_nodes(std::size_t node_count) {
   for (const NodeId node : nodes_) node_count = std::max(node_count, index_of(node) + 1);
   set_all<std::uint8_t>(is_owned_, node_count, 0);
   for (const NodeId node : nodes_) is_owned_[index_of(node)] = 1;

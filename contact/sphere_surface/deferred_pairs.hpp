@@ -10,11 +10,11 @@
 
 namespace plekton::contact {
 
-/// Of the cells in the list of a ball, those that may be in range now: each cell sleeps for as long
+/// Of the cells in the list of a sphere, those that may be in range now: each cell sleeps for as long
 /// as it cannot be.
 ///
 /// When a cell is looked at and is out of range by a clearance c (geometry/primitives/cell_clearance.hpp), it
-/// can come into range only after the ball and the cell have together moved by c: no point of a
+/// can come into range only after the sphere and the cell have together moved by c: no point of a
 /// cell moves further than the one of its nodes that moves most. Let moved be the sum over the
 /// steps of twice the furthest way of any node: the cell sleeps until it has grown by c. So in most
 /// steps a pair costs one comparison and a look at the few cells that are awake: O(pairs + cells in
@@ -22,11 +22,11 @@ namespace plekton::contact {
 ///
 /// Rounding: as in geometry/neighbor/skin.hpp, a step x += v dt is rounded by at most 4 eps of the way and
 /// of the coordinate; the sums are rounded up.
-class CellWatch {
+class DeferredPairs {
  public:
   using NearCells = geometry::NearCells;
 
-  explicit CellWatch(const geometry::Surface& surface) : surface_(&surface) {}
+  explicit DeferredPairs(const geometry::Surface& surface) : surface_(&surface) {}
 
   /// Takes a new list; all are awake.
   void rebuild(std::span<const geometry::CellId> cells);
@@ -39,23 +39,27 @@ class CellWatch {
   std::size_t cell_count() const noexcept { return cells_.size(); }
 
   /// What is known of the cells of a pair; at first nothing.
-  struct Awake {
+  struct NextCheck {
     double wake = 0.0;        ///< m, what moved has to be before another one may be in range
     std::uint32_t count = 0;  ///< may be in range now: the first ones of its part of the list
   };
 
   /// Whether none of the cells of a pair can be in range.
-  bool is_asleep(const Awake& awake) const noexcept { return awake.count == 0 && is_known(awake); }
+  bool is_deferred(const NextCheck& next_check) const noexcept {
+    return next_check.count == 0 && is_known(next_check);
+  }
 
   /// Whether those that were awake in the last step are all that can be in range.
-  bool is_known(const Awake& awake) const noexcept { return !all_awake_ && moved_ < awake.wake; }
+  bool is_known(const NextCheck& next_check) const noexcept {
+    return !all_are_due_ && moved_ < next_check.wake;
+  }
 
-  /// The cells of a pair that may be nearer than range (m) to its ball, ascending.
+  /// The cells of a pair that may be nearer than range (m) to its sphere, ascending.
   /// @param near   a part of the list; one thread at a time for each
   /// @param awake  of this pair, from its last step
   /// @param found  to which they are added
-  void find(const NearCells& near, const Vec3& centre, double range, Positions x, Awake& awake,
-            std::vector<geometry::CellId>& found);
+  void find(const NearCells& near, const Vec3& centre, double range, Positions x,
+            NextCheck& next_check, std::vector<geometry::CellId>& found);
 
  private:
   const geometry::Surface* surface_;
@@ -65,7 +69,7 @@ class CellWatch {
   double moved_ = 0.0;        ///< m, twice the way of any node at most since all were awake
   double furthest_ = 0.0;     ///< m, largest coordinate at that time
   bool is_new_ = true;        ///< no step of this list yet
-  bool all_awake_ = true;     ///< in this step
+  bool all_are_due_ = true;   ///< in this step
 };
 
 }  // namespace plekton::contact

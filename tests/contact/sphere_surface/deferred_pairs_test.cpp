@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/cell_watch.hpp"
+#include "contact/sphere_surface/deferred_pairs.hpp"
 
 #include "contact/law/linear_frictional.hpp"
 #include "contact/sphere_surface/surface_contacts.hpp"
@@ -16,9 +16,9 @@ namespace {
 
 using Law = LinearFrictional;
 
-constexpr double kBall = 0.6;           // m
-constexpr double kReach = kBall + 0.1;  // m, with the surface's radius
-constexpr double kStep = 0.01;          // m, no node moves further in a step
+constexpr double kSphere = 0.6;           // m
+constexpr double kReach = kSphere + 0.1;  // m, with the surface's radius
+constexpr double kStep = 0.01;            // m, no node moves further in a step
 constexpr int kSteps = 60;
 constexpr double kSkin = 2.5 * kSteps * kStep;  // m, the lists hold for all steps
 constexpr std::size_t kBalls = 40;
@@ -33,7 +33,7 @@ struct Crowd {
 
   Crowd(const Complex& ground, std::uint64_t seed) : complex(ground), x(ground.x), random(seed) {
     for (std::size_t i = 0; i < kBalls; ++i) {
-      spheres.push_back({{id_at<NodeId>(x.size())}, kBall});
+      spheres.push_back({{id_at<NodeId>(x.size())}, kSphere});
       x.push_back({random.uniform(0.0, 4.0), random.uniform(0.0, 4.0), random.uniform(0.2, 1.2)});
     }
     velocity.resize(x.size());
@@ -63,28 +63,29 @@ double distance_to(const Surface& surface, CellId cell, const Vec3& point, Posit
   return foot_on(surface, nearest, point, x).distance;
 }
 
-TEST(CellWatch, FindsEveryCellInRangeWhileAllNodesMove) {
+TEST(DeferredPairs, FindsEveryCellInRangeWhileAllNodesMove) {
   for (const Complex& ground : grounds()) {
     Crowd crowd(ground, 1);
     const Surface surface = crowd.surface();
     ThreadPool pool;
     Neighbours neighbours(crowd.spheres, surface, kSkin);
     neighbours.update(crowd.x, pool);
-    CellWatch watch(surface);
+    DeferredPairs watch(surface);
     watch.rebuild(neighbours.cells());
-    std::vector<CellWatch::Awake> awake(neighbours.near_cells().size());
+    std::vector<DeferredPairs::NextCheck> next_check(neighbours.near_cells().size());
     std::vector<CellId> found;
     std::size_t looked_at = 0;
     for (int step = 0; step < kSteps; ++step) {
       crowd.move(step);
       watch.begin_step({crowd.x, crowd.velocity, crowd.velocity, kStep});
-      for (std::size_t i = 0; i < awake.size(); ++i) {
+      for (std::size_t i = 0; i < next_check.size(); ++i) {
         const auto& pair = neighbours.sphere_structures()[i];
         const auto& near = neighbours.near_cells()[i];
         const Vec3& centre =
             crowd.x[index_of(crowd.spheres[static_cast<std::size_t>(pair.a)].nodes[0])];
         found.clear();
-        if (!watch.is_asleep(awake[i])) watch.find(near, centre, kReach, crowd.x, awake[i], found);
+        if (!watch.is_deferred(next_check[i]))
+          watch.find(near, centre, kReach, crowd.x, next_check[i], found);
         looked_at += found.size();
 
         ASSERT_TRUE(std::is_sorted(found.begin(), found.end()));
@@ -99,25 +100,25 @@ TEST(CellWatch, FindsEveryCellInRangeWhileAllNodesMove) {
   }
 }
 
-TEST(CellWatch, LooksAtEveryCellWhereTheWayIsNotKnown) {
+TEST(DeferredPairs, LooksAtEveryCellWhereTheWayIsNotKnown) {
   Crowd crowd(sheet(4), 2);
   const Surface surface = crowd.surface();
   const std::vector<CellId> cells = all_cells(surface);
-  CellWatch watch(surface);
+  DeferredPairs watch(surface);
   watch.rebuild(cells);
   const NearCells all{0, static_cast<std::uint32_t>(cells.size())};
   std::vector<CellId> found;
   watch.begin_step({crowd.x, {}, {}, kStep});
-  CellWatch::Awake awake;
-  watch.find(all, Vec3(2.2, 2.3, 5.0), kReach, crowd.x, awake, found);
+  DeferredPairs::NextCheck next_check;
+  watch.find(all, Vec3(2.2, 2.3, 5.0), kReach, crowd.x, next_check, found);
   ASSERT_TRUE(found.empty());
   watch.begin_step({crowd.x, {}, {}, kStep});
-  ASSERT_TRUE(watch.is_asleep(awake));
+  ASSERT_TRUE(watch.is_deferred(next_check));
 
   watch.begin_step({crowd.x, {}, {}});
 
-  EXPECT_FALSE(watch.is_asleep(awake));
-  watch.find(all, Vec3(2.2, 2.3, 0.3), kReach, crowd.x, awake, found);
+  EXPECT_FALSE(watch.is_deferred(next_check));
+  watch.find(all, Vec3(2.2, 2.3, 0.3), kReach, crowd.x, next_check, found);
   EXPECT_FALSE(found.empty());
 }
 
@@ -129,8 +130,9 @@ std::vector<NodeForces> forces_over(const Complex& ground, double way) {
   Neighbours neighbours(crowd.spheres, surface, kSkin);
   neighbours.update(crowd.x, pool);
   SurfaceContacts contacts(surface);
-  std::vector<Ball> balls;
-  for (const auto& sphere : crowd.spheres) balls.push_back({sphere.nodes[0], kBall, MaterialId{0}});
+  std::vector<SphereBody> balls;
+  for (const auto& sphere : crowd.spheres)
+    balls.push_back({sphere.nodes[0], kSphere, MaterialId{0}});
   contacts.rebuild(neighbours.sphere_structures(), neighbours.near_cells(), neighbours.cells(),
                    balls, std::vector<MaterialId>(surface.structure_count(), MaterialId{0}),
                    MaterialPairs({{1e6, 0.5, 0.4}}));
@@ -146,15 +148,16 @@ std::vector<NodeForces> forces_over(const Complex& ground, double way) {
 
 TEST(SurfaceContacts, PushTheSameToTheLastBitWhetherCellsSleepOrNot) {
   for (const Complex& ground : grounds()) {
-    const auto awake = forces_over(ground, std::numeric_limits<double>::infinity());
+    const auto next_check = forces_over(ground, std::numeric_limits<double>::infinity());
     const auto asleep = forces_over(ground, kStep);
 
     double largest = 0.0;
-    for (std::size_t step = 0; step < awake.size(); ++step) {
-      for (std::size_t i = 0; i < awake[step].force.size(); ++i) {
-        ASSERT_EQ(awake[step].force[i], asleep[step].force[i]) << "step " << step << " node " << i;
-        ASSERT_EQ(awake[step].torque[i], asleep[step].torque[i]);
-        largest = std::max(largest, awake[step].force[i].norm());
+    for (std::size_t step = 0; step < next_check.size(); ++step) {
+      for (std::size_t i = 0; i < next_check[step].force.size(); ++i) {
+        ASSERT_EQ(next_check[step].force[i], asleep[step].force[i])
+            << "step " << step << " node " << i;
+        ASSERT_EQ(next_check[step].torque[i], asleep[step].torque[i]);
+        largest = std::max(largest, next_check[step].force[i].norm());
       }
     }
     EXPECT_GT(largest, 0.0);

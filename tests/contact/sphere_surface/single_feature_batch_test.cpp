@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/lone_batch.hpp"
+#include "contact/sphere_surface/single_feature_batch.hpp"
 
 #include "contact/law_table.hpp"
-#include "contact/sphere_surface/lone_contact.hpp"
+#include "contact/sphere_surface/single_feature_contact.hpp"
 #include "geometry/primitives/cell_clearance.hpp"
 #include "tests/support/contact_laws.hpp"
 #include "tests/support/contact_surfaces.hpp"
@@ -36,7 +36,7 @@ struct Case {
   Motion motion() const { return {complex.x, velocity, spin}; }
   const Vec3& centre() const { return complex.x[3]; }
   /// m, within which nothing else may be.
-  double reach() const { return range + reach_of<Law>(parameters); }
+  double reach() const { return range + interaction_range_of<Law>(parameters); }
 };
 
 /// Facets of any shape, slivers among them, and balls of any size over their insides.
@@ -128,7 +128,7 @@ struct Cases {
     pair.memory.history.keep(law, c.memory.history);
     pair.memory.normal = c.memory.normal;
   }
-  void advance(LoneBatch& batch) const {
+  void advance(SingleFeatureBatch& batch) const {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto first = static_cast<std::int32_t>(first_nodes[k]);
       const Pair& pair = pairs[k];
@@ -145,17 +145,17 @@ struct Cases {
 
 /// That the general way finds the inside of the facet alone, and makes the same of it.
 template <class Law>
-void expect_general(const Case<Law>& c, const LoneBatch& block, std::size_t lane) {
+void expect_general(const Case<Law>& c, const SingleFeatureBatch& block, std::size_t lane) {
   const typename Law::Parameters& parameters = c.parameters;
   const Surface surface = c.complex.surface();
   PatchFinder finder(surface);
   const auto patches = finder.find(c.centre(), c.reach(), all_cells(surface), c.complex.x);
   ASSERT_EQ(patches.size(), 1u);
-  ASSERT_TRUE(is_lone(finder.terms(patches[0])));
+  ASSERT_TRUE(is_single_feature(finder.terms(patches[0])));
   ASSERT_EQ(patches[0].root, Feature(FaceId{0}));
   const PatchTerm& term = finder.terms(patches[0])[0];
   const PatchState state =
-      lone_state<Law>(term, parameters, NodeId{3}, c.radius, c.range, c.motion());
+      single_feature_state<Law>(term, parameters, NodeId{3}, c.radius, c.range, c.motion());
   typename Law::History history =
       carried_history<Law>(c.memory, state.normal, kStep * state.twist_rate);
   ASSERT_TRUE(state.gap < 0.0 || goes_on<Law>(parameters, history, state.gap));
@@ -170,7 +170,9 @@ void expect_general(const Case<Law>& c, const LoneBatch& block, std::size_t lane
   const auto& found = block.answer(lane);
   EXPECT_EQ(found.weights(), term.core.weights);
   EXPECT_EQ(found.normal(), term.normal);
-  EXPECT_EQ(std::memcmp(found.history(LawTable<Law>::functions).numbers.data(), &history, sizeof(history)), 0);
+  EXPECT_EQ(std::memcmp(found.history(LawTable<Law>::functions).numbers.data(), &history,
+                        sizeof(history)),
+            0);
   EXPECT_EQ(found.gap(), state.gap);
   EXPECT_EQ(found.foot(), state.foot);
   EXPECT_EQ(found.force_b(), state.elastic_force * term.normal + other);
@@ -180,8 +182,8 @@ void expect_general(const Case<Law>& c, const LoneBatch& block, std::size_t lane
 }
 
 template <class Law>
-class LoneBatchUnder : public testing::Test {};
-TYPED_TEST_SUITE(LoneBatchUnder, LaneLaws);
+class SingleFeatureBatchUnder : public testing::Test {};
+TYPED_TEST_SUITE(SingleFeatureBatchUnder, LaneLaws);
 
 /// @returns how many answers were right
 template <class Law>
@@ -190,11 +192,11 @@ int compare_with_general(int width, Case<Law> (*make)(Random&)) {
   Random random(1);
   int right = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    const std::size_t count = 1 + random.index(kLoneLanes);
+    const std::size_t count = 1 + random.index(kSingleFeatureLanes);
     std::vector<Case<Law>> cases;
     Cases<Law> all;
     for (std::size_t k = 0; k < count; ++k) all.add(cases.emplace_back(make(random)));
-    LoneBatch block;
+    SingleFeatureBatch block;
 
     all.advance(block);
 
@@ -208,20 +210,20 @@ int compare_with_general(int width, Case<Law> (*make)(Random&)) {
   return right;
 }
 
-TYPED_TEST(LoneBatchUnder, GivesTheBitsOfTheGeneralWayOrSaysThatItDoesNotKnow) {
+TYPED_TEST(SingleFeatureBatchUnder, GivesTheBitsOfTheGeneralWayOrSaysThatItDoesNotKnow) {
   for (const int width : vector_widths())
     EXPECT_GT(compare_with_general(width, random_case<TypeParam>), 1000);
 }
 
-TYPED_TEST(LoneBatchUnder, GivesTheBitsOfTheGeneralWayBesideOtherFacets) {
+TYPED_TEST(SingleFeatureBatchUnder, GivesTheBitsOfTheGeneralWayBesideOtherFacets) {
   for (const int width : vector_widths())
     EXPECT_GT(compare_with_general(width, random_case_with_neighbours<TypeParam>), 1000);
 }
 
-class LoneBatchOf : public testing::TestWithParam<int> {
+class SingleFeatureBatchOf : public testing::TestWithParam<int> {
   VectorWidth vectors_{GetParam()};
 };
-INSTANTIATE_TEST_SUITE_P(Widths, LoneBatchOf, testing::ValuesIn(vector_widths()),
+INSTANTIATE_TEST_SUITE_P(Widths, SingleFeatureBatchOf, testing::ValuesIn(vector_widths()),
                          testing::PrintToStringParamName());
 
 /// One side of the facet is in range, and another facet beyond it.
@@ -242,11 +244,11 @@ Case<LinearLaw> case_beside(double fold) {
   return c;
 }
 
-TEST_P(LoneBatchOf, KnowsASideThatDoesNotTouchByItself) {
+TEST_P(SingleFeatureBatchOf, KnowsASideThatDoesNotTouchByItself) {
   const auto knows = [](const Case<LinearLaw>& c) {
     Cases<LinearLaw> all;
     all.add(c);
-    LoneBatch block;
+    SingleFeatureBatch block;
     all.advance(block);
     return c.may_be_alone && block.answer(0).is_right();
   };
@@ -270,12 +272,12 @@ Case<LinearLaw> ordinary_case() {
 bool is_right(const Case<LinearLaw>& c) {
   Cases<LinearLaw> all;
   for (int k = 0; k < 5; ++k) all.add(c);
-  LoneBatch block;
+  SingleFeatureBatch block;
   all.advance(block);
   return block.answer(3).is_right();
 }
 
-TEST_P(LoneBatchOf, LeavesToTheGeneralWayWhatIsNotCertain) {
+TEST_P(SingleFeatureBatchOf, LeavesToTheGeneralWayWhatIsNotCertain) {
   const auto with = [](auto change) {
     Case<LinearLaw> c = ordinary_case();
     change(c);

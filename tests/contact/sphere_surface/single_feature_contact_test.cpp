@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/lone_contact.hpp"
+#include "contact/sphere_surface/single_feature_contact.hpp"
 
 #include "contact/law/linear_frictional.hpp"
 #include "tests/support/contact_surfaces.hpp"
@@ -48,10 +48,11 @@ TEST(LoneContact, HasTheStateOfAPatchToTheLastBit) {
       const Motion motion{complex.x, velocity, spin};
       for (const Patch& patch : finder.find(centre, range, all_cells(surface), complex.x)) {
         const auto terms = finder.terms(patch);
-        if (!is_lone(terms)) continue;
+        if (!is_single_feature(terms)) continue;
         ++compared;
 
-        const PatchState lone = lone_state<Law>(terms[0], kParameters, ball, radius, range, motion);
+        const PatchState lone =
+            single_feature_state<Law>(terms[0], kParameters, ball, radius, range, motion);
 
         const PatchState general = general_state(patch, terms, ball, radius, range, motion);
         ASSERT_EQ(lone.root, general.root);

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "contact/law/material_pairs.hpp"
-#include "contact/sphere_sphere/ball_blocks.hpp"
-#include "contact/sphere_sphere/ball_stretch.hpp"
-#include "contact/sphere_sphere/ball_sums.hpp"
 #include "contact/sphere_sphere/pair_numbers.hpp"
+#include "contact/sphere_sphere/sphere_blocks.hpp"
+#include "contact/sphere_sphere/sphere_range.hpp"
+#include "contact/sphere_sphere/sphere_sums.hpp"
 #include "contact/sphere_sphere/touched_lanes.hpp"
-#include "contact/tracking/contact_row.hpp"
+#include "contact/tracking/contact_record.hpp"
 #include "contact/tracking/rekey.hpp"
 #include "geometry/base/cache_lines.hpp"
 
@@ -19,17 +19,17 @@
 
 namespace plekton::contact {
 
-/// Contacts between balls: one lane for each pair that may touch, in the blocks of ball_blocks.hpp,
+/// Contacts between spheres: one lane for each pair that may touch, in the blocks of sphere_blocks.hpp,
 /// those of one law together.
-class BallContacts {
+class SphereContacts {
  public:
   using Parameters = AnyLaw::Parameters;
 
-  /// Takes a new list of pairs of balls (a < b, sorted); pairs in both lists keep their memory.
-  /// @param balls  must not change until the next list
-  /// @param x  m, of nodes, to put what is near together; empty: the balls are in order already
+  /// Takes a new list of pairs of spheres (a < b, sorted); pairs in both lists keep their memory.
+  /// @param spheres  must not change until the next list
+  /// @param x  m, of nodes, to put what is near together; empty: the spheres are in order already
   /// @returns the energy (J) lost with contacts that left the list
-  double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const Ball> balls,
+  double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const SphereBody> spheres,
                  const MaterialPairs& materials, geometry::ThreadPool& pool, Positions x = {});
 
   /// One step of all contacts. Sets the forces of all nodes: of those that touch nothing to zero.
@@ -37,7 +37,7 @@ class BallContacts {
   double advance(const Motion& motion, double dt, geometry::ThreadPool& pool, NodeForces& forces);
 
   std::size_t touching() const noexcept;
-  /// Largest overlap of the last step over the radius of the smaller ball.
+  /// Largest overlap of the last step over the radius of the smaller sphere.
   double largest_overlap_ratio() const noexcept;
 
   /// Energy (J) stored in all contacts, at the positions of the last step.
@@ -47,7 +47,7 @@ class BallContacts {
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
     for_each_lane([&](const Touching& pair) {
-      visit(ball(pair.key.a).node, ball(pair.key.b).node, pair.parameters, pair.gap);
+      visit(sphere(pair.key.a).node, sphere(pair.key.b).node, pair.parameters, pair.gap);
     });
   }
 
@@ -56,10 +56,10 @@ class BallContacts {
   template <class Visit>
   void for_each_near(double margin, Positions x, Visit&& visit) const {
     for (std::size_t i = 0; i < keys_.size(); ++i) {
-      const Ball &a = ball(keys_[i].a), &b = ball(keys_[i].b);
+      const SphereBody &a = sphere(keys_[i].a), &b = sphere(keys_[i].b);
       const Parameters of_pair = parameters(i);
       const double touch = a.radius + b.radius;
-      const double range = touch + margin + AnyLaw::reach(of_pair);
+      const double range = touch + margin + AnyLaw::interaction_range(of_pair);
       const double squared = (x[index_of(b.node)] - x[index_of(a.node)]).squaredNorm();
       if (squared < range * range) visit(a.node, b.node, of_pair, std::sqrt(squared) - touch);
     }
@@ -67,13 +67,13 @@ class BallContacts {
 
   /// Gives a number after the last one to every touching pair that has none. A pair keeps its
   /// number as long as it touches.
-  void number(std::int64_t& last);
+  void assign_ids(std::int64_t& last);
 
-  /// Calls visit(ContactRow) for every touching pair, in the order of the list.
-  void for_each_row(Positions x, VisitRow visit) const;
+  /// Calls visit(ContactRecord) for every touching pair, in the order of the list.
+  void for_each_record(Positions x, VisitRecord visit) const;
 
  private:
-  static constexpr std::size_t kLanes = BallBlocks::kLanes;
+  static constexpr std::size_t kLanes = SphereBlocks::kLanes;
   using Rows = geometry::LaneRows<kLanes>;
   using ConstRows = geometry::LaneRows<kLanes, const double>;
   using Outcome = BlockOutcome<kLanes>;
@@ -96,11 +96,11 @@ class BallContacts {
   /// A list of rows.
   struct Table {
     std::vector<Kind> kinds;
-    std::vector<RowPlace> places;         ///< by row
-    std::vector<TouchedLanes> touched;    ///< by row
+    std::vector<RowPlace> places;       ///< by row
+    std::vector<TouchedLanes> touched;  ///< by row
     geometry::LineNumbers numbers;
 
-    void assign(const BallBlocks& blocks);
+    void assign(const SphereBlocks& blocks);
     std::size_t first_number(std::size_t slot) const noexcept {
       return kLanes * std::size_t{places[slot / kLanes].first_line};
     }
@@ -123,21 +123,21 @@ class BallContacts {
     double gap;  ///< m
   };
 
-  const Ball& ball(std::int32_t index) const noexcept {
-    return balls_[static_cast<std::size_t>(index)];
+  const SphereBody& sphere(std::int32_t index) const noexcept {
+    return spheres_[static_cast<std::size_t>(index)];
   }
   Parameters parameters(std::size_t i) const noexcept;
   Vec3 force_on_b(const Touching& pair) const noexcept;
-  void find_kinds(std::span<const Ball> balls, const MaterialPairs& materials);
+  void find_kinds(std::span<const SphereBody> spheres, const MaterialPairs& materials);
   void set_parameters(const MaterialPairs& materials);
   void move_memories(const Table& old);
-  void advance_block(const BallBlocks::Block& block, const Motion& motion, BallWork& work);
-  BallStretch stretch_of(const BallBlocks::Stretch& stretch) noexcept;
-  /// Hands the sums of a block's own balls to their nodes, and keeps those of borrowed ones.
-  void hand_over(const BallBlocks::Block& block, const BallWork& work, NodeForces& forces);
+  void advance_block(const SphereBlocks::Block& block, const Motion& motion, SphereWork& work);
+  SphereRange range_of(const SphereBlocks::Range& range) noexcept;
+  /// Hands the sums of a block's own spheres to their nodes, and keeps those of ghosts.
+  void hand_over(const SphereBlocks::Block& block, const SphereWork& work, NodeForces& forces);
   void set_others_zero(NodeForces& forces, geometry::ThreadPool& pool) const;
   /// Adds to all nodes what other blocks than their own have of them.
-  void return_loans(NodeForces& forces, geometry::ThreadPool& pool) const;
+  void add_ghost_sums(NodeForces& forces, geometry::ThreadPool& pool) const;
 
   /// Calls visit(touching pair), in the order of the list.
   template <class Visit>
@@ -150,22 +150,22 @@ class BallContacts {
     }
   }
 
-  std::vector<geometry::IndexPair> keys_;  ///< of balls
+  std::vector<geometry::IndexPair> keys_;  ///< of spheres
   std::vector<std::uint8_t> kinds_;        ///< by pair; empty: one of all
-  std::span<const Ball> balls_;
-  /// Of all balls, where parameters are not kept.
+  std::span<const SphereBody> spheres_;
+  /// Of all spheres, where parameters are not kept.
   struct Common {
     Material material;
     AnyLaw::Properties properties;
   };
   std::optional<Common> common_;
-  BallBlocks blocks_;
+  SphereBlocks blocks_;
   Table table_;
-  Table last_table_;  ///< its room
-  PairNumbers numbers_;        ///< of the pairs that touched when they were numbered last
-  std::vector<BallSum> lent_;  ///< of balls that blocks borrow
-  std::vector<Outcome> outcomes_;         ///< by block
-  std::vector<BallWork> work_;            ///< by thread
+  Table last_table_;                   ///< its room
+  PairNumbers numbers_;                ///< of the pairs that touched when they were numbered last
+  std::vector<SphereSum> ghost_sums_;  ///< of ghosts
+  std::vector<Outcome> outcomes_;      ///< by block
+  std::vector<SphereWork> work_;       ///< by thread
   std::vector<std::uint32_t> old_slots_;  ///< by pair of a new list
 };
 

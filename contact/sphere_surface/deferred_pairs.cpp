@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/cell_watch.hpp"
+#include "contact/sphere_surface/deferred_pairs.hpp"
 
 #include "contact/tracking/rekey.hpp"
 #include "geometry/primitives/cell_clearance.hpp"
@@ -19,7 +19,7 @@ constexpr double kStepsInRange = 8.0;
 
 }  // namespace
 
-void CellWatch::rebuild(std::span<const geometry::CellId> cells) {
+void DeferredPairs::rebuild(std::span<const geometry::CellId> cells) {
   make_room(cells_, cells.size());
   make_room(wake_, cells.size());
   cells_.assign(cells.begin(), cells.end());
@@ -27,11 +27,12 @@ void CellWatch::rebuild(std::span<const geometry::CellId> cells) {
   is_new_ = true;
 }
 
-void CellWatch::begin_step(const Motion& motion) noexcept {
+void DeferredPairs::begin_step(const Motion& motion) noexcept {
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
-  all_awake_ = is_new_ || !std::isfinite(motion.way);
-  if (!all_awake_) {
-    moved_ = (1.0 + kRounding) * (moved_ + 2.0 * motion.way + kRounding * (furthest_ + moved_));
+  all_are_due_ = is_new_ || !std::isfinite(motion.max_displacement);
+  if (!all_are_due_) {
+    moved_ = (1.0 + kRounding) *
+             (moved_ + 2.0 * motion.max_displacement + kRounding * (furthest_ + moved_));
     return;
   }
   moved_ = 0.0;
@@ -40,21 +41,21 @@ void CellWatch::begin_step(const Motion& motion) noexcept {
   is_new_ = false;
 }
 
-void CellWatch::find(const NearCells& near, const Vec3& centre, double range, Positions x,
-                     Awake& awake, std::vector<geometry::CellId>& found) {
+void DeferredPairs::find(const NearCells& near, const Vec3& centre, double range, Positions x,
+                         NextCheck& next_check, std::vector<geometry::CellId>& found) {
   const std::size_t before = found.size();
-  const bool is_due = all_awake_ || !(moved_ < awake.wake);
-  if (!is_due && awake.count == 1 && wake_[near.first] < 0.0) {  // most often
+  const bool is_due = all_are_due_ || !(moved_ < next_check.wake);
+  if (!is_due && next_check.count == 1 && wake_[near.first] < 0.0) {  // most often
     wake_[near.first] += 1.0;
     found.push_back(cells_[near.first]);
     return;
   }
-  const std::uint32_t end = near.first + (is_due ? near.count : awake.count);
-  double wake = is_due ? std::numeric_limits<double>::infinity() : awake.wake;
+  const std::uint32_t end = near.first + (is_due ? near.count : next_check.count);
+  double wake = is_due ? std::numeric_limits<double>::infinity() : next_check.wake;
   std::uint32_t next = near.first;
   for (std::uint32_t i = near.first; i < end; ++i) {
-    if (all_awake_ || wake_[i] >= 0.0) {
-      if (all_awake_ || !(moved_ < wake_[i])) {
+    if (all_are_due_ || wake_[i] >= 0.0) {
+      if (all_are_due_ || !(moved_ < wake_[i])) {
         const double clearance = geometry::clearance(*surface_, cells_[i], centre, range, x);
         wake_[i] = clearance > 0.0 ? moved_ + clearance : -kStepsInRange;
       }
@@ -69,7 +70,7 @@ void CellWatch::find(const NearCells& near, const Vec3& centre, double range, Po
     std::swap(wake_[i], wake_[next]);
     ++next;
   }
-  awake = {wake, next - near.first};
+  next_check = {wake, next - near.first};
   std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());
 }
 

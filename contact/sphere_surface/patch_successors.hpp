@@ -15,12 +15,12 @@ namespace plekton::contact {
 /// it started in, whatever number of primitives it crosses, so history is handed over at every
 /// seam, shared when a patch splits, and summed when two merge; without a tolerance, and without
 /// asking which element was listed first.
-class PatchHeirs {
+class PatchSuccessors {
  public:
-  explicit PatchHeirs(const geometry::Surface& surface) : surface_(&surface) {}
+  explicit PatchSuccessors(const geometry::Surface& surface) : surface_(&surface) {}
 
   /// @param minima   features of the last step's minima of the contact
-  /// @param centre   m, of the ball, now
+  /// @param centre   m, of the sphere, now
   /// @param patches  of this step, from finder
   /// @returns        places in patches, ascending, each once; none if the contact is over. Valid
   /// until the next call.
@@ -30,7 +30,7 @@ class PatchHeirs {
 
  private:
   const geometry::Surface* surface_;
-  std::vector<std::uint32_t> heirs_;
+  std::vector<std::uint32_t> successors_;
 };
 
 }  // namespace plekton::contact

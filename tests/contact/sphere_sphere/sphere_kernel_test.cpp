@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_sphere/ball_batch.hpp"
 #include "contact/law_table.hpp"
-#include "contact/sphere_sphere/ball_contacts.hpp"
+#include "contact/sphere_sphere/sphere_batch.hpp"
+#include "contact/sphere_sphere/sphere_contacts.hpp"
 #include "tests/support/contact_laws.hpp"
 #include "tests/support/one_at_a_time.hpp"
 #include "tests/support/vector_width.hpp"
@@ -26,7 +26,7 @@ constexpr double kMass = 1e-5;  // kg
 
 template <class Law>
 struct Case {
-  BallPairOf<double> pair;
+  SpherePairOf<double> pair;
   Vec3 separation;
   typename Law::Parameters parameters;
   ContactMemory<Law> memory;
@@ -75,7 +75,7 @@ class RandomCases {
 };
 
 template <class Law>
-void put(const Case<Law>& c, std::size_t lane, BallBatch& block) {
+void put(const Case<Law>& c, std::size_t lane, SphereBatch& block) {
   block.separation.set(lane, c.separation);
   block.velocity.set(lane, c.pair.velocity);
   block.spin_a.set(lane, c.pair.spin_a);
@@ -103,10 +103,10 @@ std::vector<double> numbers_of(const Thing& thing) {
 }
 
 template <class Law>
-void expect_step_of(const Case<Law>& c, BallBatch& block, std::size_t lane) {
+void expect_step_of(const Case<Law>& c, SphereBatch& block, std::size_t lane) {
   typename Law::History history =
       carried_history<Law>(c.memory, c.pair.normal, kStep * c.pair.twist_rate());
-  const BallStepOf<double> step = ball_step<Law>(c.pair, c.parameters, history, kStep);
+  const SphereStepOf<double> step = sphere_step<Law>(c.pair, c.parameters, history, kStep);
 
   EXPECT_EQ(vector_of(block.normal, lane), c.pair.normal);
   EXPECT_EQ(numbers_of(block.history().template at<typename Law::History>(lane)),
@@ -120,22 +120,22 @@ void expect_step_of(const Case<Law>& c, BallBatch& block, std::size_t lane) {
 }
 
 template <class Law>
-class BallKernel : public testing::Test {};
-TYPED_TEST_SUITE(BallKernel, test::LaneLaws);
+class SphereKernel : public testing::Test {};
+TYPED_TEST_SUITE(SphereKernel, test::LaneLaws);
 
 /// @returns whether all answers are right
 template <class Law>
-bool advance(BallBatch& block, std::size_t count) {
+bool advance(SphereBatch& block, std::size_t count) {
   return LawTable<Law>::functions.advance_batch(block, count, kStep);
 }
 
-TYPED_TEST(BallKernel, GivesTheBitsOfOnePairAfterTheOtherForAnyCountAndWidth) {
+TYPED_TEST(SphereKernel, GivesTheBitsOfOnePairAfterTheOtherForAnyCountAndWidth) {
   for (const int width : test::vector_widths()) {
     const test::VectorWidth vectors(width);
     RandomCases<TypeParam> random;
     for (std::size_t count = 1; count <= 40; ++count) {
       std::vector<Case<TypeParam>> cases;
-      BallBatch block;
+      SphereBatch block;
       for (std::size_t lane = 0; lane < count; ++lane)
         put(cases.emplace_back(random()), lane, block);
 
@@ -148,17 +148,17 @@ TYPED_TEST(BallKernel, GivesTheBitsOfOnePairAfterTheOtherForAnyCountAndWidth) {
 
 using Law = LinearFrictional;
 
-class BallKernelOf : public testing::TestWithParam<int> {
+class SphereKernelOf : public testing::TestWithParam<int> {
   test::VectorWidth vectors_{GetParam()};
 };
-INSTANTIATE_TEST_SUITE_P(Widths, BallKernelOf, testing::ValuesIn(test::vector_widths()),
+INSTANTIATE_TEST_SUITE_P(Widths, SphereKernelOf, testing::ValuesIn(test::vector_widths()),
                          testing::PrintToStringParamName());
 
-TEST_P(BallKernelOf, SaysWhenAPairNeedsThePlainWay) {
+TEST_P(SphereKernelOf, SaysWhenAPairNeedsThePlainWay) {
   RandomCases<Law> random;
   const auto all_right = [](const Case<Law>& odd, std::size_t lane) {
     RandomCases<Law> others;
-    BallBatch block;
+    SphereBatch block;
     for (std::size_t k = 0; k < 11; ++k) put(k == lane ? odd : others(), k, block);
     return advance<Law>(block, 11);
   };
@@ -188,22 +188,22 @@ template <class Law>
 std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false,
                                     const PropertiesOf<Law>& properties = {}) {
   constexpr std::size_t kBalls = 60;
-  std::vector<Ball> balls;
+  std::vector<SphereBody> balls;
   std::vector<geometry::IndexPair> pairs;
   for (std::int32_t b = 0; b < std::int32_t{kBalls}; ++b) {
     balls.push_back({NodeId{b}, 1e-3, MaterialId{0}, kMass});
     for (std::int32_t a = 0; a < b; ++a) pairs.push_back({a, b});
   }
   std::sort(pairs.begin(), pairs.end());
-  BallContacts contacts;
+  SphereContacts contacts;
   geometry::ThreadPool pool(threads);
   NodeForces forces(kBalls);
   std::vector<Vec3> all;
   RandomCases<LinearFrictional> random;
   std::vector<Vec3> x(kBalls), v(kBalls), w(kBalls);
   for (Vec3& p : x) p = 3e-3 * random.vector();
-  const MaterialPairs materials(
-      {kStone}, {{{MaterialId{0}, MaterialId{0}}, AnyLaw::of<Law>(properties)}});
+  const MaterialPairs materials({kStone},
+                                {{{MaterialId{0}, MaterialId{0}}, AnyLaw::of<Law>(properties)}});
   contacts.rebuild(pairs, balls, materials, pool, knows_where ? Positions(x) : Positions());
   for (int step = 0; step < 20; ++step) {
     for (std::size_t i = 0; i < kBalls; ++i) {
@@ -221,17 +221,17 @@ std::vector<Vec3> forces_of_a_crowd(int threads, bool knows_where = false,
   return all;
 }
 
-TEST(BallContacts, SetTheForcesOfAllNodes) {
+TEST(SphereContacts, SetTheForcesOfAllNodes) {
   const std::vector<Vec3> x{Vec3::Zero(),       Vec3::Zero(),  Vec3::Zero(),
                             Vec3(1.9e-3, 0, 0), Vec3(1, 0, 0), Vec3::Zero()};
   const std::vector<Vec3> still(x.size(), Vec3::Zero());
   const MaterialId stone{0};
-  const std::vector<Ball> balls{
+  const std::vector<SphereBody> balls{
       {NodeId{1}, 1e-3, stone}, {NodeId{3}, 1e-3, stone}, {NodeId{4}, 1e-3, stone}};
   const std::vector<geometry::IndexPair> pairs{{0, 1}};
   for (const int threads : {1, 2}) {
     geometry::ThreadPool pool(threads);
-    BallContacts contacts;
+    SphereContacts contacts;
     contacts.rebuild(pairs, balls, MaterialPairs({Material{2e6, 0.3, 0.5}}), pool, x);
     NodeForces forces(x.size());
     for (std::vector<Vec3>* sums : {&forces.force, &forces.torque})
@@ -247,10 +247,10 @@ TEST(BallContacts, SetTheForcesOfAllNodes) {
 }
 
 template <class Law>
-class BallContactsUnder : public testing::Test {};
-TYPED_TEST_SUITE(BallContactsUnder, test::LaneLaws);
+class SphereContactsUnder : public testing::Test {};
+TYPED_TEST_SUITE(SphereContactsUnder, test::LaneLaws);
 
-TYPED_TEST(BallContactsUnder, HaveTheSameBitsSideBySideAndOneAfterTheOther) {
+TYPED_TEST(SphereContactsUnder, HaveTheSameBitsSideBySideAndOneAfterTheOther) {
   test::Random random(7);
   for (int trial = 0; trial < 5; ++trial) {
     const auto properties = test::random_properties<TypeParam>(random);
@@ -264,7 +264,7 @@ TYPED_TEST(BallContactsUnder, HaveTheSameBitsSideBySideAndOneAfterTheOther) {
 }
 
 /// One says what the others come to, so that parameters are kept instead of made anew.
-TEST(BallContacts, HaveTheSameBitsUnderAStiffnessThatIsGiven) {
+TEST(SphereContacts, HaveTheSameBitsUnderAStiffnessThatIsGiven) {
   const Law::Properties same{.normal_stiffness = 2e6 * 1e-3,
                              .tangential_stiffness = 2e6 * 1e-3 * 0.3};
   const Law::Properties other{.normal_stiffness = 3e3, .tangential_stiffness = 1e3};
@@ -275,14 +275,14 @@ TEST(BallContacts, HaveTheSameBitsUnderAStiffnessThatIsGiven) {
   EXPECT_EQ(with_other, forces_of_a_crowd<Law>(4, false, other));
 }
 
-TEST(BallContacts, HaveTheSameBitsForAnyNumberOfThreads) {
+TEST(SphereContacts, HaveTheSameBitsForAnyNumberOfThreads) {
   const std::vector<Vec3> of_one = forces_of_a_crowd<Law>(1);
 
   EXPECT_EQ(forces_of_a_crowd<Law>(2), of_one);
   EXPECT_EQ(forces_of_a_crowd<Law>(4), of_one);
 }
 
-TEST(BallContacts, DoNotDependOnWhoTouchedWhenTheListWasMade) {
+TEST(SphereContacts, DoNotDependOnWhoTouchedWhenTheListWasMade) {
   const std::vector<Vec3> without = forces_of_a_crowd<Law>(1);
   const std::vector<Vec3> with = forces_of_a_crowd<Law>(1, true);
 

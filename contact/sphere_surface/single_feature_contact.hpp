@@ -10,17 +10,17 @@
 namespace plekton::contact {
 
 /// Whether a patch is one minimum alone, with a normal that is certain.
-inline bool is_lone(std::span<const PatchTerm> terms) noexcept {
+inline bool is_single_feature(std::span<const PatchTerm> terms) noexcept {
   return terms.size() == 1 && terms[0].weight == 1.0 && terms[0].slope == 0.0 &&
          terms[0].distance > 0.0;
 }
 
-/// patch_state() and set_kinematics() of a patch that is_lone().
-/// @param ball, radius  of side a, m
-/// @param range         m, radius of ball + radius of surface
+/// patch_state() and set_kinematics() of a patch that is_single_feature().
+/// @param sphere, radius  of side a, m
+/// @param range         m, radius of sphere + radius of surface
 template <ContactLaw Law>
-PatchState lone_state(const PatchTerm& term, const typename Law::Parameters& parameters,
-                      NodeId ball, double radius, double range, const Motion& motion) {
+PatchState single_feature_state(const PatchTerm& term, const typename Law::Parameters& parameters,
+                                NodeId sphere, double radius, double range, const Motion& motion) {
   PatchState state;
   state.root = term.core.feature;
   state.normal = term.normal;
@@ -32,9 +32,9 @@ PatchState lone_state(const PatchTerm& term, const typename Law::Parameters& par
   state.lever_a = distance > 0.0 ? Vec3((radius + 0.5 * state.gap) / distance * state.foot)
                                  : Vec3(Vec3::Zero());
   const Vec3 lever_b = state.lever_a - state.foot;
-  const Vec3& spin_a = motion.angular_velocity[index_of(ball)];
+  const Vec3& spin_a = motion.angular_velocity[index_of(sphere)];
   state.relative_velocity = velocity_at(term.core, lever_b, motion) -
-                            motion.velocity[index_of(ball)] - spin_a.cross(state.lever_a);
+                            motion.velocity[index_of(sphere)] - spin_a.cross(state.lever_a);
   const Vec3 spin_b = angular_velocity_at(term.core, motion);
   state.relative_spin = spin_b - spin_a;
   state.twist_rate = 0.5 * (spin_a + spin_b).dot(state.normal);

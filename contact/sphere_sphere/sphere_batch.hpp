@@ -3,14 +3,14 @@
 
 #include "contact/law/any_law.hpp"
 #include "contact/law/lane_law.hpp"
-#include "contact/sphere_sphere/ball_kernel.hpp"
+#include "contact/sphere_sphere/sphere_kernel.hpp"
 #include "geometry/base/lane_rows.hpp"
 #include "geometry/base/rows.hpp"
 #include "geometry/base/vector_width.hpp"
 
 #include <array>
 
-/// Touching pairs of balls of one law in batches, so that a processor computes as many contacts at
+/// Touching pairs of spheres of one law in batches, so that a processor computes as many contacts at
 /// once as its vectors have lanes: pairs are gathered into rows of numbers, the kernel runs along
 /// the rows, and the results are taken out again.
 namespace plekton::contact {
@@ -19,7 +19,7 @@ namespace plekton::contact {
 template <LaneLaw Law, class Real>
 struct LaneStepOf {
   Real touch;  ///< 1 if the pair touches or goes on over a distance, else 0
-  BallStepOf<Real> step;
+  SphereStepOf<Real> step;
   typename Law::template HistoryOf<Real> history;
   Vec3Of<Real> normal;
   Real smaller_radius;  ///< m
@@ -30,31 +30,31 @@ struct LaneStepOf {
 };
 
 /// One step of pairs that touch.
-/// @param touch  1 if the balls overlap, else 0
+/// @param touch  1 if the spheres overlap, else 0
 /// @param history, last_normal  of the last step; all zero in a new contact
 template <LaneLaw Law, class Real>
 PLEKTON_INLINE LaneStepOf<Law, Real> advance_lanes(
-    const BallMotionOf<Real>& balls, const Real& touch,
+    const SphereMotionOf<Real>& spheres, const Real& touch,
     const typename Law::template ParametersOf<Real>& parameters,
     typename Law::template HistoryOf<Real> history, const Vec3Of<Real>& last_normal,
     double dt) noexcept {
-  const Real distance = balls.separation.norm();
-  const BallPairOf<Real> pair{(Real(1.0) / distance) * balls.separation,
-                              distance,
-                              balls.velocity,
-                              balls.spin_a,
-                              balls.spin_b,
-                              balls.radius_a,
-                              balls.radius_b};
+  const Real distance = spheres.separation.norm();
+  const SpherePairOf<Real> pair{(Real(1.0) / distance) * spheres.separation,
+                                distance,
+                                spheres.velocity,
+                                spheres.spin_a,
+                                spheres.spin_b,
+                                spheres.radius_a,
+                                spheres.radius_b};
   Real touch_or_hold = touch;
-  if constexpr (HasReach<Law>)
+  if constexpr (HasInteractionRange<Law>)
     touch_or_hold = geometry::flag(
         larger_of(touch, goes_on_side_by_side<Law, Real>(
                              parameters, history, distance - (pair.radius_a + pair.radius_b))) >
         Real(0.0));
   const FrameRotationOf<Real> rotation{last_normal, pair.normal, Real(dt) * pair.twist_rate()};
   Law::rotate(history, rotation);
-  const BallStepOf<Real> step = ball_step<Law>(pair, parameters, history, dt);
+  const SphereStepOf<Real> step = sphere_step<Law>(pair, parameters, history, dt);
   const Real smaller = geometry::smaller_of(pair.radius_a, pair.radius_b);
   const Real untwisted = Real(geometry::kSmallAngleSquared) - rotation.twist * rotation.twist;
   const Real unturned = select(Real(0.0) > rotation.from.dot(rotation.to), Real(-1.0), Real(1.0));
@@ -67,7 +67,7 @@ PLEKTON_INLINE LaneStepOf<Law, Real> advance_lanes(
 constexpr std::size_t kBatchLanes = 64;
 
 /// Up to kBatchLanes touching pairs.
-struct BallBatch {
+struct SphereBatch {
   template <class Thing>
   using RowsOf = geometry::RowsOf<Thing, kBatchLanes>;
   using NumberRows = geometry::LaneRows<kBatchLanes>;
@@ -88,7 +88,7 @@ struct BallBatch {
   RowsOf<Vec3> force;            ///< N, on b
   RowsOf<Vec3> torque_a;         ///< N m, on a
   RowsOf<double> dissipated;     ///< J
-  RowsOf<double> overlap_ratio;  ///< overlap over the radius of the smaller ball
+  RowsOf<double> overlap_ratio;  ///< overlap over the radius of the smaller sphere
   RowsOf<double> is_right;       ///< positive if these are the answers; see LaneStepOf
 
   /// One step of the first count pairs, W at a time; the lanes up to the next multiple of W hold
@@ -113,15 +113,15 @@ struct BallBatch {
 };
 
 template <LaneLaw Law, int W>
-PLEKTON_INLINE void BallBatch::advance_lanes(std::size_t lane, double dt) noexcept {
+PLEKTON_INLINE void SphereBatch::advance_lanes(std::size_t lane, double dt) noexcept {
   using Real = Pack<W>;
   using Vector = Vec3Of<Real>;
-  const BallMotionOf<Real> balls{
+  const SphereMotionOf<Real> spheres{
       separation.template load<Vector>(lane), velocity.template load<Vector>(lane),
       spin_a.template load<Vector>(lane),     spin_b.template load<Vector>(lane),
       radius_a.template load<Real>(lane),     radius_b.template load<Real>(lane)};
   const auto answer = contact::advance_lanes<Law, Real>(
-      balls, Real(1.0),
+      spheres, Real(1.0),
       parameters().template load<typename Law::template ParametersOf<Real>, W>(lane),
       history().template load<typename Law::template HistoryOf<Real>, W>(lane),
       normal.template load<Vector>(lane), dt);
@@ -137,9 +137,9 @@ PLEKTON_INLINE void BallBatch::advance_lanes(std::size_t lane, double dt) noexce
   is_right.store(lane, answer.is_right);
 }
 
-/// BallBatch::advance with the widest vectors there are.
+/// SphereBatch::advance with the widest vectors there are.
 template <LaneLaw Law>
-bool advance_batch(BallBatch& batch, std::size_t count, double dt) {
+bool advance_batch(SphereBatch& batch, std::size_t count, double dt) {
   bool all_right = false;
   geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
     all_right = batch.template advance<Law, width>(count, dt);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/sphere_sphere/ball_blocks.hpp"
-#include "contact/sphere_sphere/ball_kernel.hpp"
+#include "contact/sphere_sphere/sphere_blocks.hpp"
+#include "contact/sphere_sphere/sphere_kernel.hpp"
 #include "contact/tracking/rekey.hpp"
 #include "geometry/base/lanes.hpp"
 
@@ -12,9 +12,9 @@
 
 namespace plekton::contact {
 
-/// Copies of what contacts read of the balls of a block, one or two lines of the cache for each
-/// ball, so that pairs are gathered by whole vectors.
-class BallRows {
+/// Copies of what contacts read of the spheres of a block, one or two lines of the cache for each
+/// sphere, so that pairs are gathered by whole vectors.
+class SphereStates {
  public:
   /// For blocks of up to a number of members. Allocates only for more than ever before.
   void reserve(std::size_t member_count) {
@@ -24,12 +24,12 @@ class BallRows {
     spins_.resize(member_count);
   }
 
-  /// Copies the motion of the members' nodes; the last member is the ball of no size.
-  void load(std::span<const BallBlocks::Member> members, const Motion& motion) noexcept {
-    const std::size_t balls = members.size() - 1;
-    for (std::size_t m = 0; m < balls; ++m) {
+  /// Copies the motion of the members' nodes; the last member is the sphere of no size.
+  void load(std::span<const SphereBlocks::Member> members, const Motion& motion) noexcept {
+    const std::size_t spheres = members.size() - 1;
+    for (std::size_t m = 0; m < spheres; ++m) {
       // Nodes may lie anywhere: far ahead, so that none is waited for.
-      const std::size_t ahead = index_of(members[std::min(m + kAhead, balls - 1)].node);
+      const std::size_t ahead = index_of(members[std::min(m + kAhead, spheres - 1)].node);
       __builtin_prefetch(&motion.position[ahead]);
       __builtin_prefetch(&motion.velocity[ahead]);
       __builtin_prefetch(&motion.angular_velocity[ahead]);
@@ -37,11 +37,11 @@ class BallRows {
       moves_[m] = {motion.position[node], motion.velocity[node], {}};
       spins_[m] = {motion.angular_velocity[node], members[m].radius};
     }
-    moves_[balls] = {Vec3::Zero(), Vec3::Zero(), {}};
-    spins_[balls] = {Vec3::Zero(), 0.0};
+    moves_[spheres] = {Vec3::Zero(), Vec3::Zero(), {}};
+    spins_[spheres] = {Vec3::Zero(), 0.0};
   }
 
-  BallMotionOf<double> pair(const BallBlocks::Pair& pair) const noexcept {
+  SphereMotionOf<double> pair(const SphereBlocks::Pair& pair) const noexcept {
     const Move& move_a = moves_[pair.a];
     const Move& move_b = moves_[pair.b];
     const Spin& spin_a = spins_[pair.a];
@@ -54,12 +54,12 @@ class BallRows {
             spin_b.radius};
   }
 
-  /// Whether any pair of a row touches: as BallMotionOf::touch() tells it.
+  /// Whether any pair of a row touches: as SphereMotionOf::touch() tells it.
   template <int W>
-  PLEKTON_INLINE bool any_touch(const BallBlocks::Pair* row) const noexcept {
+  PLEKTON_INLINE bool any_touch(const SphereBlocks::Pair* row) const noexcept {
     using Real = geometry::Pack<W>;
-    for (std::size_t first = 0; first < BallBlocks::kLanes; first += std::size_t{W}) {
-      const BallBlocks::Pair* const pairs = row + first;
+    for (std::size_t first = 0; first < SphereBlocks::kLanes; first += std::size_t{W}) {
+      const SphereBlocks::Pair* const pairs = row + first;
       std::array<double, std::size_t{W}> ranges;
       for (std::size_t lane = 0; lane < std::size_t{W}; ++lane)
         ranges[lane] = spins_[pairs[lane].a].radius + spins_[pairs[lane].b].radius;
@@ -78,8 +78,8 @@ class BallRows {
 
   /// W pairs side by side. Differences are taken before the numbers change places.
   template <int W>
-  PLEKTON_INLINE BallMotionOf<geometry::Pack<W>> pairs(
-      const BallBlocks::Pair* pairs) const noexcept {
+  PLEKTON_INLINE SphereMotionOf<geometry::Pack<W>> pairs(
+      const SphereBlocks::Pair* pairs) const noexcept {
     const auto [x, y, z, u, v, w, unused, unused_too] = geometry::gather_things<W, 8>([&](
         std::size_t lane, auto part) __attribute__((always_inline)) {
       using Part = typename decltype(part)::Pack;

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
-/// The arithmetic of a contact between two balls, for one pair (Real = double) or for some side by
+/// The arithmetic of a contact between two spheres, for one pair (Real = double) or for some side by
 /// side (Real = Pack).
 namespace plekton::contact {
 
-/// How two balls stand and move.
+/// How two spheres stand and move.
 template <class Real>
-struct BallMotionOf {
+struct SphereMotionOf {
   Vec3Of<Real> separation;  ///< m, from centre a to centre b
   Vec3Of<Real> velocity;    ///< m/s, of centre b relative to centre a
   Vec3Of<Real> spin_a;      ///< rad/s
@@ -19,16 +19,16 @@ struct BallMotionOf {
   Real radius_a;            ///< m
   Real radius_b;            ///< m
 
-  /// 1 if the balls overlap, else 0; without a square root.
+  /// 1 if the spheres overlap, else 0; without a square root.
   PLEKTON_INLINE Real touch() const noexcept {
     const Real range = radius_a + radius_b;
     return geometry::flag(range * range > separation.squaredNorm());
   }
 };
 
-/// Two balls that touch.
+/// Two spheres that touch.
 template <class Real>
-struct BallPairOf {
+struct SpherePairOf {
   Vec3Of<Real> normal;    ///< unit, from a to b
   Real distance;          ///< m, of the centres
   Vec3Of<Real> velocity;  ///< m/s, of centre b relative to centre a
@@ -37,7 +37,7 @@ struct BallPairOf {
   Real radius_a;          ///< m
   Real radius_b;          ///< m
 
-  /// Rate (rad/s) at which both balls turn about the normal, their mean.
+  /// Rate (rad/s) at which both spheres turn about the normal, their mean.
   PLEKTON_INLINE Real twist_rate() const noexcept {
     const Vec3Of<Real> twice_mean = spin_a + spin_b;
     return Real(0.5) * twice_mean.dot(normal);
@@ -46,10 +46,10 @@ struct BallPairOf {
 
 /// What a step of a pair came to.
 template <class Real>
-struct BallStepOf {
+struct SphereStepOf {
   Real gap;                         ///< m
   Vec3Of<Real> force;               ///< N, on b
-  Vec3Of<Real> force_cross_normal;  ///< N; times an arm it is the torque on that ball
+  Vec3Of<Real> force_cross_normal;  ///< N; times an arm it is the torque on that sphere
   Real arm_a;                       ///< m
   Real arm_b;                       ///< m
   Real dissipated;                  ///< J
@@ -59,9 +59,9 @@ struct BallStepOf {
 /// Asks the law. The forces act at the point half way through the overlap.
 /// @param history  already turned into the frame of this step
 template <class Law, class Real, class Parameters, class History>
-PLEKTON_INLINE BallStepOf<Real> ball_step(const BallPairOf<Real>& pair,
-                                          const Parameters& parameters, History& history,
-                                          double dt) noexcept {
+PLEKTON_INLINE SphereStepOf<Real> sphere_step(const SpherePairOf<Real>& pair,
+                                              const Parameters& parameters, History& history,
+                                              double dt) noexcept {
   const Real gap = pair.distance - (pair.radius_a + pair.radius_b);
   const Real arm_a = pair.radius_a + Real(0.5) * gap;
   const Real arm_b = pair.radius_b + Real(0.5) * gap;

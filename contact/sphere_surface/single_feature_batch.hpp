@@ -16,35 +16,35 @@
 #include <cstdint>
 #include <span>
 
-/// Balls that touch the inside of one facet each, side by side: what lone_contact.hpp and the
+/// Spheres that touch the inside of one facet each, side by side: what lone_contact.hpp and the
 /// general way make of each, to the last bit.
 namespace plekton::contact {
 
-/// A ball (first) and the corners of a facet, as they stand and move.
+/// A sphere (first) and the corners of a facet, as they stand and move.
 template <class Real>
-struct LoneMotionOf {
+struct SingleFeatureMotionOf {
   std::array<Vec3Of<Real>, 4> position;  ///< m
   std::array<Vec3Of<Real>, 4> velocity;  ///< m/s
   std::array<Vec3Of<Real>, 4> spin;      ///< rad/s
-  Real radius;                           ///< m, of the ball
-  Real range;                            ///< m, radius of ball + radius of facet
+  Real radius;                           ///< m, of the sphere
+  Real range;                            ///< m, radius of sphere + radius of facet
 };
 
-/// The relative motion at the contact point, as lone_state() has it.
+/// The relative motion at the contact point, as single_feature_state() has it.
 template <class Real>
-struct LoneKinematicsOf {
+struct SingleFeatureKinematicsOf {
   Real gap;               ///< m
-  Vec3Of<Real> foot;      ///< m, from the ball's centre
-  Vec3Of<Real> lever_a;   ///< m, from the ball's centre to the contact point
+  Vec3Of<Real> foot;      ///< m, from the sphere's centre
+  Vec3Of<Real> lever_a;   ///< m, from the sphere's centre to the contact point
   Vec3Of<Real> lever_b;   ///< m, from the foot to the contact point
-  Vec3Of<Real> velocity;  ///< m/s, of the facet relative to the ball
-  Vec3Of<Real> spin;      ///< rad/s, of the facet relative to the ball
+  Vec3Of<Real> velocity;  ///< m/s, of the facet relative to the sphere
+  Vec3Of<Real> spin;      ///< rad/s, of the facet relative to the sphere
   Real twist_rate;        ///< rad/s
 };
 
 template <class Real>
-PLEKTON_INLINE LoneKinematicsOf<Real> lone_kinematics(
-    const LoneMotionOf<Real>& motion, const geometry::FaceFootOf<Real>& at) noexcept {
+PLEKTON_INLINE SingleFeatureKinematicsOf<Real> single_feature_kinematics(
+    const SingleFeatureMotionOf<Real>& motion, const geometry::FaceFootOf<Real>& at) noexcept {
   using Vector = Vec3Of<Real>;
   const Real gap = at.distance - motion.range;
   const Vector foot = at.distance * at.direction;
@@ -73,25 +73,25 @@ PLEKTON_INLINE LoneKinematicsOf<Real> lone_kinematics(
           Real(0.5) * twice_mean.dot(at.direction)};
 }
 
-/// What a step of a ball and a facet came to, side by side.
+/// What a step of a sphere and a facet came to, side by side.
 template <class Real, class History>
-struct LoneAnswerOf {
+struct SingleFeatureAnswerOf {
   Vec3Of<Real> weights;   ///< of the corners
   Vec3Of<Real> force_b;   ///< N, on the facet
   Vec3Of<Real> torque_a;  ///< N m
   Vec3Of<Real> torque_b;  ///< N m
   Vec3Of<Real> normal;    ///< unit
-  Vec3Of<Real> foot;      ///< m, from the ball's centre
+  Vec3Of<Real> foot;      ///< m, from the sphere's centre
   Real gap;               ///< m
   Real dissipated;  ///< J, by the law, and what of the history's energy was lost in turning it
-  /// Positive if these are the answers; else another feature may be in range, the ball has left, or
+  /// Positive if these are the answers; else another feature may be in range, the sphere has left, or
   /// the normal has turned by more than 90 degrees, or the frame twisted too far for lanes.
   Real is_right;
   History history;
 };
 
 /// The same of one: its numbers.
-class LoneAnswer {
+class SingleFeatureAnswer {
  public:
   Vec3 weights() const noexcept { return vector(0); }
   Vec3 force_b() const noexcept { return vector(3); }
@@ -120,31 +120,31 @@ class LoneAnswer {
   alignas(64) std::array<double, kCount> numbers_;
 };
 
-/// Balls in a batch: all that it reads and writes fits into the first level of a cache.
-constexpr std::size_t kLoneLanes = 32;
+/// Spheres in a batch: all that it reads and writes fits into the first level of a cache.
+constexpr std::size_t kSingleFeatureLanes = 32;
 
-/// Up to kLoneLanes balls and facets, of any laws that are written for contacts side by side.
-class LoneBatch {
+/// Up to kSingleFeatureLanes spheres and facets, of any laws that are written for contacts side by side.
+class SingleFeatureBatch {
  public:
   /// What a lane reads.
   struct Lane {
-    std::array<NodeId, 4> nodes;  ///< of the ball, and the corners
-    double radius;                ///< m, of the ball
-    double range;                 ///< m, radius of ball + radius of surface
+    std::array<NodeId, 4> nodes;  ///< of the sphere, and the corners
+    double radius;                ///< m, of the sphere
+    double range;                 ///< m, radius of sphere + radius of surface
     const AnyLaw::Parameters* parameters;
     const ContactMemory<AnyLaw>* memory;  ///< of the last step
     SideFlags sides;                      ///< that do not keep the facet from being touched alone
   };
 
-  /// One more; not more than kLoneLanes.
+  /// One more; not more than kSingleFeatureLanes.
   void add(const Lane& lane) noexcept { lanes_[count_++] = lane; }
   void clear() noexcept { count_ = 0; }
   std::size_t count() const noexcept { return count_; }
-  const LoneAnswer& answer(std::size_t lane) const noexcept { return answers_[lane]; }
+  const SingleFeatureAnswer& answer(std::size_t lane) const noexcept { return answers_[lane]; }
 
   /// One step of all.
   void advance(const Motion& motion, double dt) {
-    std::array<bool, kLoneLanes> is_done{};
+    std::array<bool, kSingleFeatureLanes> is_done{};
     for (std::size_t i = 0; i < count_; ++i) {
       if (is_done[i]) continue;
       const AnyLaw::Functions* const law = lanes_[i].parameters->law;
@@ -154,7 +154,7 @@ class LoneBatch {
         chosen_[chosen_count_++] = static_cast<std::uint8_t>(k);
         is_done[k] = true;
       }
-      law->advance_lone(*this, motion, dt);
+      law->advance_single_feature(*this, motion, dt);
     }
   }
 
@@ -168,22 +168,22 @@ class LoneBatch {
 
  private:
   template <int W>
-  PLEKTON_INLINE LoneMotionOf<Pack<W>> motion_of(const std::uint8_t* chosen,
-                                                 const Motion& motion) const noexcept;
+  PLEKTON_INLINE SingleFeatureMotionOf<Pack<W>> motion_of(const std::uint8_t* chosen,
+                                                          const Motion& motion) const noexcept;
   template <LaneLaw Law, int W>
   PLEKTON_INLINE void advance_lanes(const std::uint8_t* chosen, const Motion& motion,
                                     double dt) noexcept;
 
-  std::array<Lane, kLoneLanes> lanes_;
-  std::array<LoneAnswer, kLoneLanes> answers_;
+  std::array<Lane, kSingleFeatureLanes> lanes_;
+  std::array<SingleFeatureAnswer, kSingleFeatureLanes> answers_;
   std::size_t count_ = 0;
-  std::array<std::uint8_t, kLoneLanes> chosen_;  ///< lanes of one law
+  std::array<std::uint8_t, kSingleFeatureLanes> chosen_;  ///< lanes of one law
   std::size_t chosen_count_ = 0;
 };
 
 template <int W>
-PLEKTON_INLINE LoneMotionOf<Pack<W>> LoneBatch::motion_of(const std::uint8_t* chosen,
-                                                          const Motion& motion) const noexcept {
+PLEKTON_INLINE SingleFeatureMotionOf<Pack<W>> SingleFeatureBatch::motion_of(
+    const std::uint8_t* chosen, const Motion& motion) const noexcept {
   using Vector = Vec3Of<Pack<W>>;
   const auto of_node = [&](std::size_t k, std::span<const Vec3> v) __attribute__((always_inline)) {
     return geometry::gather_vectors<W>([&](std::size_t lane) __attribute__((always_inline))
@@ -204,8 +204,8 @@ PLEKTON_INLINE LoneMotionOf<Pack<W>> LoneBatch::motion_of(const std::uint8_t* ch
 }
 
 template <LaneLaw Law, int W>
-PLEKTON_INLINE void LoneBatch::advance_lanes(const std::uint8_t* chosen, const Motion& motion,
-                                             double dt) noexcept {
+PLEKTON_INLINE void SingleFeatureBatch::advance_lanes(const std::uint8_t* chosen,
+                                                      const Motion& motion, double dt) noexcept {
   using Real = Pack<W>;
   using Vector = Vec3Of<Real>;
   using History = typename Law::template HistoryOf<Real>;
@@ -213,22 +213,26 @@ PLEKTON_INLINE void LoneBatch::advance_lanes(const std::uint8_t* chosen, const M
   const auto lane_of = [&](std::size_t k) __attribute__((always_inline))->const Lane& {
     return lanes_[chosen[k]];
   };
-  const auto parameters = geometry::gather_numbers<Parameters, W>([&](
-      std::size_t k) __attribute__((always_inline)) { return lane_of(k).parameters->numbers.data(); });
-  const auto last = geometry::gather_numbers<History, W>([&](
-      std::size_t k) __attribute__((always_inline)) {
-    return lane_of(k).memory->history.numbers.data();
-  });
-  const auto last_normal = geometry::gather_vectors<W>([&](
-      std::size_t k) __attribute__((always_inline))->const Vec3& { return lane_of(k).memory->normal; });
-  const LoneMotionOf<Real> bodies = motion_of<W>(chosen, motion);
+  const auto parameters =
+      geometry::gather_numbers<Parameters, W>([&](std::size_t k) __attribute__((always_inline)) {
+        return lane_of(k).parameters->numbers.data();
+      });
+  const auto last =
+      geometry::gather_numbers<History, W>([&](std::size_t k) __attribute__((always_inline)) {
+        return lane_of(k).memory->history.numbers.data();
+      });
+  const auto last_normal =
+      geometry::gather_vectors<W>([&](std::size_t k) __attribute__((always_inline))->const Vec3& {
+        return lane_of(k).memory->normal;
+      });
+  const SingleFeatureMotionOf<Real> bodies = motion_of<W>(chosen, motion);
   Real reach = bodies.range;
-  if constexpr (HasReach<Law>) reach = bodies.range + Law::reach(parameters);
+  if constexpr (HasInteractionRange<Law>) reach = bodies.range + Law::interaction_range(parameters);
   const auto at = geometry::face_foot<Real>(
       bodies.position[0], {bodies.position[1], bodies.position[2], bodies.position[3]}, reach,
       geometry::gather_vectors<W>([&](std::size_t k) __attribute__((always_inline))
                                       ->const SideFlags& { return lane_of(k).sides; }));
-  const LoneKinematicsOf<Real> state = lone_kinematics(bodies, at);
+  const SingleFeatureKinematicsOf<Real> state = single_feature_kinematics(bodies, at);
   const FrameRotationOf<Real> rotation{last_normal, at.direction, Real(dt) * state.twist_rate};
   History history = last;
   Law::rotate(history, rotation);
@@ -240,7 +244,7 @@ PLEKTON_INLINE void LoneBatch::advance_lanes(const std::uint8_t* chosen, const M
       relative_motion<Real>(at.direction, state.gap, elastic, state.velocity, state.spin);
   // What is within reach, but neither pushes nor holds, is no contact.
   Real is_certain = at.is_alone;
-  if constexpr (HasReach<Law>)
+  if constexpr (HasInteractionRange<Law>)
     is_certain = smaller_of(is_certain, larger_of(Real(-state.gap), Law::hold(history)));
   const ContactForceOf<Real> answer = Law::force(parameters, relative, history, dt);
   const Vector elastic_force = elastic * at.direction;
@@ -255,7 +259,7 @@ PLEKTON_INLINE void LoneBatch::advance_lanes(const std::uint8_t* chosen, const M
   const Real has_lever = bodies.range + state.gap;
   const Real unturned = last_normal.dot(at.direction);
   const Real untwisted = Real(geometry::kSmallAngleSquared) - rotation.twist * rotation.twist;
-  const LoneAnswerOf<Real, History> answers{
+  const SingleFeatureAnswerOf<Real, History> answers{
       at.weights,
       elastic_force + other,
       torque_a,
@@ -267,14 +271,13 @@ PLEKTON_INLINE void LoneBatch::advance_lanes(const std::uint8_t* chosen, const M
       geometry::detail::smallest_of(has_lever, unturned, untwisted, is_certain),
       history};
   geometry::scatter_numbers<W>(
-      answers, [&](std::size_t k) __attribute__((always_inline)) {
-        return answers_[chosen[k]].numbers();
-      });
+      answers, [&](std::size_t k)
+                   __attribute__((always_inline)) { return answers_[chosen[k]].numbers(); });
 }
 
-/// LoneBatch::advance_chosen with the widest vectors there are.
+/// SingleFeatureBatch::advance_chosen with the widest vectors there are.
 template <LaneLaw Law>
-void advance_lone(LoneBatch& batch, const Motion& motion, double dt) {
+void advance_single_feature(SingleFeatureBatch& batch, const Motion& motion, double dt) {
   geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
     batch.template advance_chosen<Law, width>(motion, dt);
   });

@@ -22,7 +22,7 @@ struct ContactBody {
 };
 
 /// A contact as it is reported: what body a and body b do to each other, of a patch all together.
-struct ContactRow {
+struct ContactRecord {
   std::int64_t id = 0;  ///< 0: not numbered yet (Contacts::number)
   ContactBody a;
   ContactBody b;
@@ -35,19 +35,20 @@ struct ContactRow {
   Vec3 tangential_force;       ///< N, on b
   Vec3 moment = Vec3::Zero();  ///< N m, on b about the contact point
   double elastic_force = 0.0;  ///< N, magnitude of the elastic normal force
-  bool is_bonded = false;      ///< the bodies stick to each other (HasReach); between structures
-                               ///< a bond has a row of its own, without the elastic normal force
-  bool is_slipping = false;    ///< the tangential force is at its limit (TellsTangentialLimit)
+  bool is_bonded =
+      false;  ///< the bodies stick to each other (HasInteractionRange); between structures
+              ///< a bond has a row of its own, without the elastic normal force
+  bool is_slipping = false;  ///< the tangential force is at its limit (TellsTangentialLimit)
 
   Vec3 force() const noexcept { return normal_force + tangential_force; }
 };
 
 /// Splits a force on b along the normal.
-inline void set_force(ContactRow& row, const Vec3& force) noexcept {
+inline void set_force(ContactRecord& row, const Vec3& force) noexcept {
   row.normal_force = force.dot(row.normal) * row.normal;
   row.tangential_force = force - row.normal_force;
 }
 
-using VisitRow = geometry::FunctionRef<void(const ContactRow&)>;
+using VisitRecord = geometry::FunctionRef<void(const ContactRecord&)>;
 
 }  // namespace plekton::contact

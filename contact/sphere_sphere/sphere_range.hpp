@@ -2,11 +2,11 @@
 #pragma once
 
 #include "contact/law/lane_law.hpp"
-#include "contact/sphere_sphere/ball_batch.hpp"
-#include "contact/sphere_sphere/ball_blocks.hpp"
-#include "contact/sphere_sphere/ball_rows.hpp"
-#include "contact/sphere_sphere/ball_sums.hpp"
 #include "contact/sphere_sphere/block_outcome.hpp"
+#include "contact/sphere_sphere/sphere_batch.hpp"
+#include "contact/sphere_sphere/sphere_blocks.hpp"
+#include "contact/sphere_sphere/sphere_states.hpp"
+#include "contact/sphere_sphere/sphere_sums.hpp"
 #include "contact/sphere_sphere/touched_lanes.hpp"
 #include "contact/tracking/contact_memory.hpp"
 #include "geometry/base/lane_rows.hpp"
@@ -16,8 +16,8 @@
 #include <bit>
 #include <vector>
 
-/// One step of pairs of balls of one law: the hot loop of a bed of spheres. The law is known as a
-/// type here, and chosen at run time by whoever calls (AnyLaw::Functions::advance_balls).
+/// One step of pairs of spheres of one law: the hot loop of a bed of spheres. The law is known as a
+/// type here, and chosen at run time by whoever calls (AnyLaw::Functions::advance_spheres).
 namespace plekton::contact {
 
 /// What is kept about the pairs of a row: numbers side by side, each a line of the cache.
@@ -28,38 +28,38 @@ struct PairNumbersOfRow {
 };
 
 /// Rows of pairs of one law that follow each other in a block.
-struct BallStretch {
-  const BallBlocks::Pair* pairs;  ///< of the first row
-  double* numbers;                ///< of the first row
-  TouchedLanes* touched;          ///< by row
+struct SphereRange {
+  const SphereBlocks::Pair* pairs;  ///< of the first row
+  double* numbers;                  ///< of the first row
+  TouchedLanes* touched;            ///< by row
   std::size_t row_count;
   std::size_t row_size;    ///< numbers from a row to the next
   std::size_t force;       ///< where forces (N, on b) are among the numbers of a row; 0: not kept
   std::size_t parameters;  ///< where parameters of the law are; 0: not kept
-  const Material* common;  ///< of all balls, where parameters are not kept
+  const Material* common;  ///< of all spheres, where parameters are not kept
   bool was_apart;          ///< no pair touched when the list was made
 };
 
 /// What one thread works with: on lines of its own, since it writes to them with every row.
-struct alignas(64) BallWork {
-  BallRows balls;
-  std::vector<BallSum> sums;  ///< of the block's members
+struct alignas(64) SphereWork {
+  SphereStates spheres;
+  std::vector<SphereSum> sums;  ///< of the block's members
   double dt;
-  BlockOutcome<BallBlocks::kLanes> outcome;
+  BlockOutcome<SphereBlocks::kLanes> outcome;
 };
 
 template <ContactLaw Law>
-class BallLoop {
+class SphereLoop {
  public:
-  BallLoop(const BallStretch& stretch, BallWork& work) noexcept : stretch_(stretch), work_(work) {}
+  SphereLoop(const SphereRange& range, SphereWork& work) noexcept : range_(range), work_(work) {}
 
   template <int W>
   PLEKTON_INLINE void advance() const noexcept {
-    for (std::size_t row = 0; row < stretch_.row_count; ++row) {
-      prefetch(std::min(row + kRowsAhead, stretch_.row_count - 1));
+    for (std::size_t row = 0; row < range_.row_count; ++row) {
+      prefetch(std::min(row + kRowsAhead, range_.row_count - 1));
       // Most rows of pairs that were apart when the list was made still are.
-      if (stretch_.was_apart && !stretch_.touched[row].any() &&
-          !work_.balls.template any_touch<W>(pairs(row)))
+      if (range_.was_apart && !range_.touched[row].any() &&
+          !work_.spheres.template any_touch<W>(pairs(row)))
         continue;
       for (std::size_t lane = 0; lane < kLanes; lane += std::size_t{W}) {
         if constexpr (LaneLaw<Law>) {
@@ -71,18 +71,16 @@ class BallLoop {
   }
 
  private:
-  static constexpr std::size_t kLanes = BallBlocks::kLanes;
+  static constexpr std::size_t kLanes = SphereBlocks::kLanes;
   /// A row takes some hundred cycles, as much as memory does to answer.
   static constexpr std::size_t kRowsAhead = 4;
   using Rows = geometry::LaneRows<kLanes>;
   using Parameters = typename Law::Parameters;
 
-  const BallBlocks::Pair* pairs(std::size_t row) const noexcept {
-    return stretch_.pairs + row * kLanes;
+  const SphereBlocks::Pair* pairs(std::size_t row) const noexcept {
+    return range_.pairs + row * kLanes;
   }
-  Rows rows(std::size_t row) const noexcept {
-    return Rows(stretch_.numbers + row * stretch_.row_size);
-  }
+  Rows rows(std::size_t row) const noexcept { return Rows(range_.numbers + row * range_.row_size); }
   static Rows normal(const Rows& rows) noexcept { return rows.from(PairNumbersOfRow::kNormal); }
   static Rows gap(const Rows& rows) noexcept { return rows.from(PairNumbersOfRow::kGap); }
   static Rows history(const Rows& rows) noexcept { return rows.from(PairNumbersOfRow::kHistory); }
@@ -90,20 +88,20 @@ class BallLoop {
   /// Asks for what a step will read of a row.
   PLEKTON_INLINE void prefetch(std::size_t row) const noexcept {
     __builtin_prefetch(pairs(row));
-    if (stretch_.was_apart && !stretch_.touched[row].any()) return;
-    const double* const numbers = stretch_.numbers + row * stretch_.row_size;
-    for (std::size_t n = 0; n < stretch_.row_size; n += kLanes) __builtin_prefetch(numbers + n);
+    if (range_.was_apart && !range_.touched[row].any()) return;
+    const double* const numbers = range_.numbers + row * range_.row_size;
+    for (std::size_t n = 0; n < range_.row_size; n += kLanes) __builtin_prefetch(numbers + n);
   }
 
   /// Of W pairs from a lane of a row on.
   template <class Numbers, class Real, int W>
   PLEKTON_INLINE Numbers parameters(const Rows& rows, std::size_t lane,
-                                    const BallMotionOf<Real>& balls) const noexcept {
+                                    const SphereMotionOf<Real>& spheres) const noexcept {
     if constexpr (CombinesRadii<Law>) {
-      if (stretch_.common)
-        return Law::combine(*stretch_.common, balls.radius_a, *stretch_.common, balls.radius_b);
+      if (range_.common)
+        return Law::combine(*range_.common, spheres.radius_a, *range_.common, spheres.radius_b);
     }
-    const Rows kept = rows.from(stretch_.parameters);
+    const Rows kept = rows.from(range_.parameters);
     if constexpr (W == 1)
       return kept.template at<Numbers>(lane);
     else
@@ -115,50 +113,50 @@ class BallLoop {
   template <int W>
   PLEKTON_INLINE bool advance_side_by_side(std::size_t row, std::size_t lane) const noexcept;
   template <int W>
-  PLEKTON_INLINE void add_outcome(std::size_t lane, const LaneStepOf<Law, Pack<W>>& answer) const
-      noexcept;
+  PLEKTON_INLINE void add_outcome(std::size_t lane,
+                                  const LaneStepOf<Law, Pack<W>>& answer) const noexcept;
   template <int W>
-  PLEKTON_INLINE void add_forces(const BallBlocks::Pair* pairs,
+  PLEKTON_INLINE void add_forces(const SphereBlocks::Pair* pairs,
                                  const LaneStepOf<Law, Pack<W>>& answer) const noexcept;
   /// One step of a pair, whatever happened to it.
   void advance_one(std::size_t row, std::size_t lane) const noexcept;
-  void add_one(std::size_t lane, const BallBlocks::Pair& members, const BallPairOf<double>& pair,
-               const BallStepOf<double>& step) const noexcept;
+  void add_one(std::size_t lane, const SphereBlocks::Pair& members,
+               const SpherePairOf<double>& pair, const SphereStepOf<double>& step) const noexcept;
 
-  const BallStretch& stretch_;
-  BallWork& work_;
+  const SphereRange& range_;
+  SphereWork& work_;
 };
 
 template <ContactLaw Law>
 template <int W>
-PLEKTON_INLINE bool BallLoop<Law>::advance_side_by_side(std::size_t row,
-                                                        std::size_t lane) const noexcept {
+PLEKTON_INLINE bool SphereLoop<Law>::advance_side_by_side(std::size_t row,
+                                                          std::size_t lane) const noexcept {
   using Real = Pack<W>;
   using Vector = Vec3Of<Real>;
   using History = typename Law::template HistoryOf<Real>;
-  const BallBlocks::Pair* const members = pairs(row) + lane;
-  const BallMotionOf<Real> balls = work_.balls.template pairs<W>(members);
-  const Real overlaps = balls.touch();
+  const SphereBlocks::Pair* const members = pairs(row) + lane;
+  const SphereMotionOf<Real> spheres = work_.spheres.template pairs<W>(members);
+  const Real overlaps = spheres.touch();
   const unsigned overlapping = bits_of(overlaps);
-  const unsigned touched = stretch_.touched[row].from(lane) & geometry::kAllBits<W>;
+  const unsigned touched = range_.touched[row].from(lane) & geometry::kAllBits<W>;
   if ((overlapping | touched) == 0) return true;
 
   const Rows kept = rows(row);
   const auto answer = advance_lanes<Law, Real>(
-      balls, overlaps,
-      parameters<typename Law::template ParametersOf<Real>, Real, W>(kept, lane, balls),
+      spheres, overlaps,
+      parameters<typename Law::template ParametersOf<Real>, Real, W>(kept, lane, spheres),
       history(kept).template load<History, W>(lane), normal(kept).template load<Vector, W>(lane),
       work_.dt);
-  const unsigned touching = HasReach<Law> ? bits_of(answer.touch) : overlapping;
+  const unsigned touching = HasInteractionRange<Law> ? bits_of(answer.touch) : overlapping;
   const unsigned right = bits_of(geometry::flag(answer.is_right > 0.0));
   if ((touching & right) != (touching | touched)) return false;
 
-  stretch_.touched[row].set(lane, geometry::kAllBits<W>, touching);
+  range_.touched[row].set(lane, geometry::kAllBits<W>, touching);
   history(kept).template store<W>(lane, answer.history, answer.touch);
   normal(kept).template store<W>(lane, answer.normal, answer.touch);
   gap(kept).template store<W>(lane, answer.step.gap);
   if constexpr (!TellsForce<Law>)
-    kept.from(stretch_.force).template store<W>(lane, answer.step.force);
+    kept.from(range_.force).template store<W>(lane, answer.step.force);
   work_.outcome.touching += static_cast<std::size_t>(std::popcount(touching));
   add_outcome<W>(lane, answer);
   add_forces<W>(members, answer);
@@ -167,7 +165,7 @@ PLEKTON_INLINE bool BallLoop<Law>::advance_side_by_side(std::size_t row,
 
 template <ContactLaw Law>
 template <int W>
-PLEKTON_INLINE void BallLoop<Law>::add_outcome(
+PLEKTON_INLINE void SphereLoop<Law>::add_outcome(
     std::size_t lane, const LaneStepOf<Law, Pack<W>>& answer) const noexcept {
   using Real = Pack<W>;
   auto& outcome = work_.outcome;
@@ -186,22 +184,22 @@ PLEKTON_INLINE void BallLoop<Law>::add_outcome(
 /// Pairs that do not touch add zeros: cheaper than asking each.
 template <ContactLaw Law>
 template <int W>
-PLEKTON_INLINE void BallLoop<Law>::add_forces(
-    const BallBlocks::Pair* pairs, const LaneStepOf<Law, Pack<W>>& answer) const noexcept {
+PLEKTON_INLINE void SphereLoop<Law>::add_forces(
+    const SphereBlocks::Pair* pairs, const LaneStepOf<Law, Pack<W>>& answer) const noexcept {
   using Real = Pack<W>;
   const auto if_touching = [&](const Real& x) __attribute__((always_inline)) {
     return select(answer.touch > 0.0, x, 0.0);
   };
   const auto& force = answer.step.force;
   const auto& cross = answer.step.force_cross_normal;
-  std::array<BallForce, std::size_t{W}> of_lanes;
+  std::array<SphereForce, std::size_t{W}> of_lanes;
   geometry::scatter_things<W, 8>(
       {if_touching(force.x), if_touching(force.y), if_touching(force.z), if_touching(cross.x),
        if_touching(cross.y), if_touching(cross.z), answer.step.arm_a, answer.step.arm_b},
       [&](std::size_t k) __attribute__((always_inline)) { return of_lanes[k].force.data(); });
   if constexpr (HasMoments<Law>) {
     const auto& moment = answer.step.moment;
-    std::array<BallMoment, std::size_t{W}> moments;
+    std::array<SphereMoment, std::size_t{W}> moments;
     const Real none = 0.0;
     geometry::scatter_things<W, 8>(
         {none, none, none, if_touching(moment.x), if_touching(moment.y), if_touching(moment.z),
@@ -220,44 +218,45 @@ PLEKTON_INLINE void BallLoop<Law>::add_forces(
 }
 
 template <ContactLaw Law>
-void BallLoop<Law>::advance_one(std::size_t row, std::size_t lane) const noexcept {
+void SphereLoop<Law>::advance_one(std::size_t row, std::size_t lane) const noexcept {
   const Rows kept = rows(row);
-  const BallBlocks::Pair& members = pairs(row)[lane];
-  const BallMotionOf<double> balls = work_.balls.pair(members);
-  const auto of_pair = parameters<Parameters, double, 1>(kept, lane, balls);
+  const SphereBlocks::Pair& members = pairs(row)[lane];
+  const SphereMotionOf<double> spheres = work_.spheres.pair(members);
+  const auto of_pair = parameters<Parameters, double, 1>(kept, lane, spheres);
   ContactMemory<Law> memory{history(kept).template at<typename Law::History>(lane),
                             normal(kept).template at<Vec3>(lane)};
   const auto keep = [&](unsigned touching) {
     history(kept).set(lane, memory.history);
     normal(kept).set(lane, memory.normal);
-    stretch_.touched[row].set(lane, 1, touching);
+    range_.touched[row].set(lane, 1, touching);
   };
-  if (balls.touch() == 0.0 &&
+  if (spheres.touch() == 0.0 &&
       (memory.is_new() ||
        !goes_on<Law>(of_pair, memory.history,
-                     balls.separation.norm() - (balls.radius_a + balls.radius_b)))) {
+                     spheres.separation.norm() - (spheres.radius_a + spheres.radius_b)))) {
     work_.outcome.dissipated[lane] += forget<Law>(of_pair, memory);
     return keep(0);
   }
-  const double distance = balls.separation.norm();
+  const double distance = spheres.separation.norm();
   // Coincident centres have no direction: the last normal goes on, or else any.
-  const Vec3 direction = distance > 0.0    ? Vec3((1.0 / distance) * balls.separation)
+  const Vec3 direction = distance > 0.0    ? Vec3((1.0 / distance) * spheres.separation)
                          : memory.is_new() ? Vec3(Vec3::UnitZ())
                                            : memory.normal;
-  const BallPairOf<double> pair{direction,    distance,       balls.velocity, balls.spin_a,
-                                balls.spin_b, balls.radius_a, balls.radius_b};
+  const SpherePairOf<double> pair{direction,       distance,       spheres.velocity,
+                                  spheres.spin_a,  spheres.spin_b, spheres.radius_a,
+                                  spheres.radius_b};
   memory = {carried_history<Law>(memory, direction, work_.dt * pair.twist_rate()), direction};
-  const BallStepOf<double> step = ball_step<Law>(pair, of_pair, memory.history, work_.dt);
+  const SphereStepOf<double> step = sphere_step<Law>(pair, of_pair, memory.history, work_.dt);
   keep(1);
   gap(kept).set(lane, step.gap);
-  if constexpr (!TellsForce<Law>) kept.from(stretch_.force).set(lane, step.force);
+  if constexpr (!TellsForce<Law>) kept.from(range_.force).set(lane, step.force);
   add_one(lane, members, pair, step);
 }
 
 template <ContactLaw Law>
-void BallLoop<Law>::add_one(std::size_t lane, const BallBlocks::Pair& members,
-                            const BallPairOf<double>& pair,
-                            const BallStepOf<double>& step) const noexcept {
+void SphereLoop<Law>::add_one(std::size_t lane, const SphereBlocks::Pair& members,
+                              const SpherePairOf<double>& pair,
+                              const SphereStepOf<double>& step) const noexcept {
   auto& outcome = work_.outcome;
   ++outcome.touching;
   outcome.dissipated[lane] += step.dissipated;
@@ -266,9 +265,9 @@ void BallLoop<Law>::add_one(std::size_t lane, const BallBlocks::Pair& members,
     outcome.overlap[lane] = -step.gap;
     outcome.radius[lane] = smaller;
   }
-  const BallForce force{step.force, step.force_cross_normal, step.arm_a, step.arm_b};
+  const SphereForce force{step.force, step.force_cross_normal, step.arm_a, step.arm_b};
   if constexpr (HasMoments<Law>) {
-    const BallMoment moment{Vec3::Zero(), step.moment, {}};
+    const SphereMoment moment{Vec3::Zero(), step.moment, {}};
     add_to_a(work_.sums[members.a], force, moment);
     add_to_b(work_.sums[members.b], force, moment);
   } else {
@@ -277,10 +276,10 @@ void BallLoop<Law>::add_one(std::size_t lane, const BallBlocks::Pair& members,
   }
 }
 
-/// One step of a stretch, with the widest vectors there are.
+/// One step of a range, with the widest vectors there are.
 template <ContactLaw Law>
-void advance_balls(const BallStretch& stretch, BallWork& work) {
-  const BallLoop<Law> loop(stretch, work);
+void advance_spheres(const SphereRange& range, SphereWork& work) {
+  const SphereLoop<Law> loop(range, work);
   if constexpr (LaneLaw<Law>) {
     geometry::with_widest_vectors([&](auto width) __attribute__((always_inline)) {
       loop.template advance<width>();
