@@ -4,7 +4,7 @@
 Usage: python3 compare.py PROGRAM... [--widths 2,4,8] [--threads 1,2] [--write FILE] [--against FILE]
 
 Each PROGRAM is a plekton, or a command that runs one, as "qemu-aarch64 build/arm64/apps/plekton". It is run with every width of vectors
-that its processor has and every number of threads. --write keeps the hashes, --against compares with those of another machine.
+that its processor has and every number of threads, and once with the C library told that the processor is an old one. --write keeps the hashes, --against compares with those of another machine.
 Ends 1 if a bit differs, 2 if a run fails.
 """
 
@@ -22,15 +22,19 @@ LACKING = "no vectors of"
 """What the program says of a width that its processor has not."""
 
 
+OLD_PROCESSOR = "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX512F"
+"""For GLIBC_TUNABLES: the C library takes the functions that it has for an x86-64 without these."""
+
+
 class RunFailed(Exception):
     pass
 
 
-def states_of(program, scene, width, threads):
+def states_of(program, scene, width, threads, tunables):
     """The hashes of a run as [step, time, hash]; nothing if the processor lacks vectors of this width."""
     with tempfile.TemporaryDirectory() as folder:
         command = [*shlex.split(program), "run", str(scene), "--out", f"{folder}/out", "--threads", str(threads), "--quiet"]
-        environment = {**os.environ, "PLEKTON_VECTOR_WIDTH": str(width)}
+        environment = {**os.environ, "PLEKTON_VECTOR_WIDTH": str(width), "GLIBC_TUNABLES": tunables}
         run = subprocess.run(command, env=environment, capture_output=True, text=True)
         if run.returncode != 0:
             if LACKING in run.stderr:
@@ -56,18 +60,18 @@ def compare(scene, programs, widths, threads, reference, report):
     """Runs a scene in all ways; returns its hashes, and how many ways differ from the reference, or from the first one."""
     differ = 0
     for program in programs:
-        for width in widths:
-            for count in threads:
-                states = states_of(program, scene, width, count)
-                way = f"{scene.stem:8} width {width}, {count} threads, {program}"
-                if states is None:
-                    report(f"{way}: the processor has no such vectors")
-                    continue
-                reference = reference or states
-                step = first_difference(states, reference)
-                differ += step is not None
-                last = states[-1]
-                report(f"{way}: {last[2]} after {last[0]} steps" + ("" if step is None else f"; DIFFERS from step {step} on"))
+        ways = [(width, count, "") for width in widths for count in threads]
+        for width, count, tunables in [*ways, (widths[0], threads[0], OLD_PROCESSOR)]:
+            states = states_of(program, scene, width, count, tunables)
+            way = f"{scene.stem:8} width {width}, {count} threads, {program}" + (", old C library" if tunables else "")
+            if states is None:
+                report(f"{way}: the processor has no such vectors")
+                continue
+            reference = reference or states
+            step = first_difference(states, reference)
+            differ += step is not None
+            last = states[-1]
+            report(f"{way}: {last[2]} after {last[0]} steps" + ("" if step is None else f"; DIFFERS from step {step} on"))
     return reference, differ
 
 
