@@ -50,7 +50,8 @@ class Contacts {
   Contacts& operator=(const Contacts&) = delete;
   virtual ~Contacts() = default;
 
-  /// From now on the spheres' lists choose their skin by themselves (geometry/neighbor/neighbours.hpp).
+  /// From now on the spheres' lists choose their skin by themselves
+  /// (geometry/neighbor/neighbours.hpp).
   /// @param radius  m, > 0, of a usual sphere
   virtual void tune_skin(double radius) noexcept = 0;
 

@@ -10,16 +10,11 @@ namespace plekton::contact {
 /// (shipped_laws.hpp), and by its user for a law of one's own.
 template <ContactLaw Law>
 struct LawLoops {
-  static void spheres(const SphereRange& stretch, SphereWork& work) {
-    advance_spheres<Law>(stretch, work);
-  }
-  static bool touching(SphereBatch& batch, std::size_t count, double dt) requires LaneLaw<Law> {
-    return advance_batch<Law>(batch, count, dt);
-  }
+  // Defined below: what is defined here would be compiled wherever it is used.
+  static void spheres(const SphereRange& range, SphereWork& work);
+  static bool touching(SphereBatch& batch, std::size_t count, double dt) requires LaneLaw<Law>;
   static void on_facets(SingleFeatureBatch& batch, const Motion& motion,
-                        double dt) requires LaneLaw<Law> {
-    advance_single_feature<Law>(batch, motion, dt);
-  }
+                        double dt) requires LaneLaw<Law>;
 
   static constexpr decltype(AnyLaw::Functions::advance_batch) batch() noexcept {
     if constexpr (LaneLaw<Law>) return touching;
@@ -30,5 +25,22 @@ struct LawLoops {
     return nullptr;
   }
 };
+
+template <ContactLaw Law>
+void LawLoops<Law>::spheres(const SphereRange& range, SphereWork& work) {
+  advance_spheres<Law>(range, work);
+}
+
+template <ContactLaw Law>
+bool LawLoops<Law>::touching(SphereBatch& batch, std::size_t count,
+                             double dt) requires LaneLaw<Law> {
+  return advance_batch<Law>(batch, count, dt);
+}
+
+template <ContactLaw Law>
+void LawLoops<Law>::on_facets(SingleFeatureBatch& batch, const Motion& motion,
+                              double dt) requires LaneLaw<Law> {
+  advance_single_feature<Law>(batch, motion, dt);
+}
 
 }  // namespace plekton::contact

@@ -10,8 +10,8 @@
 #include "contact/law/sum.hpp"
 #include "contact/law_loops.hpp"
 
-/// The laws that come with the library, whose loops are compiled once, in shipped_laws/: with_parts.hpp
-/// asks for no others. A new one joins here and has a file there.
+/// The laws that come with the library, whose loops are compiled once, in shipped_laws/:
+/// with_parts.hpp asks for no others. A new one joins here and has a file there.
 namespace plekton::contact {
 
 template <ContactLaw Law>

@@ -180,8 +180,8 @@ class Simulation {
   /// short.
   ExactStep exact_critical_step() const;
   /// How far the fastest node moves in a step over the smallest radius: of the spheres, or of the
-  /// structures if there are none. Above kLargestMotion (dynamics/time_step/motion_step.hpp) contacts are
-  /// seen late; a chosen step keeps below that, a given one may not.
+  /// structures if there are none. Above kLargestMotion (dynamics/time_step/motion_step.hpp)
+  /// contacts are seen late; a chosen step keeps below that, a given one may not.
   double motion_ratio() const noexcept;
 
  private:

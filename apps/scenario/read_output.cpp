@@ -58,7 +58,8 @@ ReactionSettings read_reaction(Section section, const Scenario& scenario,
   return reaction;
 }
 
-/// Between hashes of the state: few enough entries in run.json for any run, and no time to speak of.
+/// Between hashes of the state: few enough entries in run.json for any run, and no time to speak
+/// of.
 constexpr std::int64_t kHashInterval = 10000;
 constexpr std::int64_t kLongestHashInterval = 1'000'000'000'000;
 

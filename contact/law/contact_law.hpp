@@ -104,7 +104,8 @@ concept TellsTangentialLimit = requires(const typename Law::Parameters& paramete
 
 /// A law whose contacts may go on over a distance, because the bodies stick to each other.
 ///
-/// interaction_range(parameters): how far apart (m) the surfaces may be; holds(history): whether they stick.
+/// interaction_range(parameters): how far apart (m) the surfaces may be; holds(history): whether
+/// they stick.
 template <class Law>
 concept HasInteractionRange = requires(const typename Law::Parameters& parameters,
                                        const typename Law::History& history) {

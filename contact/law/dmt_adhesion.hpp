@@ -14,10 +14,11 @@ namespace plekton::contact {
 /// tan(phi) times the elastic force, what presses the surfaces together: it is there at zero load
 /// too (Derjaguin, 1934).
 ///
-/// The attraction acts once on every contact, as it counts: a sphere on a flat sheet has one, however
-/// many facets there are. Between structures, whose contacts count for more the longer they lie
-/// side by side, it is part of the energy that is summed over the region: -(2 pi w R) per contact
-/// and overlap, so that it also pulls towards more of it, and an overlap of 0 stores nothing.
+/// The attraction acts once on every contact, as it counts: a sphere on a flat sheet has one,
+/// however many facets there are. Between structures, whose contacts count for more the longer
+/// they lie side by side, it is part of the energy that is summed over the region: -(2 pi w R) per
+/// contact and overlap, so that it also pulls towards more of it, and an overlap of 0 stores
+/// nothing.
 ///
 /// The force jumps where bodies come to touch or part. In the energy of a step of length dt that is
 /// an error up to F v dt / 2 of either sign, with F all attraction that begins at once and v the

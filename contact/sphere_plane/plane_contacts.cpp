@@ -26,8 +26,8 @@ double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
   return lost;
 }
 
-/// Threads share out the spheres, not the contacts: those of a sphere are all of one thread, which adds
-/// their forces at once, and most spheres are of the thread that moves their nodes.
+/// Threads share out the spheres, not the contacts: those of a sphere are all of one thread, which
+/// adds their forces at once, and most spheres are of the thread that moves their nodes.
 double PlaneContacts::advance(const Motion& motion, std::span<const Plane> planes, double dt,
                               geometry::ThreadPool& pool, NodeForces& forces) {
   records_.reset(pool.thread_count());

@@ -10,9 +10,9 @@
 
 #include <array>
 
-/// Touching pairs of spheres of one law in batches, so that a processor computes as many contacts at
-/// once as its vectors have lanes: pairs are gathered into rows of numbers, the kernel runs along
-/// the rows, and the results are taken out again.
+/// Touching pairs of spheres of one law in batches, so that a processor computes as many contacts
+/// at once as its vectors have lanes: pairs are gathered into rows of numbers, the kernel runs
+/// along the rows, and the results are taken out again.
 namespace plekton::contact {
 
 /// What a step of pairs side by side came to.

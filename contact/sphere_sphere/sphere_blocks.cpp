@@ -10,8 +10,9 @@
 namespace plekton::contact {
 namespace {
 
-/// Motions and sums of the members of a usual block, a third more than the spheres that it owns, fill
-/// a part of a cache of the second level (512 KiB and more), and half of its pairs stay within it.
+/// Motions and sums of the members of a usual block, a third more than the spheres that it owns,
+/// fill a part of a cache of the second level (512 KiB and more), and half of its pairs stay
+/// within it.
 constexpr std::size_t kUsualSpheres = 640;
 /// So that few threads get equal numbers of blocks.
 constexpr std::size_t kBlocksAtOnce = 8;
@@ -79,8 +80,8 @@ void SphereBlocks::order_spheres(std::span<const SphereBody> spheres, Positions 
     places_[static_cast<std::size_t>(order_[place])] = static_cast<std::uint32_t>(place);
 }
 
-/// Into blocks that take equally long. Pairs belong to their first spheres, so the first blocks would
-/// have some percent more of them than the last if all had the same number of spheres.
+/// Into blocks that take equally long. Pairs belong to their first spheres, so the first blocks
+/// would have some percent more of them than the last if all had the same number of spheres.
 void SphereBlocks::cut_order() {
   const std::size_t spheres = order_.size();
   const auto work_before = [&](std::size_t place) {

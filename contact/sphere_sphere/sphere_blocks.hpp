@@ -18,8 +18,8 @@ namespace plekton::contact {
 ///
 /// Spheres are put in order along a space-filling curve, and the order is cut into blocks that take
 /// equally long, each a clump in space. A sphere is owned by one block. A pair belongs to the block
-/// of whichever of its spheres comes first in the order; the block has the other one as a ghost if it does
-/// not own it, and what the pair adds to a ghost is handed to its owner afterwards. The
+/// of whichever of its spheres comes first in the order; the block has the other one as a ghost if
+/// it does not own it, and what the pair adds to a ghost is handed to its owner afterwards. The
 /// blocks depend on the list and on the positions from which it was made, not on the number of
 /// threads, and sums are taken in an order that follows from the blocks alone.
 class SphereBlocks {
@@ -28,8 +28,8 @@ class SphereBlocks {
   static constexpr std::size_t kLanes = 8;
 
   /// Rows of a block that are filled lane by lane: each lane of the rows runs through a range of
-  /// the pairs, so that neighbouring lanes add to different spheres, and none has to wait for the sum
-  /// of the one before.
+  /// the pairs, so that neighbouring lanes add to different spheres, and none has to wait for the
+  /// sum of the one before.
   struct Range {
     std::uint32_t first_row;
     std::uint32_t row_count;
@@ -75,8 +75,8 @@ class SphereBlocks {
   /// Takes a new list. Allocates only for a longer one than ever before.
   /// @param pairs  of spheres, a < b, sorted; spheres after the last of them are left out
   /// @param kinds  by pair, so that pairs of a kind lie together; empty: all are of kind 0
-  /// @param x      m, of nodes; empty: the spheres are in order already, and there are no nodes after
-  ///               those of the spheres
+  /// @param x      m, of nodes; empty: the spheres are in order already, and there are no nodes
+  ///               after those of the spheres
   void assign(std::span<const geometry::IndexPair> pairs, std::span<const SphereBody> spheres,
               std::span<const std::uint8_t> kinds, geometry::ThreadPool& pool, Positions x);
 

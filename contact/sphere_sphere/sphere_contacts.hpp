@@ -19,8 +19,8 @@
 
 namespace plekton::contact {
 
-/// Contacts between spheres: one lane for each pair that may touch, in the blocks of sphere_blocks.hpp,
-/// those of one law together.
+/// Contacts between spheres: one lane for each pair that may touch, in the blocks of
+/// sphere_blocks.hpp, those of one law together.
 class SphereContacts {
  public:
   using Parameters = AnyLaw::Parameters;

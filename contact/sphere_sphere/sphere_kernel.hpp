@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-/// The arithmetic of a contact between two spheres, for one pair (Real = double) or for some side by
-/// side (Real = Pack).
+/// The arithmetic of a contact between two spheres, for one pair (Real = double) or for some side
+/// by side (Real = Pack).
 namespace plekton::contact {
 
 /// How two spheres stand and move.

@@ -21,9 +21,9 @@ constexpr double kStepsInRange = 8.0;
 
 void DeferredPairs::rebuild(std::span<const geometry::CellId> cells) {
   make_room(cells_, cells.size());
-  make_room(wake_, cells.size());
+  make_room(check_at_, cells.size());
   cells_.assign(cells.begin(), cells.end());
-  wake_.assign(cells.size(), 0.0);
+  check_at_.assign(cells.size(), 0.0);
   is_new_ = true;
 }
 
@@ -44,33 +44,33 @@ void DeferredPairs::begin_step(const Motion& motion) noexcept {
 void DeferredPairs::find(const NearCells& near, const Vec3& centre, double range, Positions x,
                          NextCheck& next_check, std::vector<geometry::CellId>& found) {
   const std::size_t before = found.size();
-  const bool is_due = all_are_due_ || !(moved_ < next_check.wake);
-  if (!is_due && next_check.count == 1 && wake_[near.first] < 0.0) {  // most often
-    wake_[near.first] += 1.0;
+  const bool is_due = all_are_due_ || !(moved_ < next_check.at);
+  if (!is_due && next_check.count == 1 && check_at_[near.first] < 0.0) {  // most often
+    check_at_[near.first] += 1.0;
     found.push_back(cells_[near.first]);
     return;
   }
   const std::uint32_t end = near.first + (is_due ? near.count : next_check.count);
-  double wake = is_due ? std::numeric_limits<double>::infinity() : next_check.wake;
+  double check_at = is_due ? std::numeric_limits<double>::infinity() : next_check.at;
   std::uint32_t next = near.first;
   for (std::uint32_t i = near.first; i < end; ++i) {
-    if (all_are_due_ || wake_[i] >= 0.0) {
-      if (all_are_due_ || !(moved_ < wake_[i])) {
+    if (all_are_due_ || check_at_[i] >= 0.0) {
+      if (all_are_due_ || !(moved_ < check_at_[i])) {
         const double clearance = geometry::clearance(*surface_, cells_[i], centre, range, x);
-        wake_[i] = clearance > 0.0 ? moved_ + clearance : -kStepsInRange;
+        check_at_[i] = clearance > 0.0 ? moved_ + clearance : -kStepsInRange;
       }
-      if (wake_[i] > 0.0) {
-        wake = std::min(wake, wake_[i]);
+      if (check_at_[i] > 0.0) {
+        check_at = std::min(check_at, check_at_[i]);
         continue;
       }
     }
-    wake_[i] += 1.0;
+    check_at_[i] += 1.0;
     found.push_back(cells_[i]);
     std::swap(cells_[i], cells_[next]);
-    std::swap(wake_[i], wake_[next]);
+    std::swap(check_at_[i], check_at_[next]);
     ++next;
   }
-  next_check = {wake, next - near.first};
+  next_check = {check_at, next - near.first};
   std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());
 }
 

@@ -10,11 +10,11 @@ namespace plekton::contact {
 
 /// Tells in which of this step's patches a contact of the last step lives on.
 ///
-/// The contact's minima walk downhill on the surface as it is now (geometry/critical/descent.hpp): where
-/// they arrive, the contact goes on. A walk stays inside the connected part of the contact region
-/// it started in, whatever number of primitives it crosses, so history is handed over at every
-/// seam, shared when a patch splits, and summed when two merge; without a tolerance, and without
-/// asking which element was listed first.
+/// The contact's minima walk downhill on the surface as it is now (geometry/critical/descent.hpp):
+/// where they arrive, the contact goes on. A walk stays inside the connected part of the contact
+/// region it started in, whatever number of primitives it crosses, so history is handed over at
+/// every seam, shared when a patch splits, and summed when two merge; without a tolerance, and
+/// without asking which element was listed first.
 class PatchSuccessors {
  public:
   explicit PatchSuccessors(const geometry::Surface& surface) : surface_(&surface) {}

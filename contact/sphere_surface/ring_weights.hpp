@@ -25,8 +25,8 @@ namespace plekton::contact {
 ///   - resistances in a row add up, so a pass and a minimum, or a pass and a top, that are born
 ///     together change nothing but what they add themselves; nor does what comes into range;
 ///   - shares change with the overlaps, and the force has the part that comes of that. So it is the
-///     gradient of the sum of weight * phi(distance) on the sphere and on every node, for every law.
-/// With n = 12 a ring of springs with a deeper pass is off by 0 to 2.5 % of the energy of its
+///     gradient of the sum of weight * phi(distance) on the sphere and on every node, for every
+/// law. With n = 12 a ring of springs with a deeper pass is off by 0 to 2.5 % of the energy of its
 /// shallowest one, with four of them by 0 to 6.4 %; what is given back too much is about in
 /// proportion to 1 / n. Where bars alone are in range it is never too little: shares are chances of
 /// links to be left out of a forest, pieces are what the best forest leaves, and the mean over all

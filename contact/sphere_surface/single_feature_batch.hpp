@@ -84,8 +84,8 @@ struct SingleFeatureAnswerOf {
   Vec3Of<Real> foot;      ///< m, from the sphere's centre
   Real gap;               ///< m
   Real dissipated;  ///< J, by the law, and what of the history's energy was lost in turning it
-  /// Positive if these are the answers; else another feature may be in range, the sphere has left, or
-  /// the normal has turned by more than 90 degrees, or the frame twisted too far for lanes.
+  /// Positive if these are the answers; else another feature may be in range, the sphere has left,
+  /// or the normal has turned by more than 90 degrees, or the frame twisted too far for lanes.
   Real is_right;
   History history;
 };
@@ -123,7 +123,8 @@ class SingleFeatureAnswer {
 /// Spheres in a batch: all that it reads and writes fits into the first level of a cache.
 constexpr std::size_t kSingleFeatureLanes = 32;
 
-/// Up to kSingleFeatureLanes spheres and facets, of any laws that are written for contacts side by side.
+/// Up to kSingleFeatureLanes spheres and facets, of any laws that are written for contacts side by
+/// side.
 class SingleFeatureBatch {
  public:
   /// What a lane reads.

@@ -192,7 +192,7 @@ EnergyLoss SurfaceContacts::advance_pairs(std::size_t begin, std::size_t end, co
   return loss;
 }
 
-/// Finds the pairs that are awake, as long as there are lanes for those that may go side by side.
+/// Finds the pairs that are due, as long as there are lanes for those that may go side by side.
 /// @returns the first pair that was not looked at
 std::size_t SurfaceContacts::find_jobs(std::size_t begin, std::size_t end, const Motion& motion,
                                        Worker& worker) {

@@ -30,8 +30,9 @@ namespace plekton::contact {
 
 using geometry::NearCells;
 
-/// Contacts of spheres (a) with deformable surfaces (b). A contact belongs to a sphere and a structure,
-/// never to a pair of elements: it lives on a patch (patch.hpp), and follows it over the surface.
+/// Contacts of spheres (a) with deformable surfaces (b). A contact belongs to a sphere and a
+/// structure, never to a pair of elements: it lives on a patch (patch.hpp), and follows it over
+/// the surface.
 class SurfaceContacts {
  public:
   explicit SurfaceContacts(const geometry::Surface& surface)
@@ -76,8 +77,8 @@ class SurfaceContacts {
   /// Energy (J) stored in all contacts, at the positions of the last step.
   double elastic_energy() const;
 
-  /// Calls visit(sphere's node, core point of a term, parameters, range (m): radius of the sphere and
-  /// of the surface, elastic force (N) of the term) for every term of every patch.
+  /// Calls visit(sphere's node, core point of a term, parameters, range (m): radius of the sphere
+  /// and of the surface, elastic force (N) of the term) for every term of every patch.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
     records_.for_each([&](const SurfaceForce& record) {
@@ -86,8 +87,8 @@ class SurfaceContacts {
     });
   }
 
-  /// Calls visit(sphere's node, core point, parameters, range (m)) for what is not in contact but may
-  /// be as soon as bodies come nearer by a margin: the nearest point of every cell whose inside
+  /// Calls visit(sphere's node, core point, parameters, range (m)) for what is not in contact but
+  /// may be as soon as bodies come nearer by a margin: the nearest point of every cell whose inside
   /// holds it, and of a surface that the sphere does not touch the nearest one of all, since a
   /// contact begins there.
   /// @param margin  m, at most the skin of the list
@@ -145,7 +146,7 @@ class SurfaceContacts {
     DeferredPairs::NextCheck next_check;
   };
   static constexpr geometry::FaceId kNoFace{-1};
-  /// A pair that is awake, with the cells that may be in range.
+  /// A pair that is due, with the cells that may be in range.
   struct Job {
     std::size_t pair;
     std::size_t first_cell;  ///< in Worker::cells

@@ -6,8 +6,8 @@
 #include <span>
 
 /// What bars that wrap around something get back, a sphere or another structure, because what hangs
-/// together in range is one contact (patch.hpp, surface_surface/nearest.hpp): each node that comes into
-/// range takes from its bars what they have together, and a wrap would give way.
+/// together in range is one contact (patch.hpp, surface_surface/nearest.hpp): each node that comes
+/// into range takes from its bars what they have together, and a wrap would give way.
 ///
 /// The rule that does not depend on where a bar is cut is additive: at a level s, the part of it
 /// nearer than s, a bar counts by the angle of the half circle of radius s over its chord, over pi

@@ -28,9 +28,10 @@
 /// where the share begins to fall. So the sum never falls below one contact while a body comes to
 /// lie flat.
 ///
-/// Features that facets share (geometry/critical/product_features.hpp) take the mean share of all pairs of
-/// cells that have them. With the weights of inclusion and exclusion, what lies in several pairs of
-/// cells then counts with a mean of their shares: on a seam of two with half of each.
+/// Features that facets share (geometry/critical/product_features.hpp) take the mean share of all
+/// pairs of cells that have them. With the weights of inclusion and exclusion, what lies in
+/// several pairs of cells then counts with a mean of their shares: on a seam of two with half of
+/// each.
 namespace plekton::contact::structure {
 
 /// Square of the sine of the angle between the planes of two facets; negative where one is none.

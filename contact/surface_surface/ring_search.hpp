@@ -13,9 +13,9 @@ namespace plekton::contact::structure {
 /// Which parts of the region of contact are more than pieces at some level.
 ///
 /// The weights of the terms nearer than a level add up to Euler's number of what is nearer
-/// (geometry/critical/product_features.hpp): to 1 for each piece, less its holes. So where they add up to 1
-/// over every part that hangs together, at every level, there are pieces alone. Voids count for 1
-/// more, but a void that begins before a hole does is seen as well.
+/// (geometry/critical/product_features.hpp): to 1 for each piece, less its holes. So where they
+/// add up to 1 over every part that hangs together, at every level, there are pieces alone. Voids
+/// count for 1 more, but a void that begins before a hole does is seen as well.
 class RingSearch {
  public:
   /// Almost linear in the terms in range, but for their order by overlap. Keeps its working space,

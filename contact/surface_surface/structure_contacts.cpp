@@ -227,8 +227,8 @@ EnergyLoss StructureContacts::transfer(const Motion& motion, double dt) {
   return loss;
 }
 
-/// To the successor that pushes most; of patches that merge, the number of the one that pushed most goes
-/// on.
+/// To the successor that pushes most; of patches that merge, the number of the one that pushed
+/// most goes on.
 void StructureContacts::hand_on_number(const Predecessor& old,
                                        std::span<const Successor> successors) {
   const Successor& largest = *std::max_element(

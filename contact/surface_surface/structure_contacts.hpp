@@ -31,15 +31,15 @@ namespace plekton::contact {
 /// Contacts of structures with each other, and of a structure with itself where it folds.
 ///
 /// The elastic force, and an attraction of bodies that touch, is the gradient of one energy, a sum
-/// over pairs of features (surface_surface/nearest.hpp, surface_surface/extended.hpp) with the weights of
-/// product_features.hpp: one contact for every part of the contact region, also where it closes a
-/// ring (surface_surface/pair_terms.hpp), and one more for every diameter of length or square diameter of
-/// area on which bodies run side by side. Friction and all else is decided once per patch, a part
-/// of the region that hangs together: its spring is as stiff as the contacts it counts, it acts
-/// where the elastic force acts, and it follows the
+/// over pairs of features (surface_surface/nearest.hpp, surface_surface/extended.hpp) with the
+/// weights of product_features.hpp: one contact for every part of the contact region, also where
+/// it closes a ring (surface_surface/pair_terms.hpp), and one more for every diameter of length or
+/// square diameter of area on which bodies run side by side. Friction and all else is decided once
+/// per patch, a part of the region that hangs together: its spring is as stiff as the contacts it
+/// counts, it acts where the elastic force acts, and it follows the
 /// patch over the mesh. Facets that lie on each other have a spring for every pair of them instead
-/// (surface_surface/spread_contact.hpp), for the part of the elastic force that their overlap has, and so
-/// have bars on anything, for their shares of it. Under
+/// (surface_surface/spread_contact.hpp), for the part of the elastic force that their overlap has,
+/// and so have bars on anything, for their shares of it. Under
 /// a law that glues, what is glued is held by bonds of its own (structure_bond.hpp).
 class StructureContacts {
  public:
@@ -115,8 +115,8 @@ class StructureContacts {
   /// list, then for every bond.
   void for_each_record(Positions x, VisitRecord visit) const;
 
-  /// Calls visit(ContactRecord, force (N), torque (N m)) for the same rows, with what each did to one
-  /// node: exactly, wherever in the patch that is. Linear in the nodes of the scene.
+  /// Calls visit(ContactRecord, force (N), torque (N m)) for the same rows, with what each did to
+  /// one node: exactly, wherever in the patch that is. Linear in the nodes of the scene.
   using VisitRecordOn = geometry::FunctionRef<void(const ContactRecord&, const Vec3&, const Vec3&)>;
   void for_each_record_on(NodeId node, Positions x, VisitRecordOn visit) const;
 

@@ -11,10 +11,10 @@ namespace plekton::geometry {
 /// A hash of 64 bits over the bits of numbers, in the order in which they are added: the same on
 /// every processor, and another one as soon as one bit differs. No defence against forgery.
 ///
-/// From hash = 0x243F6A8885A308D3 (of pi, so that leading zeros count), for each word of 64 bits: hash
-/// = (hash xor word) times 0x9E3779B97F4A7C15 modulo 2^64 (the golden ratio, odd), then hash = hash
-/// xor (hash >> 32). Both are one to one, so that two sequences that differ in one word never have
-/// the same hash.
+/// From hash = 0x243F6A8885A308D3 (of pi, so that leading zeros count), for each word of 64 bits:
+/// hash = (hash xor word) times 0x9E3779B97F4A7C15 modulo 2^64 (the golden ratio, odd), then hash
+/// = hash xor (hash >> 32). Both are one to one, so that two sequences that differ in one word
+/// never have the same hash.
 class BitHash {
  public:
   void add(std::uint64_t word) noexcept {

@@ -8,8 +8,8 @@ namespace plekton::geometry {
 ///
 /// Sums are within 3 u² of their value, products within 7 u², quotients within 16 u², relative, u =
 /// 2^-53; the difference and the product of two doubles are exact. Dekker, Numerische Mathematik 18
-/// (1971) 224; bounds: Joldes, Muller & Popescu, ACM Trans. Math. Softw. 44 (2017) 15, algorithms 6,
-/// 11 and 17.
+/// (1971) 224; bounds: Joldes, Muller & Popescu, ACM Trans. Math. Softw. 44 (2017) 15, algorithms
+/// 6, 11 and 17.
 class DoubleDouble {
  public:
   /// Zero.

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <limits>
 
-// Every function goes the same way. A table has its values at the multiples of 1/64, to 106 bits; what
-// is left of the argument is at most about 1/80, so that its own series needs 106 bits for the first
-// term alone: the rest is below 2^-13 of it, and in doubles within 2^-66.
+// Every function goes the same way. A table has its values at the multiples of 1/64, to 106 bits;
+// what is left of the argument is at most about 1/80, so that its own series needs 106 bits for
+// the first term alone: the rest is below 2^-13 of it, and in doubles within 2^-66.
 namespace plekton::elementary {
 namespace {
 
@@ -103,7 +103,8 @@ SineAndCosine sine_and_cosine(const Number& x) noexcept {
   return {is_negative ? -sine : sine, cosine};
 }
 
-/// An angle as a number of quarter turns and what is left, at most an eighth of a turn and a little.
+/// An angle as a number of quarter turns and what is left, at most an eighth of a turn and a
+/// little.
 struct ReducedAngle {
   int quarters;  ///< modulo 4
   Number rest;   ///< rad
@@ -113,7 +114,8 @@ struct ReducedAngle {
 ReducedAngle reduce(double x) noexcept {
   const double n = nearest_integer(x / kHalfPi.high());
   if (n == 0.0) return {0, Number(x)};
-  // The first difference is exact but for the lower half of the product; n kHalfPiRest is below 2^-69.
+  // The first difference is exact but for the lower half of the product; n kHalfPiRest is below
+  // 2^-69.
   const Number upper = Number::product(n, 0x1.921fb54442d18p+0);
   const Number lower = Number::product(n, 0x1.1a62633145c07p-54);
   const Number rest = ((Number(x) - upper) - lower) - Number(n * kHalfPiRest);
@@ -146,7 +148,8 @@ Number first_quadrant_angle(const Number& y, const Number& x) noexcept {
   const bool is_steep = y.high() > x.high();
   const Number& opposite = is_steep ? x : y;
   const Number& adjacent = is_steep ? y : x;
-  // Within 0.004 of the angle, for which any angle of the table will do; then the tangent of the rest.
+  // Within 0.004 of the angle, for which any angle of the table will do; then the tangent of the
+  // rest.
   const double tangent = opposite.high() / adjacent.high();
   const double guess = tangent * (0.7854 + 0.273 * (1.0 - tangent));
   const double n = nearest_integer(kPerUnit * guess);

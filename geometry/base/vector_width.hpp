@@ -46,12 +46,12 @@ int chosen_vector_width(const std::optional<std::string>& asked, int widest);
 /// the widest. @throws std::invalid_argument, as chosen_vector_width does
 int vector_width();
 
-/// From now on vectors have so many numbers: to compare widths within one program. Not while kernels
-/// run. @param width  2, 4 or 8, at most widest_vectors()
+/// From now on vectors have so many numbers: to compare widths within one program. Not while
+/// kernels run. @param width  2, 4 or 8, at most widest_vectors()
 void set_vector_width(int width);
 
-/// Calls kernel(Width<W>{}), compiled for vectors of W = vector_width() numbers. The kernel has to be
-/// always_inline with all it calls. @throws std::invalid_argument, as vector_width does
+/// Calls kernel(Width<W>{}), compiled for vectors of W = vector_width() numbers. The kernel has to
+/// be always_inline with all it calls. @throws std::invalid_argument, as vector_width does
 template <class Kernel>
 void with_widest_vectors(const Kernel& kernel) {
 #if defined(__x86_64__)

@@ -31,7 +31,8 @@ struct PolygonSoup {
 
 /// A mesh that cannot be read, written or used. The message names the file, the place, what was
 /// found, what was expected and a way out; all problems of a file come in one message. What it
-/// quotes of a file may be any bytes: control characters come out as in geometry/base/printable.hpp.
+/// quotes of a file may be any bytes: control characters come out as in
+/// geometry/base/printable.hpp.
 struct MeshError : std::runtime_error {
   explicit MeshError(const std::string& text);
 };

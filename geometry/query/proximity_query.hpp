@@ -56,8 +56,9 @@ class ProximityQuery {
 
   /// Every chosen pair that is nearer than the largest gap: spheres with spheres first, then
   /// spheres with cells, then cells with cells, each in ascending order of the ids. Cells that
-  /// share a node are never a pair. One entry for each pair of elements; use contact/sphere_surface/patch.hpp for
-  /// what pushes. The same whatever the number of threads. Valid until the next call.
+  /// share a node are never a pair. One entry for each pair of elements; use
+  /// contact/sphere_surface/patch.hpp for what pushes. The same whatever the number of threads.
+  /// Valid until the next call.
   /// @param x  m, one position for each node, finite and below 1e75
   /// @throws std::invalid_argument if that are not as many as there are nodes
   std::span<const Proximity> find(Positions x);

@@ -26,8 +26,8 @@ Bed small_bed(BedKind kind, int threads = 1) {
 }
 
 /// Beds are in contact from the start. A hollow sphere falls 1 mm at 0.5 m/s until it does, after
-/// 496 steps; two fly at each other at 0.4 m/s over 0.05 mm, 31 steps; a boulder falls 5 mm at 5 m/s,
-/// 250 steps.
+/// 496 steps; two fly at each other at 0.4 m/s over 0.05 mm, 31 steps; a boulder falls 5 mm at 5
+/// m/s, 250 steps.
 int steps_to_first_contact(const SceneEntry& entry) {
   if (entry.bed) return 0;
   if (entry.name == "s5") return 270;

@@ -20,8 +20,8 @@ struct Touch {
 /// promises nothing.
 using ForceRule = std::function<std::optional<geometry::Vec3>(const Touch&)>;
 
-/// Patches of contact/sphere_surface/patch.hpp; none where passes close a ring, because how fast shares of a hole
-/// change depends on the ring.
+/// Patches of contact/sphere_surface/patch.hpp; none where passes close a ring, because how fast
+/// shares of a hole change depends on the ring.
 std::optional<geometry::Vec3> force_of_patches(const Touch& touch);
 
 struct ForceTally {

@@ -9,7 +9,8 @@
 
 namespace plekton::geometry_check {
 
-/// Statements about which features of a surface push on a point (geometry/critical/critical_features.hpp):
+/// Statements about which features of a surface push on a point
+/// (geometry/critical/critical_features.hpp):
 ///   - their coefficients add up to the Euler number of the surface, closed, open, non-manifold,
 ///     mixed, on lattices and turned;
 ///   - another numbering of nodes and cells gives the same features;

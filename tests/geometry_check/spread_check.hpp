@@ -20,7 +20,8 @@ bool counts_one(const SpreadTouch& touch);
 bool is_pushed_away(const SpreadTouch& touch);
 
 /// Steps of 1e-3, 1e-4 and 1e-5 of the overlap change the force in proportion: by no more than as
-/// many contacts as terms may stand for (force_check.hpp), and as wires turn (contact/sphere_surface/wrap.hpp).
+/// many contacts as terms may stand for (force_check.hpp), and as wires turn
+/// (contact/sphere_surface/wrap.hpp).
 bool follows(const SpreadTouch& touch, test::Random& random);
 
 }  // namespace plekton::geometry_check

@@ -8,6 +8,7 @@
 #include "contact/law/restitution.hpp"
 #include "contact/with_parts.hpp"
 
+#include <ostream>
 #include <vector>
 
 /// Contact laws with properties, for scenes that run under each of them.
@@ -16,6 +17,8 @@ namespace plekton::test {
 struct NamedLaw {
   const char* name;
   contact::PropertiesOf<contact::AnyLaw> properties;
+
+  friend void PrintTo(const NamedLaw& law, std::ostream* out) { *out << law.name; }
 };
 template <class Law>
 contact::PropertiesOf<contact::AnyLaw> with(

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <vector>
 
-/// Reference of what the nodes of bars give back where they wrap a ball (contact/sphere_surface/wrap.hpp), for
-/// springs of 1 N/m: by levels, with Simpson's rule, and with the bars' weights from as many normal
-/// equations.
+/// Reference of what the nodes of bars give back where they wrap a ball
+/// (contact/sphere_surface/wrap.hpp), for springs of 1 N/m: by levels, with Simpson's rule, and
+/// with the bars' weights from as many normal equations.
 namespace plekton::test {
 
 /// Mean over the levels of a linear spring of the angle, over pi, under which half a chord at a

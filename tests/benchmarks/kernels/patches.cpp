@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Balls that slide over a surface: which features push, patches, what they transfer, the law and the
-// forces; all of contact/sphere_surface/surface_contacts.hpp between two lists of neighbours.
+// Balls that slide over a surface: which features push, patches, what they transfer, the law and
+// the forces; all of contact/sphere_surface/surface_contacts.hpp between two lists of neighbours.
 #include "contact/law/linear_frictional.hpp"
 #include "contact/sphere_surface/surface_contacts.hpp"
 #include "tests/benchmarks/kernels/run_over.hpp"

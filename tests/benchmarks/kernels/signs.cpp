@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The exact signs of geometry/base/predicates.hpp, one benchmark for each stage that may decide them.
+// The exact signs of geometry/base/predicates.hpp, one benchmark for each stage that may decide
+// them.
 #include "geometry/base/predicates.hpp"
 #include "tests/benchmarks/kernels/run_over.hpp"
 #include "tests/benchmarks/kernels/subjects.hpp"

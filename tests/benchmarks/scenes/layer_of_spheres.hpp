@@ -13,8 +13,8 @@ enum class Ground {
 
 /// A layer of spheres that do not touch each other, each on its own on the ground, pressed on it by
 /// its weight; all of them and the ground's nodes move along the layer at random, up to 0.05 m/s,
-/// for as long as 800 steps without structure pair. So every contact slides or rolls, and lists are made
-/// anew as in a bed that moves. Numerical damping 0.3.
+/// for as long as 800 steps without structure pair. So every contact slides or rolls, and lists
+/// are made anew as in a bed that moves. Numerical damping 0.3.
 /// @param height  m, by which the layer is lifted; 0: 4096 contacts, 3 mm: none, and none listed.
 ///                Of two such runs the difference in cost is that of the contacts
 BenchmarkScene layer_of_spheres(Ground ground, double height);

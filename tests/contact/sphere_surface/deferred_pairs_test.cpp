@@ -70,22 +70,22 @@ TEST(DeferredPairs, FindsEveryCellInRangeWhileAllNodesMove) {
     ThreadPool pool;
     Neighbours neighbours(crowd.spheres, surface, kSkin);
     neighbours.update(crowd.x, pool);
-    DeferredPairs watch(surface);
-    watch.rebuild(neighbours.cells());
+    DeferredPairs deferred_pairs(surface);
+    deferred_pairs.rebuild(neighbours.cells());
     std::vector<DeferredPairs::NextCheck> next_check(neighbours.near_cells().size());
     std::vector<CellId> found;
     std::size_t looked_at = 0;
     for (int step = 0; step < kSteps; ++step) {
       crowd.move(step);
-      watch.begin_step({crowd.x, crowd.velocity, crowd.velocity, kStep});
+      deferred_pairs.begin_step({crowd.x, crowd.velocity, crowd.velocity, kStep});
       for (std::size_t i = 0; i < next_check.size(); ++i) {
         const auto& pair = neighbours.sphere_structures()[i];
         const auto& near = neighbours.near_cells()[i];
         const Vec3& centre =
             crowd.x[index_of(crowd.spheres[static_cast<std::size_t>(pair.a)].nodes[0])];
         found.clear();
-        if (!watch.is_deferred(next_check[i]))
-          watch.find(near, centre, kReach, crowd.x, next_check[i], found);
+        if (!deferred_pairs.is_deferred(next_check[i]))
+          deferred_pairs.find(near, centre, kReach, crowd.x, next_check[i], found);
         looked_at += found.size();
 
         ASSERT_TRUE(std::is_sorted(found.begin(), found.end()));
@@ -104,21 +104,21 @@ TEST(DeferredPairs, LooksAtEveryCellWhereTheWayIsNotKnown) {
   Crowd crowd(sheet(4), 2);
   const Surface surface = crowd.surface();
   const std::vector<CellId> cells = all_cells(surface);
-  DeferredPairs watch(surface);
-  watch.rebuild(cells);
+  DeferredPairs deferred_pairs(surface);
+  deferred_pairs.rebuild(cells);
   const NearCells all{0, static_cast<std::uint32_t>(cells.size())};
   std::vector<CellId> found;
-  watch.begin_step({crowd.x, {}, {}, kStep});
+  deferred_pairs.begin_step({crowd.x, {}, {}, kStep});
   DeferredPairs::NextCheck next_check;
-  watch.find(all, Vec3(2.2, 2.3, 5.0), kReach, crowd.x, next_check, found);
+  deferred_pairs.find(all, Vec3(2.2, 2.3, 5.0), kReach, crowd.x, next_check, found);
   ASSERT_TRUE(found.empty());
-  watch.begin_step({crowd.x, {}, {}, kStep});
-  ASSERT_TRUE(watch.is_deferred(next_check));
+  deferred_pairs.begin_step({crowd.x, {}, {}, kStep});
+  ASSERT_TRUE(deferred_pairs.is_deferred(next_check));
 
-  watch.begin_step({crowd.x, {}, {}});
+  deferred_pairs.begin_step({crowd.x, {}, {}});
 
-  EXPECT_FALSE(watch.is_deferred(next_check));
-  watch.find(all, Vec3(2.2, 2.3, 0.3), kReach, crowd.x, next_check, found);
+  EXPECT_FALSE(deferred_pairs.is_deferred(next_check));
+  deferred_pairs.find(all, Vec3(2.2, 2.3, 0.3), kReach, crowd.x, next_check, found);
   EXPECT_FALSE(found.empty());
 }
 
@@ -146,18 +146,18 @@ std::vector<NodeForces> forces_over(const Complex& ground, double way) {
   return forces;
 }
 
-TEST(SurfaceContacts, PushTheSameToTheLastBitWhetherCellsSleepOrNot) {
+TEST(SurfaceContacts, PushTheSameToTheLastBitWhetherCellsAreDeferredOrNot) {
   for (const Complex& ground : grounds()) {
-    const auto next_check = forces_over(ground, std::numeric_limits<double>::infinity());
-    const auto asleep = forces_over(ground, kStep);
+    const auto looked_at = forces_over(ground, std::numeric_limits<double>::infinity());
+    const auto deferred = forces_over(ground, kStep);
 
     double largest = 0.0;
-    for (std::size_t step = 0; step < next_check.size(); ++step) {
-      for (std::size_t i = 0; i < next_check[step].force.size(); ++i) {
-        ASSERT_EQ(next_check[step].force[i], asleep[step].force[i])
+    for (std::size_t step = 0; step < looked_at.size(); ++step) {
+      for (std::size_t i = 0; i < looked_at[step].force.size(); ++i) {
+        ASSERT_EQ(looked_at[step].force[i], deferred[step].force[i])
             << "step " << step << " node " << i;
-        ASSERT_EQ(next_check[step].torque[i], asleep[step].torque[i]);
-        largest = std::max(largest, next_check[step].force[i].norm());
+        ASSERT_EQ(looked_at[step].torque[i], deferred[step].torque[i]);
+        largest = std::max(largest, looked_at[step].force[i].norm());
       }
     }
     EXPECT_GT(largest, 0.0);

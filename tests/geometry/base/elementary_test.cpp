@@ -88,8 +88,8 @@ TEST(Elementary, IsWithinTheErrorThatItStates) {
   }
 }
 
-// Numerators of the continued fraction of pi, which are the whole numbers nearest to multiples of it,
-// and roundings of such multiples: most of the angle cancels.
+// Numerators of the continued fraction of pi, which are the whole numbers nearest to multiples of
+// it, and roundings of such multiples: most of the angle cancels.
 TEST(Elementary, IsExactNextToMultiplesOfPi) {
   for (const double x : {22.0, 355.0, 710.0, 103993.0, 312689.0, 1146408.0, 80143857.0,
                          0x1.921fb54442d18p+1, 0x1.921fb54442d18p+20}) {
@@ -98,8 +98,8 @@ TEST(Elementary, IsExactNextToMultiplesOfPi) {
   }
 }
 
-// The same on every processor and with every compiler: the numbers are those of a build for SSE2 with
-// GCC 12, and no tolerance belongs here.
+// The same on every processor and with every compiler: the numbers are those of a build for SSE2
+// with GCC 12, and no tolerance belongs here.
 TEST(Elementary, HasTheBitsThatItHasElsewhere) {
   geometry::BitHash hash;
   for (const Function& function : functions()) {

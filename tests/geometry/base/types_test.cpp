@@ -50,8 +50,9 @@ TEST(Vec3, AddsAsPacksDo) {
   }
 }
 
-// What else the library asks of Eigen: products of matrices and quaternions, eigenvalues, sums of many.
-// The number is that of a build for SSE2 with GCC 12; with fused or wider operations it is another one.
+// What else the library asks of Eigen: products of matrices and quaternions, eigenvalues, sums of
+// many. The number is that of a build for SSE2 with GCC 12; with fused or wider operations it is
+// another one.
 TEST(Eigen, HasTheBitsThatItHasElsewhere) {
   test::Random random(5);
   BitHash hash;
