@@ -151,14 +151,6 @@ PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings) {
   return with_parts<LinearFrictional>(settings.springs, settings.rolling, dashpot);
 }
 
-std::optional<LinearFrictional::Properties> linear_alone(const ContactSettings& settings) noexcept {
-  const RollingTwisting::Properties& rolling = settings.rolling;
-  const bool is_alone = kLaws[settings.law].name == LinearFrictional::name &&
-                        rolling.rolling_stiffness == 0.0 && rolling.twisting_stiffness == 0.0 &&
-                        settings.restitution == 1.0;
-  return is_alone ? std::optional(settings.springs) : std::nullopt;
-}
-
 std::optional<Bonds> bonds_of(const ContactSettings& settings) noexcept {
   if (contact_laws()[settings.law].name != CohesiveFrictional::name) return std::nullopt;
   const CohesiveFrictional::Properties& cohesion = settings.cohesion;

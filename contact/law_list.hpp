@@ -60,11 +60,9 @@ std::span<const LawEntry> contact_laws() noexcept;
 /// Parameters that go with every law.
 std::span<const LawParameter> common_law_parameters() noexcept;
 
+/// Of the law with what goes with it, as far as there is any: linear_frictional with nothing beside
+/// it is that law alone.
 PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings);
-
-/// Those of a pair that has linear_frictional and nothing beside it; scenes in which all pairs have
-/// are faster under that law. Nothing for any other pair.
-std::optional<LinearFrictional::Properties> linear_alone(const ContactSettings& settings) noexcept;
 
 /// Which contacts are glued; nothing for a law without bonds. Bonds without any strength are none.
 std::optional<Bonds> bonds_of(const ContactSettings& settings) noexcept;

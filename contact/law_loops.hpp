@@ -20,7 +20,7 @@ struct LawLoops {
     if constexpr (LaneLaw<Law>) return touching;
     return nullptr;
   }
-  static constexpr decltype(AnyLaw::Functions::advance_single_feature) lone() noexcept {
+  static constexpr decltype(AnyLaw::Functions::advance_single_feature) facets() noexcept {
     if constexpr (LaneLaw<Law>) return on_facets;
     return nullptr;
   }

@@ -123,7 +123,7 @@ struct LawTable {
       },
       .advance_spheres = LawLoops<Law>::spheres,
       .advance_batch = LawLoops<Law>::batch(),
-      .advance_single_feature = LawLoops<Law>::lone()};
+      .advance_single_feature = LawLoops<Law>::facets()};
 };
 
 template <ContactLaw Law>

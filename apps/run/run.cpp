@@ -336,29 +336,14 @@ void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& 
   if (chosen != simulation.time_step()) simulation.set_time_step(chosen);
 }
 
-/// By pair of materials.
-template <class Law, class Properties>
-contact::PairProperties<Law> properties_of_pairs(const std::vector<PairSettings>& pairs,
-                                                 const Properties& properties) {
-  contact::PairProperties<Law> all;
-  for (const PairSettings& pair : pairs) {
-    all[{geometry::id_at<contact::MaterialId>(pair.first),
-         geometry::id_at<contact::MaterialId>(pair.second)}] = properties(pair.contact);
-  }
-  return all;
-}
-
-/// linear_frictional alone, which is the fastest, unless a pair has another law or more.
 contact::ContactModel model_of(const std::vector<PairSettings>& pairs) {
-  using contact::AnyLaw;
-  using contact::LinearFrictional;
-  if (std::all_of(pairs.begin(), pairs.end(), [](const PairSettings& pair) {
-        return contact::linear_alone(pair.contact).has_value();
-      })) {
-    const auto linear = [](const auto& settings) { return *contact::linear_alone(settings); };
-    return contact::linear_frictional(properties_of_pairs<LinearFrictional>(pairs, linear));
+  contact::PairProperties<contact::AnyLaw> properties;
+  for (const PairSettings& pair : pairs) {
+    properties[{geometry::id_at<contact::MaterialId>(pair.first),
+                geometry::id_at<contact::MaterialId>(pair.second)}] =
+        contact::properties_of(pair.contact);
   }
-  return contact::any_law(properties_of_pairs<AnyLaw>(pairs, contact::properties_of));
+  return contact::any_law(properties);
 }
 
 }  // namespace

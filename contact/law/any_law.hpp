@@ -94,8 +94,8 @@ struct AnyLaw {
     /// Whether its parameters follow from materials and radii alone; see CombinesRadii.
     bool (*combines_radii)(const Properties&);
 
-    // Loops with the law known as a type; null of a law that is not written for contacts side by
-    // side, but for the first one.
+    // Loops with the law known as a type (contact/law_loops.hpp). The last two are null of a law
+    // that is not written for contacts side by side.
     void (*advance_spheres)(const SphereRange&, SphereWork&);
     bool (*advance_batch)(SphereBatch&, std::size_t, double);
     void (*advance_single_feature)(SingleFeatureBatch&, const Motion&, double);

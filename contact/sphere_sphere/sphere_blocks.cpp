@@ -203,7 +203,7 @@ std::size_t SphereBlocks::block_of(std::int32_t sphere) const noexcept {
   return static_cast<std::size_t>(after - first_places_.begin()) - 1;
 }
 
-/// By counting; borrowers in the order of the blocks.
+/// By counting; ghosts of a sphere in the order of the blocks.
 void SphereBlocks::find_ghosts() {
   const auto for_each_ghost_of_blocks = [&](const auto& visit) {
     for (const Block& block : blocks_) {

@@ -6,7 +6,6 @@
 #include "geometry/neighbor/broad_phase.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -107,8 +106,8 @@ class SphereBlocks {
   /// Row and lane of pair i of the list: slot / kLanes and slot % kLanes.
   std::uint32_t slot(std::size_t i) const noexcept { return slots_[i]; }
 
-  /// Calls add(node, which ghost) for every sphere that a block owns and another one
-  /// borrows, in a fixed order.
+  /// Calls add(node, which ghost) for every sphere that a block owns and that is a ghost of another
+  /// one, in a fixed order.
   /// @param ahead  called with the same some calls before, to ask for what add() will read
   template <class Add, class Ahead>
   void for_each_ghost(std::size_t block, Add&& add, Ahead&& ahead) const {
