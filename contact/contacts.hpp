@@ -16,6 +16,10 @@
 #include <cstdint>
 #include <span>
 
+namespace plekton::geometry {
+class StateArchive;
+}
+
 namespace plekton::contact {
 
 class PatchFinder;
@@ -74,6 +78,13 @@ class Contacts {
   ///                loses nothing to second order (trapezoidal rule)
   virtual void follow(const geometry::SurfaceChange& change, const Motion& motion, Positions at,
                       geometry::ThreadPool& pool) = 0;
+
+  /// All that decides how contacts go on, and what can be read out of the last step. A state that
+  /// is read has to be of contacts of the same bodies, materials and laws, on what is left of the
+  /// same surface; threads may be other ones. Lists are made anew, from where they were made.
+  /// @throws geometry::StateMismatch
+  virtual void exchange(const geometry::StateArchive& archive, std::span<const Plane> planes,
+                        geometry::ThreadPool& pool) = 0;
 
   virtual ContactCounts counts() const noexcept = 0;
 

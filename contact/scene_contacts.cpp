@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/scene_contacts.hpp"
 
+#include "geometry/base/state_archive.hpp"
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -51,12 +53,14 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
                              const geometry::Surface& surface, ContactMaterials materials,
                              double skin, const std::vector<bool>& meets_planes, Positions rest)
     : materials_(std::move(materials)),
+      materials_hash_(materials_.pairs.hash()),
       neighbours_(spheres, surface, skin, largest_interaction_range(spheres, surface, materials_)),
       cell_neighbours_(surface, rest, skin_of_structures(surface, skin), !rest.empty()),
       plane_neighbours_(skin, largest_interaction_range(spheres, surface, materials_)),
       with_surfaces_(surface),
       between_structures_(surface),
       surface_(&surface) {
+  materials_.structure_masses = structure::mean_node_masses(surface, materials_);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const NodeId node = spheres[i].nodes[0];
     spheres_.push_back(
@@ -74,7 +78,7 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
 
 void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes, double dt,
                             geometry::ThreadPool& pool, NodeForces& forces) {
-  if (start_ == Start::now) end_start(planes, motion.position, pool);
+  if (start_ == Start::now) end_start(planes, pool);
   if (start_ == Start::ahead) start_ = Start::now;
   if (neighbours_.update(motion.position, pool, motion.max_displacement)) {
     tracking_loss_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), spheres_, materials_.pairs,
@@ -101,12 +105,12 @@ void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes,
 }
 
 /// The first step is over: the contacts listed go on with the parameters of later ones.
-void SceneContacts::end_start(std::span<const Plane> planes, Positions x,
-                              geometry::ThreadPool& pool) {
+void SceneContacts::end_start(std::span<const Plane> planes, geometry::ThreadPool& pool) {
   start_ = Start::over;
   if (!materials_.pairs.end_start()) return;
   ++list_count_;
-  with_spheres_.rebuild(neighbours_.sphere_pairs(), spheres_, materials_.pairs, pool, x);
+  with_spheres_.rebuild(neighbours_.sphere_pairs(), spheres_, materials_.pairs, pool,
+                        neighbours_.list_positions());
   list_on_surfaces();
   between_structures_.take_parameters(materials_);
   with_planes_.rebuild(plane_neighbours_.pairs(), spheres_, planes, materials_.pairs);
@@ -130,6 +134,40 @@ void SceneContacts::follow(const geometry::SurfaceChange& change, const Motion& 
   const Motion then{at, motion.velocity, motion.angular_velocity};
   tracking_loss_ +=
       between_structures_.follow(change, cell_neighbours_.pairs(), materials_, then, pool);
+}
+
+void SceneContacts::exchange(const geometry::StateArchive& archive, std::span<const Plane> planes,
+                             geometry::ThreadPool& pool) {
+  archive.same("materials", materials_hash_, "other materials or other contact laws");
+  exchange_start(archive);
+  archive("dissipated", dissipated_);
+  archive("tracking_loss", tracking_loss_);
+  archive("last_number", last_number_);
+  archive("list_count", list_count_);
+  neighbours_.exchange(archive.group("neighbours"), pool);
+  cell_neighbours_.exchange(archive.group("cell_neighbours"), pool);
+  with_spheres_.exchange(archive.group("spheres"), [&] {
+    with_spheres_.rebuild(neighbours_.sphere_pairs(), spheres_, materials_.pairs, pool,
+                          neighbours_.list_positions());
+  });
+  with_surfaces_.exchange(
+      archive.group("surfaces"), [&] { list_on_surfaces(); }, pool);
+  between_structures_.exchange(archive.group("structures"), [&] {
+    between_structures_.rebuild(cell_neighbours_.pairs(), materials_);
+  });
+  plane_neighbours_.exchange(archive.group("plane_neighbours"), spheres_.size(), planes.size());
+  with_planes_.exchange(
+      archive.group("planes"),
+      [&] { with_planes_.rebuild(plane_neighbours_.pairs(), spheres_, planes, materials_.pairs); },
+      pool);
+}
+
+void SceneContacts::exchange_start(const geometry::StateArchive& archive) {
+  Start start = start_;
+  archive("start", start);
+  const bool has_ended = start == Start::over && start_ != Start::over;
+  start_ = start;
+  if (has_ended && materials_.pairs.end_start()) between_structures_.take_parameters(materials_);
 }
 
 }  // namespace plekton::contact

@@ -35,6 +35,9 @@ class SceneContacts final : public Contacts {
   void follow(const geometry::SurfaceChange& change, const Motion& motion, Positions at,
               geometry::ThreadPool& pool) override;
 
+  void exchange(const geometry::StateArchive& archive, std::span<const Plane> planes,
+                geometry::ThreadPool& pool) override;
+
   ContactCounts counts() const noexcept override {
     return {with_spheres_.touching(), with_surfaces_.touching(), between_structures_.touching(),
             with_planes_.touching()};
@@ -147,9 +150,11 @@ class SceneContacts final : public Contacts {
     dissipated_ += loss.dissipated;
     tracking_loss_ += loss.tracking;
   }
-  void end_start(std::span<const Plane> planes, Positions x, geometry::ThreadPool& pool);
+  void end_start(std::span<const Plane> planes, geometry::ThreadPool& pool);
+  void exchange_start(const geometry::StateArchive& archive);
 
   ContactMaterials materials_;
+  std::uint64_t materials_hash_;     ///< as they were at the start
   std::vector<SphereBody> spheres_;  ///< the spheres, then the nodes of the surface
   geometry::Neighbours neighbours_;
   geometry::CellNeighbours cell_neighbours_;

@@ -2,14 +2,17 @@
 #include "dynamics/simulation.hpp"
 
 #include "dynamics/broken_elements.hpp"
+#include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "dynamics/measures/fault_finder.hpp"
 #include "dynamics/measures/unbalanced_force.hpp"
 #include "dynamics/model/require_index.hpp"
 #include "dynamics/model/scene_figures.hpp"
+#include "dynamics/model/scene_hash.hpp"
 #include "dynamics/time_step/step_chooser.hpp"
 #include "dynamics/time_step/step_limits.hpp"
 #include "geometry/base/elementary.hpp"
 #include "geometry/base/problems.hpp"
+#include "geometry/base/state_archive.hpp"
 #include "geometry/base/vector_width.hpp"
 #include "geometry/primitives/node_sets.hpp"
 
@@ -89,6 +92,7 @@ constexpr std::size_t kPieces = 16;
 Simulation::Simulation(Scene scene, const SimulationOptions& options,
                        const contact::ContactModel& model)
     : scene_((checked(scene, options), held_as_prescribed(std::move(scene)))),
+      scene_hash_(scene_hash(scene_)),
       motion_(options.motion),
       pool_(options.threads),
       surface_(scene_.elements.cylinders, scene_.elements.facets, scene_.state.size()),
@@ -595,6 +599,164 @@ BondForces Simulation::bond_forces(std::size_t bond) const {
 BondStress Simulation::bond_stress(std::size_t bond) const {
   require_index("bond_stress", "bond", bond, bonds_.size());
   return dynamics::bond_stress(bond_forces(bond), scene_.bonds[bond].section);
+}
+
+// The state.
+
+geometry::StateTree Simulation::snapshot() {
+  geometry::StateTree tree;
+  exchange(geometry::StateArchive::writer(tree));
+  return tree;
+}
+
+void Simulation::restore(const geometry::StateTree& state) {
+  if (steps_ != 0)
+    throw std::logic_error("a state is restored before the first step of a simulation, not after " +
+                           std::to_string(steps_));
+  exchange(geometry::StateArchive::reader(state));
+}
+
+void Simulation::save(const std::filesystem::path& file) {
+  write_checkpoint(file, snapshot());
+}
+
+void Simulation::load(const std::filesystem::path& file) {
+  restore(read_checkpoint(file));
+}
+
+void Simulation::exchange(const geometry::StateArchive& archive) {
+  archive.same("scene", scene_hash_, "another scene");
+  exchange_motion(archive);
+  exchange_elements(archive.group("elements"));
+  bonds_.exchange(archive.group("bonds"));
+  if (archive.is_reading()) loads_.follow(bonds_);
+  yielding_bonds_.exchange(archive.group("yield"));
+  sheet_facets_.exchange(archive.group("sheets"));
+  loads_.exchange(archive.group("loads"));
+  exchange_asked_breaks(archive.group("asked_breaks"));
+  contacts_->exchange(archive.group("contacts"), scene_.planes, pool_);
+  exchange_step(archive.group("step"));
+  exchange_ledger(archive.group("ledger"));
+}
+
+void Simulation::exchange_motion(const geometry::StateArchive& archive) {
+  archive("time", time_);
+  archive("steps", steps_);
+  const geometry::StateArchive nodes = archive.group("nodes");
+  nodes.fixed("position", scene_.state.position, "nodes");
+  nodes.fixed("velocity", scene_.state.velocity, "nodes");
+  nodes.fixed("angular_velocity", scene_.state.angular_velocity, "nodes");
+  nodes.fixed("orientation", scene_.state.orientation, "nodes");
+  nodes.fixed("force", forces_.force, "nodes");
+  nodes.fixed("torque", forces_.torque, "nodes");
+  std::vector<Vec3> points, velocities;
+  for (const contact::Plane& plane : scene_.planes) {
+    points.push_back(plane.point);
+    velocities.push_back(plane.velocity);
+  }
+  const geometry::StateArchive planes = archive.group("planes");
+  planes.fixed("point", points, "planes");
+  planes.fixed("velocity", velocities, "planes");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    scene_.planes[i].point = points[i];
+    scene_.planes[i].velocity = velocities[i];
+  }
+  archive("gravity", motion_.gravity);
+}
+
+namespace {
+
+/// Elements with their materials. @returns whether they are others than before
+template <class Element>
+bool exchange_table(const geometry::StateArchive& archive, const char* name,
+                    std::vector<Element>& elements, std::vector<contact::MaterialId>& materials) {
+  struct Kept {
+    Element element;
+    contact::MaterialId material;
+  };
+  std::vector<Kept> kept;
+  for (std::size_t i = 0; i < elements.size(); ++i) kept.push_back({elements[i], materials[i]});
+  archive.rows(name, kept, [](geometry::RowFields& row, Kept& one) {
+    row("nodes", one.element.nodes);
+    row("radius", one.element.radius);
+    row("material", one.material);
+  });
+  const bool is_same = std::equal(
+      kept.begin(), kept.end(), elements.begin(), elements.end(),
+      [](const Kept& one, const Element& element) { return one.element.nodes == element.nodes; });
+  elements.clear();
+  materials.clear();
+  for (const Kept& one : kept) {
+    elements.push_back(one.element);
+    materials.push_back(one.material);
+  }
+  return !is_same;
+}
+
+}  // namespace
+
+/// What is left of the elements. Contacts and loads go on with it as if all had broken at once.
+void Simulation::exchange_elements(const geometry::StateArchive& archive) {
+  const bool others =
+      exchange_table(archive, "cylinders", scene_.elements.cylinders, scene_.cylinder_materials) |
+      exchange_table(archive, "facets", scene_.elements.facets, scene_.facet_materials);
+  if (!others) return;
+  try {
+    follow_surface();
+  } catch (const std::invalid_argument& error) {
+    throw geometry::StateMismatch(
+        std::string("the elements left in the state are none of these: ") + error.what());
+  }
+}
+
+/// What has been asked for and comes with the next step.
+void Simulation::exchange_asked_breaks(const geometry::StateArchive& archive) {
+  archive("bonds", broken_.bonds);
+  archive("cylinders", broken_.cylinders);
+  archive("facets", broken_.facets);
+  for (const std::size_t bond : broken_.bonds)
+    if (bond >= bonds_.size())
+      throw geometry::StateMismatch("the state breaks a bond that is none");
+}
+
+/// How long steps are, and what the next choice of one knows.
+void Simulation::exchange_step(const geometry::StateArchive& archive) {
+  archive("time_step", dt_);
+  archive("drift", drift_);
+  archive("last_drift", last_drift_);
+  archive("fastest", fastest_);
+  archive("fastest_spin", fastest_spin_);
+  bool is_chosen = chooser_ != nullptr;
+  archive("is_chosen", is_chosen);
+  if (is_chosen && chooser_ == nullptr)
+    throw geometry::StateMismatch(
+        "the state was that of a simulation that chooses its time step; give none here either");
+  if (!is_chosen) chooser_.reset();
+  if (is_chosen) chooser_->exchange(archive.group("choice"));
+}
+
+void Simulation::exchange_ledger(const geometry::StateArchive& archive) {
+  const auto exchange_work = [&](const char* name, StepWork& work) {
+    const geometry::StateArchive of = archive.group(name);
+    of("kinetic", work.kinetic);
+    of("damped", work.damped);
+    of("external", work.external);
+    of("fastest_squared", work.fastest_squared);
+    of("fastest_spin_squared", work.fastest_spin_squared);
+  };
+  exchange_work("work", work_);
+  exchange_work("pending", pending_);
+  archive("broken", broken_energy_);
+  archive("initial", initial_energy_);
+  archive("most_kinetic", most_kinetic_);
+  archive("most_accounted", most_accounted_);
+  archive("suspect", suspect_);
+  archive("initial_moment", initial_moment_);
+  archive("initial_translation", initial_stiffness_.translation);
+  archive("initial_rotation", initial_stiffness_.rotation);
+  archive("largest_overlap_ratio", largest_overlap_ratio_);
+  archive("pass_throughs", pass_throughs_);
+  archive("most_crossings", most_crossings_);
 }
 
 }  // namespace plekton::dynamics

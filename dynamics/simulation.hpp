@@ -19,9 +19,11 @@
 #include "dynamics/time_step/exact_step.hpp"
 #include "dynamics/time_step/motion_step.hpp"
 #include "dynamics/time_step/step_cause.hpp"
+#include "geometry/base/state_tree.hpp"
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <iosfwd>
 #include <limits>
 #include <memory>
@@ -184,6 +186,24 @@ class Simulation {
   /// contacts are seen late; a chosen step keeps below that, a given one may not.
   double motion_ratio() const noexcept;
 
+  // The state, to go on from later or elsewhere.
+
+  /// All that decides how the simulation goes on, and what can be read out of its last step, as
+  /// plain numbers in an order that does not depend on threads. It changes nothing; linear in the
+  /// scene and its contacts.
+  geometry::StateTree snapshot();
+  /// Goes on from a state: from here on every bit is as it was there, with any number of threads.
+  /// To be called before the first step of a simulation of the same scene, materials and laws; its
+  /// loads may be other ones of the same kinds.
+  /// @throws std::logic_error after the first step
+  /// @throws geometry::StateMismatch if the state is of another scene, or damaged: the simulation
+  ///         can only be thrown away then
+  void restore(const geometry::StateTree& state);
+  /// The same, to and from a file (checkpoint/checkpoint_file.hpp).
+  /// @throws OutputError; CheckpointError
+  void save(const std::filesystem::path& file);
+  void load(const std::filesystem::path& file);
+
  private:
   void advance(double longest);
   contact::Motion motion() const noexcept;
@@ -206,8 +226,15 @@ class Simulation {
   Pace pace() const noexcept;
   void move_planes();
   double rounding_energy() const;
+  void exchange(const geometry::StateArchive& archive);
+  void exchange_elements(const geometry::StateArchive& archive);
+  void exchange_motion(const geometry::StateArchive& archive);
+  void exchange_ledger(const geometry::StateArchive& archive);
+  void exchange_asked_breaks(const geometry::StateArchive& archive);
+  void exchange_step(const geometry::StateArchive& archive);
 
   Scene scene_;
+  std::uint64_t scene_hash_;  ///< as it was given
   MotionOptions motion_;
   geometry::ThreadPool pool_;
   geometry::Surface surface_;

@@ -3,12 +3,15 @@
 
 #include "apps/command_line/check_report.hpp"
 #include "apps/command_line/import_command.hpp"
+#include "apps/command_line/inspect_command.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/list_command.hpp"
+#include "apps/command_line/resume_command.hpp"
 #include "apps/command_line/run_estimate.hpp"
 #include "apps/command_line/start_listing.hpp"
 #include "apps/command_line/step_advice.hpp"
 #include "apps/command_line/summary.hpp"
+#include "apps/command_line/verify_command.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scenario/closest_word.hpp"
@@ -62,12 +65,22 @@ struct CommandLine {
   bool quiet = false;
   bool json = false;
   bool power_iteration = false;
+  fs::path resume;
+  fs::path checkpoint;
+  std::string from;
+  std::vector<std::string> interval;
+  std::string to;
 };
 
-Scenario scenario_of(const CommandLine& line) {
+/// With the threads that are asked for.
+std::vector<std::string> overrides_of(const CommandLine& line) {
   std::vector<std::string> overrides = line.overrides;
   if (line.threads) overrides.push_back(fmt::format("simulation.threads={}", *line.threads));
-  return read_scenario(line.scenario, overrides);
+  return overrides;
+}
+
+Scenario scenario_of(const CommandLine& line) {
+  return read_scenario(line.scenario, overrides_of(line));
 }
 
 /// What a run has written to its folder.
@@ -113,12 +126,9 @@ fs::path default_folder(const Scenario& scenario) {
   return fs::path("out") / (is_input ? fs::path("stdin") : scenario.file.stem());
 }
 
-int run_command(const CommandLine& line) {
-  const auto began = Progress::Clock::now();
-  const Scenario scenario = scenario_of(line);
-  const fs::path out = line.out.empty() ? default_folder(scenario) : line.out;
-  // Before the scene is built, which may take long.
-  check_output_folder(out, line.overwrite);
+/// Runs a scenario, from its beginning or from a state.
+int run_aloud(const CommandLine& line, const Scenario& scenario, const fs::path& out,
+              const Resumption* resume, Progress::Clock::time_point began) {
   PreparedRun prepared = prepared_aloud(scenario, line.quiet);
   if (!line.quiet) std::cout << summary_of(prepared) << std::flush;
 
@@ -128,7 +138,8 @@ int run_command(const CommandLine& line) {
                              style_on(STDOUT_FILENO, line.quiet),
                              [&] { return guard.interrupted(); },
                              began,
-                             line.overwrite};
+                             line.overwrite,
+                             resume};
   const RunReport report = run(scenario, prepared, settings);
   if (line.quiet) {
     for (const std::string& warning : report.warnings)
@@ -136,7 +147,40 @@ int run_command(const CommandLine& line) {
   } else {
     std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n';
   }
-  return report.status == RunStatus::interrupted ? kInterrupted : kDone;
+  if (report.status != RunStatus::interrupted) return kDone;
+  if (!line.quiet) std::cout << "go on with: plekton run --resume " << out.string() << '\n';
+  return kInterrupted;
+}
+
+int resume_command(const CommandLine& line) {
+  const auto began = Progress::Clock::now();
+  const ResumedRun resumed = find_resumed_run(line.resume, overrides_of(line), line.from, line.to);
+  const bool same_folder = line.out.empty();
+  if (same_folder && !(line.from.empty() && line.to.empty()))
+    throw InputError(
+        "--from and --to compute a part of a run again, with results of its own; give a folder for "
+        "them with --out");
+  if (!same_folder) check_output_folder(line.out, line.overwrite);
+  for (const std::string& damaged : resumed.checkpoint.damaged)
+    std::cerr << "plekton: warning: " << damaged << '\n';
+  const double time = time_of(resumed.checkpoint.state);
+  if (!line.quiet)
+    std::cout << fmt::format("{}: goes on at {:.6g} s, step {}\n", resumed.checkpoint.file.string(),
+                             time, steps_of(resumed.checkpoint.state));
+  const Resumption from{resumed.checkpoint.state, same_folder, resumed.from};
+  return run_aloud(line, resumed.scenario, same_folder ? line.resume : line.out, &from, began);
+}
+
+int run_command(const CommandLine& line) {
+  if (!line.resume.empty()) return resume_command(line);
+  if (line.scenario.empty())
+    throw InputError("run: expected a scenario file, or --resume with the folder of a run");
+  const auto began = Progress::Clock::now();
+  const Scenario scenario = scenario_of(line);
+  const fs::path out = line.out.empty() ? default_folder(scenario) : line.out;
+  // Before the scene is built, which may take long.
+  check_output_folder(out, line.overwrite);
+  return run_aloud(line, scenario, out, nullptr, began);
 }
 
 /// Prints one JSON object, also of a scenario with problems, before these go the way of all errors.
@@ -225,6 +269,18 @@ int list_command() {
   return kDone;
 }
 
+int inspect_command(const CommandLine& line) {
+  std::cout << text_of_checkpoint(line.checkpoint);
+  flush_output();
+  return kDone;
+}
+
+int verify_command(const CommandLine& line) {
+  const bool is_same = verify_run({line.resume, line.interval, overrides_of(line)}, std::cout);
+  flush_output();
+  return is_same ? kDone : kFailed;
+}
+
 int import_command(const CommandLine& line) {
   ImportArguments arguments;
   arguments.mesh = line.mesh;
@@ -240,19 +296,19 @@ int import_command(const CommandLine& line) {
   return kDone;
 }
 
-void add_scenario_options(CLI::App& command, CommandLine& line) {
-  command
-      .add_option(
-          "scenario", line.scenario,
-          "Scenario file (.toml), or - for standard input: the mesh files it names are then "
-          "relative to the current folder; apps/scenario.md documents its keys")
-      ->required();
+/// @returns that for the scenario
+CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
+  CLI::Option* const scenario = command.add_option(
+      "scenario", line.scenario,
+      "Scenario file (.toml), or - for standard input: the mesh files it names are then "
+      "relative to the current folder; apps/scenario.md documents its keys");
   command
       .add_option("--set", line.overrides,
                   "Replace a value: path=value, as in simulation.duration=\"1 s\"; may be repeated")
       ->allow_extra_args(false);
   command.add_option("--threads", line.threads, "Threads; the result does not depend on it")
       ->check(CLI::Range(1, 1024));
+  return scenario;
 }
 
 /// One problem after the name of the program, several below it. A line that begins with a blank
@@ -270,7 +326,8 @@ void print_error(const std::string& text) {
 
 /// @returns whether the command line begins with a word that is no command, after saying so
 bool is_unknown_command(int argc, const char* const* argv) {
-  constexpr std::array<std::string_view, 4> kCommands = {"run", "check", "import", "list"};
+  constexpr std::array<std::string_view, 6> kCommands = {"run",     "check",  "import",
+                                                         "inspect", "verify", "list"};
   if (argc < 2) return false;
   const std::string_view word = argv[1];
   if (word.starts_with('-') ||
@@ -291,7 +348,16 @@ int dispatch(int argc, const char* const* argv) {
   app.require_subcommand(1);
 
   CLI::App* run = app.add_subcommand("run", "Run a scenario");
-  add_scenario_options(*run, line);
+  CLI::Option* const to_run = add_scenario_options(*run, line);
+  CLI::Option* const resume =
+      run->add_option("--resume", line.resume,
+                      "Go on with the run in this folder, from its last checkpoint: with --out in "
+                      "another folder")
+          ->excludes(to_run);
+  run->add_option("--from", line.from,
+                  "With --resume and --out: compute a part of the run again, from this time on")
+      ->needs(resume);
+  run->add_option("--to", line.to, "And end at this time")->needs(resume);
   run->add_option("--out", line.out,
                   "Folder for the results; out/<name of the scenario> if not given, out/stdin of "
                   "standard input");
@@ -301,7 +367,7 @@ int dispatch(int argc, const char* const* argv) {
                 "Print nothing but problems and warnings, on standard error");
   CLI::App* check = app.add_subcommand(
       "check", "Read a scenario, build its scene, and say what it is or what is wrong with it");
-  add_scenario_options(*check, line);
+  add_scenario_options(*check, line)->required();
   check
       ->add_flag("--power-iteration", line.power_iteration,
                  "Also find the critical time step of the scene as it is by power iteration on "
@@ -330,6 +396,19 @@ int dispatch(int argc, const char* const* argv) {
   import->add_flag("--overwrite", line.overwrite,
                    "Replace the files of an earlier import in that folder");
   import->add_flag("--json", line.json, "Print the report as JSON");
+  CLI::App* inspect = app.add_subcommand("inspect", "Say what a checkpoint of a run holds");
+  inspect->add_option("checkpoint", line.checkpoint, "Checkpoint (.h5), below the folder of a run")
+      ->required();
+  CLI::App* verify = app.add_subcommand(
+      "verify", "Compute a part of a run again, between two of its checkpoints, and compare bits");
+  verify->add_option("run", line.resume, "Folder of the run")->required();
+  verify
+      ->add_option("--interval", line.interval,
+                   "Begin and end, as in \"0.1 s\" \"0.2 s\"; from the checkpoint before the begin "
+                   "to the one before the end")
+      ->expected(2);
+  verify->add_option("--threads", line.threads, "Threads; the result does not depend on it")
+      ->check(CLI::Range(1, 1024));
   CLI::App* list =
       app.add_subcommand("list", "Say what a scenario can name, with parameters and defaults");
 
@@ -340,6 +419,8 @@ int dispatch(int argc, const char* const* argv) {
   }
   if (run->parsed()) return run_command(line);
   if (list->parsed()) return list_command();
+  if (inspect->parsed()) return inspect_command(line);
+  if (verify->parsed()) return verify_command(line);
   return check->parsed() ? check_command(line) : import_command(line);
 }
 

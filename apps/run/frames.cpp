@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <charconv>
 #include <numeric>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -20,30 +22,39 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> kParts = {"grains", "membranes", "contacts"};
 
-/// Whether a file name is one that write_part makes.
-bool is_frame(const std::string& name) {
+/// The number in the name of a file that Frames has written.
+std::optional<std::size_t> frame_number(const std::string& name) {
   for (const std::string_view part : kParts) {
     if (!name.starts_with(part) || !name.ends_with(".vtp")) continue;
     const std::string_view middle =
         std::string_view(name).substr(part.size(), name.size() - part.size() - 4);
-    if (middle.starts_with('_') &&
-        middle.find_first_not_of("0123456789", 1) == std::string_view::npos)
-      return true;
+    if (!middle.starts_with('_')) continue;
+    std::size_t number = 0;
+    const auto [end, error] =
+        std::from_chars(middle.data() + 1, middle.data() + middle.size(), number);
+    if (error == std::errc() && end == middle.data() + middle.size()) return number;
   }
-  return false;
+  return std::nullopt;
 }
 
-/// What cannot be removed will be replaced, or its replacement fails with a message of its own.
+/// Frames from a number on. What cannot be removed will be replaced, or its replacement fails with
+/// a message of its own.
+void remove_frames(const fs::path& folder, std::size_t first) {
+  std::error_code ignored;
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder / "frames", ignored)) {
+    const auto number = frame_number(entry.path().filename().string());
+    if (number && *number >= first) old.push_back(entry.path());
+  }
+  for (const fs::path& file : old) fs::remove(file, ignored);
+}
+
 void remove_earlier(const fs::path& folder) {
   std::error_code ignored;
   for (const std::string_view part : kParts)
     fs::remove(folder / fmt::format("{}.pvd", part), ignored);
-  fs::remove(folder / "contacts.csv", ignored);
-  std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(folder / "frames", ignored)) {
-    if (is_frame(entry.path().filename().string())) old.push_back(entry.path());
-  }
-  for (const fs::path& file : old) fs::remove(file, ignored);
+  fs::remove(folder / kContactsFile, ignored);
+  remove_frames(folder, 0);
 }
 
 /// Of every cylinder that is left; 0 where no bond is along it.
@@ -152,16 +163,47 @@ std::vector<FramePart> frame_of(const OutputSettings& settings, dynamics::Simula
 }
 
 Frames::Frames(const fs::path& folder, const OutputSettings& settings,
-               const dynamics::Simulation& simulation, const BodyTables& bodies)
+               const dynamics::Simulation& simulation, const BodyTables& bodies,
+               const WrittenFiles* before)
     : folder_(folder), settings_(settings_for(settings, simulation)), bodies_(bodies) {
   make_output_folder(folder_ / "frames");
-  remove_earlier(folder_);
+  if (before == nullptr) remove_earlier(folder_);
   for (const std::string_view part : kParts)
     series_.try_emplace(std::string(part), folder_ / fmt::format("{}.pvd", part));
-  if (settings_.contact_list) {
-    contact_list_.emplace(folder_ / "contacts.csv", dynamics::contact_columns(),
-                          dynamics::CsvWriter::Flush::on_request);
+  if (settings_.contact_list)
+    contact_list_ = history_file(folder_, kContactsFile, dynamics::contact_columns(), before);
+  if (before != nullptr) go_on(*before);
+}
+
+fs::path Frames::file_of(std::string_view part, std::size_t frame) const {
+  return folder_ / "frames" / fmt::format("{}_{:05}.vtp", part, frame);
+}
+
+/// The series are written again, with the frames up to then.
+void Frames::go_on(const WrittenFiles& before) {
+  times_ = before.frames;
+  const std::array<bool, 3> wanted = {settings_.grains, settings_.membranes, settings_.contacts};
+  for (std::size_t k = 0; k < kParts.size(); ++k) {
+    const std::string part(kParts[k]);
+    std::vector<dynamics::SeriesEntry> entries;
+    for (std::size_t frame = 0; frame < times_.size() && wanted[k]; ++frame) {
+      const fs::path file = file_of(part, frame);
+      if (std::error_code ignored; fs::exists(file, ignored))
+        entries.push_back({times_[frame], part, file});
+    }
+    std::error_code ignored;
+    if (!entries.empty())
+      series_.at(part).go_on(entries);
+    else
+      fs::remove(folder_ / fmt::format("{}.pvd", part), ignored);
   }
+  // Not before the series name them no more.
+  remove_frames(folder_, times_.size());
+}
+
+void Frames::tell(WrittenFiles& written) const {
+  written.frames = times_;
+  if (contact_list_) written.sizes[kContactsFile] = contact_list_->size();
 }
 
 void Frames::list_contacts(double time, const std::vector<contact::ContactRecord>& contacts) {
@@ -178,12 +220,12 @@ void Frames::write(dynamics::Simulation& simulation) {
   std::vector<contact::ContactRecord> contacts;
   if (settings_.contacts || contact_list_) contacts = simulation.list_contacts();
   for (const auto& [name, data] : frame_of(settings_, simulation, bodies_, contacts)) {
-    const fs::path file = folder_ / "frames" / fmt::format("{}_{:05}.vtp", name, count_);
+    const fs::path file = file_of(name, times_.size());
     dynamics::write_vtp(file, data);
     series_.at(name).add({{data.time, name, file}});
   }
   if (contact_list_) list_contacts(simulation.time(), contacts);
-  ++count_;
+  times_.push_back(simulation.time());
 }
 
 }  // namespace plekton::apps

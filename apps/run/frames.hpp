@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/run/body_tables.hpp"
+#include "apps/run/written_files.hpp"
 #include "apps/scenario/scenario.hpp"
 #include "dynamics/output/csv_writer.hpp"
 #include "dynamics/output/pvd_series.hpp"
@@ -38,26 +39,32 @@ std::vector<FramePart> frame_of(const OutputSettings& settings, dynamics::Simula
 /// frame. If it is asked for, contacts.csv has the contacts of every frame too.
 class Frames {
  public:
-  /// Removes the series and frames that an earlier run left under the same names.
+  /// Removes the series and frames that an earlier run left under the same names, or those that
+  /// came after what a run goes on from.
   /// @param bodies  have to stay as long as this
   /// @throws dynamics::OutputError
   Frames(const std::filesystem::path& folder, const OutputSettings& settings,
-         const dynamics::Simulation& simulation, const BodyTables& bodies);
+         const dynamics::Simulation& simulation, const BodyTables& bodies,
+         const WrittenFiles* before = nullptr);
 
   /// Writes the state of now. @throws dynamics::OutputError
   void write(dynamics::Simulation& simulation);
 
-  std::size_t count() const noexcept { return count_; }
+  std::size_t count() const noexcept { return times_.size(); }
+  /// After a write.
+  void tell(WrittenFiles& written) const;
 
  private:
+  std::filesystem::path file_of(std::string_view part, std::size_t frame) const;
+  void go_on(const WrittenFiles& before);
   void list_contacts(double time, const std::vector<contact::ContactRecord>& contacts);
 
   std::filesystem::path folder_;
   OutputSettings settings_;
   const BodyTables& bodies_;
   std::map<std::string, dynamics::PvdSeries> series_;  ///< by name
-  std::optional<dynamics::CsvWriter> contact_list_;
-  std::size_t count_ = 0;
+  std::unique_ptr<dynamics::CsvWriter> contact_list_;
+  std::vector<double> times_;  ///< s, by frame
 };
 
 }  // namespace plekton::apps

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/lost_grains.hpp"
 
+#include "geometry/base/state_archive.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -124,6 +126,16 @@ std::size_t LostGrains::total() const noexcept {
   std::size_t count = 0;
   for (std::size_t i = 0; i < is_out_.size(); ++i) count += is_out_[i] || is_through_[i] ? 1U : 0U;
   return count;
+}
+
+void LostGrains::exchange(const geometry::StateArchive& archive) {
+  archive("lower_bounds", bounds_.lower);
+  archive("upper_bounds", bounds_.upper);
+  archive.fixed("before", before_, "nodes");
+  archive.fixed("is_through", is_through_, "grains");
+  archive.fixed("is_out", is_out_, "grains");
+  archive("through", through_);
+  archive("out", out_);
 }
 
 }  // namespace plekton::apps

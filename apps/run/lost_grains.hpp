@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/primitives/elements.hpp"
 #include "geometry/neighbor/neighbours.hpp"
+#include "geometry/primitives/elements.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+namespace plekton::geometry {
+class StateArchive;
+}
 
 namespace plekton::apps {
 
@@ -39,6 +43,9 @@ class LostGrains {
                                   double time_step) const;
 
   static constexpr std::int64_t kMostSteps = 16;  ///< so that a look costs little among the steps
+
+  /// What it knows from the last look. @throws geometry::StateMismatch
+  void exchange(const geometry::StateArchive& archive);
 
   std::size_t through_membranes() const noexcept { return through_; }
   std::size_t out_of_bounds() const noexcept { return out_; }

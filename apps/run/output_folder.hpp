@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/run/checkpoints.hpp"
 #include "apps/run/scenario_copy.hpp"
 
 #include <array>
@@ -14,9 +15,9 @@ namespace plekton::apps {
 void make_output_folder(const std::filesystem::path& folder);
 
 /// What a run may write into its folder, beside its frames.
-inline constexpr std::array<std::string_view, 9> kResultFiles = {
-    "run.json",    "energy.csv", "reactions.csv", "pressures.csv", "contacts.csv",
-    kScenarioCopy, "grains.pvd", "membranes.pvd", "contacts.pvd"};
+inline constexpr std::array<std::string_view, 10> kResultFiles = {
+    "run.json",    "energy.csv",      "reactions.csv", "pressures.csv", "contacts.csv",
+    kScenarioCopy, kCheckpointFolder, "grains.pvd",    "membranes.pvd", "contacts.pvd"};
 
 /// Refuses a folder that holds a file of these names.
 /// @param maker  What made them, for the message: "run" or "import".

@@ -24,9 +24,10 @@ std::span<const dynamics::OutputField> pressure_fields() {
   return kFields;
 }
 
-Pressures::Pressures(const std::filesystem::path& folder, const Scenario& scenario) {
+Pressures::Pressures(const std::filesystem::path& folder, const Scenario& scenario,
+                     const WrittenFiles* before) {
   std::error_code ignored;
-  std::filesystem::remove(folder / "pressures.csv", ignored);
+  if (before == nullptr) std::filesystem::remove(folder / kPressuresFile, ignored);
   std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
   for (const LoadSettings& load : scenario.loads) {
     const auto* const pressure = std::get_if<PressureSettings>(&load.load);
@@ -35,8 +36,7 @@ Pressures::Pressures(const std::filesystem::path& folder, const Scenario& scenar
     columns.push_back(column_of(load.name, kFields[0]));
     if (has_volume_.back()) columns.push_back(column_of(load.name, kFields[1]));
   }
-  if (!has_volume_.empty())
-    writer_.emplace(folder / "pressures.csv", columns, dynamics::CsvWriter::Flush::on_request);
+  if (!has_volume_.empty()) writer_ = history_file(folder, kPressuresFile, columns, before);
 }
 
 void Pressures::add(const dynamics::Simulation& simulation) {
@@ -56,6 +56,10 @@ void Pressures::flush() {
 
 void Pressures::close() {
   if (writer_) writer_->close();
+}
+
+void Pressures::tell(WrittenFiles& written) const {
+  if (writer_) written.sizes[kPressuresFile] = writer_->size();
 }
 
 }  // namespace plekton::apps

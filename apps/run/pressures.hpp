@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/run/written_files.hpp"
 #include "apps/scenario/scenario.hpp"
 #include "dynamics/output/csv_writer.hpp"
 #include "dynamics/output/output_field.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,18 +19,22 @@ std::span<const dynamics::OutputField> pressure_fields();
 /// Writes pressures.csv, if there are loads of kind pressure.
 class Pressures {
  public:
-  /// Removes the file of an earlier run. @throws dynamics::OutputError
-  Pressures(const std::filesystem::path& folder, const Scenario& scenario);
+  /// Removes the file of an earlier run, unless that goes on.
+  /// @throws dynamics::OutputError
+  Pressures(const std::filesystem::path& folder, const Scenario& scenario,
+            const WrittenFiles* before = nullptr);
 
   /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
   /// dynamics::OutputError
   void add(const dynamics::Simulation& simulation);
   void flush();
   void close();
+  /// After a flush.
+  void tell(WrittenFiles& written) const;
 
  private:
   std::vector<bool> has_volume_;  ///< by load of kind pressure
-  std::optional<dynamics::CsvWriter> writer_;
+  std::unique_ptr<dynamics::CsvWriter> writer_;
 };
 
 }  // namespace plekton::apps

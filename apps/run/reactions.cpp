@@ -106,17 +106,15 @@ std::span<const dynamics::OutputField> reaction_fields() {
 }
 
 Reactions::Reactions(const std::filesystem::path& folder,
-                     const std::vector<BuiltReaction>& reactions)
+                     const std::vector<BuiltReaction>& reactions, const WrittenFiles* before)
     : reactions_(reactions) {
   std::error_code ignored;
-  std::filesystem::remove(folder / "reactions.csv", ignored);
+  if (before == nullptr) std::filesystem::remove(folder / kReactionsFile, ignored);
   lists_contacts_ = std::any_of(reactions_.begin(), reactions_.end(), [](const auto& reaction) {
     return reaction.kind == ReactionKind::contacts;
   });
-  if (!reactions_.empty()) {
-    writer_.emplace(folder / "reactions.csv", columns_of(reactions_),
-                    dynamics::CsvWriter::Flush::on_request);
-  }
+  if (!reactions_.empty())
+    writer_ = history_file(folder, kReactionsFile, columns_of(reactions_), before);
 }
 
 void Reactions::add(dynamics::Simulation& simulation) {
@@ -145,6 +143,10 @@ void Reactions::flush() {
 
 void Reactions::close() {
   if (writer_) writer_->close();
+}
+
+void Reactions::tell(WrittenFiles& written) const {
+  if (writer_) written.sizes[kReactionsFile] = writer_->size();
 }
 
 }  // namespace plekton::apps

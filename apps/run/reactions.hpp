@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/run/written_files.hpp"
 #include "apps/scene/build_scene.hpp"
 #include "dynamics/output/csv_writer.hpp"
 #include "dynamics/output/output_field.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,8 +19,10 @@ std::span<const dynamics::OutputField> reaction_fields();
 /// Writes reactions.csv, if any are asked for.
 class Reactions {
  public:
-  /// Removes the file of an earlier run. @throws dynamics::OutputError
-  Reactions(const std::filesystem::path& folder, const std::vector<BuiltReaction>& reactions);
+  /// Removes the file of an earlier run, unless that goes on.
+  /// @throws dynamics::OutputError
+  Reactions(const std::filesystem::path& folder, const std::vector<BuiltReaction>& reactions,
+            const WrittenFiles* before = nullptr);
 
   bool empty() const noexcept { return reactions_.empty(); }
 
@@ -29,11 +31,13 @@ class Reactions {
   void add(dynamics::Simulation& simulation);
   void flush();
   void close();
+  /// After a flush.
+  void tell(WrittenFiles& written) const;
 
  private:
   std::vector<BuiltReaction> reactions_;
   bool lists_contacts_ = false;  ///< one of them is of kind contacts
-  std::optional<dynamics::CsvWriter> writer_;
+  std::unique_ptr<dynamics::CsvWriter> writer_;
 };
 
 }  // namespace plekton::apps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/run.hpp"
 
+#include "apps/run/checkpoints.hpp"
 #include "apps/run/history.hpp"
 #include "apps/run/lost_grains.hpp"
 #include "apps/run/output_folder.hpp"
@@ -8,9 +9,12 @@
 #include "apps/run/reactions.hpp"
 #include "apps/run/refused_self_contact.hpp"
 #include "apps/run/run_origin.hpp"
+#include "apps/run/run_state.hpp"
 #include "apps/run/run_warnings.hpp"
 #include "apps/run/scenario_copy.hpp"
+#include "apps/run/written_files.hpp"
 #include "dynamics/output/file.hpp"
+#include "geometry/base/state_archive.hpp"
 #include "geometry/base/vector_width.hpp"
 
 #include <fmt/format.h>
@@ -58,20 +62,25 @@ class Run {
         simulation_(*prepared.simulation),
         bodies_(scenario, prepared.built, simulation_),
         lost_(simulation_.elements(), simulation_.state().position),
-        frames_(settings.out, scenario.output, simulation_, bodies_),
-        history_(settings.out),
-        reactions_(settings.out, prepared.built.reactions),
-        pressures_(settings.out, scenario),
+        before_(files_before(settings)),
+        frames_(settings.out, scenario.output, simulation_, bodies_, before()),
+        history_(settings.out, before()),
+        reactions_(settings.out, prepared.built.reactions, before()),
+        pressures_(settings.out, scenario, before()),
         progress_(settings.progress, settings.style, scenario.simulation.duration) {
     report_.warnings = prepared.built.warnings;
     report_.states = StateHashes(scenario.output.hash_interval);
     if (reactions_.empty()) next_reactions_ = std::numeric_limits<double>::infinity();
+    next_checkpoint_ = checkpoint_interval();
     describe();
+    if (settings.resume != nullptr) resume(*settings.resume);
   }
 
   RunReport execute() {
     try {
       report_.status = loop();
+      // What is written at the end is no part of it: a run that goes on has it not.
+      if (last_checkpoint_step_ != simulation_.steps()) write_checkpoint();
       if (report_.status != RunStatus::interrupted) simulation_.check_energy();
       write_last();
     } catch (const std::exception& error) {
@@ -91,10 +100,12 @@ class Run {
 
  private:
   RunStatus loop() {
-    watch_time_step();
-    watch_motion();
-    write_due(0.0);
-    report_.states.look(simulation_);
+    if (settings_.resume == nullptr) {
+      watch_time_step();
+      watch_motion();
+      write_due(0.0);
+      report_.states.look(simulation_);
+    }
     report_.start_up_time = seconds_since(settings_.began);
     while (simulation_.step_until(scenario_.simulation.duration)) {
       if (simulation_.largest_overlap_ratio() > next_overlap_) look_at_overlaps();
@@ -105,11 +116,84 @@ class Run {
       if (simulation_.steps() % dynamics::kStepsBetweenLooks == 0) watch_motion();
       write_due(simulation_.time());
       report_.states.look(simulation_);
+      if (simulation_.time() >= next_checkpoint_) write_checkpoint();
       if (looks) progress_.update(simulation_.time(), simulation_.steps());
       if (settings_.is_interrupted()) return RunStatus::interrupted;
       if (looks && is_at_rest()) return RunStatus::at_rest;
     }
     return RunStatus::finished;
+  }
+
+  /// What the files of a run were that goes on in its folder.
+  static std::optional<WrittenFiles> files_before(const RunSettings& settings) {
+    if (settings.resume == nullptr || !settings.resume->same_folder) return std::nullopt;
+    WrittenFiles files;
+    exchange_files(geometry::StateArchive::reader(settings.resume->state).group(kRunGroup), files);
+    return files;
+  }
+  const WrittenFiles* before() const noexcept { return before_ ? &*before_ : nullptr; }
+
+  double checkpoint_interval() const noexcept {
+    return scenario_.output.checkpoint_interval.value_or(std::numeric_limits<double>::infinity());
+  }
+
+  void write_checkpoint() {
+    const TimeInto output(report_.output_time);
+    history_.flush();
+    reactions_.flush();
+    pressures_.flush();
+    next_checkpoint_ = std::max(next_checkpoint_ + checkpoint_interval(), simulation_.time());
+    geometry::StateTree state = simulation_.snapshot();
+    const auto archive = geometry::StateArchive::writer(state).group(kRunGroup);
+    exchange(archive);
+    WrittenFiles files;
+    frames_.tell(files);
+    history_.tell(files);
+    reactions_.tell(files);
+    pressures_.tell(files);
+    exchange_files(archive, files);
+    ScenarioText text = text_of(scenario_);
+    text.exchange(archive);
+    write_run_checkpoint(settings_.out, simulation_.steps(), state);
+    last_checkpoint_step_ = simulation_.steps();
+  }
+
+  /// Goes on with a state.
+  void resume(const Resumption& from) {
+    simulation_.restore(from.state);
+    exchange(geometry::StateArchive::reader(from.state).group(kRunGroup));
+    report_.resumed = simulation_.time();
+    if (!scenario_.output.checkpoint_interval)
+      next_checkpoint_ = std::numeric_limits<double>::infinity();
+    else if (!std::isfinite(next_checkpoint_))
+      next_checkpoint_ = simulation_.time() + checkpoint_interval();
+    if (from.same_folder) {
+      last_checkpoint_step_ = simulation_.steps();
+      return;
+    }
+    if (!from.from) return;
+    next_row_ = next_frame_ = std::max(*from.from, simulation_.time());
+    if (!reactions_.empty()) next_reactions_ = next_row_;
+    last_row_step_ = last_reactions_step_ = last_frame_step_ = -1;
+  }
+
+  /// What the run knows beside the simulation and its files.
+  void exchange(const geometry::StateArchive& archive) {
+    lost_.exchange(archive.group("lost_grains"));
+    report_.states.exchange(archive);
+    exchange_so_far(archive.group("report"), report_);
+    archive("next_row", next_row_);
+    archive("next_reactions", next_reactions_);
+    archive("next_frame", next_frame_);
+    archive("next_checkpoint", next_checkpoint_);
+    archive("largest_turnover", largest_turnover_);
+    archive("largest_tracking", largest_tracking_);
+    archive("next_overlap", next_overlap_);
+    archive("last_row_step", last_row_step_);
+    archive("last_reactions_step", last_reactions_step_);
+    archive("last_frame_step", last_frame_step_);
+    archive("next_look_at_grains", next_look_at_grains_);
+    archive("has_moved", has_moved_);
   }
 
   /// Who is in whom where the largest overlap has grown: not often, since that lists all contacts.
@@ -272,6 +356,7 @@ class Run {
   dynamics::Simulation& simulation_;
   BodyTables bodies_;
   LostGrains lost_;
+  std::optional<WrittenFiles> before_;
   Frames frames_;
   History history_;
   Reactions reactions_;
@@ -282,12 +367,14 @@ class Run {
   double next_row_ = 0.0;               // s
   double next_reactions_ = 0.0;         // s; infinite if there are none
   double next_frame_ = 0.0;             // s
+  double next_checkpoint_ = 0.0;        // s; infinite if there is only one at the end
   double largest_turnover_ = 0.0;       // J, of all rows
   double largest_tracking_ = 0.0;       // J, magnitude, of all rows
   double next_overlap_ = kDeepOverlap;  // ratio above which overlaps are looked at
   std::int64_t last_row_step_ = -1;
   std::int64_t last_reactions_step_ = -1;
   std::int64_t last_frame_step_ = -1;
+  std::int64_t last_checkpoint_step_ = -1;
   std::int64_t next_look_at_grains_ = 1;
   bool has_moved_ = false;  // its kinetic energy was above that of [stop]
 };
@@ -376,10 +463,12 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
   require_possible_start(prepared.start, scenario);
   make_output_folder(settings.out);
   const OutputFolderLock lock(settings.out);
-  if (!settings.overwrite) refuse_results(settings.out, "run", kResultFiles);
+  const bool goes_on = settings.resume != nullptr && settings.resume->same_folder;
+  if (!settings.overwrite && !goes_on) refuse_results(settings.out, "run", kResultFiles);
+  if (!goes_on) remove_checkpoints(settings.out);
   std::error_code ignored;
   std::filesystem::remove(settings.out / "run.json", ignored);
-  write_scenario_copy(settings.out, scenario);
+  if (!goes_on) write_scenario_copy(settings.out, scenario);
   return Run(scenario, prepared, settings).execute();
 }
 

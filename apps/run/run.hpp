@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -31,6 +32,13 @@ struct PreparedRun {
 /// @param hear  told what is being set up, if given
 PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear = {});
 
+/// From where a run goes on.
+struct Resumption {
+  const geometry::StateTree& state;
+  bool same_folder = true;     ///< whose files go on; or others begin
+  std::optional<double> from;  ///< s, when output begins; nothing: goes on as it would have
+};
+
 /// How and where to run.
 struct RunSettings {
   std::filesystem::path out;  ///< folder for all that is written
@@ -40,6 +48,7 @@ struct RunSettings {
   /// When the work on the scenario began, for the start-up time of the report.
   Progress::Clock::time_point began = Progress::Clock::now();
   bool overwrite = false;  ///< replace the results of an earlier run
+  const Resumption* resume = nullptr;
 };
 
 /// Runs a prepared simulation to its end, or until it is at rest or interrupted, and writes frames,
@@ -49,8 +58,11 @@ struct RunSettings {
 /// written; before the run an old one is removed. All other files are complete at any moment. With
 /// an automatic time step the critical step is looked at again and again and the step made shorter
 /// where it has fallen.
+///
+/// A run that goes on from a checkpoint writes what it would have written without a stop: what was
+/// written after the checkpoint is cut off first.
 /// @throws InputError with nothing written if bodies begin where they cannot be
-/// (require_possible_start), dynamics::OutputError if something cannot be written or the folder
+/// (require_possible_start), geometry::StateMismatch if the checkpoint is of another scene, dynamics::OutputError if something cannot be written or the folder
 /// holds results that are not to be replaced, dynamics::Diverged
 RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings);
 

@@ -115,6 +115,7 @@ std::string to_json(const RunReport& report) {
                {"interrupted", report.status == RunStatus::interrupted}};
   if (!report.message.empty()) json["message"] = report.message;
   json["options"] = options_of(report);
+  if (report.resumed) json["resumed_s"] = *report.resumed;
   json["names"] = names_of(report.names);
   json["counts"] = counts_of(report);
   json["timing"] = timing_of(report);

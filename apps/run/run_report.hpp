@@ -48,9 +48,10 @@ struct RunReport {
   RunStatus status = RunStatus::finished;
   std::string message;  ///< of the error, if failed
 
-  int vector_width = 2;  ///< numbers in the vectors of the kernels
-  std::string date;      ///< when it began, as in "2026-05-01T12:00:00Z"
-  std::string host;      ///< name of the machine
+  int vector_width = 2;           ///< numbers in the vectors of the kernels
+  std::string date;               ///< when it began, as in "2026-05-01T12:00:00Z"
+  std::string host;               ///< name of the machine
+  std::optional<double> resumed;  ///< s, from where it went on; wall times count from there
   std::string scenario;
   std::vector<std::string> overrides;
   double duration = 0.0;  ///< s, asked for

@@ -3,6 +3,7 @@
 
 #include "dynamics/state_hash.hpp"
 #include "geometry/base/bit_hash.hpp"
+#include "geometry/base/state_archive.hpp"
 
 namespace plekton::apps {
 
@@ -15,6 +16,14 @@ std::uint64_t StateHashes::chain() const noexcept {
   geometry::BitHash chain;
   for (const StateHash& state : all_) chain.add(state.hash);
   return chain.value();
+}
+
+void StateHashes::exchange(const geometry::StateArchive& archive) {
+  archive.rows("states", all_, [](geometry::RowFields& row, StateHash& state) {
+    row("step", state.step);
+    row("time", state.time);
+    row("hash", state.hash);
+  });
 }
 
 }  // namespace plekton::apps

@@ -6,6 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+namespace plekton::geometry {
+class StateArchive;
+}
+
 namespace plekton::apps {
 
 /// The state at one step, as dynamics::state_hash has it.
@@ -28,6 +32,9 @@ class StateHashes {
   }
   /// The state, unless it has been taken: at the end.
   void take(const dynamics::Simulation& simulation);
+
+  /// Those so far. @throws geometry::StateMismatch
+  void exchange(const geometry::StateArchive& archive);
 
   std::int64_t interval() const noexcept { return interval_; }
   const std::vector<StateHash>& all() const noexcept { return all_; }

@@ -76,6 +76,8 @@ OutputSettings read_output(Section section, const Scenario& scenario) {
       section.quantity("history_interval", {kTime, kPositive}, duration / 1000.0);
   output.reactions_interval =
       section.quantity("reactions_interval", {kTime, kPositive}, output.history_interval);
+  if (section.has("checkpoint_interval"))
+    output.checkpoint_interval = section.quantity("checkpoint_interval", {kTime, kPositive});
   output.hash_interval = section.integer("hash_interval", 1, kLongestHashInterval, kHashInterval);
   output.grains = section.truth("grains", output.grains);
   output.membranes = section.truth("membranes", output.membranes);

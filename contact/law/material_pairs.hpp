@@ -3,6 +3,7 @@
 
 #include "contact/base/bodies.hpp"
 #include "contact/law/any_law.hpp"
+#include "geometry/base/bit_hash.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -60,6 +61,22 @@ class MaterialPairs {
                        [](const auto& pair) { return pair.second.law->has_interaction_range; });
   }
 
+  /// Of the parameters of all pairs, so that other materials or laws have another one.
+  std::uint64_t hash() const {
+    geometry::BitHash hash;
+    for (std::size_t a = 0; a < size(); ++a) {
+      for (std::size_t b = a; b < size(); ++b) {
+        const Parameters of_pair = combine(BodyPart{geometry::id_at<MaterialId>(a), 1.0, 1.0},
+                                           BodyPart{geometry::id_at<MaterialId>(b), 1.0, 1.0});
+        for (const char c : of_pair.law->name)
+          hash.add(std::uint64_t{static_cast<unsigned char>(c)});
+        for (std::size_t i = 0; i < of_pair.law->parameter_numbers; ++i)
+          hash.add(of_pair.numbers[i]);
+      }
+    }
+    return hash.value();
+  }
+
   std::size_t size() const noexcept { return materials_.size(); }
   const Material& at(MaterialId id) const { return materials_[static_cast<std::size_t>(id)]; }
 
@@ -76,6 +93,9 @@ struct ContactMaterials {
   std::vector<MaterialId> of_structures;  ///< by StructureId
   /// kg, by NodeId, for laws that ask for masses; empty: all bodies count as held.
   std::vector<double> masses = {};
+  /// kg, by StructureId, mean of its nodes at the start, whatever breaks away; empty: of the nodes
+  /// that it has.
+  std::vector<double> structure_masses = {};
 
   double mass_of(geometry::NodeId node) const {
     return masses.empty() ? std::numeric_limits<double>::infinity() : masses[index_of(node)];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_plane/plane_contacts.hpp"
 
+#include "contact/tracking/contact_state.hpp"
+
 namespace plekton::contact {
 
 double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
@@ -199,6 +201,65 @@ void PlaneContacts::for_each_record(Positions x, const geometry::Surface& surfac
                       AnyLaw::elastic_normal_force(slot.parameters, slot.gap));
     visit(row);
   });
+}
+
+// The state.
+
+void PlaneContacts::exchange(const geometry::StateArchive& archive,
+                             geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+  double overlap_ratio = largest_overlap_ratio();
+  archive("largest_overlap_ratio", overlap_ratio);
+  std::vector<KeptPair> pairs;
+  if (archive.is_reading()) {
+    rekey_(
+        slots_, {}, [](std::size_t, const Slot*) { return Slot{}; }, [](Slot&) {});
+    list();
+    records_.reset(pool.thread_count());
+  } else {
+    pairs = kept_pairs();
+  }
+  std::size_t place = 0;
+  archive.rows("touching", pairs, [&](geometry::RowFields& row, KeptPair& kept) {
+    place = exchange_pair(row, kept, place);
+    if (row.is_reading()) keep(kept, place, overlap_ratio);
+  });
+}
+
+std::vector<PlaneContacts::KeptPair> PlaneContacts::kept_pairs() const {
+  std::vector<KeptPair> pairs;
+  records_.for_each([&](const PlaneForce& record) {
+    const Slot& slot = slots_[record.contact];
+    const geometry::IndexPair& key = rekey_.key(record.contact);
+    pairs.push_back(
+        {{key.a, key.b}, slot.gap, slot.memory, slot.id, record.force, record.torque_a});
+  });
+  return pairs;
+}
+
+/// @param from  place in the list of the pair before
+/// @returns the place of this one
+std::size_t PlaneContacts::exchange_pair(geometry::RowFields& row, KeptPair& kept,
+                                         std::size_t from) const {
+  row("pair", kept.pair);
+  const geometry::IndexPair key{kept.pair[0], kept.pair[1]};
+  const std::size_t place =
+      next_place(from, slots_.size(), [&](std::size_t i) { return rekey_.key(i) < key; });
+  if (place == slots_.size() || rekey_.key(place) != key) throw_unlisted_contact();
+  row("gap", kept.gap);
+  contact::exchange(row, kept.memory, slots_[place].parameters.law);
+  row("id", kept.id);
+  row("force", kept.force);
+  row("torque_a", kept.torque_a);
+  return place;
+}
+
+void PlaneContacts::keep(const KeptPair& kept, std::size_t place, double overlap_ratio) {
+  Slot& slot = slots_[place];
+  slot.gap = kept.gap;
+  slot.memory = kept.memory;
+  slot.id = kept.id;
+  records_.of_worker(0).add({slot.node, slot.plane, kept.force, kept.torque_a, place},
+                            overlap_ratio);
 }
 
 }  // namespace plekton::contact

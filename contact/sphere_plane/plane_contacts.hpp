@@ -8,7 +8,9 @@
 #include "contact/tracking/force_records.hpp"
 #include "contact/tracking/rekey.hpp"
 #include "contact/tracking/slip_state.hpp"
+#include "geometry/base/function_ref.hpp"
 #include "geometry/base/parallel_sum.hpp"
+#include "geometry/base/state_archive.hpp"
 #include "geometry/primitives/elements.hpp"
 
 #include <array>
@@ -85,6 +87,10 @@ class PlaneContacts {
   /// @param surface  of whose nodes some of the spheres are
   void for_each_record(Positions x, const geometry::Surface& surface, VisitRecord visit) const;
 
+  /// @param list  makes the list anew by rebuild()
+  void exchange(const geometry::StateArchive& archive, geometry::FunctionRef<void()> list,
+                geometry::ThreadPool& pool);
+
  private:
   struct Slot {
     NodeId node;
@@ -97,6 +103,16 @@ class PlaneContacts {
   };
 
   using Records = typename ForceRecords<PlaneForce>::List;
+
+  /// A touching pair in a state.
+  struct KeptPair {
+    std::array<std::int32_t, 2> pair;  ///< sphere and plane
+    double gap;                        ///< m
+    ContactMemory<AnyLaw> memory;
+    std::int64_t id;
+    Vec3 force;     ///< N, on the plane
+    Vec3 torque_a;  ///< N m, on the sphere
+  };
 
   /// Slots that touch, in the order of the list, and how high (m) their centres are.
   struct Touching {
@@ -119,6 +135,9 @@ class PlaneContacts {
   double scatter(const Touching& touching, SphereBatch& batch, Records& records);
   double advance_one(std::size_t i, double height, const Motion& motion,
                      std::span<const Plane> planes, double dt, Records& records);
+  std::vector<KeptPair> kept_pairs() const;
+  std::size_t exchange_pair(geometry::RowFields& row, KeptPair& kept, std::size_t from) const;
+  void keep(const KeptPair& kept, std::size_t place, double overlap_ratio);
 
   std::vector<Slot> slots_;
   std::size_t sphere_count_ = 0;

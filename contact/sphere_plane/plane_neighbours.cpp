@@ -30,4 +30,22 @@ bool PlaneNeighbours::update(std::span<const SphereBody> spheres, std::span<cons
   return true;
 }
 
+/// The list itself: it was made while the spheres were anywhere on their way.
+void PlaneNeighbours::exchange(const geometry::StateArchive& archive, std::size_t sphere_count,
+                               std::size_t plane_count) {
+  archive("skin", skin_);
+  archive("expired", expired_);
+  archive.rows("built_for", built_for_, [](geometry::RowFields& row, Plane& plane) {
+    row("point", plane.point);
+    row("normal", plane.normal);
+  });
+  archive.rows("pairs", pairs_, [&](geometry::RowFields& row, geometry::IndexPair& pair) {
+    row("sphere", pair.a);
+    row("plane", pair.b);
+    if (pair.a < 0 || static_cast<std::size_t>(pair.a) >= sphere_count || pair.b < 0 ||
+        static_cast<std::size_t>(pair.b) >= plane_count)
+      throw geometry::StateMismatch("the state has more spheres or planes than there are here");
+  });
+}
+
 }  // namespace plekton::contact

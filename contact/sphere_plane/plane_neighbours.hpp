@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/base/bodies.hpp"
+#include "geometry/base/state_archive.hpp"
 #include "geometry/neighbor/broad_phase.hpp"
 
 #include <span>
@@ -32,6 +33,10 @@ class PlaneNeighbours {
   /// Makes the list anew if it has expired or a plane has moved by more than half the skin.
   /// @returns whether it did
   bool update(std::span<const SphereBody> spheres, std::span<const Plane> planes, Positions x);
+
+  /// @throws geometry::StateMismatch if the state has a pair of a sphere or plane that is none here
+  void exchange(const geometry::StateArchive& archive, std::size_t sphere_count,
+                std::size_t plane_count);
 
   /// Pairs (sphere, plane), sorted.
   std::span<const geometry::IndexPair> pairs() const noexcept { return pairs_; }

@@ -75,9 +75,28 @@ void SphereBlocks::order_spheres(std::span<const SphereBody> spheres, Positions 
   set_all(order_, spheres.size(), 0);
   std::iota(order_.begin(), order_.end(), 0);
   if (!x.empty()) geometry::order_along_curve(x, nodes_, order_);
-  set_all(places_, spheres.size(), 0U);
+  find_places();
+}
+
+void SphereBlocks::find_places() {
+  set_all(places_, order_.size(), 0U);
   for (std::size_t place = 0; place < order_.size(); ++place)
     places_[static_cast<std::size_t>(order_[place])] = static_cast<std::uint32_t>(place);
+}
+
+void SphereBlocks::exchange_order(const geometry::StateArchive& archive) {
+  archive("order", order_);
+  archive("lists_in_order", lists_in_order_);
+  if (!archive.is_reading()) return;
+  std::vector<bool> has_place(order_.size(), false);
+  for (const std::int32_t sphere : order_) {
+    const auto i = static_cast<std::size_t>(sphere);
+    if (sphere < 0 || i >= order_.size() || has_place[i])
+      throw geometry::StateMismatch("the order of spheres in the state is none: it is damaged");
+    has_place[i] = true;
+  }
+  find_places();
+  --lists_in_order_;  // the list that is assigned next has been counted
 }
 
 /// Into blocks that take equally long. Pairs belong to their first spheres, so the first blocks

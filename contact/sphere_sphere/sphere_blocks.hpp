@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/base/bodies.hpp"
+#include "geometry/base/state_archive.hpp"
 #include "geometry/base/thread_pool.hpp"
 #include "geometry/neighbor/broad_phase.hpp"
 
@@ -79,6 +80,9 @@ class SphereBlocks {
   void assign(std::span<const geometry::IndexPair> pairs, std::span<const SphereBody> spheres,
               std::span<const std::uint8_t> kinds, geometry::ThreadPool& pool, Positions x);
 
+  /// The order of the spheres, which is older than the list: read before the list is assigned.
+  void exchange_order(const geometry::StateArchive& archive);
+
   std::span<const Block> blocks() const noexcept { return blocks_; }
   /// How many spheres there are in blocks.
   std::size_t sphere_count() const noexcept { return order_.size(); }
@@ -127,6 +131,7 @@ class SphereBlocks {
   };
 
   void order_spheres(std::span<const SphereBody> spheres, Positions x);
+  void find_places();
   void sort_pairs(std::span<const geometry::IndexPair> pairs, geometry::ThreadPool& pool);
   void cut_order();
   void find_touching(std::span<const geometry::IndexPair> pairs,

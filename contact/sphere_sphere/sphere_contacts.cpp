@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_sphere/sphere_contacts.hpp"
 
+#include "contact/tracking/contact_state.hpp"
 #include "contact/tracking/slip_state.hpp"
 
 #include <algorithm>
@@ -267,6 +268,82 @@ void SphereContacts::for_each_record(Positions x, VisitRecord visit) const {
                       AnyLaw::elastic_normal_force(pair.parameters, row.gap));
     visit(row);
   });
+}
+
+// The state.
+
+void SphereContacts::exchange(const geometry::StateArchive& archive,
+                              geometry::FunctionRef<void()> list) {
+  blocks_.exchange_order(archive);
+  double overlap_ratio = largest_overlap_ratio();
+  archive("largest_overlap_ratio", overlap_ratio);
+  std::vector<KeptPair> pairs;
+  if (archive.is_reading()) {
+    keys_.clear();
+    list();
+    numbers_ = {};
+  } else {
+    pairs = kept_pairs();
+  }
+  std::size_t place = 0;
+  archive.rows("touching", pairs, [&](geometry::RowFields& row, KeptPair& pair) {
+    place = exchange_pair(row, pair, place);
+    if (row.is_reading()) keep(pair, place);
+  });
+  if (!archive.is_reading()) return;
+  outcomes_.assign(1, {});
+  outcomes_[0].touching = pairs.size();
+  outcomes_[0].overlap[0] = overlap_ratio;
+}
+
+std::vector<SphereContacts::KeptPair> SphereContacts::kept_pairs() const {
+  std::vector<KeptPair> pairs;
+  PairNumbers::Reader numbers(numbers_);
+  for_each_lane([&](const Touching& pair) {
+    const Kind& kind = table_.kind(pair.slot);
+    const bool is_numbered = table_.touched[pair.slot / kLanes].since_numbered(pair.slot % kLanes);
+    Vec3 force = Vec3::Zero();
+    if (kind.force > 0)
+      force = table_.rows(pair.slot).from(kind.force).at<Vec3>(pair.slot % kLanes);
+    pairs.push_back({{pair.key.a, pair.key.b},
+                     pair.gap,
+                     pair.memory,
+                     force,
+                     is_numbered ? numbers.of(pair.key) : 0});
+  });
+  return pairs;
+}
+
+/// @param from  place in the list of the pair before
+/// @returns the place of this one
+std::size_t SphereContacts::exchange_pair(geometry::RowFields& row, KeptPair& pair,
+                                          std::size_t from) const {
+  row("spheres", pair.spheres);
+  const geometry::IndexPair key{pair.spheres[0], pair.spheres[1]};
+  const std::size_t place =
+      next_place(from, keys_.size(), [&](std::size_t i) { return keys_[i] < key; });
+  if (place == keys_.size() || keys_[place] != key) throw_unlisted_contact();
+  const Kind& kind = table_.kind(blocks_.slot(place));
+  row("gap", pair.gap);
+  contact::exchange(row, pair.memory, kind.law);
+  row("id", pair.id);
+  std::size_t count = kind.force > 0 ? 3 : 0;
+  row("force", pair.force.data(), count);
+  return place;
+}
+
+void SphereContacts::keep(const KeptPair& pair, std::size_t place) {
+  const std::uint32_t slot = blocks_.slot(place);
+  const std::size_t lane = slot % kLanes;
+  const Kind& kind = table_.kind(slot);
+  const Rows rows = table_.rows(slot);
+  rows.from(PairNumbersOfRow::kNormal).set(lane, pair.memory.normal);
+  rows.from(PairNumbersOfRow::kGap).set(lane, pair.gap);
+  rows.from(PairNumbersOfRow::kHistory)
+      .set_numbers(lane, pair.memory.history.numbers.data(), kind.law->history_numbers);
+  if (kind.force > 0) rows.from(kind.force).set(lane, pair.force);
+  table_.touched[slot / kLanes].set_moved(lane, true, pair.id != 0);
+  if (pair.id != 0) numbers_.add(keys_[place], pair.id);
 }
 
 void SphereContacts::hand_over(const SphereBlocks::Block& block, const SphereWork& work,

@@ -10,6 +10,7 @@
 #include "contact/tracking/contact_record.hpp"
 #include "contact/tracking/rekey.hpp"
 #include "geometry/base/cache_lines.hpp"
+#include "geometry/base/function_ref.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -72,6 +73,9 @@ class SphereContacts {
   /// Calls visit(ContactRecord) for every touching pair, in the order of the list.
   void for_each_record(Positions x, VisitRecord visit) const;
 
+  /// @param list  makes the list anew by rebuild(), as it was
+  void exchange(const geometry::StateArchive& archive, geometry::FunctionRef<void()> list);
+
  private:
   static constexpr std::size_t kLanes = SphereBlocks::kLanes;
   using Rows = geometry::LaneRows<kLanes>;
@@ -123,6 +127,15 @@ class SphereContacts {
     double gap;  ///< m
   };
 
+  /// A touching pair in a state.
+  struct KeptPair {
+    std::array<std::int32_t, 2> spheres;
+    double gap;  ///< m
+    ContactMemory<AnyLaw> memory;
+    Vec3 force;       ///< N, on b; where rows keep it
+    std::int64_t id;  ///< 0: none
+  };
+
   const SphereBody& sphere(std::int32_t index) const noexcept {
     return spheres_[static_cast<std::size_t>(index)];
   }
@@ -131,6 +144,9 @@ class SphereContacts {
   void find_kinds(std::span<const SphereBody> spheres, const MaterialPairs& materials);
   void set_parameters(const MaterialPairs& materials);
   void move_memories(const Table& old);
+  std::vector<KeptPair> kept_pairs() const;
+  std::size_t exchange_pair(geometry::RowFields& row, KeptPair& pair, std::size_t from) const;
+  void keep(const KeptPair& pair, std::size_t place);
   void advance_block(const SphereBlocks::Block& block, const Motion& motion, SphereWork& work);
   SphereRange range_of(const SphereBlocks::Range& range) noexcept;
   /// Hands the sums of a block's own spheres to their nodes, and keeps those of ghosts.

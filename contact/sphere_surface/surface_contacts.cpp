@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_surface/surface_contacts.hpp"
 
+#include "contact/tracking/contact_state.hpp"
 #include "contact/tracking/slip_state.hpp"
 #include "geometry/critical/descent.hpp"
 #include "geometry/primitives/cell_clearance.hpp"
@@ -609,6 +610,117 @@ ContactRecord SurfaceContacts::row_of(std::span<const SurfaceForce> records, con
                                   : AnyLaw::moment(contact.memory.history, row.normal);
   set_state<AnyLaw>(row, pair.parameters, contact.memory.history, contact.elastic_force);
   return row;
+}
+
+// The state: contacts in the order of their pairs, whichever thread had them.
+
+void SurfaceContacts::exchange(const geometry::StateArchive& archive,
+                               geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+  double overlap_ratio = largest_overlap_ratio();
+  archive("largest_overlap_ratio", overlap_ratio);
+  std::vector<KeptContact> contacts;
+  std::vector<KeptForce> forces;
+  if (archive.is_reading()) {
+    rekey_(
+        pairs_, {}, [](std::size_t, const Pair*) { return Pair{}; }, [](const Pair&) {});
+    list();
+    current_.assign(1, {});
+    records_.reset(pool.thread_count());
+  } else {
+    contacts = kept_contacts();
+    forces = kept_forces();
+  }
+  std::size_t place = 0;
+  std::vector<std::uint32_t> pairs;  // by contact
+  archive.rows("contacts", contacts, [&](geometry::RowFields& row, KeptContact& kept) {
+    place = exchange_contact(row, kept, place);
+    if (row.is_reading()) keep(kept, place);
+    pairs.push_back(static_cast<std::uint32_t>(place));
+  });
+  archive.rows("forces", forces, [&](geometry::RowFields& row, KeptForce& kept) {
+    row("contact", kept.contact);
+    if (kept.contact >= pairs.size()) throw_unlisted_contact();
+    SurfaceForce& record = kept.record;
+    contact::exchange(row, "core", record.core);
+    row("force", record.force);
+    row("torque_a", record.torque_a);
+    row("torque_b", record.torque_b);
+    row("elastic", record.elastic);
+    if (!row.is_reading()) return;
+    record.pair = pairs[kept.contact];
+    record.contact = kept.contact;
+    record.a = pairs_[record.pair].node;
+    records_.of_worker(0).add(record, overlap_ratio);
+  });
+  if (!archive.is_reading()) return;
+  for (Pair& pair : pairs_)
+    if (pair.contacts.count > 0) pair.single_face = single_face_of(pair, current_);
+}
+
+/// Among all, that of a worker.
+std::uint32_t SurfaceContacts::first_contact(std::size_t worker) const noexcept {
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < worker; ++w) count += current_[w].contacts.size();
+  return static_cast<std::uint32_t>(count);
+}
+
+std::vector<SurfaceContacts::KeptContact> SurfaceContacts::kept_contacts() const {
+  std::vector<KeptContact> kept(touching());
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const Pair& pair = pairs_[i];
+    if (pair.contacts.count == 0) continue;
+    const auto worker = static_cast<std::size_t>(pair.contacts.worker);
+    const std::uint32_t first = first_contact(worker) + pair.contacts.first;
+    for (std::uint32_t k = 0; k < pair.contacts.count; ++k) {
+      const Contact& contact = current_[worker].contacts[pair.contacts.first + k];
+      const Feature* const minima = current_[worker].minima.data() + contact.first_minimum;
+      kept[first + k] = {
+          {rekey_.key(i).a, rekey_.key(i).b}, contact, {minima, minima + contact.minimum_count}};
+    }
+  }
+  return kept;
+}
+
+std::vector<SurfaceContacts::KeptForce> SurfaceContacts::kept_forces() const {
+  std::vector<KeptForce> kept;
+  for (std::size_t w = 0; w < records_.lists().size(); ++w) {
+    const auto& list = records_.lists()[w];
+    for (std::size_t i = 0; i < list.count; ++i)
+      kept.push_back({first_contact(w) + list.records[i].contact, list.records[i]});
+  }
+  return kept;
+}
+
+/// @param from  place in the list of the pair of the contact before
+/// @returns that of this one
+std::size_t SurfaceContacts::exchange_contact(geometry::RowFields& row, KeptContact& kept,
+                                              std::size_t from) const {
+  row("pair", kept.pair);
+  const geometry::IndexPair key{kept.pair[0], kept.pair[1]};
+  const std::size_t place =
+      next_place(from, pairs_.size(), [&](std::size_t i) { return rekey_.key(i) < key; });
+  if (place == pairs_.size() || rekey_.key(place) != key) throw_unlisted_contact();
+  Contact& contact = kept.contact;
+  contact::exchange(row, contact.memory, pairs_[place].parameters.law);
+  row("foot", contact.foot);
+  row("gap", contact.gap);
+  row("elastic_force", contact.elastic_force);
+  row("elastic_energy", contact.elastic_energy);
+  row("id", contact.id);
+  row("minima", kept.minima);
+  return place;
+}
+
+/// As the next contact of its pair.
+void SurfaceContacts::keep(const KeptContact& kept, std::size_t place) {
+  Lists& lists = current_[0];
+  Range& range = pairs_[place].contacts;
+  if (range.count == 0) range = {0, static_cast<std::uint32_t>(lists.contacts.size()), 0};
+  ++range.count;
+  lists.contacts.push_back(kept.contact);
+  lists.contacts.back().first_minimum = static_cast<std::uint32_t>(lists.minima.size());
+  lists.contacts.back().minimum_count = static_cast<std::uint32_t>(kept.minima.size());
+  lists.minima.insert(lists.minima.end(), kept.minima.begin(), kept.minima.end());
 }
 
 }  // namespace plekton::contact

@@ -17,6 +17,7 @@
 #include "contact/tracking/rekey.hpp"
 #include "geometry/base/function_ref.hpp"
 #include "geometry/base/parallel_sum.hpp"
+#include "geometry/base/state_archive.hpp"
 #include "geometry/neighbor/neighbours.hpp"
 #include "geometry/primitives/surface_change.hpp"
 
@@ -112,6 +113,10 @@ class SurfaceContacts {
   /// Calls visit(ContactRecord) for every contact of the last step, in the order of the list.
   void for_each_record(Positions x, VisitRecord visit) const;
 
+  /// @param list  makes the list anew by rebuild()
+  void exchange(const geometry::StateArchive& archive, geometry::FunctionRef<void()> list,
+                geometry::ThreadPool& pool);
+
  private:
   /// A contact as it is kept for the next step.
   struct Contact {
@@ -160,6 +165,17 @@ class SurfaceContacts {
     double from = -1.0;  ///< N, elastic force of the contact that the id is from
   };
   static constexpr std::size_t kNoLane = std::numeric_limits<std::size_t>::max();
+  /// A contact in a state.
+  struct KeptContact {
+    std::array<std::int32_t, 2> pair;  ///< sphere and structure
+    Contact contact;
+    std::vector<Feature> minima;
+  };
+  /// What a term of a contact does, in a state.
+  struct KeptForce {
+    std::uint32_t contact;  ///< among all
+    SurfaceForce record;
+  };
   struct Worker {
     explicit Worker(const geometry::Surface& surface) : patches(surface), successors(surface) {}
     PatchFinder patches;
@@ -218,6 +234,11 @@ class SurfaceContacts {
   static double normal_energy(const Pair& pair, PatchFinder& finder,
                               std::span<const geometry::CellId> cells, Positions x);
   double keep_minima(const Pair& pair, const geometry::SurfaceChange& change);
+  std::vector<KeptContact> kept_contacts() const;
+  std::vector<KeptForce> kept_forces() const;
+  std::size_t exchange_contact(geometry::RowFields& row, KeptContact& kept, std::size_t from) const;
+  void keep(const KeptContact& kept, std::size_t place);
+  std::uint32_t first_contact(std::size_t worker) const noexcept;
   std::span<const Contact> contacts_of(const Pair& pair, const std::vector<Lists>& lists) const {
     return {
         lists[static_cast<std::size_t>(pair.contacts.worker)].contacts.data() + pair.contacts.first,

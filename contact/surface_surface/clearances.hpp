@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/base/motion.hpp"
+#include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,6 +30,16 @@ class Clearances {
     gone_ = 0.0;
     furthest_ = 0.0;
     for (const Vec3& position : x) furthest_ = std::max(furthest_, position.cwiseAbs().maxCoeff());
+  }
+
+  /// Of no pairs: those of another list are to come.
+  void clear() noexcept { due_.clear(); }
+  std::size_t size() const noexcept { return due_.size(); }
+
+  void exchange(const geometry::StateArchive& archive) {
+    archive.fixed("due", due_, "pairs of cells");
+    archive("gone", gone_);
+    archive("furthest", furthest_);
   }
 
   /// @param way  m, how far any node has moved at most since the last call, but for rounding; all

@@ -79,6 +79,7 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   proximity_.resize(pairs.size());
   spreads_.resize(pairs.size());
   is_near_.assign(pairs.size(), 0);
+  clearances_.clear();
   joints_.clear(pairs.size());
   for (const std::uint32_t pair : features.holders) holders_.push_back({pair, false});
   const std::size_t count = surface_->structure_count();
@@ -134,7 +135,7 @@ void PairTerms::prepare_attractions(std::span<const NormalSpring> springs) {
 
 void PairTerms::find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
                                 geometry::ThreadPool& pool) {
-  if (terms_are_new_) {
+  if (clearances_.size() != term_of_pair_.size()) {
     clearances_.reset(term_of_pair_.size(), motion.position);
   } else {
     clearances_.move(motion.max_displacement, motion.position);
@@ -354,6 +355,25 @@ void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x) {
     const auto [pushing, pulling] = by_tilt_[pair];
     if (pushing != 0.0) add_tilting(terms_[cells], pushing, x, terms_[cells].forces);
     if (pulling != 0.0) add_tilting(terms_[cells], pulling, x, attractions_[cells]);
+  }
+}
+
+void PairTerms::exchange(const geometry::StateArchive& archive) {
+  if (archive.is_reading()) clearances_.reset(term_of_pair_.size(), {});
+  if (clearances_.size() != term_of_pair_.size()) return;  // no step with this list yet
+  clearances_.exchange(archive);
+  archive.fixed("is_near", is_near_, "pairs of cells");
+  std::vector<std::array<std::uint8_t, 2>> corners(is_near_.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const geometry::ClosestPoints& points = proximity_[i].cores.points;
+    if (is_near_[i] != 0)
+      corners[i] = {static_cast<std::uint8_t>(points.corners_a),
+                    static_cast<std::uint8_t>(points.corners_b)};
+  }
+  archive.fixed("nearest_corners", corners, "pairs of cells");
+  for (std::size_t i = 0; i < corners.size() && archive.is_reading(); ++i) {
+    proximity_[i].cores.points.corners_a = corners[i][0];
+    proximity_[i].cores.points.corners_b = corners[i][1];
   }
 }
 

@@ -101,6 +101,10 @@ class PairTerms {
     return clearances_.may_be_within(pair, margin);
   }
 
+  /// What is known of the pairs of cells from earlier steps: how long those out of range need no
+  /// look, which features held the nearest points of the others.
+  void exchange(const geometry::StateArchive& archive);
+
   /// Terms in range, ascending.
   std::span<const std::uint32_t> acting() const noexcept { return acting_; }
   /// Whether these are others than in the step before, or the terms are new.

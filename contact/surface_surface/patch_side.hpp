@@ -2,10 +2,12 @@
 #pragma once
 
 #include "contact/base/motion.hpp"
+#include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace plekton::contact::structure {
@@ -116,6 +118,17 @@ class PatchSide {
   template <class Visit>
   void for_each_share(Visit&& visit) const {
     for (std::size_t i = 0; i < nodes_.size(); ++i) visit(nodes_[i], shares_[i]);
+  }
+
+  void exchange(geometry::RowFields& row, const std::string& name) {
+    row(name + "_nodes", nodes_);
+    row(name + "_forces", forces_);
+    row(name + "_attractions", attractions_);
+    row(name + "_shares", shares_);
+    row(name + "_point", point_);
+    if (forces_.size() != nodes_.size() || attractions_.size() != nodes_.size() ||
+        shares_.size() != nodes_.size())
+      throw geometry::StateMismatch("a contact between structures in the state is damaged");
   }
 
  private:

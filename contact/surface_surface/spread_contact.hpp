@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
+#include <string>
 
 namespace plekton::contact::structure {
 
@@ -57,6 +59,11 @@ struct SpreadContact {
       for (std::size_t i = 0; i < 3; ++i)
         spin += shares[i] * motion.angular_velocity[index_of(nodes[i])];
       return spin;
+    }
+    void exchange(geometry::RowFields& row, const std::string& name) {
+      row(name + "_nodes", nodes);
+      row(name + "_shares", shares);
+      row(name + "_point", point);
     }
     /// Transpose of both.
     void add_force_at(const Vec3& lever, const Vec3& force, const Vec3& moment,
@@ -182,6 +189,25 @@ struct SpreadContact {
   }
   void find_energy(const StructurePair& bodies, double free_part) {
     energy = AnyLaw::history_energy(parameters(bodies, free_part), memory.history);
+  }
+
+  /// All but its pair of cells. @throws geometry::StateMismatch
+  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs) {
+    const AnyLaw::Functions* const law = exchange_pair(row, structure_pair, pairs);
+    row("patch", patch);
+    row("is_turned", is_turned);
+    row("is_of_bar", is_of_bar);
+    row("is_wrapped", is_wrapped);
+    a.exchange(row, "a");
+    b.exchange(row, "b");
+    row("elastic_force", elastic_force);
+    row("normal_force", normal_force);
+    row("gap", gap);
+    row("contacts", count);
+    contact::exchange(row, memory, law);
+    row("energy", energy);
+    row("other_force", other_force);
+    row("moment", moment);
   }
 
   void add_forces(const StructurePair& bodies, NodeForces& forces) const {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace plekton::contact::structure {
 
@@ -82,6 +83,27 @@ struct StructureBond {
     add_force_at(b, lever_b(bodies), other_force, forces);
     add_moment(a, -moment, forces);
     add_moment(b, moment, forces);
+  }
+
+  /// All but the place of its cells in a list. @throws geometry::StateMismatch
+  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs) {
+    const AnyLaw::Functions* const law = exchange_pair(row, structure_pair, pairs);
+    row("cell_a", cells.a);
+    row("cell_b", cells.b);
+    row("is_turned", is_turned);
+    contact::exchange(row, "a", a);
+    contact::exchange(row, "b", b);
+    row("contacts", count);
+    contact::exchange(row, memory, law);
+    row("patch", patch);
+    row("id", id);
+    row("is_broken", is_broken);
+    row("separation", separation);
+    row("bond_normal", normal);
+    row("gap", gap);
+    row("pressing", pressing);
+    row("other_force", other_force);
+    row("moment", moment);
   }
 
   /// More of the contact is glued, at points where it presses. The bond moves to the mean of both:

@@ -2,6 +2,7 @@
 #include "contact/surface_surface/structure_contacts.hpp"
 
 #include "contact/base/bodies.hpp"
+#include "contact/tracking/contact_state.hpp"
 #include "contact/tracking/slip_state.hpp"
 #include "geometry/primitives/surface_change.hpp"
 
@@ -21,6 +22,7 @@ double StructureContacts::rebuild(std::span<const geometry::CellPair> pairs,
     if (known && old->patch >= 0) lives[static_cast<std::size_t>(old->patch)] = 1;
   }
   pairs_.swap(listed);
+  place_spreads();
   if (!bonds_.empty()) match_bonds();
   if (structure_pairs_.empty()) make_structure_pairs(materials);
   terms_.rebuild(pairs);
@@ -31,6 +33,14 @@ double StructureContacts::rebuild(std::span<const geometry::CellPair> pairs,
     patches_[i].memory = {};  // so that it is not lost again when nothing follows the patch
   }
   return lost;
+}
+
+/// Tells those of the last step where their pairs are in the list; of a pair that has left it none.
+void StructureContacts::place_spreads() noexcept {
+  constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  for (Spread& spread : spreads_) spread.pair = kNone;
+  for (std::uint32_t i = 0; i < pairs_.size(); ++i)
+    if (pairs_[i].spread >= 0) spreads_[static_cast<std::size_t>(pairs_[i].spread)].pair = i;
 }
 
 EnergyLoss StructureContacts::advance(const Motion& motion, double dt, geometry::ThreadPool& pool) {
@@ -65,7 +75,9 @@ EnergyLoss StructureContacts::advance(const Motion& motion, double dt, geometry:
 std::vector<structure::StructurePair> StructureContacts::find_structure_pairs(
     const ContactMaterials& materials) const {
   std::vector<StructurePair> structure_pairs;
-  const std::vector<double> masses = structure::mean_node_masses(*surface_, materials);
+  const std::vector<double> masses = materials.structure_masses.empty()
+                                         ? structure::mean_node_masses(*surface_, materials)
+                                         : materials.structure_masses;
   const auto part = [&](std::size_t i) {
     const auto id = geometry::id_at<geometry::StructureId>(i);
     return BodyPart{materials.of_structures[i], surface_->radius(id), masses[i],
@@ -783,6 +795,7 @@ void StructureContacts::hand_to_sides(const PairOfCells& pair,
 
 void StructureContacts::add_up_patches(Positions x) {
   largest_overlap_ratio_ = 0.0;
+  crossings_ = 0;
   for (Patch& patch : patches_) patch.reset();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const PairTerm& term = terms_[terms_.acting()[i]];
@@ -790,7 +803,12 @@ void StructureContacts::add_up_patches(Positions x) {
     const StructurePair& structure_pair = structure_pairs_[term.spring];
     const double radius = std::min(structure_pair.radius_first, structure_pair.radius_second);
     largest_overlap_ratio_ = std::max(largest_overlap_ratio_, term.overlap / radius);
+    crossings_ += term.is_of_cells && term.meets ? 1 : 0;
     Patch& patch = patches_[places.patch];
+    if (term.overlap > patch.deepest_overlap) {
+      patch.deepest_overlap = term.overlap;
+      patch.deepest = {places.is_turned ? term.b : term.a, places.is_turned ? term.a : term.b};
+    }
     patch.energy += term.forces.energy;
     auto& side_a = places.is_turned ? patch.second : patch.first;
     auto& side_b = places.is_turned ? patch.first : patch.second;
@@ -882,23 +900,10 @@ void StructureContacts::for_each_stiffness(
 
 // Contacts of structures as they are reported.
 
-/// By patch, which of the acting terms overlaps most.
-std::vector<std::uint32_t> StructureContacts::deepest_places() const {
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  std::vector<std::uint32_t> deepest(patches_.size(), kNone);
-  const auto overlap = [&](std::uint32_t i) { return terms_[terms_.acting()[i]].overlap; };
-  for (std::uint32_t i = 0; i < places_.size(); ++i) {
-    std::uint32_t& so_far = deepest[places_[i].patch];
-    if (so_far == kNone || overlap(i) > overlap(so_far)) so_far = i;
-  }
-  return deepest;
-}
-
 void StructureContacts::for_each_record(Positions x, VisitRecord visit) const {
-  const std::vector<std::uint32_t> deepest = deepest_places();
   const std::vector<SpreadSum> spreads = sum_spreads();
   for (std::size_t i = 0; i < patches_.size(); ++i) {
-    if (patches_[i].pushes()) visit(row_of(patches_[i], spreads[i], deepest[i], x));
+    if (patches_[i].pushes()) visit(row_of(patches_[i], spreads[i], x));
   }
   for (const Bond& bond : bonds_) {
     ContactRecord row = row_of(bond);
@@ -955,10 +960,8 @@ ContactRecord StructureContacts::row_of(const Bond& bond) const {
 }
 
 ContactRecord StructureContacts::row_of(const Patch& patch, const SpreadSum& spread,
-                                        std::uint32_t deepest, Positions x) const {
+                                        Positions x) const {
   const StructurePair& structure_pair = structure_pair_of(patch);
-  const PairTerm& term = terms_[terms_.acting()[deepest]];
-  const bool is_turned = places_[deepest].is_turned;
   const auto body = [&](const geometry::FeatureNodes& nodes) {
     return ContactBody{BodyKind::structure,
                        static_cast<std::int32_t>(surface_->structure_of(nodes.ids[0])),
@@ -966,8 +969,8 @@ ContactRecord StructureContacts::row_of(const Patch& patch, const SpreadSum& spr
   };
   ContactRecord row;
   row.id = patch.id;
-  row.a = body(is_turned ? term.b : term.a);
-  row.b = body(is_turned ? term.a : term.b);
+  row.a = body(patch.deepest[0]);
+  row.b = body(patch.deepest[1]);
   row.point_a = patch.first.point();
   row.point_b = patch.second.point();
   row.point = row.point_b + patch.lever_of_second(structure_pair);
@@ -983,6 +986,61 @@ ContactRecord StructureContacts::row_of(const Patch& patch, const SpreadSum& spr
   row.moment = patch.second.moment_about(row.point, x) + spread.moment;
   row.moment += patch.moment;
   return row;
+}
+
+// The state.
+
+void StructureContacts::exchange(const geometry::StateArchive& archive,
+                                 geometry::FunctionRef<void()> list) {
+  archive("largest_overlap_ratio", largest_overlap_ratio_);
+  archive("crossings", crossings_);
+  std::vector<PairOfCells> touching;
+  if (archive.is_reading()) {
+    pairs_.clear();
+    patches_.clear();
+    spreads_.clear();
+    bonds_.clear();
+    list();
+  } else {
+    touching = touching_pairs();
+  }
+  terms_.exchange(archive.group("terms"));
+  const auto fields = [&](geometry::RowFields& row, auto& thing) {
+    thing.exchange(row, structure_pairs_);
+  };
+  archive.rows("patches", patches_, fields);
+  archive.rows("spread", spreads_, fields);
+  archive.rows("bonds", bonds_, fields);
+  archive.rows("pairs", touching,
+               [&](geometry::RowFields& row, PairOfCells& pair) { exchange_pair(row, pair); });
+  if (!archive.is_reading()) return;
+  std::size_t place = 0;
+  for (const PairOfCells& kept : touching) {
+    place = next_place(place, pairs_.size(),
+                       [&](std::size_t i) { return pairs_[i].cells < kept.cells; });
+    if (place == pairs_.size() || pairs_[place].cells != kept.cells) throw_unlisted_contact();
+    pairs_[place] = kept;
+  }
+  place_spreads();
+  match_bonds();
+}
+
+/// Those that are in a patch or have friction of their own.
+std::vector<StructureContacts::PairOfCells> StructureContacts::touching_pairs() const {
+  std::vector<PairOfCells> touching;
+  for (const PairOfCells& pair : pairs_)
+    if (pair.patch >= 0 || pair.spread >= 0) touching.push_back(pair);
+  return touching;
+}
+
+void StructureContacts::exchange_pair(geometry::RowFields& row, PairOfCells& pair) const {
+  row("cell_a", pair.cells.a);
+  row("cell_b", pair.cells.b);
+  row("patch", pair.patch);
+  row("is_turned", pair.is_turned);
+  row("spread", pair.spread);
+  if (pair.patch >= std::ssize(patches_) || pair.spread >= std::ssize(spreads_))
+    throw_unlisted_contact();
 }
 
 }  // namespace plekton::contact

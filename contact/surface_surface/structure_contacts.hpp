@@ -70,12 +70,7 @@ class StructureContacts {
   double largest_overlap_ratio() const noexcept { return largest_overlap_ratio_; }
 
   /// Pairs of facets and cylinders whose cores met in the last step: overlaps beyond both radii.
-  std::size_t crossings() const noexcept {
-    const auto acting = terms_.acting();
-    return static_cast<std::size_t>(std::count_if(
-        acting.begin(), acting.end(),
-        [this](std::uint32_t i) { return terms_[i].is_of_cells && terms_[i].meets; }));
-  }
+  std::size_t crossings() const noexcept { return crossings_; }
 
   /// Number of patches in contact and of bonds.
   std::size_t touching() const noexcept { return patches_.size() + bonds_.size(); }
@@ -119,6 +114,9 @@ class StructureContacts {
   /// one node: exactly, wherever in the patch that is. Linear in the nodes of the scene.
   using VisitRecordOn = geometry::FunctionRef<void(const ContactRecord&, const Vec3&, const Vec3&)>;
   void for_each_record_on(NodeId node, Positions x, VisitRecordOn visit) const;
+
+  /// @param list  makes the list anew by rebuild()
+  void exchange(const geometry::StateArchive& archive, geometry::FunctionRef<void()> list);
 
  private:
   using PairTerm = structure::PairTerm;
@@ -260,9 +258,10 @@ class StructureContacts {
   void match_bonds();
   double keep_bonds(const geometry::SurfaceChange& change);
   ContactRecord row_of(const Bond& bond) const;
-  std::vector<std::uint32_t> deepest_places() const;
-  ContactRecord row_of(const Patch& patch, const SpreadSum& spread, std::uint32_t deepest,
-                       Positions x) const;
+  ContactRecord row_of(const Patch& patch, const SpreadSum& spread, Positions x) const;
+  std::vector<PairOfCells> touching_pairs() const;
+  void exchange_pair(geometry::RowFields& row, PairOfCells& pair) const;
+  void place_spreads() noexcept;
   const StructurePair& structure_pair_of(const Patch& patch) const {
     return structure_pairs_[patch.structure_pair];
   }
@@ -295,6 +294,7 @@ class StructureContacts {
   std::vector<Pressed> pressed_;
   std::vector<double> near_push_;  ///< N, by pair of cells
   double largest_overlap_ratio_ = 0.0;
+  std::size_t crossings_ = 0;
 };
 
 }  // namespace plekton::contact

@@ -5,8 +5,11 @@
 #include "contact/law/bonds.hpp"
 #include "contact/surface_surface/patch_side.hpp"
 #include "contact/tracking/contact_memory.hpp"
+#include "contact/tracking/contact_state.hpp"
 
+#include <array>
 #include <cstdint>
+#include <span>
 
 namespace plekton::contact::structure {
 
@@ -17,6 +20,15 @@ struct StructurePair {
   double radius_second;
   double attraction;  ///< N, of one contact
 };
+
+/// Which structures something is of. @returns their law. @throws geometry::StateMismatch
+inline const AnyLaw::Functions* exchange_pair(geometry::RowFields& row, std::uint32_t& pair,
+                                              std::span<const StructurePair> pairs) {
+  row("structure_pair", pair);
+  if (pair >= pairs.size())
+    throw geometry::StateMismatch("the state has more structures than there are here");
+  return pairs[pair].parameters.law;
+}
 
 /// A part of the contact region of two structures that hangs together: one contact, as far as the
 /// law is concerned, as stiff as the contacts it counts.
@@ -40,6 +52,9 @@ struct StructurePatch {
   double id_from = -1.0;  ///< N, normal force of the patch of the last step that the id is from
   Vec3 other_force = Vec3::Zero();  ///< N, on the second side: all but that and attraction
   Vec3 moment = Vec3::Zero();       ///< N m, on the second side
+  /// On either side, the features of the term that overlaps most, and how far (m).
+  std::array<geometry::FeatureNodes, 2> deepest{};
+  double deepest_overlap = -1.0;
 
   /// No forces yet; the nodes stay.
   void reset() {
@@ -56,6 +71,7 @@ struct StructurePatch {
     id_from = -1.0;
     other_force = Vec3::Zero();
     moment = Vec3::Zero();
+    deepest_overlap = -1.0;
   }
 
   bool pushes() const noexcept { return normal_force > 0.0; }
@@ -119,6 +135,29 @@ struct StructurePatch {
     second.add_force_at(lever_of_second(bodies), other_force, forces);
     first.add_moment(-moment, forces);
     second.add_moment(moment, forces);
+  }
+
+  /// @param pairs  of structures. @throws geometry::StateMismatch
+  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs) {
+    const AnyLaw::Functions* const law = exchange_pair(row, structure_pair, pairs);
+    row("energy", energy);
+    row("attraction_energy", attraction_energy);
+    row("elastic_force", elastic_force);
+    row("normal_force", normal_force);
+    row("contacts", count);
+    row("gap", gap);
+    first.exchange(row, "first");
+    second.exchange(row, "second");
+    row("free_part", free_part);
+    row("point_part", point_part);
+    row("bar_part", bar_part);
+    row("is_torn", is_torn);
+    contact::exchange(row, memory, law);
+    row("id", id);
+    row("other_force", other_force);
+    row("moment", moment);
+    row("deepest", deepest);
+    row("deepest_overlap", deepest_overlap);
   }
 
   /// The contact point lies between the two points on which the elastic force acts.

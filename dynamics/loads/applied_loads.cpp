@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/applied_loads.hpp"
 
+#include "geometry/base/state_archive.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace plekton::dynamics {
 
@@ -108,6 +111,12 @@ double AppliedLoads::largest_speed() const noexcept {
   double speed = 0.0;
   for (const MovedNodes& motion : motions_) speed = std::max(speed, motion.largest_speed());
   return speed;
+}
+
+void AppliedLoads::exchange(const geometry::StateArchive& archive) {
+  archive.same("pressures", pressures_.size(), "another number of pressures");
+  for (std::size_t i = 0; i < pressures_.size(); ++i)
+    pressures_[i].exchange(archive.group("pressure_" + std::to_string(i)));
 }
 
 }  // namespace plekton::dynamics

@@ -2,6 +2,7 @@
 #include "dynamics/loads/surface_pressure.hpp"
 
 #include "geometry/base/elementary.hpp"
+#include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,6 +138,11 @@ double PressedSurface::gas_frequency_squared(Positions x, const NodeProperties& 
   if (by_volume_) return load_.factor.largest() * by_volume_->largest_slope() * sum;
   const double absolute = load_.gas->outside_pressure + largest_pressure();
   return load_.gas->exponent * absolute / volume_ * sum;
+}
+
+void PressedSurface::exchange(const geometry::StateArchive& archive) {
+  archive("volume", volume_);
+  archive("pressure", pressure_);
 }
 
 }  // namespace plekton::dynamics

@@ -3,12 +3,16 @@
 
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/loads/loaded_nodes.hpp"
-#include "dynamics/model/loads.hpp"
 #include "dynamics/loads/node_members.hpp"
+#include "dynamics/model/loads.hpp"
 #include "geometry/primitives/facet.hpp"
 #include "geometry/primitives/surface_change.hpp"
 
 #include <span>
+
+namespace plekton::geometry {
+class StateArchive;
+}
 
 namespace plekton::dynamics {
 
@@ -35,6 +39,9 @@ class PressedSurface {
   /// Goes on with the facets that are left. A gas escapes through the first hole: from then on
   /// there is no pressure.
   void follow(const geometry::SurfaceChange& change);
+
+  /// What the last act found.
+  void exchange(const geometry::StateArchive& archive);
 
   /// m³, at the last act; only where the pressure follows it.
   double volume() const noexcept { return volume_; }

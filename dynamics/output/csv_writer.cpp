@@ -4,6 +4,8 @@
 #include "dynamics/output/text.hpp"
 
 #include <cassert>
+#include <fstream>
+#include <system_error>
 
 namespace plekton::dynamics {
 namespace {
@@ -32,9 +34,29 @@ std::string head_row(std::span<const CsvColumn> columns) {
 CsvWriter::CsvWriter(const std::filesystem::path& file, std::span<const CsvColumn> columns,
                      Flush flush)
     : column_count_(columns.size()), flush_(flush) {
+  const std::string row = head_row(columns);
   OutputFile head(file);
-  head.write(head_row(columns));
+  head.write(row);
   head.commit();
+  size_ = row.size();
+  file_.emplace(file, CheckedFile::Mode::append);
+}
+
+CsvWriter::CsvWriter(const std::filesystem::path& file, std::span<const CsvColumn> columns,
+                     Flush flush, std::uint64_t kept)
+    : column_count_(columns.size()), flush_(flush), size_(kept) {
+  const std::string row = head_row(columns);
+  std::string head(row.size(), '\0');
+  std::ifstream old(file, std::ios::binary);
+  old.read(head.data(), static_cast<std::streamsize>(head.size()));
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error || !old || head != row || size < kept || kept < row.size())
+    throw OutputError(file,
+                      "is not the file that the run has written so far, with the same columns; put "
+                      "it back, or go on in another folder");
+  std::filesystem::resize_file(file, kept, error);
+  if (error) throw OutputError(file, "cut the file back to where the run goes on", error.value());
   file_.emplace(file, CheckedFile::Mode::append);
 }
 
@@ -60,6 +82,7 @@ void CsvWriter::add(std::span<const double> row) {
 void CsvWriter::flush() {
   if (gathered_.empty()) return;
   file_->write(gathered_);
+  size_ += gathered_.size();
   gathered_.clear();
 }
 

@@ -29,6 +29,12 @@ class CsvWriter {
   /// Writes the head row; if that fails there is no new file. @throws OutputError
   CsvWriter(const std::filesystem::path& file, std::span<const CsvColumn> columns,
             Flush flush = Flush::every_row);
+  /// Goes on with a file of an earlier writer of the same columns: keeps so many bytes of it, which
+  /// end a row, and cuts off what was written after these.
+  /// @param kept  size() of that writer after a flush()
+  /// @throws OutputError if the file is another one or shorter
+  CsvWriter(const std::filesystem::path& file, std::span<const CsvColumn> columns, Flush flush,
+            std::uint64_t kept);
   CsvWriter(const CsvWriter&) = delete;
   CsvWriter& operator=(const CsvWriter&) = delete;
   /// Writes the gathered rows without a check: call close() to hear of an error.
@@ -39,6 +45,9 @@ class CsvWriter {
   /// flush() tries again.
   void add(std::span<const double> row);
   void add(std::initializer_list<double> row) { add(std::span(row.begin(), row.size())); }
+
+  /// Bytes in the file: all rows that were flushed.
+  std::uint64_t size() const noexcept { return size_; }
 
   /// Writes the gathered rows. @throws OutputError, and the rows stay gathered.
   void flush();
@@ -51,6 +60,7 @@ class CsvWriter {
   Flush flush_;
   std::optional<CheckedFile> file_;
   std::string gathered_;
+  std::uint64_t size_ = 0;  ///< bytes in the file
 };
 
 }  // namespace plekton::dynamics

@@ -21,19 +21,35 @@ constexpr std::string_view kMarkup = "<&";
 
 void PvdSeries::add(const std::vector<SeriesEntry>& entries) {
   const std::size_t parts_before = parts_.size();
+  const std::size_t lines_before = lines_.size();
   try {
     std::string added;
     for (const SeriesEntry& entry : entries) added += line(entry);
     if (added.size() <= room_ && is_as_left()) {
       write_in_place(added);
+      lines_ += added;
     } else {
-      write_whole(added);
+      lines_ += added;
+      make_room();
+      write_whole();
     }
-    lines_ += added;
   } catch (...) {
     parts_.resize(parts_before);
+    lines_.resize(lines_before);
     throw;
   }
+}
+
+void PvdSeries::go_on(const std::vector<SeriesEntry>& entries) {
+  for (const SeriesEntry& entry : entries) {
+    const std::string added = line(entry);
+    lines_ += added;
+    if (added.size() <= room_)
+      room_ -= added.size();
+    else
+      make_room();
+  }
+  write_whole();
 }
 
 std::string PvdSeries::line(const SeriesEntry& entry) {
@@ -76,15 +92,17 @@ void PvdSeries::write_in_place(const std::string& added) {
   room_ = room - added.size();
 }
 
-void PvdSeries::write_whole(const std::string& added) {
-  const std::size_t room = std::max(kLeastRoom, (lines_.size() + added.size()) / 2);
+void PvdSeries::make_room() noexcept {
+  room_ = std::max(kLeastRoom, lines_.size() / 2);
+}
+
+void PvdSeries::write_whole() {
   OutputFile out(file_);
   out.write(kHead);
   out.write(lines_);
-  out.write(added + std::string(room, ' '));
+  out.write(std::string(room_, ' '));
   out.write(kTail);
   out.commit();
-  room_ = room;
 }
 
 std::vector<PlacedBytes> writes_in_place(std::string_view lines, std::size_t position) {

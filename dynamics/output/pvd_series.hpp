@@ -36,12 +36,17 @@ class PvdSeries {
   /// then as before.
   void add(const std::vector<SeriesEntry>& entries);
 
+  /// Goes on with a series of so many entries, each added by itself: the file is written anew, as
+  /// it was after them. Before the first add(). @throws as add()
+  void go_on(const std::vector<SeriesEntry>& entries);
+
  private:
   std::string line(const SeriesEntry& entry);
   std::size_t part_number(const std::string& name);
   bool is_as_left() const;
   void write_in_place(const std::string& added);
-  void write_whole(const std::string& added);
+  void write_whole();
+  void make_room() noexcept;
 
   std::filesystem::path file_;
   std::vector<std::string> parts_;  // the number of a part is its position

@@ -3,9 +3,12 @@
 
 #include "geometry/base/elementary.hpp"
 #include "geometry/base/problems.hpp"
+#include "geometry/base/state_archive.hpp"
 #include "geometry/base/vector_width.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <ostream>
@@ -216,6 +219,38 @@ double BeamBonds::elastic_energy() const noexcept {
     for (std::size_t lane = 0; lane < BeamRow::kLanes; ++lane) energy += row.energy.number(lane);
   }
   return energy;
+}
+
+void BeamBonds::exchange(const geometry::StateArchive& archive) {
+  using Spring = std::array<double, sizeof(BeamSpringOf<double>) / sizeof(double)>;
+  struct Kept {
+    bool is_broken;
+    Spring spring;
+    double tension;  ///< N
+    double energy;   ///< J
+  };
+  std::vector<Kept> kept(size());
+  for (std::size_t bond = 0; bond < size(); ++bond) {
+    const BeamRow& row = row_of(bond);
+    kept[bond] = {is_broken(bond), std::bit_cast<Spring>(spring(bond)),
+                  row.tension.number(lane_of(bond)), row.energy.number(lane_of(bond))};
+  }
+  archive.rows("bonds", kept, [](geometry::RowFields& row, Kept& bond) {
+    row("is_broken", bond.is_broken);
+    row("spring", bond.spring);
+    row("tension", bond.tension);
+    row("energy", bond.energy);
+  });
+  if (kept.size() != size())
+    throw geometry::StateMismatch("the state has another number of bonds than there are here");
+  if (!archive.is_reading()) return;
+  for (std::size_t bond = 0; bond < size(); ++bond) {
+    is_broken_[bond] = kept[bond].is_broken;
+    set_spring(bond, std::bit_cast<BeamSpringOf<double>>(kept[bond].spring));
+    BeamRow& row = rows_[slots_[bond] / BeamRow::kLanes];
+    row.tension.set(lane_of(bond), kept[bond].tension);
+    row.energy.set(lane_of(bond), kept[bond].energy);
+  }
 }
 
 }  // namespace plekton::dynamics

@@ -14,6 +14,10 @@
 #include <string_view>
 #include <vector>
 
+namespace plekton::geometry {
+class StateArchive;
+}
+
 namespace plekton::dynamics {
 
 /// Section and material of a beam. With second_moment and torsion_constant 0 it is a bar, which
@@ -140,6 +144,10 @@ class BeamBonds {
   /// @returns J, what it stored at the last advance, which is lost
   double break_bond(std::size_t bond) noexcept;
   bool is_broken(std::size_t bond) const noexcept { return is_broken_[bond]; }
+
+  /// Where bonds are at rest, what is broken, and what the last advance found.
+  /// @throws geometry::StateMismatch
+  void exchange(const geometry::StateArchive& archive);
 
  private:
   const BeamRow& row_of(std::size_t bond) const noexcept {

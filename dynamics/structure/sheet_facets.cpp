@@ -5,6 +5,7 @@
 #include "dynamics/structure/sheet_bending.hpp"
 #include "dynamics/structure/sheet_kernel.hpp"
 #include "geometry/base/problems.hpp"
+#include "geometry/base/state_archive.hpp"
 
 #include <Eigen/LU>
 
@@ -113,6 +114,20 @@ Mat3 SheetFacets::membrane_force(std::size_t facet, geometry::Positions position
   Eigen::Matrix2d stress;
   stress << s[0], s[2], s[2], s[1];
   return f * (stress / area_ratio) * f.transpose();
+}
+
+void SheetFacets::exchange(const geometry::StateArchive& archive) {
+  const std::size_t count = size();
+  archive.fixed("broken", broken_, "facets of sheets");
+  archive.rows("reactions", reactions_, [](geometry::RowFields& row, SheetReaction& reaction) {
+    row("force", reaction.force);
+    row("torque", reaction.torque);
+    row("stress", reaction.stress);
+    row("energy", reaction.energy);
+  });
+  archive("dissipated", dissipated_);
+  if (reactions_.size() != count)
+    throw geometry::StateMismatch("the facets of sheets in the state are damaged");
 }
 
 }  // namespace plekton::dynamics

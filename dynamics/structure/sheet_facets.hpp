@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dynamics/state/nodal_stiffness.hpp"
 #include "dynamics/structure/beam_blocks.hpp"
 #include "dynamics/structure/sheet_spring.hpp"
-#include "dynamics/state/nodal_stiffness.hpp"
 #include "geometry/base/thread_pool.hpp"
 
 #include <cstdint>
 #include <span>
 #include <vector>
+
+namespace plekton::geometry {
+class StateArchive;
+}
 
 namespace plekton::dynamics {
 
@@ -101,6 +105,9 @@ class SheetFacets {
   void add_to(NodalStiffness& stiffness, const NodeState& state) const;
   /// That of one facet.
   void add_to(NodalStiffness& stiffness, const NodeState& state, std::size_t facet) const;
+
+  /// What is broken, and what the last advance found. @throws geometry::StateMismatch
+  void exchange(const geometry::StateArchive& archive);
 
  private:
   /// Largest eigenvalues at rest of the parts of a facet's stiffness matrix.

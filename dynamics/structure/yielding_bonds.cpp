@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/structure/yielding_bonds.hpp"
 
+#include "geometry/base/state_archive.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -129,6 +131,37 @@ double YieldingBonds::plastic_strain(std::size_t bond) const noexcept {
     return beam->memory.stretch / beam->limits.length;
   const Wire* const wire = find(wires_, bond);
   return wire ? wire->memory.rest_length / wire->length - 1.0 : 0.0;
+}
+
+void YieldingBonds::exchange(const geometry::StateArchive& archive) {
+  std::vector<BeamYield> beams;
+  for (const Beam& beam : beams_) beams.push_back(beam.memory);
+  std::vector<WireYield> wires;
+  for (const Wire& wire : wires_) wires.push_back(wire.memory);
+  archive.rows("beams", beams, [](geometry::RowFields& row, BeamYield& memory) {
+    row("stretch", memory.stretch);
+    row("turn_a", memory.turn_a);
+    row("turn_b", memory.turn_b);
+    row("twist", memory.twist);
+    row("tension", memory.forces.tension);
+    row("shear", memory.forces.shear);
+    row("moment_a", memory.forces.moment_a);
+    row("moment_b", memory.forces.moment_b);
+    row("torque", memory.forces.torque);
+    row("loss", memory.loss);
+    row("dissipated", memory.dissipated);
+  });
+  archive.rows("wires", wires, [](geometry::RowFields& row, WireYield& memory) {
+    row("rest_length", memory.rest_length);
+    row("force", memory.force);
+    row("loss", memory.loss);
+    row("dissipated", memory.dissipated);
+  });
+  if (beams.size() != beams_.size() || wires.size() != wires_.size())
+    throw geometry::StateMismatch(
+        "the state has another number of bonds that yield than there are here");
+  for (std::size_t i = 0; i < beams.size(); ++i) beams_[i].memory = beams[i];
+  for (std::size_t i = 0; i < wires.size(); ++i) wires_[i].memory = wires[i];
 }
 
 }  // namespace plekton::dynamics

@@ -8,6 +8,10 @@
 #include <span>
 #include <vector>
 
+namespace plekton::geometry {
+class StateArchive;
+}
+
 namespace plekton::dynamics {
 
 /// The bonds of a scene that yield and break. They move the state at rest of the elastic bonds
@@ -46,6 +50,9 @@ class YieldingBonds {
   /// Plastic strain of a bond: of a wire the stretch that is left when it is unloaded, over its
   /// first length; of a beam all stretch so far, in either direction. 0 where it has no law.
   double plastic_strain(std::size_t bond) const noexcept;
+
+  /// What bonds remember. @throws geometry::StateMismatch
+  void exchange(const geometry::StateArchive& archive);
 
  private:
   struct Beam {

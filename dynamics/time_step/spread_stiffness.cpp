@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/time_step/spread_stiffness.hpp"
 
+#include "geometry/base/state_archive.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -133,6 +135,11 @@ void SpreadStiffness::add_rate(double rate, const NodeProperties& properties,
     if (takes_part_[i] != 0)
       stiffness.add(geometry::id_at<NodeId>(i), {rate * properties.mass[i], 0.0});
   }
+}
+
+void SpreadStiffness::exchange(const geometry::StateArchive& archive) {
+  archive("is_new", is_new_);
+  archive("motion", motion_);
 }
 
 }  // namespace plekton::dynamics

@@ -7,6 +7,10 @@
 
 #include <vector>
 
+namespace plekton::geometry {
+class StateArchive;
+}
+
 namespace plekton::dynamics {
 
 /// What contacts resist that spread over a surface, beside a spring for each of their terms.
@@ -29,6 +33,8 @@ class SpreadStiffness {
   /// Looks for balls that have a term which is not one contact.
   /// @returns whether there are any
   bool begin(ContactSprings& springs, std::size_t node_count);
+  /// The motion of the last look.
+  void exchange(const geometry::StateArchive& archive);
   bool is_spread(NodeId ball) const noexcept { return is_spread_[index_of(ball)] != 0; }
 
   /// Where nodes are (m), and how far a difference goes (m).

@@ -4,6 +4,7 @@
 #include "dynamics/model/scene_figures.hpp"
 #include "dynamics/time_step/expected_contacts.hpp"
 #include "dynamics/time_step/motion_step.hpp"
+#include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -96,6 +97,15 @@ void StepChooser::add_near_structures(double margin) {
       }
     }
   });
+}
+
+void StepChooser::exchange(const geometry::StateArchive& archive) {
+  archive("lists", look_.lists);
+  archive("way", look_.way);
+  archive("longest_way", look_.longest_way);
+  archive("way_in_a_step", way_in_a_step_);
+  archive("stable_step", stable_step_);
+  spread_.exchange(archive.group("spread"));
 }
 
 }  // namespace plekton::dynamics

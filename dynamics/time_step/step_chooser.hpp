@@ -10,6 +10,10 @@
 #include <limits>
 #include <vector>
 
+namespace plekton::geometry {
+class StateArchive;
+}
+
 /// How a simulation chooses its time step.
 ///
 /// What counts is what holds the nodes now and what may come to hold them until the step is looked
@@ -66,6 +70,9 @@ class StepChooser {
   double choose(double dt, const Pace& pace);
   /// @param way  m, of any node or plane in a step
   void moved(double way) noexcept;
+
+  /// What is known from the last look.
+  void exchange(const geometry::StateArchive& archive);
 
  private:
   CriticalStep near(double margin);

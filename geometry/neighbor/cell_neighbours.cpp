@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/neighbor/cell_neighbours.hpp"
 
+#include "geometry/base/state_archive.hpp"
 #include "geometry/closest/core_pair.hpp"
 
 #include <algorithm>
@@ -188,6 +189,25 @@ bool CellNeighbours::update(Positions x, ThreadPool& pool, double way) {
   gather_own_nodes(x);
   if (!skin_.needs_rebuild(own_x_, pool)) return false;
   ++rebuild_count_;
+  previous_.swap(pairs_);
+  make_list(x, pool);
+  skin_.mark_built(own_x_);
+  return pairs_ != previous_;
+}
+
+void CellNeighbours::exchange(const StateArchive& archive, ThreadPool& pool) {
+  skin_.exchange(archive);
+  archive("rebuild_count", rebuild_count_);
+  const Positions built = skin_.built_positions();
+  if (!archive.is_reading() || built.empty()) return;
+  if (built.size() != own_nodes_.size())
+    throw StateMismatch("the state has another number of nodes of structures than there are here");
+  std::vector<Vec3> x(surface_->node_count(), Vec3::Zero());
+  for (std::size_t i = 0; i < own_nodes_.size(); ++i) x[index_of(own_nodes_[i])] = built[i];
+  make_list(x, pool);
+}
+
+void CellNeighbours::make_list(Positions x, ThreadPool& pool) {
   make_boxes(x);
   // Cells keep their neighbours in the structure: the tree stays a good one for long.
   if (tree_.size() == boxes_.size() && rebuild_count_ % kListsPerTree != 0) {
@@ -196,7 +216,6 @@ bool CellNeighbours::update(Positions x, ThreadPool& pool, double way) {
     tree_.rebuild(boxes_);
   }
   tree_.self_pairs(overlaps_, pool);
-  previous_.swap(pairs_);
   pairs_.clear();
   const auto list_if_near = [&](CellId first, CellId second) {
     const auto [a, b] = std::minmax(first, second);
@@ -213,8 +232,6 @@ bool CellNeighbours::update(Positions x, ThreadPool& pool, double way) {
       for_each_close_pair(*surface_, a, b, x, skin_.margin(), list_if_near);
   }
   std::sort(pairs_.begin(), pairs_.end());
-  skin_.mark_built(own_x_);
-  return pairs_ != previous_;
 }
 
 }  // namespace plekton::geometry

@@ -16,6 +16,8 @@
 
 namespace plekton::geometry {
 
+class StateArchive;
+
 /// Which cells of a surface may touch each other: of different structures, and of one structure
 /// with itself where it folds.
 ///
@@ -44,6 +46,9 @@ class CellNeighbours {
   /// Goes on with what is left of the surface: the next update makes the list anew.
   void follow(const SurfaceChange& change);
 
+  /// The list is made anew from where the nodes were when it was made. @throws StateMismatch
+  void exchange(const StateArchive& archive, ThreadPool& pool);
+
   /// Sorted; a on the lower structure, or on the same and lower itself.
   std::span<const CellPair> pairs() const noexcept { return pairs_; }
   /// How often the list was made.
@@ -55,6 +60,7 @@ class CellNeighbours {
   void find_own_nodes();
   void collect_parts();
   void gather_own_nodes(Positions x);
+  void make_list(Positions x, ThreadPool& pool);
   void make_boxes(Positions x);
   std::span<const CellId> cells_of_part(std::int32_t part) const noexcept;
   bool may_parts_touch(std::int32_t a, std::int32_t b) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/neighbor/neighbours.hpp"
 
+#include "geometry/base/state_archive.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -32,6 +34,16 @@ bool Neighbours::update(Positions x, ThreadPool& pool, double way) {
   ++rebuild_count_;
   steps_of_list_ = 0;
   return true;
+}
+
+void Neighbours::exchange(const StateArchive& archive, ThreadPool& pool) {
+  skin_.exchange(archive);
+  archive("steps_of_list", steps_of_list_);
+  archive("rebuild_count", rebuild_count_);
+  if (!archive.is_reading()) return;
+  if (list_positions().size() != surface_->node_count())
+    throw StateMismatch("the state has another number of nodes than there are here");
+  if (!spheres_.empty()) rebuild(list_positions(), pool);
 }
 
 /// A list of skin s lasts s / w steps, where w is twice the way of the fastest in a step. The cost

@@ -13,6 +13,8 @@
 
 namespace plekton::geometry {
 
+class StateArchive;
+
 /// The cells of one structure that a sphere may touch: a part of Neighbours::cells().
 struct NearCells {
   std::uint32_t first;
@@ -47,6 +49,11 @@ class Neighbours {
   /// log for sorting.
   /// @param change  to what the surface is now
   void follow(const SurfaceChange& change);
+
+  /// The lists are made anew from where the nodes were when they were made. @throws StateMismatch
+  void exchange(const StateArchive& archive, ThreadPool& pool);
+  /// m, where the nodes were when the lists were made; empty before that.
+  Positions list_positions() const noexcept { return skin_.built_positions(); }
 
   double skin() const noexcept { return 2.0 * skin_.margin(); }
   /// How often the lists were made.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/neighbor/skin.hpp"
 
+#include "geometry/base/state_archive.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -23,6 +25,13 @@ double checked(double skin) {
   return skin;
 }
 
+/// m, largest coordinate.
+double furthest(Positions x) {
+  double furthest = 0.0;
+  for (const Vec3& position : x) furthest = std::max(furthest, position.cwiseAbs().maxCoeff());
+  return furthest;
+}
+
 }  // namespace
 
 Skin::Skin(double skin) : skin_(checked(skin)) {}
@@ -36,8 +45,18 @@ void Skin::mark_built(Positions x) {
   built_positions_.assign(x.begin(), x.end());
   built_ = true;
   way_ = 0.0;
-  furthest_ = 0.0;
-  for (const Vec3& position : x) furthest_ = std::max(furthest_, position.cwiseAbs().maxCoeff());
+  furthest_ = furthest(x);
+}
+
+/// How far nodes have moved since then is not known of a state that was read: the next step asks.
+void Skin::exchange(const StateArchive& archive) {
+  archive("skin", skin_);
+  archive("is_built", built_);
+  archive("built_positions", built_positions_);
+  if (!archive.is_reading()) return;
+  skin_ = checked(skin_);
+  way_ = std::numeric_limits<double>::infinity();
+  furthest_ = furthest(built_positions_);
 }
 
 bool Skin::needs_rebuild(Positions x, ThreadPool& pool) {

@@ -8,6 +8,8 @@
 
 namespace plekton::geometry {
 
+class StateArchive;
+
 /// How long a list of overlapping boxes stays good while the nodes move: a Verlet list with a
 /// proven rule.
 ///
@@ -54,6 +56,13 @@ class Skin {
   /// @param way  m, how far any node has moved at most since the last call, but for the rounding of
   ///             x += v dt; infinite if that is not known
   bool may_need_rebuild(double way) noexcept;
+
+  /// m, from which the list was built; empty if nothing has been built yet.
+  Positions built_positions() const noexcept {
+    return built_ ? Positions(built_positions_) : Positions();
+  }
+
+  void exchange(const StateArchive& archive);
 
  private:
   double skin_;

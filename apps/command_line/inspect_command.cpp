@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/inspect_command.hpp"
+
+#include "apps/run/checkpoints.hpp"
+#include "apps/run/run_state.hpp"
+#include "dynamics/checkpoint/checkpoint_file.hpp"
+#include "geometry/base/printable.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <variant>
+
+namespace plekton::apps {
+namespace {
+
+using geometry::StateArray;
+using geometry::StateTree;
+
+/// Rows of an array, 0 if it is not there.
+std::size_t rows_of(const StateTree& state, const std::string& name) {
+  const auto found = state.arrays.find(name);
+  return found == state.arrays.end() ? 0 : found->second.rows();
+}
+
+/// Of what there is how much: where it stands in a state, and what it is called.
+struct Count {
+  const char* array;
+  std::string_view name;
+};
+constexpr std::array<Count, 11> kCounts = {{
+    {"nodes/position", "nodes"},
+    {"elements/cylinders/radius", "cylinders"},
+    {"elements/facets/radius", "facets"},
+    {"bonds/bonds/energy", "beams and bars"},
+    {"sheets/broken", "facets of sheets"},
+    {"planes/point", "planes"},
+    {"contacts/spheres/touching/gap", "contacts of grains"},
+    {"contacts/surfaces/contacts/gap", "contacts of grains with membranes"},
+    {"contacts/structures/patches/gap", "contacts of membranes"},
+    {"contacts/structures/bonds/gap", "bonds between membranes"},
+    {"contacts/planes/touching/gap", "contacts with planes"},
+}};
+
+std::string_view kind_of(const StateArray& array) {
+  constexpr std::array<std::string_view, 4> kKinds = {"float64", "int64", "int32", "uint8"};
+  return kKinds[array.numbers.index()];
+}
+
+std::string lines_of_run(const StateTree& state) {
+  if (rows_of(state, std::string(kRunGroup) + "/scenario_file") == 0) return "";
+  ScenarioText scenario;
+  scenario.exchange(geometry::StateArchive::reader(state).group(kRunGroup));
+  std::string text = fmt::format("scenario: {}\n", geometry::printable(scenario.file));
+  for (const std::string& replaced : scenario.overrides)
+    text += fmt::format("  --set {}\n", geometry::printable(replaced));
+  return text;
+}
+
+}  // namespace
+
+std::string text_of_checkpoint(const std::filesystem::path& file) {
+  const StateTree state = dynamics::read_checkpoint(file);
+  std::string text = fmt::format("{}: checkpoint of version {}, whole\n",
+                                 geometry::printable(file.string()), dynamics::kCheckpointVersion);
+  text += fmt::format("time {:.9g} s, step {}\n", time_of(state), steps_of(state));
+  text += lines_of_run(state);
+  for (const Count& count : kCounts) {
+    if (const std::size_t rows = rows_of(state, count.array); rows > 0)
+      text += fmt::format("{:>9} {}\n", rows, count.name);
+  }
+  text += fmt::format("hash of the state {:016x}\narrays:\n", state.hash());
+  for (const auto& [name, array] : state.arrays)
+    text += fmt::format("  {:<52} {:>9} x {:<3} {}\n", geometry::printable(name), array.rows(),
+                        array.columns, kind_of(array));
+  return text;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/law/any_law.hpp"
+#include "contact/tracking/contact_memory.hpp"
+#include "geometry/base/state_archive.hpp"
+#include "geometry/critical/product_features.hpp"
+#include "geometry/primitives/feature.hpp"
+#include "geometry/primitives/proximity.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+/// What all kinds of contacts have in a state that is written or read.
+namespace plekton::geometry {
+
+/// Kind and id.
+template <>
+struct NumbersOf<Feature> : NumbersAs<std::int32_t, 2> {
+  static void put(const Feature& thing, std::int32_t* to) noexcept {
+    to[0] = static_cast<std::int32_t>(thing.kind);
+    to[1] = thing.id;
+  }
+  static void get(const std::int32_t* from, Feature& thing) noexcept {
+    thing.kind = static_cast<FeatureKind>(from[0]);
+    thing.id = from[1];
+  }
+};
+
+/// Nodes, and how many of them count.
+template <>
+struct NumbersOf<FeatureNodes> : NumbersAs<std::int32_t, 4> {
+  static void put(const FeatureNodes& thing, std::int32_t* to) noexcept {
+    NumbersOf<std::array<NodeId, 3>>::put(thing.ids, to);
+    to[3] = static_cast<std::int32_t>(thing.count);
+  }
+  static void get(const std::int32_t* from, FeatureNodes& thing) noexcept {
+    NumbersOf<std::array<NodeId, 3>>::get(from, thing.ids);
+    thing.count = static_cast<std::size_t>(from[3]);
+  }
+};
+
+}  // namespace plekton::geometry
+
+namespace plekton::contact {
+
+inline void exchange(geometry::RowFields& row, const std::string& name, geometry::CorePoint& core) {
+  row(name + "_nodes", core.nodes);
+  row(name + "_weights", core.weights);
+  row(name + "_feature", core.feature);
+}
+
+/// Numbers of a history; none of one that no law has looked at.
+/// @param law  of the contact; need be right only if the history is read
+/// @throws geometry::StateMismatch if the history read is of another law
+inline void exchange(geometry::RowFields& row, AnyLaw::History& history,
+                     const AnyLaw::Functions* law) {
+  bool is_seen = history.law != nullptr;
+  row("has_history", is_seen);
+  if (row.is_reading()) history.law = is_seen ? law : nullptr;
+  std::size_t count = is_seen ? history.law->history_numbers : 0;
+  const std::size_t expected = count;
+  row("history", history.numbers.data(), count);
+  if (count != expected)
+    throw geometry::StateMismatch("the state has contact histories of another law");
+}
+
+inline void exchange(geometry::RowFields& row, ContactMemory<AnyLaw>& memory,
+                     const AnyLaw::Functions* law) {
+  row("normal", memory.normal);
+  exchange(row, memory.history, law);
+}
+
+/// Looks up the places of keys that come in ascending order.
+/// @param is_before  (place) -> whether its key is before the one that is sought
+/// @returns the first place from `from` on that is not before it
+template <class IsBefore>
+std::size_t next_place(std::size_t from, std::size_t count, IsBefore is_before) {
+  while (from < count && is_before(from)) ++from;
+  return from;
+}
+
+[[noreturn]] inline void throw_unlisted_contact() {
+  throw geometry::StateMismatch(
+      "the state has a contact between bodies that its lists hold apart: it is damaged");
+}
+
+}  // namespace plekton::contact

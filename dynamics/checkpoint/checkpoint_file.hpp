@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "geometry/base/state_tree.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+/// Checkpoints: the state of a simulation in one HDF5 file.
+///
+/// Every array of the state is a data set of its name, of rows and columns, of 64-bit floating
+/// point numbers or signed integers of 64 or 32 or unsigned ones of 8 bits, little-endian. In the
+/// 512 bytes before what HDF5 reads (its user block) stand lines of text: `plekton checkpoint`,
+/// `version` (kCheckpointVersion), `writer` (the version of Plekton), `bytes` and `checksum` of the
+/// rest. A file in which a bit has changed is refused. The same state makes the same bytes.
+namespace plekton::dynamics {
+
+/// Grows whenever an array of the state changes its name or meaning.
+constexpr int kCheckpointVersion = 1;
+
+/// A checkpoint cannot be read. The message names the file, what is wrong with it and what to do.
+class CheckpointError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  CheckpointError(const std::filesystem::path& file, const std::string& problem);
+};
+
+/// Writes a file beside the place and renames it: there is a whole checkpoint or the one of before
+/// at any moment. @throws OutputError
+void write_checkpoint(const std::filesystem::path& file, const geometry::StateTree& state);
+
+/// @throws CheckpointError if there is no such file, it is no checkpoint, of another version, or
+///         damaged. No more memory is taken than the file has bytes, times two.
+geometry::StateTree read_checkpoint(const std::filesystem::path& file);
+
+}  // namespace plekton::dynamics

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A simulation that goes on from a state is the one that was never stopped, to the last bit.
+#include "dynamics/checkpoint/checkpoint_file.hpp"
+#include "dynamics/simulation.hpp"
+#include "dynamics/state_hash.hpp"
+#include "tests/support/reported_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace plekton::dynamics {
+namespace {
+
+using geometry::StateMismatch;
+using geometry::StateTree;
+using test::NamedLaw;
+using test::ReportedScene;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+void advance(Simulation& simulation, int steps) {
+  for (int i = 0; i < steps; ++i) simulation.step();
+}
+
+/// Names of the arrays that differ.
+std::vector<std::string> differences(const StateTree& a, const StateTree& b) {
+  std::vector<std::string> names;
+  for (const auto& [name, array] : a.arrays) {
+    StateTree one, other;
+    one.arrays["it"] = array;
+    if (const auto found = b.arrays.find(name); found != b.arrays.end())
+      other.arrays["it"] = found->second;
+    if (one.hash() != other.hash()) names.push_back(name);
+  }
+  if (a.arrays.size() != b.arrays.size()) names.emplace_back("their number");
+  return names;
+}
+
+class Restore : public testing::TestWithParam<NamedLaw> {
+ protected:
+  ReportedScene scene_;
+};
+
+TEST_P(Restore, GoesOnToTheLastBitWithContactsOfEveryKindAndOtherThreads) {
+  Simulation whole = scene_.simulation(GetParam());
+  advance(whole, 40);
+  whole.list_contacts();
+  advance(whole, 3);
+  const StateTree state = whole.snapshot();
+  Simulation resumed = scene_.simulation(GetParam(), 3);
+  resumed.restore(state);
+  EXPECT_EQ(differences(resumed.snapshot(), state), std::vector<std::string>{});
+
+  for (Simulation* const simulation : {&whole, &resumed}) {
+    advance(*simulation, 60);
+    simulation->list_contacts();
+  }
+
+  EXPECT_EQ(differences(resumed.snapshot(), whole.snapshot()), std::vector<std::string>{});
+}
+
+/// Before a step is taken.
+TEST_P(Restore, TellsOfTheLastStepWhatItToldBefore) {
+  Simulation whole = scene_.simulation(GetParam());
+  advance(whole, 50);
+  const std::vector<contact::ContactRecord> rows = whole.list_contacts();
+  Simulation resumed = scene_.simulation(GetParam());
+  resumed.restore(whole.snapshot());
+
+  const std::vector<contact::ContactRecord> again = resumed.contact_rows();
+  ASSERT_EQ(again.size(), rows.size());
+  ASSERT_GT(rows.size(), 10U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(again[i].id, rows[i].id) << i;
+    EXPECT_EQ(again[i].a.feature, rows[i].a.feature) << i;
+    EXPECT_EQ(again[i].b.feature, rows[i].b.feature) << i;
+    EXPECT_EQ(again[i].point, rows[i].point) << i;
+    EXPECT_EQ(again[i].force(), rows[i].force()) << i;
+    EXPECT_EQ(again[i].moment, rows[i].moment) << i;
+    EXPECT_EQ(again[i].gap, rows[i].gap) << i;
+    EXPECT_EQ(again[i].is_slipping, rows[i].is_slipping) << i;
+  }
+  const Energy now = resumed.energy(), before = whole.energy();
+  EXPECT_EQ(now.contact_elastic, before.contact_elastic);
+  EXPECT_EQ(now.bond_elastic, before.bond_elastic);
+  EXPECT_EQ(now.closure_error(), before.closure_error());
+  EXPECT_EQ(resumed.contacts().counts().sphere_sphere, whole.contacts().counts().sphere_sphere);
+  EXPECT_EQ(resumed.contacts().largest_overlap_ratio(), whole.contacts().largest_overlap_ratio());
+  EXPECT_EQ(resumed.unbalanced_force_ratio(), whole.unbalanced_force_ratio());
+  EXPECT_EQ(resumed.plane_reaction(0).force, whole.plane_reaction(0).force);
+}
+
+TEST_P(Restore, IsNotSeenByASimulationWhoseStateIsTaken) {
+  Simulation left_alone = scene_.simulation(GetParam());
+  Simulation looked_at = scene_.simulation(GetParam());
+  for (int i = 0; i < 30; ++i) {
+    left_alone.step();
+    looked_at.step();
+    looked_at.snapshot();
+  }
+
+  EXPECT_EQ(differences(looked_at.snapshot(), left_alone.snapshot()), std::vector<std::string>{});
+}
+
+INSTANTIATE_TEST_SUITE_P(, Restore, testing::ValuesIn(test::kLaws),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(RestoreFiles, GoOnFromAFile) {
+  const ReportedScene scene;
+  const test::TemporaryFolder folder;
+  Simulation whole = scene.simulation(test::kLaws[0]);
+  advance(whole, 20);
+  whole.save(folder / "state.h5");
+  Simulation resumed = scene.simulation(test::kLaws[0]);
+  resumed.load(folder / "state.h5");
+
+  EXPECT_EQ(state_hash(resumed), state_hash(whole));
+}
+
+TEST(RestoreErrors, NameAnotherScene) {
+  ReportedScene scene;
+  const StateTree state = scene.simulation(test::kLaws[0]).snapshot();
+  scene.scene.properties.mass[3] *= 2.0;
+  Simulation other = scene.simulation(test::kLaws[0]);
+
+  EXPECT_THAT([&] { other.restore(state); },
+              ThrowsMessage<StateMismatch>(HasSubstr("another scene")));
+}
+
+TEST(RestoreErrors, NameAnotherLaw) {
+  const ReportedScene scene;
+  const StateTree state = scene.simulation(test::kLaws[0]).snapshot();
+  Simulation other = scene.simulation(test::kLaws[2]);
+
+  EXPECT_THAT([&] { other.restore(state); },
+              ThrowsMessage<StateMismatch>(HasSubstr("other contact laws")));
+}
+
+TEST(RestoreErrors, TellThatASimulationHasBegun) {
+  const ReportedScene scene;
+  Simulation simulation = scene.simulation(test::kLaws[0]);
+  const StateTree state = simulation.snapshot();
+  simulation.step();
+
+  EXPECT_THROW(simulation.restore(state), std::logic_error);
+}
+
+/// Any number of a state may be another one: the answer is a message or a simulation, no crash.
+TEST(RestoreErrors, DoNotCrashOnAStateWithAWrongNumber) {
+  const ReportedScene scene;
+  Simulation simulation = scene.simulation(test::kLaws[1]);
+  advance(simulation, 20);
+  const StateTree state = simulation.snapshot();
+  for (const auto& [name, array] : state.arrays) {
+    if (array.size() == 0 || array.numbers.index() == 0) continue;  // ids, counts and flags
+    for (const std::int64_t wrong : {std::int64_t{-7}, std::int64_t{1} << 30U}) {
+      StateTree changed = state;
+      std::visit(
+          [&](auto& numbers) {
+            using Number = typename std::decay_t<decltype(numbers)>::value_type;
+            numbers[numbers.size() / 2] = static_cast<Number>(wrong);
+          },
+          changed.arrays[name].numbers);
+      Simulation other = scene.simulation(test::kLaws[1]);
+      try {
+        other.restore(changed);
+      } catch (const StateMismatch&) {
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plekton::dynamics
