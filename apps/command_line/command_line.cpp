@@ -126,6 +126,19 @@ fs::path default_folder(const Scenario& scenario) {
   return fs::path("out") / (is_input ? fs::path("stdin") : scenario.file.stem());
 }
 
+/// One problem after the name of the program, several below it. A line that begins with a blank
+/// goes on with the problem before it.
+void print_error(const std::string& text) {
+  std::istringstream lines(text);
+  std::string shown;
+  int problems = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(' ')) ++problems;
+    shown += geometry::printable(line) + '\n';
+  }
+  std::cerr << "plekton: " << (problems > 1 ? fmt::format("{} problems\n", problems) : "") << shown;
+}
+
 /// Runs a scenario, from its beginning or from a state.
 int run_aloud(const CommandLine& line, const Scenario& scenario, const fs::path& out,
               const Resumption* resume, Progress::Clock::time_point began) {
@@ -173,8 +186,10 @@ int resume_command(const CommandLine& line) {
 
 int run_command(const CommandLine& line) {
   if (!line.resume.empty()) return resume_command(line);
-  if (line.scenario.empty())
-    throw InputError("run: expected a scenario file, or --resume with the folder of a run");
+  if (line.scenario.empty()) {
+    print_error("run: expected a scenario file, or --resume with the folder of a run");
+    return kUsage;
+  }
   const auto began = Progress::Clock::now();
   const Scenario scenario = scenario_of(line);
   const fs::path out = line.out.empty() ? default_folder(scenario) : line.out;
@@ -309,19 +324,6 @@ CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
   command.add_option("--threads", line.threads, "Threads; the result does not depend on it")
       ->check(CLI::Range(1, 1024));
   return scenario;
-}
-
-/// One problem after the name of the program, several below it. A line that begins with a blank
-/// goes on with the problem before it.
-void print_error(const std::string& text) {
-  std::istringstream lines(text);
-  std::string shown;
-  int problems = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with(' ')) ++problems;
-    shown += geometry::printable(line) + '\n';
-  }
-  std::cerr << "plekton: " << (problems > 1 ? fmt::format("{} problems\n", problems) : "") << shown;
 }
 
 /// @returns whether the command line begins with a word that is no command, after saying so

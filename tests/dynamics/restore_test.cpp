@@ -106,7 +106,7 @@ TEST_P(Restore, IsNotSeenByASimulationWhoseStateIsTaken) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Restore, testing::ValuesIn(test::kLaws),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& law) { return std::string(law.param.name); });
 
 TEST(RestoreFiles, GoOnFromAFile) {
   const ReportedScene scene;

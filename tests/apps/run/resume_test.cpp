@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Scene{"tube", kSameBits, "12"}, Scene{"turn", kSameBits, "50"},
                     Scene{"glued", kScenes, "12"}, Scene{"rolling", kScenes, "60"},
                     Scene{"shells", kScenes, "25"}, Scene{"lattice", kScenes, "40"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& scene) { return std::string(scene.param.name); });
 
 }  // namespace
 }  // namespace plekton::apps

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run that is killed at any moment leaves whole files, and goes on to the bytes of one that was
+// not. PLEKTON_KILLS in the environment says how often (12 if it is not there).
+#include "apps/run/checkpoints.hpp"
+#include "tests/apps/command_line/program_fixture.hpp"
+#include "tests/support/seeded_random.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <regex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// Frames, rows and checkpoints every few steps.
+std::vector<std::string> arguments(const std::string& out) {
+  return {"run",
+          "tests/same_bits/scenes/catch.toml",
+          "--quiet",
+          "--out",
+          out,
+          "--set",
+          "simulation.duration=\"30 ms\"",
+          "--set",
+          "output.interval=\"0.3 ms\"",
+          "--set",
+          "output.history_interval=\"0.05 ms\"",
+          "--set",
+          "output.checkpoint_interval=\"0.4 ms\"",
+          "--set",
+          "output.contact_list=true"};
+}
+
+/// Everything but run.json, by its path in the folder.
+std::map<std::string, std::string> contents_of(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).string();
+    if (entry.is_regular_file() && name != "run.json")
+      contents[name] = test::bytes_of(entry.path());
+  }
+  return contents;
+}
+
+void expect_whole_files(const fs::path& folder) {
+  for (const auto& [name, bytes] : contents_of(folder)) {
+    if (name.ends_with(".csv")) {
+      EXPECT_TRUE(bytes.ends_with('\n')) << name;
+    }
+    if (!name.ends_with(".pvd")) continue;
+    const std::regex listed("file=\"([^\"]*)\"");
+    for (std::sregex_iterator it(bytes.begin(), bytes.end(), listed), end; it != end; ++it) {
+      const std::string frame = test::bytes_of(folder / (*it)[1].str());
+      EXPECT_NE(frame.find("</VTKFile>"), std::string::npos) << name << ": " << (*it)[1];
+    }
+  }
+}
+
+TEST(KilledRun, GoesOnToTheBytesOfOneThatWasNot) {
+  const test::TemporaryFolder folder;
+  const auto began = Clock::now();
+  ASSERT_EQ(Program(arguments((folder / "whole").string())).wait().exit_code, kDone);
+  const std::chrono::duration<double> whole_time = Clock::now() - began;
+  const auto whole = contents_of(folder / "whole");
+
+  const char* const asked = std::getenv("PLEKTON_KILLS");
+  const int kills = asked == nullptr ? 12 : std::atoi(asked);
+  test::Random random(17);
+  int resumed = 0;
+  for (int i = 0; i < kills; ++i) {
+    const std::string out = (folder / "killed").string();
+    fs::remove_all(out);
+    Program program(arguments(out));
+    std::this_thread::sleep_for(random.uniform(0.05, 1.0) * whole_time);
+    program.send(SIGKILL);
+    program.wait();
+    expect_whole_files(out);
+    if (checkpoints_of(out).empty()) continue;  // killed before the first: begins anew
+    ++resumed;
+    const Outcome outcome =
+        Program({"run", "--resume", out, "--quiet", "--threads", std::to_string(1 + i % 2)}).wait();
+    ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+    EXPECT_TRUE(contents_of(out) == whole) << "kill " << i;
+    if (HasFailure()) break;
+  }
+  RecordProperty("resumed", resumed);
+  std::cout << resumed << " of " << kills << " had a checkpoint and went on\n";
+  EXPECT_GT(2 * resumed, kills);
+}
+
+TEST(KilledRun, LeavesNoLockBehind) {
+  const test::TemporaryFolder folder;
+  const std::string out = (folder / "out").string();
+  Program program(arguments(out));
+  ASSERT_TRUE(Program::appears(fs::path(out) / "frames" / "grains_00005.vtp"));
+  const Outcome second = Program({"run", "--resume", out, "--quiet"}).wait();
+  program.send(SIGKILL);
+  program.wait();
+
+  EXPECT_EQ(second.exit_code, kFailed) << second.err;
+  EXPECT_EQ(Program({"run", "--resume", out, "--quiet"}).wait().exit_code, kDone);
+}
+
+TEST(InterruptedRun, WritesACheckpointAndSaysHowToGoOn) {
+  const test::TemporaryFolder folder;
+  const std::string out = (folder / "out").string();
+  std::vector<std::string> all = arguments(out);
+  std::erase(all, "--quiet");
+  for (std::string& argument : all)
+    if (argument.starts_with("output.checkpoint_interval")) argument = "output.hash_interval=100";
+  Program program(all);
+  ASSERT_TRUE(Program::appears(fs::path(out) / "frames" / "grains_00010.vtp"));
+  program.send(SIGTERM);
+  const Outcome outcome = program.wait();
+
+  EXPECT_EQ(outcome.exit_code, kInterrupted);
+  EXPECT_EQ(checkpoints_of(out).size(), 1U);
+  EXPECT_NE(outcome.out.find("plekton run --resume " + out), std::string::npos) << outcome.out;
+  EXPECT_EQ(Program({"run", "--resume", out, "--quiet"}).wait().exit_code, kDone);
+}
+
+}  // namespace
+}  // namespace plekton::apps
