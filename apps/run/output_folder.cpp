@@ -10,6 +10,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <vector>
 
 namespace plekton::apps {
 
@@ -35,6 +36,17 @@ void refuse_results(const fs::path& folder, std::string_view maker,
                             "--out, or replace them with --overwrite",
                             maker, file));
   }
+}
+
+void remove_parts(const fs::path& folder) {
+  std::vector<fs::path> parts;
+  for (const fs::path& place : {folder, folder / "frames", folder / kCheckpointFolder}) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(place, ignored))
+      if (entry.path().extension() == ".part") parts.push_back(entry.path());
+  }
+  std::error_code ignored;
+  for (const fs::path& part : parts) fs::remove(part, ignored);
 }
 
 void check_output_folder(const fs::path& folder, bool overwrite) {

@@ -25,6 +25,10 @@ inline constexpr std::array<std::string_view, 10> kResultFiles = {
 void refuse_results(const std::filesystem::path& folder, std::string_view maker,
                     std::span<const std::string_view> files);
 
+/// Removes what a run that was killed has left of files that it was writing. The folder has to be
+/// locked.
+void remove_parts(const std::filesystem::path& folder);
+
 /// Refuses a folder that another run writes to, and, unless it is to be overwritten, one that holds
 /// results of an earlier run. Nothing is created.
 /// @throws dynamics::OutputError

@@ -465,6 +465,7 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
   const OutputFolderLock lock(settings.out);
   const bool goes_on = settings.resume != nullptr && settings.resume->same_folder;
   if (!settings.overwrite && !goes_on) refuse_results(settings.out, "run", kResultFiles);
+  remove_parts(settings.out);
   if (!goes_on) remove_checkpoints(settings.out);
   std::error_code ignored;
   std::filesystem::remove(settings.out / "run.json", ignored);

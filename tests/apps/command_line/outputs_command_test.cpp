@@ -106,7 +106,7 @@ TEST_F(Outputs, ListTheContactsOfEveryFrameWithNumbersThatLast) {
   const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
   ASSERT_EQ(outcome.exit_code, kDone);
   EXPECT_THAT(outcome.out, HasSubstr("run.json, energy.csv, reactions.csv, contacts.csv, "
-                                     "scenario-as-run.toml, and for ParaView "));
+                                     "scenario-as-run.toml, checkpoints, and for ParaView "));
 
   const Table table(test::bytes_of(folder_ / "out/contacts.csv"));
 

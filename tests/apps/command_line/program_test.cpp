@@ -167,7 +167,8 @@ TEST_F(Command, RunRefusesAFolderThatHoldsResults) {
   const std::string energies = test::bytes_of(folder_ / "out/energy.csv");
   const std::string series = test::bytes_of(folder_ / "out/grains.pvd");
 
-  for (const std::string left : {"run.json", "energy.csv", "scenario-as-run.toml", "grains.pvd"}) {
+  for (const std::string left :
+       {"run.json", "energy.csv", "scenario-as-run.toml", "checkpoints", "grains.pvd"}) {
     const Outcome outcome =
         outcome_of({"run", scenario(), "--out", out(), "--set", "grains.gravel.count=10"});
 
@@ -178,7 +179,7 @@ TEST_F(Command, RunRefusesAFolderThatHoldsResults) {
       EXPECT_EQ(test::bytes_of(folder_ / "out/energy.csv"), energies);
     }
     EXPECT_EQ(test::bytes_of(folder_ / "out/grains.pvd"), series);
-    std::filesystem::remove(folder_ / "out" / left);
+    std::filesystem::remove_all(folder_ / "out" / left);
   }
 }
 

@@ -39,7 +39,7 @@ TEST_F(RunRecord, HasTheScenarioAsItWasRun) {
   EXPECT_THAT(copy(), HasSubstr("\n# --set grains.gravel.count=10\n"));
   EXPECT_THAT(copy(), HasSubstr("\n# --set simulation.threads=2\n"));
   EXPECT_THAT(copy(), HasSubstr("relative to " + folder_.path().string()));
-  EXPECT_THAT(outcome.out, HasSubstr("energy.csv, scenario-as-run.toml, and for ParaView"));
+  EXPECT_THAT(outcome.out, HasSubstr("energy.csv, scenario-as-run.toml, checkpoints, and for "));
 }
 
 TEST_F(RunRecord, IsThatOfTheLastRunIntoAFolder) {
