@@ -12,6 +12,7 @@
 #include "apps/command_line/step_advice.hpp"
 #include "apps/command_line/summary.hpp"
 #include "apps/command_line/verify_command.hpp"
+#include "apps/command_line/view_command.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scenario/closest_word.hpp"
@@ -29,6 +30,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -70,6 +72,9 @@ struct CommandLine {
   std::string from;
   std::vector<std::string> interval;
   std::string to;
+  fs::path run;
+  double limit = ViewArguments{}.limit;
+  std::optional<std::string> serve;
 };
 
 /// With the threads that are asked for.
@@ -81,6 +86,16 @@ std::vector<std::string> overrides_of(const CommandLine& line) {
 
 Scenario scenario_of(const CommandLine& line) {
   return read_scenario(line.scenario, overrides_of(line));
+}
+
+/// A word as a shell takes it: in quotes if there is anything in it that could mean something.
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+,:@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + '\'';
 }
 
 /// What a run has written to its folder.
@@ -158,10 +173,12 @@ int run_aloud(const CommandLine& line, const Scenario& scenario, const fs::path&
     for (const std::string& warning : report.warnings)
       std::cerr << "plekton: warning: " << warning << '\n';
   } else {
-    std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n';
+    std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n'
+              << "look at it: plekton view " << shell_word(out.string()) << '\n';
   }
   if (report.status != RunStatus::interrupted) return kDone;
-  if (!line.quiet) std::cout << "go on with: plekton run --resume " << out.string() << '\n';
+  if (!line.quiet)
+    std::cout << "go on with: plekton run --resume " << shell_word(out.string()) << '\n';
   return kInterrupted;
 }
 
@@ -311,6 +328,29 @@ int import_command(const CommandLine& line) {
   return kDone;
 }
 
+/// The port of --serve: kPort if only that is said. @throws InputError
+int port_option(const std::string& text) {
+  constexpr int kPort = 8317;
+  if (text.empty()) return kPort;
+  int port = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error != std::errc() || end != text.data() + text.size() || port < 0 || port > 65535)
+    throw InputError(fmt::format(
+        "--serve: got \"{}\"; expected a port from 1 to 65535, or 0 for any that is free", text));
+  return port;
+}
+
+int view_command(const CommandLine& line) {
+  ViewArguments arguments;
+  arguments.run = line.run;
+  if (!line.out.empty()) arguments.out = line.out;
+  arguments.limit = line.limit;
+  if (line.serve) arguments.port = port_option(*line.serve);
+  view_run(arguments, std::cout);
+  flush_output();
+  return kDone;
+}
+
 /// @returns that for the scenario
 CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
   CLI::Option* const scenario = command.add_option(
@@ -328,8 +368,8 @@ CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
 
 /// @returns whether the command line begins with a word that is no command, after saying so
 bool is_unknown_command(int argc, const char* const* argv) {
-  constexpr std::array<std::string_view, 6> kCommands = {"run",     "check",  "import",
-                                                         "inspect", "verify", "list"};
+  constexpr std::array<std::string_view, 7> kCommands = {"run",    "check", "import", "inspect",
+                                                         "verify", "list",  "view"};
   if (argc < 2) return false;
   const std::string_view word = argv[1];
   if (word.starts_with('-') ||
@@ -413,6 +453,21 @@ int dispatch(int argc, const char* const* argv) {
       ->check(CLI::Range(1, 1024));
   CLI::App* list =
       app.add_subcommand("list", "Say what a scenario can name, with parameters and defaults");
+  CLI::App* view = app.add_subcommand("view", "Write a page that shows a run in a browser");
+  view->add_option("run", line.run, "Folder that plekton run wrote to")->required();
+  auto* view_out =
+      view->add_option("--out", line.out, "File to write; view.html in that folder if not given");
+  view->add_option("--limit", line.limit,
+                   "Most data in MB; of more, every second frame is left out, and so on")
+      ->check(CLI::Range(0.1, 4000.0))
+      ->capture_default_str();
+  std::string port;
+  auto* serve = view->add_option("--serve", port,
+                                 "Show it at http://127.0.0.1:PORT instead, to this machine only, "
+                                 "and follow it while it runs; port 8317 if not given")
+                    ->expected(0, 1)
+                    ->type_name("[PORT]")
+                    ->excludes(view_out);
 
   try {
     app.parse(argc, argv);
@@ -423,6 +478,8 @@ int dispatch(int argc, const char* const* argv) {
   if (list->parsed()) return list_command();
   if (inspect->parsed()) return inspect_command(line);
   if (verify->parsed()) return verify_command(line);
+  if (serve->count() > 0) line.serve = port;
+  if (view->parsed()) return view_command(line);
   return check->parsed() ? check_command(line) : import_command(line);
 }
 

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/viewer/run_folder.hpp"
+
+#include "apps/viewer/view_error.hpp"
+#include "geometry/base/regular_file.hpp"
+#include "geometry/mesh/io/xml_elements.hpp"
+#include "geometry/mesh/mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <system_error>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A number as C++ writes it, also inf and nan; nothing for anything else.
+std::optional<double> number_of(std::string_view text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::string bytes_of(const fs::path& file, std::string_view expected) {
+  try {
+    return geometry::read_regular_file(file, expected);
+  } catch (const geometry::UnreadableFile& error) {
+    throw ViewError(error.what());
+  }
+}
+
+/// Adds the data sets of a series to the moments that they show.
+void read_series(const fs::path& file, std::size_t series, std::map<double, FrameFiles>& frames) {
+  const std::string bytes = bytes_of(file, "a series of frames (.pvd)");
+  std::vector<geometry::XmlElement> elements;
+  try {
+    elements = geometry::read_xml(bytes, file.string(), "VTKFile");
+  } catch (const geometry::MeshError&) {
+    throw ViewError(file.string() +
+                    ": is no series of frames, or only a part of one; repeat the run, or move the "
+                    "file away to see the rest");
+  }
+  for (const geometry::XmlElement& element : elements) {
+    if (element.name != "DataSet") continue;
+    const auto time = number_of(element.attribute("timestep"));
+    const std::string_view name = element.attribute("file");
+    if (!time || !std::isfinite(*time) || name.empty())
+      throw ViewError(fmt::format("{}: line {}: names no time and file; repeat the run",
+                                  file.string(), element.line));
+    FrameFiles& frame = frames[*time];
+    frame.time = *time;
+    frame.of[series] = file.parent_path() / fs::path(name);
+  }
+}
+
+std::optional<nlohmann::ordered_json> read_report(const fs::path& file) {
+  if (std::error_code ignored; !fs::exists(file, ignored)) return std::nullopt;
+  auto report =
+      nlohmann::ordered_json::parse(bytes_of(file, "the report of a run (.json)"), nullptr, false);
+  if (!report.is_object() || !report.contains("plekton"))
+    throw ViewError(file.string() + ": is no report of a run of plekton; name the folder of a run");
+  return report;
+}
+
+/// "force (N)" is force in N.
+History::Column column_of(std::string_view head) {
+  const std::size_t unit = head.rfind(" (");
+  if (unit == std::string_view::npos || !head.ends_with(')')) return {std::string(head), "", {}};
+  return {std::string(head.substr(0, unit)),
+          std::string(head.substr(unit + 2, head.size() - unit - 3)),
+          {}};
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+void add_row(std::string_view line, std::size_t number, const fs::path& file, History& history) {
+  const auto cells = cells_of(line);
+  bool fits = cells.size() == history.columns.size();
+  for (std::size_t i = 0; fits && i < cells.size(); ++i) {
+    const auto value = number_of(cells[i]);
+    fits = value.has_value();
+    if (fits) history.columns[i].values.push_back(*value);
+  }
+  if (!fits)
+    throw ViewError(
+        fmt::format("{}: line {}: expected {} numbers; repeat the run, or move the "
+                    "file away to see the rest",
+                    file.string(), number, history.columns.size()));
+}
+
+}  // namespace
+
+RunFolder open_run_folder(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored))
+    throw ViewError(folder.string() + (fs::exists(folder, ignored)
+                                           ? ": is no folder; name the folder of a run"
+                                           : ": there is no such folder; name the folder of a run, "
+                                             "as plekton run says it at its end"));
+  RunFolder run;
+  run.folder = folder;
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  run.title = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  run.report = read_report(folder / "run.json");
+  std::map<double, FrameFiles> frames;
+  bool has_series = false;
+  for (std::size_t series = 0; series < kSeries.size(); ++series) {
+    const fs::path file = folder / fmt::format("{}.pvd", kSeries[series]);
+    if (!fs::exists(file, ignored)) continue;
+    has_series = true;
+    read_series(file, series, frames);
+  }
+  if (!run.report && !has_series)
+    throw ViewError(folder.string() +
+                    ": holds no run: neither run.json nor frames are in it; name the folder that "
+                    "plekton run wrote to");
+  for (auto& [time, frame] : frames) run.frames.push_back(std::move(frame));
+  if (const fs::path file = folder / "planes.csv"; fs::exists(file, ignored))
+    run.planes = read_history(file);
+  return run;
+}
+
+std::vector<std::array<double, 6>> planes_at(const RunFolder& run, double time) {
+  std::vector<std::array<double, 6>> planes;
+  if (!run.planes || run.planes->rows() == 0) return planes;
+  const auto& columns = run.planes->columns;
+  const std::vector<double>& times = columns.front().values;
+  std::size_t row = 0;
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (std::abs(times[i] - time) < std::abs(times[row] - time)) row = i;
+  for (std::size_t first = 1; first + 6 <= columns.size(); first += 6) {
+    std::array<double, 6> plane;
+    for (std::size_t k = 0; k < 6; ++k) plane[k] = columns[first + k].values[row];
+    planes.push_back(plane);
+  }
+  return planes;
+}
+
+History read_history(const fs::path& file) {
+  const std::string bytes = bytes_of(file, "a history (.csv)");
+  History history;
+  history.file = file.filename().string();
+  std::string_view rest = bytes;
+  for (std::size_t number = 1;; ++number) {
+    const std::size_t end = rest.find('\n');
+    if (end == std::string_view::npos) return history;  // being written, or at the end
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(end + 1);
+    if (number > 1) {
+      add_row(line, number, file, history);
+      continue;
+    }
+    for (const std::string_view head : cells_of(line)) history.columns.push_back(column_of(head));
+    if (history.columns.front().name != "time")
+      throw ViewError(file.string() +
+                      ": is no history of plekton: its first column is not the time; move the "
+                      "file away to see the rest");
+  }
+}
+
+std::vector<History> read_histories(const fs::path& folder) {
+  std::vector<History> histories;
+  for (const std::string_view name : kHistories) {
+    if (std::error_code ignored; !fs::exists(folder / name, ignored)) continue;
+    History history = read_history(folder / name);
+    if (history.rows() > 0) histories.push_back(std::move(history));
+  }
+  return histories;
+}
+
+}  // namespace plekton::apps
