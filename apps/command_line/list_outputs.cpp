@@ -2,6 +2,7 @@
 #include "apps/command_line/list_outputs.hpp"
 
 #include "apps/run/history.hpp"
+#include "apps/run/plane_places.hpp"
 #include "apps/run/pressures.hpp"
 #include "apps/run/reactions.hpp"
 #include "dynamics/output/contact_fields.hpp"
@@ -35,6 +36,7 @@ void list_outputs(std::ostream& out) {
             reaction_fields(), out);
   list_file("pressures.csv, every `history_interval`, for each load of kind pressure",
             pressure_fields(), out);
+  list_file("planes.csv, every `interval`, for each of [[planes]]", plane_fields(), out);
   list_file("grains.pvd, every `interval`: points", kOfGrains, out);
   list_file("membranes.pvd, every `interval`: points", kOfNodes, out);
   list_file("membranes.pvd: lines and facets; what one of them has not is 0", kOfCells, out);

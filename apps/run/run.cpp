@@ -5,6 +5,7 @@
 #include "apps/run/history.hpp"
 #include "apps/run/lost_grains.hpp"
 #include "apps/run/output_folder.hpp"
+#include "apps/run/plane_places.hpp"
 #include "apps/run/pressures.hpp"
 #include "apps/run/reactions.hpp"
 #include "apps/run/refused_self_contact.hpp"
@@ -67,6 +68,7 @@ class Run {
         history_(settings.out, before()),
         reactions_(settings.out, prepared.built.reactions, before()),
         pressures_(settings.out, scenario, before()),
+        planes_(settings.out, scenario, before()),
         progress_(settings.progress, settings.style, scenario.simulation.duration) {
     report_.warnings = prepared.built.warnings;
     report_.states = StateHashes(scenario.output.hash_interval);
@@ -142,6 +144,7 @@ class Run {
     history_.flush();
     reactions_.flush();
     pressures_.flush();
+    planes_.flush();
     next_checkpoint_ = std::max(next_checkpoint_ + checkpoint_interval(), simulation_.time());
     geometry::StateTree state = simulation_.snapshot();
     const auto archive = geometry::StateArchive::writer(state).group(kRunGroup);
@@ -151,6 +154,7 @@ class Run {
     history_.tell(files);
     reactions_.tell(files);
     pressures_.tell(files);
+    planes_.tell(files);
     exchange_files(archive, files);
     ScenarioText text = text_of(scenario_);
     text.exchange(archive);
@@ -253,9 +257,11 @@ class Run {
 
   void write_frame() {
     frames_.write(simulation_);
+    planes_.add(simulation_);
     history_.flush();
     reactions_.flush();
     pressures_.flush();
+    planes_.flush();
     last_frame_step_ = simulation_.steps();
   }
 
@@ -270,6 +276,7 @@ class Run {
     history_.close();
     reactions_.close();
     pressures_.close();
+    planes_.close();
   }
 
   void watch_time_step() {
@@ -361,6 +368,7 @@ class Run {
   History history_;
   Reactions reactions_;
   Pressures pressures_;
+  PlanePlaces planes_;
   Progress progress_;
   RunReport report_;
   Progress::Clock::time_point start_ = Progress::Clock::now();

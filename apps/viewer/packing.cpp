@@ -147,6 +147,7 @@ std::uint16_t half_of(double value) noexcept {
   if (std::isnan(value)) return 0x7e00;
   const std::uint16_t sign = std::signbit(value) ? 0x8000 : 0;
   const double size = std::min(std::abs(value), kLargestHalf);
+  if (size == 0.0) return sign;
   int exponent = 0;
   const double fraction = std::frexp(size, &exponent);  // in [0.5, 1), times 2^exponent
   long bits = 0;

@@ -11,6 +11,7 @@ export class Histories {
     this.element = element;
     this.seek = seek;
     this.time = 0;
+    this.timeUnit = [1, 's'];
     this.plot = null;
     new ResizeObserver(() => this.resize()).observe(element);
   }
@@ -32,7 +33,8 @@ export class Histories {
       for (const s of series) if (s.unit === unit) for (const v of s.values) if (Math.abs(v) > most) most = Math.abs(v);
       return [unit, shortUnit(most, unit)];
     }));
-    const data = [Float64Array.from(times), ...series.map((s) => Array.from(s.values, (v) => {
+    const [second, timeUnit] = this.timeUnit = shortUnit(times[times.length - 1], 's');
+    const data = [Float64Array.from(times, (t) => t / second), ...series.map((s) => Array.from(s.values, (v) => {
       const x = v / factors[s.unit][0];
       return Number.isFinite(x) && (!logarithmic || x > 0) ? x : null;
     }))];
@@ -40,22 +42,22 @@ export class Histories {
     const options = {
       ...this.size(),
       scales: { x: { time: false }, ...Object.fromEntries(units.map((u) => ['u' + u, logarithmic ? { distr: 3 } : {}])) },
-      axes: [{ ...axis, size: 26, values: (_, v) => v.map((t) => short(t, 6) + ' s') },
+      axes: [{ ...axis, size: 26, values: (_, v) => v.map((t) => `${short(t, 6)} ${timeUnit}`) },
         ...units.slice(0, 2).map((unit, k) => ({ ...axis, scale: 'u' + unit, side: k ? 1 : 3, size: 62, grid: k ? { show: false } : axis.grid,
           values: (_, v) => v.map((x) => (x === null ? '' : short(x, 6) + (factors[unit][1] ? ' ' + factors[unit][1] : ''))) }))],
-      series: [{ label: 'time', value: (_, v) => (v === null ? '–' : short(v, 5) + ' s') }, ...series.map((s, i) => ({
+      series: [{ label: 'time', value: (_, v) => (v === null ? '–' : `${short(v, 5)} ${timeUnit}`) }, ...series.map((s, i) => ({
         label: s.name, scale: 'u' + s.unit, stroke: kColours[i % kColours.length], width: 1.6, spanGaps: false, points: { show: times.length < 60, size: 4 },
         value: (_, v) => (v === null ? '–' : short(v, 4) + ' ' + factors[s.unit][1]),
       }))],
       legend: { show: true, live: true },
       cursor: { drag: { x: false, y: false } },
-      hooks: { draw: [(u) => this.marker(u)], ready: [() => this.setTime(this.time)], setCursor: [(u) => { if (u.cursor.left < 0) u.setLegend({ idx: u.valToIdx(this.time) }); }] },
+      hooks: { draw: [(u) => this.marker(u)], ready: [() => this.setTime(this.time)], setCursor: [(u) => { if (u.cursor.left < 0) u.setLegend({ idx: u.valToIdx(this.time / this.timeUnit[0]) }); }] },
     };
     this.plot = new uPlot(options, data, this.element);
     const go = (event) => {
       if (event.buttons !== 1 && event.type !== 'click') return;
       const left = event.clientX - this.plot.over.getBoundingClientRect().left;
-      this.seek(this.plot.posToVal(left, 'x'));
+      this.seek(this.plot.posToVal(left, 'x') * this.timeUnit[0]);
     };
     this.plot.over.addEventListener('click', go);
     this.plot.over.addEventListener('pointermove', go);
@@ -64,7 +66,7 @@ export class Histories {
 
   /** The line at the time of the frame that is shown. */
   marker(u) {
-    const x = u.valToPos(this.time, 'x', true), { ctx, bbox } = u;
+    const x = u.valToPos(this.time / this.timeUnit[0], 'x', true), { ctx, bbox } = u;
     if (!(x >= bbox.left - 1 && x <= bbox.left + bbox.width + 1)) return;
     ctx.save();
     ctx.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue('--accent');
@@ -79,7 +81,7 @@ export class Histories {
   setTime(time) {
     this.time = time;
     if (!this.plot?.status) return;   // it is drawn a moment after it is made
-    this.plot.setLegend({ idx: this.plot.valToIdx(time) });
+    this.plot.setLegend({ idx: this.plot.valToIdx(time / this.timeUnit[0]) });
     this.plot.redraw(false);
   }
 }

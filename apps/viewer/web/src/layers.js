@@ -97,6 +97,8 @@ export const facets = (paint) =>
   new Instances(paint, kSides, { corner_0: 4, corner_1: 3, corner_2: 3, values: 3, normal_0: 3, normal_1: 3, normal_2: 3 },
     shaders.facetVertex, shaders.facetFragment, THREE.DoubleSide);
 
+const kWalls = 12;   // as many as the shader has room for
+
 /** A rigid half-space, as a rectangle with a grid. */
 export class Plane {
   constructor() {
@@ -106,10 +108,11 @@ export class Plane {
       ghost: { value: 1 },
       plain: { value: new THREE.Color() }, grid: { value: new THREE.Color() },
       size: { value: new THREE.Vector2(1, 1) }, shift: { value: new THREE.Vector2() }, spacing: { value: 1 },
+      walls: { value: Array.from({ length: kWalls }, () => new THREE.Vector4()) }, wall_count: { value: 0 }, slack: { value: 0 },
     };
     const material = (side) => new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3, vertexShader: shaders.planeVertex, fragmentShader: shaders.planeFragment,
-      uniforms: this.uniforms, side, transparent: side === THREE.BackSide, depthWrite: side === THREE.FrontSide,
+      uniforms: this.uniforms, side, defines: side === THREE.BackSide ? { BACK: 1 } : {}, transparent: side === THREE.BackSide, depthWrite: side === THREE.FrontSide,
     });
     const geometry = new THREE.PlaneGeometry(2, 2);
     this.group = new THREE.Group();
@@ -139,5 +142,17 @@ export class Plane {
     this.uniforms.size.value.set((u1 - u0) / 2, (v1 - v0) / 2);
     this.uniforms.shift.value.set((u0 + u1) / 2, (v0 + v1) / 2);
     this.uniforms.spacing.value = spacing;
+    this.uniforms.slack.value = 1e-4 * box.min.distanceTo(box.max);
+  }
+
+  /** Ends it where it meets other planes, given as [point, normal] (six numbers), as the camera sees them. */
+  endAt(others, viewMatrix) {
+    const { walls, wall_count } = this.uniforms;
+    wall_count.value = Math.min(others.length, kWalls);
+    others.slice(0, kWalls).forEach((plane, i) => {
+      const n = new THREE.Vector3(...plane.slice(3)).transformDirection(viewMatrix);
+      const p = new THREE.Vector3(...plane.slice(0, 3)).applyMatrix4(viewMatrix);
+      walls.value[i].set(n.x, n.y, n.z, -n.dot(p));
+    });
   }
 }

@@ -41,6 +41,7 @@ class Page {
     this.chosen = { file: null, columns: new Set(), logarithmic: false, element: null };
     this.histories = new Histories($('plot'), (time) => this.goTo(this.frameAt(time)));
     stage.onDraw.push(() => this.overlay());
+    stage.beforeDraw.push(() => this.view.look());
   }
 
   firstKey(part) {
@@ -95,6 +96,7 @@ class Page {
 
   applyColours() {
     for (const part of kParts) {
+      if (this.sections?.[part]?.map) this.sections[part].map.value = this.mapOf(part);
       const choice = this.choice(part), c = this.colours[part];
       this.view.settings[part].field = choice;
       const mode = !choice ? 0 : this.isCategory(choice) ? 3 : c.mode === 'log' ? 2 : 1;
@@ -117,9 +119,12 @@ class Page {
     this.frame = k;
     $('slider').value = k;
     const { time } = this.run.frames[k];
-    const [factor, unit] = shortUnit(this.run.frames.at(-1).time, 's');
-    $('moment').textContent = `${(time / factor).toPrecision(4)} ${unit} · ${k + 1} / ${this.run.frames.length}`;
-    $('clock').textContent = `${(time / factor).toPrecision(4)} ${unit}`;
+    const end = this.run.frames.at(-1).time, [factor, unit] = shortUnit(end, 's');
+    // As many digits in every frame, so that they stand still while it plays.
+    const decimals = Math.min(Math.max(3 - Math.floor(Math.log10(end / factor || 1) - 1e-9), 0), 9);
+    const moment = `${(time / factor).toFixed(decimals)} ${unit}`;
+    $('moment').textContent = `${moment} · ${k + 1} / ${this.run.frames.length}`;
+    $('clock').textContent = moment;
     this.histories.setTime(time);
     const shown = await this.view.show(k);
     if (!shown) return;
@@ -288,8 +293,11 @@ class Page {
       } });
       content.push(row('thickness', thick), el('div', { className: 'hint' }, 'Lines join the centres of grains. They are as thick as the normal force is large.'));
     }
-    if (part === 'membranes') content.push(row('mesh', el('input', { type: 'checkbox', checked: settings.mesh, style: 'justify-self:start', onchange: (e) => { settings.mesh = e.target.checked; this.view.build(); } })));
-    return this.section(part, kTitles[part], '', content);
+    if (part === 'membranes') content.push(row('mesh lines', el('input', { type: 'checkbox', checked: settings.mesh, style: 'justify-self:start', onchange: (e) => { settings.mesh = e.target.checked; this.view.build(); } })));
+    const section = this.section(part, kTitles[part], '', content);
+    this.sections[part].map = map;
+    map.value = this.mapOf(part);
+    return section;
   }
 
   counts() {
@@ -303,10 +311,10 @@ class Page {
 
   sliceSection() {
     const s = this.view.settings.slice;
-    const apply = () => { this.view.applySlice(); this.stage.change(); this.showSlice(); };
+    const apply = () => { this.stage.change(); this.showSlice(); };
     const axis = el('select', { ariaLabel: 'Axis of the slice', onchange: () => { s.axis = Number(axis.value); this.startSlice(true); apply(); } },
       ...['x', 'y', 'z'].map((a, k) => el('option', { value: k, selected: k === s.axis }, 'across ' + a)));
-    const side = el('button', { onclick: () => { s.turned = !s.turned; apply(); } }, 'other side');
+    const side = el('button', { onclick: () => { s.turned = !s.turned; apply(); } }, 'flip');
     this.sliceInput = el('input', { type: 'range', min: 0, max: 1, step: 0.001, value: 0.5, ariaLabel: 'Place of the slice', oninput: () => {
       const box = this.view.homeBox, k = s.axis;
       s.at = box.min.getComponent(k) + Number(this.sliceInput.value) * (box.max.getComponent(k) - box.min.getComponent(k));
@@ -323,7 +331,6 @@ class Page {
     if (anew || this.sideChosen === undefined) s.turned = this.stage.camera.position.getComponent(s.axis) < this.stage.controls.target.getComponent(s.axis);
     this.sideChosen = true;
     if (this.sliceInput) this.sliceInput.value = (s.at - box.min.getComponent(s.axis)) / (box.max.getComponent(s.axis) - box.min.getComponent(s.axis) || 1);
-    this.view.applySlice();
     this.showSlice();
   }
 
@@ -347,7 +354,8 @@ class Page {
 
   async pickAt(x, y) {
     const ray = this.stage.rayAt(x, y);
-    const hit = this.view.pick(ray);
+    // Who misses a thin wire by some pixels meant it all the same.
+    const hit = this.view.pick(ray) ?? this.view.pick(ray, 6 * this.stage.pixelLength);
     await this.view.select(hit);
     this.chosen.element = null;
     await this.showPicked();
@@ -485,13 +493,13 @@ class Page {
   }
 
   // --- tools ---
-  async home() { await this.view.home(); this.view.applySlice(); this.view.fillPlanes(); this.stage.change(); }
-  parallel() { this.stage.setParallel(this.stage.camera === this.stage.perspective); this.view.applySlice(); this.stage.change(); }
+  async home() { await this.view.home(); this.view.fillPlanes(); this.stage.change(); }
+  parallel() { this.stage.setParallel(this.stage.camera === this.stage.perspective); this.stage.change(); }
   dark(on = !document.documentElement.classList.contains('dark')) {
     document.documentElement.classList.toggle('dark', on);
     this.view.dark = on;
     if (on) this.stage.setSky([0.17, 0.185, 0.205], [0.075, 0.082, 0.092]);
-    else this.stage.setSky([0.985, 0.988, 0.992], [0.80, 0.83, 0.865]);
+    else this.stage.setSky();
     this.view.fillPlanes();
     if (this.chosen.element) this.elementHistory(this.chosen.element); else this.choosePlot();
   }
@@ -514,7 +522,6 @@ class Page {
 
   look(direction) {
     this.stage.frame(this.view.homeBox, direction, this.view.places);
-    this.view.applySlice();
   }
 
   keys(event) {
@@ -562,7 +569,6 @@ class Page {
     $('toggle-plot').addEventListener('click', () => this.togglePlot());
     $('open-panel').addEventListener('click', () => this.togglePanel());
     window.addEventListener('keydown', (event) => this.keys(event));
-    this.stage.controls.addEventListener('change', () => this.view.applySlice());
     const canvas = $('canvas');
     let down = null;
     canvas.addEventListener('pointerdown', (e) => { down = { x: e.clientX, y: e.clientY, at: e.timeStamp, many: !e.isPrimary }; canvas.focus({ preventScroll: true }); });
@@ -660,8 +666,8 @@ async function main() {
     stage.resize();   // now that there is what is beside the scene
     await page.view.show(0);
     await page.home();
-    const options = await applyAddress(page);
     await page.loadHistories();
+    const options = await applyAddress(page);
     say('');
     if (options.has('self-check')) await window.plektonSelfCheck();
     if (run.live) page.follow();

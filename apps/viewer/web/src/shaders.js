@@ -260,6 +260,9 @@ void main() {
 export const planeFragment = kCommon + `
 uniform float spacing;
 uniform vec3 grid;
+uniform vec4 walls[12];     // the other planes: what is behind one of them is not shown
+uniform int wall_count;
+uniform float slack;
 in vec3 in_view;
 in vec2 on_plane;
 in vec2 rim;
@@ -270,12 +273,18 @@ float lines(float every) {
 }
 void main() {
   if (is_cut_off(in_view)) discard;
+  for (int i = 0; i < wall_count; i++)
+    if (dot(walls[i].xyz, in_view) + walls[i].w < -slack) discard;
   float line = max(lines(spacing), 0.45 * lines(spacing / 5.0));
   vec2 d = (1.0 - abs(rim)) / (fwidth(rim) * 1.2);
   line = max(line, 1.0 - min(min(d.x, d.y), 1.0));
   gl_FragDepth = gl_FragCoord.z;
-  if (gl_FrontFacing) shown = vec4(mix(plain, grid, 0.5 * line), 1.0);
-  else { if (line < 0.05) discard; shown = vec4(grid, 0.28 * line); }
+#ifdef BACK
+  if (line < 0.05) discard;
+  shown = vec4(grid, 0.28 * line);
+#else
+  shown = vec4(mix(plain, grid, 0.5 * line), 1.0);
+#endif
 }`;
 
 export const screenVertex = `

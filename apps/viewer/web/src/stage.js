@@ -6,7 +6,8 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import * as shaders from './shaders.js';
 import { shared } from './layers.js';
 
-const kPictures = 24;      // averaged; more change nothing that can be seen
+const kPictures = 24;          // averaged; more change nothing that can be seen
+const kPicturesInSoftware = 8; // where no graphics card helps, of scenes of some thousand elements; of larger ones fewer
 const kFieldOfView = 32;   // degrees, that of a short telephoto lens: little distortion
 
 function screenPass(fragmentShader, uniforms, options = {}) {
@@ -51,7 +52,8 @@ export class Stage {
     this.controls.addEventListener('start', () => { this.framed = null; });
     this.reach = 1;        // size of what is seen, set by frame()
     this.box = new THREE.Box3(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
-    this.onDraw = [];
+    this.onDraw = [];      // called after a picture is shown
+    this.beforeDraw = [];  // called before it is drawn, when the camera stands
     const none = { value: null };
     this.shade = screenPass(shaders.shadeFragment, {
       scene: { ...none }, depth: { ...none }, unproject: { value: new THREE.Matrix4() }, pixels: { value: new THREE.Vector2() },
@@ -60,18 +62,23 @@ export class Stage {
     }, { transparent: true, blending: THREE.CustomBlending, blendSrc: THREE.SrcAlphaFactor, blendDst: THREE.OneMinusSrcAlphaFactor });
     this.copy = screenPass(shaders.copyFragment, { scene: { ...none } });
     const averages = this.renderer.getContext().getExtension('EXT_color_buffer_float') !== null;
-    this.pictures = averages ? kPictures : 1;
+    this.most = averages ? kPictures : 1;
+    const gl = this.renderer.getContext(), info = gl.getExtension('WEBGL_debug_renderer_info');
+    const drawnBy = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
+    this.inSoftware = /swiftshader|llvmpipe|software|basic render/i.test(drawnBy);
+    this.elements = 0;   // that are drawn, set by who fills the scene
     this.target = null;
     this.average = null;
     this.done = 0;
-    this.setSky([0.985, 0.988, 0.992], [0.85, 0.87, 0.895]);
+    this.setSky();
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.resize();
     const loop = () => { requestAnimationFrame(loop); this.tick(); };
     requestAnimationFrame(loop);
   }
 
-  setSky(top, bottom) {
+  /** Light enough for dark colours and dark enough for light ones, if nothing else is said. */
+  setSky(top = [0.945, 0.952, 0.96], bottom = [0.755, 0.785, 0.82]) {
     this.shade.uniforms.sky_top.value.setRGB(...top);
     this.shade.uniforms.sky_bottom.value.setRGB(...bottom);
     this.change();
@@ -94,7 +101,7 @@ export class Stage {
     const depthTexture = new THREE.DepthTexture(w, h, THREE.FloatType);
     const near = { minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter, generateMipmaps: false };
     this.target = new THREE.WebGLRenderTarget(w, h, { ...near, depthTexture });
-    this.average = new THREE.WebGLRenderTarget(w, h, { ...near, depthBuffer: false, type: this.pictures > 1 ? THREE.HalfFloatType : THREE.UnsignedByteType });
+    this.average = new THREE.WebGLRenderTarget(w, h, { ...near, depthBuffer: false, type: this.most > 1 ? THREE.HalfFloatType : THREE.UnsignedByteType });
     this.shade.uniforms.scene.value = this.target.texture;
     this.shade.uniforms.depth.value = depthTexture;
     this.shade.uniforms.pixels.value.set(w, h);
@@ -102,6 +109,12 @@ export class Stage {
     // Who has not moved the view yet sees all of the scene in a window of another size too.
     if (this.framed) this.frame(...this.framed);
     this.change();
+  }
+
+  /** Pictures that are averaged. */
+  get pictures() {
+    if (!this.inSoftware) return this.most;
+    return Math.min(this.most, Math.max(1, Math.round(kPicturesInSoftware * Math.min(1, 10000 / (this.elements + 1)))));
   }
 
   get distance() { return this.camera.position.distanceTo(this.controls.target); }
@@ -220,6 +233,7 @@ export class Stage {
   picture() {
     const { camera, renderer } = this;
     this.fitCamera();
+    for (const hear of this.beforeDraw) hear();
     const w = this.canvas.width, h = this.canvas.height;
     if (this.done > 0) {
       camera.setViewOffset(w, h, halton(this.done, 2) - 0.5, halton(this.done, 3) - 0.5, w, h);

@@ -172,6 +172,7 @@ export class View {
     this.fillContacts();
     this.fillPlanes();
     this.fillPicked();
+    this.stage.elements = Object.values(this.shapes).reduce((sum, shape) => sum + shape.geometry.instanceCount, 0);
     this.stage.change();
   }
 
@@ -223,7 +224,7 @@ export class View {
       f.corner_0[4 * i + 3] = data.facetRadius[i];
     }
     const u = this.paint.membranes.uniforms;
-    u.mesh_lines.value = mesh ? 0.3 : 0;
+    u.mesh_lines.value = mesh ? 0.25 : 0;
     u.ghost.value = opacity;
     this.shapes.edges.end();
     this.shapes.facets.end();
@@ -337,6 +338,15 @@ export class View {
     });
   }
 
+  /** Called before every picture, for what depends on the view. */
+  look() {
+    const planes = this.run.frames[this.frame].planes ?? [];
+    this.applySlice();
+    this.planes.forEach((plane, i) => {
+      if (plane.group.visible) plane.endAt(planes.filter((_, k) => k !== i), this.stage.camera.matrixWorldInverse);
+    });
+  }
+
   /** Box around what there is in a frame, without the few grains that are far off. */
   boxOf(data) {
     const box = new THREE.Box3();
@@ -373,7 +383,7 @@ export class View {
     const s = box.getSize(new THREE.Vector3()), most = Math.max(s.x, s.y, s.z);
     if (most === 0) box.expandByScalar(1);
     // A sheet or net is looked at from the front.
-    const direction = s.z < 0.1 * most ? new THREE.Vector3(-0.25, -0.62, 1)
+    const direction = s.z < 0.1 * most ? new THREE.Vector3(0, -0.55, 1)
       : s.y < 0.1 * most ? new THREE.Vector3(-0.3, -1, 0.2) : s.x < 0.1 * most ? new THREE.Vector3(1, -0.3, 0.2)
       : new THREE.Vector3(-0.55, -1, 0.55);
     this.stage.frame(box, direction, this.places);
@@ -396,8 +406,11 @@ export class View {
     return on && (turned ? p[axis] < at : p[axis] > at);
   }
 
-  /** The first element along a ray: {part, index, ...}; nothing if there is none. */
-  pick(ray) {
+  /**
+   * The first element along a ray: {part, index, ...}; nothing if there is none.
+   * @param slack  m, by which wires and lines of contacts are taken to be thicker
+   */
+  pick(ray, slack = 0) {
     const o = ray.origin.toArray(), d = ray.direction.toArray(), { data, settings } = this;
     let best = null, nearest = Infinity;
     const { on, axis, at } = settings.slice;
@@ -427,12 +440,12 @@ export class View {
       }
       const bare = triangles.length ? 0.985 : 1;
       for (let i = 0; i < edges.length / 2; i++)
-        offer(throughCapsule(o, d, node(edges[2 * i]), node(edges[2 * i + 1]), bare * data.edgeRadius[i]), { part: 'membranes', on: 'edges', index: i });
+        offer(throughCapsule(o, d, node(edges[2 * i]), node(edges[2 * i + 1]), bare * data.edgeRadius[i] + slack), { part: 'membranes', on: 'edges', index: i });
     }
     if (settings.contacts.shown && data.contacts) {
       const top = this.forceTop();
       this.contactLines().forEach((line, i) => {
-        if (line && data.contacts.force[i] > 0) offer(throughCapsule(o, d, ...line, this.thickest * Math.min(data.contacts.force[i] / top, 1.5)), { part: 'contacts', on: 'contacts', index: i });
+        if (line && data.contacts.force[i] > 0) offer(throughCapsule(o, d, ...line, slack + this.thickest * Math.min(data.contacts.force[i] / top, 1.5)), { part: 'contacts', on: 'contacts', index: i });
       });
     }
     return best && { ...best, ...this.identity(best) };
