@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/viewer/run_folder.hpp"
+
+#include "apps/viewer/view_error.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint_about(const std::filesystem::path& folder) {
+  try {
+    open_run_folder(folder);
+  } catch (const ViewError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RunFolder, SaysWhatIsNoFolderOfARun) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(complaint_about(folder / "none"), HasSubstr("there is no such folder"));
+  EXPECT_THAT(complaint_about(folder.path()), HasSubstr("holds no run"));
+  test::write_bytes(folder / "file", "");
+  EXPECT_THAT(complaint_about(folder / "file"), HasSubstr("is no folder"));
+  test::write_bytes(folder / "run.json", "{\"name\": \"else\"}");
+  EXPECT_THAT(complaint_about(folder.path()), HasSubstr("is no report of a run"));
+  test::write_bytes(folder / "run.json", "{\"plekton\": \"0.1.0\"");
+  EXPECT_THAT(complaint_about(folder.path()), HasSubstr("is no report of a run"));
+}
+
+TEST(RunFolder, SaysWhatIsNoSeries) {
+  const test::TemporaryFolder folder;
+  for (const std::string bytes : {"", "time (s),x\n", "<VTKFile><Collection>",
+                                  "<VTKFile><DataSet timestep=\"1 s\" file=\"a\"/></VTKFile>",
+                                  "<VTKFile><DataSet timestep=\"nan\" file=\"a\"/></VTKFile>"}) {
+    test::write_bytes(folder / "grains.pvd", bytes);
+    EXPECT_THAT(complaint_about(folder.path()), HasSubstr("grains.pvd: ")) << bytes;
+  }
+}
+
+TEST(RunFolder, PutsTogetherWhatSeriesHaveOfAMoment) {
+  const test::TemporaryFolder folder;
+  const std::string head = "<VTKFile><Collection>", tail = "</Collection></VTKFile>";
+  const auto set = [](const std::string& time, const std::string& file) {
+    return "<DataSet timestep=\"" + time + "\" part=\"0\" file=\"" + file + "\"/>";
+  };
+  test::write_bytes(folder / "grains.pvd", head + set("0", "g0") + set("0.5", "g1") + tail);
+  test::write_bytes(folder / "contacts.pvd", head + set("0", "c0") + tail);
+
+  const RunFolder run = open_run_folder(folder.path());
+
+  ASSERT_EQ(run.frames.size(), 2U);
+  EXPECT_EQ(run.frames[0].of[0], folder / "g0");
+  EXPECT_EQ(run.frames[0].of[2], folder / "c0");
+  EXPECT_EQ(run.frames[1].time, 0.5);
+  EXPECT_TRUE(run.frames[1].of[2].empty());
+  EXPECT_FALSE(run.report);
+}
+
+TEST(RunFolder, ReadsHistoriesWithUnitsAndWithoutARowThatIsBeingWritten) {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "energy.csv", "time (s),kinetic (J),ratio\n0,1.5,inf\n1,2,3\n2,4");
+
+  const History history = read_history(folder / "energy.csv");
+
+  ASSERT_EQ(history.columns.size(), 3U);
+  EXPECT_EQ(history.columns[1].name, "kinetic");
+  EXPECT_EQ(history.columns[1].unit, "J");
+  EXPECT_EQ(history.columns[2].unit, "");
+  EXPECT_EQ(history.rows(), 2U);
+  EXPECT_TRUE(std::isinf(history.columns[2].values[0]));
+}
+
+TEST(RunFolder, RefusesHistoriesThatAreNone) {
+  const test::TemporaryFolder folder;
+  for (const std::string bytes : {"a,b\n1,2\n", "time (s),b\n1\n", "time (s),b\n1,x\n"}) {
+    test::write_bytes(folder / "energy.csv", bytes);
+    EXPECT_THROW(read_history(folder / "energy.csv"), ViewError) << bytes;
+  }
+}
+
+TEST(RunFolder, FindsThePlanesAtTheTimeOfAFrame) {
+  RunFolder run;
+  run.planes = History{"planes.csv",
+                       {{"time", "s", {0, 1}},
+                        {"lid.point_x", "m", {0, 0}},
+                        {"lid.point_y", "m", {0, 0}},
+                        {"lid.point_z", "m", {3, 2}},
+                        {"lid.normal_x", "", {0, 0}},
+                        {"lid.normal_y", "", {0, 0}},
+                        {"lid.normal_z", "", {-1, -1}}}};
+
+  EXPECT_EQ(planes_at(run, 0.999), (std::vector<std::array<double, 6>>{{0, 0, 2, 0, 0, -1}}));
+}
+
+}  // namespace
+}  // namespace plekton::apps
