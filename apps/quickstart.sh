@@ -29,8 +29,9 @@ fi
 
 say "Summary, from out/catch/run.json"
 cmake -DREPORT=out/catch/run.json -P cmake/run_summary.cmake
-say "Written; open the .pvd files with ParaView"
-for file in out/catch/*.pvd out/catch/*.csv out/catch/run.json; do
+build/release/apps/plekton view out/catch
+say "Written; open view.html in a browser, the .pvd files with ParaView"
+for file in out/catch/view.html out/catch/*.pvd out/catch/*.csv out/catch/run.json; do
   if [ -e "$file" ]; then
     echo "  $file"
   fi
