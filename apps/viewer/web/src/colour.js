@@ -3,7 +3,7 @@
 // are colour-blind tell apart.
 //
 // Sources: viridis and inferno, Smith and van der Walt (2015), CC0; cividis, Nunez, Anderton, Renslow (2018),
-// PLOS ONE 13(7); categories, Okabe and Ito (2008), "Color universal design".
+// PLOS ONE 13(7); sand and blue-orange are our own; categories, Okabe and Ito (2008), "Color universal design".
 
 const hex = (text) => text.match(/[0-9a-f]{6}/gi).map((h) => [0, 2, 4].map((k) => parseInt(h.slice(k, k + 2), 16)));
 
@@ -11,6 +11,7 @@ export const kMaps = {
   viridis: hex('440154 482475 414487 355f8d 2a788e 21918c 22a884 44bf70 7ad151 bddf26 fde725'),
   cividis: hex('00204d 00336f 39486b 575c6d 707173 8a8779 a69d75 c4b56c e4cf5b ffea46'),
   inferno: hex('000004 160b39 420a68 6a176e 932667 bc3754 dd513a f37819 fca50a f6d746 fcffa4'),
+  sand: hex('f4efe4 eadcbd ddbf83 cf9a4c b3712c 8b4a1b 5c2a12 35150c'),
   'blue-orange': hex('12436d 28679b 5b93bd 9cbfd8 dde3e6 ecd3b4 e3a566 c2711f 8a4308'),
   greys: hex('2b2f33 e9ecee'),
 };

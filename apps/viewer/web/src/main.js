@@ -33,7 +33,7 @@ class Page {
     this.stage = stage;
     this.view = new View(run, stage);
     this.choices = Object.fromEntries(kParts.map((part) => [part, choicesOf(run.header, part)]));
-    this.colours = { grains: { map: 'viridis' }, membranes: { map: 'cividis' }, contacts: { map: 'inferno' } };
+    this.colours = { grains: { map: 'viridis' }, membranes: { map: run.frames.some((f) => f.facets) ? 'sand' : 'cividis' }, contacts: { map: 'inferno' } };
     for (const part of kParts)
       Object.assign(this.colours[part], { key: this.firstKey(part), mode: 'linear', range: part === 'contacts' ? 'frame' : 'run', lo: null, hi: null });
     this.frame = 0;
@@ -228,8 +228,12 @@ class Page {
   }
 
   // --- settings ---
+  /** What there is to set: it grows while a run goes on. */
+  shape() { return JSON.stringify([kParts.map((part) => this.choices[part].map((c) => c.key)), this.run.frames.at(-1)?.planes?.length ?? 0]); }
+
   panel() {
     const panel = $('panel');
+    this.panelShape = this.shape();
     panel.replaceChildren();
     this.sections = {};
     const last = this.run.frames.at(-1);
@@ -586,6 +590,8 @@ class Page {
       if (await this.run.refresh()) {
         this.choices = Object.fromEntries(kParts.map((part) => [part, choicesOf(this.run.header, part)]));
         this.describeRun();
+        for (const part of kParts) if (!this.colours[part].key) this.colours[part].key = this.firstKey(part);
+        if (this.shape() !== this.panelShape) this.panel();
         this.applyColours();
         this.legends();
         if (atEnd && this.run.frames.length) await this.goTo(this.run.frames.length - 1);
@@ -636,6 +642,8 @@ async function applyAddress(page) {
   await page.goTo(frame === null ? (page.run.live ? Infinity : 0) : frame === 'last' ? Infinity : Number(frame));
   page.legends();
   const pick = options.get('pick');
+  // A window without a screen gets its size late.
+  if (pick) await new Promise((done) => setTimeout(done, 300));
   if (pick) { const [x, y] = pick.split(',').map(Number); page.stage.fitCamera(); await page.pickAt(x, y); if (options.has('history') && page.view.selected) await page.elementHistory(options.get('history')); }
   return options;
 }
