@@ -105,8 +105,9 @@ TEST_F(Outputs, ListTheContactsOfEveryFrameWithNumbersThatLast) {
   set_output(std::string(kReactions));
   const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
   ASSERT_EQ(outcome.exit_code, kDone);
-  EXPECT_THAT(outcome.out, HasSubstr("run.json, energy.csv, reactions.csv, contacts.csv, "
-                                     "scenario-as-run.toml, checkpoints, and for ParaView "));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("run.json, energy.csv, reactions.csv, planes.csv, contacts.csv, "
+                        "scenario-as-run.toml, checkpoints, and for ParaView "));
 
   const Table table(test::bytes_of(folder_ / "out/contacts.csv"));
 

@@ -167,8 +167,8 @@ TEST_F(Command, RunRefusesAFolderThatHoldsResults) {
   const std::string energies = test::bytes_of(folder_ / "out/energy.csv");
   const std::string series = test::bytes_of(folder_ / "out/grains.pvd");
 
-  for (const std::string left :
-       {"run.json", "energy.csv", "scenario-as-run.toml", "checkpoints", "grains.pvd"}) {
+  for (const std::string left : {"run.json", "energy.csv", "planes.csv", "scenario-as-run.toml",
+                                 "checkpoints", "grains.pvd"}) {
     const Outcome outcome =
         outcome_of({"run", scenario(), "--out", out(), "--set", "grains.gravel.count=10"});
 
@@ -278,7 +278,7 @@ TEST_F(Command, RunThatCannotWriteAFrameStopsWithWhatIsCompleteInPlace) {
 
   const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
 
-  std::filesystem::remove(folder_ / "out/frames/contacts_00003.vtp.part");
+  std::filesystem::remove_all(folder_ / "out/frames/contacts_00003.vtp.part");
 
   EXPECT_EQ(outcome.exit_code, kFailed);
   EXPECT_THAT(outcome.err, HasSubstr("contacts_00003.vtp.part: cannot create: Is a directory"));

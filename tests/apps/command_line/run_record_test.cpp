@@ -39,7 +39,8 @@ TEST_F(RunRecord, HasTheScenarioAsItWasRun) {
   EXPECT_THAT(copy(), HasSubstr("\n# --set grains.gravel.count=10\n"));
   EXPECT_THAT(copy(), HasSubstr("\n# --set simulation.threads=2\n"));
   EXPECT_THAT(copy(), HasSubstr("relative to " + folder_.path().string()));
-  EXPECT_THAT(outcome.out, HasSubstr("energy.csv, scenario-as-run.toml, checkpoints, and for "));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("energy.csv, planes.csv, scenario-as-run.toml, checkpoints, and for "));
 }
 
 TEST_F(RunRecord, IsThatOfTheLastRunIntoAFolder) {

@@ -215,7 +215,7 @@ class Page {
     const power = 10 ** Math.floor(Math.log10(want));
     const length = power * [1, 2, 5, 10].filter((m) => m * power <= want).at(-1);
     $('scale-bar').style.width = `${length / stage.pixelLength}px`;
-    $('scale-text').textContent = withUnit(length, 'm') + (shared_parallel(stage) ? '' : ' at the middle');
+    $('scale-text').textContent = withUnit(length, 'm') + (isParallel(stage) ? '' : ' at the middle');
     const inverse = stage.camera.matrixWorldInverse;
     const ends = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((a, k) => ({ v: new THREE.Vector3(...a).transformDirection(inverse), k }));
     ends.sort((a, b) => a.v.z - b.v.z);
@@ -273,12 +273,10 @@ class Page {
     const range = el('select', { ariaLabel: 'Range', onchange: () => { c.range = range.value; c.lo = c.hi = null; lo.value = hi.value = ''; this.reload(); } },
       el('option', { value: 'run', title: 'Without the outermost 1 % of each frame; of forces without short peaks' }, 'most of the run'), el('option', { value: 'extremes' }, 'all of the run'), el('option', { value: 'frame', selected: c.range === 'frame' }, 'this frame'));
     const typed = () => {
-      const unit = this.choice(part)?.unit ?? '';
       const parse = (input) => (input.value.trim() === '' ? null : Number(input.value.replace(',', '.')));
       c.lo = parse(lo); c.hi = parse(hi);
       if (Number.isNaN(c.lo) || Number.isNaN(c.hi)) { c.lo = c.hi = null; }
       else if (c.lo === null && c.hi !== null) c.lo = 0;
-      void unit;
       this.reload();
     };
     const lo = el('input', { type: 'text', inputMode: 'decimal', onchange: typed }), hi = el('input', { type: 'text', inputMode: 'decimal', onchange: typed });
@@ -558,7 +556,7 @@ class Page {
     document.title = `${header.title} – Plekton`;
     $('title').textContent = header.title;
     const states = { finished: 'finished', at_rest: 'came to rest', interrupted: 'interrupted', failed: 'failed' };
-    const parts = run ? [states[run.status] ?? run.status, `${short(run.timing?.simulated_time_s ?? 0)} s in ${Number(run.timing?.steps ?? 0).toLocaleString('en').replaceAll(',', ' ')} steps`, `Plekton ${run.plekton}`]
+    const parts = run ? [states[run.status] ?? run.status, `${short(run.timing?.simulated_time_s ?? 0)} s in ${Number(run.timing?.steps ?? 0).toLocaleString('en').replaceAll(',', ' ')} steps`, `Plekton ${run.plekton}`, String(run.date ?? '').replace('T', ' ').replace(/:\d\dZ$/, ' UTC')].filter(Boolean)
       : [this.run.live ? 'running' : 'not ended'];
     $('subtitle').textContent = parts.join(' · ');
     $('notes').replaceChildren(...(header.notes ?? []).map((note) => el('div', {}, note)));
@@ -614,7 +612,7 @@ function usualRange({ field, usual, typical }) {
   return [Math.max(usual[0], 2.5 * Math.min(typical[0], 0)), Math.min(usual[1], 2.5 * Math.max(typical[1], 0) || usual[1])];
 }
 
-const shared_parallel = (stage) => stage.camera === stage.orthographic;
+const isParallel = (stage) => stage.camera === stage.orthographic;
 
 /** Settings after # in the address, as in #frame=12&contacts&slice=x: a picture can be told by its address. */
 async function applyAddress(page) {
