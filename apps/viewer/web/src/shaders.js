@@ -40,6 +40,8 @@ vec3 lit(vec3 colour, vec3 normal, vec3 to_eye) {
   vec3 linear = pow(colour, vec3(2.2));
   vec3 light = linear * (0.34 + 0.20 * sky + 0.80 * direct + 0.16 * fill) + vec3(0.10) * gloss;
   light *= 1.0 - 0.35 * rim;
+  // What would be brighter than white keeps its shading: a shoulder above three quarters.
+  light = mix(light, 1.0 - 0.25 * exp(-4.0 * (light - 0.75)), step(0.75, light));
   return pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2));
 }
 
