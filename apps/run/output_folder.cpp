@@ -43,7 +43,8 @@ void remove_parts(const fs::path& folder) {
   for (const fs::path& place : {folder, folder / "frames", folder / kCheckpointFolder}) {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(place, ignored))
-      if (entry.path().extension() == ".part") parts.push_back(entry.path());
+      if (entry.path().extension() == ".part" && fs::is_regular_file(entry.symlink_status(ignored)))
+        parts.push_back(entry.path());
   }
   std::error_code ignored;
   for (const fs::path& part : parts) fs::remove(part, ignored);
