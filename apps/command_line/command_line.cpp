@@ -15,6 +15,7 @@
 #include "apps/command_line/view_command.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/run.hpp"
+#include "apps/run/run_warnings.hpp"
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
@@ -65,6 +66,7 @@ struct CommandLine {
   std::optional<std::string> thickness;
   bool overwrite = false;
   bool quiet = false;
+  bool strict = false;
   bool json = false;
   bool power_iteration = false;
   fs::path resume;
@@ -176,7 +178,8 @@ int run_aloud(const CommandLine& line, const Scenario& scenario, const fs::path&
     std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n'
               << "look at it: plekton view " << shell_word(out.string()) << '\n';
   }
-  if (report.status != RunStatus::interrupted) return kDone;
+  const bool is_refused = line.strict && has_red(certificate_of(report));
+  if (report.status != RunStatus::interrupted) return is_refused ? kRed : kDone;
   if (!line.quiet)
     std::cout << "go on with: plekton run --resume " << shell_word(out.string()) << '\n';
   return kInterrupted;
@@ -405,6 +408,8 @@ int dispatch(int argc, const char* const* argv) {
                   "standard input");
   run->add_flag("--overwrite", line.overwrite,
                 "Replace the results of an earlier run in that folder");
+  run->add_flag("--strict", line.strict,
+                "End with exit code 3 if anything in the certificate of the run is red");
   run->add_flag("--quiet", line.quiet,
                 "Print nothing but problems and warnings, on standard error");
   CLI::App* check = app.add_subcommand(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/summary.hpp"
 
+#include "apps/run/run_warnings.hpp"
 #include "geometry/mesh/repair/report.hpp"
 
 #include <fmt/format.h>
@@ -85,7 +86,7 @@ std::string summary_of(const RunReport& report) {
     text += fmt::format("broken bonds: {} of {}\n", report.broken_bonds, report.bonds);
   if (report.torn_facets > 0) text += fmt::format("torn facets: {}\n", report.torn_facets);
   for (const std::string& warning : report.warnings) text += "warning: " + warning + '\n';
-  return text;
+  return text + summary_of(certificate_of(report)) + '\n';
 }
 
 }  // namespace plekton::apps

@@ -2,6 +2,7 @@
 #include "apps/run/run_report.hpp"
 
 #include "apps/run/build_info.hpp"
+#include "apps/run/run_warnings.hpp"
 #include "dynamics/output/file.hpp"
 #include "geometry/version.hpp"
 
@@ -71,6 +72,16 @@ Json energy_of(const dynamics::Energy& energy) {
           {"turnover_J", energy.turnover()}};
 }
 
+Json certificate_in_json(const RunReport& report) {
+  Json rows = Json::array();
+  for (const Check& check : certificate_of(report))
+    rows.push_back({{"name", check.name},
+                    {"value", check.value},
+                    {"limit", check.limit},
+                    {"verdict", check.is_red() ? "red" : "green"}});
+  return rows;
+}
+
 std::string hash_text(std::uint64_t hash) {
   return fmt::format("{:016x}", hash);
 }
@@ -131,6 +142,7 @@ std::string to_json(const RunReport& report) {
   json["lost_grains"] = report.lost_grains;
   json["lost"] = {{"through_membranes", report.lost_through_membranes},
                   {"out_of_bounds", report.lost_out_of_bounds}};
+  json["certificate"] = certificate_in_json(report);
   json["states"] = states_of(report.states);
   json["warnings"] = report.warnings;
   // A path need not be UTF-8; what is not becomes a replacement character.

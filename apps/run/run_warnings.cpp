@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace plekton::apps {
 namespace {
 
@@ -12,61 +15,113 @@ std::string text_of(const DeepestOverlap& overlap) {
                      overlap.a, overlap.b, 1e3 * overlap.depth, x[0], x[1], x[2], overlap.time);
 }
 
+std::string advice_on_overlap(const RunReport& report) {
+  return fmt::format(
+      "the largest overlap is {:.3g} % of a radius, above {:.0f} %{}: too deep for a contact, and "
+      "grains may pass through what they press on; raise young_modulus of the materials, or slow "
+      "down what moves fast",
+      100.0 * report.largest_overlap_ratio, 100.0 * kDeepOverlap,
+      report.deepest_overlap ? ", " + text_of(*report.deepest_overlap) : "");
+}
+
+std::string advice_on_motion(const RunReport& report) {
+  return fmt::format(
+      "the fastest node moves by {:.3g} % of the smallest radius in one step, above {:.0f} %: "
+      "contacts are seen late; run with simulation.time_step \"auto\" or {:.2g} of this one",
+      100.0 * report.largest_motion_ratio, 100.0 * dynamics::kLargestMotion,
+      dynamics::kLargestMotion / report.largest_motion_ratio);
+}
+
+std::string advice_on_pass_throughs(const RunReport& report) {
+  return fmt::format(
+      "{} times the centre of a grain went through a facet or a cylinder; stiffer contacts or "
+      "slower grains are held",
+      report.pass_throughs);
+}
+
+std::string advice_on_crossings(const RunReport& report) {
+  return fmt::format(
+      "membranes went into each other by more than both thicknesses: up to {} pairs of facets or "
+      "cylinders crossed at a time; stiffer contacts, thicker membranes or slower motion keep them "
+      "apart",
+      report.most_crossings);
+}
+
+std::string advice_on_closure(const RunReport& report) {
+  return fmt::format(
+      "the energy balance is off by {:.2g} % of what went through, above {:.0f} %; run with a "
+      "smaller simulation.time_step",
+      100.0 * report.energy_closure, 100.0 * kPoorClosure);
+}
+
+std::string advice_on_tracking(const RunReport& report) {
+  return fmt::format(
+      "{:.2g} % of the energy that went through was {}, above {:.1f} %, where contacts are handed "
+      "on from patch to patch or with elements that break (column tracking of energy.csv): look "
+      "there when it happens; finer meshes and smaller overlaps make less of it",
+      100.0 * report.tracking_ratio, report.energy.tracking < 0.0 ? "made" : "lost",
+      100.0 * kMuchTracking);
+}
+
+std::string advice_on_lost_grains(const RunReport& report) {
+  return fmt::format(
+      "{} grains are lost: {} passed through a membrane (smaller time steps or stiffer contacts "
+      "hold them), {} left the box around everything at the start, grown on every side by its "
+      "longest side (a plane or a membrane can stop them)",
+      report.lost_grains, report.lost_through_membranes, report.lost_out_of_bounds);
+}
+
 }  // namespace
+
+/// In the order of their warnings.
+std::vector<Check> certificate_of(const RunReport& report) {
+  std::vector<Check> certificate;
+  const auto add = [&](std::string_view name, double value, double limit, bool in_percent,
+                       std::string (*advice)(const RunReport&)) {
+    Check check{name, value, limit, in_percent, ""};
+    if (check.is_red()) check.advice = advice(report);
+    certificate.push_back(std::move(check));
+  };
+  add("largest_overlap_ratio", report.largest_overlap_ratio, kDeepOverlap, true, advice_on_overlap);
+  add("largest_motion_ratio", report.largest_motion_ratio, kFastMotion, true, advice_on_motion);
+  add("pass_throughs", static_cast<double>(report.pass_throughs), 0.0, false,
+      advice_on_pass_throughs);
+  add("most_crossings", static_cast<double>(report.most_crossings), 0.0, false,
+      advice_on_crossings);
+  add("energy_closure", report.energy_closure, kPoorClosure, true, advice_on_closure);
+  add("tracking_ratio", report.tracking_ratio, kMuchTracking, true, advice_on_tracking);
+  add("lost_grains", static_cast<double>(report.lost_grains), 0.0, false, advice_on_lost_grains);
+  // Told when it happens.
+  add("dt_over_critical", report.dt_over_critical, dynamics::kLargestStep, false,
+      [](const RunReport&) { return std::string(); });
+  return certificate;
+}
+
+bool has_red(const std::vector<Check>& certificate) {
+  return std::any_of(certificate.begin(), certificate.end(),
+                     [](const Check& check) { return check.is_red(); });
+}
+
+std::string summary_of(const std::vector<Check>& certificate) {
+  std::string reds;
+  std::size_t green = 0;
+  for (const Check& check : certificate) {
+    if (!check.is_red()) {
+      ++green;
+      continue;
+    }
+    const double in = check.in_percent ? 100.0 : 1.0;
+    const std::string_view unit = check.in_percent ? " %" : "";
+    reds += fmt::format("{} {} {:.3g}{} (at most {:.3g}{})", reds.empty() ? "; red:" : ",",
+                        check.name, in * check.value, unit, in * check.limit, unit);
+  }
+  return fmt::format("certificate: {} of {} green{}", green, certificate.size(), reds);
+}
 
 std::vector<std::string> warnings_about(const RunReport& report) {
   std::vector<std::string> warnings;
-  if (report.largest_overlap_ratio > kDeepOverlap) {
-    warnings.push_back(fmt::format(
-        "the largest overlap is {:.3g} % of a radius, above {:.0f} %{}: too deep for a contact, "
-        "and "
-        "grains may pass through what they press on; raise young_modulus of the materials, or slow "
-        "down what moves fast",
-        100.0 * report.largest_overlap_ratio, 100.0 * kDeepOverlap,
-        report.deepest_overlap ? ", " + text_of(*report.deepest_overlap) : ""));
-  }
-  if (report.largest_motion_ratio > kFastMotion) {
-    warnings.push_back(fmt::format(
-        "the fastest node moves by {:.3g} % of the smallest radius in one step, above {:.0f} %: "
-        "contacts are seen late; run with simulation.time_step \"auto\" or {:.2g} of this one",
-        100.0 * report.largest_motion_ratio, 100.0 * dynamics::kLargestMotion,
-        dynamics::kLargestMotion / report.largest_motion_ratio));
-  }
-  if (report.pass_throughs > 0) {
-    warnings.push_back(fmt::format(
-        "{} times the centre of a grain went through a facet or a cylinder; stiffer contacts or "
-        "slower grains are held",
-        report.pass_throughs));
-  }
-  if (report.most_crossings > 0) {
-    warnings.push_back(fmt::format(
-        "membranes went into each other by more than both thicknesses: up to {} pairs of facets or "
-        "cylinders crossed at a time; stiffer contacts, thicker membranes or slower motion keep "
-        "them apart",
-        report.most_crossings));
-  }
-  if (report.energy_closure > kPoorClosure) {
-    warnings.push_back(
-        fmt::format("the energy balance is off by {:.2g} % of what went through, above {:.0f} %; "
-                    "run with a smaller simulation.time_step",
-                    100.0 * report.energy_closure, 100.0 * kPoorClosure));
-  }
-  if (report.tracking_ratio > kMuchTracking) {
-    warnings.push_back(fmt::format(
-        "{:.2g} % of the energy that went through was {}, above {:.1f} %, where contacts are "
-        "handed "
-        "on from patch to patch or with elements that break (column tracking of energy.csv): look "
-        "there when it happens; finer meshes and smaller overlaps make less of it",
-        100.0 * report.tracking_ratio, report.energy.tracking < 0.0 ? "made" : "lost",
-        100.0 * kMuchTracking));
-  }
-  if (report.lost_grains > 0) {
-    warnings.push_back(
-        fmt::format("{} grains are lost: {} passed through a membrane (smaller time steps or "
-                    "stiffer contacts hold them), {} left the box around everything at the start, "
-                    "grown on every side by its longest side (a plane or a membrane can stop them)",
-                    report.lost_grains, report.lost_through_membranes, report.lost_out_of_bounds));
-  }
+  for (const Check& check : certificate_of(report))
+    if (!check.advice.empty()) warnings.push_back(check.advice);
   return warnings;
 }
 

@@ -5,6 +5,7 @@
 #include "dynamics/time_step/motion_step.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plekton::apps {
@@ -23,8 +24,27 @@ inline constexpr double kMuchTracking = 0.1 * kPoorClosure;
 /// comes to kLargestMotion itself but for rounding.
 inline constexpr double kFastMotion = 1.001 * dynamics::kLargestMotion;
 
-/// What in a report makes its results doubtful, each with what to do about it: deep overlaps,
-/// steps too long for the motion, energy that does not add up or comes from tracking, lost grains.
+/// Something that a run is judged by.
+struct Check {
+  std::string_view name;
+  double value = 0.0;
+  double limit = 0.0;       ///< above which it is red
+  bool in_percent = false;  ///< how people read it
+  std::string advice;       ///< what is wrong and what to do about it, where it is red
+
+  bool is_red() const noexcept { return !(value <= limit); }
+};
+
+/// The certificate of a run: all that can make its results doubtful, with a verdict on each.
+std::vector<Check> certificate_of(const RunReport& report);
+
+/// Whether anything in it is red.
+bool has_red(const std::vector<Check>& certificate);
+
+/// As in "certificate: 7 of 8 green; red: largest_overlap_ratio 6.2 % (at most 5 %)".
+std::string summary_of(const std::vector<Check>& certificate);
+
+/// The advice of what is red.
 std::vector<std::string> warnings_about(const RunReport& report);
 
 }  // namespace plekton::apps

@@ -327,8 +327,7 @@ std::size_t SphereContacts::exchange_pair(geometry::RowFields& row, KeptPair& pa
   row("gap", pair.gap);
   contact::exchange(row, pair.memory, kind.law);
   row("id", pair.id);
-  std::size_t count = kind.force > 0 ? 3 : 0;
-  row("force", pair.force.data(), count);
+  row.numbers("force", pair.force.data(), kind.force > 0 ? 3 : 0);
   return place;
 }
 

@@ -53,18 +53,13 @@ inline void exchange(geometry::RowFields& row, const std::string& name, geometry
 }
 
 /// Numbers of a history; none of one that no law has looked at.
-/// @param law  of the contact; need be right only if the history is read
-/// @throws geometry::StateMismatch if the history read is of another law
+/// @param law  of the contact
 inline void exchange(geometry::RowFields& row, AnyLaw::History& history,
                      const AnyLaw::Functions* law) {
   bool is_seen = history.law != nullptr;
   row("has_history", is_seen);
   if (row.is_reading()) history.law = is_seen ? law : nullptr;
-  std::size_t count = is_seen ? history.law->history_numbers : 0;
-  const std::size_t expected = count;
-  row("history", history.numbers.data(), count);
-  if (count != expected)
-    throw geometry::StateMismatch("the state has contact histories of another law");
+  row.numbers("history", history.numbers.data(), is_seen ? history.law->history_numbers : 0);
 }
 
 inline void exchange(geometry::RowFields& row, ContactMemory<AnyLaw>& memory,

@@ -41,12 +41,9 @@ RowFields::Column& RowFields::column(std::string_view name, const StateArray& em
   return of;
 }
 
-void RowFields::operator()(std::string_view name, double* numbers, std::size_t& count) {
-  const std::size_t room = count;
-  (*this)(std::string(name) + "_count", count);
-  if (archive_.is_reading() && count > room) archive_.throw_other_kind(name);
+void RowFields::numbers(std::string_view name, double* numbers, std::size_t count) {
   double* const at = take<double>(name, 1, count);
-  if (archive_.is_reading())
+  if (is_reading())
     std::copy_n(at, count, numbers);
   else
     std::copy_n(numbers, count, at);

@@ -208,9 +208,8 @@ class RowFields {
       Numbers::put(thing, at);
   }
 
-  /// So many numbers, another count in each row.
-  /// @param count  to be read: how many there is room for; then how many there are
-  void operator()(std::string_view name, double* numbers, std::size_t& count);
+  /// So many numbers, as many as whoever reads knows of the row.
+  void numbers(std::string_view name, double* numbers, std::size_t count);
 
   /// A list of things, of another length in each row.
   template <class Thing>

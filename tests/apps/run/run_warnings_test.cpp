@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <vector>
+
 namespace plekton::apps {
 namespace {
 
@@ -64,6 +67,33 @@ TEST(RunWarnings, NameEnergyThatDoesNotAddUpWhereNegativePartsOutweighTheRest) {
   report.energy_closure = report.energy.closure();
 
   EXPECT_THAT(warnings_about(report), ElementsAre(HasSubstr("off by 50 %")));
+}
+
+TEST(Certificate, IsGreenForASoundRunAndSaysSo) {
+  const std::vector<Check> certificate = certificate_of(RunReport());
+
+  EXPECT_FALSE(has_red(certificate));
+  EXPECT_EQ(summary_of(certificate), "certificate: 8 of 8 green");
+}
+
+TEST(Certificate, NamesWhatIsRedWithValueAndLimit) {
+  RunReport report;
+  report.largest_overlap_ratio = 0.0623;
+  report.lost_grains = 3;
+  const std::vector<Check> certificate = certificate_of(report);
+
+  EXPECT_TRUE(has_red(certificate));
+  EXPECT_EQ(summary_of(certificate),
+            "certificate: 6 of 8 green; red: largest_overlap_ratio 6.23 % (at most 5 %), "
+            "lost_grains 3 (at most 0)");
+  EXPECT_EQ(warnings_about(report).size(), 2U);
+}
+
+TEST(Certificate, IsRedWhereAValueIsNoNumber) {
+  RunReport report;
+  report.energy_closure = std::numeric_limits<double>::quiet_NaN();
+
+  EXPECT_TRUE(has_red(certificate_of(report)));
 }
 
 }  // namespace
