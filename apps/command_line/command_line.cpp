@@ -201,7 +201,14 @@ int resume_command(const CommandLine& line) {
     std::cout << fmt::format("{}: goes on at {:.6g} s, step {}\n", resumed.checkpoint.file.string(),
                              time, steps_of(resumed.checkpoint.state));
   const Resumption from{resumed.checkpoint.state, same_folder, resumed.from};
-  return run_aloud(line, resumed.scenario, same_folder ? line.resume : line.out, &from, began);
+  try {
+    return run_aloud(line, resumed.scenario, same_folder ? line.resume : line.out, &from, began);
+  } catch (const geometry::StateMismatch& error) {
+    throw InputError(
+        fmt::format("{}: {}; nothing was changed: the meshes and tables that the scenario names "
+                    "have to be as they were",
+                    resumed.checkpoint.file.string(), error.what()));
+  }
 }
 
 int run_command(const CommandLine& line) {

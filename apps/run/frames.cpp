@@ -162,10 +162,9 @@ std::vector<FramePart> frame_of(const OutputSettings& settings, dynamics::Simula
   return parts;
 }
 
-Frames::Frames(const fs::path& folder, const OutputSettings& settings,
-               const dynamics::Simulation& simulation, const BodyTables& bodies,
+Frames::Frames(const fs::path& folder, const OutputSettings& settings, const BodyTables& bodies,
                const WrittenFiles* before)
-    : folder_(folder), settings_(settings_for(settings, simulation)), bodies_(bodies) {
+    : folder_(folder), settings_(settings), bodies_(bodies) {
   make_output_folder(folder_ / "frames");
   if (before == nullptr) remove_earlier(folder_);
   for (const std::string_view part : kParts)

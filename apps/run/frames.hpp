@@ -41,11 +41,11 @@ class Frames {
  public:
   /// Removes the series and frames that an earlier run left under the same names, or those that
   /// came after what a run goes on from.
-  /// @param bodies  have to stay as long as this
+  /// @param settings  settings_for() the simulation as it began
+  /// @param bodies    have to stay as long as this
   /// @throws dynamics::OutputError
   Frames(const std::filesystem::path& folder, const OutputSettings& settings,
-         const dynamics::Simulation& simulation, const BodyTables& bodies,
-         const WrittenFiles* before = nullptr);
+         const BodyTables& bodies, const WrittenFiles* before = nullptr);
 
   /// Writes the state of now. @throws dynamics::OutputError
   void write(dynamics::Simulation& simulation);

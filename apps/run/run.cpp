@@ -54,28 +54,64 @@ class TimeInto {
   Progress::Clock::time_point start_ = Progress::Clock::now();
 };
 
+/// What is told of a run as it begins, also where it goes on later.
+struct RunStart {
+  RunReport report;
+  OutputSettings output;  ///< of what there is
+  LostGrains lost;
+};
+
+RunReport begun_report(const Scenario& scenario, const PreparedRun& prepared) {
+  const dynamics::Simulation& simulation = *prepared.simulation;
+  RunReport report;
+  report.warnings = prepared.built.warnings;
+  report.states = StateHashes(scenario.output.hash_interval);
+  report.date = date_of_now();
+  report.host = name_of_host();
+  report.vector_width = geometry::vector_width();
+  report.scenario = scenario.file.string();
+  report.overrides = scenario.overrides;
+  report.duration = scenario.simulation.duration;
+  report.threads = scenario.simulation.threads;
+  report.seed = scenario.simulation.seed;
+  report.damping = scenario.simulation.damping;
+  const geometry::Elements& elements = simulation.elements();
+  report.grains = elements.spheres.size();
+  report.nodes = simulation.state().size();
+  report.facets = elements.facets.size();
+  report.cylinders = elements.cylinders.size();
+  report.bonds = simulation.bonds().size();
+  report.planes = simulation.planes().size();
+  report.names = names_of(scenario);
+  return report;
+}
+
+RunStart start_of(const Scenario& scenario, const PreparedRun& prepared) {
+  const dynamics::Simulation& simulation = *prepared.simulation;
+  return {begun_report(scenario, prepared), settings_for(scenario.output, simulation),
+          LostGrains(simulation.elements(), simulation.state().position)};
+}
+
 /// One run: what is written, and what is watched.
 class Run {
  public:
-  Run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings)
+  Run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings, RunStart start)
       : scenario_(scenario),
         settings_(settings),
         simulation_(*prepared.simulation),
         bodies_(scenario, prepared.built, simulation_),
-        lost_(simulation_.elements(), simulation_.state().position),
+        lost_(std::move(start.lost)),
         before_(files_before(settings)),
-        frames_(settings.out, scenario.output, simulation_, bodies_, before()),
+        frames_(settings.out, start.output, bodies_, before()),
         history_(settings.out, before()),
         reactions_(settings.out, prepared.built.reactions, before()),
         pressures_(settings.out, scenario, before()),
         planes_(settings.out, scenario, before()),
-        progress_(settings.progress, settings.style, scenario.simulation.duration) {
-    report_.warnings = prepared.built.warnings;
-    report_.states = StateHashes(scenario.output.hash_interval);
+        progress_(settings.progress, settings.style, scenario.simulation.duration),
+        report_(std::move(start.report)) {
     if (reactions_.empty()) next_reactions_ = std::numeric_limits<double>::infinity();
     next_checkpoint_ = checkpoint_interval();
-    describe();
-    if (settings.resume != nullptr) resume(*settings.resume);
+    if (settings.resume != nullptr) go_on_from(*settings.resume);
   }
 
   RunReport execute() {
@@ -162,9 +198,8 @@ class Run {
     last_checkpoint_step_ = simulation_.steps();
   }
 
-  /// Goes on with a state.
-  void resume(const Resumption& from) {
-    simulation_.restore(from.state);
+  /// The simulation has the state already.
+  void go_on_from(const Resumption& from) {
     exchange(geometry::StateArchive::reader(from.state).group(kRunGroup));
     report_.resumed = simulation_.time();
     if (!scenario_.output.checkpoint_interval)
@@ -303,26 +338,6 @@ class Run {
     // Bodies that are let go start without kinetic energy; they are not at rest.
     if (!scenario_.stop->after) return is_slow && has_moved_;
     return is_slow && simulation_.time() >= *scenario_.stop->after;
-  }
-
-  void describe() {
-    report_.date = date_of_now();
-    report_.host = name_of_host();
-    report_.vector_width = geometry::vector_width();
-    report_.scenario = scenario_.file.string();
-    report_.overrides = scenario_.overrides;
-    report_.duration = scenario_.simulation.duration;
-    report_.threads = scenario_.simulation.threads;
-    report_.seed = scenario_.simulation.seed;
-    report_.damping = scenario_.simulation.damping;
-    const geometry::Elements& elements = simulation_.elements();
-    report_.grains = elements.spheres.size();
-    report_.nodes = simulation_.state().size();
-    report_.facets = elements.facets.size();
-    report_.cylinders = elements.cylinders.size();
-    report_.bonds = simulation_.bonds().size();
-    report_.planes = simulation_.planes().size();
-    report_.names = names_of(scenario_);
   }
 
   void complete_report() {
@@ -469,6 +484,9 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
 
 RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings) {
   require_possible_start(prepared.start, scenario);
+  const RunStart start = start_of(scenario, prepared);
+  // Before any file is touched: it may be the state of another scene.
+  if (settings.resume != nullptr) prepared.simulation->restore(settings.resume->state);
   make_output_folder(settings.out);
   const OutputFolderLock lock(settings.out);
   const bool goes_on = settings.resume != nullptr && settings.resume->same_folder;
@@ -478,7 +496,7 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
   std::error_code ignored;
   std::filesystem::remove(settings.out / "run.json", ignored);
   if (!goes_on) write_scenario_copy(settings.out, scenario);
-  return Run(scenario, prepared, settings).execute();
+  return Run(scenario, prepared, settings, start).execute();
 }
 
 }  // namespace plekton::apps

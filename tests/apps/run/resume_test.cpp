@@ -113,5 +113,124 @@ INSTANTIATE_TEST_SUITE_P(
                     Scene{"shells", kScenes, "25"}, Scene{"lattice", kScenes, "40"}),
     [](const auto& scene) { return std::string(scene.param.name); });
 
+/// Two facets under a grain.
+constexpr const char* kFacets =
+    "OFF\n4 2 0\n0 0 0\n0.1 0 0\n0.1 0.1 0\n0 0.1 0\n3 0 1 2\n3 0 2 3\n";
+constexpr const char* kOnFacets = R"(
+[simulation]
+duration = "5 ms"
+[materials.soil]
+density = "2650 kg/m3"
+young_modulus = "20 MPa"
+friction_angle = "30 deg"
+[[membranes]]
+name = "two"
+mesh = "two.off"
+thickness = "2 mm"
+material = "soil"
+young_modulus = "20 MPa"
+density = "1000 kg/m3"
+hold = "rim"
+[[grains]]
+name = "one"
+material = "soil"
+radius = "5 mm"
+centres = [["4 cm", "5 cm", "6.2 mm"]]
+[output]
+checkpoint_interval = "1 ms"
+)";
+
+class ResumeErrors : public testing::Test {
+ protected:
+  ResumeErrors() {
+    test::write_bytes(folder_ / "two.off", kFacets);
+    test::write_bytes(folder_ / "a.toml", kOnFacets);
+  }
+  Outcome run() const {
+    return Program({"run", (folder_ / "a.toml").string(), "--quiet", "--out", out()}).wait();
+  }
+  Outcome resume(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {"run", "--resume", out(), "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Program(arguments).wait();
+  }
+  std::string out() const { return (folder_ / "out").string(); }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(ResumeErrors, NameAChangedMeshAndLoseNothing) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const std::string energies = test::bytes_of(folder_ / "out/energy.csv");
+  std::string moved = kFacets;
+  moved.replace(moved.find("0.1 0.1"), 7, "0.1 0.2");
+  test::write_bytes(folder_ / "two.off", moved);
+  const Outcome outcome = resume({"--set", "simulation.duration=10 ms"});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_NE(outcome.err.find("another scene"), std::string::npos) << outcome.err;
+  EXPECT_EQ(test::bytes_of(folder_ / "out/energy.csv"), energies);
+  EXPECT_TRUE(fs::exists(folder_ / "out/run.json"));
+}
+
+TEST_F(ResumeErrors, GoOnFromTheCheckpointBeforeADamagedOne) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const std::vector<fs::path> checkpoints = checkpoints_of(out());
+  const std::string last = test::bytes_of(checkpoints.back());
+  test::write_bytes(checkpoints.back(), last.substr(0, last.size() / 2));
+  const Outcome outcome = resume();
+
+  EXPECT_EQ(outcome.exit_code, kDone);
+  EXPECT_NE(outcome.err.find("is damaged"), std::string::npos) << outcome.err;
+  EXPECT_EQ(test::bytes_of(checkpoints.back()), last);
+}
+
+TEST_F(ResumeErrors, RefuseWhatWouldMakeItAnotherRun) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const Outcome outcome = resume({"--set", "materials.soil.young_modulus=\"1 MPa\""});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_NE(outcome.err.find("would make it another run"), std::string::npos) << outcome.err;
+}
+
+TEST_F(ResumeErrors, TellThatAFolderHasNoCheckpoints) {
+  const Outcome outcome = resume();
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_NE(outcome.err.find("has no checkpoints"), std::string::npos) << outcome.err;
+}
+
+TEST_F(ResumeErrors, GoBeyondTheDurationThatWasAskedForAtFirst) {
+  ASSERT_EQ(run().exit_code, kDone);
+  ASSERT_EQ(resume({"--set", "simulation.duration=8 ms"}).exit_code, kDone);
+
+  std::ifstream file(folder_ / "out/run.json");
+  const auto report = nlohmann::json::parse(file);
+  EXPECT_EQ(report["timing"]["simulated_time_s"], 0.008);
+  EXPECT_EQ(report["resumed_s"], 0.005);
+}
+
+TEST_F(ResumeErrors, VerifyComputesARunAgainAndFindsEveryBit) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const Outcome last = Program({"verify", out()}).wait();
+  const Outcome most = Program({"verify", out(), "--interval", "1.2 ms", "9 ms"}).wait();
+
+  EXPECT_EQ(last.exit_code, kDone) << last.err;
+  EXPECT_NE(most.out.find("the same to the last bit"), std::string::npos) << most.out << most.err;
+}
+
+/// A checkpoint of one run put into the folder of another.
+TEST_F(ResumeErrors, VerifySeesThatARunIsAnother) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const fs::path last = checkpoints_of(out()).back();
+  geometry::StateTree state = dynamics::read_checkpoint(last);
+  std::get<std::vector<double>>(state.arrays["nodes/velocity"].numbers).back() *= 1.0 + 1e-15;
+  dynamics::write_checkpoint(last, state);
+  const Outcome outcome = Program({"verify", out()}).wait();
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_NE(outcome.out.find("nodes/velocity"), std::string::npos) << outcome.out << outcome.err;
+}
+
 }  // namespace
 }  // namespace plekton::apps
