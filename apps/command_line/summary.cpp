@@ -73,10 +73,9 @@ std::string summary_of(const dynamics::ExactStep& step) {
 }
 
 std::string summary_of(const RunReport& report) {
-  std::string text = fmt::format(
-      "{} at {:.4g} s after {} steps in {} ({:.3g} ms each)\n", name_of(report.status),
-      report.simulated_time, report.steps, wall_text(report.wall_time),
-      report.steps > 0 ? 1e3 * report.wall_time / static_cast<double>(report.steps) : 0.0);
+  std::string text = fmt::format("{} at {:.4g} s after {} steps in {} ({:.3g} ms each)\n",
+                                 name_of(report.status), report.simulated_time, report.steps,
+                                 wall_text(report.wall_time), ms_per_step(report));
   text += fmt::format(
       "contacts {}, largest overlap {:.3g} % of the radius, energy closure {:.2g} %, lost grains "
       "{}\n",

@@ -202,6 +202,7 @@ class Run {
   void go_on_from(const Resumption& from) {
     exchange(geometry::StateArchive::reader(from.state).group(kRunGroup));
     report_.resumed = simulation_.time();
+    report_.resumed_step = simulation_.steps();
     if (!scenario_.output.checkpoint_interval)
       next_checkpoint_ = std::numeric_limits<double>::infinity();
     else if (!std::isfinite(next_checkpoint_))

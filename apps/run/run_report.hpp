@@ -74,10 +74,11 @@ struct RunReport {
 
   double simulated_time = 0.0;  ///< s
   std::int64_t steps = 0;
-  double time_step = 0.0;      ///< s, at the end
-  double start_up_time = 0.0;  ///< s, from reading the scenario to the first step
-  double wall_time = 0.0;      ///< s, without reading the scenario and building its scene
-  double output_time = 0.0;    ///< s, of the wall time: frames and rows of energy.csv
+  std::int64_t resumed_step = 0;  ///< from which wall times count
+  double time_step = 0.0;         ///< s, at the end
+  double start_up_time = 0.0;     ///< s, from reading the scenario to the first step
+  double wall_time = 0.0;         ///< s, without reading the scenario and building its scene
+  double output_time = 0.0;       ///< s, of the wall time: frames and rows of energy.csv
 
   double largest_overlap_ratio = 0.0;
   /// The overlap with that ratio to within kSameOverlap; nothing where none was above kDeepOverlap.
@@ -97,6 +98,12 @@ struct RunReport {
   StateHashes states;
   std::vector<std::string> warnings;
 };
+
+/// ms, of a step that this part of the run took; 0 if there was none.
+inline double ms_per_step(const RunReport& report) noexcept {
+  const std::int64_t steps = report.steps - report.resumed_step;
+  return steps > 0 ? 1e3 * report.wall_time / static_cast<double>(steps) : 0.0;
+}
 
 /// The report as a JSON object.
 std::string to_json(const RunReport& report);
