@@ -392,13 +392,9 @@ bool is_unknown_command(int argc, const char* const* argv) {
   return true;
 }
 
-int dispatch(int argc, const char* const* argv) {
-  if (is_unknown_command(argc, argv)) return kUsage;
-  CommandLine line;
-  CLI::App app("Plekton: discrete elements with deformable structures", "plekton");
-  app.set_version_flag("--version", std::string(kVersion));
-  app.require_subcommand(1);
+// The commands and their options.
 
+CLI::App* add_run(CLI::App& app, CommandLine& line) {
   CLI::App* run = app.add_subcommand("run", "Run a scenario");
   CLI::Option* const to_run = add_scenario_options(*run, line);
   CLI::Option* const resume =
@@ -419,6 +415,10 @@ int dispatch(int argc, const char* const* argv) {
                 "End with exit code 3 if anything in the certificate of the run is red");
   run->add_flag("--quiet", line.quiet,
                 "Print nothing but problems and warnings, on standard error");
+  return run;
+}
+
+CLI::App* add_check(CLI::App& app, CommandLine& line) {
   CLI::App* check = app.add_subcommand(
       "check", "Read a scenario, build its scene, and say what it is or what is wrong with it");
   add_scenario_options(*check, line)->required();
@@ -428,6 +428,10 @@ int dispatch(int argc, const char* const* argv) {
                  "its forces; not with --json")
       ->excludes(
           check->add_flag("--json", line.json, "Print all of it as JSON, also the problems"));
+  return check;
+}
+
+CLI::App* add_import(CLI::App& app, CommandLine& line) {
   CLI::App* import = app.add_subcommand(
       "import", "Read and repair a mesh (.off, .obj, .stl, .ply, .msh, .vtp), and report on it");
   import->add_option("mesh", line.mesh, "Mesh file")->required();
@@ -450,9 +454,17 @@ int dispatch(int argc, const char* const* argv) {
   import->add_flag("--overwrite", line.overwrite,
                    "Replace the files of an earlier import in that folder");
   import->add_flag("--json", line.json, "Print the report as JSON");
+  return import;
+}
+
+CLI::App* add_inspect(CLI::App& app, CommandLine& line) {
   CLI::App* inspect = app.add_subcommand("inspect", "Say what a checkpoint of a run holds");
   inspect->add_option("checkpoint", line.checkpoint, "Checkpoint (.h5), below the folder of a run")
       ->required();
+  return inspect;
+}
+
+CLI::App* add_verify(CLI::App& app, CommandLine& line) {
   CLI::App* verify = app.add_subcommand(
       "verify", "Compute a part of a run again, between two of its checkpoints, and compare bits");
   verify->add_option("run", line.resume, "Folder of the run")->required();
@@ -463,8 +475,10 @@ int dispatch(int argc, const char* const* argv) {
       ->expected(2);
   verify->add_option("--threads", line.threads, "Threads; the result does not depend on it")
       ->check(CLI::Range(1, 1024));
-  CLI::App* list =
-      app.add_subcommand("list", "Say what a scenario can name, with parameters and defaults");
+  return verify;
+}
+
+CLI::App* add_view(CLI::App& app, CommandLine& line) {
   CLI::App* view = app.add_subcommand("view", "Write a page that shows a run in a browser");
   view->add_option("run", line.run, "Folder that plekton run wrote to")->required();
   auto* view_out =
@@ -473,13 +487,33 @@ int dispatch(int argc, const char* const* argv) {
                    "Most data in MB; of more, every second frame is left out, and so on")
       ->check(CLI::Range(0.1, 4000.0))
       ->capture_default_str();
-  std::string port;
-  auto* serve = view->add_option("--serve", port,
+  auto* serve = view->add_option("--serve", line.serve,
                                  "Show it at http://127.0.0.1:PORT instead, to this machine only, "
                                  "and follow it while it runs; port 8317 if not given")
                     ->expected(0, 1)
                     ->type_name("[PORT]")
                     ->excludes(view_out);
+  // Without a port nothing would be set.
+  view->callback([&line, serve] {
+    if (serve->count() > 0 && !line.serve) line.serve = "";
+  });
+  return view;
+}
+
+int dispatch(int argc, const char* const* argv) {
+  if (is_unknown_command(argc, argv)) return kUsage;
+  CommandLine line;
+  CLI::App app("Plekton: discrete elements with deformable structures", "plekton");
+  app.set_version_flag("--version", std::string(kVersion));
+  app.require_subcommand(1);
+  const CLI::App* const run = add_run(app, line);
+  const CLI::App* const check = add_check(app, line);
+  const CLI::App* const import = add_import(app, line);
+  const CLI::App* const inspect = add_inspect(app, line);
+  const CLI::App* const verify = add_verify(app, line);
+  const CLI::App* const list =
+      app.add_subcommand("list", "Say what a scenario can name, with parameters and defaults");
+  add_view(app, line);
 
   try {
     app.parse(argc, argv);
@@ -487,12 +521,11 @@ int dispatch(int argc, const char* const* argv) {
     return app.exit(error) == 0 ? kDone : kUsage;
   }
   if (run->parsed()) return run_command(line);
-  if (list->parsed()) return list_command();
+  if (check->parsed()) return check_command(line);
+  if (import->parsed()) return import_command(line);
   if (inspect->parsed()) return inspect_command(line);
   if (verify->parsed()) return verify_command(line);
-  if (serve->count() > 0) line.serve = port;
-  if (view->parsed()) return view_command(line);
-  return check->parsed() ? check_command(line) : import_command(line);
+  return list->parsed() ? list_command() : view_command(line);
 }
 
 }  // namespace
