@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/scene_contacts.hpp"
 
+#include "contact/surface_surface/mean_node_masses.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>

@@ -24,7 +24,7 @@ namespace plekton::contact::structure {
 /// it is pressed with, the limit of its friction and what its spring can hold. A spring that comes
 /// to count for more contacts keeps its force, one that counts for less keeps its stretch: neither
 /// gains energy. Of bars, what a spring counts for less is handed to those beside it that come to
-/// count for more (structure_contacts.cpp).
+/// count for more (spread_contacts.hpp).
 struct SpreadContact {
   /// One facet: its corners, and their shares of the elastic force.
   struct Side {

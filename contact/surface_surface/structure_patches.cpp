@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/surface_surface/structure_patches.hpp"
+
+#include "contact/base/bodies.hpp"
+#include "contact/surface_surface/mean_node_masses.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace plekton::contact::structure {
+namespace {
+
+/// Where the successors of one patch end that begin here.
+template <class Iterator>
+Iterator end_of_group(Iterator begin, Iterator end) {
+  return std::find_if(begin, end, [&](const PatchSuccessor& successor) {
+    return successor.old_patch != begin->old_patch;
+  });
+}
+
+}  // namespace
+
+double StructurePatches::rebuild(std::span<const geometry::CellPair> pairs,
+                                 const ContactMaterials& materials) {
+  std::vector<PairOfCells> listed;
+  std::vector<char> lives(patches_.size(), 0);
+  auto old = pairs_.begin();
+  for (const geometry::CellPair& cells : pairs) {
+    while (old != pairs_.end() && old->cells < cells) ++old;
+    const bool known = old != pairs_.end() && old->cells == cells;
+    listed.push_back(known ? *old : PairOfCells{cells});
+    if (known && old->patch >= 0) lives[static_cast<std::size_t>(old->patch)] = 1;
+  }
+  pairs_.swap(listed);
+  if (structure_pairs_.empty()) make_structure_pairs(materials);
+  terms_.rebuild(pairs);
+  double lost = 0.0;
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if (lives[i]) continue;
+    lost += history_energy(patches_[i]);
+    patches_[i].memory = {};  // so that it is not lost again when nothing follows the patch
+  }
+  return lost;
+}
+
+// Which structures may touch, and with which parameters.
+
+std::vector<StructurePair> StructurePatches::find_structure_pairs(
+    const ContactMaterials& materials) const {
+  std::vector<StructurePair> structure_pairs;
+  const std::vector<double> masses = materials.structure_masses.empty()
+                                         ? mean_node_masses(*surface_, materials)
+                                         : materials.structure_masses;
+  const auto part = [&](std::size_t i) {
+    const auto id = geometry::id_at<geometry::StructureId>(i);
+    return BodyPart{materials.of_structures[i], surface_->radius(id), masses[i],
+                    shape_of(*surface_, id)};
+  };
+  for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
+    for (std::size_t k = i; k < surface_->structure_count(); ++k) {
+      const AnyLaw::Parameters parameters = materials.pairs.combine(part(i), part(k));
+      structure_pairs.push_back({AnyLaw::without_attraction(parameters), part(i).radius,
+                                 part(k).radius, AnyLaw::attraction(parameters)});
+    }
+  }
+  return structure_pairs;
+}
+
+void StructurePatches::make_structure_pairs(const ContactMaterials& materials) {
+  structure_pairs_ = find_structure_pairs(materials);
+  take_parameters(materials);
+  for (const StructurePair& structure_pair : structure_pairs_) {
+    springs_.push_back(NormalSpring::of<AnyLaw>(
+        structure_pair.parameters, structure_pair.radius_first + structure_pair.radius_second,
+        &structure_pair.attraction));
+  }
+}
+
+void StructurePatches::take_parameters(const ContactMaterials& materials) {
+  if (structure_pairs_.empty()) return;
+  std::vector<StructurePair> structure_pairs = find_structure_pairs(materials);
+  for (std::size_t i = 0; i < structure_pairs.size(); ++i)
+    structure_pairs_[i] = structure_pairs[i];  // springs point there
+  glues_ = std::ranges::any_of(
+      structure_pairs_, [](const StructurePair& of) { return AnyLaw::cements(of.parameters); });
+}
+
+// Which pairs of cells are one patch, and where their forces act.
+
+void StructurePatches::find(const Motion& motion, geometry::ThreadPool& pool) {
+  terms_.evaluate(springs_, motion, pool);
+  previous_.clear();
+  for (const StructurePatch& patch : patches_) {
+    previous_.push_back({patch.memory, patch.point_count(), history_energy(patch), patch.id,
+                         patch.normal_force, patch.is_torn});
+  }
+  if (terms_.acting_changed()) {
+    join_pairs();
+    find_places();
+  }
+  find_successors();
+  add_up_patches(motion.position);
+}
+
+/// Pairs of cells hang together where they share a feature that acts.
+void StructurePatches::join_pairs() {
+  for (PairOfCells& pair : pairs_) {
+    pair.old_patch = pair.patch;
+    pair.was_turned = pair.is_turned;
+    pair.patch = -1;
+  }
+  connected_.reset(pairs_.size());
+  constexpr std::int32_t kTouches = 0;
+  for (const std::uint32_t acting : terms_.acting()) {
+    const auto holders = terms_.holders(terms_[acting]);
+    const Holder& first = holders.front();
+    for (const Holder& holder : holders) {
+      connected_.unite(first.pair, holder.pair, first.is_turned != holder.is_turned);
+      pairs_[holder.pair].patch = kTouches;
+    }
+  }
+  number_patches();
+}
+
+void StructurePatches::number_patches() {
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+    if (pairs_[i].patch < 0) continue;
+    const auto place = connected_.find(i);
+    // The root is the lowest of its patch: it comes first.
+    pairs_[i].patch =
+        place.root == i ? static_cast<std::int32_t>(count++) : pairs_[place.root].patch;
+    pairs_[i].is_turned = place.is_turned;
+  }
+  patches_.resize(count);
+}
+
+void StructurePatches::find_places() {
+  for (StructurePatch& patch : patches_) {
+    patch.first.clear();
+    patch.second.clear();
+  }
+  places_.clear();
+  for (const std::uint32_t acting : terms_.acting()) {
+    const PairTerm& term = terms_[acting];
+    const Holder& holder = terms_.holders(term).front();
+    const PairOfCells& pair = pairs_[holder.pair];
+    const bool is_turned = holder.is_turned != pair.is_turned;
+    places_.push_back({static_cast<std::uint32_t>(pair.patch), is_turned, {}, {}});
+    StructurePatch& patch = patches_[places_.back().patch];
+    patch.structure_pair = term.spring;
+    for (const NodeId node : term.a) (is_turned ? patch.second : patch.first).add(node);
+    for (const NodeId node : term.b) (is_turned ? patch.first : patch.second).add(node);
+  }
+  for (StructurePatch& patch : patches_) {
+    patch.first.sort();
+    patch.second.sort();
+  }
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const PairTerm& term = terms_[terms_.acting()[i]];
+    TermPlaces& places = places_[i];
+    const StructurePatch& patch = patches_[places.patch];
+    const auto& side_a = places.is_turned ? patch.second : patch.first;
+    const auto& side_b = places.is_turned ? patch.first : patch.second;
+    for (std::size_t k = 0; k < term.a.count; ++k) places.a[k] = side_a.place_of(term.a.ids[k]);
+    for (std::size_t k = 0; k < term.b.count; ++k) places.b[k] = side_b.place_of(term.b.ids[k]);
+  }
+}
+
+void StructurePatches::add_up_patches(Positions x) {
+  largest_overlap_ratio_ = 0.0;
+  crossings_ = 0;
+  for (StructurePatch& patch : patches_) patch.reset();
+  for (std::size_t i = 0; i < places_.size(); ++i) add_up_term(terms_.acting()[i], places_[i]);
+  for (StructurePatch& patch : patches_) patch.find_totals(structure_pair_of(patch), x);
+  for (const PatchSuccessor& successor : successors_)
+    patches_[successor.patch].is_torn |= previous_[successor.old_patch].is_torn;
+}
+
+void StructurePatches::add_up_term(std::uint32_t acting, const TermPlaces& places) {
+  const PairTerm& term = terms_[acting];
+  const StructurePair& structure_pair = structure_pairs_[term.spring];
+  const double radius = std::min(structure_pair.radius_first, structure_pair.radius_second);
+  largest_overlap_ratio_ = std::max(largest_overlap_ratio_, term.overlap / radius);
+  crossings_ += term.is_of_cells && term.meets ? 1 : 0;
+  StructurePatch& patch = patches_[places.patch];
+  if (term.overlap > patch.deepest_overlap) {
+    patch.deepest_overlap = term.overlap;
+    patch.deepest = {places.is_turned ? term.b : term.a, places.is_turned ? term.a : term.b};
+  }
+  patch.energy += term.forces.energy;
+  auto& side_a = places.is_turned ? patch.second : patch.first;
+  auto& side_b = places.is_turned ? patch.first : patch.second;
+  const auto push = [&](const PairForces& by) {
+    for (std::size_t k = 0; k < term.a.count; ++k) side_a.add_force(places.a[k], by.on_a[k]);
+    for (std::size_t k = 0; k < term.b.count; ++k) side_b.add_force(places.b[k], by.on_b[k]);
+  };
+  push(term.forces);
+  if (const PairForces* const ends = terms_.at_ends(acting)) push(*ends);
+  const auto attract = [&](const PairForces* by) {
+    if (by == nullptr) return;
+    patch.attraction_energy += by->energy;
+    for (std::size_t k = 0; k < term.a.count; ++k) side_a.add_attraction(places.a[k], by->on_a[k]);
+    for (std::size_t k = 0; k < term.b.count; ++k) side_b.add_attraction(places.b[k], by->on_b[k]);
+  };
+  attract(terms_.attraction(acting));
+  attract(terms_.attraction_at_ends(acting));
+}
+
+// What patches of one step leave to those of the next.
+
+void StructurePatches::find_successors() {
+  successors_.clear();
+  if (!terms_.acting_changed()) {
+    for (std::uint32_t i = 0; i < patches_.size(); ++i) successors_.push_back({i, i, false});
+    return;
+  }
+  for (const PairOfCells& pair : pairs_) {
+    if (pair.old_patch < 0 || pair.patch < 0) continue;
+    successors_.push_back({static_cast<std::uint32_t>(pair.old_patch),
+                           static_cast<std::uint32_t>(pair.patch),
+                           pair.was_turned != pair.is_turned});
+  }
+  std::sort(successors_.begin(), successors_.end());
+  successors_.erase(std::unique(successors_.begin(), successors_.end(),
+                                [](const PatchSuccessor& p, const PatchSuccessor& q) {
+                                  return p.old_patch == q.old_patch && p.patch == q.patch;
+                                }),
+                    successors_.end());
+}
+
+EnergyLoss StructurePatches::transfer(const Motion& motion, double dt) {
+  EnergyLoss loss;
+  for (const Predecessor& old : previous_) loss.dissipated += old.energy;
+  for (auto begin = successors_.begin(); begin != successors_.end();) {
+    const double energy = previous_[begin->old_patch].energy;
+    loss.dissipated -= energy;
+    loss.tracking += energy;
+    begin = end_of_group(begin, successors_.end());
+  }
+  for (auto begin = successors_.begin(); begin != successors_.end();) {
+    const auto end = end_of_group(begin, successors_.end());
+    const Predecessor& old = previous_[begin->old_patch];
+    hand_on_number(old, {begin, end});
+    hand_on_history(old, {begin, end}, motion, dt);
+    begin = end;
+  }
+  for (const StructurePatch& patch : patches_) loss.tracking -= history_energy(patch);
+  return loss;
+}
+
+/// Each gets as much as it pushes.
+void StructurePatches::hand_on_history(const Predecessor& old,
+                                       std::span<const PatchSuccessor> successors,
+                                       const Motion& motion, double dt) {
+  double total = 0.0;
+  for (const PatchSuccessor& successor : successors)
+    total += patches_[successor.patch].normal_force;
+  if (!(total > 0.0)) return;
+  for (const PatchSuccessor& successor : successors) {
+    StructurePatch& patch = patches_[successor.patch];
+    if (!(patch.normal_force > 0.0) || !(patch.point_part > 0.0)) continue;
+    const double sign = successor.is_turned ? -1.0 : 1.0;
+    const Vec3 normal = sign / patch.normal_force * patch.elastic_force;
+    const Vec3 spin =
+        0.5 * (patch.first.angular_velocity(motion) + patch.second.angular_velocity(motion));
+    const auto carried = carried_history<AnyLaw>(old.memory, normal, dt * spin.dot(normal));
+    const double share = patch.normal_force / total * old.count / patch.point_count();
+    AnyLaw::accumulate_history(patch.memory.history, carried, sign * std::min(1.0, share));
+  }
+}
+
+std::span<const PatchSuccessor> StructurePatches::successors_of(
+    std::uint32_t old_patch) const noexcept {
+  const auto range =
+      std::ranges::equal_range(successors_, old_patch, {}, &PatchSuccessor::old_patch);
+  return {range.begin(), range.end()};
+}
+
+/// To the successor that pushes most; of patches that merge, the number of the one that pushed
+/// most goes on.
+void StructurePatches::hand_on_number(const Predecessor& old,
+                                      std::span<const PatchSuccessor> successors) {
+  const PatchSuccessor& largest = *std::max_element(
+      successors.begin(), successors.end(), [&](const PatchSuccessor& p, const PatchSuccessor& q) {
+        return patches_[p.patch].normal_force < patches_[q.patch].normal_force;
+      });
+  StructurePatch& patch = patches_[largest.patch];
+  if (!(old.normal_force > patch.id_from)) return;
+  patch.id = old.id;
+  patch.id_from = old.normal_force;
+}
+
+// What becomes of the contacts of structures that lose some of their elements.
+
+void StructurePatches::follow(const geometry::SurfaceChange& change) {
+  std::vector<PairOfCells> left;
+  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+    const PairOfCells& pair = pairs_[i];
+    const auto a = change.now(pair.cells.a);
+    const auto b = change.now(pair.cells.b);
+    if (a && b) {
+      left.push_back({{*a, *b}, pair.patch, pair.is_turned});
+      left.back().spread = pair.spread;
+    } else if (pair.patch >= 0) {
+      hand_to_sides(pair, terms_.witness_features(i), change, left);
+    }
+  }
+  std::stable_sort(left.begin(), left.end(),
+                   [](const PairOfCells& p, const PairOfCells& q) { return p.cells < q.cells; });
+  left.erase(
+      std::unique(left.begin(), left.end(),
+                  [](const PairOfCells& p, const PairOfCells& q) { return p.cells == q.cells; }),
+      left.end());
+  pairs_.swap(left);
+  surface_ = &change.after();
+  // Patches may be left of what is listed no more, which the terms of now know nothing of.
+  terms_ = PairTerms(*surface_);
+}
+
+/// @param witness features  corners of the features of both cells that hold the nearest points
+void StructurePatches::hand_to_sides(const PairOfCells& pair,
+                                     const std::array<geometry::FeatureNodes, 2>& witness_features,
+                                     const geometry::SurfaceChange& change,
+                                     std::vector<PairOfCells>& left) const {
+  const auto has = [&](geometry::CellId cell, const geometry::FeatureNodes& feature) {
+    const auto nodes = change.after().nodes_of(cell);
+    return std::all_of(feature.begin(), feature.end(), [&](NodeId node) {
+      return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+    });
+  };
+  const bool is_of_one =
+      change.before().structure_of(pair.cells.a) == change.before().structure_of(pair.cells.b);
+  for (const geometry::CellId a : change.left_of(pair.cells.a)) {
+    for (const geometry::CellId b : change.left_of(pair.cells.b)) {
+      if (!has(a, witness_features[0]) || !has(b, witness_features[1])) continue;
+      const bool swaps = is_of_one && b < a;  // within one structure the lower cell comes first
+      left.push_back({swaps ? geometry::CellPair{b, a} : geometry::CellPair{a, b}, pair.patch,
+                      pair.is_turned != swaps});
+    }
+  }
+}
+
+// What all patches come to.
+
+double StructurePatches::normal_energy(const geometry::Surface& surface, const Motion& at,
+                                       geometry::ThreadPool& pool) const {
+  if (pairs_.empty()) return 0.0;
+  std::vector<geometry::CellPair> listed;
+  for (const PairOfCells& pair : pairs_) listed.push_back(pair.cells);
+  PairTerms terms(surface);
+  terms.rebuild(listed);
+  terms.evaluate(springs_, at, pool);
+  double energy = 0.0;
+  for (const std::uint32_t acting : terms.acting()) {
+    energy += terms[acting].forces.energy;
+    if (const PairForces* of = terms.attraction(acting)) energy += of->energy;
+  }
+  return energy;
+}
+
+double StructurePatches::apply_law(const Motion& motion, double dt) {
+  double dissipated = 0.0;
+  for (StructurePatch& patch : patches_)
+    dissipated += patch.apply_law(structure_pair_of(patch), motion, dt);
+  return dissipated;
+}
+
+void StructurePatches::add_forces(NodeForces& forces) const {
+  for (const StructurePatch& patch : patches_) patch.add_forces(structure_pair_of(patch), forces);
+}
+
+double StructurePatches::elastic_energy() const {
+  double energy = 0.0;
+  for (const StructurePatch& patch : patches_)
+    energy += patch.energy + patch.attraction_energy + history_energy(patch);
+  return energy;
+}
+
+/// That of pairs with a bar is told by these.
+void StructurePatches::for_each_stiffness(
+    geometry::FunctionRef<void(NodeId, double, double, double)> visit) const {
+  for (const StructurePatch& patch : patches_) {
+    if (!patch.pushes() || patch.bar_part == 1.0) continue;
+    const StructurePair& structure_pair = structure_pair_of(patch);
+    const auto parameters = patch.whole_parameters(structure_pair);
+    const auto on = [&](double radius) {
+      return [&, radius](NodeId node, double share) {
+        const double part = (1.0 - patch.bar_part) * std::abs(share);
+        visit(node, part * AnyLaw::normal_stiffness(parameters, patch.gap),
+              part * AnyLaw::tangential_stiffness(parameters, patch.gap), radius);
+      };
+    };
+    patch.first.for_each_share(on(structure_pair.radius_first));
+    patch.second.for_each_share(on(structure_pair.radius_second));
+  }
+}
+
+// The state.
+
+void StructurePatches::clear() {
+  pairs_.clear();
+  patches_.clear();
+}
+
+void StructurePatches::exchange(const geometry::StateArchive& archive) {
+  archive("largest_overlap_ratio", largest_overlap_ratio_);
+  archive("crossings", crossings_);
+  terms_.exchange(archive.group("terms"));
+  archive.rows("patches", patches_, [&](geometry::RowFields& row, StructurePatch& patch) {
+    patch.exchange(row, structure_pairs_);
+  });
+}
+
+}  // namespace plekton::contact::structure

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/law/material_pairs.hpp"
+#include "contact/surface_surface/pair_terms.hpp"
+#include "contact/surface_surface/structure_patch.hpp"
+#include "contact/surface_surface/touching_patches.hpp"
+#include "contact/tracking/energy_loss.hpp"
+#include "geometry/base/function_ref.hpp"
+#include "geometry/neighbor/cell_neighbours.hpp"
+#include "geometry/primitives/surface_change.hpp"
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plekton::contact::structure {
+
+/// Two cells of the list, and where they stand in what is kept from the last step.
+struct PairOfCells {
+  geometry::CellPair cells;
+  std::int32_t patch = -1;  ///< -1: does not touch
+  bool is_turned = false;   ///< its first cell is on the second side of its patch
+  std::int32_t old_patch = -1;
+  bool was_turned = false;
+  std::int32_t bond = -1;    ///< StructureBonds; -1: none
+  std::int32_t spread = -1;  ///< SpreadContacts, of the last step; -1: none
+};
+
+/// A patch of the last step that lives on in one of this.
+struct PatchSuccessor {
+  std::uint32_t old_patch;
+  std::uint32_t patch;
+  bool is_turned;
+  friend constexpr auto operator<=>(const PatchSuccessor&, const PatchSuccessor&) = default;
+};
+
+/// Where the forces of a term in range go.
+struct TermPlaces {
+  std::uint32_t patch;
+  bool is_turned;  ///< feature a is on the second side
+  std::array<std::uint32_t, 3> a;
+  std::array<std::uint32_t, 3> b;
+};
+
+/// The parts of the contact region of structures that hang together, from step to step: which
+/// pairs of cells form one, what their terms push with, and which patch of the last step goes on
+/// as which of this, with its history and its number.
+class StructurePatches {
+ public:
+  explicit StructurePatches(const geometry::Surface& surface)
+      : surface_(&surface), terms_(surface) {}
+  StructurePatches(StructurePatches&&) = default;  // a copy's springs would be those of another
+  StructurePatches& operator=(StructurePatches&&) = default;
+
+  /// Takes a new list of cells that may touch, sorted; pairs in both lists keep their patches.
+  /// @returns the energy (J) lost with patches that left the list
+  double rebuild(std::span<const geometry::CellPair> pairs, const ContactMaterials& materials);
+
+  /// Goes on with other parameters of the same materials.
+  void take_parameters(const ContactMaterials& materials);
+
+  /// Pairs of cells keep their patches when a surface loses some of its elements. Those of a torn
+  /// facet go to its sides that hold the nearest points: there the contact goes on. A list for the
+  /// surface as it is now has to follow.
+  void follow(const geometry::SurfaceChange& change);
+
+  /// J, of the elastic normal forces and of the attraction of the listed pairs of a surface, where
+  /// the nodes are at a moment.
+  double normal_energy(const geometry::Surface& surface, const Motion& at,
+                       geometry::ThreadPool& pool) const;
+
+  /// Finds the patches of this step, and how they push.
+  void find(const Motion& motion, geometry::ThreadPool& pool);
+
+  /// Hands the histories of the last step's patches to this step's. A spring that comes to count
+  /// for more contacts keeps its force, one that counts for less keeps its stretch: neither gains
+  /// energy. What a patch stored that nothing follows is dissipated.
+  EnergyLoss transfer(const Motion& motion, double dt);
+
+  /// One step of the law. @returns the energy (J) dissipated
+  double apply_law(const Motion& motion, double dt);
+
+  void add_forces(NodeForces& forces) const;
+  double elastic_energy() const;
+  void for_each_stiffness(geometry::FunctionRef<void(NodeId, double, double, double)> visit) const;
+
+  /// Nothing is listed and nothing touches.
+  bool empty() const noexcept { return terms_.empty() && patches_.empty(); }
+  double largest_overlap_ratio() const noexcept { return largest_overlap_ratio_; }
+  std::size_t crossings() const noexcept { return crossings_; }
+
+  const geometry::Surface& surface() const noexcept { return *surface_; }
+  const PairTerms& terms() const noexcept { return terms_; }
+  const NormalSpring& spring_of(const PairTerm& term) const noexcept {
+    return springs_[term.spring];
+  }
+  /// All structures that may ever meet, by the rows of the upper triangle.
+  std::span<const StructurePair> structure_pairs() const noexcept { return structure_pairs_; }
+  const StructurePair& structure_pair_of(const StructurePatch& patch) const noexcept {
+    return structure_pairs_[patch.structure_pair];
+  }
+  /// Whether any two structures stick where they come to touch.
+  bool glues() const noexcept { return glues_; }
+  double history_energy(const StructurePatch& patch) const {
+    return patch.history_energy(structure_pair_of(patch));
+  }
+
+  std::span<PairOfCells> pairs() noexcept { return pairs_; }
+  std::span<const PairOfCells> pairs() const noexcept { return pairs_; }
+  std::span<StructurePatch> patches() noexcept { return patches_; }
+  std::span<const StructurePatch> patches() const noexcept { return patches_; }
+  /// Of the terms in range, in their order.
+  std::span<const TermPlaces> places() const noexcept { return places_; }
+  /// Patches of this step in which one of the last step lives on.
+  std::span<const PatchSuccessor> successors_of(std::uint32_t old_patch) const noexcept;
+
+  /// Nothing is listed, nothing touches.
+  void clear();
+  /// All but the list, and what pairs() say.
+  void exchange(const geometry::StateArchive& archive);
+
+ private:
+  /// What a patch of the last step leaves to those of this one.
+  struct Predecessor {
+    ContactMemory<AnyLaw> memory;
+    double count;
+    double energy;  ///< J, of the history
+    std::int64_t id;
+    double normal_force;  ///< N
+    bool is_torn;
+  };
+
+  std::vector<StructurePair> find_structure_pairs(const ContactMaterials& materials) const;
+  void make_structure_pairs(const ContactMaterials& materials);
+  void hand_to_sides(const PairOfCells& pair,
+                     const std::array<geometry::FeatureNodes, 2>& witness_features,
+                     const geometry::SurfaceChange& change, std::vector<PairOfCells>& left) const;
+  void join_pairs();
+  void number_patches();
+  void find_places();
+  void find_successors();
+  void add_up_patches(Positions x);
+  void add_up_term(std::uint32_t acting, const TermPlaces& places);
+  void hand_on_history(const Predecessor& old, std::span<const PatchSuccessor> successors,
+                       const Motion& motion, double dt);
+  void hand_on_number(const Predecessor& old, std::span<const PatchSuccessor> successors);
+
+  const geometry::Surface* surface_;
+  std::vector<PairOfCells> pairs_;
+  std::vector<StructurePair> structure_pairs_;
+  std::vector<NormalSpring> springs_;  ///< of the structure pairs
+  bool glues_ = false;
+  PairTerms terms_;
+  std::vector<TermPlaces> places_;
+  TouchingPatches connected_;
+  std::vector<StructurePatch> patches_;
+  std::vector<Predecessor> previous_;
+  std::vector<PatchSuccessor> successors_;
+  double largest_overlap_ratio_ = 0.0;
+  std::size_t crossings_ = 0;
+};
+
+}  // namespace plekton::contact::structure
