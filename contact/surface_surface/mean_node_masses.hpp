@@ -12,7 +12,7 @@ namespace plekton::contact::structure {
 /// kg, by StructureId; 0 of a structure without elements. What moves in a contact of structures is
 /// about a node of each.
 inline std::vector<double> mean_node_masses(const geometry::Surface& surface,
-                                     const ContactMaterials& materials) {
+                                            const ContactMaterials& materials) {
   std::vector<double> masses(surface.structure_count(), 0.0);
   std::vector<double> counts(surface.structure_count(), 0.0);
   for (std::size_t n = 0; n < surface.node_count(); ++n) {

@@ -75,10 +75,14 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   first_holders_.clear();
   acting_.clear();
   terms_are_new_ = true;
+  have_bars_ = false;
   term_of_pair_.resize(pairs.size());
   proximity_.resize(pairs.size());
+  tilts_.resize(pairs.size());
   spreads_.resize(pairs.size());
   is_near_.assign(pairs.size(), 0);
+  by_tilt_.assign(pairs.size(), {});
+  has_tilting_ = false;
   clearances_.clear();
   joints_.clear(pairs.size());
   for (const std::uint32_t pair : features.holders) holders_.push_back({pair, false});
@@ -94,6 +98,7 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
       holder.is_turned = std::find(nodes.begin(), nodes.end(), term.a.ids[0]) == nodes.end();
       if (term.is_of_cells) term_of_pair_[holder.pair] = static_cast<std::uint32_t>(terms_.size());
     }
+    have_bars_ = have_bars_ || (term.is_of_cells && (term.a.count == 2 || term.b.count == 2));
     first_holders_.push_back(term.first_holder);
     joints_.add(term, {holders_.data() + term.first_holder, term.holder_count}, pairs, *surface_);
     terms_.push_back(term);
@@ -116,7 +121,8 @@ void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& mo
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (is_acting_[i] != 0) acting_.push_back(candidates_[i]);
   }
-  by_tilt_.assign(term_of_pair_.size(), {});
+  if (has_tilting_) by_tilt_.assign(term_of_pair_.size(), {});
+  has_tilting_ = false;
   give_back_of_rings(springs, motion.position);
   tilt_cells(springs, motion.position);
   joints_.gather(acting_);
@@ -154,6 +160,7 @@ void PairTerms::find_near_pairs(std::span<const NormalSpring> springs, const Mot
   for (const std::uint32_t pair : due_) {
     clearances_.set(pair, proximity_[pair].clearance);
     is_near_[pair] = proximity_[pair].clearance < 0.0;
+    tilts_[pair] = proximity_[pair].tilt;
   }
 }
 
@@ -215,14 +222,14 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
 
 /// Mean of the pairs of cells that have a term. All of them are in range: their tilts are of now.
 PointShare PairTerms::share_of(const PairTerm& term, double overlap, double range) const noexcept {
-  PointShare mean{0.0, 0.0, 0.0};
+  double share = 0.0, by_distance = 0.0;
   for (const Holder& holder : holders(term)) {
-    const PointShare of = point_share(proximity_[holder.pair].tilt, overlap, range);
-    mean.share += of.share;
-    mean.by_distance += of.by_distance;
+    const PointShare of = point_share(tilts_[holder.pair], overlap, range);
+    share += of.share;
+    by_distance += of.by_distance;
   }
-  const double part = 1.0 / static_cast<double>(term.holder_count);
-  return {part * mean.share, part * mean.by_distance, 0.0};
+  const auto count = static_cast<double>(term.holder_count);
+  return {share / count, by_distance / count, 0.0};
 }
 
 void PairTerms::give_back_of_rings(std::span<const NormalSpring> springs, Positions x) {
@@ -277,7 +284,7 @@ double PairTerms::flatness_share(std::span<const std::uint32_t> pairs,
                                  double range) const noexcept {
   double share = 1.0;
   for (const std::uint32_t pair : pairs)
-    share *= point_share(proximity_[pair].tilt, of_cells(pair).overlap, range).share;
+    share *= point_share(tilts_[pair], of_cells(pair).overlap, range).share;
   return share;
 }
 
@@ -326,7 +333,7 @@ void PairTerms::add_flatness(std::span<const std::uint32_t> pairs, double energy
   for (const std::uint32_t pair : pairs) {
     const std::uint32_t cells = term_of_pair_[pair];
     PairTerm& term = terms_[cells];
-    const PointShare of = point_share(proximity_[pair].tilt, term.overlap, range);
+    const PointShare of = point_share(tilts_[pair], term.overlap, range);
     if (of.share == 1.0) continue;
     const double force = -energy / of.share * of.by_distance;
     const PairForces forces = pushing_apart(proximity_[pair].cores, force);
@@ -335,6 +342,7 @@ void PairTerms::add_flatness(std::span<const std::uint32_t> pairs, double energy
     add_on_nodes(term.b, forces.on_b, term, to);
     if (!pulls) term.push += force;
     by_tilt_[pair][pulls ? 1 : 0] += energy / of.share * of.by_tilt;
+    has_tilting_ = true;
   }
 }
 
@@ -345,11 +353,13 @@ void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x) {
     const PairTerm& term = terms_[candidates_[i]];
     const double range = springs[term.spring].range();
     for (const Holder& holder : holders(term)) {
-      const PointShare of = point_share(proximity_[holder.pair].tilt, term.overlap, range);
+      const PointShare of = point_share(tilts_[holder.pair], term.overlap, range);
       const double by_tilt = of.by_tilt / static_cast<double>(term.holder_count);
       for (std::size_t k = 0; k < 2; ++k) by_tilt_[holder.pair][k] += by_tilt * shared_[i][k];
     }
+    has_tilting_ = true;
   }
+  if (!has_tilting_) return;
   for (std::size_t pair = 0; pair < by_tilt_.size(); ++pair) {
     const std::uint32_t cells = term_of_pair_[pair];
     const auto [pushing, pulling] = by_tilt_[pair];

@@ -65,6 +65,9 @@ class PairTerms {
     return terms_[term_of_pair_[pair]];
   }
 
+  /// Whether any of the listed pairs has a cylinder.
+  bool have_bars() const noexcept { return have_bars_; }
+
   /// What attracts the features of a term in range, besides its forces; null if nothing does.
   const PairForces* attraction(std::size_t term) const noexcept {
     return attracts_.empty() || attracts_[terms_[term].spring] == 0 ? nullptr : &attractions_[term];
@@ -146,15 +149,18 @@ class PairTerms {
   std::vector<std::uint32_t> first_holders_;  ///< by term, and the number of all
   std::vector<std::uint32_t> term_of_pair_;   ///< of both cells
   bool terms_are_new_ = false;
+  bool have_bars_ = false;
   Clearances clearances_;                 ///< of the pairs of cells
   std::vector<std::uint32_t> due_;        ///< pairs of cells that may be in range, ascending
   std::vector<TermProximity> proximity_;  ///< by pair; of those in range, as it is now
+  std::vector<double> tilts_;             ///< by pair; of those in range, of proximity_
   std::vector<PairForces> spreads_;       ///< by pair; of those of facets in range
   std::vector<char> is_near_;             ///< by pair: in range
   std::vector<std::uint32_t> candidates_;
   /// J, by candidate: what the share of a term is of; of attraction in the second.
   std::vector<std::array<double, 2>> shared_;
   std::vector<std::array<double, 2>> by_tilt_;  ///< J, by pair of cells: of tilt_cells()
+  bool has_tilting_ = false;                    ///< any of them may not be 0
   std::vector<char> is_acting_;                 ///< by candidate
   std::vector<std::uint32_t> acting_;
   std::vector<std::uint32_t> acted_;  ///< in the step before

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/surface_surface/point_share.hpp"
 
-#include "contact/surface_surface/facing_facets.hpp"
-
 namespace plekton::contact::structure {
 namespace {
-
-constexpr double kTilted = 1.0 - kCosineOfCrossing * kCosineOfCrossing;
 
 /// The slopes of a function by the corners of a facet.
 /// @param by_normal  those by its unit normal
@@ -25,16 +21,6 @@ std::array<Vec3, 3> by_corners(const Simplex& facet, const Vec3& by_normal) {
 double tilt_between(const Simplex& a, const Simplex& b) {
   if (a.count != 3 || b.count != 3) return -1.0;
   return normal_of(a).cross(normal_of(b)).squaredNorm();
-}
-
-PointShare point_share(double tilt, double overlap, double range) {
-  if (!(tilt >= 0.0)) return {};  // nor where a facet has no area
-  const double per_tilt = range * range / (overlap * overlap);
-  const double x = per_tilt * tilt;
-  if (x >= kTilted) return {};
-  const double z = x / kTilted;
-  const double by_x = 2.0 * (1.0 - z) / kTilted;
-  return {z * (2.0 - z), by_x * 2.0 * x / overlap, by_x * per_tilt};
 }
 
 PairForces tilting_forces(const Simplex& a, const Simplex& b, double by_tilt) {

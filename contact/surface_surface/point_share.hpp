@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/surface_surface/facing_facets.hpp"
 #include "contact/surface_surface/simplex.hpp"
 
 /// Where two facets touch at a point, and where they lie on each other.
@@ -46,7 +47,17 @@ struct PointShare {
 /// @param tilt     of tilt_between()
 /// @param overlap  m, > 0
 /// @param range    m
-PointShare point_share(double tilt, double overlap, double range);
+inline PointShare point_share(double tilt, double overlap, double range) {
+  constexpr double kTilted = 1.0 - kCosineOfCrossing * kCosineOfCrossing;
+  const double square = overlap * overlap;
+  // Most facets are tilted; nor where one has no area, or is none.
+  if (!(tilt >= 0.0) || range * range * tilt >= kTilted * square) return {};
+  const double per_tilt = range * range / square;
+  const double x = per_tilt * tilt;
+  const double z = x / kTilted;
+  const double by_x = 2.0 * (1.0 - z) / kTilted;
+  return {z * (2.0 - z), by_x * 2.0 * x / overlap, by_x * per_tilt};
+}
 
 /// Forces of an energy that depends on tilt_between() of two facets.
 /// @param by_tilt  J, its derivative

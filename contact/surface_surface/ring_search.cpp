@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace plekton::contact::structure {
 namespace {
@@ -39,13 +40,12 @@ bool RingSearch::find(std::span<const std::uint32_t> acting, std::span<const Pai
   sort(acting, terms);
   changed_.clear();
   double last = 0.0;
-  for (const std::uint32_t term : order_) {
-    if (last - terms[term].overlap > kTie * terms[order_.front()].overlap) check_level();
-    last = terms[term].overlap;
-    const auto with = holders_of(term);
-    for (const Holder& holder : with.subspan(1)) unite(with.front().pair, holder.pair);
-    sums_[part_of(with.front().pair)] += terms[term].weight;
-    changed_.push_back(with.front().pair);
+  for (const auto& [overlap, term] : order_) {
+    if (last - overlap > kTie * order_.front().overlap) check_level();
+    last = overlap;
+    const std::uint32_t part = unite(holders_of(term));
+    sums_[part] += terms[term].weight;
+    changed_.push_back(part);
   }
   check_level();
   std::erase_if(pairs_, [this](std::uint32_t pair) { return !found_ || !is_more(part_of(pair)); });
@@ -55,26 +55,46 @@ bool RingSearch::find(std::span<const std::uint32_t> acting, std::span<const Pai
   return !pairs_.empty();
 }
 
-/// Deepest first.
+/// Deepest first. From one step to the next the order hardly changes: the terms of the last one
+/// come first, so that little is left to sort.
 void RingSearch::sort(std::span<const std::uint32_t> acting, std::span<const PairTerm> terms) {
-  const auto is_deeper = [&](std::uint32_t p, std::uint32_t q) {
-    return terms[p].overlap != terms[q].overlap ? terms[p].overlap > terms[q].overlap : p < q;
-  };
-  order_.assign(acting.begin(), acting.end());
-  std::sort(order_.begin(), order_.end(), is_deeper);
+  is_new_.resize(terms.size());
+  for (const std::uint32_t term : acting) is_new_[term] = 1;
+  std::size_t kept = 0;
+  for (const Level& level : order_) {
+    if (level.term >= terms.size() || is_new_[level.term] == 0) continue;
+    is_new_[level.term] = 0;
+    order_[kept++].term = level.term;
+  }
+  order_.resize(kept);
+  for (const std::uint32_t term : acting) {
+    if (is_new_[term] == 0) continue;
+    is_new_[term] = 0;
+    order_.push_back({0.0, term});
+  }
+  for (Level& level : order_) level.overlap = terms[level.term].overlap;
+  std::sort(order_.begin(), order_.end(), [](const Level& p, const Level& q) {
+    return p.overlap != q.overlap ? p.overlap > q.overlap : p.term < q.term;
+  });
 }
 
-void RingSearch::unite(std::uint32_t a, std::uint32_t b) noexcept {
-  const auto [low, high] = std::minmax({part_of(a), part_of(b)});
-  // Shorter ways for the next time.
-  for (std::uint32_t pair : {a, b}) {
-    while (root_[pair] != pair) pair = std::exchange(root_[pair], low);
+/// The pairs of cells that have a term are one part from now on. @returns it
+std::uint32_t RingSearch::unite(std::span<const Holder> holders) noexcept {
+  std::uint32_t part = part_of(holders.front().pair);
+  for (const Holder& holder : holders.subspan(1)) {
+    const std::uint32_t other = part_of(holder.pair);
+    if (other == part) continue;
+    const auto [low, high] = std::minmax(part, other);
+    // Shorter ways for the next time.
+    for (std::uint32_t pair : {holders.front().pair, holder.pair}) {
+      while (root_[pair] != pair) pair = std::exchange(root_[pair], low);
+    }
+    root_[high] = low;
+    sums_[low] += sums_[high];
+    is_more_[low] = is_more_[low] != 0 || is_more_[high] != 0;
+    part = low;
   }
-  root_[a] = root_[b] = low;
-  if (low == high) return;
-  root_[high] = low;
-  sums_[low] += sums_[high];
-  is_more_[low] = is_more_[low] != 0 || is_more_[high] != 0;
+  return part;
 }
 
 void RingSearch::check_level() noexcept {

@@ -39,10 +39,17 @@ class RingSearch {
 
  private:
   void sort(std::span<const std::uint32_t> acting, std::span<const PairTerm> terms);
-  void unite(std::uint32_t a, std::uint32_t b) noexcept;
+  std::uint32_t unite(std::span<const Holder> holders) noexcept;
   void check_level() noexcept;
 
-  std::vector<std::uint32_t> order_;    ///< terms in range, deepest first
+  /// A term in range, side by side with what it is sorted by.
+  struct Level {
+    double overlap;
+    std::uint32_t term;
+  };
+
+  std::vector<Level> order_;            ///< terms in range, deepest first
+  std::vector<char> is_new_;            ///< by term; all 0 between calls
   std::vector<std::uint32_t> root_;     ///< by pair: the lowest of its part, or one on the way
   std::vector<std::int32_t> sums_;      ///< by part: Euler's number
   std::vector<char> is_more_;           ///< by part: than a piece, at some level

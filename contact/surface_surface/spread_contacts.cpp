@@ -52,6 +52,7 @@ void SpreadContacts::share_pushes(const StructurePatches& patches) {
   const auto pairs = patches.pairs();
   bar_push_.assign(pairs.size(), 0.0);
   pressing_.assign(patches.patches().size(), {});
+  if (!terms.have_bars()) return;
   for (std::size_t i = 0; i < patches.places().size(); ++i) {
     const PairTerm& term = terms[terms.acting()[i]];
     const auto holders = terms.holders(term);
@@ -168,6 +169,7 @@ void SpreadContacts::find_transfers(const StructurePatches& patches) {
 void SpreadContacts::list_transfers_at_joints(const StructurePatches& patches) {
   const PairTerms& terms = patches.terms();
   const auto pairs = patches.pairs();
+  if (!terms.have_bars()) return;
   for (const std::uint32_t acting : terms.acting()) {
     const auto holders = terms.holders(terms[acting]);
     if (holders.size() < 2) continue;
