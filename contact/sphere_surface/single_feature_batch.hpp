@@ -102,11 +102,9 @@ class SingleFeatureAnswer {
   double gap() const noexcept { return numbers_[18]; }
   double dissipated() const noexcept { return numbers_[19]; }
   bool is_right() const noexcept { return numbers_[20] > 0.0; }
-  AnyLaw::History history(const AnyLaw::Functions& law) const noexcept {
-    AnyLaw::History history;
+  void get_history(const AnyLaw::Functions& law, AnyLaw::History& history) const noexcept {
     history.law = &law;
     std::copy_n(numbers_.data() + kHistory, law.history_numbers, history.numbers.data());
-    return history;
   }
   double* numbers() noexcept { return numbers_.data(); }
 

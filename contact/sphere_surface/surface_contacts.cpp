@@ -267,28 +267,33 @@ double SurfaceContacts::keep_single_feature(Pair& pair, std::size_t lane, int wo
   const geometry::FaceId face = worker.single_faces[lane];
   const SingleFeatureAnswer& answer = worker.lone.answer(lane);
   const double gap = answer.gap();
+  const std::int64_t id = contacts_of(pair, previous_)[0].id;
+  Lists& lists = current_[static_cast<std::size_t>(worker_index)];
+  pair.contacts = {worker_index, static_cast<std::uint32_t>(lists.contacts.size()), 1};
+  // Member by member: what is copied as a whole right after it was written has to wait for that.
   SurfaceForce& record = records_.of_worker(worker_index).add(-gap / pair.radius);
   record.a = pair.node;
-  record.core = {surface_->nodes_of(face), answer.weights(), Feature(face)};
+  record.core.nodes = surface_->nodes_of(face);
+  record.core.weights = answer.weights();
+  record.core.feature = Feature(face);
   record.force = answer.force_b();
   record.torque_a = answer.torque_a();
   record.torque_b = answer.torque_b();
   record.elastic = AnyLaw::elastic_normal_force(pair.parameters, gap);
   record.pair = static_cast<std::uint32_t>(&pair - pairs_.data());
-
-  const std::int64_t id = contacts_of(pair, previous_)[0].id;
-  Lists& lists = current_[static_cast<std::size_t>(worker_index)];
-  pair.contacts = {worker_index, static_cast<std::uint32_t>(lists.contacts.size()), 1};
   record.contact = pair.contacts.first;
-  lists.contacts.push_back({{answer.history(*pair.parameters.law), answer.normal()},
-                            answer.foot(),
-                            gap,
-                            record.elastic,
-                            AnyLaw::elastic_normal_energy(pair.parameters, gap),
-                            id,
-                            static_cast<std::uint32_t>(lists.minima.size()),
-                            1});
-  lists.minima.push_back(record.core.feature);
+
+  Contact& contact = lists.contacts.emplace_back();
+  answer.get_history(*pair.parameters.law, contact.memory.history);
+  contact.memory.normal = answer.normal();
+  contact.foot = answer.foot();
+  contact.gap = gap;
+  contact.elastic_force = record.elastic;
+  contact.elastic_energy = AnyLaw::elastic_normal_energy(pair.parameters, gap);
+  contact.id = id;
+  contact.first_minimum = static_cast<std::uint32_t>(lists.minima.size());
+  contact.minimum_count = 1;
+  lists.minima.push_back(Feature(face));
   return answer.dissipated();
 }
 
