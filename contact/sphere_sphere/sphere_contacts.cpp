@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_sphere/sphere_contacts.hpp"
 
+#include "contact/sphere_sphere/move_slots.hpp"
 #include "contact/tracking/contact_state.hpp"
 #include "contact/tracking/slip_state.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace plekton::contact {
-namespace {
-
-/// The slot that nothing comes from.
-constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
-
-}  // namespace
 
 SphereContacts::Kind::Kind(const AnyLaw::Functions& of, bool keeps) noexcept
     : law(&of), keeps_parameters(keeps) {
@@ -53,6 +47,26 @@ ContactMemory<AnyLaw> SphereContacts::Table::memory(std::size_t slot) const noex
   return memory;
 }
 
+void SphereContacts::Table::set_memory(std::size_t slot,
+                                       const ContactMemory<AnyLaw>& memory) noexcept {
+  const Rows of_row = rows(slot);
+  of_row.from(PairNumbersOfRow::kNormal).set(slot % kLanes, memory.normal);
+  of_row.from(PairNumbersOfRow::kHistory)
+      .set_numbers(slot % kLanes, memory.history.numbers.data(), kind(slot).law->history_numbers);
+}
+
+void SphereContacts::Table::resize(std::size_t rows) {
+  const std::size_t lines = kinds.front().row_size / kLanes;
+  make_room(places, rows);
+  make_room(touched, rows);
+  make_room(numbers, rows * lines * kLanes);
+  for (std::size_t row = places.size(); row < rows; ++row)
+    places.push_back({static_cast<std::uint32_t>(row * lines), 0});
+  places.resize(rows);
+  touched.resize(rows);
+  numbers.resize(rows * lines * kLanes, 0.0);
+}
+
 double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
                                std::span<const SphereBody> spheres, const MaterialPairs& materials,
                                geometry::ThreadPool& pool, Positions x) {
@@ -73,20 +87,21 @@ double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
       });
   make_room(keys_, keys.size());
   keys_.assign(keys.begin(), keys.end());
-  std::swap(table_, last_table_);
-  find_kinds(spheres, materials);
+  find_kinds(spheres, materials, last_table_.kinds);
   blocks_.assign(keys, spheres, kinds_, pool, x);
-  table_.assign(blocks_);
+  if (table_.kinds.size() == 1 && table_.kinds == last_table_.kinds)
+    move_memories_in_place();
+  else
+    move_memories();
   set_parameters(materials);
-  move_memories(last_table_);
   return lost;
 }
 
 /// If all spheres are of one material, with nothing said of it as a pair, and the law asks for no
 /// more than radii, computing parameters anew takes less time than reading them would.
-void SphereContacts::find_kinds(std::span<const SphereBody> spheres,
-                                const MaterialPairs& materials) {
-  table_.kinds.clear();
+void SphereContacts::find_kinds(std::span<const SphereBody> spheres, const MaterialPairs& materials,
+                                std::vector<Kind>& kinds) {
+  kinds.clear();
   kinds_.clear();
   common_.reset();
   if (keys_.empty()) return;
@@ -98,19 +113,19 @@ void SphereContacts::find_kinds(std::span<const SphereBody> spheres,
     const AnyLaw::Properties& properties = materials.properties(first, first);
     const bool keeps = !properties.law->combines_radii(properties);
     if (!keeps) common_ = {materials.at(first), properties};
-    table_.kinds.emplace_back(*properties.law, keeps);
+    kinds.emplace_back(*properties.law, keeps);
     return;
   }
   make_room(kinds_, keys_.size());
   for (const geometry::IndexPair& key : keys_) {
     const AnyLaw::Functions* const law =
         materials.properties(sphere(key.a).material, sphere(key.b).material).law;
-    auto known = std::ranges::find(table_.kinds, law, &Kind::law);
-    if (known == table_.kinds.end()) {
-      table_.kinds.emplace_back(*law, true);
-      known = table_.kinds.end() - 1;
+    auto known = std::ranges::find(kinds, law, &Kind::law);
+    if (known == kinds.end()) {
+      kinds.emplace_back(*law, true);
+      known = kinds.end() - 1;
     }
-    kinds_.push_back(static_cast<std::uint8_t>(known - table_.kinds.begin()));
+    kinds_.push_back(static_cast<std::uint8_t>(known - kinds.begin()));
   }
 }
 
@@ -128,19 +143,36 @@ void SphereContacts::set_parameters(const MaterialPairs& materials) {
 }
 
 /// From the slots that pairs had in the list before, to those that they have now.
-void SphereContacts::move_memories(const Table& old) {
+void SphereContacts::move_memories() {
+  std::swap(table_, last_table_);
+  table_.assign(blocks_);
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     if (old_slots_[i] == kNoSlot) continue;
     const std::uint32_t from = old_slots_[i], to = blocks_.slot(i);
-    const ContactMemory<AnyLaw> memory = old.memory(from);
-    const Rows rows = table_.rows(to);
-    rows.from(PairNumbersOfRow::kNormal).set(to % kLanes, memory.normal);
-    rows.from(PairNumbersOfRow::kHistory)
-        .set_numbers(to % kLanes, memory.history.numbers.data(),
-                     memory.history.law->history_numbers);
-    table_.touched[to / kLanes].set_moved(to % kLanes, true,
-                                          old.touched[from / kLanes].since_numbered(from % kLanes));
+    table_.set_memory(to, last_table_.memory(from));
+    table_.touched[to / kLanes].set_moved(to % kLanes, true, last_table_.is_numbered(from));
   }
+}
+
+/// The same of rows of one size: the numbers of a large bed are not there twice.
+void SphereContacts::move_memories_in_place() {
+  table_.resize(std::max(table_.places.size(), blocks_.row_count()));
+  const std::size_t slots = table_.places.size() * kLanes;
+  make_room(sources_, slots);
+  make_room(is_source_, slots);
+  sources_.assign(slots, kNoSlot);
+  for (std::size_t i = 0; i < keys_.size(); ++i) sources_[blocks_.slot(i)] = old_slots_[i];
+  move_slots(
+      sources_, is_source_,
+      [this](std::uint32_t slot) {
+        return Moved{table_.memory(slot), table_.is_numbered(slot)};
+      },
+      [this](std::uint32_t slot, const Moved& moved) {
+        table_.set_memory(slot, moved.memory);
+        table_.touched[slot / kLanes].set_moved(slot % kLanes, !moved.memory.is_new(),
+                                                moved.is_numbered);
+      });
+  table_.resize(blocks_.row_count());
 }
 
 /// Of pair i of the list.
@@ -241,7 +273,7 @@ void SphereContacts::assign_ids(std::int64_t& last) {
   PairNumbers::Reader known(numbers_);
   PairNumbers numbers;
   for_each_lane([&](const Touching& pair) {
-    const bool has_one = table_.touched[pair.slot / kLanes].since_numbered(pair.slot % kLanes);
+    const bool has_one = table_.is_numbered(pair.slot);
     numbers.add(pair.key, has_one ? known.of(pair.key) : ++last);
   });
   numbers_ = std::move(numbers);
@@ -253,8 +285,7 @@ void SphereContacts::for_each_record(Positions x, VisitRecord visit) const {
   for_each_lane([&](const Touching& pair) {
     const SphereBody &a = sphere(pair.key.a), &b = sphere(pair.key.b);
     ContactRecord row;
-    if (table_.touched[pair.slot / kLanes].since_numbered(pair.slot % kLanes))
-      row.id = numbers.of(pair.key);
+    if (table_.is_numbered(pair.slot)) row.id = numbers.of(pair.key);
     row.a = {BodyKind::sphere, pair.key.a, geometry::Feature(a.node)};
     row.b = {BodyKind::sphere, pair.key.b, geometry::Feature(b.node)};
     row.point_a = x[index_of(a.node)];
@@ -301,7 +332,7 @@ std::vector<SphereContacts::KeptPair> SphereContacts::kept_pairs() const {
   PairNumbers::Reader numbers(numbers_);
   for_each_lane([&](const Touching& pair) {
     const Kind& kind = table_.kind(pair.slot);
-    const bool is_numbered = table_.touched[pair.slot / kLanes].since_numbered(pair.slot % kLanes);
+    const bool is_numbered = table_.is_numbered(pair.slot);
     Vec3 force = Vec3::Zero();
     if (kind.force > 0)
       force = table_.rows(pair.slot).from(kind.force).at<Vec3>(pair.slot % kLanes);
@@ -336,10 +367,8 @@ void SphereContacts::keep(const KeptPair& pair, std::size_t place) {
   const std::size_t lane = slot % kLanes;
   const Kind& kind = table_.kind(slot);
   const Rows rows = table_.rows(slot);
-  rows.from(PairNumbersOfRow::kNormal).set(lane, pair.memory.normal);
+  table_.set_memory(slot, pair.memory);
   rows.from(PairNumbersOfRow::kGap).set(lane, pair.gap);
-  rows.from(PairNumbersOfRow::kHistory)
-      .set_numbers(lane, pair.memory.history.numbers.data(), kind.law->history_numbers);
   if (kind.force > 0) rows.from(kind.force).set(lane, pair.force);
   table_.touched[slot / kLanes].set_moved(lane, true, pair.id != 0);
   if (pair.id != 0) numbers_.add(keys_[place], pair.id);

@@ -91,6 +91,7 @@ class SphereContacts {
     std::size_t row_size;
 
     Kind(const AnyLaw::Functions& of, bool keeps) noexcept;
+    friend bool operator==(const Kind&, const Kind&) = default;
   };
   /// Where the numbers of a row are.
   struct RowPlace {
@@ -117,6 +118,17 @@ class SphereContacts {
       return touched[slot / kLanes].last(slot % kLanes);
     }
     ContactMemory<AnyLaw> memory(std::size_t slot) const noexcept;
+    void set_memory(std::size_t slot, const ContactMemory<AnyLaw>& memory) noexcept;
+    bool is_numbered(std::size_t slot) const noexcept {
+      return touched[slot / kLanes].since_numbered(slot % kLanes);
+    }
+    /// Rows of the one kind that there is; numbers that are new are 0.
+    void resize(std::size_t rows);
+  };
+  /// What goes from slot to slot when the list is made anew.
+  struct Moved {
+    ContactMemory<AnyLaw> memory;
+    bool is_numbered = false;
   };
   /// A touching pair.
   struct Touching {
@@ -141,9 +153,11 @@ class SphereContacts {
   }
   Parameters parameters(std::size_t i) const noexcept;
   Vec3 force_on_b(const Touching& pair) const noexcept;
-  void find_kinds(std::span<const SphereBody> spheres, const MaterialPairs& materials);
+  void find_kinds(std::span<const SphereBody> spheres, const MaterialPairs& materials,
+                  std::vector<Kind>& kinds);
   void set_parameters(const MaterialPairs& materials);
-  void move_memories(const Table& old);
+  void move_memories();
+  void move_memories_in_place();
   std::vector<KeptPair> kept_pairs() const;
   std::size_t exchange_pair(geometry::RowFields& row, KeptPair& pair, std::size_t from) const;
   void keep(const KeptPair& pair, std::size_t place);
@@ -177,12 +191,14 @@ class SphereContacts {
   std::optional<Common> common_;
   SphereBlocks blocks_;
   Table table_;
-  Table last_table_;                   ///< its room
+  Table last_table_;                   ///< its room, and the kinds of the list to come
   PairNumbers numbers_;                ///< of the pairs that touched when they were numbered last
   std::vector<SphereSum> ghost_sums_;  ///< of ghosts
   std::vector<Outcome> outcomes_;      ///< by block
   std::vector<SphereWork> work_;       ///< by thread
   std::vector<std::uint32_t> old_slots_;  ///< by pair of a new list
+  std::vector<std::uint32_t> sources_;    ///< by slot of a new list
+  std::vector<bool> is_source_;
 };
 
 }  // namespace plekton::contact

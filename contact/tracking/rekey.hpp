@@ -56,22 +56,32 @@ class Rekey {
   template <class Make, class Drop>
   void operator()(std::vector<Thing>& things, std::span<const geometry::IndexPair> new_keys,
                   Make make, Drop drop) {
-    moved_.clear();
-    make_room(moved_, new_keys.size());
+    // First those that go on move up, then all to their places, from the last one on: no thing is
+    // there twice.
+    make_room(places_, things.size());
+    places_.clear();
     match_keys(
         keys_, new_keys,
         [&](std::size_t i, bool is_known, std::size_t old) {
-          moved_.push_back(make(i, is_known ? &things[old] : nullptr));
+          if (!is_known) return;
+          if (places_.size() != old) things[places_.size()] = std::move(things[old]);
+          places_.push_back(i);
         },
         [&](std::size_t old) { drop(things[old]); });
+    make_room(things, new_keys.size());
+    things.resize(new_keys.size());
+    for (std::size_t i = new_keys.size(); i-- > 0;) {
+      const bool is_known = !places_.empty() && places_.back() == i;
+      if (is_known) places_.pop_back();
+      things[i] = make(i, is_known ? &things[places_.size()] : nullptr);
+    }
     make_room(keys_, new_keys.size());
     keys_.assign(new_keys.begin(), new_keys.end());
-    things.swap(moved_);
   }
 
  private:
   std::vector<geometry::IndexPair> keys_;
-  std::vector<Thing> moved_;
+  std::vector<std::size_t> places_;  ///< in the new list, of the things that go on
 };
 
 }  // namespace plekton::contact
