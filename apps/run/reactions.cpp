@@ -105,6 +105,18 @@ std::span<const dynamics::OutputField> reaction_fields() {
   return kFields;
 }
 
+ReactionValue reaction_in(const dynamics::Simulation& simulation, const BuiltReaction& reaction,
+                          std::span<const contact::ContactRecord> contacts) {
+  ReactionValue result{{}, position_of(reaction, simulation)};
+  if (reaction.kind == ReactionKind::plane) result.value = on_plane(reaction, simulation);
+  if (reaction.kind == ReactionKind::support)
+    result.value = simulation.support_reaction(reaction.nodes, about(reaction));
+  if (reaction.kind == ReactionKind::nodes) result.value = on_nodes(reaction, simulation);
+  if (reaction.kind == ReactionKind::contacts)
+    result.value = of_contacts(reaction, contacts, simulation);
+  return result;
+}
+
 Reactions::Reactions(const std::filesystem::path& folder,
                      const std::vector<BuiltReaction>& reactions, const WrittenFiles* before)
     : reactions_(reactions) {
@@ -122,16 +134,9 @@ void Reactions::add(dynamics::Simulation& simulation) {
   if (lists_contacts_) contacts = simulation.list_contacts();
   std::vector<double> row{simulation.time()};
   for (const BuiltReaction& reaction : reactions_) {
-    ForceAndMoment value;
-    if (reaction.kind == ReactionKind::plane) value = on_plane(reaction, simulation);
-    if (reaction.kind == ReactionKind::support)
-      value = simulation.support_reaction(reaction.nodes, about(reaction));
-    if (reaction.kind == ReactionKind::nodes) value = on_nodes(reaction, simulation);
-    if (reaction.kind == ReactionKind::contacts)
-      value = of_contacts(reaction, contacts, simulation);
+    const auto [value, position] = reaction_in(simulation, reaction, contacts);
     row.insert(row.end(), value.force.data(), value.force.data() + 3);
     row.insert(row.end(), value.moment.data(), value.moment.data() + 3);
-    const Vec3 position = position_of(reaction, simulation);
     row.insert(row.end(), position.data(), position.data() + 3);
   }
   writer_->add(row);

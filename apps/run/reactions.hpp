@@ -16,6 +16,16 @@ namespace plekton::apps {
 /// What reactions.csv has of every reaction, for each of three axes, behind its name and a dot.
 std::span<const dynamics::OutputField> reaction_fields();
 
+/// What a reaction is in the last step.
+struct ReactionValue {
+  dynamics::ForceAndMoment value;
+  Vec3 position;  ///< m, of the point of the plane, or the mean of the nodes
+};
+
+/// @param contacts  of the last step, for a reaction of kind contacts
+ReactionValue reaction_in(const dynamics::Simulation& simulation, const BuiltReaction& reaction,
+                          std::span<const contact::ContactRecord> contacts);
+
 /// Writes reactions.csv, if any are asked for.
 class Reactions {
  public:

@@ -18,6 +18,11 @@ Entry* Table::find(std::string_view key) {
   return const_cast<Entry*>(std::as_const(*this).find(key));
 }
 
+void refuse_depth(const Place& place) {
+  throw InputError(fmt::format("{}: tables or lists are nested more than {} deep; no key is",
+                               to_string(place), kDeepest));
+}
+
 std::string shown(const Value& value) {
   struct Show {
     std::string operator()(const std::string& text) const { return fmt::format("\"{}\"", text); }

@@ -45,6 +45,9 @@ struct Entry {
   Value value;
 };
 
+/// @throws InputError for what is nested deeper than kDeepest
+[[noreturn]] void refuse_depth(const Place& place);
+
 /// A value as a message shows it: as it is written for a text or number, its kind for what is
 /// longer.
 std::string shown(const Value& value);

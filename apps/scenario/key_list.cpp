@@ -19,7 +19,7 @@ const std::vector<std::set<std::string>>& absences() {
   static const std::vector<std::set<std::string>> sets = {
       {"loads[].plane", "loads[].grains", "loads[].angular_velocity", "loads[].turn",
        "membranes[].longest_hole", "membranes[].wrap_detail", "membranes[].wire",
-       "output.reactions[].grains", "grains[].centres"},
+       "output.reactions[].grains", "grains[].centres", "grains[].radii"},
       {"loads[].plane", "loads[].membrane", "output.reactions[].membrane"},
       {}};
   return sets;

@@ -89,7 +89,9 @@ constexpr std::array kOfShapes = std::to_array<KeyMeaning>({
     {"membranes[].shape.twist_length", "of two wires wound around each other"},
     {"membranes[].shape.wire_height", "of a single wire, along y"},
     {"membranes[].shape.meshes", "across, and rows of twists"},
-    {"membranes[].shape.points", "through which it goes; the first one again closes it"},
+    {"membranes[].shape.points", "of all nodes, or through which a chain goes"},
+    {"membranes[].shape.facets", "three points each, by their numbers from 0"},
+    {"membranes[].shape.bars", "two points each, by their numbers from 0"},
 });
 
 constexpr std::array kOfGrains = std::to_array<KeyMeaning>({
@@ -97,6 +99,7 @@ constexpr std::array kOfGrains = std::to_array<KeyMeaning>({
     {"grains[].material", "with a density"},
     {"grains[].centres", "a grain at each of these places, instead of count and box"},
     {"grains[].radius", "of all, or give sieves"},
+    {"grains[].radii", "of each of the centres, instead of radius"},
     {"grains[].passing_by", "what passing counts"},
     {"grains[].sieves[].sieve", "diameter, increasing"},
     {"grains[].sieves[].passing", "part that is smaller, from 0 to 1"},

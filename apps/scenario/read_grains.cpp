@@ -52,12 +52,26 @@ std::vector<Sieve> read_sieves(Section& section) {
   return sieves;
 }
 
-/// From the keys radius, or sieves and passing_by.
+/// Each grain has a radius of its own.
+/// @returns what nobody asks for
+SizeCurve refuse_sizes_beside_radii(Section& section) {
+  if (!section.has("centres"))
+    section.complain("radii",
+                     "goes with centres, a radius for each of them; give radius or sieves");
+  for (const std::string_view key : {"radius", "sieves", "passing_by"}) {
+    if (section.has(key))
+      section.complain(key, "radii says how large each grain is; leave one of them out");
+  }
+  return SizeCurve(1.0);
+}
+
+/// From the keys radius, or sieves and passing_by; or none of them beside radii.
 SizeCurve read_sizes(Section& section) {
   constexpr std::array<std::string_view, 2> kWords = {"mass", "number"};
   const bool has_radius = section.has("radius");
   const bool has_sieves = section.has("sieves");
   const bool has_passing_by = section.has("passing_by");
+  if (section.has("radii")) return refuse_sizes_beside_radii(section);
   if (has_radius == has_sieves) {
     section.complain(has_radius ? "radius" : "sieves",
                      fmt::format("got {} of radius and sieves; expected exactly one of them",
@@ -171,6 +185,8 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
   grains.sizes = read_sizes(section);
   if (section.has("centres")) {
     grains.centres = read_centres(section);
+    if (section.has("radii"))
+      grains.radii = section.quantities("radii", {kLength, kPositive}, grains.centres.size());
   } else {
     grains.amount = read_amount(section, density, grains.sizes);
     grains.box = read_space(section);

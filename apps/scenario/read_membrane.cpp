@@ -84,7 +84,8 @@ void require_parts(Section& section, const MembraneSettings& membrane) {
           "a net is no sheet; give the young_modulus of its bars: of bars at a pitch p "
           "that together have the stiffness J, E = J p / (pi thickness^2 / 4)");
     if (is_chain(*membrane.shape) && section.has("areal_mass"))
-      section.complain("areal_mass", "a chain has no area; give the density of its links");
+      section.complain("areal_mass",
+                       "a chain has no area, nor have single bars; give their density");
     if (membrane.mass_mode == MassMode::area)
       section.complain("mass_mode",
                        "a net has no facets to weigh; leave mass_mode out: half the mass of each "

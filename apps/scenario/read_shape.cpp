@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace plekton::apps {
 namespace {
+
+using geometry::NodeId;
 
 constexpr int kMostCells = 100'000;  // along one direction
 /// Of a shape. A facet with its share of nodes and beams takes 1.7 kB in a run, so this is 10 GB.
@@ -115,12 +119,42 @@ ShapeSettings read_chain(Section& section) {
   return chain;
 }
 
-constexpr std::array<std::string_view, 8> kKinds = {
-    "sheet",         "tube", "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid",
-    "hexagonal_net", "chain"};
-constexpr std::array<ShapeSettings (*)(Section&), 8> kReaders = {
-    read_sheet,   read_tube,     read_sphere,    read_box_shell,
-    read_biaxial, read_uniaxial, read_hexagonal, read_chain};
+ShapeSettings read_facets(Section& section) {
+  geometry::Mesh mesh;
+  mesh.points = section.vectors("points", {kLength}, 3);
+  const auto corners = section.places("facets", 3, mesh.points.size());
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    mesh.facets.push_back({NodeId{corners[i]}, NodeId{corners[i + 1]}, NodeId{corners[i + 2]}});
+  require_few(section, "facets", static_cast<double>(mesh.facets.size()));
+  return mesh;
+}
+
+/// Sorted, as the bars of every lattice.
+ShapeSettings read_bars(Section& section) {
+  geometry::Lattice lattice;
+  lattice.points = section.vectors("points", {kLength}, 2);
+  const auto ends = section.places("bars", 2, lattice.points.size());
+  for (std::size_t i = 0; i < ends.size(); i += 2) {
+    const auto [low, high] = std::minmax(ends[i], ends[i + 1]);
+    lattice.edges.push_back({{NodeId{low}, NodeId{high}}, geometry::LatticePart::link});
+  }
+  const auto nodes = [](const geometry::LatticeEdge& edge) { return edge.nodes; };
+  std::ranges::sort(lattice.edges, {}, nodes);
+  const auto twice = std::ranges::adjacent_find(lattice.edges, {}, nodes);
+  if (twice != lattice.edges.end())
+    section.complain("bars", fmt::format("two are between the points {} and {}; leave one out",
+                                         geometry::index_of(twice->nodes[0]),
+                                         geometry::index_of(twice->nodes[1])));
+  require_few(section, "bars", static_cast<double>(lattice.edges.size()));
+  return lattice;
+}
+
+constexpr std::array<std::string_view, 10> kKinds = {
+    "sheet",         "tube",  "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid",
+    "hexagonal_net", "chain", "facets", "bars"};
+constexpr std::array<ShapeSettings (*)(Section&), 10> kReaders = {
+    read_sheet,    read_tube,      read_sphere, read_box_shell, read_biaxial,
+    read_uniaxial, read_hexagonal, read_chain,  read_facets,    read_bars};
 
 }  // namespace
 

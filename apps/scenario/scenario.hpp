@@ -131,6 +131,7 @@ struct GrainSettings {
   std::variant<std::size_t, double> amount{
       std::size_t{0}};                            ///< count, or volume of the solids (m³)
   std::vector<Vec3> centres;                      ///< m, of all grains; empty: placed in the box
+  std::vector<double> radii;                      ///< m, by centre; empty: as sizes says
   geometry::Box box{Vec3::Zero(), Vec3::Zero()};  ///< m, holds the grains wholly
   GrainPlacement placement = GrainPlacement::random;
   Vec3 velocity = Vec3::Zero();          ///< m/s

@@ -4,6 +4,7 @@
 #include "apps/scenario/overrides.hpp"
 #include "apps/scenario/read_sections.hpp"
 #include "apps/scenario/toml_file.hpp"
+#include "apps/scenario/toml_text.hpp"
 
 #include <fmt/format.h>
 
@@ -73,9 +74,9 @@ Scenario read_root(Section root, Problems& problems, const fs::path& path) {
   return scenario;
 }
 
-Scenario scenario_of(const Table& table, const fs::path& path) {
+/// @param start  where what is missing is said to be
+Scenario scenario_of(const Table& table, const fs::path& path, const Place& start) {
   Problems problems;
-  const Place start{path.string(), 1, 1};
   Scenario scenario = read_root(Section(table, start, "", problems), problems, path);
   if (problems.empty() && scenario.membranes.empty() && scenario.grains.empty()) {
     problems.add(start,
@@ -91,8 +92,17 @@ Scenario parse_scenario(std::string_view text, const fs::path& path,
                         std::span<const std::string> overrides) {
   Table table = parse_toml(text, path.string());
   apply_overrides(table, overrides);
-  Scenario scenario = scenario_of(table, path);
+  Scenario scenario = scenario_of(table, path, {path.string(), 1, 1});
   scenario.text = text;
+  scenario.overrides.assign(overrides.begin(), overrides.end());
+  return scenario;
+}
+
+Scenario scenario_from(Table table, const fs::path& path, std::span<const std::string> overrides) {
+  std::string text = to_toml(table);
+  apply_overrides(table, overrides);
+  Scenario scenario = scenario_of(table, path, {path.string(), 0, 0});
+  scenario.text = std::move(text);
   scenario.overrides.assign(overrides.begin(), overrides.end());
   return scenario;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/scenario/config_tree.hpp"
 #include "apps/scenario/key_recorder.hpp"
 #include "apps/scenario/scenario.hpp"
 
@@ -25,6 +26,11 @@ Scenario read_scenario(const std::filesystem::path& path,
 /// @param path  What messages call it; mesh files are relative to its folder.
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& path,
                         std::span<const std::string> overrides = {});
+
+/// The same from tables that were made and not read; places of all that is in them are those of
+/// the path. The text of the scenario is what to_toml() makes of the tables.
+Scenario scenario_from(Table table, const std::filesystem::path& path,
+                       std::span<const std::string> overrides = {});
 
 /// Tells a recorder of every key that the reader asks for.
 void record_keys(KeyRecorder& recorder);

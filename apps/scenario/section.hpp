@@ -82,6 +82,11 @@ class Section {
   /// A list of vectors. Empty after a problem.
   std::vector<geometry::Vec3> vectors(std::string_view key, const Quantity& expected,
                                       std::size_t least);
+  /// A list of so many quantities. Empty after a problem.
+  std::vector<double> quantities(std::string_view key, const Quantity& expected, std::size_t count);
+  /// A list of rows of so many different places in a table, numbered from 0, one row after the
+  /// other; at least one row. Empty after a problem.
+  std::vector<std::int32_t> places(std::string_view key, std::size_t columns, std::size_t size);
   /// 0 or the fallback after a problem. Limits included.
   std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high,
                        std::optional<std::int64_t> fallback = {});

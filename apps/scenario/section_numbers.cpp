@@ -20,6 +20,15 @@ std::optional<double> plain_number(const Value& value) {
   return std::nullopt;
 }
 
+/// As in "[0, 1, 1]", of a short list.
+std::string items_shown(const Value& value) {
+  const auto* array = std::get_if<Array>(&value.data);
+  if (array == nullptr || array->size() > 4) return shown(value);
+  std::string text;
+  for (const Value& item : *array) text += (text.empty() ? "" : ", ") + shown(item);
+  return fmt::format("[{}]", text);
+}
+
 }  // namespace
 
 double Section::read_quantity(const Value& value, const std::string& path,
@@ -122,6 +131,52 @@ std::vector<geometry::Vec3> Section::vectors(std::string_view key, const Quantit
   for (std::size_t i = 0; array != nullptr && i < array->size(); ++i)
     vectors.push_back(read_vector((*array)[i], fmt::format("{}[{}]", path_of(key), i), expected));
   return problems_->count() == problems ? vectors : std::vector<geometry::Vec3>{};
+}
+
+std::vector<double> Section::quantities(std::string_view key, const Quantity& expected,
+                                        std::size_t count) {
+  if (records(key, "list of " + kind_text(expected), {})) return {};
+  const Value* value = require(key);
+  if (value == nullptr) return {};
+  const auto* array = std::get_if<Array>(&value->data);
+  const std::size_t problems = problems_->count();
+  if (array == nullptr || array->size() != count)
+    complain(key, fmt::format("got {}; expected a list of {}", shown(*value), count));
+  std::vector<double> numbers;
+  for (std::size_t i = 0; array != nullptr && i < array->size(); ++i)
+    numbers.push_back(read_quantity((*array)[i], fmt::format("{}[{}]", path_of(key), i), expected));
+  return problems_->count() == problems ? numbers : std::vector<double>{};
+}
+
+std::vector<std::int32_t> Section::places(std::string_view key, std::size_t columns,
+                                          std::size_t size) {
+  if (records(key, fmt::format("list of {} x whole number from 0", columns), {})) return {};
+  const Value* value = require(key);
+  if (value == nullptr) return {};
+  const auto* rows = std::get_if<Array>(&value->data);
+  const std::size_t problems = problems_->count();
+  if (rows == nullptr || rows->empty())
+    complain(key, fmt::format("got {}; expected a list of lists of {} whole numbers", shown(*value),
+                              columns));
+  std::vector<std::int32_t> places;
+  for (std::size_t i = 0; rows != nullptr && i < rows->size(); ++i) {
+    const Value& row = (*rows)[i];
+    const auto* array = std::get_if<Array>(&row.data);
+    bool fits = array != nullptr && array->size() == columns;
+    for (std::size_t k = 0; fits && k < columns; ++k) {
+      const auto* place = std::get_if<std::int64_t>(&(*array)[k].data);
+      fits = place != nullptr && *place >= 0 && static_cast<std::size_t>(*place) < size;
+      for (std::size_t other = 0; fits && other < k; ++other)
+        fits = places[places.size() - 1 - other] != *place;
+      if (fits) places.push_back(static_cast<std::int32_t>(*place));
+    }
+    if (!fits)
+      problems_->add(row.place, fmt::format("{}[{}]: got {}; expected {} different whole numbers "
+                                            "from 0 to {}",
+                                            path_of(key), i, items_shown(row), columns,
+                                            static_cast<std::int64_t>(size) - 1));
+  }
+  return problems_->count() == problems ? places : std::vector<std::int32_t>{};
 }
 
 std::int64_t Section::integer(std::string_view key, std::int64_t low, std::int64_t high,

@@ -21,13 +21,16 @@ struct BoxShape {
   std::array<int, 3> cells;  ///< along each axis
 };
 
-/// What a membrane without a mesh file is made from.
-using ShapeSettings = std::variant<geometry::PlaneSheet, geometry::Tube, SphereShape, BoxShape,
-                                   geometry::BiaxialGeogrid, geometry::UniaxialGeogrid,
-                                   geometry::HexagonalNet, geometry::Chain>;
+/// What a membrane without a mesh file is made from. Of a mesh and a lattice every point is told.
+using ShapeSettings =
+    std::variant<geometry::PlaneSheet, geometry::Tube, SphereShape, BoxShape,
+                 geometry::BiaxialGeogrid, geometry::UniaxialGeogrid, geometry::HexagonalNet,
+                 geometry::Chain, geometry::Mesh, geometry::Lattice>;
 
+/// Whether a shape is of bars anywhere in space: it has ends for a rim, and no area.
 inline bool is_chain(const ShapeSettings& shape) noexcept {
-  return std::holds_alternative<geometry::Chain>(shape);
+  return std::holds_alternative<geometry::Chain>(shape) ||
+         std::holds_alternative<geometry::Lattice>(shape);
 }
 
 /// Whether a shape has bars only and no facets.

@@ -23,11 +23,6 @@ Place place_of(const toml::source_region& region, const std::string& source) {
   return {source, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-[[noreturn]] void refuse_depth(const Place& place) {
-  throw InputError(fmt::format("{}: tables or lists are nested more than {} deep; no key is",
-                               to_string(place), kDeepest));
-}
-
 /// @throws toml::parse_error, InputError for a key that is deeper than any
 toml::table parsed(std::string_view text, const std::string& source) {
   if (const auto place = key_of_more_parts(text, kDeepest))

@@ -89,8 +89,11 @@ std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, const Buil
     return in_order_of_space(generate_grains(settings, {obstacles, built.scene.planes}, tell));
   }
   std::vector<PlacedGrain> grains;
-  for (const geometry::Vec3& centre : settings.centres)
-    grains.push_back({centre, 0.5 * settings.sizes.largest_diameter()});
+  for (std::size_t i = 0; i < settings.centres.size(); ++i) {
+    const double radius =
+        settings.radii.empty() ? 0.5 * settings.sizes.largest_diameter() : settings.radii[i];
+    grains.push_back({settings.centres[i], radius});
+  }
   return grains;
 }
 

@@ -142,14 +142,19 @@ Lattice make(const geometry::HexagonalNet& net) {
 Lattice make(const geometry::Chain& chain) {
   return geometry::chain(chain);
 }
+const Mesh& make(const Mesh& mesh) {
+  return mesh;
+}
+const Lattice& make(const Lattice& lattice) {
+  return lattice;
+}
 
-/// Of a chain the ends are the rim, and there is no area.
-void make_ends_the_rim(MembraneBody& body) {
+/// Of a chain, and of bars anywhere, the ends are the rim, and there is no area.
+void make_ends_the_rim(MembraneBody& body, std::size_t first_node) {
   std::vector<int> links(body.on_rim.size(), 0);
   for (const auto& [a, b] : body.membrane.edges) {
-    const std::size_t first = index_of(body.membrane.edges.front()[0]);
-    ++links[index_of(a) - first];
-    ++links[index_of(b) - first];
+    ++links[index_of(a) - first_node];
+    ++links[index_of(b) - first_node];
   }
   for (std::size_t i = 0; i < links.size(); ++i) body.on_rim[i] = links[i] == 1;
   body.area = 0.0;
@@ -162,7 +167,7 @@ MembraneBody make_membrane_body(const MembraneSettings& settings, std::size_t fi
     MembraneBody body =
         std::visit([&](const auto& shape) { return body_of(make(shape), settings, first_node); },
                    *settings.shape);
-    if (is_chain(*settings.shape)) make_ends_the_rim(body);
+    if (is_chain(*settings.shape)) make_ends_the_rim(body, first_node);
     return body;
   }
   geometry::ImportedMesh imported = import_unscaled(settings);

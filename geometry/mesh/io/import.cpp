@@ -22,10 +22,15 @@ PolygonSoup scaled(PolygonSoup soup, double scale, const std::string& source) {
 }  // namespace
 
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options) {
+  return import_soup(read_mesh_file(path), path.filename().string(), options);
+}
+
+ImportedMesh import_soup(PolygonSoup soup, const std::string& source,
+                         const ImportOptions& options) {
   ImportedMesh imported;
-  imported.report.source = path.filename().string();
-  imported.mesh = repair(scaled(read_mesh_file(path), options.scale, imported.report.source),
-                         options.repair, imported.report);
+  imported.report.source = source;
+  imported.mesh =
+      repair(scaled(std::move(soup), options.scale, source), options.repair, imported.report);
   const MeshReport& report = imported.report;
   if (report.verdict != MeshVerdict::refused) return imported;
 

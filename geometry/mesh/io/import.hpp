@@ -35,6 +35,11 @@ struct RefusedMesh : MeshError {
 /// @throws RefusedMesh if the verdict is refused.
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
+/// The same with polygons from memory.
+/// @param source  what messages call them
+ImportedMesh import_soup(PolygonSoup soup, const std::string& source,
+                         const ImportOptions& options = {});
+
 struct ImportedMembrane {
   Mesh mesh;
   Membrane membrane;

@@ -150,7 +150,8 @@ TEST_F(ShapeCommand, NamesAKindThatDoesNotExistWithASuggestion) {
   EXPECT_THAT(error_of(""),
               HasSubstr("case.toml:10:9: membranes.m.shape.kind: missing; expected one of "
                         "\"sheet\", \"tube\", \"sphere\", \"box\", \"biaxial_geogrid\", "
-                        "\"uniaxial_geogrid\", \"hexagonal_net\", \"chain\"\n"));
+                        "\"uniaxial_geogrid\", \"hexagonal_net\", \"chain\", \"facets\", "
+                        "\"bars\"\n"));
 }
 
 TEST_F(ShapeCommand, ReportsEveryWrongSizeWithItsPlace) {

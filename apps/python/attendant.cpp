@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/python/attendant.hpp"
+
+#include "apps/python/from_python.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace plekton::python {
+namespace {
+
+constexpr std::uint64_t kStepsBetweenClocks = 16;
+constexpr std::chrono::milliseconds kBetweenSignals{50};  // nobody feels that Ctrl-C waits for it
+
+/// How many whole intervals are over. A step ends within half its length of where it was to.
+std::int64_t intervals_over(const dynamics::Simulation& simulation, double interval) {
+  return static_cast<std::int64_t>(
+      std::floor((simulation.time() + 0.5 * simulation.time_step()) / interval));
+}
+
+}  // namespace
+
+Attendant::Attendant(py::handle owner, const py::object& every) : owner_(owner) {
+  if (every.is_none()) return;
+  if (!py::isinstance<py::dict>(every))
+    throw apps::InputError(fmt::format("every: got {}; expected a dict of times and functions",
+                                       std::string(py::repr(every))));
+  for (const auto& [interval, functions] : py::reinterpret_borrow<py::dict>(every)) {
+    const bool is_list =
+        py::isinstance<py::list>(functions) || py::isinstance<py::tuple>(functions);
+    if (!is_list) add(interval, functions);
+    if (!is_list) continue;
+    for (const py::handle function : functions) add(interval, function);
+  }
+}
+
+void Attendant::add(const py::handle& interval, const py::handle& function) {
+  const double time = seconds_of(interval, "every");
+  const std::string shown = py::repr(interval);
+  if (!(time > 0.0))
+    throw apps::InputError(fmt::format("every: got {}; expected a time above 0", shown));
+  if (PyCallable_Check(function.ptr()) == 0)
+    throw apps::InputError(fmt::format("every {}: got {}; expected a function", shown,
+                                       std::string(py::repr(function))));
+  calls_.push_back({time, py::reinterpret_borrow<py::object>(function)});
+}
+
+void Attendant::start(const dynamics::Simulation& simulation) {
+  for (Call& call : calls_) call.next = intervals_over(simulation, call.interval) + 1;
+  find_next();
+}
+
+void Attendant::find_next() noexcept {
+  next_ = std::numeric_limits<double>::infinity();
+  for (const Call& call : calls_)
+    next_ = std::min(next_, static_cast<double>(call.next) * call.interval);
+}
+
+bool Attendant::wants_end(const dynamics::Simulation& simulation) {
+  const bool is_due = simulation.time() >= next_ - 0.5 * simulation.time_step();
+  if (!is_due && ++looks_ % kStepsBetweenClocks != 0) return stops_;
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_due && now - last_signals_ < kBetweenSignals) return stops_;
+  last_signals_ = now;
+  const py::gil_scoped_acquire lock;
+  try {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (is_due) call_due(simulation);
+  } catch (...) {
+    is_calling_ = false;
+    raised_ = std::current_exception();
+    stops_ = true;
+  }
+  return stops_;
+}
+
+void Attendant::call_due(const dynamics::Simulation& simulation) {
+  is_calling_ = true;
+  for (Call& call : calls_) {
+    const std::int64_t over = intervals_over(simulation, call.interval);
+    if (call.next > over) continue;
+    call.next = over + 1;
+    call.function(owner_);
+  }
+  is_calling_ = false;
+  find_next();
+}
+
+void Attendant::throw_if_any() const {
+  if (raised_) std::rethrow_exception(raised_);
+}
+
+}  // namespace plekton::python

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/python/from_python.hpp"
+
+#include "apps/scenario/section.hpp"
+#include "apps/scenario/units.hpp"
+
+#include <fmt/format.h>
+
+namespace plekton::python {
+namespace {
+
+using apps::InputError;
+using apps::Place;
+using apps::Value;
+
+std::string type_of(const py::handle& object) {
+  return py::str(py::type::handle_of(object).attr("__name__"));
+}
+
+bool is_a(const py::handle& object, const char* module, const char* name) {
+  return py::isinstance(object, py::module_::import(module).attr(name));
+}
+
+apps::Table converted(const py::dict& dict, const Place& place, int depth);
+
+/// A whole number that int64 does not hold is kept as a kind that no key takes.
+decltype(Value::data) whole_number(const py::handle& object) {
+  const py::int_ number = py::reinterpret_steal<py::int_>(PyNumber_Index(object.ptr()));
+  if (!number) throw py::error_already_set();
+  int overflow = 0;
+  const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+  if (overflow != 0) return apps::OtherKind{std::string(py::repr(number))};
+  return std::int64_t{value};
+}
+
+decltype(Value::data) list_of(const py::handle& items, const Place& place, int depth);
+
+/// @param depth  levels above this value
+decltype(Value::data) data_of(const py::handle& object, const Place& place, int depth) {
+  if (depth > apps::kDeepest) apps::refuse_depth(place);
+  if (py::isinstance<py::str>(object)) return object.cast<std::string>();
+  if (py::isinstance<py::bool_>(object)) return object.cast<bool>();
+  if (py::isinstance<py::float_>(object)) return object.cast<double>();
+  if (py::isinstance<py::dict>(object))
+    return converted(py::reinterpret_borrow<py::dict>(object), place, depth);
+  if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object))
+    return list_of(object, place, depth);
+  // Numbers and arrays of numpy, as the Python objects that they stand for.
+  if (py::hasattr(object, "dtype") && py::hasattr(object, "tolist"))
+    return data_of(object.attr("tolist")(), place, depth);
+  if (PyIndex_Check(object.ptr()) != 0) return whole_number(object);
+  if (is_a(object, "os", "PathLike")) return path_of(object).string();
+  if (object.is_none()) return apps::OtherKind{"None"};
+  return apps::OtherKind{fmt::format("something of type {}", type_of(object))};
+}
+
+decltype(Value::data) list_of(const py::handle& items, const Place& place, int depth) {
+  apps::Array array;
+  for (const py::handle item : items) array.push_back({place, data_of(item, place, depth + 1)});
+  return array;
+}
+
+apps::Table converted(const py::dict& dict, const Place& place, int depth) {
+  apps::Table table;
+  for (const auto& [key, value] : dict) {
+    if (!py::isinstance<py::str>(key))
+      throw InputError(fmt::format("{}: got the key {}; expected a text", to_string(place),
+                                   std::string(py::repr(key))));
+    table.entries.push_back(
+        {key.cast<std::string>(), place, {place, data_of(value, place, depth + 1)}});
+  }
+  return table;
+}
+
+}  // namespace
+
+apps::Table table_of(const py::dict& dict, const std::string& source) {
+  return converted(dict, {source, 0, 0}, 0);
+}
+
+double seconds_of(const py::handle& value, const char* name) {
+  double time = 0.0;
+  if (py::isinstance<py::str>(value)) {
+    try {
+      time = apps::parse_quantity(value.cast<std::string>(), apps::kTime);
+    } catch (const apps::UnitError& error) {
+      throw InputError(fmt::format("{}: {}", name, error.what()));
+    }
+  } else {
+    time = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred() != nullptr) {
+      PyErr_Clear();
+      throw InputError(fmt::format("{}: got {}; expected {} ({})", name,
+                                   std::string(py::repr(value)), apps::kTime.name,
+                                   apps::kTime.units));
+    }
+  }
+  if (apps::kNotNegative.holds(time) && time < apps::kInfinity) return time;
+  throw InputError(fmt::format("{}: got {}; expected {}{}", name, std::string(py::repr(value)),
+                               apps::kTime.name, apps::kNotNegative.text));
+}
+
+std::filesystem::path path_of(const py::handle& value) {
+  return py::module_::import("os").attr("fsdecode")(value).cast<std::string>();
+}
+
+std::vector<std::string> overrides_of(const py::handle& values) {
+  std::vector<std::string> overrides;
+  for (const py::handle value : values) overrides.push_back(value.cast<std::string>());
+  return overrides;
+}
+
+}  // namespace plekton::python

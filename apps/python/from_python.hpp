@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/python/bindings.hpp"
+#include "apps/scenario/config_tree.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// What Python hands over, as the program knows it.
+namespace plekton::python {
+
+/// A dict as the tables of a scenario: texts, numbers, lists, tuples, arrays of numpy, dicts and
+/// paths. Anything else is kept as a kind that no key takes, so that the reader complains about it
+/// in its place.
+/// @param source  what messages call it
+/// @throws InputError for a key that is no text, and for what is nested deeper than a scenario may
+/// be
+apps::Table table_of(const py::dict& dict, const std::string& source);
+
+/// A time in s: a number, or a text as in "10 ms".
+/// @param name  what messages call it
+/// @throws InputError
+double seconds_of(const py::handle& value, const char* name);
+
+/// A text or anything with a path, as open() of Python takes them.
+std::filesystem::path path_of(const py::handle& value);
+
+/// "path=value" each, as --set takes them.
+std::vector<std::string> overrides_of(const py::handle& values);
+
+}  // namespace plekton::python
