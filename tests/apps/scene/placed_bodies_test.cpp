@@ -124,5 +124,60 @@ TEST(PlacedBodies, RefuseWhatDoesNotGoWithCentres) {
               HasSubstr("centres[0]: got 0; expected a list of three components"));
 }
 
+TEST(PlacedBodies, HaveFacetsBetweenTheirPoints) {
+  const BuiltScene scene = built(
+      {"membranes.rope.shape={kind = \"facets\", points = [[0, 0, 1], [1, 0, 1], [1, 2, 1], [0, 2, "
+       "1]], facets = [[0, 1, 2], [2, 3, 0]]}"});
+
+  EXPECT_EQ(scene.membranes.at(0).facets, 2u);
+  EXPECT_EQ(scene.membranes.at(0).beams, 5u);
+  EXPECT_EQ(scene.membranes.at(0).held_nodes, 4u);
+  EXPECT_DOUBLE_EQ(scene.membranes.at(0).area, 2.0);
+  EXPECT_EQ(scene.scene.elements.facets.at(1).nodes, (std::array{NodeId{2}, NodeId{3}, NodeId{0}}));
+}
+
+TEST(PlacedBodies, HaveBarsBetweenTheirPointsAndAreHeldAtTheirEnds) {
+  const BuiltScene scene = built(
+      {"membranes.rope.shape={kind = \"bars\", points = [[0, 0, 1], [0, 0, 2], [1, 0, 1], [0, 1, "
+       "1]], bars = [[3, 0], [1, 0], [0, 2]]}"});
+
+  // A tripod: the node in the middle is free.
+  EXPECT_EQ(scene.membranes.at(0).facets, 0u);
+  EXPECT_EQ(scene.membranes.at(0).held_nodes, 3u);
+  EXPECT_EQ(scene.scene.properties.held.at(0), Held::nothing);
+  ASSERT_EQ(scene.scene.elements.cylinders.size(), 3u);
+  EXPECT_EQ(scene.scene.elements.cylinders[0].nodes, (std::array{NodeId{0}, NodeId{1}}));
+  EXPECT_EQ(scene.scene.elements.cylinders[2].nodes, (std::array{NodeId{0}, NodeId{3}}));
+}
+
+TEST(PlacedBodies, RefusePointsThatDoNotExistAndBarsThatAreThereTwice) {
+  const std::string points = "points = [[0, 0, 1], [1, 0, 1], [1, 2, 1]]";
+
+  EXPECT_THAT(error_of({"membranes.rope.shape={kind = \"facets\", " + points +
+                        ", facets = [[0, 1, 3], [0, 1, 1], [0, 1]]}"}),
+              testing::AllOf(HasSubstr("shape.facets[0]: got [0, 1, 3]; expected 3 different whole "
+                                       "numbers from 0 to 2"),
+                             HasSubstr("shape.facets[1]: got [0, 1, 1]"),
+                             HasSubstr("shape.facets[2]: got [0, 1]")));
+  EXPECT_THAT(
+      error_of({"membranes.rope.shape={kind = \"bars\", " + points + ", bars = [[0, 1], [1, 0]]}"}),
+      HasSubstr("shape.bars: two are between the points 0 and 1; leave one out"));
+}
+
+TEST(PlacedBodies, HaveRadiiOfTheirOwn) {
+  const std::string no_radius = "grains.pair.radii=[\"4 cm\", 0.03]";
+  std::string text(kScenario);
+  text.erase(text.find("radius = "), std::string("radius = \"5 cm\"\n").size());
+  const std::vector<std::string> overrides = {no_radius};
+
+  const BuiltScene scene = build_scene(parse_scenario(text, "case.toml", overrides));
+
+  EXPECT_EQ(scene.scene.elements.spheres.at(0).radius, 0.04);
+  EXPECT_EQ(scene.scene.elements.spheres.at(1).radius, 0.03);
+  EXPECT_EQ(scene.grains.at(0).smallest, 0.03);
+  EXPECT_THAT(error_of(overrides),
+              HasSubstr("grains.pair.radius: radii says how large each grain is"));
+}
+
 }  // namespace
 }  // namespace plekton::apps
