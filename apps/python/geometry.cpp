@@ -96,7 +96,7 @@ class PySurface {
   std::size_t size() const noexcept { return surface_.cell_count(); }
   bool is_closed() const noexcept { return query_.is_closed(); }
 
-  py::array_t<NearestRow> nearest(const Numbers& points, const Numbers& radius, int threads) const {
+  py::array nearest(const Numbers& points, const Numbers& radius, int threads) const {
     const auto probes = balls_of(points, radius);
     std::vector<NearestRow> rows;
     {
@@ -108,8 +108,8 @@ class PySurface {
     return array_of(rows);
   }
 
-  py::array_t<HitRow> rays(const Numbers& origins, const Numbers& directions, const Numbers& t_end,
-                           int threads) const {
+  py::array rays(const Numbers& origins, const Numbers& directions, const Numbers& t_end,
+                 int threads) const {
     const auto from = vectors_of(origins, "origins");
     const auto along = vectors_of(directions, "directions");
     if (from.size() != along.size())
@@ -177,10 +177,10 @@ std::pair<std::uint8_t, std::int32_t> name_of(const geometry::ElementId& element
           static_cast<std::int32_t>(surface.place_of(cell))};
 }
 
-py::array_t<PairRow> pairs(double largest_gap, const std::optional<Numbers>& centres,
-                           const Numbers& radii, const std::optional<Numbers>& points,
-                           const std::optional<Whole>& facets, const std::optional<Whole>& bars,
-                           double radius, bool within_structures, int threads) {
+py::array pairs(double largest_gap, const std::optional<Numbers>& centres, const Numbers& radii,
+                const std::optional<Numbers>& points, const std::optional<Whole>& facets,
+                const std::optional<Whole>& bars, double radius, bool within_structures,
+                int threads) {
   std::vector<Vec3> x;
   if (points) x = vectors_of(*points, "points");
   geometry::Elements elements;

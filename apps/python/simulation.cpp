@@ -400,6 +400,12 @@ void bind_arrays(SessionClass& session) {
 
 void bind_readings(SessionClass& session) {
   session
+      .def("__repr__",
+           [](const Session& s) {
+             return fmt::format("<plekton.Simulation of {}: {:.6g} s, step {}>",
+                                s.scenario().file.string(), s.simulation().time(),
+                                s.simulation().steps());
+           })
       .def_property_readonly(
           "time", [](const Session& s) { return s.simulation().time(); }, "s")
       .def_property_readonly(

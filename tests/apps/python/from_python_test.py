@@ -47,7 +47,7 @@ material = "gravel"
 interval = "5 ms"
 reactions = [
   {{ name = "floor", kind = "plane", plane = "floor" }},
-  {{ name = "rim", kind = "support", membrane = "sheet" }},
+  {{ name = "rim", kind = "support", membrane = "sheet", nodes = "rim" }},
   {{ name = "caught", kind = "contacts", membrane = "sheet" }},
 ]
 """
@@ -66,7 +66,7 @@ def test_a_thousand_spheres_on_a_membrane_from_arrays_have_the_bits_of_the_scena
     simulation.run()
 
     assert (simulation.steps, simulation.hash) == (step, expected)
-    assert len(simulation.contacts()) > 1000
+    assert len(simulation.contacts()) >= 100  # the lowest layer has come down
     assert simulation.energy().friction > 0.0
 
 

@@ -74,7 +74,7 @@ def rain(count=1000, cells=20, duration=0.02):
             "interval": "5 ms",
             "reactions": [
                 {"name": "floor", "kind": "plane", "plane": "floor"},
-                {"name": "rim", "kind": "support", "membrane": "sheet"},
+                {"name": "rim", "kind": "support", "membrane": "sheet", "nodes": "rim"},
                 {"name": "caught", "kind": "contacts", "membrane": "sheet"},
             ],
         },
