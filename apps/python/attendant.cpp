@@ -17,9 +17,8 @@ constexpr std::uint64_t kStepsBetweenClocks = 16;
 constexpr std::chrono::milliseconds kBetweenSignals{50};  // nobody feels that Ctrl-C waits for it
 
 /// How many whole intervals are over. A step ends within half its length of where it was to.
-std::int64_t intervals_over(const dynamics::Simulation& simulation, double interval) {
-  return static_cast<std::int64_t>(
-      std::floor((simulation.time() + 0.5 * simulation.time_step()) / interval));
+double intervals_over(const dynamics::Simulation& simulation, double interval) {
+  return std::floor((simulation.time() + 0.5 * simulation.time_step()) / interval);
 }
 
 }  // namespace
@@ -56,8 +55,7 @@ void Attendant::start(const dynamics::Simulation& simulation) {
 
 void Attendant::find_next() noexcept {
   next_ = std::numeric_limits<double>::infinity();
-  for (const Call& call : calls_)
-    next_ = std::min(next_, static_cast<double>(call.next) * call.interval);
+  for (const Call& call : calls_) next_ = std::min(next_, call.next * call.interval);
 }
 
 bool Attendant::wants_end(const dynamics::Simulation& simulation) {
@@ -81,7 +79,7 @@ bool Attendant::wants_end(const dynamics::Simulation& simulation) {
 void Attendant::call_due(const dynamics::Simulation& simulation) {
   is_calling_ = true;
   for (Call& call : calls_) {
-    const std::int64_t over = intervals_over(simulation, call.interval);
+    const double over = intervals_over(simulation, call.interval);
     if (call.next > over) continue;
     call.next = over + 1;
     call.function(owner_);

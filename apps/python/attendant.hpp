@@ -40,7 +40,7 @@ class Attendant {
   struct Call {
     double interval;  ///< s
     py::object function;
-    std::int64_t next = 0;  ///< multiple of the interval at which it is due
+    double next = 0.0;  ///< multiple of the interval at which it is due
   };
   void add(const py::handle& interval, const py::handle& function);
   void call_due(const dynamics::Simulation& simulation);

@@ -105,6 +105,12 @@ std::filesystem::path path_of(const py::handle& value) {
 }
 
 std::vector<std::string> overrides_of(const py::handle& values) {
+  // A text is a list of its letters.
+  if (py::isinstance<py::str>(values))
+    throw InputError(
+        fmt::format("overrides: got {}; expected a list of texts, as in "
+                    "[\"simulation.duration=2 s\"]",
+                    std::string(py::repr(values))));
   std::vector<std::string> overrides;
   for (const py::handle value : values) overrides.push_back(value.cast<std::string>());
   return overrides;

@@ -25,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using apps::InputError;
 using dynamics::NodeState;
-using geometry::index_of;
 
 // What a scenario or a checkpoint becomes.
 

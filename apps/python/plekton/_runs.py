@@ -8,7 +8,7 @@ from . import _core
 
 
 class History(Mapping):
-    """A CSV file of a run: its columns as arrays, by their names; `units` has their units ("" of a plain number)."""
+    """A CSV file of a run: its columns as arrays, by their names; `units` has their units ("" of a number)."""
 
     def __init__(self, file):
         self._columns, self.units = _core._read_history(file)
@@ -107,6 +107,8 @@ class Run:
 
 
 def open_run(folder):
-    """Opens the folder that a run has written, or is writing. `report` is run.json (None before the end), `times` are those
-    of the `frames`, and histories are arrays by the names of their columns."""
+    """Opens the folder that a run has written, or is writing.
+
+    `report` is run.json (None before the end), `times` are those of the `frames`, and histories are arrays by the names
+    of their columns."""
     return Run(folder)

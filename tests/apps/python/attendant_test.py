@@ -26,6 +26,13 @@ def test_functions_are_called_after_the_steps_nearest_to_their_times(simulation)
         assert abs(at - 0.002 * i) <= 0.5 * step * (1 + 1e-9)
 
 
+def test_an_interval_below_the_step_is_after_every_step(simulation):
+    for interval in (1e-12, 1e-300):
+        calls = []
+        simulation.run(until=simulation.time + 0.001, every={interval: lambda s: calls.append(s.steps)})
+        assert calls == list(range(simulation.steps - len(calls) + 1, simulation.steps + 1)) != []
+
+
 def test_looking_on_changes_no_bit(simulation):
     alone = plekton.load(scenes.small())
     alone.run(until=0.01)

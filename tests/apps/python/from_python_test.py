@@ -98,6 +98,11 @@ def test_overrides_replace_what_a_dict_says():
     assert simulation.duration == 0.003
 
 
+def test_an_override_alone_is_no_list():
+    with pytest.raises(plekton.InputError, match="overrides: got 'a=b'; expected a list"):
+        plekton.load(scenes.small(), "a=b")
+
+
 @pytest.mark.parametrize("number", [5, np.int32(5), np.uint8(5), np.array(5)])
 def test_whole_numbers_of_numpy_are_whole_numbers(number):
     scene = scenes.small()
