@@ -2,6 +2,7 @@
 """Arrays of a simulation: views that follow it, keep it, and cannot be written."""
 
 import gc
+import weakref
 
 import numpy as np
 import plekton
@@ -81,7 +82,9 @@ def test_a_view_cannot_be_written_nor_made_writeable(simulation, name):
 
 
 @pytest.mark.parametrize("name", VIEWS)
-def test_a_view_keeps_its_memory_when_the_simulation_is_gone(simulation, name):
+def test_a_view_keeps_its_memory_when_the_simulation_is_gone(name):
+    simulation = plekton.load(scenes.small())  # no fixture: pytest would keep it
+    gone = weakref.ref(simulation)
     simulation.step(5)
     view = getattr(simulation, name)
     part = view[3:7]
@@ -89,6 +92,7 @@ def test_a_view_keeps_its_memory_when_the_simulation_is_gone(simulation, name):
 
     del simulation
     gc.collect()
+    assert gone() is None
     others = [plekton.load(scenes.small()) for _ in range(3)]  # which would take freed memory
 
     np.testing.assert_array_equal(view, expected)
