@@ -55,12 +55,14 @@ struct AnyLaw {
       std::memcpy(numbers.data(), static_cast<const void*>(&typed), sizeof typed);
     }
   };
-  static constexpr std::size_t kMostNumbers = 24;  ///< a multiple of 8: read by whole vectors
+  // Multiples of 8: read by whole vectors.
+  static constexpr std::size_t kMostNumbers = 24;         ///< of parameters
+  static constexpr std::size_t kMostHistoryNumbers = 16;  ///< kept with every contact
   struct Properties : Kept<16> {
     Properties() noexcept;  ///< LinearFrictional, with nothing beside its materials
   };
   using Parameters = Kept<kMostNumbers>;
-  using History = Kept<kMostNumbers>;
+  using History = Kept<kMostHistoryNumbers>;
 
   /// What it knows of a law: the functions of ContactLaw, and those of what a law may have beside.
   struct Functions {

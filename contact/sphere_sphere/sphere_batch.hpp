@@ -107,9 +107,8 @@ struct SphereBatch {
   template <LaneLaw Law, int W>
   PLEKTON_INLINE void advance_lanes(std::size_t lane, double dt) noexcept;
 
-  using Numbers = std::array<double, AnyLaw::kMostNumbers * kBatchLanes>;
-  alignas(64) Numbers parameters_;
-  alignas(64) Numbers history_;
+  alignas(64) std::array<double, AnyLaw::kMostNumbers * kBatchLanes> parameters_;
+  alignas(64) std::array<double, AnyLaw::kMostHistoryNumbers * kBatchLanes> history_;
 };
 
 template <LaneLaw Law, int W>

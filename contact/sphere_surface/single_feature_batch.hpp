@@ -111,7 +111,7 @@ class SingleFeatureAnswer {
  private:
   static constexpr std::size_t kHistory = 21;
   static constexpr std::size_t kCount =
-      geometry::touched_numbers(int{kHistory} + int{AnyLaw::kMostNumbers});
+      geometry::touched_numbers(int{kHistory} + int{AnyLaw::kMostHistoryNumbers});
   Vec3 vector(std::size_t first) const noexcept {
     return {numbers_[first], numbers_[first + 1], numbers_[first + 2]};
   }
