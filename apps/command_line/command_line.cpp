@@ -10,9 +10,11 @@
 #include "apps/command_line/run_estimate.hpp"
 #include "apps/command_line/start_listing.hpp"
 #include "apps/command_line/step_advice.hpp"
+#include "apps/command_line/study_command.hpp"
 #include "apps/command_line/summary.hpp"
 #include "apps/command_line/verify_command.hpp"
 #include "apps/command_line/view_command.hpp"
+#include "apps/programs/shell_word.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_warnings.hpp"
@@ -77,6 +79,7 @@ struct CommandLine {
   fs::path run;
   double limit = ViewArguments{}.limit;
   std::optional<std::string> serve;
+  StudyArguments study;
 };
 
 /// With the threads that are asked for.
@@ -88,16 +91,6 @@ std::vector<std::string> overrides_of(const CommandLine& line) {
 
 Scenario scenario_of(const CommandLine& line) {
   return read_scenario(line.scenario, overrides_of(line));
-}
-
-/// A word as a shell takes it: in quotes if there is anything in it that could mean something.
-std::string shell_word(const std::string& text) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+,:@%";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + '\'';
 }
 
 /// What a run has written to its folder.
@@ -361,6 +354,16 @@ int view_command(const CommandLine& line) {
   return kDone;
 }
 
+int study_command(const CommandLine& line) {
+  StudyArguments arguments = line.study;
+  arguments.out = line.out;
+  arguments.threads = line.threads;
+  arguments.quiet = line.quiet;
+  const int code = study_runs(arguments, std::cout);
+  flush_output();
+  return code;
+}
+
 /// @returns that for the scenario
 CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
   CLI::Option* const scenario = command.add_option(
@@ -378,8 +381,8 @@ CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
 
 /// @returns whether the command line begins with a word that is no command, after saying so
 bool is_unknown_command(int argc, const char* const* argv) {
-  constexpr std::array<std::string_view, 7> kCommands = {"run",    "check", "import", "inspect",
-                                                         "verify", "list",  "view"};
+  constexpr std::array<std::string_view, 8> kCommands = {"run",    "check", "import", "inspect",
+                                                         "verify", "list",  "view",   "study"};
   if (argc < 2) return false;
   const std::string_view word = argv[1];
   if (word.starts_with('-') ||
@@ -500,6 +503,39 @@ CLI::App* add_view(CLI::App& app, CommandLine& line) {
   return view;
 }
 
+CLI::App* add_study(CLI::App& app, CommandLine& line) {
+  CLI::App* study = app.add_subcommand(
+      "study",
+      "Make many runs of a scenario, those that are missing, and a table of their results");
+  study->add_option("study", line.study.study, "Study (.toml); apps/study.md documents its keys")
+      ->required();
+  study->add_option("--out", line.out,
+                    "Folder for the runs and results.csv; out/<name of the study> if not given");
+  study->add_option("--jobs", line.study.jobs, "Runs at a time, instead of `jobs` of the study")
+      ->check(CLI::Range(1, 1024));
+  study->add_option("--threads", line.threads, "Threads of each, instead of those of the study")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* const parallel =
+      study->add_flag("--parallel", line.study.parallel,
+                      "Make none, but print a line for each, for GNU parallel or sh");
+  CLI::Option* const slurm =
+      study->add_flag("--slurm", line.study.slurm, "Make none, but print a script for sbatch")
+          ->excludes(parallel);
+  CLI::Option* const collect = study
+                                   ->add_flag("--collect", line.study.collect,
+                                              "Make none, but the table of those that are there")
+                                   ->excludes(parallel)
+                                   ->excludes(slurm);
+  study
+      ->add_option("--only", line.study.only,
+                   "Make this one alone, by its number from 1, if it is missing; no table")
+      ->excludes(parallel)
+      ->excludes(slurm)
+      ->excludes(collect);
+  study->add_flag("--quiet", line.quiet, "Print nothing but problems, on standard error");
+  return study;
+}
+
 int dispatch(int argc, const char* const* argv) {
   if (is_unknown_command(argc, argv)) return kUsage;
   CommandLine line;
@@ -513,6 +549,7 @@ int dispatch(int argc, const char* const* argv) {
   const CLI::App* const verify = add_verify(app, line);
   const CLI::App* const list =
       app.add_subcommand("list", "Say what a scenario can name, with parameters and defaults");
+  const CLI::App* const study = add_study(app, line);
   add_view(app, line);
 
   try {
@@ -525,6 +562,7 @@ int dispatch(int argc, const char* const* argv) {
   if (import->parsed()) return import_command(line);
   if (inspect->parsed()) return inspect_command(line);
   if (verify->parsed()) return verify_command(line);
+  if (study->parsed()) return study_command(line);
   return list->parsed() ? list_command() : view_command(line);
 }
 

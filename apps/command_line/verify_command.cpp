@@ -3,45 +3,21 @@
 
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/resume_command.hpp"
+#include "apps/programs/scratch_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_state.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <ostream>
 #include <sstream>
-#include <system_error>
 
 namespace plekton::apps {
 namespace {
 
-namespace fs = std::filesystem;
 using geometry::StateTree;
-
-/// An empty folder, gone with all that is in it at the end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "plekton-verify-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw InputError(fmt::format("{}: cannot make a folder for what is computed again: {}", name,
-                                   std::generic_category().message(errno)));
-    path_ = name;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const noexcept { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// What of a state is that of the run, and not of the files it is written to.
 bool is_compared(const std::string& name) {
@@ -71,7 +47,7 @@ std::vector<std::string> differences(const StateTree& a, const StateTree& b, std
 
 /// The state of a run at the step of a later checkpoint, computed from an earlier one.
 StateTree computed_again(const ResumedRun& resumed, std::int64_t last_step) {
-  const ScratchFolder scratch;
+  const ScratchFolder scratch("verify");
   PreparedRun prepared = prepare_run(resumed.scenario);
   std::ostringstream silence;
   const InterruptGuard guard;

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/study_command.hpp"
+
+#include "apps/command_line/command_line.hpp"
+#include "apps/command_line/interrupt.hpp"
+#include "apps/programs/shell_word.hpp"
+#include "apps/run/output_folder.hpp"
+#include "apps/study/job_texts.hpp"
+#include "apps/study/run_missing.hpp"
+#include "apps/study/study_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <system_error>
+#include <thread>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// This very program.
+fs::path program() {
+  std::error_code error;
+  fs::path path = fs::read_symlink("/proc/self/exe", error);
+  if (error) throw InputError("study: cannot find the program plekton itself: " + error.message());
+  return path;
+}
+
+int threads_of(const StudyArguments& arguments, const Study& study) {
+  return arguments.threads.value_or(study.threads);
+}
+
+int jobs_of(const StudyArguments& arguments, const Study& study) {
+  const int jobs = arguments.jobs.value_or(study.jobs);
+  if (jobs > 0) return jobs;
+  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  return std::max(1, processors / threads_of(arguments, study));
+}
+
+/// What others make the runs by: printed, nothing is written.
+void print_jobs(const StudyArguments& arguments, StudyRuns& study, std::ostream& out) {
+  const std::vector<PlannedRun> runs = study.plan_all();
+  const std::vector<std::size_t> missing = missing_among(study, runs);
+  if (missing.empty())
+    throw InputError(fmt::format("{}: nothing is missing; the table is made by: plekton study {}",
+                                 arguments.study.string(), shell_word(arguments.study.string())));
+  const JobSettings settings{program(), fs::absolute(arguments.study), fs::absolute(study.out()),
+                             threads_of(arguments, study.study())};
+  out << (arguments.slurm ? slurm_script(settings, missing) : parallel_lines(settings, missing));
+}
+
+int make_only(const StudyArguments& arguments, StudyRuns& study, std::ostream& progress) {
+  if (*arguments.only < 1 || *arguments.only > study.size())
+    throw InputError(
+        fmt::format("--only: got {}; the study has runs 1 to {}", *arguments.only, study.size()));
+  std::vector<PlannedRun> runs = {study.plan(*arguments.only - 1)};
+  const InterruptGuard guard;
+  make_missing(study, runs, {program(), 1, threads_of(arguments, study.study()), progress, [&] {
+                               return guard.interrupted();
+                             }});
+  if (guard.interrupted()) return kInterrupted;
+  if (!runs[0].problem.empty())
+    throw InputError(fmt::format("run {}: {}", *arguments.only, runs[0].problem));
+  return kDone;
+}
+
+int write_table(const StudyArguments& arguments, StudyRuns& study, std::vector<PlannedRun>& runs,
+                std::ostream& progress) {
+  const StudyCount count = write_study_table(study, runs);
+  progress << fmt::format("wrote {}: {} runs, {} complete, {} failed, {} missing\n",
+                          (study.out() / kStudyTable).string(), count.all, count.complete,
+                          count.failed, count.missing);
+  if (count.complete == count.all) return kDone;
+  for (const PlannedRun& run : runs) {
+    if (run.problem.empty()) continue;
+    throw InputError(fmt::format(
+        "{} of {} runs failed, the first of them run {}: {}\n  the others went on; the column "
+        "problem of {} has the rest, and plekton study {} tries them again",
+        count.failed, count.all, run.point + 1, run.problem, (study.out() / kStudyTable).string(),
+        shell_word(arguments.study.string())));
+  }
+  throw InputError(fmt::format("{} of {} runs are missing", count.missing, count.all));
+}
+
+int make_all(const StudyArguments& arguments, StudyRuns& study, std::ostream& progress) {
+  make_output_folder(study.out());
+  const OutputFolderLock lock(study.out());
+  std::vector<PlannedRun> runs = study.plan_all();
+  if (arguments.collect) return write_table(arguments, study, runs, progress);
+  const InterruptGuard guard;
+  const MakeSettings settings{program(), jobs_of(arguments, study.study()),
+                              threads_of(arguments, study.study()), progress,
+                              [&] { return guard.interrupted(); }};
+  const std::size_t missing = missing_among(study, runs).size();
+  progress << fmt::format("{}: {} runs, {} to make, {} at a time\n", arguments.study.string(),
+                          runs.size(), missing, settings.jobs)
+           << std::flush;
+  make_missing(study, runs, settings);
+  if (!guard.interrupted()) return write_table(arguments, study, runs, progress);
+  write_study_table(study, runs);
+  progress << "interrupted; go on with: plekton study " << shell_word(arguments.study.string())
+           << '\n';
+  return kInterrupted;
+}
+
+}  // namespace
+
+int study_runs(const StudyArguments& arguments, std::ostream& out) {
+  const fs::path folder =
+      arguments.out.empty() ? fs::path("out") / arguments.study.stem() : arguments.out;
+  StudyRuns study(read_study(arguments.study), folder);
+  if (arguments.parallel || arguments.slurm) {
+    print_jobs(arguments, study, out);
+    return kDone;
+  }
+  std::ostringstream silence;
+  std::ostream& progress = arguments.quiet ? static_cast<std::ostream&>(silence) : out;
+  return arguments.only ? make_only(arguments, study, progress)
+                        : make_all(arguments, study, progress);
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Tables as text, after RFC 4180: commas between cells, quotes around cells that hold a comma, a
+/// quote (doubled) or a line break.
+namespace plekton::apps {
+
+struct CsvRow {
+  int line = 1;  ///< where it begins, from 1
+  std::vector<std::string> cells;
+};
+
+/// Rows of a table; lines with nothing on them are left out. A quote that is not closed ends with
+/// the text. Blanks around a cell without quotes do not belong to it.
+std::vector<CsvRow> parse_csv(std::string_view text);
+
+/// A cell as it is written.
+std::string csv_cell(std::string_view text);
+
+}  // namespace plekton::apps

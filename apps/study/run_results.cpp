@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/study/run_results.hpp"
+
+#include "apps/scenario/closest_word.hpp"
+#include "apps/viewer/run_folder.hpp"
+#include "apps/viewer/view_error.hpp"
+#include "geometry/base/regular_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <map>
+#include <string_view>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+[[noreturn]] void refuse(const ResultSettings& result, const std::string& what) {
+  throw NoResult(fmt::format("results.{}: {}", result.name, what));
+}
+
+/// What is under a key of an object, or at a number (from 0) of a list; null if there is none.
+const Json* below(const Json& json, const std::string& key) {
+  if (json.is_object()) {
+    const auto found = json.find(key);
+    return found == json.end() ? nullptr : &*found;
+  }
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
+  const bool is_number = error == std::errc() && end == key.data() + key.size();
+  return json.is_array() && is_number && number < json.size() ? &json[number] : nullptr;
+}
+
+std::string keys_near(const Json& json, const std::string& key) {
+  if (!json.is_object()) return "";
+  std::vector<std::string> keys;
+  for (const auto& item : json.items()) keys.push_back(item.key());
+  return did_you_mean(key, std::vector<std::string_view>(keys.begin(), keys.end()));
+}
+
+std::string report_value(const Json& report, const ResultSettings& result) {
+  const Json* value = &report;
+  std::string_view rest = result.report;
+  while (true) {
+    const std::string key(rest.substr(0, rest.find('.')));
+    const Json* const next = below(*value, key);
+    if (next == nullptr)
+      refuse(result, fmt::format("run.json has no \"{}\": there is no \"{}\"{}", result.report, key,
+                                 keys_near(*value, key)));
+    value = next;
+    if (key.size() == rest.size()) break;
+    rest.remove_prefix(key.size() + 1);
+  }
+  if (value->is_object() || value->is_array())
+    refuse(result,
+           fmt::format("\"{}\" of run.json is no single value; name one in it", result.report));
+  return value->is_string() ? value->get<std::string>() : value->dump();
+}
+
+const History::Column& column_of(const History& history, const ResultSettings& result) {
+  std::vector<std::string_view> names;
+  for (const History::Column& column : history.columns) {
+    if (column.name == result.column) return column;
+    names.push_back(column.name);
+  }
+  refuse(result, fmt::format("{} has no column \"{}\"{}", history.file, result.column,
+                             did_you_mean(result.column, names)));
+}
+
+/// Linear between two rows. @param times  rising
+double value_at(const std::vector<double>& times, const std::vector<double>& values, double time,
+                const ResultSettings& result) {
+  const auto after = std::lower_bound(times.begin(), times.end(), time);
+  if (after == times.end() || (after == times.begin() && *after > time))
+    refuse(result, fmt::format("{} has no row at {} s; it goes from {} s to {} s", result.file,
+                               time, times.front(), times.back()));
+  const auto i = static_cast<std::size_t>(after - times.begin());
+  if (times[i] == time) return values[i];
+  const double share = (time - times[i - 1]) / (times[i] - times[i - 1]);
+  return values[i - 1] + share * (values[i] - values[i - 1]);
+}
+
+/// The integral over time by trapezoids, over the time; of rows at one time their mean.
+double mean_over_time(std::span<const double> times, std::span<const double> values) {
+  const double span = times.back() - times.front();
+  double sum = 0.0;
+  if (!(span > 0.0)) {
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+  }
+  for (std::size_t i = 1; i < times.size(); ++i)
+    sum += 0.5 * (values[i] + values[i - 1]) * (times[i] - times[i - 1]);
+  return sum / span;
+}
+
+double taken(std::span<const double> times, std::span<const double> values, Take take) {
+  switch (take) {
+    case Take::first:
+      return values.front();
+    case Take::max:
+      return *std::max_element(values.begin(), values.end());
+    case Take::min:
+      return *std::min_element(values.begin(), values.end());
+    case Take::mean:
+      return mean_over_time(times, values);
+    case Take::change:
+      return values.back() - values.front();
+    case Take::last:
+      break;
+  }
+  return values.back();
+}
+
+double history_value(const History& history, const ResultSettings& result) {
+  const std::vector<double>& times = history.columns.front().values;
+  const std::vector<double>& values = column_of(history, result).values;
+  if (times.empty()) refuse(result, result.file + " has no rows");
+  if (result.at) return value_at(times, values, *result.at, result);
+  const auto begin =
+      result.from ? std::lower_bound(times.begin(), times.end(), *result.from) : times.begin();
+  const auto end =
+      result.to ? std::upper_bound(times.begin(), times.end(), *result.to) : times.end();
+  if (begin >= end)
+    refuse(result,
+           fmt::format("{} has no row from {} s to {} s", result.file,
+                       result.from.value_or(times.front()), result.to.value_or(times.back())));
+  const auto first = static_cast<std::size_t>(begin - times.begin());
+  const auto count = static_cast<std::size_t>(end - begin);
+  return taken(std::span(times).subspan(first, count), std::span(values).subspan(first, count),
+               result.take);
+}
+
+/// The files of a run, each read once, when it is asked for.
+class RunReader {
+ public:
+  explicit RunReader(fs::path folder) : folder_(std::move(folder)) {}
+
+  RunResult read(const ResultSettings& result) {
+    if (!result.report.empty()) return {report_value(report(result), result), ""};
+    const History& history = history_of(result);
+    return {fmt::format("{}", history_value(history, result)), column_of(history, result).unit};
+  }
+
+ private:
+  const Json& report(const ResultSettings& result) {
+    if (!report_.is_null()) return report_;
+    try {
+      report_ = Json::parse(
+          geometry::read_regular_file(folder_ / "run.json", "the report of a run"), nullptr, false);
+    } catch (const geometry::UnreadableFile& error) {
+      refuse(result, error.what());
+    }
+    return report_;
+  }
+
+  const History& history_of(const ResultSettings& result) {
+    const auto [found, is_new] = histories_.try_emplace(result.file);
+    try {
+      if (is_new) found->second = read_history(folder_ / result.file);
+    } catch (const ViewError& error) {
+      refuse(result, error.what());
+    }
+    return found->second;
+  }
+
+  fs::path folder_;
+  Json report_;
+  std::map<std::string, History> histories_;
+};
+
+}  // namespace
+
+std::vector<RunResult> results_of(const fs::path& folder,
+                                  std::span<const ResultSettings> settings) {
+  RunReader reader(folder);
+  std::vector<RunResult> results;
+  for (const ResultSettings& result : settings) results.push_back(reader.read(result));
+  return results;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/study/csv_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plekton::apps {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(CsvText, HoldsCommasQuotesAndLineBreaksInQuotes) {
+  const auto rows = parse_csv("a, b ,\"c,d\"\r\n\n\"say \"\"x\"\"\",\"two\nlines\",\nlast,,x");
+
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_THAT(rows[0].cells, ElementsAre("a", "b", "c,d"));
+  EXPECT_THAT(rows[1].cells, ElementsAre("say \"x\"", "two\nlines", ""));
+  EXPECT_THAT(rows[2].cells, ElementsAre("last", "", "x"));
+  EXPECT_EQ(rows[1].line, 3);
+  EXPECT_EQ(rows[2].line, 5);
+}
+
+TEST(CsvText, IsReadAsItWasWritten) {
+  for (const std::string cell : {"plain", "a,b", "a \"quote\"", "two\nlines", "[0, 0, 1]"}) {
+    const auto rows = parse_csv(csv_cell(cell) + ",x\n");
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_THAT(rows[0].cells, ElementsAre(cell, "x"));
+  }
+}
+
+}  // namespace
+}  // namespace plekton::apps

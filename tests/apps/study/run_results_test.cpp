@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/study/run_results.hpp"
+
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+
+class RunResults : public testing::Test {
+ protected:
+  RunResults() {
+    test::write_bytes(folder_ / "run.json",
+                      R"({"plekton": "0", "timing": {"steps": 12}, "list": [{"x": 0.5}]})");
+    test::write_bytes(folder_ / "reactions.csv",
+                      "time (s),floor.force_z (N)\n0,1\n1,3\n2,-2\n4,5\n");
+  }
+  RunResult result(const ResultSettings& settings) const {
+    return results_of(folder_.path(), std::span(&settings, 1))[0];
+  }
+  std::string problem(const ResultSettings& settings) const {
+    try {
+      result(settings);
+    } catch (const NoResult& error) {
+      return error.what();
+    }
+    return "";
+  }
+  static ResultSettings force(Take take) {
+    ResultSettings settings;
+    settings.name = "force";
+    settings.file = "reactions.csv";
+    settings.column = "floor.force_z";
+    settings.take = take;
+    return settings;
+  }
+  static ResultSettings report(const std::string& path) {
+    ResultSettings settings;
+    settings.name = "it";
+    settings.report = path;
+    return settings;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(RunResults, AreTheValuesOfAColumnThatWereAskedFor) {
+  EXPECT_EQ(result(force(Take::last)).text, "5");
+  EXPECT_EQ(result(force(Take::last)).unit, "N");
+  EXPECT_EQ(result(force(Take::first)).text, "1");
+  EXPECT_EQ(result(force(Take::max)).text, "5");
+  EXPECT_EQ(result(force(Take::min)).text, "-2");
+  EXPECT_EQ(result(force(Take::change)).text, "4");
+  // (1/2 (1 + 3) 1 + 1/2 (3 - 2) 1 + 1/2 (-2 + 5) 2) / 4
+  EXPECT_EQ(result(force(Take::mean)).text, "1.375");
+}
+
+TEST_F(RunResults, AreOfTheTimesThatWereAskedFor) {
+  ResultSettings settings = force(Take::max);
+  settings.from = 0.5;
+  settings.to = 2.0;
+  EXPECT_EQ(result(settings).text, "3");
+  settings = force(Take::last);
+  settings.at = 3.0;
+  EXPECT_EQ(result(settings).text, "1.5");
+  settings.at = 4.0;
+  EXPECT_EQ(result(settings).text, "5");
+  settings.at = 4.5;
+  EXPECT_THAT(problem(settings), HasSubstr("no row at 4.5 s; it goes from 0 s to 4 s"));
+  settings = force(Take::mean);
+  settings.from = 4.5;
+  EXPECT_THAT(problem(settings), HasSubstr("no row from 4.5 s to 4 s"));
+}
+
+TEST_F(RunResults, AreValuesOfTheReport) {
+  EXPECT_EQ(result(report("timing.steps")).text, "12");
+  EXPECT_EQ(result(report("list.0.x")).text, "0.5");
+  EXPECT_THAT(problem(report("timing.stps")), HasSubstr("did you mean \"steps\"?"));
+  EXPECT_THAT(problem(report("timing")), HasSubstr("is no single value"));
+  EXPECT_THAT(problem(report("list.1.x")), HasSubstr("there is no \"1\""));
+}
+
+TEST_F(RunResults, SayWhichFileIsMissing) {
+  ResultSettings settings = force(Take::last);
+  settings.file = "pressures.csv";
+
+  EXPECT_THAT(problem(settings), HasSubstr("pressures.csv: no such file"));
+}
+
+}  // namespace
+}  // namespace plekton::apps

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/study/study.hpp"
+
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plekton::apps {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class StudyFile : public testing::Test {
+ protected:
+  StudyFile() { test::write_bytes(folder_ / "case.toml", "[simulation]\n"); }
+
+  Study read(const std::string& text) const {
+    test::write_bytes(folder_ / "many.toml", "scenario = \"case.toml\"\n" + text);
+    return read_study(folder_ / "many.toml");
+  }
+  std::string problem(const std::string& text) const {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  static constexpr const char* kResults = "[results]\nsteps = { report = \"timing.steps\" }\n";
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(StudyFile, TakesEveryCombinationOfAGridTheLastParameterFirst) {
+  const Study study =
+      read(std::string("[set]\nsimulation.duration = \"1 s\"\n"
+                       "[grid]\n\"planes.0.point\" = [[0, 0, 1], [0, 0, 2]]\n"
+                       "materials.sand.friction_angle = [\"20 deg\", \"30 deg\"]\n") +
+           kResults);
+
+  EXPECT_THAT(study.parameters, ElementsAre("planes.0.point", "materials.sand.friction_angle"));
+  ASSERT_EQ(study.points.size(), 4U);
+  EXPECT_THAT(overrides_of(study, 1),
+              ElementsAre("simulation.duration=1 s", "planes.0.point=[0, 0, 1]",
+                          "materials.sand.friction_angle=30 deg"));
+  EXPECT_THAT(study.points[2].values, ElementsAre("[0, 0, 2]", "20 deg"));
+}
+
+TEST_F(StudyFile, PutsASobolSequenceIntoRangesOnTheScalesAskedFor) {
+  const Study study =
+      read(std::string("[sobol]\nruns = 3\n[sobol.parameters]\n"
+                       "a.angle = { from = \"20 deg\", to = \"40 deg\" }\n"
+                       "a.modulus = { from = \"1 MPa\", to = \"100 MPa\", scale = \"log\" }\n"
+                       "a.count = { from = 1, to = 4, whole = true }\n") +
+           kResults);
+
+  ASSERT_EQ(study.points.size(), 3U);
+  EXPECT_THAT(study.points[0].values, ElementsAre("20 deg", "1 MPa", "1"));
+  EXPECT_THAT(study.points[1].values, ElementsAre("30 deg", "10 MPa", "3"));
+  EXPECT_THAT(study.points[2].values, ElementsAre("35 deg", "3.16227766 MPa", "2"));
+}
+
+TEST_F(StudyFile, TakesATableWhereAnEmptyCellLeavesTheScenarioAsItIs) {
+  test::write_bytes(folder_ / "runs.csv", "simulation.seed,simulation.damping\n1,\n2,0.5\n");
+
+  const Study study = read(std::string("table = \"runs.csv\"\n") + kResults);
+
+  ASSERT_EQ(study.points.size(), 2U);
+  EXPECT_THAT(overrides_of(study, 0), ElementsAre("simulation.seed=1"));
+  EXPECT_THAT(overrides_of(study, 1), ElementsAre("simulation.seed=2", "simulation.damping=0.5"));
+  EXPECT_THAT(to_string(study.points[1].place), HasSubstr("runs.csv:3:"));
+}
+
+TEST_F(StudyFile, IsRefusedWithThePlaceOfWhatIsWrong) {
+  const std::string results = kResults;
+  EXPECT_THAT(problem(results), HasSubstr("got none of [grid], [sobol] and table"));
+  EXPECT_THAT(problem("[grid]\na.b = 3\n" + results),
+              AllOf(HasSubstr("many.toml:3:7"), HasSubstr("grid.a.b: got 3; expected a list")));
+  EXPECT_THAT(problem("[grid]\na.b = [3]\n\"a.b\" = [4]\n" + results), HasSubstr("is there twice"));
+  EXPECT_THAT(problem("[grid]\na = [3]\n"), HasSubstr("results: missing"));
+  EXPECT_THAT(problem("jops = 3\n[grid]\na = [3]\n" + results),
+              AllOf(HasSubstr("many.toml:2:"), HasSubstr("did you mean \"jobs\"?")));
+  EXPECT_THAT(problem("table = \"none.csv\"\n" + results),
+              AllOf(HasSubstr("many.toml:2:"), HasSubstr("is no file")));
+  const std::string sobol = "[sobol]\nruns = 4\n[sobol.parameters]\n";
+  EXPECT_THAT(problem(sobol + "a = { from = \"1 m\", to = \"20 mm\" }\n" + results),
+              HasSubstr("expected the same unit"));
+  EXPECT_THAT(problem(sobol + "a = { from = 2, to = 1 }\n" + results),
+              HasSubstr("sobol.parameters.a.to: expected more than from"));
+  EXPECT_THAT(problem(sobol + "a = { from = 0, to = 1, scale = \"log\" }\n" + results),
+              HasSubstr("the scale is logarithmic"));
+  EXPECT_THAT(problem("[grid]\na = [1]\n[results]\nf = { file = \"../x.csv\", column = \"y\" }\n"),
+              HasSubstr("expected a CSV file of the run"));
+  EXPECT_THAT(problem("[grid]\na = [1]\n[results]\nf = { column = \"y\", take = \"lst\" }\n"),
+              AllOf(HasSubstr("results.f.take"), HasSubstr("did you mean \"last\"?")));
+}
+
+TEST_F(StudyFile, NamesEveryRowOfATableThatDoesNotFit) {
+  test::write_bytes(folder_ / "runs.csv", "a,b\n1,2\n3\n1,2,3\n");
+
+  EXPECT_THAT(problem(std::string("table = \"runs.csv\"\n") + kResults),
+              AllOf(HasSubstr("runs.csv:3:1: got 1 cells; expected 2"),
+                    HasSubstr("runs.csv:4:1: got 3 cells")));
+}
+
+TEST_F(StudyFile, RefusesMoreRunsThanItCanCount) {
+  std::string grid = "[grid]\n";
+  for (const char* name : {"a", "b", "c", "d", "e", "f"})
+    grid += std::string(name) + " = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\n";
+
+  EXPECT_THAT(problem(grid + kResults), HasSubstr("expected at most 100000 runs"));
+}
+
+}  // namespace
+}  // namespace plekton::apps
