@@ -6,6 +6,8 @@
 #include "apps/command_line/inspect_command.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/list_command.hpp"
+#include "apps/command_line/plot_command.hpp"
+#include "apps/command_line/render_command.hpp"
 #include "apps/command_line/resume_command.hpp"
 #include "apps/command_line/run_estimate.hpp"
 #include "apps/command_line/start_listing.hpp"
@@ -80,6 +82,8 @@ struct CommandLine {
   double limit = ViewArguments{}.limit;
   std::optional<std::string> serve;
   StudyArguments study;
+  std::vector<std::string> columns;
+  std::string at;
 };
 
 /// With the threads that are asked for.
@@ -364,6 +368,18 @@ int study_command(const CommandLine& line) {
   return code;
 }
 
+int plot_command(const CommandLine& line) {
+  plot_run({line.run, line.columns, line.out}, std::cout);
+  flush_output();
+  return kDone;
+}
+
+int render_command(const CommandLine& line) {
+  render_run({line.run, line.at, line.out}, std::cout);
+  flush_output();
+  return kDone;
+}
+
 /// @returns that for the scenario
 CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
   CLI::Option* const scenario = command.add_option(
@@ -381,8 +397,8 @@ CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
 
 /// @returns whether the command line begins with a word that is no command, after saying so
 bool is_unknown_command(int argc, const char* const* argv) {
-  constexpr std::array<std::string_view, 8> kCommands = {"run",    "check", "import", "inspect",
-                                                         "verify", "list",  "view",   "study"};
+  constexpr std::array<std::string_view, 10> kCommands = {
+      "run", "check", "import", "inspect", "verify", "list", "view", "study", "plot", "render"};
   if (argc < 2) return false;
   const std::string_view word = argv[1];
   if (word.starts_with('-') ||
@@ -536,6 +552,29 @@ CLI::App* add_study(CLI::App& app, CommandLine& line) {
   return study;
 }
 
+CLI::App* add_plot(CLI::App& app, CommandLine& line) {
+  CLI::App* plot = app.add_subcommand("plot", "Draw the histories of a run, with gnuplot");
+  plot->add_option("run", line.run, "Folder that plekton run wrote to")->required();
+  plot->add_option("--columns", line.columns,
+                   "Columns of energy.csv, reactions.csv and pressures.csv, without their units, "
+                   "with commas between them; all that are not 0 if not given")
+      ->delimiter(',');
+  plot->add_option(
+      "--out", line.out,
+      "File to write, .svg or .png; plot.svg and plot.png in that folder if not given");
+  return plot;
+}
+
+CLI::App* add_render(CLI::App& app, CommandLine& line) {
+  CLI::App* render =
+      app.add_subcommand("render", "Draw a frame of a run, with pvbatch of ParaView");
+  render->add_option("run", line.run, "Folder that plekton run wrote to")->required();
+  render->add_option("--at", line.at, "Time, as in \"20 ms\"; the last frame if not given");
+  render->add_option("--out", line.out,
+                     "File to write, .png; frame.png in that folder if not given");
+  return render;
+}
+
 int dispatch(int argc, const char* const* argv) {
   if (is_unknown_command(argc, argv)) return kUsage;
   CommandLine line;
@@ -550,6 +589,8 @@ int dispatch(int argc, const char* const* argv) {
   const CLI::App* const list =
       app.add_subcommand("list", "Say what a scenario can name, with parameters and defaults");
   const CLI::App* const study = add_study(app, line);
+  const CLI::App* const plot = add_plot(app, line);
+  const CLI::App* const render = add_render(app, line);
   add_view(app, line);
 
   try {
@@ -563,6 +604,8 @@ int dispatch(int argc, const char* const* argv) {
   if (inspect->parsed()) return inspect_command(line);
   if (verify->parsed()) return verify_command(line);
   if (study->parsed()) return study_command(line);
+  if (plot->parsed()) return plot_command(line);
+  if (render->parsed()) return render_command(line);
   return list->parsed() ? list_command() : view_command(line);
 }
 

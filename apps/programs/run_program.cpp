@@ -18,12 +18,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string last_line_of(const fs::path& log) {
+/// The last line that speaks of an error, or else the last of all: what comes after an error is often
+/// no more than that the program ends.
+std::string what_was_said(const fs::path& log) {
   std::string last;
+  std::string error;
   std::istringstream lines(geometry::read_regular_file(log, "a log"));
-  for (std::string line; std::getline(lines, line);)
-    if (line.find_first_not_of(" \t") != std::string::npos) last = line;
-  return last;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find_first_not_of(" \t") == std::string::npos) continue;
+    last = line;
+    if (line.find("rror") != std::string::npos) error = line;
+  }
+  return error.empty() ? last : error;
 }
 
 }  // namespace
@@ -40,8 +46,8 @@ void run_to_end(const std::vector<std::string>& arguments, const fs::path& log) 
     end = child.wait();
   }
   if (end.exit_code == 0) return;
-  throw InputError(fmt::format("{}: ended with {}; the last it said: {}", arguments.front(),
-                               text_of(end), last_line_of(log)));
+  throw InputError(fmt::format("{}: ended with {}; it said: {}", arguments.front(), text_of(end),
+                               what_was_said(log)));
 }
 
 }  // namespace plekton::apps

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/viewer/run_folder.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plekton::apps {
+
+/// Curves over time that share an axis.
+struct PlotPanel {
+  std::string quantity;                         ///< with unit, at the axis
+  std::string file;                             ///< of the run, where they are from
+  std::vector<double> times;                    ///< s
+  std::vector<const History::Column*> columns;  ///< of a history that outlives this
+};
+
+/// What is drawn of the histories of a run, one panel for each file and unit.
+/// @param names  Columns, as their heads are without unit; none: all that have a unit and are not 0
+///        throughout, but the time step.
+/// @throws InputError for a name that no history has, and if there is nothing to draw
+std::vector<PlotPanel> panels_of(const std::vector<History>& histories,
+                                 std::span<const std::string> names);
+
+/// The kinds of pictures.
+enum class PictureKind { svg, png };
+
+/// Commands for gnuplot that draw panels into a file of that kind. No text of a user can become a
+/// command: texts stand in single quotes, where gnuplot reads them as they are.
+std::string gnuplot_script(const std::vector<PlotPanel>& panels, const std::string& title,
+                           PictureKind kind, const std::string& output);
+
+}  // namespace plekton::apps

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/pictures/plot.hpp"
+
+#include "apps/scenario/problems.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<History> histories() {
+  History energy{"energy.csv",
+                 {{"time", "s", {0, 1}},
+                  {"kinetic", "J", {0, 2}},
+                  {"friction", "J", {0, 0}},
+                  {"gravity", "J", {0, -1}},
+                  {"contacts", "", {0, 5}},
+                  {"time_step", "s", {1e-5, 1e-5}}}};
+  History reactions{"reactions.csv", {{"time", "s", {0, 1}}, {"floor's.force_z", "N", {0, 3}}}};
+  return {energy, reactions};
+}
+
+std::vector<std::string> names_of(const PlotPanel& panel) {
+  std::vector<std::string> names;
+  for (const History::Column* column : panel.columns) names.push_back(column->name);
+  return names;
+}
+
+TEST(PlotPanels, HoldWhatHasAUnitAndIsNotZeroByFileAndUnit) {
+  const auto all = histories();
+  const auto panels = panels_of(all, {});
+
+  ASSERT_EQ(panels.size(), 2U);
+  EXPECT_THAT(names_of(panels[0]), testing::ElementsAre("kinetic", "gravity"));
+  EXPECT_EQ(panels[0].quantity, "energy (J)");
+  EXPECT_THAT(names_of(panels[1]), testing::ElementsAre("floor's.force_z"));
+  EXPECT_EQ(panels[1].quantity, "force (N)");
+}
+
+TEST(PlotPanels, HoldTheColumnsThatAreNamed) {
+  const auto all = histories();
+  const std::vector<std::string> names = {"contacts", "friction"};
+  const auto panels = panels_of(all, names);
+
+  ASSERT_EQ(panels.size(), 2U);
+  EXPECT_EQ(panels[0].quantity, "energy (J)");
+  EXPECT_EQ(panels[1].quantity, "number");
+}
+
+TEST(PlotPanels, RefuseAColumnThatIsNotThere) {
+  const auto all = histories();
+  const std::vector<std::string> names = {"kinetik"};
+  try {
+    panels_of(all, names);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did you mean \"kinetic\"?"));
+  }
+}
+
+TEST(GnuplotScript, KeepsTextsInQuotesThatNothingGetsOutOf) {
+  auto all = histories();
+  all[1].columns[1].name = "a'; system('x')\n`id`";
+  const auto script =
+      gnuplot_script(panels_of(all, {}), "it's\n!rm", PictureKind::svg, "/tmp/picture");
+
+  EXPECT_THAT(script, HasSubstr("title 'a''; system(''x'') `id`'"));
+  EXPECT_THAT(script, HasSubstr("title 'it''s !rm' noenhanced"));
+  EXPECT_THAT(script, Not(HasSubstr("\n!rm")));
+}
+
+TEST(GnuplotScript, KeepsPeaksOfLongHistories) {
+  std::vector<double> times(100'000);
+  std::vector<double> values(times.size(), 1.0);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i);
+  values[77'777] = 9.0;
+  values[12'345] = -9.0;
+  const std::vector<History> all = {
+      {"energy.csv", {{"time", "s", times}, {"kinetic", "J", values}}}};
+
+  const auto script = gnuplot_script(panels_of(all, {}), "run", PictureKind::png, "/tmp/picture");
+
+  EXPECT_THAT(script, HasSubstr("\n77777 9\n"));
+  EXPECT_THAT(script, HasSubstr("\n12345 -9\n"));
+  EXPECT_LT(std::count(script.begin(), script.end(), '\n'), 5000);
+}
+
+}  // namespace
+}  // namespace plekton::apps
