@@ -14,6 +14,7 @@
 #include "apps/command_line/step_advice.hpp"
 #include "apps/command_line/study_command.hpp"
 #include "apps/command_line/summary.hpp"
+#include "apps/command_line/validate_command.hpp"
 #include "apps/command_line/verify_command.hpp"
 #include "apps/command_line/view_command.hpp"
 #include "apps/programs/shell_word.hpp"
@@ -84,6 +85,7 @@ struct CommandLine {
   StudyArguments study;
   std::vector<std::string> columns;
   std::string at;
+  ValidateArguments validate;
 };
 
 /// With the threads that are asked for.
@@ -380,6 +382,12 @@ int render_command(const CommandLine& line) {
   return kDone;
 }
 
+int validate_command(const CommandLine& line) {
+  const bool is_well = validate(line.validate, std::cout, std::cerr);
+  flush_output();
+  return is_well ? kDone : kFailed;
+}
+
 /// @returns that for the scenario
 CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
   CLI::Option* const scenario = command.add_option(
@@ -397,8 +405,9 @@ CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
 
 /// @returns whether the command line begins with a word that is no command, after saying so
 bool is_unknown_command(int argc, const char* const* argv) {
-  constexpr std::array<std::string_view, 10> kCommands = {
-      "run", "check", "import", "inspect", "verify", "list", "view", "study", "plot", "render"};
+  constexpr std::array<std::string_view, 11> kCommands = {"run",    "check",  "import",  "inspect",
+                                                          "verify", "list",   "view",    "study",
+                                                          "plot",   "render", "validate"};
   if (argc < 2) return false;
   const std::string_view word = argv[1];
   if (word.starts_with('-') ||
@@ -575,6 +584,17 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
   return render;
 }
 
+CLI::App* add_validate(CLI::App& app, CommandLine& line) {
+  CLI::App* validate = app.add_subcommand(
+      "validate", "Compare with theory what this program comes to, and write a page about it");
+  validate->add_option("names", line.validate.names, "Cases; all if not given");
+  validate->add_flag("--list", line.validate.list, "Only say which cases there are");
+  validate->add_flag("--full", line.validate.full, "With more elements and steps");
+  validate->add_option("--out", line.validate.out, "Folder for validation.html")
+      ->capture_default_str();
+  return validate;
+}
+
 int dispatch(int argc, const char* const* argv) {
   if (is_unknown_command(argc, argv)) return kUsage;
   CommandLine line;
@@ -591,6 +611,7 @@ int dispatch(int argc, const char* const* argv) {
   const CLI::App* const study = add_study(app, line);
   const CLI::App* const plot = add_plot(app, line);
   const CLI::App* const render = add_render(app, line);
+  const CLI::App* const validate = add_validate(app, line);
   add_view(app, line);
 
   try {
@@ -606,6 +627,7 @@ int dispatch(int argc, const char* const* argv) {
   if (study->parsed()) return study_command(line);
   if (plot->parsed()) return plot_command(line);
   if (render->parsed()) return render_command(line);
+  if (validate->parsed()) return validate_command(line);
   return list->parsed() ? list_command() : view_command(line);
 }
 

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/validate_command.hpp"
+
+#include "apps/run/build_info.hpp"
+#include "apps/run/output_folder.hpp"
+#include "apps/run/run_origin.hpp"
+#include "apps/scenario/closest_word.hpp"
+#include "apps/validation/validation_report.hpp"
+#include "dynamics/output/file.hpp"
+#include "geometry/version.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+
+namespace plekton::apps {
+namespace {
+
+constexpr const char* kPage = "validation.html";
+
+DoneCase done_case(const ValidationCase& known, bool full) {
+  using Clock = std::chrono::steady_clock;
+  const auto began = Clock::now();
+  DoneCase done{&known, {}, 0.0, ""};
+  try {
+    done.report = known.run(full);
+  } catch (const std::exception& error) {
+    done.error = error.what();
+  }
+  done.seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  return done;
+}
+
+std::string text_of(const DoneCase& done) {
+  std::string text = fmt::format("{} ({:.1f} s): {}\n", done.of->name, done.seconds,
+                                 done.passes() ? "pass" : "FAIL");
+  if (!done.error.empty()) text += "  " + done.error + '\n';
+  for (const Finding& finding : done.report.findings) {
+    const std::string unit = finding.unit.empty() ? "" : ' ' + finding.unit;
+    text += fmt::format("  {}  {}: {:.6g}{}, should be {:.6g}{} within {:.2g}{} ({})\n",
+                        finding.passes() ? "pass" : "FAIL", finding.what, finding.value, unit,
+                        finding.reference, unit, finding.tolerance, unit, finding.source);
+  }
+  return text;
+}
+
+/// @returns whether all names are known
+bool require_known(const std::vector<std::string>& names, std::ostream& problems) {
+  std::vector<std::string_view> known;
+  for (const ValidationCase& one : validation_cases()) known.push_back(one.name);
+  bool all = true;
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    all = false;
+    const std::string hint = did_you_mean(name, known);
+    problems << fmt::format("plekton: validate: there is no case \"{}\"{}\n", name,
+                            hint.empty() ? "; plekton validate --list names them" : hint);
+  }
+  return all;
+}
+
+bool write_page(const std::filesystem::path& folder, const std::vector<DoneCase>& cases,
+                std::ostream& out, std::ostream& problems) {
+  const BuildInfo build = build_info();
+  const std::string origin =
+      fmt::format("plekton {}, revision {}, {}, on {}, {}", kVersion, build.revision,
+                  build.compiler, name_of_host(), date_of_now());
+  try {
+    make_output_folder(folder);
+    dynamics::OutputFile file(folder / kPage);
+    file.write(validation_page(cases, origin));
+    file.commit();
+  } catch (const dynamics::OutputError& error) {
+    problems << "plekton: " << error.what() << '\n';
+    return false;
+  }
+  out << "wrote " << (folder / kPage).string() << '\n';
+  return true;
+}
+
+}  // namespace
+
+bool validate(const ValidateArguments& arguments, std::ostream& out, std::ostream& problems) {
+  if (arguments.list) {
+    for (const ValidationCase& one : validation_cases())
+      out << fmt::format("{:<20} {}\n", one.name, one.what);
+    return true;
+  }
+  bool is_well = require_known(arguments.names, problems);
+  std::vector<DoneCase> cases;
+  for (const ValidationCase& one : validation_cases()) {
+    const auto& names = arguments.names;
+    if (!names.empty() && std::find(names.begin(), names.end(), one.name) == names.end()) continue;
+    cases.push_back(done_case(one, arguments.full));
+    out << text_of(cases.back()) << std::flush;
+    is_well = is_well && cases.back().passes();
+  }
+  if (cases.empty()) return false;
+  return write_page(arguments.out, cases, out, problems) && is_well;
+}
+
+}  // namespace plekton::apps

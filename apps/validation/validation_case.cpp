@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/validation/validation_case.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace plekton::apps {
+
+bool Finding::passes() const noexcept {
+  return std::abs(value - reference) <= tolerance;  // not for what is no number
+}
+
+std::span<const ValidationCase> validation_cases() {
+  static constexpr std::array<ValidationCase, 5> kCases = {{
+      {"sphere_over_sheet", "a sphere is dragged over a flat sheet of irregular facets, pressed in",
+       validate_sphere_over_sheet},
+      {"rolling", "a sphere rolls and slides down a sheet of facets", validate_rolling},
+      {"cantilever", "beams in a row bend under a load at their end", validate_cantilever},
+      {"conservation", "a spinning sphere collides with a free facet on beams, with friction",
+       validate_conservation},
+      {"determinism", "grains fall on a membrane, with 1, 2 and 4 threads", validate_determinism},
+  }};
+  return kCases;
+}
+
+}  // namespace plekton::apps

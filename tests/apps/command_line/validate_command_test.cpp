@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/validation/validation_report.hpp"
+#include "tests/apps/command_line/program_fixture.hpp"
+
+#include <gmock/gmock.h>
+
+namespace plekton::apps {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Finding, PassesWithinItsToleranceAndNotWhereItIsNoNumber) {
+  EXPECT_TRUE((Finding{"x", 1.01, 1.0, 0.011, "", ""}.passes()));
+  EXPECT_FALSE((Finding{"x", 1.02, 1.0, 0.011, "", ""}.passes()));
+  EXPECT_FALSE((Finding{"x", std::nan(""), 1.0, 0.011, "", ""}.passes()));
+}
+
+TEST(ValidateCommand, PassesAllCasesAndWritesAPageThatLoadsNothing) {
+  const test::TemporaryFolder folder;
+
+  const Outcome outcome = outcome_of({"validate", "--out", (folder / "out").string()});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, Not(HasSubstr("FAIL")));
+  const std::string page = test::bytes_of(folder / "out" / "validation.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("5 of 5 cases pass"), HasSubstr("<svg"), Not(HasSubstr("src=")),
+                          Not(HasSubstr("href="))));
+}
+
+TEST(ValidateCommand, NamesACaseThatIsNotThereAndGoesOnWithTheRest) {
+  const test::TemporaryFolder folder;
+
+  const Outcome outcome =
+      outcome_of({"validate", "rollin", "cantilever", "--out", (folder / "out").string()});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("no case \"rollin\"; did you mean \"rolling\"?"));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("cantilever"), HasSubstr("wrote ")));
+}
+
+TEST(ValidateCommand, SaysThatAFolderCannotBeWrittenAfterTheCases) {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "file", "");
+
+  const Outcome outcome =
+      outcome_of({"validate", "cantilever", "--out", (folder / "file" / "out").string()});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.out, HasSubstr("cantilever"));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+TEST(ValidateCommand, ListsItsCases) {
+  const Outcome outcome = outcome_of({"validate", "--list"});
+
+  EXPECT_EQ(outcome.exit_code, kDone);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("rolling"), HasSubstr("determinism")));
+}
+
+}  // namespace
+}  // namespace plekton::apps
