@@ -60,6 +60,12 @@ foreach(program IN ITEMS plekton plekton-geometry-check)
 endforeach()
 if(TARGET plekton)
   install(TARGETS plekton)
+  # Written by the program; an install of a few targets goes without them.
+  set(generated ${PROJECT_BINARY_DIR}/apps/generated)
+  install(FILES ${generated}/plekton.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+  install(FILES ${generated}/plekton DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions OPTIONAL)
+  install(FILES ${generated}/scenario.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/plekton OPTIONAL)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/apps/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/plekton)
 endif()
 # Built with the tests; an install of a few targets goes without it.
 if(TARGET plekton-geometry-check)

@@ -2,10 +2,13 @@
 #include "apps/command_line/command_line.hpp"
 
 #include "apps/command_line/check_report.hpp"
+#include "apps/command_line/examples_command.hpp"
+#include "apps/command_line/generate_command.hpp"
 #include "apps/command_line/import_command.hpp"
 #include "apps/command_line/inspect_command.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/list_command.hpp"
+#include "apps/command_line/new_command.hpp"
 #include "apps/command_line/plot_command.hpp"
 #include "apps/command_line/render_command.hpp"
 #include "apps/command_line/resume_command.hpp"
@@ -22,6 +25,7 @@
 #include "apps/run/run.hpp"
 #include "apps/run/run_warnings.hpp"
 #include "apps/scenario/closest_word.hpp"
+#include "apps/scenario/json_schema.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/toml_file.hpp"
@@ -34,7 +38,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -52,6 +55,9 @@ namespace plekton::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The command that is not in the help.
+constexpr std::string_view kGenerate = "generate";
 
 /// What the command line says; the parts of the commands that are not given stay empty.
 struct CommandLine {
@@ -86,6 +92,9 @@ struct CommandLine {
   std::vector<std::string> columns;
   std::string at;
   ValidateArguments validate;
+  std::string example;
+  fs::path new_file;
+  GenerateArguments generated;
 };
 
 /// With the threads that are asked for.
@@ -310,6 +319,33 @@ int list_command() {
   return kDone;
 }
 
+int schema_command() {
+  std::cout << scenario_schema().dump(2) << '\n';
+  flush_output();
+  return kDone;
+}
+
+int examples_command(const CommandLine& line) {
+  if (line.example.empty())
+    list_examples(std::cout);
+  else
+    copy_example(line.example, line.out, std::cout);
+  flush_output();
+  return kDone;
+}
+
+int new_command(const CommandLine& line) {
+  write_starting_scenario(line.new_file, std::cout);
+  flush_output();
+  return kDone;
+}
+
+int generate_command(const CommandLine& line, const CLI::App& app) {
+  generate(line.generated, command_table(app), std::cout);
+  flush_output();
+  return kDone;
+}
+
 int inspect_command(const CommandLine& line) {
   std::cout << text_of_checkpoint(line.checkpoint);
   flush_output();
@@ -404,18 +440,18 @@ CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
 }
 
 /// @returns whether the command line begins with a word that is no command, after saying so
-bool is_unknown_command(int argc, const char* const* argv) {
-  constexpr std::array<std::string_view, 11> kCommands = {"run",    "check",  "import",  "inspect",
-                                                          "verify", "list",   "view",    "study",
-                                                          "plot",   "render", "validate"};
+bool is_unknown_command(const CLI::App& app, int argc, const char* const* argv) {
   if (argc < 2) return false;
   const std::string_view word = argv[1];
-  if (word.starts_with('-') ||
-      std::find(kCommands.begin(), kCommands.end(), word) != kCommands.end())
+  const std::vector<CommandEntry> commands = command_table(app);
+  std::vector<std::string_view> names;
+  for (const CommandEntry& command : commands) names.push_back(command.name);
+  if (word.starts_with('-') || word == kGenerate ||
+      std::find(names.begin(), names.end(), word) != names.end())
     return false;
-  const std::string closest = closest_word(word, kCommands);
+  const std::string closest = closest_word(word, names);
   print_error(fmt::format("unknown command \"{}\"; {}", word,
-                          closest.empty() ? "the commands are " + listed(kCommands)
+                          closest.empty() ? "the commands are " + listed(names)
                                           : fmt::format("did you mean \"{}\"?", closest)));
   return true;
 }
@@ -595,8 +631,35 @@ CLI::App* add_validate(CLI::App& app, CommandLine& line) {
   return validate;
 }
 
+CLI::App* add_examples(CLI::App& app, CommandLine& line) {
+  CLI::App* examples =
+      app.add_subcommand("examples", "List the examples that are shipped, or copy one");
+  examples->add_option("name", line.example, "Of the example to copy; all are listed without it");
+  examples->add_option("--out", line.out,
+                       "Folder for the copy; that of its name, of a C++ program the current one");
+  return examples;
+}
+
+CLI::App* add_new(CLI::App& app, CommandLine& line) {
+  CLI::App* command = app.add_subcommand("new", "Write a commented scenario to start from");
+  command->add_option("file", line.new_file, "File to write (.toml)")->required();
+  return command;
+}
+
+/// For the build, the documentation and the completion of shells.
+CLI::App* add_generate(CLI::App& app, CommandLine& line) {
+  CLI::App* generate =
+      app.add_subcommand(std::string(kGenerate), "Write parts of the documentation");
+  generate->group("");
+  generate->add_option("what", line.generated.what, "What to write")
+      ->required()
+      ->check(CLI::IsMember(generated_kinds()));
+  generate->add_option("scenario", line.generated.scenario, "Whose paths, for set-paths");
+  generate->add_option("--date", line.generated.date, "Of the manual page, as in 2026-11-23");
+  return generate;
+}
+
 int dispatch(int argc, const char* const* argv) {
-  if (is_unknown_command(argc, argv)) return kUsage;
   CommandLine line;
   CLI::App app("Plekton: discrete elements with deformable structures", "plekton");
   app.set_version_flag("--version", std::string(kVersion));
@@ -612,7 +675,13 @@ int dispatch(int argc, const char* const* argv) {
   const CLI::App* const plot = add_plot(app, line);
   const CLI::App* const render = add_render(app, line);
   const CLI::App* const validate = add_validate(app, line);
+  const CLI::App* const schema = app.add_subcommand(
+      "schema", "Print a JSON Schema of scenarios, for completion and checks in editors");
+  const CLI::App* const examples = add_examples(app, line);
+  const CLI::App* const start = add_new(app, line);
+  const CLI::App* const generated = add_generate(app, line);
   add_view(app, line);
+  if (is_unknown_command(app, argc, argv)) return kUsage;
 
   try {
     app.parse(argc, argv);
@@ -628,7 +697,11 @@ int dispatch(int argc, const char* const* argv) {
   if (plot->parsed()) return plot_command(line);
   if (render->parsed()) return render_command(line);
   if (validate->parsed()) return validate_command(line);
-  return list->parsed() ? list_command() : view_command(line);
+  if (list->parsed()) return list_command();
+  if (schema->parsed()) return schema_command();
+  if (examples->parsed()) return examples_command(line);
+  if (start->parsed()) return new_command(line);
+  return generated->parsed() ? generate_command(line, app) : view_command(line);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ void list_keys(const KeyGroup& group, std::ostream& out) {
   std::size_t width = 20;
   for (const ListedKey& key : group.keys) width = std::max(width, key.standard.size());
   for (const ListedKey& key : group.keys)
-    out << fmt::format("    {:<20} {:<{}} {}; {}\n", key.path, key.standard, width, key.kind,
+    out << fmt::format("    {:<20} {:<{}} {}; {}\n", key.path, key.standard, width, kind_text(key),
                        key.what);
 }
 

@@ -20,28 +20,37 @@ void list_field(const dynamics::OutputField& field, std::ostream& out) {
                      field.what);
 }
 
+/// Of any list of fields.
 template <class Fields>
-void list_file(std::string_view title, const Fields& fields, std::ostream& out) {
-  out << "  " << title << '\n';
-  for (const dynamics::OutputField& field : fields) list_field(field, out);
+OutputTable table_of(std::string_view title, const Fields& fields) {
+  return {title, {fields.begin(), fields.end()}};
 }
 
 }  // namespace
 
-void list_outputs(std::ostream& out) {
+std::vector<OutputTable> output_tables() {
   using namespace dynamics::frame_fields;
+  return {
+      table_of("energy.csv, every `history_interval`", history_fields()),
+      table_of("reactions.csv, every `reactions_interval`, for each of [[output.reactions]]",
+               reaction_fields()),
+      table_of("pressures.csv, every `history_interval`, for each load of kind pressure",
+               pressure_fields()),
+      table_of("planes.csv, every `interval`, for each of [[planes]]", plane_fields()),
+      table_of("grains.pvd, every `interval`: points", kOfGrains),
+      table_of("membranes.pvd, every `interval`: points", kOfNodes),
+      table_of("membranes.pvd: lines and facets; what one of them has not is 0", kOfCells),
+      table_of("contacts.pvd, every `interval`: lines; contacts.csv, with `contact_list`",
+               dynamics::contact_fields()),
+  };
+}
+
+void list_outputs(std::ostream& out) {
   out << "Outputs, chosen in [output]; columns and arrays with unit and meaning\n";
-  list_file("energy.csv, every `history_interval`", history_fields(), out);
-  list_file("reactions.csv, every `reactions_interval`, for each of [[output.reactions]]",
-            reaction_fields(), out);
-  list_file("pressures.csv, every `history_interval`, for each load of kind pressure",
-            pressure_fields(), out);
-  list_file("planes.csv, every `interval`, for each of [[planes]]", plane_fields(), out);
-  list_file("grains.pvd, every `interval`: points", kOfGrains, out);
-  list_file("membranes.pvd, every `interval`: points", kOfNodes, out);
-  list_file("membranes.pvd: lines and facets; what one of them has not is 0", kOfCells, out);
-  list_file("contacts.pvd, every `interval`: lines; contacts.csv, with `contact_list`",
-            dynamics::contact_fields(), out);
+  for (const OutputTable& table : output_tables()) {
+    out << "  " << table.title << '\n';
+    for (const dynamics::OutputField& field : table.fields) list_field(field, out);
+  }
 }
 
 }  // namespace plekton::apps

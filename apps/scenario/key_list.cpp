@@ -25,19 +25,6 @@ const std::vector<std::set<std::string>>& absences() {
   return sets;
 }
 
-Keys record(const std::map<std::string, std::string>& chosen) {
-  Keys all;
-  for (const std::set<std::string>& absent : absences()) {
-    KeyRecorder recorder(absent, chosen);
-    record_keys(recorder);
-    for (const ListedKey& key : recorder.keys()) {
-      if (std::none_of(all.begin(), all.end(), [&](const auto& k) { return k.path == key.path; }))
-        all.push_back(key);
-    }
-  }
-  return all;
-}
-
 /// "loads[].kind" to "loads[]."; empty if it is not a kind.
 std::string parent_of_kind(const ListedKey& key) {
   constexpr std::string_view kKind = "kind";
@@ -75,14 +62,27 @@ Keys below(const std::string& path, const Keys& keys) {
 /// One group for each kind, in place of the table.
 void add_kinds(const ListedKey& kind, std::vector<KeyGroup>& groups) {
   const std::string path = parent_of_kind(kind);
-  for (const std::string& word : kind.words)
-    groups.push_back({heading(path), word, below(path, record({{kind.path, word}}))});
+  for (const std::string& word : kind.types.front().words)
+    groups.push_back({heading(path), word, below(path, listed_keys({{kind.path, word}}))});
 }
 
 }  // namespace
 
+std::vector<ListedKey> listed_keys(const std::map<std::string, std::string>& chosen) {
+  Keys all;
+  for (const std::set<std::string>& absent : absences()) {
+    KeyRecorder recorder(absent, chosen);
+    record_keys(recorder);
+    for (const ListedKey& key : recorder.keys()) {
+      if (std::none_of(all.begin(), all.end(), [&](const auto& k) { return k.path == key.path; }))
+        all.push_back(key);
+    }
+  }
+  return all;
+}
+
 std::vector<KeyGroup> scenario_keys() {
-  const Keys all = record({});
+  const Keys all = listed_keys();
   std::vector<KeyGroup> groups;
   std::set<std::string> kinds;
   for (const ListedKey& key : all) {

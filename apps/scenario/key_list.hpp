@@ -3,6 +3,7 @@
 
 #include "apps/scenario/key_recorder.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,10 @@ struct KeyGroup {
 /// Every key that a scenario may have, from the reader itself (key_recorder.hpp), in the order in
 /// which it reads them.
 std::vector<KeyGroup> scenario_keys();
+
+/// The same keys with their whole paths, as in "membranes[].shape.radius", in one list.
+/// @param chosen  words of choices that other keys go by, by the path of their keys; the first or the
+///                default elsewhere
+std::vector<ListedKey> listed_keys(const std::map<std::string, std::string>& chosen = {});
 
 }  // namespace plekton::apps

@@ -2,7 +2,6 @@
 #include "apps/scenario/key_recorder.hpp"
 
 #include "apps/scenario/key_meanings.hpp"
-#include "apps/scenario/section.hpp"
 
 #include <fmt/format.h>
 
@@ -16,27 +15,25 @@ bool KeyRecorder::ask(const std::string& path) {
   return !absent_.contains(path);
 }
 
-void KeyRecorder::add(const std::string& path, std::string kind,
-                      const std::optional<std::string>& standard,
-                      std::span<const std::string_view> words) {
+void KeyRecorder::add(const std::string& path, const ValueType& type,
+                      const std::optional<std::string>& standard) {
   const bool is_known =
       std::any_of(keys_.begin(), keys_.end(), [&](const auto& key) { return key.path == path; });
   if (is_known) return;
+  std::vector<ValueType> types{type};
   const auto other = alternatives_.find(path);
-  if (other != alternatives_.end()) kind += ", or " + other->second;
+  if (other != alternatives_.end()) types.push_back(other->second);
   const auto told = standards_.find(path);
-  keys_.push_back({path,
-                   std::move(kind),
+  keys_.push_back({path, std::move(types),
                    told != standards_.end() ? told->second : standard.value_or(without(path)),
-                   {words.begin(), words.end()},
                    meaning_of_key(path)});
 }
 
 std::string KeyRecorder::without(const std::string& path) const {
   if (asked_.contains(path)) return "-";
   const std::string table = path.substr(0, path.rfind('.'));
-  if (!optional_tables_.contains(table)) return "required";
-  return "required in " + table.substr(table.rfind('.') + 1);
+  if (!optional_tables_.contains(table)) return std::string(ListedKey::kRequired);
+  return std::string(ListedKey::kRequiredIn) + table.substr(table.rfind('.') + 1);
 }
 
 void KeyRecorder::set_standard(const std::string& path, const std::string& text) {
@@ -47,8 +44,8 @@ void KeyRecorder::add_optional_table(const std::string& path) {
   optional_tables_.insert(path);
 }
 
-void KeyRecorder::add_alternative(const std::string& path, const std::string& what) {
-  alternatives_[path] = what;
+void KeyRecorder::add_alternative(const std::string& path, const ValueType& type) {
+  alternatives_[path] = type;
 }
 
 std::optional<std::size_t> KeyRecorder::choice(const std::string& path,
@@ -60,12 +57,10 @@ std::optional<std::size_t> KeyRecorder::choice(const std::string& path,
   return static_cast<std::size_t>(found - words.begin());
 }
 
-std::string kind_text(const Quantity& expected) {
-  const std::string_view name = expected.dimension.name;
-  const std::string_view noun = name.substr(name.find(' ') + 1);  // without its article
-  const std::string_view unit = expected.dimension.si_unit;
-  return fmt::format("{}{}{}", noun, unit.empty() ? "" : fmt::format(" ({})", unit),
-                     expected.range.text);
+std::string kind_text(const ListedKey& key) {
+  std::string text;
+  for (const ValueType& type : key.types) text += (text.empty() ? "" : ", or ") + text_of(type);
+  return text;
 }
 
 std::string standard_text(double value) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/scenario/units.hpp"
+#include "apps/scenario/value_type.hpp"
 
 #include <map>
 #include <optional>
@@ -13,15 +13,17 @@
 
 namespace plekton::apps {
 
-struct Quantity;
-
 /// A key that a scenario may have.
 struct ListedKey {
-  std::string path;      ///< as in "membranes.shape.radius"
-  std::string kind;      ///< what its value is, with its SI unit, as in "length (m) above 0"
-  std::string standard;  ///< SI, if nothing is said; "required", or "-" where it may be left out
-  std::vector<std::string> words;  ///< of a choice
-  std::string_view what;           ///< its meaning
+  std::string path;              ///< as in "membranes.shape.radius"
+  std::vector<ValueType> types;  ///< what its value is; mostly one
+  std::string standard;   ///< SI, if nothing is said; "required", or "-" where it may be left out
+  std::string_view what;  ///< its meaning
+
+  bool is_required() const { return standard == kRequired || standard.starts_with(kRequiredIn); }
+
+  static constexpr std::string_view kRequired = "required";
+  static constexpr std::string_view kRequiredIn = "required in ";  ///< a table that is there
 };
 
 /// Writes down which keys the reader asks for, instead of reading a file: so what is listed is what
@@ -37,14 +39,14 @@ class KeyRecorder {
   bool ask(const std::string& path);
   /// A key whose value is read.
   /// @param standard  nothing where the key is required, unless it was asked for before
-  void add(const std::string& path, std::string kind, const std::optional<std::string>& standard,
-           std::span<const std::string_view> words = {});
+  void add(const std::string& path, const ValueType& type,
+           const std::optional<std::string>& standard);
   /// What the list says of a default that is no plain value. Before the key is read.
   void set_standard(const std::string& path, const std::string& text);
   /// A table that may be left out: what is required in it is not required without it.
   void add_optional_table(const std::string& path);
   /// A value that may also be something else.
-  void add_alternative(const std::string& path, const std::string& what);
+  void add_alternative(const std::string& path, const ValueType& type);
 
   /// Position of the chosen word.
   std::optional<std::size_t> choice(const std::string& path,
@@ -60,14 +62,14 @@ class KeyRecorder {
   std::set<std::string> absent_;
   std::map<std::string, std::string> chosen_;
   std::set<std::string> asked_;
-  std::map<std::string, std::string> alternatives_;
+  std::map<std::string, ValueType> alternatives_;
   std::map<std::string, std::string> standards_;
   std::set<std::string> optional_tables_;
   std::vector<ListedKey> keys_;
 };
 
-/// As in "length (m) above 0".
-std::string kind_text(const Quantity& expected);
+/// What a key takes, as in "length (m) above 0".
+std::string kind_text(const ListedKey& key);
 /// A default: "none" if infinite.
 std::string standard_text(double value);
 

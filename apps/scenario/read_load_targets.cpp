@@ -99,7 +99,7 @@ NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
   }
   set.place = section.place_of("nodes");
   section.tell_default("nodes", "required; of grains \"all\"");
-  if (section.is_table("nodes", "{ min = [..], max = [..] }")) {
+  if (section.is_table("nodes", box_type())) {
     set.which = SetWhich::box;
     set.box = read_box(*section.table("nodes"));
     return set;

@@ -30,7 +30,7 @@ HoldSettings read_hold(Section& section) {
   constexpr std::array<std::string_view, 3> kWords = {"none", "rim", "all"};
   constexpr std::array kMeanings = {HoldWhich::none, HoldWhich::rim, HoldWhich::all};
   HoldSettings hold;
-  if (section.is_table("hold", "{ min = [..], max = [..] }")) {
+  if (section.is_table("hold", box_type())) {
     hold.which = HoldWhich::box;
     hold.box = read_box(*section.table("hold"));
   } else {

@@ -74,6 +74,13 @@ std::optional<std::size_t> read_material_of(Section& section, const Known& known
   return std::nullopt;
 }
 
+ValueType box_type() {
+  const ValueType corner = ValueType::of(ValueType::Kind::vector, {kLength});
+  ValueType type = ValueType::of(ValueType::Kind::table);
+  type.members = {{"min", corner}, {"max", corner}};
+  return type;
+}
+
 geometry::Box read_box(Section section) {
   const Vec3 lower = section.vector("min", {kLength});
   const Vec3 upper = section.vector("max", {kLength});

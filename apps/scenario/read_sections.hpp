@@ -49,5 +49,7 @@ std::optional<std::size_t> read_material_of(Section& section, const Known& known
                                             std::string_view key = "material");
 /// A box from the keys min and max of a table.
 geometry::Box read_box(Section section);
+/// What read_box() takes.
+ValueType box_type();
 
 }  // namespace plekton::apps

@@ -21,10 +21,9 @@ Section::Section(const Table& table, Place place, std::string path, Problems& pr
       problems_(&problems),
       recorder_(recorder) {}
 
-bool Section::records(std::string_view key, const std::string& kind,
-                      const std::optional<std::string>& standard,
-                      std::span<const std::string_view> words) const {
-  if (recorder_) recorder_->add(path_of(key), kind, standard, words);
+bool Section::records(std::string_view key, const ValueType& type,
+                      const std::optional<std::string>& standard) const {
+  if (recorder_) recorder_->add(path_of(key), type, standard);
   return recorder_ != nullptr;
 }
 
@@ -42,8 +41,8 @@ bool Section::has(std::string_view key) {
   return find(key) != nullptr;
 }
 
-bool Section::is_table(std::string_view key, std::string_view what) const {
-  if (recorder_) recorder_->add_alternative(path_of(key), std::string(what));
+bool Section::is_table(std::string_view key, const ValueType& table) const {
+  if (recorder_) recorder_->add_alternative(path_of(key), table);
   const Entry* entry = table_->find(key);
   return entry && std::holds_alternative<Table>(entry->value.data);
 }

@@ -3,12 +3,11 @@
 
 #include "apps/scenario/config_tree.hpp"
 #include "apps/scenario/key_recorder.hpp"
-#include "apps/scenario/units.hpp"
+#include "apps/scenario/value_type.hpp"
 #include "geometry/base/types.hpp"
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,32 +15,6 @@
 #include <vector>
 
 namespace plekton::apps {
-
-/// Values that are allowed.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();  ///< SI
-  double high = std::numeric_limits<double>::infinity();  ///< SI
-  bool with_low = true;
-  bool with_high = true;
-  std::string_view text;  ///< continues "expected a length", as in " above 0"
-
-  bool holds(double value) const noexcept {
-    return (with_low ? value >= low : value > low) && (with_high ? value <= high : value < high);
-  }
-};
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr Range kAny{};
-inline constexpr Range kPositive{0.0, kInfinity, false, true, " above 0"};
-inline constexpr Range kNotNegative{0.0, kInfinity, true, true, " of at least 0"};
-inline constexpr Range kFraction{0.0, 1.0, true, true, " from 0 to 1"};
-inline constexpr Range kBelowOne{0.0, 1.0, true, false, " from 0 to below 1"};
-
-/// A kind of quantity and its range.
-struct Quantity {
-  Dimension dimension;
-  Range range = kAny;
-};
 
 /// Reads the keys of one table and collects what is wrong with them: missing keys, wrong kinds,
 /// values out of range, and, in finish(), keys that nobody asked for. After a problem a reading
@@ -63,8 +36,9 @@ class Section {
 
   /// Also announces the key, so that it is not unknown.
   bool has(std::string_view key);
-  /// @param what  of the table, for a list of keys
-  bool is_table(std::string_view key, std::string_view what = "a table") const;
+  /// @param table  what it would be, for a list of keys
+  bool is_table(std::string_view key,
+                const ValueType& table = ValueType::of(ValueType::Kind::table)) const;
   bool is_list(std::string_view key) const;
 
   /// For the list of keys: the default where it is no plain value of the key. Before it is read.
@@ -133,9 +107,8 @@ class Section {
     return Section(table, place, std::move(path), *problems_, recorder_);
   }
   /// Tells the recorder of a key. @returns whether there is one
-  bool records(std::string_view key, const std::string& kind,
-               const std::optional<std::string>& standard,
-               std::span<const std::string_view> words = {}) const;
+  bool records(std::string_view key, const ValueType& type,
+               const std::optional<std::string>& standard) const;
   const Value* find(std::string_view key);
   const Value* require(std::string_view key);
   double read_quantity(const Value& value, const std::string& path, const Quantity& expected);

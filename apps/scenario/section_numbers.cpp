@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace plekton::apps {
 namespace {
+
+using Kind = ValueType::Kind;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -61,23 +61,23 @@ double Section::read_quantity(const Value& value, const std::string& path,
                              degrees ? fmt::format("; did you mean \"{} deg\"?", number) : ""));
 }
 double Section::quantity(std::string_view key, const Quantity& expected) {
-  if (records(key, kind_text(expected), {})) return kNaN;
+  if (records(key, ValueType::of(Kind::quantity, expected), {})) return kNaN;
   const Value* value = require(key);
   return value ? read_quantity(*value, path_of(key), expected) : kNaN;
 }
 
 double Section::quantity(std::string_view key, const Quantity& expected, double fallback) {
   const std::string standard = expected.range.holds(fallback) ? standard_text(fallback) : "none";
-  if (records(key, kind_text(expected), standard)) return fallback;
+  if (records(key, ValueType::of(Kind::quantity, expected), standard)) return fallback;
   const Value* value = find(key);
   return value ? read_quantity(*value, path_of(key), expected) : fallback;
 }
 
 std::optional<double> Section::quantity_unless(std::string_view key, std::string_view word,
                                                const Quantity& expected) {
-  const std::string standard = fmt::format("\"{}\"", word);
-  if (records(key, fmt::format("{}, or {}", kind_text(expected), standard), standard))
-    return std::nullopt;
+  ValueType type = ValueType::of(Kind::quantity, expected);
+  type.words.emplace_back(word);
+  if (records(key, type, fmt::format("\"{}\"", word))) return std::nullopt;
   const Value* value = find(key);
   if (value == nullptr) return std::nullopt;
   const auto* text = std::get_if<std::string>(&value->data);
@@ -103,14 +103,15 @@ geometry::Vec3 Section::read_vector(const Value& value, const std::string& path,
 }
 
 geometry::Vec3 Section::vector(std::string_view key, const Quantity& expected) {
-  if (records(key, "3 x " + kind_text(expected), {})) return geometry::Vec3::Constant(kNaN);
+  if (records(key, ValueType::of(Kind::vector, expected), {}))
+    return geometry::Vec3::Constant(kNaN);
   const Value* value = require(key);
   return value ? read_vector(*value, path_of(key), expected) : geometry::Vec3::Constant(kNaN);
 }
 
 geometry::Vec3 Section::vector(std::string_view key, const Quantity& expected,
                                const geometry::Vec3& fallback) {
-  if (records(key, "3 x " + kind_text(expected),
+  if (records(key, ValueType::of(Kind::vector, expected),
               fmt::format("[{:g}, {:g}, {:g}]", fallback[0], fallback[1], fallback[2])))
     return fallback;
   const Value* value = find(key);
@@ -119,7 +120,9 @@ geometry::Vec3 Section::vector(std::string_view key, const Quantity& expected,
 
 std::vector<geometry::Vec3> Section::vectors(std::string_view key, const Quantity& expected,
                                              std::size_t least) {
-  if (records(key, "list of 3 x " + kind_text(expected), {})) return {};
+  ValueType type = ValueType::of(Kind::vectors, expected);
+  type.least = least;
+  if (records(key, type, {})) return {};
   const Value* value = require(key);
   if (value == nullptr) return {};
   const auto* array = std::get_if<Array>(&value->data);
@@ -181,7 +184,7 @@ std::vector<std::int32_t> Section::places(std::string_view key, std::size_t colu
 
 std::int64_t Section::integer(std::string_view key, std::int64_t low, std::int64_t high,
                               std::optional<std::int64_t> fallback) {
-  if (records(key, fmt::format("whole number from {}", low),
+  if (records(key, ValueType::whole_from(Kind::whole_number, {low}, high),
               fallback ? std::optional(std::to_string(*fallback)) : std::nullopt))
     return fallback.value_or(low);
   const Value* value = fallback ? find(key) : require(key);
@@ -194,10 +197,8 @@ std::int64_t Section::integer(std::string_view key, std::int64_t low, std::int64
 }
 
 std::vector<int> Section::integers(std::string_view key, std::vector<int> least, int most) {
-  const bool is_same = std::count(least.begin(), least.end(), least[0]) == std::ssize(least);
-  const std::string lowest =
-      is_same ? std::to_string(least[0]) : fmt::format("{}", fmt::join(least, " and "));
-  if (records(key, fmt::format("{} x whole number from {}", least.size(), lowest), {}))
+  if (records(key, ValueType::whole_from(Kind::whole_numbers, {least.begin(), least.end()}, most),
+              {}))
     return least;
   const Value* value = require(key);
   if (value == nullptr) return least;
@@ -223,8 +224,7 @@ std::vector<int> Section::integers(std::string_view key, std::vector<int> least,
 
 std::vector<std::array<double, 2>> Section::rising_rows(std::string_view key, const Quantity& first,
                                                         const Quantity& second) {
-  if (records(key, fmt::format("pairs of {} and {}", kind_text(first), kind_text(second)), {}))
-    return {};
+  if (records(key, ValueType::of(Kind::pairs, first, second), {})) return {};
   const Value* value = require(key);
   if (value == nullptr) return {};
   const auto* array = std::get_if<Array>(&value->data);

@@ -9,7 +9,7 @@
 namespace plekton::apps {
 
 std::vector<std::string> Section::texts(std::string_view key) {
-  if (records(key, "texts", {})) return {};
+  if (records(key, ValueType::of(ValueType::Kind::texts), {})) return {};
   const Value* value = require(key);
   if (value == nullptr) return {};
   const auto* array = std::get_if<Array>(&value->data);
@@ -24,7 +24,8 @@ std::vector<std::string> Section::texts(std::string_view key) {
 }
 
 bool Section::truth(std::string_view key, bool fallback) {
-  if (records(key, "true or false", fallback ? "true" : "false")) return fallback;
+  if (records(key, ValueType::of(ValueType::Kind::truth), fallback ? "true" : "false"))
+    return fallback;
   const Value* value = find(key);
   if (value == nullptr) return fallback;
   if (const auto* truth = std::get_if<bool>(&value->data)) return *truth;
@@ -33,7 +34,8 @@ bool Section::truth(std::string_view key, bool fallback) {
 }
 
 std::string Section::text(std::string_view key, const std::optional<std::string>& fallback) {
-  if (records(key, "text", fallback == "" ? "none" : fallback)) return fallback.value_or("");
+  if (records(key, ValueType::of(ValueType::Kind::text), fallback == "" ? "none" : fallback))
+    return fallback.value_or("");
   const Value* value = fallback ? find(key) : require(key);
   if (value == nullptr) return fallback.value_or("");
   const auto* text = std::get_if<std::string>(&value->data);
@@ -78,9 +80,8 @@ std::size_t Section::choice(std::string_view key, std::span<const std::string_vi
 std::optional<std::size_t> Section::known_choice(std::string_view key,
                                                  std::span<const std::string_view> words,
                                                  std::optional<std::size_t> fallback) {
-  if (records(key, listed(words),
-              fallback ? std::optional(fmt::format("\"{}\"", words[*fallback])) : std::nullopt,
-              words))
+  if (records(key, ValueType::word_of(words),
+              fallback ? std::optional(fmt::format("\"{}\"", words[*fallback])) : std::nullopt))
     return recorder_->choice(path_of(key), words).value_or(fallback.value_or(0));
   const Value* value = find(key);
   if (value) return position_of(*value, key, words);

@@ -62,7 +62,7 @@ class CheckedFile {
   std::int64_t size_ = 0;  // bytes
 };
 
-/// A result file that appears complete or not at all: written as `<name>.part` and renamed by
+/// A result file that appears complete or not at all: written as `NAME.part` and renamed by
 /// commit(). Without commit() the destructor removes the part file, and a file of that name from
 /// before stays as it was. Two of the same name at the same time disturb each other.
 class OutputFile {

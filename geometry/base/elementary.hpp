@@ -7,11 +7,11 @@
 /// with and without fused multiply-add, and chooses as a program starts. A difference in the last
 /// bit of one angle is another trajectory. These use only +, -, *, / and square roots of doubles,
 /// which IEEE 754 rounds in one way. Whatever runs in a step or decides a state takes them from
-/// here, never from <cmath>; a test of the tree checks it.
+/// here, never from cmath; a test of the tree checks it.
 ///
 /// Results are the nearest double but for about one argument in ten thousand, and there the other
 /// neighbour: within 0.501 ulp where the result is a normal number. A call takes 50 to 250 ns.
-/// What <cmath> says of zeros, infinities and what is not a number holds, but where noted.
+/// What cmath says of zeros, infinities and what is not a number holds, but where noted.
 namespace plekton::elementary {
 
 /// @param x  rad. Not a number from 2^40 on, which is 2e11 turns.

@@ -5,7 +5,7 @@
 
 namespace plekton::geometry {
 
-/// Where a file is written before it gets its name: `<name>.part`, beside it.
+/// Where a file is written before it gets its name: `NAME.part`, beside it.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
 /// Creates a file and opens it for writing at its end. Nothing that somebody put there before is

@@ -183,7 +183,7 @@ TEST(KeyList, HasUnitsRangesAndDefaults) {
     for (const KeyGroup& group : scenario_keys()) {
       if (group.table != table || group.kind != kind) continue;
       for (const ListedKey& listed : group.keys)
-        if (listed.path == path) return listed.standard + "; " + listed.kind;
+        if (listed.path == path) return listed.standard + "; " + kind_text(listed);
     }
     return std::string("not there");
   };

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/command_table.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace plekton::apps {
+namespace {
+
+CommandOption option_of(const CLI::Option& option) {
+  const bool is_argument = option.get_positional();
+  return {is_argument ? option.get_name(true, false) : "--" + option.get_lnames().front(),
+          option.get_description(),
+          option.get_items_expected_max(),
+          option.get_items_expected_min() > 0,
+          is_argument,
+          option.get_required()};
+}
+
+/// What stands for the value of an option: its name in capitals.
+std::string placeholder_of(const std::string& name) {
+  std::string text = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
+    return c == '-' ? '_' : static_cast<char>(std::toupper(c));
+  });
+  return text;
+}
+
+}  // namespace
+
+std::vector<CommandEntry> command_table(const CLI::App& app) {
+  std::vector<CommandEntry> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_group().empty()) continue;
+    CommandEntry entry{command->get_name(), command->get_description(), {}};
+    for (const CLI::Option* option : command->get_options([](const CLI::Option*) { return true; }))
+      entry.options.push_back(option_of(*option));
+    std::stable_partition(entry.options.begin(), entry.options.end(),
+                          [](const CommandOption& option) { return option.is_argument; });
+    commands.push_back(std::move(entry));
+  }
+  return commands;
+}
+
+std::string usage_of(const CommandOption& option) {
+  const std::string value = placeholder_of(option.name);
+  if (option.is_argument) return value;
+  if (option.name == "--set") return "--set PATH=VALUE";
+  if (option.values == 0) return option.name;
+  if (!option.needs_value) return fmt::format("{} [{}]", option.name, value);
+  if (option.name == "--interval") return option.name + " BEGIN END";
+  return fmt::format("{} {}", option.name, value);
+}
+
+std::string usage_of(const CommandEntry& command) {
+  std::string text = "plekton " + command.name;
+  for (const CommandOption& option : command.options) {
+    if (option.name == "--help") continue;
+    const std::string usage = usage_of(option);
+    text += option.is_required ? " " + usage : fmt::format(" [{}]", usage);
+  }
+  return text;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/new_command.hpp"
+
+#include "tests/apps/command_line/program_fixture.hpp"
+
+#include <gmock/gmock.h>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+
+class New : public testing::Test {
+ protected:
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(New, WritesAScenarioThatRunsWithoutAWarning) {
+  const std::string file = (folder_ / "first.toml").string();
+  const Outcome written = outcome_of({"new", file});
+  const Outcome run =
+      outcome_of({"run", file, "--out", (folder_ / "out").string(), "--strict", "--quiet"});
+
+  EXPECT_EQ(written.exit_code, kDone) << written.err;
+  EXPECT_THAT(written.out, HasSubstr("plekton run " + file));
+  EXPECT_EQ(run.exit_code, kDone) << run.err;
+  EXPECT_EQ(run.err, "");
+}
+
+TEST_F(New, DoesNotReplaceAFile) {
+  test::write_bytes(folder_ / "first.toml", "mine");
+
+  const Outcome outcome = outcome_of({"new", (folder_ / "first.toml").string()});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("is there already"));
+  EXPECT_EQ(test::bytes_of(folder_ / "first.toml"), "mine");
+}
+
+}  // namespace
+}  // namespace plekton::apps
