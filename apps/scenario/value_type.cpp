@@ -152,6 +152,8 @@ std::string range_of(const ValueType& type) {
     }
     case Kind::whole_number:
     case Kind::whole_numbers:
+      if (type.high == std::numeric_limits<std::int64_t>::max())
+        return "from " + least_of(type.low);
       return fmt::format("from {} to {}", least_of(type.low), type.high);
     case Kind::word:
       return in_quotes(type.words);

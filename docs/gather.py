@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Puts the pages of the site together: those of this folder, what other folders have, and what the program writes.
+
+Usage: python3 gather.py PROGRAM ROOT FOLDER; FOLDER is made anew
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+KATEX = Path("/usr/share/javascript/katex")
+
+ELSEWHERE = {
+    "apps/scenario.md": "reference/scenario.md",
+    "apps/examples/import/README.md": "howto/membrane_sources.md",
+    "tests/validation/README.md": "validation_tables.md",
+    "CHANGELOG.md": "changelog.md",
+}
+"""Pages of other folders, and where they go. Those that are missing are left out."""
+
+WRITTEN = {"keys": "reference/keys.md", "laws": "reference/laws.md", "outputs": "reference/outputs.md", "commands": "reference/commands.md"}
+"""What `plekton generate` writes, and where it goes."""
+
+PICTURES = ("apps/examples/catch/catch.png", "apps/examples/net/net.png", "apps/examples/import/generators.png", "apps/examples/import/repair.png")
+
+LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)")
+
+
+def place_of(path, root):
+    """Where a file of the tree is on the site; nothing if it is not."""
+    relative = path.relative_to(root).as_posix()
+    if relative in ELSEWHERE:
+        return ELSEWHERE[relative]
+    if relative in PICTURES:
+        return "pictures/" + path.name
+    return relative[len("docs/") :] if relative.startswith("docs/") and relative.endswith(".md") else None
+
+
+def with_links_of_the_site(text, page, root, target):
+    """The text of a page, with links to what is on the site as from its place there; other files become their path in the
+    sources."""
+
+    def replaced(match):
+        mark, words, link = match.groups()
+        if link.startswith(("#", "http://", "https://")):
+            return match[0]
+        file, _, anchor = link.partition("#")
+        path = (page.parent / file).resolve()
+        if not path.is_relative_to(root):
+            return match[0]
+        place = place_of(path, root)
+        if place is None:
+            return f"{words} (`{path.relative_to(root).as_posix()}`)"
+        return f"{mark}[{words}]({os.path.relpath(place, os.path.dirname(target))}{'#' + anchor if anchor else ''})"
+
+    return LINK.sub(replaced, text)
+
+
+def main():
+    program, root, folder = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3])
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(root / "docs", folder, ignore=shutil.ignore_patterns("build.sh", "gather.py", "Doxyfile.in"))
+    for page, target in ELSEWHERE.items():
+        source = root / page
+        if not source.is_file():
+            continue
+        text = with_links_of_the_site(source.read_text(encoding="utf-8"), source, root, target)
+        (folder / target).write_text(text, encoding="utf-8")
+    for page in root.glob("docs/**/*.md"):
+        target = page.relative_to(root / "docs").as_posix()
+        text = with_links_of_the_site(page.read_text(encoding="utf-8"), page, root, target)
+        (folder / target).write_text(text, encoding="utf-8")
+    for what, target in WRITTEN.items():
+        text = subprocess.run([program, "generate", what], capture_output=True, text=True, check=True).stdout
+        (folder / target).write_text(text, encoding="utf-8")
+    (folder / "pictures").mkdir()
+    for picture in PICTURES:
+        shutil.copy(root / picture, folder / "pictures")
+    if not KATEX.is_dir():
+        sys.exit(f"{KATEX} is missing, which sets formulas; install libjs-katex")
+    katex = folder / "_static" / "katex"
+    katex.mkdir()
+    for name in ("katex.min.js", "katex.min.css", "contrib/auto-render.min.js"):
+        source = KATEX / name
+        if not source.is_file():
+            source = KATEX / name.replace(".min", "")
+        shutil.copy(source, katex / Path(name).name)
+    shutil.copytree(KATEX / "fonts", katex / "fonts")
+
+
+if __name__ == "__main__":
+    main()
