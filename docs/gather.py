@@ -16,6 +16,8 @@ KATEX = Path("/usr/share/javascript/katex")
 ELSEWHERE = {
     "apps/scenario.md": "reference/scenario.md",
     "apps/examples/import/README.md": "howto/membrane_sources.md",
+    "apps/study.md": "howto/study.md",
+    "docs/python.md": "howto/python.md",
     "tests/validation/README.md": "validation_tables.md",
     "CHANGELOG.md": "changelog.md",
 }
@@ -71,6 +73,9 @@ def main():
         (folder / target).write_text(text, encoding="utf-8")
     for page in root.glob("docs/**/*.md"):
         target = page.relative_to(root / "docs").as_posix()
+        if page.relative_to(root).as_posix() in ELSEWHERE:
+            (folder / target).unlink()
+            continue
         text = with_links_of_the_site(page.read_text(encoding="utf-8"), page, root, target)
         (folder / target).write_text(text, encoding="utf-8")
     for what, target in WRITTEN.items():

@@ -70,6 +70,18 @@ def changed(scenario, table, key, value):
     return scenario
 
 
+def misspelled(values, path=()):
+    """Copies of a scenario with one key misspelled, each with the path of the key; names of materials may be any."""
+    for key, value in list(values.items()) if isinstance(values, dict) else []:
+        if path != ("materials",):
+            yield (*path, key), {(name + "x" if name == key else name): entry for name, entry in values.items()}
+        for where, inner in misspelled(value, (*path, key)):
+            yield where, values | {key: inner}
+    for i, value in enumerate(values) if isinstance(values, list) else []:
+        for where, inner in misspelled(value, (*path, i)):
+            yield where, [*values[:i], inner, *values[i + 1 :]]
+
+
 def scenarios(root):
     """Every file of the tree that is a scenario."""
     files = subprocess.run(["git", "ls-files", "*.toml"], cwd=root, capture_output=True, text=True).stdout.split()
@@ -112,10 +124,16 @@ def main():
     for what, values in wrong.items():
         if validator.is_valid(values):
             failures.append(f"{what}: not refused")
+    keys = 0
+    for name, values in tried:
+        for where, wrong_values in misspelled(values):
+            keys += 1
+            if validator.is_valid(wrong_values):
+                failures.append(f"{name}: {'.'.join(map(str, where))} misspelled, but not refused")
     for failure in failures:
         print(failure)
-    print(f"{count} scenarios valid by the schema, {len(wrong)} wrong ones; {len(failures)} failures")
-    return 1 if failures or count < 10 else 0
+    print(f"{count} scenarios valid by the schema, {len(wrong)} wrong ones and {keys} misspelled keys not; {len(failures)} failures")
+    return 1 if failures or count < 10 or keys < 100 else 0
 
 
 if __name__ == "__main__":
