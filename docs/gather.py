@@ -64,7 +64,7 @@ def with_links_of_the_site(text, page, root, target):
 def main():
     program, root, folder = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3])
     shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(root / "docs", folder, ignore=shutil.ignore_patterns("build.sh", "gather.py", "Doxyfile.in"))
+    shutil.copytree(root / "docs", folder, ignore=shutil.ignore_patterns("build.sh", "gather.py", "Doxyfile.in", "api.sh", "api.dox"))
     for page, target in ELSEWHERE.items():
         source = root / page
         if not source.is_file():
