@@ -16,18 +16,25 @@ void pause() noexcept {
 #endif
 }
 
-/// Waits until a value is no longer the old one: looks a number of times, most of them leaving the
-/// core to others in between, then blocks. The first looks are as near to each other as threads
-/// that end a loop at nearly the same time, and cost less than a call of the system.
-void wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t old,
-                     int looks) noexcept {
-  constexpr int kNearLooks = 512;
-  for (int look = 0; look < looks; ++look) {
-    for (int near = 0; near < (look == 0 ? kNearLooks : 1); ++near) {
-      if (value.load(std::memory_order_acquire) != old) return;
-      pause();
-    }
-    std::this_thread::yield();
+// How often is looked, some 15 ns each.
+constexpr int kLooksForBegin = 128;    // for others to begin their parts, which are short
+constexpr int kLooksForChange = 1024;  // for a loop of a step to begin or end
+
+// A thread that loses its core gets it back after a slice of the scheduler, some milliseconds. Loops
+// that are late for that are no faster than the caller alone if they take more time than the others.
+constexpr std::chrono::microseconds kLongWait{300};
+constexpr std::chrono::milliseconds kLongLoop{1};
+constexpr std::chrono::milliseconds kTooLate{5};
+constexpr std::chrono::milliseconds kShortestAlone{10};
+constexpr std::chrono::milliseconds kLongestAlone{1000};
+constexpr int kTrial = 8;  // times as long as they were left alone: late again
+
+/// Waits until a value is no longer the old one: looks for a while, then blocks. A thread that
+/// blocks gets its core back sooner than one that gave it away in between its looks.
+void wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t old) noexcept {
+  for (int look = 0; look < kLooksForChange; ++look) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    pause();
   }
   value.wait(old, std::memory_order_acquire);
 }
@@ -46,23 +53,22 @@ int checked(int thread_count) {
   return thread_count;
 }
 
-/// About 20 us of looking, the time a step leaves between two loops; none when the threads
-/// outnumber the cores.
-int looks_for(int thread_count) noexcept {
-  const unsigned cores = std::thread::hardware_concurrency();
-  return cores >= static_cast<unsigned>(thread_count) ? 64 : 0;
+/// More threads than processors would take turns on them.
+int threads_beside_caller(int thread_count) noexcept {
+  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  return std::min(thread_count, std::max(processors, 2)) - 1;
 }
 
 }  // namespace
 
 ThreadPool::ThreadPool(int thread_count)
     : thread_count_(checked(thread_count)),
-      looks_(looks_for(thread_count)),
+      threads_beside_(threads_beside_caller(thread_count)),
       failures_(static_cast<std::size_t>(thread_count)),
       parts_(static_cast<std::size_t>(thread_count)) {
-  threads_.reserve(static_cast<std::size_t>(thread_count - 1));
+  threads_.reserve(static_cast<std::size_t>(threads_beside_));
   try {
-    for (int worker = 1; worker < thread_count; ++worker) {
+    for (int worker = 1; worker <= threads_beside_; ++worker) {
       threads_.emplace_back([this, worker] { work(worker); });
     }
   } catch (...) {
@@ -85,14 +91,7 @@ void ThreadPool::stop() noexcept {
 void ThreadPool::run(const Task& task) {
   if (busy_.exchange(true, std::memory_order_acquire)) throw loop_in_loop();
   task_ = task;
-  unfinished_.store(static_cast<std::uint32_t>(thread_count_ - 1), std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_release);
-  round_.notify_all();
-  do_part(0);
-  for (std::uint32_t left = unfinished_.load(std::memory_order_acquire); left != 0;
-       left = unfinished_.load(std::memory_order_acquire)) {
-    wait_for_change(unfinished_, left, looks_);
-  }
+  if (!run_alone()) run_with_others();
   std::exception_ptr first;
   for (std::exception_ptr& failure : failures_) {
     if (failure && !first) first = failure;
@@ -102,14 +101,85 @@ void ThreadPool::run(const Task& task) {
   if (first) std::rethrow_exception(first);
 }
 
-void ThreadPool::work(int worker) {
-  for (std::uint32_t seen = 0;;
-       ++seen) {  // The next round cannot start before this worker has finished the last one.
-    wait_for_change(round_, seen, looks_);
-    if (stopping_) return;
-    do_part(worker);
-    if (unfinished_.fetch_sub(1, std::memory_order_acq_rel) == 1) unfinished_.notify_one();
+bool ThreadPool::run_alone() noexcept {
+  is_alone_ = is_alone_ && Clock::now() < alone_until_;
+  if (!is_alone_) return false;
+  for (int worker = 0; worker < thread_count_; ++worker) do_part(worker);
+  return true;
+}
+
+void ThreadPool::run_with_others() noexcept {
+  const Clock::time_point start = Clock::now();
+  unfinished_.store(static_cast<std::uint32_t>(thread_count_ - 1), std::memory_order_relaxed);
+  const std::uint32_t round = round_.fetch_add(1, std::memory_order_release) + 1;
+  round_.notify_all();
+  do_part(0);
+  do_all_left(threads_beside_ + 1, round);
+  judge(start, !is_finished_soon() && finish_late(start, round));
+}
+
+bool ThreadPool::finish_late(Clock::time_point start, std::uint32_t round) noexcept {
+  const Clock::time_point done = Clock::now();
+  const bool was_left = do_all_left(1, round);
+  const Clock::time_point waiting = Clock::now();
+  for (std::uint32_t left = unfinished_.load(std::memory_order_acquire); left != 0;
+       left = unfinished_.load(std::memory_order_acquire)) {
+    wait_for_change(unfinished_, left);
   }
+  return was_left || Clock::now() - waiting > std::max<Clock::duration>(kLongWait, done - start);
+}
+
+void ThreadPool::judge(Clock::time_point start, bool was_late) noexcept {
+  const Clock::time_point now = Clock::now();
+  if (!was_late) {
+    // The caller may have lost its own core in a long one, which tells nothing of the others.
+    lateness_ -= std::min<Clock::duration>(now - start, kLongLoop);
+    lateness_ = std::max(lateness_, Clock::duration{});
+    return;
+  }
+  lateness_ += now - start;
+  if (lateness_ < kTooLate) return;
+  const bool again = now - alone_until_ < kTrial * alone_for_;
+  alone_for_ = again ? std::min<Clock::duration>(4 * alone_for_, kLongestAlone) : kShortestAlone;
+  alone_until_ = now + alone_for_;
+  is_alone_ = true;
+  lateness_ = {};
+}
+
+bool ThreadPool::is_finished_soon() const noexcept {
+  for (int look = 0; look < kLooksForBegin; ++look) {
+    if (unfinished_.load(std::memory_order_acquire) == 0) return true;
+    pause();
+  }
+  return false;
+}
+
+/// A thread that comes late may miss rounds: others have done its part.
+void ThreadPool::work(int worker) {
+  for (std::uint32_t round = 0;;) {
+    wait_for_change(round_, round);
+    round = round_.load(std::memory_order_acquire);
+    if (stopping_) return;
+    do_if_left(worker, round);
+    do_all_left(threads_beside_ + 1, round);
+  }
+}
+
+/// A round is not over before all of its parts have been begun, so the task is that of the round.
+bool ThreadPool::do_if_left(int worker, std::uint32_t round) noexcept {
+  std::uint32_t before = round - 1;
+  if (!parts_[static_cast<std::size_t>(worker)].last_begun.compare_exchange_strong(
+          before, round, std::memory_order_relaxed))
+    return false;
+  do_part(worker);
+  if (unfinished_.fetch_sub(1, std::memory_order_acq_rel) == 1) unfinished_.notify_one();
+  return true;
+}
+
+bool ThreadPool::do_all_left(int first, std::uint32_t round) noexcept {
+  bool was_left = false;
+  for (int worker = first; worker < thread_count_; ++worker) was_left |= do_if_left(worker, round);
+  return was_left;
 }
 
 void ThreadPool::do_part(int worker) noexcept {
@@ -137,9 +207,8 @@ void ThreadPool::share_out(std::size_t count) {
   }
 }
 
-void ThreadPool::wait_for_late(std::chrono::steady_clock::time_point start,
-                               std::size_t pieces) const noexcept {
-  using Clock = std::chrono::steady_clock;
+void ThreadPool::wait_for_late(Clock::time_point start, std::size_t pieces) const noexcept {
+  if (is_alone_) return;
   const Clock::time_point done = Clock::now();
   const Clock::time_point end = done + (done - start) / static_cast<std::int64_t>(pieces);
   const auto is_taken = [](const SharedPart& part) { return part.is_taken(); };

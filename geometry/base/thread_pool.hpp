@@ -15,13 +15,17 @@
 namespace plekton::geometry {
 
 /// A fixed set of threads that share loops. Idle threads sleep: after a short while of looking for
-/// work they block, so they take no core from others.
+/// work they block, so they take no core from others. Nobody waits for a thread that has not begun:
+/// the caller does its part. On a machine with other work a thread may also lose its core within
+/// its part; where loops have waited for that, the caller does all parts for some time.
 ///
 /// One loop at a time: for_each_range must not be called from inside a body of the same pool, nor
 /// by two threads at once, unless the pool has one thread.
 class ThreadPool {
  public:
-  /// @param thread_count The calling thread is one of them: n starts n - 1 threads.
+  /// @param thread_count How many parts a loop has. The calling thread does at least one of them:
+  /// n starts n - 1 threads, but no more than there are processors beside that of the caller, and
+  /// one at least; more would only take turns.
   /// @throws std::invalid_argument if it is less than 1; std::system_error if the system gives no
   /// thread.
   explicit ThreadPool(int thread_count = 1);
@@ -31,12 +35,12 @@ class ThreadPool {
 
   int thread_count() const noexcept { return thread_count_; }
 
-  /// Calls body(begin, end, worker) once for every worker in [0, thread_count()), at the same time,
-  /// and waits for all. The parts [begin, end) follow each other in the order of the workers, cover
+  /// Calls body(begin, end, worker) once for every worker in [0, thread_count()), each on whichever
+  /// thread comes to it, and waits for all. No call may wait for another one. The parts [begin, end) follow each other in the order of the workers, cover
   /// [0, count) and differ by at most 1 in length; they depend on count and thread_count() alone.
   /// With fewer indices than threads the later parts are empty (begin == end) and their workers are
-  /// called all the same; with none at all nobody is called. The calling thread is worker 0; with
-  /// one thread this is a plain call. No allocation unless a body throws.
+  /// called all the same; with none at all nobody is called. The calling thread does the part of
+  /// worker 0; with one thread this is a plain call. No allocation unless a body throws.
   /// @throws What a body threw, after all have ended; the lowest worker's if several did.
   ///         std::logic_error if a loop of this pool is running.
   template <class Body>
@@ -81,11 +85,14 @@ class ThreadPool {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   /// Indices of a part that nobody has taken yet.
   struct alignas(64) SharedPart {
     static constexpr std::uint64_t kOne = std::uint64_t{1} << 32;
     static constexpr std::uint64_t kEnd = kOne - 1;
-    std::atomic<std::uint64_t> rest;  ///< begin * kOne + end
+    std::atomic<std::uint64_t> rest;           ///< begin * kOne + end
+    std::atomic<std::uint32_t> last_begun{0};  ///< the last round in which somebody has begun it
 
     bool is_taken() const noexcept;
 
@@ -106,22 +113,40 @@ class ThreadPool {
   };
 
   void run(const Task& task);
+  /// Does all parts, as long as the others would be late.
+  /// @returns whether it has
+  bool run_alone() noexcept;
+  void run_with_others() noexcept;
+  /// @returns whether a part was left for the caller, or took much longer than the caller's own
+  bool finish_late(Clock::time_point start, std::uint32_t round) noexcept;
+  /// Reckons with a loop, and leaves the others alone where too many have been late.
+  void judge(Clock::time_point start, bool was_late) noexcept;
   Part part(std::size_t count, std::size_t worker) const noexcept;
   void share_out(std::size_t count);
   /// Waits until all parts are taken, or for a share of the time since a start, 1 / pieces.
-  void wait_for_late(std::chrono::steady_clock::time_point start,
-                     std::size_t pieces) const noexcept;
+  void wait_for_late(Clock::time_point start, std::size_t pieces) const noexcept;
   void work(int worker);
+  /// Does a part unless somebody has begun it in this round, or the round is over.
+  /// @returns whether it has
+  bool do_if_left(int worker, std::uint32_t round) noexcept;
+  /// Those of workers from one on. @returns whether there was any
+  bool do_all_left(int first, std::uint32_t round) noexcept;
   void do_part(int worker) noexcept;
+  /// Whether all parts are done before long.
+  bool is_finished_soon() const noexcept;
   void stop() noexcept;
 
   int thread_count_;
-  int looks_;  // How often an idle thread looks for news before it blocks.
+  int threads_beside_;  // The caller's: they have the parts of workers from 1 on.
   Task task_{};
-  bool stopping_ = false;
+  std::atomic<bool> stopping_ = false;
   std::atomic<bool> busy_ = false;
   std::vector<std::exception_ptr> failures_;  // One place for each worker.
   std::vector<SharedPart> parts_;             // Likewise.
+  Clock::duration lateness_{};                // Time of loops that were late, less that of others.
+  Clock::time_point alone_until_{};  // Until when, and for how long, the caller does all parts.
+  Clock::duration alone_for_{};
+  bool is_alone_ = false;
   // Written by one side and watched by the other: each on its own cache line.
   alignas(64) std::atomic<std::uint32_t> round_ = 0;
   alignas(64) std::atomic<std::uint32_t> unfinished_ = 0;
