@@ -16,7 +16,6 @@ class AxisRay {
  public:
   AxisRay(const Vec3& point, int axis, bool is_upward)
       : point_(point),
-        axis_(axis),
         u_((axis + 1) % 3),
         v_((axis + 2) % 3),
         is_upward_(is_upward),
@@ -52,7 +51,6 @@ class AxisRay {
   }
 
   const Vec3& point_;
-  int axis_;
   int u_;
   int v_;
   bool is_upward_;
