@@ -3,6 +3,7 @@
 
 #include "contact/contacts.hpp"
 #include "contact/base/material.hpp"
+#include "geometry/neighbor/exclusion_groups.hpp"
 
 #include <functional>
 #include <memory>
@@ -24,6 +25,8 @@ struct ContactScene {
   std::vector<bool> meets_planes;
   Positions
       rest;  ///< m, of all nodes, for structures that may touch themselves; empty: they do not
+  /// Nodes whose elements do not touch each other: those of each rigid body.
+  geometry::ExclusionGroups groups{};
 };
 
 /// Which contact law a scene has, with the properties of its pairs of materials: makes the contacts

@@ -18,7 +18,7 @@ ContactModel any_law(const PairProperties<AnyLaw>& properties, const AnyLaw::Pro
         ContactMaterials{MaterialPairs(std::move(scene.materials), properties, others),
                          std::move(scene.of_spheres), std::move(scene.of_structures),
                          std::move(scene.masses)},
-        scene.skin, scene.meets_planes, scene.rest);
+        scene.skin, scene.meets_planes, scene.rest, scene.groups);
   };
 }
 

@@ -52,7 +52,8 @@ double largest_interaction_range(std::span<const geometry::Sphere> spheres,
 
 SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
                              const geometry::Surface& surface, ContactMaterials materials,
-                             double skin, const std::vector<bool>& meets_planes, Positions rest)
+                             double skin, const std::vector<bool>& meets_planes, Positions rest,
+                             const geometry::ExclusionGroups& groups)
     : materials_(std::move(materials)),
       materials_hash_(materials_.pairs.hash()),
       neighbours_(spheres, surface, skin, largest_interaction_range(spheres, surface, materials_)),
@@ -61,6 +62,8 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
       with_surfaces_(surface),
       between_structures_(surface),
       surface_(&surface) {
+  neighbours_.leave_out(groups);
+  cell_neighbours_.leave_out(groups);
   materials_.structure_masses = structure::mean_node_masses(surface, materials_);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const NodeId node = spheres[i].nodes[0];

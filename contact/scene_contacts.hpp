@@ -23,9 +23,10 @@ class SceneContacts final : public Contacts {
   /// @param skin  m, how far a pair may be apart when it is listed as a candidate
   /// @param meets_planes  by NodeId: which nodes of the surface touch planes; empty: all of them
   /// @param rest  m, of all nodes, for structures that may touch themselves; empty: they do not
+  /// @param groups  nodes whose elements do not touch each other
   SceneContacts(std::span<const geometry::Sphere> spheres, const geometry::Surface& surface,
                 ContactMaterials materials, double skin, const std::vector<bool>& meets_planes = {},
-                Positions rest = {});
+                Positions rest = {}, const geometry::ExclusionGroups& groups = {});
 
   void tune_skin(double radius) noexcept override { neighbours_.tune_skin(radius); }
   void choose_skin_of_structures() override { cell_neighbours_.choose_skin(); }

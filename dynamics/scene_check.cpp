@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/loads_check.hpp"
+#include "dynamics/model/rigid_check.hpp"
 #include "dynamics/model/scene.hpp"
 #include "dynamics/model/shape_check.hpp"
 #include "geometry/base/problems.hpp"
@@ -37,6 +38,7 @@ class SceneProblems {
     list_planes();
     list_structures();
     list_shape_problems(scene_, text_);
+    list_rigid_problems(scene_, text_);
     list_load_problems(scene_, text_);
   }
 
@@ -82,6 +84,7 @@ class SceneProblems {
         line("node", i) << "its orientation is not a unit quaternion; normalise it\n";
       }
       const Held held = all_held[i];
+      if (is_reference(held)) continue;  // rigid_check.hpp
       expect_inertia(i, "mass", scene_.properties.mass[i], holds_translation(held));
       expect_inertia(i, "moment of inertia", scene_.properties.inertia[i], holds_rotation(held));
     }

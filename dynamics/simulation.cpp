@@ -55,11 +55,12 @@ contact::ContactScene contact_scene(const Scene& scene, const geometry::Surface&
           .materials = scene.materials,
           .of_spheres = scene.sphere_materials,
           .of_structures = materials_of_structures(scene, surface),
-          .masses = scene.properties.mass,
+          .masses = contact_masses(scene),
           .skin = chosen_skin(scene, options.skin),
-          .meets_planes = free_nodes(scene.properties),
+          .meets_planes = free_nodes(scene),
           .rest = options.self_contact ? geometry::Positions(scene.state.position)
-                                       : geometry::Positions()};
+                                       : geometry::Positions(),
+          .groups = rigid_groups(scene)};
 }
 
 /// @returns the scene
@@ -96,6 +97,8 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       motion_(options.motion),
       pool_(options.threads),
       surface_(scene_.elements.cylinders, scene_.elements.facets, scene_.state.size()),
+      rigid_nodes_(scene_.rigid_bodies, scene_.state, scene_.properties),
+      rigid_bodies_(scene_.rigid_bodies, scene_.state),
       contacts_(model(contact_scene(scene_, surface_, options))),
       bonds_(scene_.bonds, scene_.state.size()),
       yielding_bonds_(scene_.bond_laws, scene_.bonds),
@@ -109,6 +112,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       full_gravity_(options.motion.gravity) {
   motion_.gravity = scene_.loads.gravity_factor.at(0.0) * full_gravity_;
   loads_.start(scene_.state);
+  rigid_bodies_.start(scene_.state, scene_.properties);
   least_furthest_ = furthest_.empty() ? 0.0 : *std::min_element(furthest_.begin(), furthest_.end());
   if (options.skin == 0.0 && !scene_.elements.spheres.empty()) contacts_->tune_skin(pace_radius_);
   if (options.skin == 0.0) contacts_->choose_skin_of_structures();
@@ -125,7 +129,8 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
   limits_ = std::make_unique<StepLimits>(resistance());
   set_first_step(options.time_step);
   initial_moment_ = free_moment(0.0);
-  work_.kinetic = kinetic_energy(scene_.state, scene_.properties);
+  work_.kinetic = kinetic_energy(scene_.state, scene_.properties) +
+                  rigid_bodies_.turning_energy(scene_.state, scene_.properties);
   most_kinetic_ = work_.kinetic;
   initial_energy_ = work_.kinetic + contacts_->elastic_energy() + bonds_.elastic_energy() +
                     sheet_facets_.elastic_energy();
@@ -136,7 +141,8 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
 void Simulation::set_first_step(double asked) {
   const bool is_chosen = asked == 0.0;
   const std::size_t pieces = is_chosen ? 1 : kPieces;
-  NodalStiffness space((scene_.state.size() + pieces - 1) / pieces, &scene_.properties);
+  NodalStiffness space((scene_.state.size() + pieces - 1) / pieces, &scene_.properties,
+                       &rigid_nodes_);
   initial_stiffness_ = limits_->total_stiffness(space);
   const double critical = limits_->critical(space, force_positions()).dt;
   dt_ = asked;
@@ -172,8 +178,15 @@ void Simulation::require_time_step() const {
 
 void Simulation::set_velocity(NodeId node, const Vec3& velocity, const Vec3& angular_velocity) {
   require_node("set_velocity", node, scene_.state.size());
+  if (const std::int32_t body = rigid_nodes_.body_followed_by(node); body >= 0) {
+    throw std::invalid_argument("set_velocity: node " + std::to_string(index_of(node)) +
+                                " follows rigid body " + std::to_string(body) +
+                                "; set the velocity of its reference node, " +
+                                std::to_string(index_of(rigid_nodes_.reference(body))));
+  }
   scene_.state.velocity[index_of(node)] = velocity;
   scene_.state.angular_velocity[index_of(node)] = angular_velocity;
+  rigid_bodies_.start_from(node, scene_.state, scene_.properties);
   if (chooser_ == nullptr || !std::isfinite(dt_)) return;
   dt_ = std::min(dt_, longest_step(velocity.norm(), largest_gravity(), pace_radius_));
 }
@@ -183,7 +196,7 @@ double Simulation::motion_ratio() const noexcept {
 }
 
 Resistance Simulation::resistance() const noexcept {
-  return {scene_, surface_, *contacts_, bonds_, sheet_facets_, loads_};
+  return {scene_, surface_, *contacts_, bonds_, sheet_facets_, loads_, rigid_nodes_};
 }
 
 Pace Simulation::pace() const noexcept {
@@ -305,8 +318,10 @@ void Simulation::advance(double longest) {
   sheet_facets_.add_forces(forces_, pool_);
   apply_loads();
   const StepLengths lengths{0.5 * (last_drift_ + drift_), drift_};
-  account(leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_),
-          lengths);
+  StepWork work =
+      rigid_bodies_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_);
+  work += leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_);
+  account(work, lengths);
   move_planes();
   check_motion();
   time_ += drift_;
@@ -387,7 +402,10 @@ double Simulation::largest_gravity() const noexcept {
 void Simulation::apply_loads() {
   follow_gravity();
   loads_.look_at(yielding_bonds_);
-  const LoadWork work = loads_.act({time_, last_drift_, drift_}, scene_.state, forces_, pool_);
+  const LoadStep step{time_, last_drift_, drift_};
+  LoadWork work = loads_.add_forces(step, scene_.state, forces_, pool_);
+  rigid_bodies_.gather(scene_.state, forces_, scene_.properties, pool_);
+  work += loads_.move(step, scene_.state, forces_, pool_);
   work_.external += work.external;
   work_.damped += work.damped;
   if (!driven_planes_.empty()) drive_planes();
@@ -633,6 +651,7 @@ void Simulation::exchange(const geometry::StateArchive& archive) {
   yielding_bonds_.exchange(archive.group("yield"));
   sheet_facets_.exchange(archive.group("sheets"));
   loads_.exchange(archive.group("loads"));
+  if (!rigid_bodies_.empty()) rigid_bodies_.exchange(archive.group("rigid_bodies"));
   exchange_asked_breaks(archive.group("asked_breaks"));
   contacts_->exchange(archive.group("contacts"), scene_.planes, pool_);
   exchange_step(archive.group("step"));

@@ -12,7 +12,9 @@
 #include "dynamics/measures/facet_traction.hpp"
 #include "dynamics/measures/reactions.hpp"
 #include "dynamics/model/scene.hpp"
+#include "dynamics/rigid/rigid_bodies.hpp"
 #include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/yielding_bonds.hpp"
@@ -106,7 +108,8 @@ class Simulation {
   const Scene& scene() const noexcept { return scene_; }
   const NodeState& state() const noexcept { return scene_.state; }
   /// The velocities of held nodes may be set between steps, unless a motion is prescribed for them
-  /// (Scene::loads).
+  /// (Scene::loads), and those of the reference nodes of rigid bodies, which take their nodes along.
+  /// @throws std::invalid_argument for a node that follows a rigid body
   void set_velocity(NodeId node, const Vec3& velocity, const Vec3& angular_velocity = Vec3::Zero());
   const NodeProperties& properties() const noexcept { return scene_.properties; }
   /// Those that are left; nodes keep their ids.
@@ -119,6 +122,8 @@ class Simulation {
   /// What a bond carries where its nodes are now.
   BondForces bond_forces(std::size_t bond) const;
   const SheetFacets& sheet_facets() const noexcept { return sheet_facets_; }
+  /// By place in Scene::rigid_bodies: their angular momenta.
+  const RigidBodies& rigid_bodies() const noexcept { return rigid_bodies_; }
   const AppliedLoads& loads() const noexcept { return loads_; }
   const contact::Contacts& contacts() const noexcept { return *contacts_; }
   /// Forces of contacts, bonds, sheets and loads in the last step, gravity not included.
@@ -238,6 +243,8 @@ class Simulation {
   MotionOptions motion_;
   geometry::ThreadPool pool_;
   geometry::Surface surface_;
+  RigidNodes rigid_nodes_;
+  RigidBodies rigid_bodies_;
   std::unique_ptr<contact::Contacts> contacts_;
   BeamBonds bonds_;
   YieldingBonds yielding_bonds_;

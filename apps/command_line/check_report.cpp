@@ -22,6 +22,7 @@ Json list_of(const Vec3& vector) {
 Json membranes_of(const BuiltScene& built) {
   Json list = Json::array();
   for (const BuiltMembrane& membrane : built.membranes) {
+    if (membrane.is_rigid) continue;
     list.push_back({{"name", membrane.name},
                     {"nodes", membrane.nodes},
                     {"held_nodes", membrane.held_nodes},
@@ -39,11 +40,26 @@ Json membranes_of(const BuiltScene& built) {
 Json grains_of(const BuiltScene& built) {
   Json list = Json::array();
   for (const BuiltGrains& grains : built.grains) {
+    if (grains.is_rigid) continue;
     list.push_back({{"name", grains.name},
                     {"count", grains.count},
                     {"smallest_radius_m", grains.smallest},
                     {"largest_radius_m", grains.largest},
                     {"mass_kg", grains.mass}});
+  }
+  return list;
+}
+
+Json rigid_bodies_of(const BuiltScene& built) {
+  Json list = Json::array();
+  for (const BuiltRigidBody& body : built.rigid_bodies) {
+    list.push_back({{"name", body.name},
+                    {"mass_kg", body.mass.mass},
+                    {"centre_m", list_of(body.mass.centre)},
+                    {"principal_moments_kg_m2", list_of(body.moments)},
+                    {"volume", body.volume},
+                    {"free_axes", list_of(dynamics::free_axes(body.held))},
+                    {"free_turns", list_of(dynamics::free_turns(body.held))}});
   }
   return list;
 }
@@ -109,6 +125,7 @@ Json check_report(const Scenario& scenario, PreparedRun& prepared) {
                  {"warnings", prepared.built.warnings},
                  {"membranes", membranes_of(prepared.built)},
                  {"grains", grains_of(prepared.built)},
+                 {"rigid_bodies", rigid_bodies_of(prepared.built)},
                  {"planes", prepared.simulation->planes().size()},
                  {"boxes", boxes_of(scenario, prepared)},
                  {"time_step", time_step_of(scenario, prepared)},

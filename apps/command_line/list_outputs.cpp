@@ -5,6 +5,7 @@
 #include "apps/run/plane_places.hpp"
 #include "apps/run/pressures.hpp"
 #include "apps/run/reactions.hpp"
+#include "apps/run/rigid_motions.hpp"
 #include "dynamics/output/contact_fields.hpp"
 #include "dynamics/output/frame_fields.hpp"
 
@@ -36,6 +37,9 @@ std::vector<OutputTable> output_tables() {
                reaction_fields()),
       table_of("pressures.csv, every `history_interval`, for each load of kind pressure",
                pressure_fields()),
+      table_of(
+          "rigid_bodies.csv, every `history_interval`, for each of [[rigid_bodies]]: _x, _y, _z",
+          rigid_fields()),
       table_of("planes.csv, every `interval`, for each of [[planes]]", plane_fields()),
       table_of("grains.pvd, every `interval`: points", kOfGrains),
       table_of("membranes.pvd, every `interval`: points", kOfNodes),

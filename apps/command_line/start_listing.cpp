@@ -74,17 +74,18 @@ std::vector<NamedBox> boxes_at_start(const Scenario& scenario, const PreparedRun
     Box box = no_box();
     for (std::size_t n = membrane.first_node; n < membrane.first_node + membrane.nodes; ++n)
       include(box, x[n], 0.5 * scenario.membranes[m].thickness);
-    boxes.push_back({"membranes." + membrane.name, box});
+    boxes.push_back({path_of({BodyTable::Kind::membrane, m}, scenario), box});
   }
   std::size_t first = 0;
-  for (const BuiltGrains& grains : prepared.built.grains) {
+  for (std::size_t g = 0; g < prepared.built.grains.size(); ++g) {
+    const BuiltGrains& grains = prepared.built.grains[g];
     Box box = no_box();
     for (std::size_t i = first; i < first + grains.count; ++i) {
       const geometry::Sphere& sphere = scene.elements.spheres[i];
       include(box, x[index_of(sphere.nodes[0])], sphere.radius);
     }
     first += grains.count;
-    boxes.push_back({"grains." + grains.name, box});
+    boxes.push_back({path_of({BodyTable::Kind::grains, g}, scenario), box});
   }
   Box all = no_box();
   for (const auto& [name, box] : boxes)

@@ -83,6 +83,10 @@ class StepAdvice {
   std::string body() const {
     if (membrane_)
       return fmt::format("membrane {} at {}", scenario_.membranes[*membrane_].name, place());
+    for (const BuiltRigidBody& rigid : prepared_.built.rigid_bodies) {
+      if (index_of(rigid.node) == node_)
+        return fmt::format("rigid body {} at {}", rigid.name, place());
+    }
     std::size_t sphere = sphere_of_node();
     for (const BuiltGrains& grains : prepared_.built.grains) {
       if (sphere < grains.count) return fmt::format("grains {} at {}", grains.name, place());

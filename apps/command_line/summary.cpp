@@ -26,6 +26,25 @@ std::string line_of(const BuiltGrains& g) {
                      g.count, g.smallest, g.largest, g.mass);
 }
 
+/// "x, y" of the axes along or about which something is free.
+std::string axes_of(const Vec3& free) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (free[axis] > 0.0) text += std::string(text.empty() ? "" : ", ") + "xyz"[axis];
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+std::string line_of(const BuiltRigidBody& body) {
+  const Vec3& centre = body.mass.centre;
+  return fmt::format(
+      "rigid body {}: mass {:.4g} kg, centre ({:.4g}, {:.4g}, {:.4g}) m, principal moments of "
+      "inertia {:.4g}, {:.4g}, {:.4g} kg m2, {}; free along {}, about {}\n",
+      body.name, body.mass.mass, centre[0], centre[1], centre[2], body.moments[0], body.moments[1],
+      body.moments[2], body.volume, axes_of(dynamics::free_axes(body.held)),
+      axes_of(dynamics::free_turns(body.held)));
+}
+
 /// The time step at the start, the critical one with all contacts that may come, and what limits
 /// the step where that is not what is stiff. A chosen step follows what touches.
 std::string line_of_step(const PreparedRun& prepared) {
@@ -51,8 +70,11 @@ std::string wall_text(double seconds) {
 
 std::string summary_of(const PreparedRun& prepared) {
   std::string text;
-  for (const BuiltMembrane& membrane : prepared.built.membranes) text += line_of(membrane);
-  for (const BuiltGrains& grains : prepared.built.grains) text += line_of(grains);
+  for (const BuiltMembrane& membrane : prepared.built.membranes)
+    if (!membrane.is_rigid) text += line_of(membrane);
+  for (const BuiltGrains& grains : prepared.built.grains)
+    if (!grains.is_rigid) text += line_of(grains);
+  for (const BuiltRigidBody& body : prepared.built.rigid_bodies) text += line_of(body);
   if (!prepared.simulation->planes().empty())
     text += fmt::format("planes: {}\n", prepared.simulation->planes().size());
   text += line_of_step(prepared);

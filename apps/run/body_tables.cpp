@@ -18,11 +18,13 @@ std::string path_of(const BodyTable& table, const Scenario& scenario) {
       return name.empty() ? fmt::format("planes[{}]", table.number) : "planes." + name;
     }
     case BodyTable::Kind::membrane:
-      return "membranes." + scenario.membranes[table.number].name;
+      return (scenario.membranes[table.number].rigid_body ? "rigid_bodies." : "membranes.") +
+             scenario.membranes[table.number].name;
     case BodyTable::Kind::grains:
       break;
   }
-  return "grains." + scenario.grains[table.number].name;
+  return (scenario.grains[table.number].rigid_body ? "rigid_bodies." : "grains.") +
+         scenario.grains[table.number].name;
 }
 
 BodyTables::BodyTables(const Scenario& scenario, const BuiltScene& built,

@@ -9,6 +9,7 @@
 #include "apps/run/pressures.hpp"
 #include "apps/run/reactions.hpp"
 #include "apps/run/refused_self_contact.hpp"
+#include "apps/run/rigid_motions.hpp"
 #include "apps/run/run_origin.hpp"
 #include "apps/run/run_state.hpp"
 #include "apps/run/run_warnings.hpp"
@@ -106,6 +107,7 @@ class Run {
         history_(settings.out, before()),
         reactions_(settings.out, prepared.built.reactions, before()),
         pressures_(settings.out, scenario, before()),
+        rigid_bodies_(settings.out, prepared.built, before()),
         planes_(settings.out, scenario, before()),
         progress_(settings.progress, settings.style, scenario.simulation.duration),
         report_(std::move(start.report)) {
@@ -180,6 +182,7 @@ class Run {
     history_.flush();
     reactions_.flush();
     pressures_.flush();
+    rigid_bodies_.flush();
     planes_.flush();
     next_checkpoint_ = std::max(next_checkpoint_ + checkpoint_interval(), simulation_.time());
     geometry::StateTree state = simulation_.snapshot();
@@ -190,6 +193,7 @@ class Run {
     history_.tell(files);
     reactions_.tell(files);
     pressures_.tell(files);
+    rigid_bodies_.tell(files);
     planes_.tell(files);
     exchange_files(archive, files);
     ScenarioText text = text_of(scenario_);
@@ -283,6 +287,7 @@ class Run {
     largest_tracking_ = std::max(largest_tracking_, std::abs(energy.tracking));
     history_.add(simulation_, energy, lost_);
     pressures_.add(simulation_);
+    rigid_bodies_.add(simulation_);
     last_row_step_ = simulation_.steps();
   }
 
@@ -297,6 +302,7 @@ class Run {
     history_.flush();
     reactions_.flush();
     pressures_.flush();
+    rigid_bodies_.flush();
     planes_.flush();
     last_frame_step_ = simulation_.steps();
   }
@@ -312,6 +318,7 @@ class Run {
     history_.close();
     reactions_.close();
     pressures_.close();
+    rigid_bodies_.close();
     planes_.close();
   }
 
@@ -384,6 +391,7 @@ class Run {
   History history_;
   Reactions reactions_;
   Pressures pressures_;
+  RigidMotions rigid_bodies_;
   PlanePlaces planes_;
   Progress progress_;
   RunReport report_;

@@ -19,8 +19,10 @@ const std::vector<std::set<std::string>>& absences() {
   static const std::vector<std::set<std::string>> sets = {
       {"loads[].plane", "loads[].grains", "loads[].angular_velocity", "loads[].turn",
        "membranes[].longest_hole", "membranes[].wrap_detail", "membranes[].wire",
-       "output.reactions[].grains", "grains[].centres", "grains[].radii"},
-      {"loads[].plane", "loads[].membrane", "output.reactions[].membrane"},
+       "output.reactions[].grains", "grains[].centres", "grains[].radii", "loads[].rigid_body",
+       "output.reactions[].rigid_body", "rigid_bodies[].spheres", "rigid_bodies[].mass"},
+      {"loads[].plane", "loads[].membrane", "output.reactions[].membrane", "loads[].rigid_body",
+       "output.reactions[].rigid_body"},
       {}};
   return sets;
 }

@@ -81,6 +81,7 @@ constexpr std::array kOfShapes = std::to_array<KeyMeaning>({
     {"membranes[].shape.radius", "of the middle surface"},
     {"membranes[].shape.subdivisions", "20 x 4^n facets"},
     {"membranes[].shape.size", "from the origin to the opposite corner"},
+    {"membranes[].shape.open", "sides that are left out, as in [\"z_max\"]"},
     {"membranes[].shape.rib_pitch", "along x from rib to rib, between axes"},
     {"membranes[].shape.bar_pitch", "along y from bar to bar, between axes"},
     {"membranes[].shape.apertures", "along x and along y"},
@@ -119,10 +120,27 @@ constexpr std::array kOfGrains = std::to_array<KeyMeaning>({
     {"planes[].material", "of its contacts"},
 });
 
+constexpr std::array kOfRigidBodies = std::to_array<KeyMeaning>({
+    {"rigid_bodies[].name", "what loads and outputs call it"},
+    {"rigid_bodies[].spheres[].centre", "before scale, rotate and translate"},
+    {"rigid_bodies[].spheres[].radius", "before scale; spheres may overlap"},
+    {"rigid_bodies[].thickness", "of its facets, in contact; of a shell its mass too"},
+    {"rigid_bodies[].filling", "what has mass: the enclosed volume, or the facets"},
+    {"rigid_bodies[].density", "of what has mass, or give the mass"},
+    {"rigid_bodies[].mass", "of all of it"},
+    {"rigid_bodies[].inertia", "about its centre along x, y and z; else that of its shape"},
+    {"rigid_bodies[].centre", "of mass, in the scene; else that of its shape"},
+    {"rigid_bodies[].hold", "along which axes it keeps its velocity"},
+    {"rigid_bodies[].hold_rotation", "about which axes it keeps its angular velocity"},
+    {"rigid_bodies[].velocity", "of its centre, at the start; along held axes for good"},
+    {"rigid_bodies[].angular_velocity", "at the start; about held axes for good"},
+});
+
 constexpr std::array kOfLoads = std::to_array<KeyMeaning>({
     {"loads[].name", "what messages call it"},
     {"loads[].membrane", "on which it acts, or whose nodes"},
     {"loads[].grains", "whose nodes, instead of those of a membrane"},
+    {"loads[].rigid_body", "as a whole, instead of the nodes of a membrane"},
     {"loads[].plane", "that is moved or driven"},
     {"loads[].nodes", "which nodes of the body; a side is where a coordinate is least or greatest"},
     {"loads[].factor", "multiplies the load: numbers at times, straight lines between"},
@@ -165,6 +183,7 @@ constexpr std::array kOfOutput = std::to_array<KeyMeaning>({
     {"output.reactions[].plane", "what all bodies do to it"},
     {"output.reactions[].membrane", "whose supports or contacts"},
     {"output.reactions[].grains", "whose supports or contacts"},
+    {"output.reactions[].rigid_body", "what it, its supports or its contacts bear"},
     {"output.reactions[].nodes", "which of its nodes"},
 });
 
@@ -191,16 +210,20 @@ std::vector<KeyMeaning> key_meanings() {
   for (const std::span<const KeyMeaning> table :
        {std::span<const KeyMeaning>(kOfSimulation), std::span<const KeyMeaning>(kOfMaterials),
         std::span<const KeyMeaning>(kOfMembranes), std::span<const KeyMeaning>(kOfShapes),
-        std::span<const KeyMeaning>(kOfGrains), std::span<const KeyMeaning>(kOfLoads),
-        std::span<const KeyMeaning>(kOfOutput)})
+        std::span<const KeyMeaning>(kOfGrains), std::span<const KeyMeaning>(kOfRigidBodies),
+        std::span<const KeyMeaning>(kOfLoads), std::span<const KeyMeaning>(kOfOutput)})
     all.insert(all.end(), table.begin(), table.end());
   return all;
 }
 
 std::string_view meaning_of_key(std::string_view path) {
   constexpr std::string_view kContacts = "contacts[].";
+  constexpr std::string_view kRigid = "rigid_bodies[].";
   for (const KeyMeaning& meaning : key_meanings())
     if (meaning.path == path) return meaning.what;
+  // Surfaces of both are made and placed alike.
+  if (path.starts_with(kRigid))
+    return meaning_of_key("membranes[]." + std::string(path.substr(kRigid.size())));
   return path.starts_with(kContacts) ? meaning_of_parameter(path.substr(kContacts.size()))
                                      : std::string_view();
 }

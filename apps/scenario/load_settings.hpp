@@ -17,8 +17,9 @@ namespace plekton::apps {
 /// those in a box.
 enum class SetWhich : std::uint8_t { all, rim, x_min, x_max, y_min, y_max, z_min, z_max, box };
 
-/// Nodes of one membrane, or of one table of grains.
+/// Nodes of one membrane, or of one table of grains, or the reference node of a rigid body.
 struct NodeSetSettings {
+  std::optional<std::size_t> rigid_body;  ///< as a whole; then the rest has no meaning
   bool of_grains = false;
   std::size_t body = 0;  ///< among the membranes or the grains
   SetWhich which = SetWhich::all;

@@ -82,7 +82,7 @@ std::optional<dynamics::AxisTurn> read_turn(Section& section) {
 
 /// Whether something in the nodes' body resists turning them.
 bool are_turned(const NodeSetSettings& set, const Scenario& scenario) {
-  if (set.of_grains || set.body >= scenario.membranes.size()) return true;
+  if (set.rigid_body || set.of_grains || set.body >= scenario.membranes.size()) return true;
   const MembraneSettings& membrane = scenario.membranes[set.body];
   return membrane.mode != MembraneMode::truss && membrane.bending_stiffness != 0.0;
 }

@@ -37,10 +37,23 @@ std::string read_name(Section& section, std::string_view key) {
   return "";
 }
 
+/// The same of a membrane or of grains: a rigid body has no nodes of its own.
+template <class Body>
+std::optional<std::size_t> find_flexible(Section& section, std::string_view key,
+                                         const std::vector<Body>& bodies) {
+  const std::string name = read_name(section, key);
+  const auto found = find_name(section, key, name, bodies);
+  if (!found || !bodies[*found].rigid_body) return found;
+  section.complain(key, fmt::format("\"{0}\" is a rigid body, whose inner nodes bear no loads of "
+                                    "their own; expected rigid_body = \"{0}\"",
+                                    name));
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::size_t> read_membrane_name(Section& section, const Scenario& scenario) {
-  return find_name(section, "membrane", read_name(section, "membrane"), scenario.membranes);
+  return find_flexible(section, "membrane", scenario.membranes);
 }
 
 std::optional<std::size_t> read_plane_name(Section& section, const Scenario& scenario) {
@@ -75,6 +88,17 @@ std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
 NodeSetSettings read_whole_body(Section& section, const Scenario& scenario) {
   NodeSetSettings set;
   set.place = section.place();
+  if (section.has("rigid_body")) {
+    for (const std::string_view key : {"membrane", "grains"}) {
+      if (section.has(key))
+        section.complain(key, "rigid_body says already what is meant; leave one of them out");
+    }
+    set.place = section.place_of("rigid_body");
+    set.rigid_body =
+        find_name(section, "rigid_body", read_name(section, "rigid_body"), scenario.rigid_bodies)
+            .value_or(0);
+    return set;
+  }
   set.of_grains = section.has("grains");
   if (set.of_grains == section.has("membrane")) {
     section.complain("membrane", fmt::format("got {} of membrane and grains; expected exactly one "
@@ -82,10 +106,9 @@ NodeSetSettings read_whole_body(Section& section, const Scenario& scenario) {
                                              set.of_grains ? "both" : "none"));
     return set;
   }
-  set.body =
-      (set.of_grains ? find_name(section, "grains", read_name(section, "grains"), scenario.grains)
-                     : read_membrane_name(section, scenario))
-          .value_or(0);
+  set.body = (set.of_grains ? find_flexible(section, "grains", scenario.grains)
+                            : read_membrane_name(section, scenario))
+                 .value_or(0);
   return set;
 }
 
@@ -93,6 +116,13 @@ NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
   constexpr std::array<std::string_view, 8> kWords = {"all",   "rim",   "x_min", "x_max",
                                                       "y_min", "y_max", "z_min", "z_max"};
   NodeSetSettings set = read_whole_body(section, scenario);
+  if (set.rigid_body) {
+    if (section.has("nodes"))
+      section.complain("nodes",
+                       "a rigid body moves as one, and its inner nodes bear no loads of "
+                       "their own; leave nodes out");
+    return set;
+  }
   if (section.has("grains") == section.has("membrane")) {
     section.has("nodes");
     return set;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/read_membrane_source.hpp"
 #include "apps/scenario/read_membrane_strength.hpp"
+#include "apps/scenario/read_placement.hpp"
 
 #include <fmt/format.h>
 
@@ -10,21 +11,6 @@ namespace plekton::apps {
 namespace {
 
 constexpr Range kPoisson{-1.0, 0.5, false, true, " above -1 and at most 0.5"};
-
-Placement read_placement(Section& section) {
-  Placement placement;
-  placement.scale = section.quantity("scale", {kNumber, kPositive}, placement.scale);
-  placement.translation = section.vector("translate", {kLength}, placement.translation);
-  if (auto rotate = section.optional_table("rotate")) {
-    placement.axis = rotate->vector("axis", {kNumber}, placement.axis);
-    placement.angle = rotate->quantity("angle", {kAngle});
-    if (placement.axis.stableNorm() == 0.0)
-      rotate->complain("axis", "got a vector of no length; expected a direction");
-    placement.axis.stableNormalize();
-    rotate->finish();
-  }
-  return placement;
-}
 
 HoldSettings read_hold(Section& section) {
   constexpr std::array<std::string_view, 3> kWords = {"none", "rim", "all"};

@@ -26,6 +26,7 @@ NodeSetSettings read_body(Section& section, const Scenario& scenario) {
 std::string name_of_target(Section& section, const ReactionSettings& reaction) {
   std::string_view key = "plane";
   if (reaction.kind != ReactionKind::plane) key = reaction.nodes.of_grains ? "grains" : "membrane";
+  if (reaction.nodes.rigid_body) key = "rigid_body";
   return section.has(key) ? section.text(key) : "";
 }
 

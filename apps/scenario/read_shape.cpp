@@ -54,8 +54,28 @@ ShapeSettings read_sphere(Section& section) {
                      static_cast<int>(section.integer("subdivisions", 0, kMostSubdivisions))};
 }
 
+/// Sides that are left out.
+std::array<bool, 6> read_open_sides(Section& section) {
+  constexpr std::array<std::string_view, 6> kSides = {"x_min", "x_max", "y_min",
+                                                      "y_max", "z_min", "z_max"};
+  std::array<bool, 6> open{};
+  if (!section.has("open")) return open;
+  for (const std::string& side : section.texts("open")) {
+    const auto found = std::find(kSides.begin(), kSides.end(), side);
+    if (found == kSides.end())
+      section.complain(
+          "open", fmt::format("there is no side \"{}\"; the sides are {}", side, listed(kSides)));
+    else
+      open[static_cast<std::size_t>(found - kSides.begin())] = true;
+  }
+  if (std::find(open.begin(), open.end(), false) == open.end())
+    section.complain("open", "names all sides, so that nothing is left of the box");
+  return open;
+}
+
 ShapeSettings read_box_shell(Section& section) {
   BoxShape box{section.vector("size", kPositiveLength), {1, 1, 1}};
+  box.open = read_open_sides(section);
   section.tell_default("cells", "[1, 1, 1]");
   if (section.has("cells")) {
     const auto cells = section.integers("cells", {1, 1, 1}, kMostCells);

@@ -4,6 +4,7 @@
 #include "apps/grains/size_curve.hpp"
 #include "apps/scenario/load_settings.hpp"
 #include "apps/scenario/problems.hpp"
+#include "apps/scenario/rigid_body_settings.hpp"
 #include "apps/scenario/shape_settings.hpp"
 #include "contact/law_list.hpp"
 #include "dynamics/structure/bond_strength.hpp"
@@ -116,7 +117,8 @@ struct MembraneSettings {
       density;  ///< kg/m³, of the beams (edge) or the plate (area); else from areal_mass
   double areal_mass = 0.0;  ///< kg/m²
   HoldSettings hold;
-  Vec3 initial_velocity = Vec3::Zero();  ///< m/s, of the nodes that are not held
+  Vec3 initial_velocity = Vec3::Zero();   ///< m/s, of the nodes that are not held
+  std::optional<std::size_t> rigid_body;  ///< whose surface it is, and no membrane
 };
 
 /// How grains are placed in their box: one after the other at random, or on a face-centred cubic
@@ -132,6 +134,7 @@ struct GrainSettings {
       std::size_t{0}};                            ///< count, or volume of the solids (m³)
   std::vector<Vec3> centres;                      ///< m, of all grains; empty: placed in the box
   std::vector<double> radii;                      ///< m, by centre; empty: as sizes says
+  std::optional<std::size_t> rigid_body;          ///< whose spheres they are, and no grains
   geometry::Box box{Vec3::Zero(), Vec3::Zero()};  ///< m, holds the grains wholly
   GrainPlacement placement = GrainPlacement::random;
   Vec3 velocity = Vec3::Zero();          ///< m/s
@@ -187,8 +190,9 @@ struct Scenario {
   SimulationSettings simulation;
   std::vector<MaterialSettings> materials;
   std::vector<PairSettings> contacts;
-  std::vector<MembraneSettings> membranes;
-  std::vector<GrainSettings> grains;
+  std::vector<MembraneSettings> membranes;  ///< after these the surfaces of rigid bodies
+  std::vector<GrainSettings> grains;        ///< before these the spheres of rigid bodies
+  std::vector<RigidBodySettings> rigid_bodies;
   std::vector<PlaneSettings> planes;
   std::vector<LoadSettings> loads;
   OutputSettings output;

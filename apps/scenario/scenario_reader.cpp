@@ -2,6 +2,7 @@
 #include "apps/scenario/scenario_reader.hpp"
 
 #include "apps/scenario/overrides.hpp"
+#include "apps/scenario/read_rigid_body.hpp"
 #include "apps/scenario/read_sections.hpp"
 #include "apps/scenario/toml_file.hpp"
 #include "apps/scenario/toml_text.hpp"
@@ -39,9 +40,12 @@ void read_bodies(Section& root, Scenario& scenario) {
     scenario.contacts.push_back(read_contact(section, known, taken));
   read_tables(root, "membranes", scenario.membranes,
               [&](Section& section) { return read_membrane(section, known); });
+  for (Section& section : root.tables("rigid_bodies")) read_rigid_body(section, known, scenario);
+  const std::size_t rigid = scenario.grains.size();
   read_tables(root, "grains", scenario.grains, [&](Section& section) {
-    return read_grains(section, known, scenario.grains.size());
+    return read_grains(section, known, scenario.grains.size() - rigid);
   });
+  require_own_names(root, scenario);
   read_tables(root, "planes", scenario.planes,
               [&](Section& section) { return read_plane(section, known); });
   read_tables(root, "loads", scenario.loads, [&](Section& section) {

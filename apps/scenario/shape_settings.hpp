@@ -4,6 +4,7 @@
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/lattice.hpp"
 
+#include <algorithm>
 #include <array>
 #include <variant>
 
@@ -15,10 +16,11 @@ struct SphereShape {
   int subdivisions;
 };
 
-/// Closed box for geometry::box_shell.
+/// Box for geometry::box_shell, without some of its sides.
 struct BoxShape {
-  geometry::Vec3 size;       ///< m
-  std::array<int, 3> cells;  ///< along each axis
+  geometry::Vec3 size;         ///< m
+  std::array<int, 3> cells;    ///< along each axis
+  std::array<bool, 6> open{};  ///< sides that are left out: x_min, x_max, y_min, ... z_max
 };
 
 /// What a membrane without a mesh file is made from. Of a mesh and a lattice every point is told.
@@ -42,7 +44,10 @@ inline bool is_net(const ShapeSettings& shape) noexcept {
 
 /// Whether a shape has no rim.
 inline bool is_closed(const ShapeSettings& shape) noexcept {
-  return std::holds_alternative<SphereShape>(shape) || std::holds_alternative<BoxShape>(shape);
+  const auto* const box = std::get_if<BoxShape>(&shape);
+  const bool is_whole_box =
+      box != nullptr && std::none_of(box->open.begin(), box->open.end(), [](bool o) { return o; });
+  return std::holds_alternative<SphereShape>(shape) || is_whole_box;
 }
 
 }  // namespace plekton::apps

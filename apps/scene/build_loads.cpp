@@ -49,7 +49,7 @@ class LoadBuilder {
           settings.nodes.place, "nodes",
           fmt::format("in \"{}\", {}; expected each component of a node to be prescribed once: "
                       "take other nodes or components",
-                      name_of(settings.nodes), taken));
+                      name_of(settings.nodes, built_), taken));
     }
     loads_.motions.push_back(std::move(motion));
   }
@@ -121,10 +121,6 @@ class LoadBuilder {
     return {first, built_.membranes[membrane].*count};
   }
 
-  const std::string& name_of(const NodeSetSettings& set) const {
-    return set.of_grains ? built_.grains[set.body].name : built_.membranes[set.body].name;
-  }
-
   std::vector<NodeId> nodes_of_set(const NodeSetSettings& set) {
     std::vector<NodeId> nodes = nodes_of(set, built_);
     if (nodes.empty())
@@ -132,10 +128,10 @@ class LoadBuilder {
                set.which == SetWhich::rim
                    ? fmt::format("\"{}\" is closed and has no rim; expected a side such as "
                                  "\"x_min\", or a box {{ min = [...], max = [...] }}",
-                                 name_of(set))
+                                 name_of(set, built_))
                    : fmt::format("\"{}\" has no node there; the box counts in the scene, after "
                                  "scale, rotate and translate",
-                                 name_of(set)));
+                                 name_of(set, built_)));
     return nodes;
   }
 

@@ -12,14 +12,18 @@ namespace {
 
 using dynamics::Held;
 
-const std::string& name_of_body(const NodeSetSettings& set, const BuiltScene& built) {
-  return set.of_grains ? built.grains[set.body].name : built.membranes[set.body].name;
+/// What touches others of a rigid body.
+const std::vector<geometry::NodeId>& followers_of(geometry::NodeId reference,
+                                                  const dynamics::Scene& scene) {
+  return std::find_if(scene.rigid_bodies.begin(), scene.rigid_bodies.end(),
+                      [&](const dynamics::RigidBody& body) { return body.node == reference; })
+      ->nodes;
 }
 
 /// Why there is nothing to add up; empty if there is.
 std::string problem_of(const ReactionSettings& settings, const BuiltReaction& reaction,
                        const std::vector<Held>& held, const BuiltScene& built) {
-  const std::string& name = name_of_body(settings.nodes, built);
+  const std::string& name = name_of(settings.nodes, built);
   if (reaction.nodes.empty())
     return settings.nodes.which == SetWhich::rim
                ? fmt::format(
@@ -31,9 +35,10 @@ std::string problem_of(const ReactionSettings& settings, const BuiltReaction& re
                      "rotate and translate",
                      name);
   if (settings.kind == ReactionKind::nodes) return {};
-  const bool any_is_held = std::any_of(
-      reaction.nodes.begin(), reaction.nodes.end(),
-      [&](geometry::NodeId node) { return held[geometry::index_of(node)] != Held::nothing; });
+  const bool any_is_held =
+      std::any_of(reaction.nodes.begin(), reaction.nodes.end(), [&](geometry::NodeId node) {
+        return (held[geometry::index_of(node)] & Held::everything) != Held::nothing;
+      });
   if (any_is_held) return {};
   return fmt::format(
       "none of these nodes of \"{}\" is held or moved, so nothing supports them; "
@@ -51,6 +56,8 @@ void add_reactions(const Scenario& scenario, BuiltScene& built) {
   for (const ReactionSettings& settings : scenario.output.reactions) {
     BuiltReaction reaction{settings.name, settings.kind, settings.plane, {}, settings.about};
     if (settings.kind != ReactionKind::plane) reaction.nodes = nodes_of(settings.nodes, built);
+    if (settings.kind == ReactionKind::contacts && settings.nodes.rigid_body)
+      reaction.nodes = followers_of(reaction.nodes.front(), built.scene);
     if (settings.kind == ReactionKind::support || settings.kind == ReactionKind::nodes) {
       const std::string problem = problem_of(settings, reaction, held, built);
       if (!problem.empty())

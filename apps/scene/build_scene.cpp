@@ -5,6 +5,7 @@
 #include "apps/scene/build_reactions.hpp"
 #include "apps/scene/grain_generator.hpp"
 #include "apps/scene/membrane_builder.hpp"
+#include "apps/scene/rigid_builder.hpp"
 #include "geometry/base/elementary.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/neighbor/space_order.hpp"
@@ -60,11 +61,11 @@ void complain(const MembraneSettings& membrane, std::optional<geometry::RepairSt
               const char* what, Problems& problems) {
   const auto key =
       failed_step ? membrane.repair_keys.find(*failed_step) : membrane.repair_keys.end();
+  const std::string path = (membrane.rigid_body ? "rigid_bodies." : "membranes.") + membrane.name;
   if (key == membrane.repair_keys.end())
-    problems.add(membrane.source_place, fmt::format("membranes.{}: {}", membrane.name, what));
+    problems.add(membrane.source_place, fmt::format("{}: {}", path, what));
   else
-    problems.add(key->second.place,
-                 fmt::format("membranes.{}.{}: {}", membrane.name, key->second.name, what));
+    problems.add(key->second.place, fmt::format("{}.{}: {}", path, key->second.name, what));
 }
 
 /// So that grains near each other are near each other in memory; largest first, as they are placed,
@@ -133,7 +134,10 @@ BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear) {
   for (const MembraneSettings& membrane : scenario.membranes) {
     if (hear) hear("making membrane " + membrane.name, 0.0);
     try {
-      built.membranes.push_back(add_membrane(membrane, built));
+      if (membrane.rigid_body)
+        add_rigid_surface(scenario.rigid_bodies[*membrane.rigid_body], membrane, built);
+      else
+        built.membranes.push_back(add_membrane(membrane, built));
     } catch (const geometry::RefusedMesh& error) {
       complain(membrane, error.failed_step, error.what(), problems);
     } catch (const geometry::MeshError& error) {
@@ -144,12 +148,18 @@ BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear) {
   }
   for (const GrainSettings& grains : scenario.grains) {
     try {
+      if (grains.rigid_body) {
+        add_rigid_spheres(scenario.rigid_bodies[*grains.rigid_body], grains, built);
+        continue;
+      }
       built.grains.push_back(
           add_grains(grains, scenario.materials[grains.material].density.value(), built, hear));
     } catch (const DoesNotFit& error) {
       problems.add(grains.place, fmt::format("grains.{}", error.what()));
     } catch (const InputError& error) {
-      problems.add(grains.place, fmt::format("grains.{}", error.what()));
+      problems.add(grains.place, grains.rigid_body
+                                     ? fmt::format("rigid_bodies.{}: {}", grains.name, error.what())
+                                     : fmt::format("grains.{}", error.what()));
     }
   }
   problems.throw_if_any();

@@ -28,6 +28,7 @@ struct BuiltMembrane {
   double mass = 0.0;           ///< kg
   double mean_edge = 0.0;      ///< m, length
   double young_modulus = 0.0;  ///< Pa, of the beams, or of the sheet
+  bool is_rigid = false;       ///< the surface of a rigid body
 };
 
 /// Grains of one table in the scene.
@@ -37,6 +38,18 @@ struct BuiltGrains {
   double mass = 0.0;      ///< kg
   double smallest = 0.0;  ///< m, radius
   double largest = 0.0;   ///< m, radius
+  bool is_rigid = false;  ///< the spheres of a rigid body
+};
+
+/// A rigid body in the scene.
+struct BuiltRigidBody {
+  std::size_t table = 0;  ///< among [[rigid_bodies]]
+  std::string name;
+  geometry::NodeId node{-1};  ///< its reference node
+  dynamics::Held held = dynamics::Held::nothing;
+  dynamics::MassProperties mass;
+  Vec3 moments = Vec3::Zero();  ///< kg m², principal
+  std::string volume;           ///< what of it has mass
 };
 
 /// A reaction that is asked for, with its nodes.
@@ -52,6 +65,7 @@ struct BuiltScene {
   dynamics::Scene scene;
   std::vector<BuiltMembrane> membranes;
   std::vector<BuiltGrains> grains;
+  std::vector<BuiltRigidBody> rigid_bodies;
   std::vector<BuiltReaction> reactions;
   std::vector<std::string> warnings;
 };
@@ -59,7 +73,8 @@ struct BuiltScene {
 /// Hears what is being set up, as in "placing grains sand", and which part of it is done, 0 to 1.
 using HearSetUp = std::function<void(const std::string& what, double share)>;
 
-/// Builds the scene of a scenario: membranes, then grains clear of them and of the planes.
+/// Builds the scene of a scenario: membranes and rigid bodies, then grains clear of them and of the
+/// planes.
 ///
 /// Every edge of a membrane's mesh, and every bar of a net, becomes a beam or bar of full circular
 /// section, radius half the thickness, and a cylinder; every facet a thick facet. The cylinders,

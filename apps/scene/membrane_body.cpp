@@ -127,8 +127,44 @@ Mesh make(const geometry::Tube& tube) {
 Mesh make(const SphereShape& sphere) {
   return geometry::icosphere(sphere.radius, sphere.subdivisions);
 }
+/// Takes out the facets whose nodes are all on one of the sides, and the nodes that are left over.
+/// Those of a side have the same coordinate, to the last bit.
+Mesh without_sides(const Mesh& box, const std::array<bool, 6>& open) {
+  Vec3 lower = box.points.front(), upper = lower;
+  for (const Vec3& x : box.points) {
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+  }
+  const auto is_open = [&](const std::array<NodeId, 3>& facet) {
+    for (int side = 0; side < 6; ++side) {
+      const double level = side % 2 == 0 ? lower[side / 2] : upper[side / 2];
+      const bool is_on_it = std::all_of(facet.begin(), facet.end(), [&](NodeId node) {
+        return box.points[index_of(node)][side / 2] == level;
+      });
+      if (open[static_cast<std::size_t>(side)] && is_on_it) return true;
+    }
+    return false;
+  };
+  Mesh left;
+  std::vector<NodeId> renamed(box.points.size(), NodeId{-1});
+  for (std::array<NodeId, 3> facet : box.facets) {
+    if (is_open(facet)) continue;
+    for (NodeId& node : facet) {
+      NodeId& name = renamed[index_of(node)];
+      if (name == NodeId{-1}) {
+        name = geometry::id_at<NodeId>(left.points.size());
+        left.points.push_back(box.points[index_of(node)]);
+      }
+      node = name;
+    }
+    left.facets.push_back(facet);
+  }
+  return left;
+}
+
 Mesh make(const BoxShape& box) {
-  return geometry::box_shell(box.size, box.cells);
+  Mesh whole = geometry::box_shell(box.size, box.cells);
+  return is_closed(box) ? whole : without_sides(whole, box.open);
 }
 Lattice make(const geometry::BiaxialGeogrid& grid) {
   return geometry::biaxial_geogrid(grid);

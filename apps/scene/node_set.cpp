@@ -44,6 +44,7 @@ geometry::Box box_of_side(SetWhich which, const std::vector<NodeId>& nodes, geom
 }  // namespace
 
 std::vector<NodeId> nodes_of(const NodeSetSettings& set, const BuiltScene& built) {
+  if (set.rigid_body) return {rigid_body_of(*set.rigid_body, built).node};
   const geometry::Positions x = built.scene.state.position;
   std::vector<NodeId> nodes = nodes_of_body(set, built);
   if (set.which == SetWhich::all || nodes.empty()) return nodes;
@@ -59,6 +60,17 @@ std::vector<NodeId> nodes_of(const NodeSetSettings& set, const BuiltScene& built
     return (place.array() < box.lower.array()).any() || (place.array() > box.upper.array()).any();
   });
   return nodes;
+}
+
+// They are built in another order than that of their tables: surfaces first.
+const BuiltRigidBody& rigid_body_of(std::size_t table, const BuiltScene& built) {
+  return *std::find_if(built.rigid_bodies.begin(), built.rigid_bodies.end(),
+                       [&](const BuiltRigidBody& body) { return body.table == table; });
+}
+
+const std::string& name_of(const NodeSetSettings& set, const BuiltScene& built) {
+  if (set.rigid_body) return rigid_body_of(*set.rigid_body, built).name;
+  return set.of_grains ? built.grains[set.body].name : built.membranes[set.body].name;
 }
 
 }  // namespace plekton::apps

@@ -12,4 +12,10 @@ namespace plekton::apps {
 /// A side is where a coordinate of the body is least or greatest, to 1e-9 of the body's size.
 std::vector<geometry::NodeId> nodes_of(const NodeSetSettings& set, const BuiltScene& built);
 
+/// What a table of [[rigid_bodies]] came to.
+const BuiltRigidBody& rigid_body_of(std::size_t table, const BuiltScene& built);
+
+/// The name of the body whose nodes are meant.
+const std::string& name_of(const NodeSetSettings& set, const BuiltScene& built);
+
 }  // namespace plekton::apps

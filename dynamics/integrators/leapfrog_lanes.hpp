@@ -58,6 +58,7 @@ struct NodeMotion {
 template <class Real>
 PLEKTON_INLINE Real damping_of(const Real& acceleration, const Real& velocity,
                                const Real& damping) noexcept {
+  using geometry::select;
   const Real zero = 0.0;
   const Real drag = damping * select(acceleration > zero, acceleration, -acceleration);
   return select(velocity > zero, drag, select(zero > velocity, -drag, zero));
@@ -154,6 +155,14 @@ PLEKTON_INLINE Vector<Pack<W>> load_held(const Held* from, bool (*holds)(Held, i
   return {Real::load(held[0].data()), Real::load(held[1].data()), Real::load(held[2].data())};
 }
 
+/// Whether forces leave the velocity of a node as it is: held, or stepped by its rigid body.
+constexpr bool keeps_along(Held held, int axis) noexcept {
+  return holds_along(held, axis) || is_reference(held);
+}
+constexpr bool keeps_about(Held held, int axis) noexcept {
+  return holds_about(held, axis) || is_reference(held);
+}
+
 /// Turns the orientations of nodes by any angle. What does not spin keeps its orientation to the
 /// bit.
 inline void turn_one_by_one(int count, const Vec3* spins, double dt, Quat* orientations) noexcept {
@@ -201,9 +210,9 @@ PLEKTON_INLINE StepWorkOf<Pack<W>> step_lanes(const NodeArrays& nodes, const Mot
   const Vector<Real> gravity = in_all_lanes<Real>(options.gravity);
   const Vector<Real> zero = Vector<Real>::Zero();
   NodeMotion<Real> moves{load_vectors<W>(nodes.velocity), load_vectors<W>(nodes.force),
-                         Real::load(nodes.mass), load_held<W>(nodes.held, holds_along)};
+                         Real::load(nodes.mass), load_held<W>(nodes.held, keeps_along)};
   NodeMotion<Real> spins{load_vectors<W>(nodes.angular_velocity), load_vectors<W>(nodes.torque),
-                         Real::load(nodes.inertia), load_held<W>(nodes.held, holds_about)};
+                         Real::load(nodes.inertia), load_held<W>(nodes.held, keeps_about)};
   const auto of_translation =
       moves.kick(options.damps_gravity ? gravity : zero, options.damps_gravity ? zero : gravity,
                  options.damping, lengths);

@@ -38,13 +38,18 @@ LoadWork AppliedLoads::sum_over_forces(Visit&& visit) {
   return work;
 }
 
-LoadWork AppliedLoads::act(const LoadStep& step, NodeState& state, NodeForces& forces,
-                           geometry::ThreadPool& pool) {
-  LoadWork work = sum_over_forces([&](auto& load) {
+LoadWork AppliedLoads::add_forces(const LoadStep& step, NodeState& state, NodeForces& forces,
+                                  geometry::ThreadPool& pool) {
+  return sum_over_forces([&](auto& load) {
     LoadedNodes& nodes = load.act(step, state, pool);
     nodes.add_to(forces, pool);
     return 0.5 * step.before * nodes.power(state, pool);
   });
+}
+
+LoadWork AppliedLoads::move(const LoadStep& step, NodeState& state, const NodeForces& forces,
+                            geometry::ThreadPool& pool) {
+  LoadWork work;
   for (MovedNodes& motion : motions_) work.external += motion.act(step, state, forces, pool);
   return work;
 }

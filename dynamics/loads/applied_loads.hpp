@@ -21,16 +21,20 @@ class AppliedLoads {
   void start(NodeState& state) const;
 
   /// Takes what dashpots have to know of the bonds along them: after each advance of these, before
-  /// act().
+  /// add_forces().
   void look_at(const YieldingBonds& bonds) noexcept;
 
-  /// Adds the forces of all loads to those on the nodes, then sets the velocities of prescribed
-  /// motions for the drift that begins now. No allocation.
+  /// Adds the forces of all loads to those on the nodes. No allocation.
   /// @returns the work of half of the drift before
-  LoadWork act(const LoadStep& step, NodeState& state, NodeForces& forces,
-               geometry::ThreadPool& pool);
+  LoadWork add_forces(const LoadStep& step, NodeState& state, NodeForces& forces,
+                      geometry::ThreadPool& pool);
+  /// Sets the velocities of prescribed motions for the drift that begins now. No allocation.
+  /// @param forces  all of them
+  /// @returns the work of half of the drift before
+  LoadWork move(const LoadStep& step, NodeState& state, const NodeForces& forces,
+                geometry::ThreadPool& pool);
 
-  /// Work of the forces of the last act over half of the drift after it.
+  /// Work of the forces of the last step over half of the drift after it.
   /// @param state  with the velocities of that drift
   LoadWork work_after(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
 

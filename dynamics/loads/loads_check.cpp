@@ -26,7 +26,14 @@ bool holds(Held held, int component) {
 /// Collects what is wrong with the loads of a scene.
 class LoadProblems {
  public:
-  LoadProblems(const Scene& scene, std::ostream& text) : scene_(scene), text_(text) {}
+  LoadProblems(const Scene& scene, std::ostream& text)
+      : scene_(scene), text_(text), body_of_(scene.state.size(), -1) {
+    for (std::size_t b = 0; b < scene.rigid_bodies.size(); ++b) {
+      for (const NodeId node : scene.rigid_bodies[b].nodes) {
+        if (exists(node)) body_of_[index_of(node)] = static_cast<std::int32_t>(b);
+      }
+    }
+  }
 
   void list_all() {
     const Loads& loads = scene_.loads;
@@ -178,8 +185,18 @@ class LoadProblems {
         text_ << name << ": names node " << index_of(node) << " twice; name it once\n";
       } else {
         named_[index_of(node)] = true;
+        expect_outside_bodies(name, node);
       }
     }
+  }
+
+  void expect_outside_bodies(const std::string& name, NodeId node) {
+    const std::int32_t body = body_of_[index_of(node)];
+    if (body < 0) return;
+    text_ << name << ": node " << index_of(node) << " follows rigid body " << body
+          << "; load the reference node of that, "
+          << static_cast<std::int32_t>(scene_.rigid_bodies[static_cast<std::size_t>(body)].node)
+          << '\n';
   }
 
   bool exists(NodeId node) const {
@@ -211,7 +228,8 @@ class LoadProblems {
 
   const Scene& scene_;
   std::ostream& text_;
-  std::vector<bool> named_;  // by NodeId, of the set that is looked at
+  std::vector<bool> named_;            // by NodeId, of the set that is looked at
+  std::vector<std::int32_t> body_of_;  // by NodeId, rigid body that it follows; -1: none
 };
 
 }  // namespace

@@ -50,4 +50,20 @@ std::size_t Scene::add_sheet_facet(const std::array<NodeId, 3>& nodes, const She
   return sheet_facets.size() - 1;
 }
 
+std::size_t Scene::add_rigid_body(std::span<const NodeId> nodes, const MassProperties& mass,
+                                  Held held) {
+  const PrincipalAxes axes = principal_axes(mass.inertia);
+  const NodeId reference = add_node(mass.centre, held | Held::by_body);
+  state.orientation[index_of(reference)] = axes.orientation;
+  properties.mass[index_of(reference)] = mass.mass;
+  properties.inertia[index_of(reference)] = axes.moments.minCoeff();
+  for (const NodeId node : nodes) {
+    properties.mass[index_of(node)] = 0.0;
+    properties.inertia[index_of(node)] = 0.0;
+    properties.held[index_of(node)] = Held::everything;
+  }
+  rigid_bodies.push_back({reference, {nodes.begin(), nodes.end()}, axes.moments});
+  return rigid_bodies.size() - 1;
+}
+
 }  // namespace plekton::dynamics

@@ -3,7 +3,9 @@
 
 #include "contact/base/bodies.hpp"
 #include "dynamics/model/loads.hpp"
+#include "dynamics/rigid/mass_properties.hpp"
 #include "dynamics/state/node_state.hpp"
+#include "dynamics/state/rigid_body.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/bond_law.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
@@ -30,6 +32,7 @@ struct Scene {
   std::vector<contact::MaterialId>
       cylinder_materials;  ///< one for each cylinder; one material for a connected structure
   std::vector<contact::MaterialId> facet_materials;  ///< one for each facet
+  std::vector<RigidBody> rigid_bodies;
   Loads loads;
 
   /// Adds a node at rest. Mass and inertia are filled in by what is attached to it.
@@ -60,10 +63,22 @@ struct Scene {
   std::size_t add_sheet_facet(const std::array<NodeId, 3>& nodes, const SheetSection& section,
                               double density, NodalInertia inertia = NodalInertia::ball);
 
+  /// Makes a rigid body of nodes with all that is attached to them: adds its reference node, at the
+  /// centre of mass, at rest, and takes the masses of the nodes away. Its elements do not touch each
+  /// other; their contacts with others have its mass. Its place and motion, what is held of it, and
+  /// loads on it are those of the reference node.
+  /// @param nodes  at least one, none of which follows another body
+  /// @param mass   whatever the nodes had; may be zero where all is held
+  /// @param held   along and about the axes of the world
+  /// @returns  its place in rigid_bodies
+  std::size_t add_rigid_body(std::span<const NodeId> nodes, const MassProperties& mass,
+                             Held held = Held::nothing);
+
   /// @throws std::invalid_argument listing every problem: arrays of different lengths, ids out of
   ///         range, a node without mass that is not held, a value that is not finite, a structure
   ///         of several materials, a facet without area, a cylinder without length, a sphere on a
-  ///         node of another element, loads that cannot be applied (loads/loads_check.hpp).
+  ///         node of another element, rigid bodies that share nodes or have bonds of their own
+  ///         (rigid_check.hpp), loads that cannot be applied (loads/loads_check.hpp).
   void check() const;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/model/scene_figures.hpp"
 
+#include "dynamics/state/rigid_nodes.hpp"
 #include "geometry/base/problems.hpp"
 
 #include <algorithm>
@@ -58,11 +59,32 @@ std::vector<double> node_radii(const Scene& scene, const geometry::Surface& surf
   return radii;
 }
 
-std::vector<bool> free_nodes(const NodeProperties& properties) {
-  std::vector<bool> is_free(properties.size());
+std::vector<bool> free_nodes(const Scene& scene) {
+  std::vector<bool> is_free(scene.properties.size());
   for (std::size_t i = 0; i < is_free.size(); ++i)
-    is_free[i] = !holds_translation(properties.held[i]);
+    is_free[i] = !holds_translation(scene.properties.held[i]);
+  for (const RigidBody& body : scene.rigid_bodies) {
+    for (const NodeId node : body.nodes) is_free[index_of(node)] = is_free[index_of(body.node)];
+  }
   return is_free;
+}
+
+std::vector<double> contact_masses(const Scene& scene) {
+  std::vector<double> masses = scene.properties.mass;
+  for (const RigidBody& body : scene.rigid_bodies) {
+    const std::size_t reference = index_of(body.node);
+    const double mass = holds_translation(scene.properties.held[reference])
+                            ? std::numeric_limits<double>::infinity()
+                            : scene.properties.mass[reference];
+    for (const NodeId node : body.nodes) masses[index_of(node)] = mass;
+  }
+  return masses;
+}
+
+geometry::ExclusionGroups rigid_groups(const Scene& scene) {
+  if (scene.rigid_bodies.empty()) return {};
+  return geometry::ExclusionGroups(
+      RigidNodes(scene.rigid_bodies, scene.state, scene.properties).followed());
 }
 
 Scene held_as_prescribed(Scene scene) {
@@ -77,7 +99,7 @@ double kinetic_energy(const NodeState& state, const NodeProperties& properties) 
     const Vec3 velocity = free_axes(held).cwiseProduct(state.velocity[i]);
     const Vec3 spin = free_turns(held).cwiseProduct(state.angular_velocity[i]);
     energy += 0.5 * properties.mass[i] * velocity.squaredNorm();
-    energy += 0.5 * properties.inertia[i] * spin.squaredNorm();
+    if (!is_reference(held)) energy += 0.5 * properties.inertia[i] * spin.squaredNorm();
   }
   return energy;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/model/scene.hpp"
+#include "geometry/neighbor/exclusion_groups.hpp"
 
 #include <vector>
 
@@ -24,13 +25,21 @@ double chosen_skin(const Scene& scene, double asked);
 /// Radius (m) of the ball around each node; 0 where there is none.
 std::vector<double> node_radii(const Scene& scene, const geometry::Surface& surface);
 
-/// By node. One that is held in place does not have to be kept out of walls.
-std::vector<bool> free_nodes(const NodeProperties& properties);
+/// By node. One that is held in place, or follows a rigid body that is, does not have to be kept
+/// out of walls.
+std::vector<bool> free_nodes(const Scene& scene);
+
+/// kg, by node, as contacts see it: of what follows a rigid body its whole mass, infinite where its
+/// translation is held.
+std::vector<double> contact_masses(const Scene& scene);
+
+/// Nodes of one rigid body do not touch each other.
+geometry::ExclusionGroups rigid_groups(const Scene& scene);
 
 /// The scene with prescribed motions held.
 Scene held_as_prescribed(Scene scene);
 
-/// J, of what is free.
+/// J, of what is free; of rigid bodies the translation alone.
 double kinetic_energy(const NodeState& state, const NodeProperties& properties);
 
 }  // namespace plekton::dynamics

@@ -59,6 +59,16 @@ void add_sheets(const std::vector<SheetFacet>& facets, BitHash& hash) {
   }
 }
 
+/// Scenes without any have the hash they had before there were rigid bodies.
+void add_rigid_bodies(const std::vector<RigidBody>& bodies, BitHash& hash) {
+  for (const RigidBody& body : bodies) {
+    add_number(body.node, hash);
+    add_number(body.nodes.size(), hash);
+    for (const NodeId node : body.nodes) add_number(node, hash);
+    hash.add(body.moments);
+  }
+}
+
 }  // namespace
 
 std::uint64_t scene_hash(const Scene& scene) {
@@ -69,6 +79,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   add_elements(scene.elements.facets, scene.facet_materials, hash);
   add_bonds(scene.bonds, hash);
   add_sheets(scene.sheet_facets, hash);
+  add_rigid_bodies(scene.rigid_bodies, hash);
   add_number(scene.planes.size(), hash);
   for (const contact::Plane& plane : scene.planes) {
     hash.add(plane.normal);

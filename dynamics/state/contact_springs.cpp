@@ -27,20 +27,25 @@ void ContactSprings::add_spring(const ContactStiffness& contact, std::span<const
 
 void ContactSprings::add_pair(NodeId a, NodeId b, const ContactStiffness& contact) {
   add_spring(contact,
-             std::array{SpringEnd{a, -1.0, contact.arm_a}, SpringEnd{b, 1.0, -contact.arm_b}},
+             std::array{on_body({a, -1.0, contact.arm_a}, rigid_),
+                        on_body({b, 1.0, -contact.arm_b}, rigid_)},
              Kind::of_ball);
 }
 
 void ContactSprings::add_on_surface(NodeId ball, const geometry::CorePoint& core,
                                     const ContactStiffness& contact,
                                     const SurfaceTurning& turning) {
-  add_spring(contact, surface_ends(ball, core, contact), Kind::on_surface);
-  const TurningSpring spring = turning_spring(ball, core, contact.normal, turning);
-  if (spring.contact.normal_stiffness > 0.0) add_spring(spring.contact, spring.ends, Kind::turning);
+  std::array ends = surface_ends(ball, core, contact);
+  put_on_bodies(ends, rigid_);
+  add_spring(contact, ends, Kind::on_surface);
+  TurningSpring spring = turning_spring(ball, core, contact.normal, turning);
+  if (!(spring.contact.normal_stiffness > 0.0)) return;
+  for (SpringEnd& end : spring.ends) end = on_body(end, rigid_);
+  add_spring(spring.contact, spring.ends, Kind::turning);
 }
 
 void ContactSprings::add_to_wall(NodeId ball, const ContactStiffness& contact) {
-  add_spring(contact, std::array{SpringEnd{ball, -1.0, contact.arm_a}}, Kind::of_ball);
+  add_spring(contact, std::array{on_body({ball, -1.0, contact.arm_a}, rigid_)}, Kind::of_ball);
 }
 
 void ContactSprings::add(NodeId node, const IsotropicStiffness& springs) {
@@ -48,7 +53,7 @@ void ContactSprings::add(NodeId node, const IsotropicStiffness& springs) {
 }
 
 double ContactSprings::collision_step(const NodeState& state,
-                                      const NodeProperties& properties) const noexcept {
+                                      const NodeProperties& properties) const {
   double energy = 0.0;  // J
   double rated = 0.0;   // J/s², energy times omega²
   for (const Spring& spring : springs_) {
@@ -57,9 +62,15 @@ double ContactSprings::collision_step(const NodeState& state,
     double speed = 0.0;     // m/s
     for (const SpringEnd& end : ends().subspan(spring.first_end, spring.end_count)) {
       const std::size_t node = index_of(end.node);
-      speed += end.weight * spring.contact.normal.dot(state.velocity[node]);
-      if (!holds_translation(properties.held[node]))
+      const Vec3& n = spring.contact.normal;
+      speed += end.weight * n.dot(state.velocity[node]);
+      if (rigid_ != nullptr && rigid_->body_at(end.node) >= 0) {
+        const Mat3 of_point = rigid_->point_mobility(rigid_->body_at(end.node), end.lever);
+        speed += end.weight * n.dot(state.angular_velocity[node].cross(end.lever));
+        mobility += end.weight * end.weight * n.dot(of_point * n);
+      } else if (!holds_translation(properties.held[node])) {
         mobility += end.weight * end.weight / properties.mass[node];
+      }
     }
     if (!(mobility > 0.0)) continue;
     const double stiffness = spring.contact.normal_stiffness;
@@ -80,7 +91,7 @@ void ContactSprings::resist(const std::vector<Vec3>& shift, const std::vector<Ve
     for (std::size_t i = spring.first_end; i < spring.first_end + spring.end_count; ++i) {
       const SpringEnd& end = ends_[i];
       way += end.weight *
-             (shift[index_of(end.node)] + turn[index_of(end.node)].cross(Vec3(end.arm * n)));
+             (shift[index_of(end.node)] + turn[index_of(end.node)].cross(end.to_contact(n)));
     }
     const Vec3 along = n.dot(way) * n;
     const Vec3 force = spring.contact.normal_stiffness * along +
@@ -88,14 +99,19 @@ void ContactSprings::resist(const std::vector<Vec3>& shift, const std::vector<Ve
     for (std::size_t i = spring.first_end; i < spring.first_end + spring.end_count; ++i) {
       const SpringEnd& end = ends_[i];
       forces.force[index_of(end.node)] -= end.weight * force;
-      forces.torque[index_of(end.node)] -= end.weight * Vec3(end.arm * n).cross(force);
+      forces.torque[index_of(end.node)] -= end.weight * end.to_contact(n).cross(force);
     }
   }
-  for (const Single& single : single_) {
-    const std::size_t node = index_of(single.node);
-    forces.force[node] -= single.springs.translation * shift[node];
-    forces.torque[node] -= single.springs.rotation * turn[node];
-  }
+  for (const Single& single : single_) resist_single(single, shift, turn, forces);
+}
+
+void ContactSprings::resist_single(const Single& single, const std::vector<Vec3>& shift,
+                                   const std::vector<Vec3>& turn, NodeForces& forces) const {
+  const SpringEnd end = on_body({single.node, 1.0, 0.0}, rigid_);
+  const std::size_t node = index_of(end.node);
+  const Vec3 force = single.springs.translation * Vec3(shift[node] + turn[node].cross(end.lever));
+  forces.force[node] -= force;
+  forces.torque[node] -= end.lever.cross(force) + single.springs.rotation * turn[node];
 }
 
 }  // namespace plekton::dynamics

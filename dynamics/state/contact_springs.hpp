@@ -14,6 +14,9 @@ namespace plekton::dynamics {
 /// names, only has their sums around each node.
 class ContactSprings {
  public:
+  /// @param rigid  rigid bodies among the nodes; must outlive this; null: none
+  explicit ContactSprings(const RigidNodes* rigid = nullptr) : rigid_(rigid) {}
+
   /// Forgets all of them; keeps the space.
   void clear() noexcept;
 
@@ -74,7 +77,7 @@ class ContactSprings {
   /// E = 1/2 k overlap² + 1/2 v² / sum (w² / m), v the speed along the normal, this is the step at
   /// which the mean of (omega dt)² by energy is 1/4: at most 1/16 of the energy of all collisions
   /// with surfaces.
-  double collision_step(const NodeState& state, const NodeProperties& properties) const noexcept;
+  double collision_step(const NodeState& state, const NodeProperties& properties) const;
 
   /// Takes from the forces (N, N m) what the springs do against small motions.
   /// @param shift  m, by NodeId
@@ -97,6 +100,10 @@ class ContactSprings {
 
   void add_spring(const ContactStiffness& contact, std::span<const SpringEnd> ends, Kind kind);
 
+  void resist_single(const Single& single, const std::vector<Vec3>& shift,
+                     const std::vector<Vec3>& turn, NodeForces& forces) const;
+
+  const RigidNodes* rigid_;
   std::size_t contacts_ = 0;
   std::vector<Spring> springs_;
   std::vector<SpringEnd> ends_;

@@ -12,16 +12,28 @@
 #include <numbers>
 
 namespace plekton::dynamics {
-namespace {
 
-/// The matrix of v -> c x v.
-Mat3 cross_matrix(const Vec3& c) noexcept {
-  Mat3 matrix;
-  matrix << 0.0, -c.z(), c.y(), c.z(), 0.0, -c.x(), -c.y(), c.x(), 0.0;
-  return matrix;
+SpringEnd on_body(const SpringEnd& end, const RigidNodes* rigid) noexcept {
+  if (rigid == nullptr || rigid->body_followed_by(end.node) < 0) return end;
+  return {rigid->mover_of(end.node), end.weight, end.arm, rigid->lever_of(end.node)};
 }
 
-}  // namespace
+void put_on_bodies(std::span<SpringEnd> ends, const RigidNodes* rigid) noexcept {
+  if (rigid == nullptr || rigid->size() == 0) return;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i].weight == 0.0) continue;
+    ends[i] = on_body(ends[i], rigid);
+    if (rigid->body_at(ends[i].node) < 0) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (ends[j].node != ends[i].node || ends[j].weight == 0.0) continue;
+      const double weight = ends[j].weight + ends[i].weight;
+      const Vec3 lever = (ends[j].weight * ends[j].lever + ends[i].weight * ends[i].lever) / weight;
+      ends[j] = {ends[j].node, weight, ends[j].arm, lever};
+      ends[i].weight = 0.0;
+      break;
+    }
+  }
+}
 
 SurfaceTurning surface_turning(const geometry::CorePoint& core, double force, double distance,
                                geometry::Positions x) noexcept {
@@ -65,8 +77,12 @@ TurningSpring turning_spring(NodeId ball, const geometry::CorePoint& core, const
   return spring;
 }
 
-NodalStiffness::NodalStiffness(std::size_t node_count, const NodeProperties* properties)
-    : properties_(properties), blocks_(node_count) {}
+NodalStiffness::NodalStiffness(std::size_t node_count, const NodeProperties* properties,
+                               const RigidNodes* rigid)
+    : properties_(properties),
+      rigid_(rigid),
+      blocks_(node_count),
+      of_bodies_(rigid != nullptr ? rigid->size() : 0, Mat6::Zero()) {}
 
 NodalStiffness::SymmetricMat3& NodalStiffness::SymmetricMat3::operator+=(
     const Mat3& matrix) noexcept {
@@ -89,11 +105,18 @@ void NodalStiffness::begin_at(std::size_t first_node) noexcept {
 
 void NodalStiffness::set_zero() noexcept {
   std::fill(blocks_.begin(), blocks_.end(), Block{});
+  std::fill(of_bodies_.begin(), of_bodies_.end(), Mat6::Zero());
 }
 
-NodalStiffness::Shares NodalStiffness::mobility_of(const SpringEnd& end) const noexcept {
+NodalStiffness::Shares NodalStiffness::mobility_of(const SpringEnd& end, const Vec3& normal) const {
   const double weight = std::abs(end.weight);
   if (!properties_) return {weight, weight};
+  if (const std::int32_t body = body_at(end.node); body >= 0) {
+    const Mat3 mobility = rigid_->point_mobility(body, end.to_contact(normal));
+    const double along = normal.dot(mobility * normal);
+    const double across = std::max(0.0, 0.5 * (mobility.trace() - along));
+    return {weight * std::sqrt(along), weight * std::sqrt(across)};
+  }
   const std::size_t i = index_of(end.node);
   const Held held = properties_->held[i];
   const double shift = holds_translation(held) ? 0.0 : 1.0 / properties_->mass[i];
@@ -113,35 +136,59 @@ void NodalStiffness::add_end(const SpringEnd& end, const ContactStiffness& conta
   if (!block) return;
   const double normal = shares.normal * contact.normal_stiffness;
   const double tangential = shares.tangential * contact.tangential_stiffness;
+  if (const std::int32_t body = body_at(end.node); body >= 0) {
+    add_to_body(body, end.to_contact(contact.normal),
+                along_and_across(contact.normal, normal, tangential), Mat3::Zero());
+    return;
+  }
   block->translation += along_and_across(contact.normal, normal, tangential);
   block->rotation += along_and_across(contact.normal, 0.0, end.arm * end.arm * tangential);
   block->coupling -= (end.arm * tangential) * contact.normal;
 }
 
+// The point moves by v - lever x turn.
+void NodalStiffness::add_to_body(std::int32_t body, const Vec3& lever, const Mat3& translation,
+                                 const Mat3& rotation) {
+  if (!block_of(rigid_->reference(body))) return;
+  const Mat3 turned = -cross_matrix(lever);
+  const Mat3 coupling = translation * turned;
+  Mat6 part;
+  part << translation, coupling, coupling.transpose(), turned.transpose() * coupling + rotation;
+  of_bodies_[static_cast<std::size_t>(body)] += part;
+}
+
 void NodalStiffness::add_spring(const ContactStiffness& contact, std::span<const SpringEnd> ends) {
   share_spring(
-      *this, contact, ends, [&](std::size_t i) { return mobility_of(ends[i]); },
+      *this, contact, ends, [&](std::size_t i) { return mobility_of(ends[i], contact.normal); },
       [&](NodeId node) { return measure_of(node); });
 }
 
 void NodalStiffness::add_pair(NodeId a, NodeId b, const ContactStiffness& contact) {
-  add_spring(contact,
-             std::array{SpringEnd{a, -1.0, contact.arm_a}, SpringEnd{b, 1.0, -contact.arm_b}});
+  add_spring(contact, std::array{on_body({a, -1.0, contact.arm_a}, rigid_),
+                                 on_body({b, 1.0, -contact.arm_b}, rigid_)});
 }
 
 void NodalStiffness::add_on_surface(NodeId ball, const geometry::CorePoint& core,
                                     const ContactStiffness& contact,
                                     const SurfaceTurning& turning) {
-  add_spring(contact, surface_ends(ball, core, contact));
-  const TurningSpring spring = turning_spring(ball, core, contact.normal, turning);
-  if (spring.contact.normal_stiffness > 0.0) add_spring(spring.contact, spring.ends);
+  std::array ends = surface_ends(ball, core, contact);
+  put_on_bodies(ends, rigid_);
+  add_spring(contact, ends);
+  TurningSpring spring = turning_spring(ball, core, contact.normal, turning);
+  if (!(spring.contact.normal_stiffness > 0.0)) return;
+  for (SpringEnd& end : spring.ends) end = on_body(end, rigid_);
+  add_spring(spring.contact, spring.ends);
 }
 
 void NodalStiffness::add_to_wall(NodeId ball, const ContactStiffness& contact) {
-  add_spring(contact, std::array{SpringEnd{ball, -1.0, contact.arm_a}});
+  add_spring(contact, std::array{on_body({ball, -1.0, contact.arm_a}, rigid_)});
 }
 
 void NodalStiffness::add(NodeId node, const IsotropicStiffness& springs) noexcept {
+  if (body_followed_by(node) >= 0) {
+    add_to_node(node, springs.translation * Mat3::Identity(), springs.rotation * Mat3::Identity());
+    return;
+  }
   Block* const block = block_of(node);
   if (!block) return;
   block->translation.diagonal.array() += springs.translation;
@@ -166,6 +213,10 @@ NodalStiffness::Total NodalStiffness::total() const noexcept {
     total.translation += block.translation.diagonal.sum();
     total.rotation += block.rotation.diagonal.sum();
   }
+  for (const Mat6& body : of_bodies_) {
+    total.translation += body.topLeftCorner<3, 3>().trace();
+    total.rotation += body.bottomRightCorner<3, 3>().trace();
+  }
   return total;
 }
 
@@ -175,6 +226,12 @@ NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t i,
   const Block& block = blocks_[i];
   const std::size_t node = first_node_ + i;
   const Held held = properties.held[node];
+  if (const std::int32_t body = body_at(geometry::id_at<NodeId>(node)); body >= 0) {
+    const Mat3 coupling = cross_matrix(block.coupling);
+    Mat6 own;
+    own << block.translation.full(), coupling, coupling.transpose(), block.rotation.full();
+    return per_mass_of_body(body, own + of_bodies_[static_cast<std::size_t>(body)], properties);
+  }
   const double shift = holds_translation(held) ? 0.0 : 1.0 / std::sqrt(properties.mass[node]);
   const double turn = holds_rotation(held) ? 0.0 : 1.0 / std::sqrt(properties.inertia[node]);
   const Mat3 coupling = (shift * turn) * cross_matrix(block.coupling);
@@ -185,6 +242,18 @@ NodalStiffness::Mat6 NodalStiffness::per_mass(std::size_t i,
   Eigen::Matrix<double, 6, 1> is_free;
   is_free << free_axes(held), free_turns(held);
   return is_free.asDiagonal() * matrix * is_free.asDiagonal();
+}
+
+/// S^T D S with S S^T the inverse of mass and inertia.
+NodalStiffness::Mat6 NodalStiffness::per_mass_of_body(std::int32_t body, const Mat6& stiffness,
+                                                      const NodeProperties& properties) const {
+  const std::size_t node = index_of(rigid_->reference(body));
+  const Held held = properties.held[node];
+  Mat6 root = Mat6::Zero();
+  if (!holds_translation(held))
+    root.diagonal().head<3>() = free_axes(held) / std::sqrt(properties.mass[node]);
+  root.bottomRightCorner<3, 3>() = rigid_->turn_root(body);
+  return root.transpose() * stiffness * root;
 }
 
 double NodalStiffness::along(const CriticalStep& step, const NodeProperties& properties) const {

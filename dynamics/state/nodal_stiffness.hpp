@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/state/node_state.hpp"
+#include "dynamics/state/rigid_nodes.hpp"
 #include "geometry/primitives/proximity.hpp"
 
 #include <array>
@@ -44,12 +45,22 @@ struct ContactStiffness {
 };
 
 /// How a node takes part in the spring of a contact: the contact point on b moves by weight (shift
-/// + turn x arm n), that on a by as much with a weight below 0.
+/// + turn x (lever + arm n)), that on a by as much with a weight below 0.
 struct SpringEnd {
   NodeId node;
   double weight;
-  double arm;  ///< m, along the normal
+  double arm;                 ///< m, along the normal
+  Vec3 lever = Vec3::Zero();  ///< m, of a rigid body, from its reference node
+
+  /// m, from the node to the contact point.
+  Vec3 to_contact(const Vec3& normal) const noexcept { return lever + arm * normal; }
 };
+
+/// The same end on what moves its node: the reference node of a rigid body, if it follows one.
+SpringEnd on_body(const SpringEnd& end, const RigidNodes* rigid) noexcept;
+/// The same of all ends; those on one body become one, and the weights of the others 0. The point
+/// between them is a point of that body.
+void put_on_bodies(std::span<SpringEnd> ends, const RigidNodes* rigid) noexcept;
 
 /// How a normal force F (N) on a surface resists what turns the surface where it acts.
 ///
@@ -128,12 +139,17 @@ IsotropicStiffness from_all_sides(double normal, double tangential, double radiu
 /// coupling of translation and rotation. Holding nodes only lowers omega. (The diagonal of K alone
 /// would not do: it misses that shear moves and turns a node at once.)
 ///
+/// A rigid body is one node more: what holds nodes that follow it holds its reference node, with the
+/// levers of now and the whole tensor of inertia.
+///
 /// K is that of the springs as they are now: contacts that begin later, or press harder under a
 /// nonlinear law, change it. So leave a margin, and ask again as a simulation goes on.
 class NodalStiffness {
  public:
   /// @param properties  of all nodes, to know which are held; must outlive this; null: none is
-  explicit NodalStiffness(std::size_t node_count, const NodeProperties* properties = nullptr);
+  /// @param rigid  rigid bodies among the nodes; must outlive this; null: none
+  explicit NodalStiffness(std::size_t node_count, const NodeProperties* properties = nullptr,
+                          const RigidNodes* rigid = nullptr);
 
   std::size_t node_count() const noexcept { return blocks_.size(); }
   /// Forgets what was added; from now on for as many nodes from this one on: what is added to
@@ -162,9 +178,10 @@ class NodalStiffness {
     double normal = 0.0;
     double tangential = 0.0;
   };
-  /// h of the class comment (1/sqrt(kg)); 0 where the node is held. The weight where no properties
+  /// h of the class comment (1/sqrt(kg)), of a rigid body the mean of both directions across the
+  /// normal; 0 where the node is held. The weight where no properties
   /// are known.
-  Shares mobility_of(const SpringEnd& end) const noexcept;
+  Shares mobility_of(const SpringEnd& end, const Vec3& normal) const;
   /// d of the class comment that the functions for contacts take, 1/sqrt(kg).
   double measure_of(NodeId node) const noexcept;
   /// Adds an end of a contact.
@@ -179,6 +196,10 @@ class NodalStiffness {
   /// @param translation  N/m, symmetric, T
   /// @param rotation     N m, symmetric, R
   void add_to_node(NodeId node, const Mat3& translation, const Mat3& rotation) {
+    if (const std::int32_t body = body_followed_by(node); body >= 0) {
+      add_to_body(body, rigid_->lever_of(node), translation, rotation);
+      return;
+    }
     Block* const block = block_of(node);
     if (!block) return;
     block->translation += translation;
@@ -221,13 +242,26 @@ class NodalStiffness {
     const std::size_t i = index_of(node) - first_node_;  // wraps round below the first
     return i < blocks_.size() ? &blocks_[i] : nullptr;
   }
+  std::int32_t body_followed_by(NodeId node) const noexcept {
+    return rigid_ != nullptr ? rigid_->body_followed_by(node) : -1;
+  }
+  std::int32_t body_at(NodeId node) const noexcept {
+    return rigid_ != nullptr ? rigid_->body_at(node) : -1;
+  }
+  /// Adds stiffness against the motion of a point of a body and against its turning.
+  void add_to_body(std::int32_t body, const Vec3& lever, const Mat3& translation,
+                   const Mat3& rotation);
   void add_spring(const ContactStiffness& contact, std::span<const SpringEnd> ends);
   using Mat6 = Eigen::Matrix<double, 6, 6>;
+  Mat6 per_mass_of_body(std::int32_t body, const Mat6& stiffness,
+                        const NodeProperties& properties) const;
   Mat6 per_mass(std::size_t i, const NodeProperties& properties) const;
 
   const NodeProperties* properties_;
+  const RigidNodes* rigid_;
   std::size_t first_node_ = 0;
   std::vector<Block> blocks_;
+  std::vector<Mat6> of_bodies_;  // by body, what holds the nodes that follow it
 };
 
 }  // namespace plekton::dynamics

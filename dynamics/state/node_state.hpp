@@ -42,7 +42,11 @@ enum class Held : std::uint8_t {
   about_y = 16,
   about_z = 32,
   rotation = 56,
-  everything = 63
+  everything = 63,
+  /// Not a motion: the node is the reference node of a rigid body, which steps its velocities with
+  /// its own mass and inertia (dynamics/rigid/rigid_bodies.hpp). What else is held of it is held of
+  /// the body.
+  by_body = 64
 };
 
 constexpr Held operator|(Held a, Held b) noexcept {
@@ -52,6 +56,10 @@ constexpr Held operator&(Held a, Held b) noexcept {
   return static_cast<Held>(static_cast<std::uint8_t>(a) & static_cast<std::uint8_t>(b));
 }
 
+/// Whether a node is the reference node of a rigid body.
+constexpr bool is_reference(Held held) noexcept {
+  return (static_cast<unsigned>(held) & 64U) != 0;
+}
 /// Whether all of the translation is held.
 constexpr bool holds_translation(Held held) noexcept {
   return (held & Held::translation) == Held::translation;

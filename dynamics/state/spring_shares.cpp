@@ -19,7 +19,11 @@ void SpringShares::add(const ContactSprings& springs, const NodeProperties& prop
     base_[i] = stiffness.rate_of(node, properties);
   }
   mobility_.clear();
-  for (const SpringEnd& end : springs.ends()) mobility_.push_back(stiffness.mobility_of(end));
+  springs.for_each(
+      [&](const ContactStiffness& contact, std::span<const SpringEnd> ends, std::size_t) {
+        for (const SpringEnd& end : ends)
+          mobility_.push_back(stiffness.mobility_of(end, contact.normal));
+      });
   for (int i = 0; i < kProducts; ++i) multiply(springs);
   springs.for_each(
       [&](const ContactStiffness& contact, std::span<const SpringEnd> ends, std::size_t first) {

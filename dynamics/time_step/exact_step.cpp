@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/time_step/exact_step.hpp"
 
+#include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/state/rotation_step.hpp"
 #include "dynamics/time_step/largest_eigenvalue.hpp"
 
@@ -50,6 +51,7 @@ class ScaledStiffness {
         time_(time),
         bonds_(structures.bonds),
         sheets_(structures.sheets),
+        rigid_(scene.rigid_bodies, scene.state, scene.properties),
         moved_(scene.state),
         shift_(scene.state.size(), Vec3::Zero()),
         turn_(scene.state.size(), Vec3::Zero()),
@@ -62,6 +64,8 @@ class ScaledStiffness {
       scale_.segment<6>(entry(i)) << per_root(scene.properties.mass[i]) * free_axes(held),
           per_root(scene.properties.inertia[i]) * free_turns(held);
     }
+    for (std::size_t b = 0; b < rigid_.size(); ++b)
+      turn_roots_.push_back(rigid_.turn_root(static_cast<std::int32_t>(b)));
     find_structure_forces(0.0);
     torque_ = forces_.torque;
   }
@@ -73,7 +77,7 @@ class ScaledStiffness {
     double largest = 0.0;  // of the motion, in parts of the shortest length and rad
     for (std::size_t i = 0; i < shift_.size(); ++i) {
       shift_[i] = scale_.segment<3>(entry(i)).cwiseProduct(x.segment<3>(entry(i)));
-      turn_[i] = scale_.segment<3>(entry(i) + 3).cwiseProduct(x.segment<3>(entry(i) + 3));
+      turn_[i] = scaled_turn(i, x.segment<3>(entry(i) + 3), false);
       largest = std::max({largest, shift_[i].norm() / length_, turn_[i].norm()});
     }
     forces_.set_zero();
@@ -90,11 +94,46 @@ class ScaledStiffness {
     // A rotation t turns torques: -dT = H t - t x T / 2, H the second derivative of the energy.
     for (std::size_t i = 0; i < turn_.size(); ++i)
       y.segment<3>(entry(i) + 3) += 0.5 * turn_[i].cross(torque_[i]);
-    y = scale_.cwiseProduct(y);
+    for (std::size_t i = 0; i < turn_.size(); ++i) {
+      y.segment<3>(entry(i)) = scale_.segment<3>(entry(i)).cwiseProduct(y.segment<3>(entry(i)));
+      y.segment<3>(entry(i) + 3) = scaled_turn(i, y.segment<3>(entry(i) + 3), true);
+    }
   }
 
  private:
   static Eigen::Index entry(std::size_t node) { return static_cast<Eigen::Index>(6 * node); }
+
+  /// By the root of the inverse inertia of a node, or by its transpose.
+  Vec3 scaled_turn(std::size_t node, const Vec3& turn, bool transposed) const {
+    const std::int32_t body = rigid_.body_at(geometry::id_at<NodeId>(node));
+    if (body < 0) return scale_.segment<3>(entry(node) + 3).cwiseProduct(turn);
+    const Mat3& root = turn_roots_[static_cast<std::size_t>(body)];
+    return transposed ? Vec3(root.transpose() * turn) : Vec3(root * turn);
+  }
+
+  /// Calls visit(node, its reference node) for all that follow rigid bodies.
+  template <class Visit>
+  void for_each_follower(const Visit& visit) const {
+    for (const RigidBody& body : scene_.rigid_bodies)
+      for (const NodeId node : body.nodes) visit(index_of(node), index_of(body.node));
+  }
+
+  void move_followers(double factor) {
+    for_each_follower([&](std::size_t node, std::size_t reference) {
+      const Vec3 lever = scene_.state.position[node] - scene_.state.position[reference];
+      const Quat turn = turned(Quat::Identity(), turn_[reference], factor);
+      moved_.position[node] = moved_.position[reference] + turn * lever;
+      moved_.orientation[node] = turn * scene_.state.orientation[node];
+    });
+  }
+
+  void gather_on_bodies() {
+    for_each_follower([&](std::size_t node, std::size_t reference) {
+      const Vec3 lever = moved_.position[node] - moved_.position[reference];
+      forces_.force[reference] += forces_.force[node];
+      forces_.torque[reference] += lever.cross(forces_.force[node]) + forces_.torque[node];
+    });
+  }
 
   /// Of the state after the motion times a factor.
   void find_structure_forces(double factor) {
@@ -102,6 +141,7 @@ class ScaledStiffness {
       moved_.position[i] = scene_.state.position[i] + factor * shift_[i];
       moved_.orientation[i] = turned(scene_.state.orientation[i], turn_[i], factor);
     }
+    move_followers(factor);
     forces_.set_zero();
     bonds_.advance(moved_, pool_);
     bonds_.add_forces(forces_, pool_);
@@ -109,6 +149,7 @@ class ScaledStiffness {
     sheets_.add_forces(forces_, pool_);
     loads_.add_elastic_forces(time_, moved_, forces_, pool_);
     if (normal_) normal_(moved_.position, forces_);
+    gather_on_bodies();
   }
 
   void take_forces(double factor, VectorXd& y) const {
@@ -125,6 +166,8 @@ class ScaledStiffness {
   double time_;
   BeamBonds bonds_;
   SheetFacets sheets_;
+  RigidNodes rigid_;
+  std::vector<Mat3> turn_roots_;  // 1/sqrt(kg m²), by body
   geometry::ThreadPool pool_;
   NodeState moved_;
   std::vector<Vec3> shift_;  // m

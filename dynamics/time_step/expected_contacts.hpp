@@ -82,13 +82,13 @@ class ExpectedContacts {
   /// free spheres.
   double collision_step() const {
     double shortest = std::numeric_limits<double>::infinity();
+    const RigidNodes rigid(scene_.rigid_bodies, scene_.state, scene_.properties);
     for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
       const geometry::Sphere& sphere = scene_.elements.spheres[i];
-      const std::size_t node = index_of(sphere.nodes[0]);
-      if (holds_translation(scene_.properties.held[node])) continue;
+      const double lightness = lightness_of(sphere.nodes[0], rigid);
+      if (lightness == 0.0) continue;
       const double k = hardest_partner({scene_.sphere_materials[i], sphere.radius}).normal;
-      if (k > 0.0)
-        shortest = std::min(shortest, std::sqrt(scene_.properties.mass[node] / (8.0 * k)));
+      if (k > 0.0) shortest = std::min(shortest, std::sqrt(1.0 / (8.0 * k * lightness)));
     }
     return shortest;
   }
@@ -109,6 +109,15 @@ class ExpectedContacts {
   }
 
  private:
+  /// 1/kg, one over the mass that a push on a sphere moves; of a rigid body the mean of all
+  /// directions. 0 where it is held.
+  double lightness_of(NodeId node, const RigidNodes& rigid) const {
+    if (const std::int32_t body = rigid.body_followed_by(node); body >= 0)
+      return rigid.point_mobility(body, rigid.lever_of(node)).trace() / 3.0;
+    const std::size_t i = index_of(node);
+    return holds_translation(scene_.properties.held[i]) ? 0.0 : 1.0 / scene_.properties.mass[i];
+  }
+
   struct Kind {
     contact::MaterialId material;
     double radius;

@@ -89,11 +89,16 @@ double SpreadStiffness::displace(const NodeProperties& properties, const Places&
   const double step = largest > 0.0 ? places.difference / largest : 0.0;
   for (std::size_t i = 0; i < motion_.size(); ++i)
     moved_[i] = places.x[i] + (sign * step * per_root_of_mass(properties, i)) * motion_[i];
+  for (std::size_t i = 0; i < rigid_->followed().size(); ++i) {
+    const std::size_t mover = index_of(rigid_->mover_of(geometry::id_at<NodeId>(i)));
+    if (mover != i) moved_[i] = places.x[i] + (moved_[mover] - places.x[mover]);
+  }
   return step;
 }
 
 void SpreadStiffness::take_forces(double factor) {
-  for (std::size_t i = 0; i < product_.size(); ++i) product_[i] += factor * forces_.force[i];
+  for (std::size_t i = 0; i < product_.size(); ++i)
+    product_[index_of(rigid_->mover_of(geometry::id_at<NodeId>(i)))] += factor * forces_.force[i];
 }
 
 void SpreadStiffness::take_springs(const ContactSprings& springs,

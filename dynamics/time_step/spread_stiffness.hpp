@@ -24,18 +24,24 @@ namespace plekton::dynamics {
 /// part (Weyl's inequality). It has all of the turning of bars and facets too, so that the springs
 /// for it are left out.
 ///
+/// A rigid body takes part with its translation alone.
+///
 /// The iteration goes on with its last motion at the next look: few products are enough. It begins
 /// with more.
 class SpreadStiffness {
  public:
-  explicit SpreadStiffness(const geometry::Surface& surface) : finder_(surface) {}
+  /// @param rigid  rigid bodies among the nodes; must outlive this
+  SpreadStiffness(const geometry::Surface& surface, const RigidNodes& rigid)
+      : rigid_(&rigid), finder_(surface) {}
 
   /// Looks for balls that have a term which is not one contact.
   /// @returns whether there are any
   bool begin(ContactSprings& springs, std::size_t node_count);
   /// The motion of the last look.
   void exchange(const geometry::StateArchive& archive);
-  bool is_spread(NodeId ball) const noexcept { return is_spread_[index_of(ball)] != 0; }
+  bool is_spread(NodeId ball) const noexcept {
+    return is_spread_[index_of(rigid_->mover_of(ball))] != 0;
+  }
 
   /// Where nodes are (m), and how far a difference goes (m).
   struct Places {
@@ -73,6 +79,7 @@ class SpreadStiffness {
   double follow(const NodeProperties& properties);
   void add_rate(double rate, const NodeProperties& properties, NodalStiffness& stiffness) const;
 
+  const RigidNodes* rigid_;
   contact::PatchFinder finder_;
   NodeForces forces_{0};
   std::vector<char> is_spread_;   ///< by node

@@ -5,13 +5,14 @@ namespace plekton::dynamics {
 
 using Kind = StepPart::Kind;
 
-StiffestPart::StiffestPart(const CriticalStep& step, const NodeProperties& properties)
-    : step_(step), properties_(properties), space_(1, &properties) {
+StiffestPart::StiffestPart(const CriticalStep& step, const NodeProperties& properties,
+                           const RigidNodes& rigid)
+    : step_(step), properties_(properties), rigid_(rigid), space_(1, &properties, &rigid) {
   space_.begin_at(index_of(step.node));
 }
 
 void StiffestPart::add_pair(NodeId a, NodeId b, const ContactStiffness& contact) {
-  if (a != step_.node && b != step_.node) return;
+  if (!moves(a) && !moves(b)) return;
   consider({Kind::ball_contact, 0, a, b},
            [&](NodalStiffness& space) { space.add_pair(a, b, contact); });
 }
@@ -23,13 +24,13 @@ void StiffestPart::add_on_surface(NodeId ball, const geometry::CorePoint& core,
 }
 
 void StiffestPart::add_to_wall(NodeId ball, const ContactStiffness& contact) {
-  if (ball != step_.node) return;
+  if (!moves(ball)) return;
   consider({Kind::plane_contact, 0, ball, NodeId{-1}},
            [&](NodalStiffness& space) { space.add_to_wall(ball, contact); });
 }
 
 void StiffestPart::add(NodeId node, const IsotropicStiffness& springs) {
-  if (node != step_.node) return;
+  if (!moves(node)) return;
   consider({Kind::structure_contact, 0, node, NodeId{-1}},
            [&](NodalStiffness& space) { space.add(node, springs); });
 }

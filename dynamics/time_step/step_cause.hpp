@@ -43,7 +43,8 @@ struct StepCause {
 class StiffestPart {
  public:
   /// @param step  finite; also whose node and motion
-  StiffestPart(const CriticalStep& step, const NodeProperties& properties);
+  /// @param rigid  must outlive this
+  StiffestPart(const CriticalStep& step, const NodeProperties& properties, const RigidNodes& rigid);
 
   NodeId node() const noexcept { return step_.node; }
 
@@ -67,8 +68,12 @@ class StiffestPart {
  private:
   void take(const StepPart& part, double stiffness) noexcept;
 
+  /// Whether the node is this one, or moves it with its rigid body.
+  bool moves(NodeId node) const noexcept { return rigid_.mover_of(node) == step_.node; }
+
   CriticalStep step_;
   const NodeProperties& properties_;
+  const RigidNodes& rigid_;
   NodalStiffness space_;
   StepPart stiffest_;
   double largest_ = 0.0;  // 1/s²

@@ -18,7 +18,11 @@ namespace plekton::dynamics {
 constexpr double kLargestTurn = 1.0;
 
 StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
-    : of_(of), limits_(&limits), pace_radius_(pace_radius(of.scene.elements)), spread_(of.surface) {
+    : of_(of),
+      limits_(&limits),
+      pace_radius_(pace_radius(of.scene.elements)),
+      springs_(&of.rigid),
+      spread_(of.surface, of.rigid) {
   const ExpectedContacts expected(of.scene, of.surface, of.contacts);
   collision_step_ = expected.collision_step();
   if (of.surface.structure_count() == 0) return;

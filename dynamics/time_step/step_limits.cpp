@@ -105,17 +105,17 @@ CriticalStep StepLimits::critical(NodalStiffness& space, geometry::Positions x) 
 }
 
 CriticalStep StepLimits::critical(geometry::Positions x) const {
-  NodalStiffness space(of_.scene.state.size(), &of_.scene.properties);
+  NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
   return critical(space, x);
 }
 
 CriticalStep StepLimits::present(geometry::Positions x) const {
-  NodalStiffness space(of_.scene.state.size(), &of_.scene.properties);
+  NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
   return with_loads(present(space, x));
 }
 
 CriticalStep StepLimits::coming(geometry::Positions x) const {
-  NodalStiffness space(of_.scene.state.size(), &of_.scene.properties);
+  NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
   return with_loads(structural(space, true, x));
 }
 
@@ -123,9 +123,9 @@ CriticalStep StepLimits::coming(geometry::Positions x) const {
 /// @param space  where there are no surfaces it is all the space that is needed
 CriticalStep StepLimits::present(NodalStiffness& space, geometry::Positions x) const {
   if (of_.surface.structure_count() == 0) return structural(space, false, x);
-  NodalStiffness whole(of_.scene.state.size(), &of_.scene.properties);
-  ContactSprings springs;
-  SpreadStiffness spread(of_.surface);
+  NodalStiffness whole(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
+  ContactSprings springs(&of_.rigid);
+  SpreadStiffness spread(of_.surface, of_.rigid);
   add_structures(whole);
   contacts().add_to(springs, 0.0, x);
   add_spread(whole, springs, spread, x);
@@ -149,7 +149,7 @@ CriticalStep StepLimits::structural(NodalStiffness& space, bool expected,
 }
 
 ExactStep StepLimits::exact(geometry::Positions x, double time) const {
-  ContactSprings springs;
+  ContactSprings springs(&of_.rigid);
   SlipOnSurfaces slip{springs};
   contacts().add_to(slip, 0.0, x);
   contact::PatchFinder finder(of_.surface);
@@ -161,23 +161,21 @@ ExactStep StepLimits::exact(geometry::Positions x, double time) const {
 }
 
 StepCause StepLimits::cause(geometry::Positions x) const {
-  NodalStiffness space(of_.scene.state.size(), &of_.scene.properties);
+  NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
   const CriticalStep coming = structural(space, true, x);
   const CriticalStep now = present(space, x);
   const CriticalStep& shortest = now.dt < coming.dt ? now : coming;
   StepCause cause{shortest, {}, 0.0, shortest.dt};
   if (std::isfinite(shortest.dt)) {
-    StiffestPart parts(shortest, of_.scene.properties);
+    StiffestPart parts(shortest, of_.scene.properties, of_.rigid);
     consider_structures(parts);
     if (&shortest == &now) {
       contacts().add_to(parts, 0.0, x);
     } else {
       StepPart part{StepPart::Kind::coming_contacts};
-      part.partner =
-          ExpectedContacts(of_.scene, of_.surface, of_.contacts).partner_of(parts.node());
-      parts.consider(part, [&](NodalStiffness& stiffness) {
-        stiffness.add(parts.node(), expected_[index_of(parts.node())]);
-      });
+      part.partner = ExpectedContacts(of_.scene, of_.surface, of_.contacts)
+                         .partner_of(most_touched_of(parts.node()));
+      parts.consider(part, [&](NodalStiffness& stiffness) { add_expected(stiffness); });
     }
     cause = parts.cause();
   }
@@ -185,10 +183,24 @@ StepCause StepLimits::cause(geometry::Positions x) const {
   return cause;
 }
 
+/// Of the nodes that follow a reference node, the one whose contacts to come are stiffest; any other
+/// node itself.
+NodeId StepLimits::most_touched_of(NodeId node) const {
+  const std::int32_t body = of_.rigid.body_at(node);
+  if (body < 0) return node;
+  NodeId most = node;
+  for (const NodeId follower : of_.scene.rigid_bodies[static_cast<std::size_t>(body)].nodes) {
+    if (expected_[index_of(follower)].translation > expected_[index_of(most)].translation)
+      most = follower;
+  }
+  return most;
+}
+
 /// Everything but contacts that holds the node.
 void StepLimits::consider_structures(StiffestPart& parts) const {
   const auto holds_it = [&](const auto& nodes) {
-    return std::find(nodes.begin(), nodes.end(), parts.node()) != nodes.end();
+    return std::any_of(nodes.begin(), nodes.end(),
+                       [&](NodeId node) { return of_.rigid.mover_of(node) == parts.node(); });
   };
   for (std::size_t i = 0; i < of_.scene.bonds.size(); ++i) {
     if (of_.bonds.is_broken(i) || !holds_it(of_.scene.bonds[i].nodes)) continue;

@@ -24,6 +24,7 @@ struct Resistance {
   const BeamBonds& bonds;
   const SheetFacets& sheet_facets;
   const AppliedLoads& loads;
+  const RigidNodes& rigid;
 };
 
 /// Critical time steps of a simulation as it is now.
@@ -69,6 +70,7 @@ class StepLimits {
   CriticalStep structural(NodalStiffness& space, bool expected, geometry::Positions x) const;
   CriticalStep present(NodalStiffness& space, geometry::Positions x) const;
   void add_expected(NodalStiffness& stiffness) const;
+  NodeId most_touched_of(NodeId node) const;
   void consider_structures(StiffestPart& parts) const;
   PresentContacts contacts() const noexcept { return {of_.contacts, of_.scene.planes, radii_}; }
 

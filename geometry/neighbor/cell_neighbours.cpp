@@ -159,6 +159,7 @@ void CellNeighbours::make_boxes(Positions x) {
 }
 
 bool CellNeighbours::may_touch(CellId a, CellId b) const {
+  if (groups_.exclude(surface_->nodes_of(a), surface_->nodes_of(b))) return false;
   if (surface_->structure_of(a) != surface_->structure_of(b)) return true;
   if (!self_contact_) return false;
   const auto nodes_b = surface_->nodes_of(b);

@@ -4,6 +4,7 @@
 #include "geometry/base/thread_pool.hpp"
 #include "geometry/critical/product_features.hpp"
 #include "geometry/neighbor/broad_phase.hpp"
+#include "geometry/neighbor/exclusion_groups.hpp"
 #include "geometry/neighbor/near_nodes.hpp"
 #include "geometry/neighbor/skin.hpp"
 #include "geometry/primitives/elements.hpp"
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace plekton::geometry {
@@ -33,6 +35,9 @@ class CellNeighbours {
   /// @param self_contact  whether cells of one structure are listed
   /// @throws std::length_error where the lists of near nodes would take GB (near_nodes.hpp)
   CellNeighbours(const Surface& surface, Positions rest, double skin, bool self_contact);
+
+  /// Pairs within a group are not listed. To be called before the first update.
+  void leave_out(ExclusionGroups groups) { groups_ = std::move(groups); }
 
   /// From the next list on, a skin of the radius of the thinnest structure (a quarter of it where
   /// edges are far shorter than thick): a longer list costs little, because contacts leave far
@@ -68,6 +73,7 @@ class CellNeighbours {
   const Surface* surface_;
   Skin skin_;
   bool self_contact_;
+  ExclusionGroups groups_;
   std::int64_t rebuild_count_ = 0;
   std::vector<NodeId> own_nodes_;  ///< those of cells
   std::vector<Vec3> own_x_;

@@ -85,6 +85,12 @@ void Neighbours::rebuild(Positions x, ThreadPool& pool) {
   }
   fit(cell_tree_);
   sphere_tree_.pairs_with(cell_tree_, sphere_cells_);
+  if (!groups_.empty()) {
+    std::erase_if(sphere_cells_, [&](const IndexPair& pair) {
+      return groups_.exclude(spheres_[static_cast<std::size_t>(pair.a)].nodes,
+                             surface_->nodes_of(CellId{pair.b}));
+    });
+  }
   group_by_structure();
 }
 
@@ -93,6 +99,7 @@ bool Neighbours::may_touch(const IndexPair& pair, Positions x) const noexcept {
   const Sphere& b = spheres_[static_cast<std::size_t>(pair.b)];
   // Squares and sums are within a few eps of their values; the factor pays for all of it.
   const double range = (1.0 + 1e-12) * (a.radius + b.radius + reach_ + skin());
+  if (groups_.exclude(a.nodes, b.nodes)) return false;
   return !((x[index_of(a.nodes[0])] - x[index_of(b.nodes[0])]).squaredNorm() > range * range);
 }
 

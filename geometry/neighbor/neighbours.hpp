@@ -3,12 +3,14 @@
 
 #include "geometry/base/thread_pool.hpp"
 #include "geometry/neighbor/broad_phase.hpp"
+#include "geometry/neighbor/exclusion_groups.hpp"
 #include "geometry/neighbor/skin.hpp"
 #include "geometry/primitives/elements.hpp"
 #include "geometry/primitives/surface_change.hpp"
 
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace plekton::geometry {
@@ -31,6 +33,9 @@ class Neighbours {
   /// @param reach  m, at which distance of the surfaces a pair is wanted already
   Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin,
              double reach = 0.0);
+
+  /// Pairs within a group are not listed. To be called before the first update.
+  void leave_out(ExclusionGroups groups) { groups_ = std::move(groups); }
 
   /// From now on chooses the skin anew whenever the lists are made, from how many steps the last
   /// ones lasted: the one for which the lists and the pairs in them, which grow with the skin, cost
@@ -83,6 +88,7 @@ class Neighbours {
   const Surface* surface_;
   Skin skin_;
   double reach_;
+  ExclusionGroups groups_;
   BroadPhase sphere_tree_;
   BroadPhase cell_tree_;
   std::vector<Box> boxes_;

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/read_rigid_body.hpp"
+
+#include "apps/scenario/read_membrane_source.hpp"
+#include "apps/scenario/read_placement.hpp"
+#include "geometry/base/rotation_about.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace plekton::apps {
+namespace {
+
+using dynamics::Held;
+
+constexpr Dimension kInertia{"a moment of inertia", {1, 2, 0, 0}, "kg m2", "kg m2, g cm2, t m2"};
+
+/// Along or about which axes of the world the body is held.
+Held read_axes(Section& section, std::string_view key, const std::array<Held, 3>& axes) {
+  constexpr std::array<std::string_view, 8> kWords = {"none", "x",  "y",  "z",
+                                                      "xy",   "xz", "yz", "xyz"};
+  const std::string_view word = kWords[section.choice(key, kWords, 0)];
+  Held held = Held::nothing;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (word.find("xyz"[axis]) != std::string_view::npos) held = held | axes[axis];
+  }
+  return held;
+}
+
+/// The spheres, before they are put in place: centre and radius of each.
+struct Spheres {
+  std::vector<Vec3> centres;  ///< m
+  std::vector<double> radii;  ///< m
+};
+
+Spheres read_spheres(Section& section) {
+  Spheres spheres;
+  for (Section& row : section.tables("spheres")) {
+    spheres.centres.push_back(row.vector("centre", {kLength}));
+    spheres.radii.push_back(row.quantity("radius", {kLength, kPositive}));
+    row.finish();
+  }
+  return spheres;
+}
+
+GrainSettings grains_of(const RigidBodySettings& body, Spheres spheres, const Placement& placement,
+                        std::size_t material) {
+  GrainSettings grains;
+  grains.name = body.name;
+  grains.place = body.place;
+  grains.material = material;
+  const geometry::Mat3 turn = geometry::rotation_about(placement.axis, placement.angle);
+  for (Vec3& centre : spheres.centres)
+    centre = turn * (placement.scale * centre) + placement.translation;
+  for (double& radius : spheres.radii) radius *= placement.scale;
+  grains.centres = std::move(spheres.centres);
+  grains.radii = std::move(spheres.radii);
+  return grains;
+}
+
+/// Complains about keys of a surface, where there are spheres.
+void refuse_keys_of_surfaces(Section& section) {
+  for (const std::string_view key : {"thickness", "filling"}) {
+    if (section.has(key))
+      section.complain(key, "goes with a mesh or shape; spheres have their radii, and are solid");
+  }
+}
+
+void read_surface(Section& section, const Known& known, MembraneSettings& surface,
+                  RigidBodySettings& body) {
+  constexpr std::array<std::string_view, 2> kFillings = {"solid", "shell"};
+  read_membrane_source(section, known, surface);
+  if (surface.shape && is_net(*surface.shape))
+    section.complain("shape",
+                     "a net has no facets; expected a mesh, or a sheet, tube, sphere or box");
+  surface.thickness = section.quantity("thickness", {kLength, kPositive});
+  section.tell_default("filling", "solid where it is closed");
+  if (section.has("filling"))
+    body.filling =
+        section.choice("filling", kFillings) == 0 ? RigidFilling::solid : RigidFilling::shell;
+}
+
+void read_mass(Section& section, RigidBodySettings& body) {
+  const bool is_held = (body.held & Held::everything) == Held::everything;
+  const bool has_density = section.has("density");
+  const bool has_mass = section.has("mass");
+  section.tell_default("density", "none where all of the body is held");
+  section.tell_default("mass", "none");
+  if ((has_density && has_mass) || (!has_density && !has_mass && !is_held))
+    section.complain("density", fmt::format("got {} of density and mass; expected exactly one of "
+                                            "them: the body may move",
+                                            has_mass ? "both" : "none"));
+  if (has_density) body.density = section.quantity("density", {kDensity, kPositive});
+  if (has_mass) body.mass = section.quantity("mass", {kMass, kPositive});
+  if (section.has("inertia")) {
+    body.inertia = section.vector("inertia", {kInertia, kPositive});
+    if (!has_mass) section.complain("inertia", "goes with mass; a density gives both");
+  }
+  if (section.has("centre")) body.centre = section.vector("centre", {kLength});
+}
+
+}  // namespace
+
+void read_rigid_body(Section section, const Known& known, Scenario& scenario) {
+  RigidBodySettings body;
+  body.name = section.name("name");
+  body.path = section.path();
+  body.place = section.place();
+  const bool has_spheres = section.has("spheres");
+  MembraneSettings surface;
+  Spheres spheres;
+  if (has_spheres) {
+    for (const std::string_view key : {"mesh", "shape"}) {
+      if (section.has(key))
+        section.complain(key, "the body is made of spheres already; leave one of them out");
+    }
+    refuse_keys_of_surfaces(section);
+    spheres = read_spheres(section);
+  } else {
+    read_surface(section, known, surface, body);
+  }
+  const Placement placement = read_placement(section);
+  const std::size_t material = read_material_of(section, known).value_or(0);
+  body.held = read_axes(section, "hold", {Held::along_x, Held::along_y, Held::along_z}) |
+              read_axes(section, "hold_rotation", {Held::about_x, Held::about_y, Held::about_z});
+  read_mass(section, body);
+  body.velocity = section.vector("velocity", {kVelocity}, body.velocity);
+  body.angular_velocity =
+      section.vector("angular_velocity", {kAngularVelocity}, body.angular_velocity);
+  section.finish();
+
+  if (has_spheres) {
+    body.grains = scenario.grains.size();
+    scenario.grains.push_back(grains_of(body, std::move(spheres), placement, material));
+    scenario.grains.back().rigid_body = scenario.rigid_bodies.size();
+  } else {
+    body.membrane = scenario.membranes.size();
+    surface.name = body.name;
+    surface.placement = placement;
+    surface.material = material;
+    surface.rigid_body = scenario.rigid_bodies.size();
+    scenario.membranes.push_back(std::move(surface));
+  }
+  scenario.rigid_bodies.push_back(std::move(body));
+}
+
+void require_own_names(Section& root, const Scenario& scenario) {
+  for (const RigidBodySettings& body : scenario.rigid_bodies) {
+    const auto takes_name = [&](const auto& other) {
+      return other.name == body.name && !other.rigid_body;
+    };
+    const bool is_taken =
+        std::any_of(scenario.membranes.begin(), scenario.membranes.end(), takes_name) ||
+        std::any_of(scenario.grains.begin(), scenario.grains.end(), takes_name);
+    if (is_taken)
+      root.complain("rigid_bodies", fmt::format("\"{}\" is the name of a membrane or of grains "
+                                                "too; give each body a name of its own",
+                                                body.name));
+  }
+}
+
+}  // namespace plekton::apps

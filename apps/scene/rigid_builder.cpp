@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scene/rigid_builder.hpp"
+
+#include "apps/scene/membrane_body.hpp"
+#include "dynamics/loads/surface_pressure_check.hpp"
+#include "dynamics/rigid/sphere_union.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace plekton::apps {
+namespace {
+
+using dynamics::MassProperties;
+using dynamics::VolumeMoments;
+using geometry::NodeId;
+
+/// The volume of a body, and what that is.
+struct BodyVolume {
+  VolumeMoments moments;
+  Vec3 origin = Vec3::Zero();  ///< m, about which they are
+  std::string what;
+};
+
+/// What a solid of this size (m) encloses at least, below which it is none: beyond rounding.
+double least_volume(double size) {
+  constexpr double kRounding = 1e-12;
+  return kRounding * size * size * size;
+}
+
+/// Whether nothing follows from the shape.
+bool is_told(const RigidBodySettings& body) {
+  return body.mass && body.inertia && body.centre;
+}
+
+BodyVolume volume_of(const RigidBodySettings& body, const geometry::Membrane& surface,
+                     const dynamics::Scene& scene) {
+  std::vector<std::array<NodeId, 3>> corners;
+  for (const geometry::Facet& facet : surface.facets) corners.push_back(facet.nodes);
+  const bool is_closed = dynamics::are_closed(surface.facets);
+  // Without a mass the middle of the facets is as good a centre as any.
+  const bool has_mass = body.density || body.mass;
+  const bool is_solid = has_mass && (body.filling == RigidFilling::solid ||
+                                     (body.filling == RigidFilling::by_itself && is_closed));
+  BodyVolume volume;
+  Vec3 lower = surface.nodes.front(), upper = lower;
+  for (const Vec3& x : surface.nodes) {
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+  }
+  volume.origin = 0.5 * (lower + upper);
+  const geometry::Positions x = scene.state.position;
+  if (is_told(body)) return volume;
+  if (!is_solid) {
+    const double thickness = 2.0 * surface.facets.front().radius;
+    volume.what = fmt::format("a shell of {:.4g} m", thickness);
+    volume.moments = dynamics::shell_moments(x, corners, thickness, volume.origin);
+    return volume;
+  }
+  if (!is_closed)
+    throw InputError(
+        "its mesh is open and encloses no volume; close it (fill_holes), or let it be a shell, "
+        "filling = \"shell\"");
+  volume.what =
+      "a solid of the volume that its mesh encloses, without half its thickness around it";
+  volume.moments = dynamics::solid_moments(x, corners, volume.origin);
+  if (!(volume.moments.volume > least_volume((upper - lower).norm())))
+    throw InputError(
+        "its mesh encloses no volume, so that it has no mass; expected a closed surface around "
+        "one, or mass, inertia and centre, or filling = \"shell\"");
+  return volume;
+}
+
+MassProperties mass_properties(const RigidBodySettings& body, const BodyVolume& volume) {
+  if (is_told(body)) return {*body.mass, *body.centre, body.inertia->asDiagonal()};
+  // A density of 1 for the centre, where nothing is told as nothing may move.
+  MassProperties mass =
+      dynamics::mass_of(volume.moments, body.density.value_or(1.0), volume.origin);
+  if (body.mass) mass = dynamics::scaled_to(mass, *body.mass);
+  if (body.inertia) mass.inertia = body.inertia->asDiagonal();
+  if (body.centre) mass.centre = *body.centre;
+  if (!body.mass && !body.density) {
+    mass.mass = 0.0;
+    mass.inertia.setZero();
+  }
+  const bool is_sound = mass.centre.allFinite() && mass.inertia.allFinite();
+  const bool has_mass = std::isnormal(mass.mass) && std::isnormal(mass.inertia.trace());
+  if (is_sound && (has_mass || (!body.mass && !body.density))) return mass;
+  throw InputError(
+      fmt::format("its mass is {} kg, from which nothing can be computed; check "
+                  "scale, thickness and density against its size",
+                  mass.mass));
+}
+
+/// @param table  of the body, among [[rigid_bodies]]
+void add_body(const RigidBodySettings& body, std::size_t table, const std::vector<NodeId>& nodes,
+              const BodyVolume& volume, BuiltScene& built) {
+  const MassProperties mass = mass_properties(body, volume);
+  const std::size_t number = built.scene.add_rigid_body(nodes, mass, body.held);
+  const NodeId reference = built.scene.rigid_bodies[number].node;
+  built.scene.state.velocity[index_of(reference)] = body.velocity;
+  built.scene.state.angular_velocity[index_of(reference)] = body.angular_velocity;
+  built.rigid_bodies.push_back({table, body.name, reference, body.held, mass,
+                                built.scene.rigid_bodies[number].moments,
+                                body.inertia ? "as told" : volume.what});
+}
+
+}  // namespace
+
+void add_rigid_surface(const RigidBodySettings& body, const MembraneSettings& settings,
+                       BuiltScene& built) {
+  dynamics::Scene& scene = built.scene;
+  const std::size_t first_node = scene.state.size();
+  MembraneBody surface = make_membrane_body(settings, first_node);
+  for (const std::string& warning : surface.membrane.warnings)
+    built.warnings.push_back(settings.name + ": " + warning);
+  std::vector<NodeId> nodes;
+  for (const Vec3& place : surface.membrane.nodes)
+    nodes.push_back(scene.add_node(place, dynamics::Held::everything));
+  const auto material = static_cast<contact::MaterialId>(settings.material);
+  for (const geometry::Facet& facet : surface.membrane.facets)
+    scene.add_facet(facet.nodes[0], facet.nodes[1], facet.nodes[2], facet.radius, material);
+  add_body(body, settings.rigid_body.value(), nodes, volume_of(body, surface.membrane, scene),
+           built);
+
+  BuiltMembrane result;
+  result.name = settings.name;
+  result.report = std::move(surface.report);
+  result.first_node = first_node;
+  result.nodes = nodes.size();
+  result.facets = surface.membrane.facets.size();
+  result.on_rim = std::move(surface.on_rim);
+  result.held_nodes = nodes.size();
+  result.area = surface.area;
+  result.mass = built.rigid_bodies.back().mass.mass;
+  result.mean_edge = settings.thickness;
+  result.is_rigid = true;
+  built.membranes.push_back(std::move(result));
+}
+
+void add_rigid_spheres(const RigidBodySettings& body, const GrainSettings& spheres,
+                       BuiltScene& built) {
+  dynamics::Scene& scene = built.scene;
+  std::vector<NodeId> nodes;
+  for (std::size_t i = 0; i < spheres.centres.size(); ++i) {
+    const auto sphere = scene.add_sphere(spheres.centres[i], spheres.radii[i], 0.0,
+                                         static_cast<contact::MaterialId>(spheres.material));
+    nodes.push_back(scene.elements.spheres[index_of(sphere)].nodes[0]);
+  }
+  BodyVolume volume;
+  volume.origin = spheres.centres.front();
+  const dynamics::SphereUnion all =
+      dynamics::sphere_union(spheres.centres, spheres.radii, volume.origin);
+  volume.moments = all.moments;
+  volume.what =
+      fmt::format("a solid of what its spheres cover, to {:.1g}", std::max(all.error, 1e-13));
+  add_body(body, spheres.rigid_body.value(), nodes, volume, built);
+  const auto [smallest, largest] = std::minmax_element(spheres.radii.begin(), spheres.radii.end());
+  built.grains.push_back({spheres.name, spheres.radii.size(), built.rigid_bodies.back().mass.mass,
+                          *smallest, *largest, true});
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/loads/rigid_servo.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plekton::dynamics {
+
+void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid, std::int32_t body,
+                     const Vec3& direction, double longest, std::span<const contact::Plane> planes,
+                     geometry::Positions x) {
+  springs_.clear();
+  const auto is_own = [&](NodeId node) { return rigid.body_followed_by(node) == body; };
+  // Of a law that gets stiffer with the overlap as stiff as it may get on the way.
+  const auto add = [&](double slope, double gap, double weight, const contact::PairSprings& pair) {
+    const double stiffness = pair.normal_stiffness(std::min(gap, 0.0) - std::abs(slope) * longest);
+    springs_.push_back({slope, gap, weight * pair.normal_force(gap), weight * stiffness});
+  };
+  contacts.for_each_near_sphere_pair(
+      longest, x, [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
+        if (is_own(a) == is_own(b)) return;
+        const double along =
+            direction.dot(Vec3(x[index_of(b)] - x[index_of(a)]).normalized());
+        add(is_own(a) ? along : -along, gap, 1.0, pair);
+      });
+  const auto add_on_surface = [&](NodeId ball, const geometry::CorePoint& core,
+                                  const contact::PairSprings& pair, double range, double force) {
+    const bool is_ball = is_own(ball);
+    if (is_ball == is_own(core.nodes[0])) return;
+    const Vec3 to_core = geometry::position(core, x) - x[index_of(ball)];
+    const double distance = to_core.norm();
+    if (!(distance > 0.0)) return;
+    const double gap = distance - range;
+    const double along = direction.dot(to_core) / distance;
+    const double of_one = pair.normal_force(gap);
+    const double weight = of_one > 0.0 && force != 0.0 ? force / of_one : 1.0;
+    add(is_ball ? along : -along, gap, weight, pair);
+  };
+  contacts.for_each_surface_term(add_on_surface);
+  contacts.for_each_coming_surface_term(longest, x, add_on_surface);
+  contacts.for_each_near_plane_pair(
+      longest, planes, x,
+      [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
+        if (is_own(ball)) add(-direction.dot(planes[plane].normal), gap, 1.0, pair);
+      });
+  contacts.for_each_structure_stiffness([&](NodeId node, double normal, double, double) {
+    if (is_own(node)) springs_.push_back({1.0, 0.0, 0.0, normal});
+  });
+}
+
+PlanePress BodyPress::at(double way) const noexcept {
+  PlanePress press;
+  for (const Spring& spring : springs_) {
+    const double deeper = spring.slope * way;
+    if (deeper < spring.gap) continue;
+    const double force = spring.gap > 0.0 ? spring.stiffness * (deeper - spring.gap)
+                                          : spring.force + spring.stiffness * deeper;
+    press.force += spring.slope * std::max(0.0, force);
+    press.stiffness += spring.slope * spring.slope * spring.stiffness;
+  }
+  return press;
+}
+
+double DrivenBodies::largest_speed() const noexcept {
+  double speed = 0.0;
+  for (const BodyServo& servo : servos_) speed = std::max(speed, servo.largest_speed);
+  return speed;
+}
+
+}  // namespace plekton::dynamics
