@@ -105,6 +105,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       sheet_facets_(scene_.sheet_facets, scene_.state.size()),
       loads_(scene_),
       driven_planes_(scene_.loads, scene_.planes),
+      driven_bodies_(scene_.loads),
       plane_reactions_(driven_planes_.empty() ? 0 : scene_.planes.size()),
       forces_(scene_.state.size()),
       furthest_(furthest_in_a_step(scene_)),
@@ -202,7 +203,7 @@ Resistance Simulation::resistance() const noexcept {
 Pace Simulation::pace() const noexcept {
   return {steps_,
           std::max({largest_speed(scene_.state), loads_.largest_speed(),
-                    driven_planes_.largest_speed()}),
+                    driven_planes_.largest_speed(), driven_bodies_.largest_speed()}),
           largest_gravity()};
 }
 
@@ -408,7 +409,20 @@ void Simulation::apply_loads() {
   work += loads_.move(step, scene_.state, forces_, pool_);
   work_.external += work.external;
   work_.damped += work.damped;
+  if (!driven_bodies_.empty()) drive_bodies(step);
   if (!driven_planes_.empty()) drive_planes();
+}
+
+void Simulation::drive_bodies(const LoadStep& step) {
+  const auto felt = [this](std::size_t body) { return rigid_bodies_.gathered_force(body); };
+  const auto look_at = [this](const BodyServo& servo, double longest) -> const BodyPress& {
+    body_press_.look(
+        *contacts_, rigid_nodes_,
+        {static_cast<std::int32_t>(servo.body), DrivenBodies::direction_of(servo), longest},
+        scene_.planes, scene_.state.position);
+    return body_press_;
+  };
+  work_.external += driven_bodies_.act(step, felt, forces_, rigid_nodes_, scene_.state, look_at);
 }
 
 void Simulation::drive_planes() {

@@ -6,6 +6,7 @@
 #include "dynamics/integrators/leapfrog.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/loads/plane_servo.hpp"
+#include "dynamics/loads/rigid_servo.hpp"
 #include "dynamics/measures/bond_stress.hpp"
 #include "dynamics/measures/diverged.hpp"
 #include "dynamics/measures/energy.hpp"
@@ -218,6 +219,7 @@ class Simulation {
   void apply_loads();
   void drive_planes();
   PlanePress plane_press(std::size_t plane, double way) const;
+  void drive_bodies(const LoadStep& step);
   void follow_gravity();
   Vec3 free_moment(double before) const;
   double largest_gravity() const noexcept;
@@ -251,6 +253,8 @@ class Simulation {
   SheetFacets sheet_facets_;
   AppliedLoads loads_;
   DrivenPlanes driven_planes_;
+  DrivenBodies driven_bodies_;
+  BodyPress body_press_;               ///< working space, to drive bodies
   std::vector<Vec3> plane_reactions_;  ///< N, to drive planes
   BrokenParts broken_;                 ///< asked for, in the next step
   double broken_energy_ = 0.0;         ///< J, of bonds that were asked for

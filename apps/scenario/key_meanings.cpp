@@ -162,6 +162,7 @@ constexpr std::array kOfLoads = std::to_array<KeyMeaning>({
     {"loads[].area", "of the plate, for its pressure"},
     {"loads[].between", "planes that face each other: their distances make the area"},
     {"loads[].speed", "at most; without contacts it comes with this"},
+    {"loads[].direction", "along which the rigid body is pressed on the others"},
     {"loads[].gain", "of the controller: part of the force error that a step takes away"},
     {"loads[].stiffness", "along x, y and z, of each node, to where it is at the start"},
     {"loads[].ratio", "of critical damping, along each beam"},

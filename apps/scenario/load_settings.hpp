@@ -56,6 +56,11 @@ struct BeamDampingSettings {
   std::size_t membrane = 0;
   dynamics::BeamDamping damping;
 };
+struct BodyServoSettings {
+  std::size_t rigid_body = 0;  ///< among [[rigid_bodies]]
+  Place place;                 ///< of the key rigid_body
+  dynamics::BodyServo servo;
+};
 struct GravitySettings {
   dynamics::TimeTable factor;
 };
@@ -67,7 +72,7 @@ struct LoadSettings {
   Place place;
   std::variant<GravitySettings, MotionSettings, ForceSettings, GroundSpringSettings,
                MassDampingSettings, PressureSettings, BeamDampingSettings, dynamics::PlaneMotion,
-               dynamics::PlaneServo>
+               dynamics::PlaneServo, BodyServoSettings>
       load;
 };
 

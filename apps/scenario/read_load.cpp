@@ -195,6 +195,27 @@ dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
   return servo;
 }
 
+BodyServoSettings read_body_servo(Section& section, const Scenario& scenario) {
+  constexpr std::array<std::string_view, 6> kWords = {"x", "-x", "y", "-y", "z", "-z"};
+  BodyServoSettings settings;
+  settings.rigid_body = read_rigid_body_name(section, scenario).value_or(0);
+  settings.place = section.place_of("rigid_body");
+  dynamics::BodyServo& servo = settings.servo;
+  const std::size_t direction = section.choice("direction", kWords);
+  servo.axis = static_cast<int>(direction / 2);
+  servo.towards = direction % 2 == 0 ? 1.0 : -1.0;
+  has_one_of(section, "force", "pressure", "a servo needs a target");
+  if (section.has("force")) servo.force = section.quantity("force", {kForce, kPositive});
+  if (section.has("pressure")) {
+    servo.pressure = section.quantity("pressure", {kPressure, kPositive});
+    servo.area = section.quantity("area", {kArea, kPositive});
+  }
+  servo.largest_speed = section.quantity("speed", {kVelocity, kPositive});
+  servo.gain = section.quantity("gain", {kNumber, kGain}, servo.gain);
+  servo.factor = read_factor(section);
+  return settings;
+}
+
 }  // namespace
 
 LoadSettings read_load(Section section, const Scenario& scenario, std::size_t number) {
@@ -222,7 +243,10 @@ LoadSettings read_load(Section section, const Scenario& scenario, std::size_t nu
       settings.load = read_pressure(section, scenario);
       break;
     case 3:
-      settings.load = read_servo(section, scenario);
+      if (section.has("rigid_body"))
+        settings.load = read_body_servo(section, scenario);
+      else
+        settings.load = read_servo(section, scenario);
       break;
     case 4:
       section.tell_default("factor", "required");

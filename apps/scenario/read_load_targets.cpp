@@ -56,6 +56,10 @@ std::optional<std::size_t> read_membrane_name(Section& section, const Scenario& 
   return find_flexible(section, "membrane", scenario.membranes);
 }
 
+std::optional<std::size_t> read_rigid_body_name(Section& section, const Scenario& scenario) {
+  return find_name(section, "rigid_body", read_name(section, "rigid_body"), scenario.rigid_bodies);
+}
+
 std::optional<std::size_t> read_plane_name(Section& section, const Scenario& scenario) {
   return find_name(section, "plane", read_name(section, "plane"), scenario.planes);
 }
@@ -94,9 +98,7 @@ NodeSetSettings read_whole_body(Section& section, const Scenario& scenario) {
         section.complain(key, "rigid_body says already what is meant; leave one of them out");
     }
     set.place = section.place_of("rigid_body");
-    set.rigid_body =
-        find_name(section, "rigid_body", read_name(section, "rigid_body"), scenario.rigid_bodies)
-            .value_or(0);
+    set.rigid_body = read_rigid_body_name(section, scenario).value_or(0);
     return set;
   }
   set.of_grains = section.has("grains");

@@ -14,6 +14,9 @@ namespace plekton::apps {
 /// The membrane that the key `membrane` names; nothing after a problem.
 std::optional<std::size_t> read_membrane_name(Section& section, const Scenario& scenario);
 
+/// The rigid body that the key `rigid_body` names; nothing after a problem.
+std::optional<std::size_t> read_rigid_body_name(Section& section, const Scenario& scenario);
+
 /// The plane that the key `plane` names; nothing after a problem.
 std::optional<std::size_t> read_plane_name(Section& section, const Scenario& scenario);
 

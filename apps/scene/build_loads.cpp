@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -111,6 +113,26 @@ class LoadBuilder {
   void add(const dynamics::PlaneServo& servo) {
     drive(servo.plane);
     loads_.servos.push_back(servo);
+  }
+
+  void add(const BodyServoSettings& settings) {
+    const NodeId reference = rigid_body_of(settings.rigid_body, built_).node;
+    const auto& bodies = built_.scene.rigid_bodies;
+    const auto body = std::find_if(bodies.begin(), bodies.end(),
+                                   [&](const auto& one) { return one.node == reference; });
+    dynamics::BodyServo servo = settings.servo;
+    servo.body = static_cast<std::size_t>(body - bodies.begin());
+    dynamics::PrescribedMotion along;  // as one that no other motion may prescribe too
+    along.nodes = {reference};
+    constexpr std::array kAxes = {dynamics::Held::along_x, dynamics::Held::along_y,
+                                  dynamics::Held::along_z};
+    along.held = kAxes[static_cast<std::size_t>(servo.axis)];
+    const std::string taken = prescribed_.add(along, *current_);
+    if (!taken.empty())
+      complain(settings.place, "rigid_body",
+               fmt::format("of \"{}\", {}; leave that free for the servo",
+                           rigid_body_of(settings.rigid_body, built_).name, taken));
+    loads_.body_servos.push_back(std::move(servo));
   }
 
   /// The first facet or beam of a membrane, and how many there are.

@@ -45,6 +45,8 @@ class LoadProblems {
     for (std::size_t i = 0; i < loads.servos.size(); ++i)
       list("servo " + std::to_string(i), loads.servos[i]);
     list_planes_driven_twice();
+    for (std::size_t i = 0; i < loads.body_servos.size(); ++i)
+      list("servo of a rigid body " + std::to_string(i), loads.body_servos[i]);
     for (std::size_t i = 0; i < loads.forces.size(); ++i)
       list("nodal force " + std::to_string(i), loads.forces[i]);
     for (std::size_t i = 0; i < loads.ground_springs.size(); ++i)
@@ -94,6 +96,29 @@ class LoadProblems {
     expect(servo.gain > 0.0 && servo.gain <= 1.0, name, "its gain must be above 0, at most 1");
     expect_finite(name, "target, area and speed",
                   Vec3(servo.force + servo.pressure, servo.area, servo.largest_speed));
+  }
+
+  void list(const std::string& name, const BodyServo& servo) {
+    expect(servo.force >= 0.0 && servo.pressure >= 0.0 && servo.force + servo.pressure > 0.0, name,
+           "has no target; give a force (N) or a pressure (Pa) above 0");
+    expect(servo.area > 0.0, name, "its area must be above 0");
+    expect(servo.largest_speed > 0.0, name, "its largest speed must be above 0");
+    expect(servo.gain > 0.0 && servo.gain <= 1.0, name, "its gain must be above 0, at most 1");
+    expect(std::abs(servo.towards) == 1.0, name, "goes towards 1 or -1 along its axis");
+    expect_finite(name, "target, area and speed",
+                  Vec3(servo.force + servo.pressure, servo.area, servo.largest_speed));
+    if (servo.body >= scene_.rigid_bodies.size()) {
+      text_ << name << ": there is no rigid body " << servo.body << ", only "
+            << scene_.rigid_bodies.size() << " rigid bodies\n";
+    } else if (servo.axis < 0 || servo.axis > 2) {
+      text_ << name << ": there is no axis " << servo.axis << ", only 0, 1 and 2\n";
+    } else {
+      const NodeId node = scene_.rigid_bodies[servo.body].node;
+      const std::vector<Held> held =
+          held_with_motions(scene_.properties.held, scene_.loads.motions);
+      expect(!exists(node) || !holds_along(held[index_of(node)], servo.axis), name,
+             "its rigid body is held or moved along that axis already");
+    }
   }
 
   void list(const std::string& name, const BeamDamping& damping) {

@@ -43,10 +43,10 @@ double way_to_press(double growth, double longest, const PlanePress& now,
 
 }  // namespace
 
-double servo_speed(const PlaneServo& servo, double missing,
+double servo_speed(const ServoPace& pace, double missing,
                    const std::function<PlanePress(double way)>& press, double dt) {
-  const double longest = servo.largest_speed * dt;
-  const double change = servo.gain * missing;
+  const double longest = pace.largest_speed * dt;
+  const double change = pace.gain * missing;
   const PlanePress now = press(0.0);
   if (change > 0.0) {
     const double way = way_to_press(change, longest, now, press);
@@ -84,7 +84,8 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,
         servo.factor.at(step.time) * (servo.force + servo.pressure * plate_area(servo, planes));
     const double pressing = -reactions[servo.plane].dot(plane.normal);
     const auto press_here = [&](double way) { return press(servo.plane, way); };
-    const double speed = servo_speed(servo, wanted - pressing, press_here, step.after);
+    const double speed =
+        servo_speed({servo.largest_speed, servo.gain}, wanted - pressing, press_here, step.after);
     const Vec3 across = plane.velocity - plane.velocity.dot(plane.normal) * plane.normal;
     set(servo.plane, across + speed * plane.normal);
   }

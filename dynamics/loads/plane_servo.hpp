@@ -19,6 +19,12 @@ struct PlanePress {
 /// That of a plane if it were a way (m) further in them, and they stayed where they are.
 using PlanePressAt = std::function<PlanePress(std::size_t plane, double way)>;
 
+/// How fast a servo may be.
+struct ServoPace {
+  double largest_speed;  ///< m/s
+  double gain;           ///< above 0, at most 1
+};
+
 /// m², the area of a plate under servo control with the planes where they are.
 double plate_area(const PlaneServo& servo, std::span<const contact::Plane> planes);
 
@@ -43,7 +49,7 @@ double plate_area(const PlaneServo& servo, std::span<const contact::Plane> plane
 /// @param press    of way (m) -> PlanePress; a force that grows less than in proportion makes the
 ///                 plate slower, never faster
 /// @param dt       s, length of the drift that begins now
-double servo_speed(const PlaneServo& servo, double missing,
+double servo_speed(const ServoPace& pace, double missing,
                    const std::function<PlanePress(double way)>& press, double dt);
 
 /// Planes that move by a table or under servo control.

@@ -6,11 +6,11 @@
 
 namespace plekton::dynamics {
 
-void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid, std::int32_t body,
-                     const Vec3& direction, double longest, std::span<const contact::Plane> planes,
-                     geometry::Positions x) {
+void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid, const Way& way,
+                     std::span<const contact::Plane> planes, geometry::Positions x) {
+  const auto& [body, direction, longest] = way;
   springs_.clear();
-  const auto is_own = [&](NodeId node) { return rigid.body_followed_by(node) == body; };
+  const auto is_own = [&, own = body](NodeId node) { return rigid.body_followed_by(node) == own; };
   // Of a law that gets stiffer with the overlap as stiff as it may get on the way.
   const auto add = [&](double slope, double gap, double weight, const contact::PairSprings& pair) {
     const double stiffness = pair.normal_stiffness(std::min(gap, 0.0) - std::abs(slope) * longest);
@@ -19,8 +19,7 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
   contacts.for_each_near_sphere_pair(
       longest, x, [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
         if (is_own(a) == is_own(b)) return;
-        const double along =
-            direction.dot(Vec3(x[index_of(b)] - x[index_of(a)]).normalized());
+        const double along = direction.dot(Vec3(x[index_of(b)] - x[index_of(a)]).normalized());
         add(is_own(a) ? along : -along, gap, 1.0, pair);
       });
   const auto add_on_surface = [&](NodeId ball, const geometry::CorePoint& core,

@@ -16,11 +16,15 @@ namespace plekton::dynamics {
 /// comes to on the way.
 class BodyPress {
  public:
+  /// A way of a body.
+  struct Way {
+    std::int32_t body;
+    Vec3 direction;  ///< unit
+    double longest;  ///< m, that is asked for at most
+  };
   /// Looks at the contacts of a body.
-  /// @param longest  m, the way that is asked for at most
-  void look(const contact::Contacts& contacts, const RigidNodes& rigid, std::int32_t body,
-            const Vec3& direction, double longest, std::span<const contact::Plane> planes,
-            geometry::Positions x);
+  void look(const contact::Contacts& contacts, const RigidNodes& rigid, const Way& way,
+            std::span<const contact::Plane> planes, geometry::Positions x);
 
   /// @param way  m
   PlanePress at(double way) const noexcept;
@@ -44,11 +48,11 @@ class DrivenBodies {
   bool empty() const noexcept { return servos_.empty(); }
 
   /// Sets the velocities of the bodies along their axes, for the drift that begins now.
-  /// @param felt     N, of contacts alone, by body
+  /// @param felt     (body) -> force (N) of contacts alone
   /// @param look_at  (servo, longest way (m)) -> how its body would be pressed on the way
   /// @returns the work (J) over half of the drift before, as far as the velocity there was another
-  template <class LookAt>
-  double act(const LoadStep& step, std::span<const Vec3> felt, const NodeForces& forces,
+  template <class Felt, class LookAt>
+  double act(const LoadStep& step, const Felt& felt, const NodeForces& forces,
              const RigidNodes& rigid, NodeState& state, const LookAt& look_at) const {
     double work = 0.0;
     for (const BodyServo& servo : servos_) {
@@ -57,7 +61,7 @@ class DrivenBodies {
       const Vec3 direction = direction_of(servo);
       const double wanted =
           servo.factor.at(step.time) * (servo.force + servo.pressure * servo.area);
-      const double pressing = -felt[servo.body].dot(direction);
+      const double pressing = -felt(servo.body).dot(direction);
       const BodyPress& press = look_at(servo, servo.largest_speed * step.after);
       const ServoPace pace{servo.largest_speed, servo.gain};
       const double speed = servo_speed(

@@ -114,11 +114,27 @@ struct PlaneServo {
   double gain = 0.1;           ///< above 0, at most 1
 };
 
+/// A rigid body that is pressed on the others along an axis of the world with (force + pressure
+/// area) factor(t), as a plate is by PlaneServo. Its motion along that axis is prescribed then, and
+/// its weight and other loads along it are borne by the servo; the other motions stay free.
+struct BodyServo {
+  std::size_t body = 0;   ///< by place in Scene::rigid_bodies
+  int axis = 2;           ///< 0 to 2: x, y, z
+  double towards = -1.0;  ///< 1 or -1: along the axis or against it
+  double force = 0.0;     ///< N, >= 0
+  double pressure = 0.0;  ///< Pa, >= 0
+  double area = 1.0;      ///< m², > 0
+  TimeTable factor;
+  double largest_speed = 0.0;  ///< m/s, > 0
+  double gain = 0.1;           ///< above 0, at most 1
+};
+
 /// All that acts from outside.
 struct Loads {
   std::vector<PrescribedMotion> motions;
   std::vector<PlaneMotion> plane_motions;
   std::vector<PlaneServo> servos;
+  std::vector<BodyServo> body_servos;
   std::vector<NodalForce> forces;
   std::vector<GroundSprings> ground_springs;
   std::vector<SurfacePressure> pressures;

@@ -5,6 +5,7 @@
 #include "geometry/base/problems.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -89,6 +90,11 @@ geometry::ExclusionGroups rigid_groups(const Scene& scene) {
 
 Scene held_as_prescribed(Scene scene) {
   scene.properties.held = held_with_motions(std::move(scene.properties.held), scene.loads.motions);
+  constexpr std::array kAxes = {Held::along_x, Held::along_y, Held::along_z};
+  for (const BodyServo& servo : scene.loads.body_servos) {
+    Held& held = scene.properties.held[index_of(scene.rigid_bodies[servo.body].node)];
+    held = held | kAxes[static_cast<std::size_t>(servo.axis)];
+  }
   return scene;
 }
 

@@ -72,7 +72,7 @@ RigidBodies::RigidBodies(std::span<const RigidBody> bodies, const NodeState& sta
   for (const RigidBody& body : bodies) {
     const std::size_t reference = index_of(body.node);
     const Mat3 axes = state.orientation[reference].toRotationMatrix();
-    Body own{body.node, body.nodes, {}, body.moments, Vec3::Zero(), Vec3::Zero()};
+    Body own{body.node, body.nodes, {}, body.moments, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     for (const NodeId node : body.nodes)
       own.places.push_back(axes.transpose() *
                            Vec3(state.position[index_of(node)] - state.position[reference]));
@@ -118,7 +118,7 @@ void RigidBodies::gather(NodeState& state, NodeForces& forces, const NodePropert
                          geometry::ThreadPool& pool) {
   pool.for_each_range(bodies_.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t b = begin; b < end; ++b) {
-      const Body& body = bodies_[b];
+      Body& body = bodies_[b];
       const std::size_t reference = index_of(body.node);
       const Vec3& centre = state.position[reference];
       Vec3 force = Vec3::Zero();
@@ -128,6 +128,7 @@ void RigidBodies::gather(NodeState& state, NodeForces& forces, const NodePropert
         force += forces.force[i];
         torque += Vec3(state.position[i] - centre).cross(forces.force[i]) + forces.torque[i];
       }
+      body.gathered = force;
       forces.force[reference] += force;
       forces.torque[reference] += torque;
       Vec3& spin = state.angular_velocity[reference];

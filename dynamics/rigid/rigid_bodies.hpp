@@ -54,6 +54,8 @@ class RigidBodies {
                 const MotionOptions& options, const StepLengths& lengths,
                 geometry::ThreadPool& pool);
 
+  /// N, of all forces on the nodes of a body in the last gather(), without the loads on it.
+  const Vec3& gathered_force(std::size_t body) const noexcept { return bodies_[body].gathered; }
   /// kg m²/s, angular momentum about the centre of mass, of a body that is free to turn.
   const Vec3& angular_momentum(std::size_t body) const noexcept { return bodies_[body].momentum; }
 
@@ -67,6 +69,7 @@ class RigidBodies {
     std::vector<Vec3> places;  ///< m, of nodes, in the frame of the body
     Vec3 moments;              ///< kg m²
     Vec3 momentum;             ///< kg m²/s, angular, world; about held axes of no meaning
+    Vec3 gathered;             ///< N
     Vec3 held_spin;            ///< rad/s, about held axes; 0 about the others
   };
 

@@ -48,8 +48,8 @@ TEST(ServoSpeed, BringsTheForceNearerByItsGainInAStep) {
   const auto press = springs(1e-3, 1.0);
 
   // 2 N are missing: 0.2 of them are 0.4 N, for which the contacts have to be pressed by 40 um.
-  EXPECT_NEAR(servo_speed(servo, 2.0, press, kStep), 0.04, 1e-3 * 0.04);
-  EXPECT_DOUBLE_EQ(servo_speed(servo, -2.0, press, kStep), -0.04);
+  EXPECT_NEAR(servo_speed({servo.largest_speed, servo.gain}, 2.0, press, kStep), 0.04, 1e-3 * 0.04);
+  EXPECT_DOUBLE_EQ(servo_speed({servo.largest_speed, servo.gain}, -2.0, press, kStep), -0.04);
 }
 
 TEST(ServoSpeed, IsBoundedAndComesOnWithoutContacts) {
@@ -57,10 +57,10 @@ TEST(ServoSpeed, IsBoundedAndComesOnWithoutContacts) {
   const auto touching = springs(1e-3, 1.0);
   const auto apart = springs(-1.0, 1.0);
 
-  EXPECT_EQ(servo_speed(servo, 1e6, touching, 1e-3), 0.5);
-  EXPECT_EQ(servo_speed(servo, -1e6, touching, 1e-3), -0.5);
-  EXPECT_EQ(servo_speed(servo, 10.0, apart, 1e-3), 0.5);
-  EXPECT_EQ(servo_speed(servo, 0.0, apart, 1e-3), 0.0);
+  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, 1e6, touching, 1e-3), 0.5);
+  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, -1e6, touching, 1e-3), -0.5);
+  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, 10.0, apart, 1e-3), 0.5);
+  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, 0.0, apart, 1e-3), 0.0);
 }
 
 TEST(ServoSpeed, TouchesFirstAndThenPressesWithNoMoreThanItsGain) {
@@ -68,7 +68,8 @@ TEST(ServoSpeed, TouchesFirstAndThenPressesWithNoMoreThanItsGain) {
   servo.gain = 0.2;
   constexpr double kStep = 1e-3;
   const auto way = [&](double pressed, double gap) {
-    return servo_speed(servo, 10.0, springs(pressed, gap), kStep) * kStep;
+    return servo_speed({servo.largest_speed, servo.gain}, 10.0, springs(pressed, gap), kStep) *
+           kStep;
   };
 
   // 2 N are 0.2 mm: from 0.3 mm away it goes to the spring, from 0.1 mm away it presses.

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rigid bodies of a scenario: what is read and what is built of it.
+#include "apps/scene/rigid_builder.hpp"
+
+#include "apps/scenario/scenario_reader.hpp"
+#include "dynamics/simulation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace plekton::apps {
+namespace {
+
+using dynamics::Held;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr std::string_view kScenario = R"([simulation]
+duration = "1 s"
+[materials.steel]
+density = "7850 kg/m3"
+young_modulus = "20 MPa"
+friction_angle = "10 deg"
+[[rigid_bodies]]
+name = "clump"
+spheres = [{ centre = [0, 0, 0], radius = "1 cm" }, { centre = [0.012, 0, 0], radius = "1 cm" }]
+translate = [0, 0, "5 cm"]
+material = "steel"
+density = "2000 kg/m3"
+velocity = [0, 0, "-1 m/s"]
+[[rigid_bodies]]
+name = "tray"
+shape = { kind = "box", size = [0.2, 0.2, 0.05], open = ["z_max"] }
+translate = [-0.1, -0.1, -0.1]
+thickness = "2 mm"
+material = "steel"
+hold = "xyz"
+hold_rotation = "xyz"
+[[rigid_bodies]]
+name = "lid"
+shape = { kind = "box", size = [0.1, 0.1, 0.02] }
+translate = [-0.05, -0.05, 0.1]
+thickness = "2 mm"
+material = "steel"
+density = "1000 kg/m3"
+hold = "xy"
+hold_rotation = "z"
+[[grains]]
+name = "sand"
+material = "steel"
+radius = "4 mm"
+count = 20
+box = { min = [-0.09, -0.09, -0.09], max = [0.09, 0.09, -0.06] }
+[[loads]]
+name = "press"
+kind = "force"
+rigid_body = "lid"
+force = [0, 0, "-5 N"]
+[[output.reactions]]
+name = "on the tray"
+kind = "contacts"
+rigid_body = "tray"
+)";
+
+BuiltScene built(const std::vector<std::string>& overrides = {}) {
+  return build_scene(parse_scenario(kScenario, "case.toml", overrides));
+}
+
+std::string error_of(const std::vector<std::string>& overrides) {
+  try {
+    const BuiltScene scene = built(overrides);
+    scene.scene.check();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const BuiltRigidBody& body_called(const std::string& name, const BuiltScene& scene) {
+  return *std::find_if(scene.rigid_bodies.begin(), scene.rigid_bodies.end(),
+                       [&](const BuiltRigidBody& body) { return body.name == name; });
+}
+
+TEST(RigidBuilder, MakesBodiesThatASimulationTakes) {
+  BuiltScene scene = built();
+
+  EXPECT_EQ(scene.rigid_bodies.size(), 3U);
+  EXPECT_EQ(scene.scene.elements.spheres.size(), 22U);
+  dynamics::Simulation simulation(scene.scene, {});
+  for (int i = 0; i < 10; ++i) simulation.step();
+  EXPECT_EQ(simulation.state().position[index_of(body_called("tray", scene).node)],
+            scene.scene.state.position[index_of(body_called("tray", scene).node)]);
+}
+
+TEST(RigidBuilder, FindsMassAndCentreOfASolid) {
+  const BuiltScene scene = built();
+
+  const BuiltRigidBody& lid = body_called("lid", scene);
+
+  EXPECT_NEAR(lid.mass.mass, 0.2, 1e-14);
+  EXPECT_LT((lid.mass.centre - Vec3(0, 0, 0.11)).norm(), 1e-15);
+  EXPECT_NEAR(lid.moments[2], 0.2 / 12.0 * 0.02, 1e-15);
+  EXPECT_EQ(lid.held & Held::everything, Held::along_x | Held::along_y | Held::about_z);
+}
+
+// Two spheres of radius r at a distance d have pi / 12 (4 r + d) (2 r - d)² in common.
+TEST(RigidBuilder, CountsWhatSpheresHaveInCommonOnce) {
+  const BuiltScene scene = built();
+
+  const double r = 0.01, d = 0.012;
+  const double lens = std::numbers::pi / 12.0 * (4.0 * r + d) * (2.0 * r - d) * (2.0 * r - d);
+  const double volume = 8.0 / 3.0 * std::numbers::pi * r * r * r - lens;
+  EXPECT_NEAR(body_called("clump", scene).mass.mass, 2000.0 * volume, 1e-12 * 2000.0 * volume);
+  const auto node = index_of(body_called("clump", scene).node);
+  EXPECT_EQ(scene.scene.state.velocity[node], Vec3(0, 0, -1));
+}
+
+TEST(RigidBuilder, LeavesOutTheSidesThatAreOpen) {
+  const BuiltScene scene = built();
+
+  EXPECT_EQ(scene.membranes[0].facets, 10U);
+  EXPECT_EQ(scene.membranes[0].nodes, 8U);
+}
+
+TEST(RigidBuilder, LoadsABodyAsAWhole) {
+  const BuiltScene scene = built();
+
+  ASSERT_EQ(scene.scene.loads.forces.size(), 1U);
+  EXPECT_EQ(scene.scene.loads.forces[0].nodes, std::vector{body_called("lid", scene).node});
+  EXPECT_EQ(scene.reactions[0].nodes.size(), 8U);
+}
+
+TEST(RigidBuilder, RefusesABodyWithoutVolumeOrMass) {
+  EXPECT_THAT(error_of({"rigid_bodies.tray.hold=none"}),
+              HasSubstr("rigid_bodies.tray.density: got none of density and mass"));
+  EXPECT_THAT(error_of({"rigid_bodies.tray.density=1000", "rigid_bodies.tray.filling=solid"}),
+              HasSubstr("rigid_bodies.tray: its mesh is open and encloses no volume"));
+  EXPECT_THAT(error_of({"rigid_bodies.tray.density=1000", "rigid_bodies.tray.hold=none"}),
+              IsEmpty());
+}
+
+TEST(RigidBuilder, RefusesALoadOnAnInnerNode) {
+  EXPECT_THAT(error_of({"loads.press.nodes=z_max"}),
+              HasSubstr("loads.press.nodes: a rigid body moves as one, and its inner nodes bear no "
+                        "loads of their own"));
+}
+
+TEST(RigidBuilder, RefusesABodyThatIsCalledLikeGrains) {
+  EXPECT_THAT(error_of({"rigid_bodies.clump.name=sand"}),
+              HasSubstr("\"sand\" is the name of a membrane or of grains too"));
+}
+
+}  // namespace
+}  // namespace plekton::apps
