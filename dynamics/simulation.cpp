@@ -406,7 +406,7 @@ void Simulation::apply_loads() {
   const LoadStep step{time_, last_drift_, drift_};
   LoadWork work = loads_.add_forces(step, scene_.state, forces_, pool_);
   rigid_bodies_.gather(scene_.state, forces_, scene_.properties, pool_);
-  work += loads_.move(step, scene_.state, forces_, pool_);
+  loads_.move(step, scene_.state, forces_, pool_, work);
   work_.external += work.external;
   work_.damped += work.damped;
   if (!driven_bodies_.empty()) drive_bodies(step);

@@ -47,11 +47,9 @@ LoadWork AppliedLoads::add_forces(const LoadStep& step, NodeState& state, NodeFo
   });
 }
 
-LoadWork AppliedLoads::move(const LoadStep& step, NodeState& state, const NodeForces& forces,
-                            geometry::ThreadPool& pool) {
-  LoadWork work;
+void AppliedLoads::move(const LoadStep& step, NodeState& state, const NodeForces& forces,
+                        geometry::ThreadPool& pool, LoadWork& work) {
   for (MovedNodes& motion : motions_) work.external += motion.act(step, state, forces, pool);
-  return work;
 }
 
 LoadWork AppliedLoads::work_after(const LoadStep& step, const NodeState& state,

@@ -30,9 +30,9 @@ class AppliedLoads {
                       geometry::ThreadPool& pool);
   /// Sets the velocities of prescribed motions for the drift that begins now. No allocation.
   /// @param forces  all of them
-  /// @returns the work of half of the drift before
-  LoadWork move(const LoadStep& step, NodeState& state, const NodeForces& forces,
-                geometry::ThreadPool& pool);
+  /// @param work    to which that of half of the drift before is added
+  void move(const LoadStep& step, NodeState& state, const NodeForces& forces,
+            geometry::ThreadPool& pool, LoadWork& work);
 
   /// Work of the forces of the last step over half of the drift after it.
   /// @param state  with the velocities of that drift

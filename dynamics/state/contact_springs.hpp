@@ -14,8 +14,10 @@ namespace plekton::dynamics {
 /// names, only has their sums around each node.
 class ContactSprings {
  public:
-  /// @param rigid  rigid bodies among the nodes; must outlive this; null: none
-  explicit ContactSprings(const RigidNodes* rigid = nullptr) : rigid_(rigid) {}
+  /// Between nodes of which none follows a rigid body.
+  ContactSprings() = default;
+  /// @param rigid  rigid bodies among the nodes; must outlive this
+  explicit ContactSprings(const RigidNodes* rigid) : rigid_(rigid) {}
 
   /// Forgets all of them; keeps the space.
   void clear() noexcept;
@@ -103,7 +105,7 @@ class ContactSprings {
   void resist_single(const Single& single, const std::vector<Vec3>& shift,
                      const std::vector<Vec3>& turn, NodeForces& forces) const;
 
-  const RigidNodes* rigid_;
+  const RigidNodes* rigid_ = nullptr;
   std::size_t contacts_ = 0;
   std::vector<Spring> springs_;
   std::vector<SpringEnd> ends_;

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rigid bodies, as the user of the program meets them.
+#include "apps/run/rigid_motions.hpp"
+
+#include "tests/apps/command_line/command_fixture.hpp"
+
+#include <gmock/gmock.h>
+
+#include <map>
+#include <sstream>
+#include <string>
+
+namespace plekton::apps {
+namespace {
+
+using testing::HasSubstr;
+
+/// A block of 1 kg that falls, and a clump of two spheres that rolls on a floor.
+constexpr std::string_view kBodies = R"([simulation]
+duration = "20 ms"
+time_step = "10 us"
+[materials.stone]
+density = "2500 kg/m3"
+young_modulus = "1 MPa"
+friction_angle = "30 deg"
+[[rigid_bodies]]
+name = "block"
+shape = { kind = "box", size = [0.1, 0.1, 0.1] }
+translate = [1, 1, 1]
+thickness = "2 mm"
+material = "stone"
+mass = "1 kg"
+angular_velocity = [0, 0, "10 rad/s"]
+[[rigid_bodies]]
+name = "dumbbell"
+spheres = [{ centre = [0, 0, 0], radius = "1 cm" }, { centre = [0, "15 mm", 0], radius = "1 cm" }]
+translate = [0, 0, "1 cm"]
+material = "stone"
+density = "2500 kg/m3"
+velocity = ["1 m/s", 0, 0]
+[[planes]]
+name = "floor"
+material = "stone"
+[output]
+history_interval = "1 ms"
+interval = "10 ms"
+)";
+
+class RigidBodyRuns : public Command {
+ protected:
+  RigidBodyRuns() { test::write_bytes(folder_ / "bodies.toml", std::string(kBodies)); }
+  std::string bodies() const { return (folder_ / "bodies.toml").string(); }
+};
+
+/// The numbers of the last row of a CSV file, by the names of their columns.
+std::map<std::string, double> last_row(const std::string& text) {
+  std::istringstream lines(text);
+  std::string head, line, last;
+  std::getline(lines, head);
+  while (std::getline(lines, line)) last = line;
+  std::map<std::string, double> row;
+  std::istringstream names(head), numbers(last);
+  for (std::string name, number;
+       std::getline(names, name, ',') && std::getline(numbers, number, ',');)
+    row[name] = std::stod(number);
+  return row;
+}
+
+TEST_F(RigidBodyRuns, SayWhatTheBodiesWeigh) {
+  const Outcome outcome = outcome_of({"check", bodies()});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("rigid body block: mass 1 kg, centre (1.05, 1.05, 1.05) m, "
+                                     "principal moments of inertia 0.001667, 0.001667, 0.001667 "
+                                     "kg m2, a solid of the volume"));
+  EXPECT_THAT(outcome.out, HasSubstr("rigid body dumbbell: mass"));
+  EXPECT_THAT(outcome.out, HasSubstr("box of rigid_bodies.dumbbell:"));
+}
+
+// A free fall: v = g t at the half step before the end, and a turn of 10 rad/s.
+TEST_F(RigidBodyRuns, WriteHowTheBodiesMove) {
+  const Outcome outcome = outcome_of({"run", bodies(), "--out", out()});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  auto row = last_row(test::bytes_of(folder_ / "out/rigid_bodies.csv"));
+  EXPECT_NEAR(row["block.velocity_z (m/s)"], -9.81 * (0.02 - 5e-6), 1e-9);
+  EXPECT_NEAR(row["block.turn_z (rad)"], 0.2, 1e-12);
+  EXPECT_EQ(row["block.force_z (N)"], 0.0);
+  EXPECT_GT(row["dumbbell.force_z (N)"], 0.0);
+  EXPECT_LT(row["dumbbell.velocity_x (m/s)"], 1.0);
+}
+
+TEST_F(RigidBodyRuns, GoOnToTheLastByte) {
+  const auto run = [&](const std::string& folder, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"run", bodies(), "--out", (folder_ / folder).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return outcome_of(arguments).exit_code;
+  };
+  ASSERT_EQ(run("whole", {}), 0);
+  ASSERT_EQ(run("parts", {"--set", "simulation.duration=8 ms"}), 0);
+  const Outcome rest = outcome_of(
+      {"run", "--resume", (folder_ / "parts").string(), "--set", "simulation.duration=20 ms"});
+
+  EXPECT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_EQ(test::bytes_of(folder_ / "parts/rigid_bodies.csv"),
+            test::bytes_of(folder_ / "whole/rigid_bodies.csv"));
+}
+
+}  // namespace
+}  // namespace plekton::apps
