@@ -45,7 +45,7 @@ RigidMotions::RigidMotions(const std::filesystem::path& folder, const BuiltScene
   std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
   for (const BuiltRigidBody& body : built.rigid_bodies) {
     references_.push_back(body.node);
-    starts_.push_back(built.scene.state.orientation[index_of(body.node)]);
+    starts_.push_back(body.orientation);
     for (const dynamics::OutputField& field : kFields) {
       for (const char* axis : {"_x", "_y", "_z"})
         columns.push_back(

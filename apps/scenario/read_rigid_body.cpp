@@ -83,15 +83,12 @@ void read_surface(Section& section, const Known& known, MembraneSettings& surfac
 }
 
 void read_mass(Section& section, RigidBodySettings& body) {
-  const bool is_held = (body.held & Held::everything) == Held::everything;
   const bool has_density = section.has("density");
   const bool has_mass = section.has("mass");
-  section.tell_default("density", "none where all of the body is held");
+  section.tell_default("density", "none where nothing of the body is free");
   section.tell_default("mass", "none");
-  if ((has_density && has_mass) || (!has_density && !has_mass && !is_held))
-    section.complain("density", fmt::format("got {} of density and mass; expected exactly one of "
-                                            "them: the body may move",
-                                            has_mass ? "both" : "none"));
+  if (has_density && has_mass)
+    section.complain("density", "got density and mass too; expected one of them");
   if (has_density) body.density = section.quantity("density", {kDensity, kPositive});
   if (has_mass) body.mass = section.quantity("mass", {kMass, kPositive});
   if (section.has("inertia")) {

@@ -164,6 +164,7 @@ BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear) {
   }
   problems.throw_if_any();
   add_loads(scenario, built);
+  hold_as_loaded(scenario, built);
   add_reactions(scenario, built);
   return built;
 }

@@ -45,8 +45,9 @@ struct BuiltGrains {
 struct BuiltRigidBody {
   std::size_t table = 0;  ///< among [[rigid_bodies]]
   std::string name;
-  geometry::NodeId node{-1};  ///< its reference node
-  dynamics::Held held = dynamics::Held::nothing;
+  geometry::NodeId node{-1};                                ///< its reference node
+  geometry::Quat orientation = geometry::Quat::Identity();  ///< at the start, of its principal axes
+  dynamics::Held held = dynamics::Held::nothing;            ///< by itself and by loads
   dynamics::MassProperties mass;
   Vec3 moments = Vec3::Zero();  ///< kg m², principal
   std::string volume;           ///< what of it has mass

@@ -3,6 +3,7 @@
 
 #include "apps/scene/membrane_body.hpp"
 #include "dynamics/loads/surface_pressure_check.hpp"
+#include "dynamics/model/scene_figures.hpp"
 #include "dynamics/rigid/sphere_union.hpp"
 
 #include <fmt/format.h>
@@ -104,9 +105,9 @@ void add_body(const RigidBodySettings& body, std::size_t table, const std::vecto
   const NodeId reference = built.scene.rigid_bodies[number].node;
   built.scene.state.velocity[index_of(reference)] = body.velocity;
   built.scene.state.angular_velocity[index_of(reference)] = body.angular_velocity;
-  built.rigid_bodies.push_back({table, body.name, reference, body.held, mass,
-                                built.scene.rigid_bodies[number].moments,
-                                body.inertia ? "as told" : volume.what});
+  built.rigid_bodies.push_back(
+      {table, body.name, reference, built.scene.state.orientation[index_of(reference)], body.held,
+       mass, built.scene.rigid_bodies[number].moments, body.inertia ? "as told" : volume.what});
 }
 
 }  // namespace
@@ -162,6 +163,23 @@ void add_rigid_spheres(const RigidBodySettings& body, const GrainSettings& spher
   const auto [smallest, largest] = std::minmax_element(spheres.radii.begin(), spheres.radii.end());
   built.grains.push_back({spheres.name, spheres.radii.size(), built.rigid_bodies.back().mass.mass,
                           *smallest, *largest, true});
+}
+
+void hold_as_loaded(const Scenario& scenario, BuiltScene& built) {
+  Problems problems;
+  const dynamics::Scene scene = dynamics::held_as_prescribed(built.scene);
+  for (BuiltRigidBody& body : built.rigid_bodies) {
+    const RigidBodySettings& settings = scenario.rigid_bodies[body.table];
+    body.held = scene.properties.held[index_of(body.node)];
+    const bool is_free =
+        !dynamics::holds_translation(body.held) || !dynamics::holds_rotation(body.held);
+    if (settings.density || settings.mass || !is_free) continue;
+    problems.add(settings.place,
+                 fmt::format("{}.density: got none of density and mass; expected one of them: the "
+                             "body is not held or moved along and about all axes",
+                             settings.path));
+  }
+  problems.throw_if_any();
 }
 
 }  // namespace plekton::apps

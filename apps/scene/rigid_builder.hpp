@@ -15,4 +15,9 @@ void add_rigid_surface(const RigidBodySettings& body, const MembraneSettings& su
 void add_rigid_spheres(const RigidBodySettings& body, const GrainSettings& spheres,
                        BuiltScene& built);
 
+/// Adds what loads prescribe to what is held of the rigid bodies.
+/// @param scenario  whose loads are in the scene
+/// @throws InputError listing every rigid body that is free along or about some axis and has no mass
+void hold_as_loaded(const Scenario& scenario, BuiltScene& built);
+
 }  // namespace plekton::apps

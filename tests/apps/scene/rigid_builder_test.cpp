@@ -135,6 +135,8 @@ TEST(RigidBuilder, LoadsABodyAsAWhole) {
 TEST(RigidBuilder, RefusesABodyWithoutVolumeOrMass) {
   EXPECT_THAT(error_of({"rigid_bodies.tray.hold=none"}),
               HasSubstr("rigid_bodies.tray.density: got none of density and mass"));
+  EXPECT_THAT(error_of({"rigid_bodies.lid.mass=1"}),
+              HasSubstr("rigid_bodies.lid.density: got density and mass too"));
   EXPECT_THAT(error_of({"rigid_bodies.tray.density=1000", "rigid_bodies.tray.filling=solid"}),
               HasSubstr("rigid_bodies.tray: its mesh is open and encloses no volume"));
   EXPECT_THAT(error_of({"rigid_bodies.tray.density=1000", "rigid_bodies.tray.hold=none"}),
