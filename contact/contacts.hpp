@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace plekton::geometry {
 class StateArchive;
@@ -30,6 +31,13 @@ struct ContactCounts {
   std::size_t sphere_surface = 0;
   std::size_t between_structures = 0;
   std::size_t with_planes = 0;
+};
+
+/// Where the bodies of some contacts are among those of others, in ascending order; -1: not there.
+struct BodyPlaces {
+  std::vector<std::int32_t> nodes;    ///< by node
+  std::vector<std::int32_t> spheres;  ///< by sphere
+  std::vector<std::int32_t> planes;   ///< by plane
 };
 
 /// N/m.
@@ -85,6 +93,16 @@ class Contacts {
   /// @throws geometry::StateMismatch
   virtual void exchange(const geometry::StateArchive& archive, std::span<const Plane> planes,
                         geometry::ThreadPool& pool) = 0;
+
+  /// Goes on with those contacts of a scene that may have had other spheres and planes, and numbers
+  /// of materials, which this scene has too; of the same structures and laws. What pairs remember
+  /// goes on; pairs that are not there any more are left out, and their energy with them. To be
+  /// called before the first step, on the surface as it is there.
+  /// @param places  of its bodies among these
+  /// @param x       m, where the nodes are
+  /// @throws geometry::StateMismatch if the structures or laws are others
+  virtual void take_over(Contacts& before, const BodyPlaces& places, std::span<const Plane> planes,
+                         Positions x, geometry::ThreadPool& pool) = 0;
 
   virtual ContactCounts counts() const noexcept = 0;
 

@@ -5,6 +5,7 @@
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -143,22 +144,41 @@ void SceneContacts::follow(const geometry::SurfaceChange& change, const Motion& 
 void SceneContacts::exchange(const geometry::StateArchive& archive, std::span<const Plane> planes,
                              geometry::ThreadPool& pool) {
   archive.same("materials", materials_hash_, "other materials or other contact laws");
+  exchange_sums(archive);
+  exchange_of_spheres(archive, pool);
+  exchange_of_structures(archive, pool);
+  exchange_of_planes(archive, planes, pool);
+}
+
+void SceneContacts::exchange_sums(const geometry::StateArchive& archive) {
   exchange_start(archive);
   archive("dissipated", dissipated_);
   archive("tracking_loss", tracking_loss_);
   archive("last_number", last_number_);
   archive("list_count", list_count_);
+}
+
+void SceneContacts::exchange_of_spheres(const geometry::StateArchive& archive,
+                                        geometry::ThreadPool& pool) {
   neighbours_.exchange(archive.group("neighbours"), pool);
-  cell_neighbours_.exchange(archive.group("cell_neighbours"), pool);
   with_spheres_.exchange(archive.group("spheres"), [&] {
     with_spheres_.rebuild(neighbours_.sphere_pairs(), spheres_, materials_.pairs, pool,
                           neighbours_.list_positions());
   });
   with_surfaces_.exchange(
       archive.group("surfaces"), [&] { list_on_surfaces(); }, pool);
+}
+
+void SceneContacts::exchange_of_structures(const geometry::StateArchive& archive,
+                                           geometry::ThreadPool& pool) {
+  cell_neighbours_.exchange(archive.group("cell_neighbours"), pool);
   between_structures_.exchange(archive.group("structures"), [&] {
     between_structures_.rebuild(cell_neighbours_.pairs(), materials_);
   });
+}
+
+void SceneContacts::exchange_of_planes(const geometry::StateArchive& archive,
+                                       std::span<const Plane> planes, geometry::ThreadPool& pool) {
   plane_neighbours_.exchange(archive.group("plane_neighbours"), spheres_.size(), planes.size());
   with_planes_.exchange(
       archive.group("planes"),
@@ -172,6 +192,76 @@ void SceneContacts::exchange_start(const geometry::StateArchive& archive) {
   const bool has_ended = start == Start::over && start_ != Start::over;
   start_ = start;
   if (has_ended && materials_.pairs.end_start()) between_structures_.take_parameters(materials_);
+}
+
+// Another scene, with some of the same bodies.
+
+namespace {
+
+/// Whether places are those of as many bodies, each where it was.
+bool are_same(std::span<const std::int32_t> places, std::size_t count) {
+  if (places.size() != count) return false;
+  for (std::size_t i = 0; i < count; ++i)
+    if (places[i] != static_cast<std::int32_t>(i)) return false;
+  return true;
+}
+
+}  // namespace
+
+/// Lists of the same bodies, made as they were before, have the same pairs. What acts at a distance
+/// is listed from further off or from nearer where its numbers are others.
+bool SceneContacts::lists_same_spheres(const SceneContacts& before,
+                                       const BodyPlaces& places) const {
+  const bool same_reach = materials_hash_ == before.materials_hash_ ||
+                          (!materials_.pairs.may_act_at_a_distance() &&
+                           !before.materials_.pairs.may_act_at_a_distance());
+  return same_reach && are_same(places.spheres, neighbours_.sphere_count()) &&
+         are_same(places.nodes, surface_->node_count());
+}
+
+/// Of what met planes before among what meets them now, by node.
+std::vector<std::int32_t> SceneContacts::places_at_planes(const SceneContacts& before,
+                                                          const BodyPlaces& places) const {
+  std::vector<std::int32_t> of_node(surface_->node_count(), -1);
+  for (std::size_t i = 0; i < spheres_.size(); ++i)
+    of_node[index_of(spheres_[i].node)] = static_cast<std::int32_t>(i);
+  std::vector<std::int32_t> now;
+  for (const SphereBody& sphere : before.spheres_) {
+    const std::int32_t node = places.nodes[index_of(sphere.node)];
+    now.push_back(node < 0 ? -1 : of_node[static_cast<std::size_t>(node)]);
+  }
+  return now;
+}
+
+void SceneContacts::take_over(Contacts& other, const BodyPlaces& places,
+                              std::span<const Plane> planes, Positions x,
+                              geometry::ThreadPool& pool) {
+  auto& before = dynamic_cast<SceneContacts&>(other);
+  geometry::StateTree tree;
+  const auto writer = geometry::StateArchive::writer(tree);
+  before.exchange_sums(writer);
+  before.exchange_of_structures(writer, pool);
+  const auto archive = geometry::StateArchive::reader(tree);
+  exchange_sums(archive);
+  exchange_of_structures(archive, pool);
+  if (lists_same_spheres(before, places)) {
+    before.exchange_of_spheres(writer, pool);
+    exchange_of_spheres(archive, pool);
+  } else {
+    neighbours_.update(x, pool, std::numeric_limits<double>::infinity());
+    with_spheres_.take_over(before.with_spheres_, places.spheres, [&] {
+      with_spheres_.rebuild(neighbours_.sphere_pairs(), spheres_, materials_.pairs, pool, x);
+    });
+    with_surfaces_.take_over(
+        before.with_surfaces_, places.spheres, [&] { list_on_surfaces(); }, pool);
+    ++list_count_;
+  }
+  plane_neighbours_.expire(neighbours_.skin());
+  plane_neighbours_.update(spheres_, planes, x);
+  with_planes_.take_over(
+      before.with_planes_, places_at_planes(before, places), places.planes,
+      [&] { with_planes_.rebuild(plane_neighbours_.pairs(), spheres_, planes, materials_.pairs); },
+      pool);
 }
 
 }  // namespace plekton::contact

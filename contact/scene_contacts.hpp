@@ -39,6 +39,9 @@ class SceneContacts final : public Contacts {
   void exchange(const geometry::StateArchive& archive, std::span<const Plane> planes,
                 geometry::ThreadPool& pool) override;
 
+  void take_over(Contacts& before, const BodyPlaces& places, std::span<const Plane> planes,
+                 Positions x, geometry::ThreadPool& pool) override;
+
   ContactCounts counts() const noexcept override {
     return {with_spheres_.touching(), with_surfaces_.touching(), between_structures_.touching(),
             with_planes_.touching()};
@@ -153,6 +156,14 @@ class SceneContacts final : public Contacts {
   }
   void end_start(std::span<const Plane> planes, geometry::ThreadPool& pool);
   void exchange_start(const geometry::StateArchive& archive);
+  void exchange_sums(const geometry::StateArchive& archive);
+  void exchange_of_spheres(const geometry::StateArchive& archive, geometry::ThreadPool& pool);
+  void exchange_of_structures(const geometry::StateArchive& archive, geometry::ThreadPool& pool);
+  void exchange_of_planes(const geometry::StateArchive& archive, std::span<const Plane> planes,
+                          geometry::ThreadPool& pool);
+  bool lists_same_spheres(const SceneContacts& before, const BodyPlaces& places) const;
+  std::vector<std::int32_t> places_at_planes(const SceneContacts& before,
+                                             const BodyPlaces& places) const;
 
   ContactMaterials materials_;
   std::uint64_t materials_hash_;     ///< as they were at the start

@@ -14,6 +14,7 @@
 #include "dynamics/measures/reactions.hpp"
 #include "dynamics/model/scene.hpp"
 #include "dynamics/rigid/rigid_bodies.hpp"
+#include "dynamics/scene_change.hpp"
 #include "dynamics/state/nodal_stiffness.hpp"
 #include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/structure/beam_bond.hpp"
@@ -210,6 +211,17 @@ class Simulation {
   void save(const std::filesystem::path& file);
   void load(const std::filesystem::path& file);
 
+  /// Goes on from where another simulation is, in a scene with some of the same bodies: with other
+  /// loads, planes, numbers of materials and laws, fixities and spheres. What contacts remember of
+  /// bodies that stay goes on, so that no force jumps where nothing changed; time and steps go on
+  /// counting. Spheres that stay keep their order. Energy that comes or goes with bodies and
+  /// stiffness counts as external work; weight as if it had no energy when it came or went.
+  /// To be called before the first step. A step that is chosen is chosen anew.
+  /// @throws std::logic_error after the first step
+  /// @throws geometry::StateMismatch if structures or laws are others: the simulation can only be
+  ///         thrown away then
+  void go_on_from(Simulation& before, const SceneChange& change);
+
  private:
   void advance(double longest);
   contact::Motion motion() const noexcept;
@@ -239,6 +251,9 @@ class Simulation {
   void exchange_ledger(const geometry::StateArchive& archive);
   void exchange_asked_breaks(const geometry::StateArchive& archive);
   void exchange_step(const geometry::StateArchive& archive);
+  void take_motion(const Simulation& before, const SceneChange& change);
+  void take_structures(Simulation& before, const contact::BodyPlaces& places);
+  void take_ledger(const Simulation& before);
 
   Scene scene_;
   std::uint64_t scene_hash_;  ///< as it was given

@@ -211,10 +211,7 @@ void PlaneContacts::exchange(const geometry::StateArchive& archive,
   archive("largest_overlap_ratio", overlap_ratio);
   std::vector<KeptPair> pairs;
   if (archive.is_reading()) {
-    rekey_(
-        slots_, {}, [](std::size_t, const Slot*) { return Slot{}; }, [](Slot&) {});
-    list();
-    records_.reset(pool.thread_count());
+    begin_anew(list, pool);
   } else {
     pairs = kept_pairs();
   }
@@ -223,6 +220,30 @@ void PlaneContacts::exchange(const geometry::StateArchive& archive,
     place = exchange_pair(row, kept, place);
     if (row.is_reading()) keep(kept, place, overlap_ratio);
   });
+}
+
+/// Of pairs that do not touch.
+void PlaneContacts::begin_anew(geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+  rekey_(
+      slots_, {}, [](std::size_t, const Slot*) { return Slot{}; }, [](Slot&) {});
+  list();
+  records_.reset(pool.thread_count());
+}
+
+void PlaneContacts::take_over(const PlaneContacts& before, std::span<const std::int32_t> spheres,
+                              std::span<const std::int32_t> planes,
+                              geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+  begin_anew(list, pool);
+  std::size_t place = 0;
+  for (KeptPair& kept : before.kept_pairs()) {
+    const geometry::IndexPair key{spheres[static_cast<std::size_t>(kept.pair[0])],
+                                  planes[static_cast<std::size_t>(kept.pair[1])]};
+    if (key.a < 0 || key.b < 0) continue;
+    place = next_place(place, slots_.size(), [&](std::size_t i) { return rekey_.key(i) < key; });
+    if (place == slots_.size() || rekey_.key(place) != key) continue;
+    require_same_law(kept.memory.history, slots_[place].parameters.law);
+    keep(kept, place, before.largest_overlap_ratio());
+  }
 }
 
 std::vector<PlaneContacts::KeptPair> PlaneContacts::kept_pairs() const {

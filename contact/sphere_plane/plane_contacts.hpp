@@ -91,6 +91,13 @@ class PlaneContacts {
   void exchange(const geometry::StateArchive& archive, geometry::FunctionRef<void()> list,
                 geometry::ThreadPool& pool);
 
+  /// Goes on with the pairs of others that are listed here too.
+  /// @param spheres, planes  places of theirs among these, ascending; -1: not there
+  /// @param list             makes the list anew by rebuild()
+  void take_over(const PlaneContacts& before, std::span<const std::int32_t> spheres,
+                 std::span<const std::int32_t> planes, geometry::FunctionRef<void()> list,
+                 geometry::ThreadPool& pool);
+
  private:
   struct Slot {
     NodeId node;
@@ -135,6 +142,7 @@ class PlaneContacts {
   double scatter(const Touching& touching, SphereBatch& batch, Records& records);
   double advance_one(std::size_t i, double height, const Motion& motion,
                      std::span<const Plane> planes, double dt, Records& records);
+  void begin_anew(geometry::FunctionRef<void()> list, geometry::ThreadPool& pool);
   std::vector<KeptPair> kept_pairs() const;
   std::size_t exchange_pair(geometry::RowFields& row, KeptPair& kept, std::size_t from) const;
   void keep(const KeptPair& kept, std::size_t place, double overlap_ratio);

@@ -327,6 +327,26 @@ void SphereContacts::exchange(const geometry::StateArchive& archive,
   outcomes_[0].overlap[0] = overlap_ratio;
 }
 
+void SphereContacts::take_over(const SphereContacts& before, std::span<const std::int32_t> places,
+                               geometry::FunctionRef<void()> list) {
+  keys_.clear();
+  list();
+  numbers_ = {};
+  outcomes_.assign(1, {});
+  outcomes_[0].overlap[0] = before.largest_overlap_ratio();
+  std::size_t place = 0;
+  for (KeptPair& pair : before.kept_pairs()) {
+    for (std::int32_t& sphere : pair.spheres) sphere = places[static_cast<std::size_t>(sphere)];
+    const geometry::IndexPair key{pair.spheres[0], pair.spheres[1]};
+    if (key.a < 0 || key.b < 0) continue;
+    place = next_place(place, keys_.size(), [&](std::size_t i) { return keys_[i] < key; });
+    if (place == keys_.size() || keys_[place] != key) continue;
+    require_same_law(pair.memory.history, table_.kind(blocks_.slot(place)).law);
+    keep(pair, place);
+    ++outcomes_[0].touching;
+  }
+}
+
 std::vector<SphereContacts::KeptPair> SphereContacts::kept_pairs() const {
   std::vector<KeptPair> pairs;
   PairNumbers::Reader numbers(numbers_);

@@ -76,6 +76,12 @@ class SphereContacts {
   /// @param list  makes the list anew by rebuild(), as it was
   void exchange(const geometry::StateArchive& archive, geometry::FunctionRef<void()> list);
 
+  /// Goes on with the pairs of others that are listed here too.
+  /// @param places  of their spheres among these, ascending; -1: not there
+  /// @param list    makes the list anew by rebuild()
+  void take_over(const SphereContacts& before, std::span<const std::int32_t> places,
+                 geometry::FunctionRef<void()> list);
+
  private:
   static constexpr std::size_t kLanes = SphereBlocks::kLanes;
   using Rows = geometry::LaneRows<kLanes>;

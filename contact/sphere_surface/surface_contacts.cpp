@@ -626,11 +626,7 @@ void SurfaceContacts::exchange(const geometry::StateArchive& archive,
   std::vector<KeptContact> contacts;
   std::vector<KeptForce> forces;
   if (archive.is_reading()) {
-    rekey_(
-        pairs_, {}, [](std::size_t, const Pair*) { return Pair{}; }, [](const Pair&) {});
-    list();
-    current_.assign(1, {});
-    records_.reset(pool.thread_count());
+    begin_anew(list, pool);
   } else {
     contacts = kept_contacts();
     forces = kept_forces();
@@ -657,9 +653,51 @@ void SurfaceContacts::exchange(const geometry::StateArchive& archive,
     record.a = pairs_[record.pair].node;
     records_.of_worker(0).add(record, overlap_ratio);
   });
-  if (!archive.is_reading()) return;
+  if (archive.is_reading()) find_single_faces();
+}
+
+/// Of pairs without contacts.
+void SurfaceContacts::begin_anew(geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+  rekey_(
+      pairs_, {}, [](std::size_t, const Pair*) { return Pair{}; }, [](const Pair&) {});
+  list();
+  current_.assign(1, {});
+  records_.reset(pool.thread_count());
+}
+
+void SurfaceContacts::find_single_faces() {
   for (Pair& pair : pairs_)
     if (pair.contacts.count > 0) pair.single_face = single_face_of(pair, current_);
+}
+
+void SurfaceContacts::take_over(const SurfaceContacts& before, std::span<const std::int32_t> places,
+                                geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
+  begin_anew(list, pool);
+  struct Now {
+    std::size_t pair;
+    std::uint32_t contact;
+  };
+  std::vector<std::optional<Now>> now;  // by contact of before
+  std::size_t place = 0;
+  for (KeptContact& kept : before.kept_contacts()) {
+    now.emplace_back();
+    const geometry::IndexPair key{places[static_cast<std::size_t>(kept.pair[0])], kept.pair[1]};
+    if (key.a < 0) continue;
+    place = next_place(place, pairs_.size(), [&](std::size_t i) { return rekey_.key(i) < key; });
+    if (place == pairs_.size() || rekey_.key(place) != key) continue;
+    require_same_law(kept.contact.memory.history, pairs_[place].parameters.law);
+    now.back() = {place, static_cast<std::uint32_t>(current_[0].contacts.size())};
+    keep(kept, place);
+  }
+  for (KeptForce& kept : before.kept_forces()) {
+    const std::optional<Now>& of = now[kept.contact];
+    if (!of) continue;
+    kept.record.pair = static_cast<std::uint32_t>(of->pair);
+    kept.record.contact = of->contact;
+    kept.record.a = pairs_[of->pair].node;
+    records_.of_worker(0).add(kept.record, before.largest_overlap_ratio());
+  }
+  find_single_faces();
 }
 
 /// Among all, that of a worker.

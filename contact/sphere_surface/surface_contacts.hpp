@@ -117,6 +117,12 @@ class SurfaceContacts {
   void exchange(const geometry::StateArchive& archive, geometry::FunctionRef<void()> list,
                 geometry::ThreadPool& pool);
 
+  /// Goes on with the contacts of others, on the same surface, whose pairs are listed here too.
+  /// @param places  of their spheres among these, ascending; -1: not there
+  /// @param list    makes the list anew by rebuild()
+  void take_over(const SurfaceContacts& before, std::span<const std::int32_t> places,
+                 geometry::FunctionRef<void()> list, geometry::ThreadPool& pool);
+
  private:
   /// A contact as it is kept for the next step.
   struct Contact {
@@ -234,6 +240,8 @@ class SurfaceContacts {
   static double normal_energy(const Pair& pair, PatchFinder& finder,
                               std::span<const geometry::CellId> cells, Positions x);
   double keep_minima(const Pair& pair, const geometry::SurfaceChange& change);
+  void begin_anew(geometry::FunctionRef<void()> list, geometry::ThreadPool& pool);
+  void find_single_faces();
   std::vector<KeptContact> kept_contacts() const;
   std::vector<KeptForce> kept_forces() const;
   std::size_t exchange_contact(geometry::RowFields& row, KeptContact& kept, std::size_t from) const;

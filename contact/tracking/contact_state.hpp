@@ -77,6 +77,14 @@ std::size_t next_place(std::size_t from, std::size_t count, IsBefore is_before) 
   return from;
 }
 
+/// @throws geometry::StateMismatch if a history is that of another law
+inline void require_same_law(const AnyLaw::History& history, const AnyLaw::Functions* law) {
+  if (history.law == nullptr || history.law == law) return;
+  throw geometry::StateMismatch(
+      "bodies that touch had another contact law before; what they remember means nothing to this "
+      "one");
+}
+
 [[noreturn]] inline void throw_unlisted_contact() {
   throw geometry::StateMismatch(
       "the state has a contact between bodies that its lists hold apart: it is damaged");

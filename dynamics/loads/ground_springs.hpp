@@ -12,7 +12,8 @@ namespace plekton::dynamics {
 class SprungNodes {
  public:
   SprungNodes(const GroundSprings& springs, const NodeState& at_start)
-      : stiffness_(springs.stiffness), nodes_(springs.nodes) {
+      : stiffness_(springs.stiffness), nodes_(springs.nodes), start_(springs.start) {
+    if (!start_.empty()) return;
     for (const NodeId node : springs.nodes) start_.push_back(at_start.position[index_of(node)]);
   }
 

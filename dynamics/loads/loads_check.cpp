@@ -66,6 +66,7 @@ class LoadProblems {
     expect_finite(name, "velocity", motion.velocity);
     expect_finite(name, "angular velocity", motion.angular_velocity);
     if (motion.turn) list_turn(name, motion);
+    expect_starts(name, motion.nodes, motion.start);
     if (motion.held == Held::nothing)
       text_ << name << ": prescribes no component; say which in held\n";
   }
@@ -137,6 +138,12 @@ class LoadProblems {
            "its rate must be finite and not negative");
   }
 
+  void expect_starts(const std::string& name, const std::vector<NodeId>& nodes,
+                     const std::vector<Vec3>& starts) {
+    expect(starts.empty() || starts.size() == nodes.size(), name,
+           "must have a place at the start for each of its nodes, or none");
+  }
+
   void expect(bool holds, const std::string& name, const char* problem) {
     if (!holds) text_ << name << ": " << problem << '\n';
   }
@@ -181,6 +188,7 @@ class LoadProblems {
 
   void list(const std::string& name, const GroundSprings& springs) {
     expect_nodes(name, springs.nodes);
+    expect_starts(name, springs.nodes, springs.start);
     if (!springs.stiffness.allFinite() || (springs.stiffness.array() < 0.0).any()) {
       text_ << name << ": stiffness (" << springs.stiffness.transpose()
             << ") N/m must be finite and not negative along every axis\n";

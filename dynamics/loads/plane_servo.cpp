@@ -63,7 +63,8 @@ double servo_speed(const ServoPace& pace, double missing,
 
 DrivenPlanes::DrivenPlanes(const Loads& loads, std::span<const Plane> at_start)
     : motions_(loads.plane_motions), servos_(loads.servos) {
-  for (const PlaneMotion& motion : motions_) start_.push_back(at_start[motion.plane].point);
+  for (const PlaneMotion& motion : motions_)
+    start_.push_back(motion.start.value_or(at_start[motion.plane].point));
 }
 
 double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,

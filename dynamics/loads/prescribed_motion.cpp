@@ -11,20 +11,21 @@
 namespace plekton::dynamics {
 
 MovedNodes::MovedNodes(const PrescribedMotion& motion, const NodeState& at_start)
-    : motion_(motion) {
+    : motion_(motion), start_(motion.start) {
+  if (!start_.empty()) return;
   for (const NodeId node : motion_.nodes) start_.push_back(at_start.position[index_of(node)]);
 }
 
 /// m, from the place at the start.
 Vec3 MovedNodes::displacement(double time) const noexcept {
-  const double way = motion_.factor.at(time) - motion_.factor.at(0.0);
+  const double way = motion_.factor.at(time) - motion_.factor.at(motion_.factor.start());
   return way * motion_.displacement + motion_.factor.integral(time) * motion_.velocity;
 }
 
 /// About the axis, from the start.
 Mat3 MovedNodes::rotation(double time) const {
   if (!motion_.turn) return Mat3::Identity();
-  const double share = motion_.factor.at(time) - motion_.factor.at(0.0);
+  const double share = motion_.factor.at(time) - motion_.factor.at(motion_.factor.start());
   return geometry::rotation_about(motion_.turn->axis, share * motion_.turn->angle);
 }
 
@@ -48,11 +49,12 @@ Vec3 MovedNodes::spin(const LoadStep& step) const noexcept {
 }
 
 void MovedNodes::start(NodeState& state) const {
-  const Vec3 velocity =
-      motion_.factor.slope(0.0) * motion_.displacement + motion_.factor.at(0.0) * motion_.velocity;
-  Vec3 spin = motion_.factor.at(0.0) * motion_.angular_velocity;
+  const Vec3 velocity = motion_.factor.slope(motion_.factor.start()) * motion_.displacement +
+                        motion_.factor.at(motion_.factor.start()) * motion_.velocity;
+  Vec3 spin = motion_.factor.at(motion_.factor.start()) * motion_.angular_velocity;
   Vec3 turn = Vec3::Zero();  // rad/s, about the axis
-  if (motion_.turn) turn = motion_.factor.slope(0.0) * motion_.turn->angle * motion_.turn->axis;
+  if (motion_.turn)
+    turn = motion_.factor.slope(motion_.factor.start()) * motion_.turn->angle * motion_.turn->axis;
   spin += turn;
   for (std::size_t i = 0; i < motion_.nodes.size(); ++i) {
     const NodeId node = motion_.nodes[i];

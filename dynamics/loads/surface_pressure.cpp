@@ -51,9 +51,9 @@ PressedSurface::PressedSurface(const SurfacePressure& load, std::span<const geom
       members_(corners_of(load, facets)),
       nodes_(members_.nodes()),
       shares_(load.facets.size()) {
-  if (follows_volume()) start_volume_ = volume_under(members_.groups(), at_start.position);
-  volume_ = start_volume_;
-  pressure_ = pressure_at(0.0, volume_);
+  if (follows_volume()) volume_ = volume_under(members_.groups(), at_start.position);
+  start_volume_ = load_.start_volume.value_or(volume_);
+  pressure_ = pressure_at(load_.factor.start(), volume_);
 }
 
 void PressedSurface::follow(const geometry::SurfaceChange& change) {

@@ -11,7 +11,9 @@
 #include <vector>
 
 /// What acts on a scene from outside, as plain data. Sets of nodes name every node once. A factor
-/// multiplies what stands beside it, at the time of the simulation; 1 unless told.
+/// multiplies what stands beside it, at the time of the simulation; 1 unless told. A load that has
+/// begun in another scene (Simulation::go_on_from) is told how things stood then; its factor counts
+/// from there (TimeTable::from).
 namespace plekton::dynamics {
 
 /// A turn about an axis that stays where it is.
@@ -36,6 +38,8 @@ struct PrescribedMotion {
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
   TimeTable factor;
   std::optional<AxisTurn> turn = std::nullopt;  ///< only where all of the translation is prescribed
+  /// m, where the nodes were at the start of the factor; empty: where they are in the scene.
+  std::vector<Vec3> start = {};
 };
 
 /// A plane that moves with velocity factor(t).
@@ -43,6 +47,7 @@ struct PlaneMotion {
   std::size_t plane = 0;
   Vec3 velocity = Vec3::Zero();  ///< m/s
   TimeTable factor;
+  std::optional<Vec3> start = std::nullopt;  ///< m, its point then; nothing: that in the scene
 };
 
 /// A force and a torque on each of some nodes, times factor(t), in directions that stay.
@@ -57,6 +62,8 @@ struct NodalForce {
 struct GroundSprings {
   std::vector<NodeId> nodes;
   Vec3 stiffness = Vec3::Zero();  ///< N/m, >= 0, along the axes of the world, of each node
+  /// m, the places to which they pull; empty: where the nodes are in the scene.
+  std::vector<Vec3> start = {};
 };
 
 /// What a closed surface holds: p = (outside + pressure factor(t)) (V0 / V)^exponent - outside,
@@ -83,6 +90,7 @@ struct SurfacePressure {
   std::optional<Gas> gas;  ///< only where the facets are closed
   /// In place of the pressure and a gas, times factor(t); only where the facets are closed.
   std::optional<PressureByVolume> by_volume = std::nullopt;
+  std::optional<double> start_volume = std::nullopt;  ///< m³, V0; nothing: that in the scene
 };
 
 /// Dashpots along beams: c = 2 ratio sqrt(EA/L0 m), with m the reduced mass of the two nodes (half

@@ -45,6 +45,12 @@ TimeTable::TimeTable(std::vector<Row> rows) : rows_(std::move(rows)) {
   integral_to_zero_ = integral_from_first_row(0.0);
 }
 
+TimeTable TimeTable::from(double start) const {
+  TimeTable later = *this;
+  later.start_ = start;
+  return later;
+}
+
 /// The first row after this time; the number of rows if there is none.
 std::size_t TimeTable::row_after(double time) const noexcept {
   const auto after =
@@ -54,6 +60,10 @@ std::size_t TimeTable::row_after(double time) const noexcept {
 }
 
 double TimeTable::at(double time) const noexcept {
+  return value(time - start_);
+}
+
+double TimeTable::value(double time) const noexcept {
   const std::size_t after = row_after(time);
   if (after == 0) return rows_.front().value;
   const Row& row = rows_[after - 1];
@@ -62,7 +72,7 @@ double TimeTable::at(double time) const noexcept {
 }
 
 double TimeTable::slope(double time) const noexcept {
-  const std::size_t after = row_after(time);
+  const std::size_t after = row_after(time - start_);
   if (after == 0 || after == rows_.size()) return 0.0;
   return slope_between(rows_[after - 1], rows_[after]);
 }
@@ -70,11 +80,11 @@ double TimeTable::slope(double time) const noexcept {
 double TimeTable::integral_from_first_row(double time) const noexcept {
   const std::size_t after = row_after(time);
   const std::size_t row = after == 0 ? 0 : after - 1;
-  return integrals_[row] + 0.5 * (rows_[row].value + at(time)) * (time - rows_[row].time);
+  return integrals_[row] + 0.5 * (rows_[row].value + value(time)) * (time - rows_[row].time);
 }
 
 double TimeTable::integral(double time) const noexcept {
-  return integral_from_first_row(time) - integral_to_zero_;
+  return integral_from_first_row(time - start_) - integral_to_zero_;
 }
 
 double TimeTable::largest() const noexcept {

@@ -25,9 +25,15 @@ class TimeTable {
 
   const std::vector<Row>& rows() const noexcept { return rows_; }
 
+  /// The same numbers later: rows count from a time (s), and so does integral().
+  TimeTable from(double start) const;
+  /// s, from when the rows count; 0 unless told.
+  double start() const noexcept { return start_; }
+
   /// Logarithmic in the number of rows.
   double at(double time) const noexcept;
-  /// From time 0 to this one (s times the value), negative times included; exact but for rounding.
+  /// From the start to this time (s times the value), earlier times included; exact but for
+  /// rounding.
   double integral(double time) const noexcept;
   /// Right after this time (1/s).
   double slope(double time) const noexcept;
@@ -37,12 +43,15 @@ class TimeTable {
   double largest_slope() const noexcept;
 
  private:
+  // Of times that count from the start.
   std::size_t row_after(double time) const noexcept;
+  double value(double time) const noexcept;
   double integral_from_first_row(double time) const noexcept;
 
   std::vector<Row> rows_;
   std::vector<double> integrals_;  // by row, from the first one
-  double integral_to_zero_ = 0.0;  // from the first row to time 0
+  double integral_to_zero_ = 0.0;  // from the first row to the start
+  double start_ = 0.0;             // s
 };
 
 }  // namespace plekton::dynamics

@@ -66,6 +66,7 @@ class Neighbours {
 
   /// Pairs of spheres, sorted.
   std::span<const IndexPair> sphere_pairs() const noexcept { return sphere_pairs_; }
+  std::size_t sphere_count() const noexcept { return spheres_.size(); }
 
   /// Pairs (sphere, structure), sorted.
   std::span<const IndexPair> sphere_structures() const noexcept { return sphere_structures_; }

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A simulation that goes on from another one in another scene: what stays is as if nothing happened.
+#include "dynamics/scene_change.hpp"
+
+#include "dynamics/simulation.hpp"
+#include "dynamics/state_hash.hpp"
+#include "tests/support/reported_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <stdexcept>
+
+namespace plekton::dynamics {
+namespace {
+
+using test::NamedLaw;
+using test::ReportedScene;
+
+constexpr std::int32_t kOmitted = -1;
+
+void advance(Simulation& simulation, int steps) {
+  for (int i = 0; i < steps; ++i) simulation.step();
+}
+
+std::vector<std::int32_t> all(std::size_t count) {
+  std::vector<std::int32_t> places(count);
+  std::iota(places.begin(), places.end(), 0);
+  return places;
+}
+
+/// All bodies, each where it was.
+SceneChange nothing_moves(const Scene& scene) {
+  return {{all(scene.state.size()), all(scene.elements.spheres.size()), all(scene.planes.size())},
+          {}};
+}
+
+/// Without a sphere, the nodes of which come last and in their order.
+SceneChange without(const Scene& scene, std::size_t sphere) {
+  SceneChange change = nothing_moves(scene);
+  const std::size_t node = geometry::index_of(scene.elements.spheres[sphere].nodes[0]);
+  change.places.nodes[node] = change.places.spheres[sphere] = kOmitted;
+  for (std::size_t i = node + 1; i < change.places.nodes.size(); ++i) --change.places.nodes[i];
+  for (std::size_t i = sphere + 1; i < change.places.spheres.size(); ++i)
+    --change.places.spheres[i];
+  return change;
+}
+
+void take_out(Scene& scene, std::size_t sphere) {
+  const auto node = static_cast<std::ptrdiff_t>(index_of(scene.elements.spheres[sphere].nodes[0]));
+  const auto erase = [&](auto& list) { list.erase(list.begin() + node); };
+  erase(scene.state.position);
+  erase(scene.state.velocity);
+  erase(scene.state.angular_velocity);
+  erase(scene.state.orientation);
+  erase(scene.properties.mass);
+  erase(scene.properties.inertia);
+  erase(scene.properties.held);
+  scene.elements.spheres.erase(scene.elements.spheres.begin() +
+                               static_cast<std::ptrdiff_t>(sphere));
+  scene.sphere_materials.erase(scene.sphere_materials.begin() +
+                               static_cast<std::ptrdiff_t>(sphere));
+  for (std::size_t i = sphere; i < scene.elements.spheres.size(); ++i) {
+    NodeId& id = scene.elements.spheres[i].nodes[0];
+    id = geometry::id_at<NodeId>(index_of(id) - 1);
+  }
+}
+
+class SceneGoesOn : public testing::TestWithParam<NamedLaw> {
+ protected:
+  ReportedScene before_;
+};
+
+TEST_P(SceneGoesOn, ToTheLastBitWhereNothingChangesWithAnyThreads) {
+  Simulation whole = before_.simulation(GetParam());
+  advance(whole, 40);
+  ReportedScene same;
+  same.scene.loads.forces.push_back({{NodeId{0}}, Vec3::Zero(), Vec3::Zero(), TimeTable()});
+  Simulation next = same.simulation(GetParam(), 3);
+  next.go_on_from(whole, nothing_moves(same.scene));
+
+  EXPECT_EQ(next.time(), whole.time());
+  EXPECT_EQ(next.energy().contact_elastic, whole.energy().contact_elastic);
+  EXPECT_EQ(next.energy().gravity, whole.energy().gravity);
+  advance(whole, 60);
+  advance(next, 60);
+  EXPECT_EQ(state_hash(next), state_hash(whole));
+  EXPECT_EQ(next.energy().friction, whole.energy().friction);
+  EXPECT_EQ(next.energy().closure_error(), whole.energy().closure_error());
+}
+
+TEST_P(SceneGoesOn, ToTheLastBitWhereAPlaneComesThatNothingTouches) {
+  Simulation whole = before_.simulation(GetParam());
+  advance(whole, 40);
+  ReportedScene other;
+  other.scene.planes.insert(other.scene.planes.begin(),
+                            {Vec3(0, 0, -9), Vec3(0, 0, 1), Vec3::Zero(), contact::MaterialId{0}});
+  Simulation next = other.simulation(GetParam());
+  SceneChange change = nothing_moves(before_.scene);
+  change.places.planes = {1, 2};
+  next.go_on_from(whole, change);
+
+  advance(whole, 60);
+  advance(next, 60);
+  EXPECT_EQ(next.state().position, whole.state().position);
+  EXPECT_EQ(next.state().angular_velocity, whole.state().angular_velocity);
+}
+
+/// The sphere that lies on nothing but the sheet at (0.05, -0.1), and its neighbour.
+TEST_P(SceneGoesOn, WithTheForcesOfAllThatStaysWhereASphereIsTakenOut) {
+  constexpr std::size_t kTaken = 3;
+  Simulation whole = before_.simulation(GetParam());
+  advance(whole, 40);
+  const auto rows = whole.list_contacts();
+  ReportedScene fewer;
+  take_out(fewer.scene, kTaken);
+  Simulation next = fewer.simulation(GetParam());
+  next.go_on_from(whole, without(before_.scene, kTaken));
+
+  std::vector<const contact::ContactRecord*> kept;
+  for (const auto& row : rows) {
+    const auto is_taken = [&](const contact::ContactBody& body) {
+      return body.kind == contact::BodyKind::sphere && body.index == static_cast<int>(kTaken);
+    };
+    if (!is_taken(row.a) && !is_taken(row.b)) kept.push_back(&row);
+  }
+  const auto now = next.contact_rows();
+  ASSERT_EQ(now.size(), kept.size());
+  ASSERT_LT(now.size(), rows.size());
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    EXPECT_EQ(now[i].force(), kept[i]->force()) << i;
+    EXPECT_EQ(now[i].moment, kept[i]->moment) << i;
+    EXPECT_EQ(now[i].id, kept[i]->id) << i;
+  }
+  const double taken_along = whole.energy().contact_elastic - next.energy().contact_elastic;
+  EXPECT_GT(taken_along, 0.0);
+  EXPECT_NEAR(next.energy().closure_error(), whole.energy().closure_error(),
+              1e-12 * taken_along + 1e-15 * whole.energy().turnover());
+  advance(next, 60);
+}
+
+INSTANTIATE_TEST_SUITE_P(, SceneGoesOn, testing::ValuesIn(test::kLaws),
+                         [](const auto& law) { return std::string(law.param.name); });
+
+TEST(SceneChange, StopsWhatIsHeldFromNowOn) {
+  const ReportedScene before;
+  Simulation whole = before.simulation(test::kLaws[0]);
+  advance(whole, 10);
+  ReportedScene fixed;
+  const std::size_t last = fixed.scene.state.size() - 1;
+  fixed.scene.properties.held[last] = Held::everything;
+  Simulation next = fixed.simulation(test::kLaws[0]);
+  next.go_on_from(whole, nothing_moves(fixed.scene));
+  const Vec3 place = next.state().position[last];
+  advance(next, 10);
+
+  EXPECT_EQ(next.state().position[last], place);
+  EXPECT_NE(whole.state().velocity[last], Vec3(Vec3::Zero()));
+}
+
+TEST(SceneChange, RefusesOtherLawsForWhatTouches) {
+  const ReportedScene scene;
+  Simulation whole = scene.simulation(test::kLaws[0]);
+  advance(whole, 10);
+  Simulation next = scene.simulation(test::kLaws[1]);
+
+  EXPECT_THROW(next.go_on_from(whole, nothing_moves(scene.scene)), geometry::StateMismatch);
+}
+
+TEST(SceneChange, ComesBeforeTheFirstStep) {
+  const ReportedScene scene;
+  Simulation whole = scene.simulation(test::kLaws[0]);
+  Simulation next = scene.simulation(test::kLaws[0]);
+  next.step();
+
+  EXPECT_THROW(next.go_on_from(whole, nothing_moves(scene.scene)), std::logic_error);
+}
+
+}  // namespace
+}  // namespace plekton::dynamics
