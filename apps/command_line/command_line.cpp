@@ -13,6 +13,7 @@
 #include "apps/command_line/render_command.hpp"
 #include "apps/command_line/resume_command.hpp"
 #include "apps/command_line/run_estimate.hpp"
+#include "apps/command_line/stages_command.hpp"
 #include "apps/command_line/start_listing.hpp"
 #include "apps/command_line/step_advice.hpp"
 #include "apps/command_line/study_command.hpp"
@@ -82,7 +83,8 @@ struct CommandLine {
   bool power_iteration = false;
   fs::path resume;
   fs::path checkpoint;
-  std::string from;
+  std::vector<std::string> from;
+  std::string until;
   std::vector<std::string> interval;
   std::string to;
   fs::path run;
@@ -140,10 +142,15 @@ ProgressStyle style_on(int descriptor, bool quiet) {
 }
 
 /// Says on standard error what is being set up, so that results stay alone on standard output.
-PreparedRun prepared_aloud(const Scenario& scenario, bool quiet) {
+/// @param set_up  (hear), what is done meanwhile
+template <class SetUp>
+auto aloud(bool quiet, SetUp&& set_up) {
   SetUpProgress progress(std::cerr, style_on(STDERR_FILENO, quiet));
-  return prepare_run(scenario,
-                     [&](const std::string& what, double share) { progress.update(what, share); });
+  return set_up([&](const std::string& what, double share) { progress.update(what, share); });
+}
+
+PreparedRun prepared_aloud(const Scenario& scenario, bool quiet) {
+  return aloud(quiet, [&](const HearSetUp& hear) { return prepare_run(scenario, hear); });
 }
 
 fs::path default_folder(const Scenario& scenario) {
@@ -164,21 +171,8 @@ void print_error(const std::string& text) {
   std::cerr << "plekton: " << (problems > 1 ? fmt::format("{} problems\n", problems) : "") << shown;
 }
 
-/// Runs a scenario, from its beginning or from a state.
-int run_aloud(const CommandLine& line, const Scenario& scenario, const fs::path& out,
-              const Resumption* resume, Progress::Clock::time_point began) {
-  PreparedRun prepared = prepared_aloud(scenario, line.quiet);
-  if (!line.quiet) std::cout << summary_of(prepared) << std::flush;
-
-  const InterruptGuard guard;
-  const RunSettings settings{out,
-                             std::cout,
-                             style_on(STDOUT_FILENO, line.quiet),
-                             [&] { return guard.interrupted(); },
-                             began,
-                             line.overwrite,
-                             resume};
-  const RunReport report = run(scenario, prepared, settings);
+/// Says how a run has ended. @returns the exit code
+int conclude(const CommandLine& line, const fs::path& out, const RunReport& report) {
   if (line.quiet) {
     for (const std::string& warning : report.warnings)
       std::cerr << "plekton: warning: " << warning << '\n';
@@ -193,10 +187,52 @@ int run_aloud(const CommandLine& line, const Scenario& scenario, const fs::path&
   return kInterrupted;
 }
 
+RunSettings settings_of(const CommandLine& line, const fs::path& out, const InterruptGuard& guard,
+                        Progress::Clock::time_point began) {
+  return {out,
+          std::cout,
+          style_on(STDOUT_FILENO, line.quiet),
+          [&] { return guard.interrupted(); },
+          began,
+          line.overwrite};
+}
+
+/// Runs a scenario, from its beginning or from a state.
+int run_aloud(const CommandLine& line, const Scenario& scenario, const fs::path& out,
+              const Resumption* resume, Progress::Clock::time_point began) {
+  PreparedRun prepared = prepared_aloud(scenario, line.quiet);
+  if (!line.quiet) std::cout << summary_of(prepared) << std::flush;
+  const InterruptGuard guard;
+  RunSettings settings = settings_of(line, out, guard, began);
+  settings.resume = resume;
+  return conclude(line, out, run(scenario, prepared, settings));
+}
+
+/// The same of a scenario with stages.
+int run_stages_aloud(const CommandLine& line, const Scenario& scenario, const fs::path& out,
+                     const geometry::StateTree* resume, Progress::Clock::time_point began) {
+  const InterruptGuard guard;
+  const StagesAsked asked{resume ? std::vector<std::string>{} : line.from, resume, line.until};
+  return conclude(line, out, aloud(line.quiet, [&](const HearSetUp& hear) {
+                    return run_stages_asked(scenario, asked, settings_of(line, out, guard, began),
+                                            hear, line.quiet ? nullptr : &std::cout);
+                  }));
+}
+
 int resume_command(const CommandLine& line) {
   const auto began = Progress::Clock::now();
-  const ResumedRun resumed = find_resumed_run(line.resume, overrides_of(line), line.from, line.to);
+  if (line.from.size() > 1)
+    throw InputError(
+        "--from: with --resume expected one time; a stage and a folder go with a "
+        "scenario file");
+  const ResumedRun resumed = find_resumed_run(line.resume, overrides_of(line),
+                                              line.from.empty() ? "" : line.from[0], line.to);
   const bool same_folder = line.out.empty();
+  const bool has_stages = resumed.scenario.stage.has_value();
+  if (has_stages && !same_folder)
+    throw InputError(
+        "--out: a scenario with stages goes on in its folder; to begin in another one "
+        "take --from STAGE DIR");
   if (same_folder && !(line.from.empty() && line.to.empty()))
     throw InputError(
         "--from and --to compute a part of a run again, with results of its own; give a folder for "
@@ -210,6 +246,8 @@ int resume_command(const CommandLine& line) {
                              time, steps_of(resumed.checkpoint.state));
   const Resumption from{resumed.checkpoint.state, same_folder, resumed.from};
   try {
+    if (has_stages)
+      return run_stages_aloud(line, resumed.scenario, line.resume, &from.state, began);
     return run_aloud(line, resumed.scenario, same_folder ? line.resume : line.out, &from, began);
   } catch (const geometry::StateMismatch& error) {
     throw InputError(
@@ -217,6 +255,25 @@ int resume_command(const CommandLine& line) {
                     "have to be as they were",
                     resumed.checkpoint.file.string(), error.what()));
   }
+}
+
+/// @throws InputError for options that only scenarios with stages know, or that contradict others
+void require_stages(const CommandLine& line, const Scenario& scenario, const fs::path& out) {
+  if (line.from.empty() && line.until.empty()) return;
+  if (!scenario.stage)
+    throw InputError(fmt::format("{}: has no [[stages]], which --from STAGE DIR and --until name",
+                                 scenario.file.string()));
+  if (line.from.size() == 1)
+    throw InputError(
+        fmt::format("--from {}: expected the name of a stage and the folder of the run that it is "
+                    "of, or --resume with the folder of a run and a time",
+                    line.from[0]));
+  std::error_code ignored;
+  if (line.from.size() > 1 && fs::equivalent(line.from[1], out, ignored))
+    throw InputError(
+        fmt::format("--from: {} is to be kept; give another folder for the results "
+                    "with --out",
+                    line.from[1]));
 }
 
 int run_command(const CommandLine& line) {
@@ -228,8 +285,10 @@ int run_command(const CommandLine& line) {
   const auto began = Progress::Clock::now();
   const Scenario scenario = scenario_of(line);
   const fs::path out = line.out.empty() ? default_folder(scenario) : line.out;
+  require_stages(line, scenario, out);
   // Before the scene is built, which may take long.
   check_output_folder(out, line.overwrite);
+  if (scenario.stage) return run_stages_aloud(line, scenario, out, nullptr, began);
   return run_aloud(line, scenario, out, nullptr, began);
 }
 
@@ -245,6 +304,7 @@ int check_for_programs(const CommandLine& line) {
     const Scenario scenario = scenario_of(line);
     PreparedRun prepared = prepared_aloud(scenario, true);
     require_possible_start(prepared.start, scenario);
+    if (scenario.stage) text_of_stages(scenario, {});
     auto report = check_report(scenario, prepared);
     print(report);
   } catch (const InputError& error) {
@@ -264,6 +324,7 @@ int check_command(const CommandLine& line) {
   if (line.power_iteration) std::cout << summary_of(prepared.simulation->exact_critical_step());
   // Last, since it moves the simulation on.
   std::cout << text_of(estimate_run(scenario, prepared));
+  if (scenario.stage) std::cout << text_of_stages(scenario, {});
   std::cout << scenario.file.string() << ": no problems\n";
   flush_output();
   return kDone;
@@ -466,9 +527,14 @@ CLI::App* add_run(CLI::App& app, CommandLine& line) {
                       "Go on with the run in this folder, from its last checkpoint: with --out in "
                       "another folder")
           ->excludes(to_run);
-  run->add_option("--from", line.from,
-                  "With --resume and --out: compute a part of the run again, from this time on")
-      ->needs(resume);
+  run->add_option(
+         "--from", line.from,
+         "STAGE DIR: go on from the end of a stage of the run in that folder, with the "
+         "later stages of this scenario. Or with --resume and --out a time: compute a part "
+         "of the run again, from there on")
+      ->expected(1, 2)
+      ->type_name("STAGE DIR");
+  run->add_option("--until", line.until, "End after this stage");
   run->add_option("--to", line.to, "And end at this time")->needs(resume);
   run->add_option("--out", line.out,
                   "Folder for the results; out/<name of the scenario> if not given, out/stdin of "

@@ -71,6 +71,11 @@ bool verify_run(const VerifyArguments& arguments, std::ostream& out) {
   const std::optional<double> from = time_option("--interval", begin);
   const FoundCheckpoint first = checkpoint_before(arguments.folder, steps_of(last.state), from);
   ResumedRun resumed = resumed_from(first, arguments.overrides);
+  if (resumed.scenario.stage)
+    throw InputError(fmt::format(
+        "{}: has stages, which verify does not compute again; run its scenario in "
+        "another folder, from the start or with --from, and compare `states` in run.json",
+        arguments.folder.string()));
   const StateTree again = computed_again(resumed, steps_of(last.state));
   std::size_t count = 0;
   const std::vector<std::string> others = differences(last.state, again, count);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/body_tables.hpp"
 
+#include "apps/scenario/staged_scenario.hpp"
 #include "geometry/critical/product_features.hpp"
 
 #include <fmt/format.h>
@@ -30,6 +31,7 @@ std::string path_of(const BodyTable& table, const Scenario& scenario) {
 BodyTables::BodyTables(const Scenario& scenario, const BuiltScene& built,
                        const dynamics::Simulation& simulation)
     : simulation_(simulation),
+      plane_numbers_(plane_numbers(scenario)),
       groups_(simulation.state().size(), -1),
       materials_(simulation.state().size(), -1) {
   const auto add_materials = [&](BodyTable::Kind kind, const auto& tables) {

@@ -38,6 +38,11 @@ class BodyTables {
   BodyTable table_of(const contact::ContactBody& body) const;
   /// Its number in the table of grains; 0 of other bodies.
   std::size_t grain_of(const contact::ContactBody& body) const;
+  /// Its number among those of all stages.
+  std::int32_t number_of(const BodyTable& table) const {
+    const bool is_plane = table.kind == BodyTable::Kind::plane;
+    return static_cast<std::int32_t>(is_plane ? plane_numbers_[table.number] : table.number);
+  }
   /// Number of its material.
   std::size_t material_of(const BodyTable& table) const;
 
@@ -51,7 +56,8 @@ class BodyTables {
 
   const dynamics::Simulation& simulation_;
   std::array<std::vector<std::size_t>, 3> material_of_;  ///< by kind and number of a table
-  std::vector<std::size_t> first_grain_{0};              ///< by table, and their end
+  std::vector<std::size_t> plane_numbers_;
+  std::vector<std::size_t> first_grain_{0};  ///< by table, and their end
   std::vector<std::int32_t> groups_;
   std::vector<std::int32_t> materials_;
 };

@@ -109,7 +109,7 @@ std::vector<dynamics::ContactLabels> labels_of(const std::vector<contact::Contac
   for (const contact::ContactRecord& contact : contacts) {
     const BodyTable a = bodies.table_of(contact.a);
     const BodyTable b = bodies.table_of(contact.b);
-    labels.push_back({static_cast<std::int32_t>(a.number), static_cast<std::int32_t>(b.number),
+    labels.push_back({bodies.number_of(a), bodies.number_of(b),
                       static_cast<std::int32_t>(bodies.material_of(a)),
                       static_cast<std::int32_t>(bodies.material_of(b))});
   }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/plane_places.hpp"
 
-#include <fmt/format.h>
+#include "apps/scenario/staged_scenario.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -30,11 +32,12 @@ PlanePlaces::PlanePlaces(const std::filesystem::path& folder, const Scenario& sc
                          const WrittenFiles* before) {
   std::error_code ignored;
   if (before == nullptr) std::filesystem::remove(folder / kPlanesFile, ignored);
-  if (scenario.planes.empty()) return;
+  const std::vector<std::string> names = plane_names(scenario);
+  columns_ = names.size();
+  places_ = plane_numbers(scenario);
+  if (names.empty()) return;
   std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
-  for (std::size_t i = 0; i < scenario.planes.size(); ++i) {
-    const std::string& own = scenario.planes[i].name;
-    const std::string name = own.empty() ? fmt::format("planes[{}]", i) : own;
+  for (const std::string& name : names) {
     for (const dynamics::OutputField& field : kFields)
       columns.push_back({name + "." + std::string(field.name), std::string(field.unit)});
   }
@@ -43,10 +46,14 @@ PlanePlaces::PlanePlaces(const std::filesystem::path& folder, const Scenario& sc
 
 void PlanePlaces::add(const dynamics::Simulation& simulation) {
   if (!writer_) return;
-  std::vector<double> row{simulation.time()};
-  for (const contact::Plane& plane : simulation.planes()) {
-    row.insert(row.end(), plane.point.data(), plane.point.data() + 3);
-    row.insert(row.end(), plane.normal.data(), plane.normal.data() + 3);
+  constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> row(1 + kFields.size() * columns_, kNotThere);
+  row[0] = simulation.time();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const contact::Plane& plane = simulation.planes()[i];
+    double* const at = &row[1 + kFields.size() * places_[i]];
+    std::copy_n(plane.point.data(), 3, at);
+    std::copy_n(plane.normal.data(), 3, at + 3);
   }
   writer_->add(row);
 }

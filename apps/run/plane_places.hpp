@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace plekton::apps {
 
@@ -33,6 +34,8 @@ class PlanePlaces {
 
  private:
   std::unique_ptr<dynamics::CsvWriter> writer_;
+  std::vector<std::size_t> places_;  // by plane, among the columns
+  std::size_t columns_ = 0;          // planes
 };
 
 }  // namespace plekton::apps

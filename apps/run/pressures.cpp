@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/pressures.hpp"
 
+#include "apps/scenario/staged_scenario.hpp"
+
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 #include <system_error>
-#include <variant>
 
 namespace plekton::apps {
 namespace {
@@ -13,6 +16,9 @@ constexpr std::array<dynamics::OutputField, 2> kFields = {{
     {"pressure", "Pa", "over that outside, at the time of the forces"},
     {"volume", "m3", "that the membrane holds then; only where the pressure follows it"},
 }};
+
+constexpr std::size_t kNotThere = static_cast<std::size_t>(-1);
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 dynamics::CsvColumn column_of(const std::string& load, const dynamics::OutputField& field) {
   return {load + "." + std::string(field.name), std::string(field.unit)};
@@ -29,12 +35,14 @@ Pressures::Pressures(const std::filesystem::path& folder, const Scenario& scenar
   std::error_code ignored;
   if (before == nullptr) std::filesystem::remove(folder / kPressuresFile, ignored);
   std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
-  for (const LoadSettings& load : scenario.loads) {
-    const auto* const pressure = std::get_if<PressureSettings>(&load.load);
-    if (pressure == nullptr) continue;
-    has_volume_.push_back(pressure->load.gas || pressure->load.by_volume);
-    columns.push_back(column_of(load.name, kFields[0]));
-    if (has_volume_.back()) columns.push_back(column_of(load.name, kFields[1]));
+  const std::vector<PressureColumn> own = names_in({&scenario, 1}).pressures;
+  for (const PressureColumn& pressure : scenario.stage ? scenario.names_of_stages.pressures : own) {
+    const auto place = std::find(own.begin(), own.end(), pressure);
+    loads_.push_back(place == own.end() ? kNotThere
+                                        : static_cast<std::size_t>(place - own.begin()));
+    has_volume_.push_back(pressure.has_volume);
+    columns.push_back(column_of(pressure.load, kFields[0]));
+    if (has_volume_.back()) columns.push_back(column_of(pressure.load, kFields[1]));
   }
   if (!has_volume_.empty()) writer_ = history_file(folder, kPressuresFile, columns, before);
 }
@@ -43,9 +51,10 @@ void Pressures::add(const dynamics::Simulation& simulation) {
   if (!writer_) return;
   std::vector<double> row{simulation.time()};
   for (std::size_t i = 0; i < has_volume_.size(); ++i) {
-    const dynamics::PressedSurface& surface = simulation.loads().pressed_surfaces()[i];
-    row.push_back(surface.pressure());
-    if (has_volume_[i]) row.push_back(surface.volume());
+    const bool is_there = loads_[i] != kNotThere;
+    const auto& surfaces = simulation.loads().pressed_surfaces();
+    row.push_back(is_there ? surfaces[loads_[i]].pressure() : kNothing);
+    if (has_volume_[i]) row.push_back(is_there ? surfaces[loads_[i]].volume() : kNothing);
   }
   writer_->add(row);
 }

@@ -33,7 +33,8 @@ class Pressures {
   void tell(WrittenFiles& written) const;
 
  private:
-  std::vector<bool> has_volume_;  ///< by load of kind pressure
+  std::vector<bool> has_volume_;    ///< by load of kind pressure, of all stages
+  std::vector<std::size_t> loads_;  ///< likewise: its place among those of now
   std::unique_ptr<dynamics::CsvWriter> writer_;
 };
 

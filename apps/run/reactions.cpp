@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <system_error>
 
 namespace plekton::apps {
@@ -17,13 +18,16 @@ constexpr std::array<dynamics::OutputField, 3> kFields = {{
     {"position", "m", "of the point of the plane, or the mean of the nodes, at that time"},
 }};
 
-std::vector<dynamics::CsvColumn> columns_of(const std::vector<BuiltReaction>& reactions) {
+/// Numbers of a reaction in a row.
+constexpr std::size_t kNumbers = 3 * kFields.size();
+
+std::vector<dynamics::CsvColumn> columns_of(const std::vector<std::string>& reactions) {
   std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
-  for (const BuiltReaction& reaction : reactions) {
+  for (const std::string& reaction : reactions) {
     for (const dynamics::OutputField& field : kFields) {
       for (const char* axis : {"_x", "_y", "_z"})
         columns.push_back(
-            {reaction.name + "." + std::string(field.name) + axis, std::string(field.unit)});
+            {reaction + "." + std::string(field.name) + axis, std::string(field.unit)});
     }
   }
   return columns;
@@ -118,26 +122,32 @@ ReactionValue reaction_in(const dynamics::Simulation& simulation, const BuiltRea
 }
 
 Reactions::Reactions(const std::filesystem::path& folder,
-                     const std::vector<BuiltReaction>& reactions, const WrittenFiles* before)
-    : reactions_(reactions) {
+                     const std::vector<BuiltReaction>& reactions,
+                     const std::vector<std::string>& of_all_stages, const WrittenFiles* before)
+    : reactions_(reactions), names_(of_all_stages) {
+  if (names_.empty())
+    for (const BuiltReaction& reaction : reactions_) names_.push_back(reaction.name);
   std::error_code ignored;
   if (before == nullptr) std::filesystem::remove(folder / kReactionsFile, ignored);
   lists_contacts_ = std::any_of(reactions_.begin(), reactions_.end(), [](const auto& reaction) {
     return reaction.kind == ReactionKind::contacts;
   });
-  if (!reactions_.empty())
-    writer_ = history_file(folder, kReactionsFile, columns_of(reactions_), before);
+  if (!names_.empty()) writer_ = history_file(folder, kReactionsFile, columns_of(names_), before);
 }
 
 void Reactions::add(dynamics::Simulation& simulation) {
   std::vector<contact::ContactRecord> contacts;
   if (lists_contacts_) contacts = simulation.list_contacts();
-  std::vector<double> row{simulation.time()};
+  constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> row(1 + kNumbers * names_.size(), kNotThere);
+  row[0] = simulation.time();
   for (const BuiltReaction& reaction : reactions_) {
+    const auto name = std::find(names_.begin(), names_.end(), reaction.name);
+    double* const at = &row[1 + kNumbers * static_cast<std::size_t>(name - names_.begin())];
     const auto [value, position] = reaction_in(simulation, reaction, contacts);
-    row.insert(row.end(), value.force.data(), value.force.data() + 3);
-    row.insert(row.end(), value.moment.data(), value.moment.data() + 3);
-    row.insert(row.end(), position.data(), position.data() + 3);
+    std::copy_n(value.force.data(), 3, at);
+    std::copy_n(value.moment.data(), 3, at + 3);
+    std::copy_n(position.data(), 3, at + 6);
   }
   writer_->add(row);
 }

@@ -32,6 +32,7 @@ class Reactions {
   /// Removes the file of an earlier run, unless that goes on.
   /// @throws dynamics::OutputError
   Reactions(const std::filesystem::path& folder, const std::vector<BuiltReaction>& reactions,
+            const std::vector<std::string>& of_all_stages = {},
             const WrittenFiles* before = nullptr);
 
   bool empty() const noexcept { return reactions_.empty(); }
@@ -46,7 +47,8 @@ class Reactions {
 
  private:
   std::vector<BuiltReaction> reactions_;
-  bool lists_contacts_ = false;  ///< one of them is of kind contacts
+  std::vector<std::string> names_;  ///< of all stages
+  bool lists_contacts_ = false;     ///< one of them is of kind contacts
   std::unique_ptr<dynamics::CsvWriter> writer_;
 };
 

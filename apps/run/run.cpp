@@ -14,7 +14,9 @@
 #include "apps/run/run_state.hpp"
 #include "apps/run/run_warnings.hpp"
 #include "apps/run/scenario_copy.hpp"
+#include "apps/run/stage_watch.hpp"
 #include "apps/run/written_files.hpp"
+#include "apps/scene/build_stage.hpp"
 #include "dynamics/output/file.hpp"
 #include "geometry/base/state_archive.hpp"
 #include "geometry/base/vector_width.hpp"
@@ -100,16 +102,20 @@ class Run {
       : scenario_(scenario),
         settings_(settings),
         simulation_(*prepared.simulation),
+        bodies_of_stage_(prepared.bodies),
+        stage_(stage_watch(scenario, prepared)),
+        end_time_(stage_ ? stage_->latest() : scenario.simulation.duration),
         bodies_(scenario, prepared.built, simulation_),
         lost_(std::move(start.lost)),
         before_(files_before(settings)),
         frames_(settings.out, start.output, bodies_, before()),
         history_(settings.out, before()),
-        reactions_(settings.out, prepared.built.reactions, before()),
+        reactions_(settings.out, prepared.built.reactions, scenario.names_of_stages.reactions,
+                   before()),
         pressures_(settings.out, scenario, before()),
         rigid_bodies_(settings.out, prepared.built, before()),
         planes_(settings.out, scenario, before()),
-        progress_(settings.progress, settings.style, scenario.simulation.duration),
+        progress_(settings.progress, settings.style, end_time_),
         report_(std::move(start.report)) {
     if (reactions_.empty()) next_reactions_ = std::numeric_limits<double>::infinity();
     next_checkpoint_ = checkpoint_interval();
@@ -119,6 +125,7 @@ class Run {
   RunReport execute() {
     try {
       report_.status = loop();
+      if (stage_ && report_.status == RunStatus::finished) return end_of_stage();
       // What is written at the end is no part of it: a run that goes on has it not.
       if (last_checkpoint_step_ != simulation_.steps()) write_checkpoint();
       if (report_.status != RunStatus::interrupted) simulation_.check_energy();
@@ -132,13 +139,50 @@ class Run {
     }
     progress_.finish();
     complete_report();
-    for (std::string& warning : warnings_about(report_))
-      report_.warnings.push_back(std::move(warning));
-    write_run_report(settings_.out, report_);
+    write_whole_report();
     return report_;
   }
 
  private:
+  static std::optional<StageWatch> stage_watch(const Scenario& scenario,
+                                               const PreparedRun& prepared) {
+    if (!scenario.stage) return std::nullopt;
+    return StageWatch(*scenario.stage, prepared.bodies.starts.back());
+  }
+
+  /// What was reached is written before the checkpoint: the next stage begins after it.
+  RunReport end_of_stage() {
+    simulation_.check_energy();
+    write_last_rows();
+    complete_report();
+    const StageSettings& stage = *scenario_.stage;
+    report_.ended_by = ended_by_;
+    report_.stages.push_back(
+        to_json({stage.name, ended_by_, bodies_of_stage_.starts.back().time}, report_));
+    write_checkpoint();
+    close_files();
+    progress_.finish();
+    if (!settings_.has_next_stage) write_whole_report();
+    return report_;
+  }
+
+  /// One step. @returns whether there was any left
+  bool advance() {
+    if (!stage_) return simulation_.step_until(end_time_);
+    // Stages end with a whole step, so that where they are cut changes nothing.
+    constexpr double kRest = 1e-3;  // of a step
+    if (end_time_ - simulation_.time() > kRest * simulation_.time_step())
+      return simulation_.step_until(std::numeric_limits<double>::infinity());
+    ended_by_ = stage_->end_in_time(simulation_);
+    return false;
+  }
+
+  bool stage_ends() {
+    if (!stage_) return false;
+    ended_by_ = stage_->look(simulation_);
+    return !ended_by_.empty();
+  }
+
   RunStatus loop() {
     if (settings_.resume == nullptr) {
       watch_time_step();
@@ -146,8 +190,10 @@ class Run {
       write_due(0.0);
       report_.states.look(simulation_);
     }
-    report_.start_up_time = seconds_since(settings_.began);
-    while (simulation_.step_until(scenario_.simulation.duration)) {
+    report_.start_up_time = settings_.stages_before != nullptr
+                                ? settings_.stages_before->start_up_time
+                                : seconds_since(settings_.began);
+    while (advance()) {
       if (simulation_.largest_overlap_ratio() > next_overlap_) look_at_overlaps();
       const bool looks = simulation_.steps() % kStepsBetweenLooks == 0;
       if (simulation_.steps() >= next_look_at_grains_) look_at_grains();
@@ -160,8 +206,15 @@ class Run {
       if (looks) progress_.update(simulation_.time(), simulation_.steps());
       if (settings_.is_interrupted()) return RunStatus::interrupted;
       if (looks && is_at_rest()) return RunStatus::at_rest;
+      if (looks && stage_ends()) return RunStatus::finished;
     }
     return RunStatus::finished;
+  }
+
+  void write_whole_report() {
+    for (std::string& warning : warnings_about(report_))
+      report_.warnings.push_back(std::move(warning));
+    write_run_report(settings_.out, report_);
   }
 
   /// What the files of a run were that goes on in its folder.
@@ -198,19 +251,36 @@ class Run {
     exchange_files(archive, files);
     ScenarioText text = text_of(scenario_);
     text.exchange(archive);
+    if (stage_) exchange_stage(archive.group(kStageGroup));
     write_run_checkpoint(settings_.out, simulation_.steps(), state);
     last_checkpoint_step_ = simulation_.steps();
+    if (settings_.end_of_stage != nullptr && !ended_by_.empty())
+      *settings_.end_of_stage = std::move(state);
+  }
+
+  void exchange_stage(const geometry::StateArchive& archive) {
+    bool has_ended = !ended_by_.empty();
+    archive("has_ended", has_ended);
+    exchange_texts(archive, "ended", report_.stages);
+    // A stage that begins has seen nothing yet.
+    if (archive.is_reading() && has_ended) return;
+    bodies_of_stage_.exchange(archive);
+    stage_->exchange(archive);
   }
 
   /// The simulation has the state already.
   void go_on_from(const Resumption& from) {
-    exchange(geometry::StateArchive::reader(from.state).group(kRunGroup));
+    const auto archive = geometry::StateArchive::reader(from.state).group(kRunGroup);
+    exchange(archive);
+    if (stage_) exchange_stage(archive.group(kStageGroup));
     report_.resumed = simulation_.time();
     report_.resumed_step = simulation_.steps();
+    if (settings_.stages_before != nullptr) take_timing(*settings_.stages_before);
     if (!scenario_.output.checkpoint_interval)
       next_checkpoint_ = std::numeric_limits<double>::infinity();
     else if (!std::isfinite(next_checkpoint_))
       next_checkpoint_ = simulation_.time() + checkpoint_interval();
+    if (from.is_there) follow_new_intervals();
     if (from.same_folder) {
       last_checkpoint_step_ = simulation_.steps();
       return;
@@ -219,6 +289,25 @@ class Run {
     next_row_ = next_frame_ = std::max(*from.from, simulation_.time());
     if (!reactions_.empty()) next_reactions_ = next_row_;
     last_row_step_ = last_reactions_step_ = last_frame_step_ = -1;
+  }
+
+  /// A stage may be written more often than the one before.
+  void follow_new_intervals() {
+    const double now = simulation_.time();
+    const OutputSettings& output = scenario_.output;
+    next_row_ = std::min(next_row_, now + output.history_interval);
+    next_frame_ = std::min(next_frame_, now + output.interval);
+    next_reactions_ = reactions_.empty()
+                          ? std::numeric_limits<double>::infinity()
+                          : std::min(next_reactions_, now + output.reactions_interval);
+  }
+
+  /// Of stages that the same run of the program has made before.
+  void take_timing(const RunReport& before) {
+    report_.resumed = before.resumed;
+    report_.resumed_step = before.resumed_step;
+    report_.output_time = before.output_time;
+    wall_time_before_ = before.wall_time;
   }
 
   /// What the run knows beside the simulation and its files.
@@ -263,7 +352,7 @@ class Run {
   /// Frames and rows whose time has come.
   void write_due(double time) {
     // Before a last step that is short nothing is due at the end already.
-    const bool ends_soon = scenario_.simulation.duration - time < 0.5 * simulation_.time_step();
+    const bool ends_soon = !stage_ && end_time_ - time < 0.5 * simulation_.time_step();
     const double soon = ends_soon ? 0.0 : 0.5 * simulation_.time_step();
     if (time < std::min({next_row_, next_reactions_, next_frame_}) - soon) return;
     const TimeInto output(report_.output_time);
@@ -309,12 +398,20 @@ class Run {
 
   /// The state at the end, however it came about.
   void write_last() {
+    write_last_rows();
+    close_files();
+  }
+
+  void write_last_rows() {
     look_at_grains();
     report_.states.take(simulation_);
     const TimeInto output(report_.output_time);
     if (last_row_step_ != simulation_.steps()) add_row();
     if (!reactions_.empty() && last_reactions_step_ != simulation_.steps()) add_reactions();
     if (last_frame_step_ != simulation_.steps()) write_frame();
+  }
+
+  void close_files() {
     history_.close();
     reactions_.close();
     pressures_.close();
@@ -358,7 +455,7 @@ class Run {
     report_.simulated_time = simulation_.time();
     report_.steps = simulation_.steps();
     report_.time_step = simulation_.time_step();
-    report_.wall_time = seconds_since(start_);
+    report_.wall_time = wall_time_before_ + seconds_since(start_);
     report_.largest_overlap_ratio = simulation_.largest_overlap_ratio();
     report_.pass_throughs = simulation_.pass_throughs();
     report_.most_crossings = simulation_.most_crossings();
@@ -384,6 +481,10 @@ class Run {
   const Scenario& scenario_;
   const RunSettings& settings_;
   dynamics::Simulation& simulation_;
+  StageBodies& bodies_of_stage_;
+  std::optional<StageWatch> stage_;
+  double end_time_;       // s, at the latest
+  std::string ended_by_;  // of a stage; empty: it goes on
   BodyTables bodies_;
   LostGrains lost_;
   std::optional<WrittenFiles> before_;
@@ -396,6 +497,7 @@ class Run {
   Progress progress_;
   RunReport report_;
   Progress::Clock::time_point start_ = Progress::Clock::now();
+  double wall_time_before_ = 0.0;       // s
   double next_row_ = 0.0;               // s
   double next_reactions_ = 0.0;         // s; infinite if there are none
   double next_frame_ = 0.0;             // s
@@ -432,7 +534,18 @@ void require_sound_time_step(const SimulationSettings& settings, double critical
   problems.throw_if_any();
 }
 
-/// @throws InputError
+contact::ContactModel model_of(const std::vector<PairSettings>& pairs) {
+  contact::PairProperties<contact::AnyLaw> properties;
+  for (const PairSettings& pair : pairs) {
+    properties[{geometry::id_at<contact::MaterialId>(pair.first),
+                geometry::id_at<contact::MaterialId>(pair.second)}] =
+        contact::properties_of(pair.contact);
+  }
+  return contact::any_law(properties);
+}
+
+}  // namespace
+
 void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& simulation) {
   double chosen = simulation.time_step();
   if (settings.time_step) {
@@ -455,22 +568,7 @@ void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& 
   if (chosen != simulation.time_step()) simulation.set_time_step(chosen);
 }
 
-contact::ContactModel model_of(const std::vector<PairSettings>& pairs) {
-  contact::PairProperties<contact::AnyLaw> properties;
-  for (const PairSettings& pair : pairs) {
-    properties[{geometry::id_at<contact::MaterialId>(pair.first),
-                geometry::id_at<contact::MaterialId>(pair.second)}] =
-        contact::properties_of(pair.contact);
-  }
-  return contact::any_law(properties);
-}
-
-}  // namespace
-
-PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
-  PreparedRun prepared;
-  prepared.built = build_scene(scenario, hear);
-  if (hear) hear("looking for contacts", 0.0);
+std::unique_ptr<dynamics::Simulation> simulation_of(const Scenario& scenario, BuiltScene& built) {
   dynamics::SimulationOptions options;
   options.motion = {scenario.simulation.gravity, scenario.simulation.damping,
                     scenario.simulation.damp_gravity};
@@ -478,11 +576,19 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   options.self_contact = scenario.simulation.self_contact;
   options.threads = scenario.simulation.threads;
   try {
-    prepared.simulation = std::make_unique<dynamics::Simulation>(
-        std::move(prepared.built.scene), options, model_of(scenario.contacts));
+    return std::make_unique<dynamics::Simulation>(std::move(built.scene), options,
+                                                  model_of(scenario.contacts));
   } catch (const std::length_error& error) {
-    throw refused_self_contact(scenario, prepared.built.membranes, error.what());
+    throw refused_self_contact(scenario, built.membranes, error.what());
   }
+}
+
+PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
+  PreparedRun prepared;
+  prepared.built = build_scene(scenario, hear);
+  if (hear) hear("looking for contacts", 0.0);
+  if (scenario.stage) prepared.bodies = first_stage(prepared.built);
+  prepared.simulation = simulation_of(scenario, prepared.built);
   prepared.duration = scenario.simulation.duration;
   choose_time_step(scenario.simulation, *prepared.simulation);
   prepared.start = initial_contacts(scenario, prepared.built, *prepared.simulation);
@@ -495,7 +601,8 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
   require_possible_start(prepared.start, scenario);
   const RunStart start = start_of(scenario, prepared);
   // Before any file is touched: it may be the state of another scene.
-  if (settings.resume != nullptr) prepared.simulation->restore(settings.resume->state);
+  if (settings.resume != nullptr && !settings.resume->is_there)
+    prepared.simulation->restore(settings.resume->state);
   make_output_folder(settings.out);
   const OutputFolderLock lock(settings.out);
   const bool goes_on = settings.resume != nullptr && settings.resume->same_folder;

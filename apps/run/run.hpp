@@ -23,7 +23,13 @@ struct PreparedRun {
   std::unique_ptr<dynamics::Simulation> simulation;
   double duration = 0.0;  ///< s
   InitialContacts start;
+  StageBodies bodies;  ///< of a stage; empty: the scenario has none
 };
+
+/// The parts of that: a simulation of what was built, and its time step.
+std::unique_ptr<dynamics::Simulation> simulation_of(const Scenario& scenario, BuiltScene& built);
+/// @throws InputError as prepare_run()
+void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& simulation);
 
 /// Builds the scene of a scenario and a simulation of it.
 /// An automatic time step is not longer than the duration.
@@ -37,6 +43,7 @@ struct Resumption {
   const geometry::StateTree& state;
   bool same_folder = true;     ///< whose files go on; or others begin
   std::optional<double> from;  ///< s, when output begins; nothing: goes on as it would have
+  bool is_there = false;  ///< the simulation is in that state already: a stage before led to it
 };
 
 /// How and where to run.
@@ -49,6 +56,9 @@ struct RunSettings {
   Progress::Clock::time_point began = Progress::Clock::now();
   bool overwrite = false;  ///< replace the results of an earlier run
   const Resumption* resume = nullptr;
+  const RunReport* stages_before = nullptr;     ///< of the same run of the program
+  geometry::StateTree* end_of_stage = nullptr;  ///< set to the state at its end, if it is given
+  bool has_next_stage = false;                  ///< which will write run.json
 };
 
 /// Runs a prepared simulation to its end, or until it is at rest or interrupted, and writes frames,

@@ -106,7 +106,10 @@ TableNames names_of(const Scenario& scenario) {
   for (const GrainSettings& grains : scenario.grains) names.grains.push_back(grains.name);
   for (const MembraneSettings& membrane : scenario.membranes)
     names.membranes.push_back(membrane.name);
-  for (const PlaneSettings& plane : scenario.planes) names.planes.push_back(plane.name);
+  if (scenario.stage)
+    names.planes = scenario.names_of_stages.planes;
+  else
+    for (const PlaneSettings& plane : scenario.planes) names.planes.push_back(plane.name);
   return names;
 }
 
@@ -140,9 +143,27 @@ std::string to_json(const RunReport& report) {
                   {"out_of_bounds", report.lost_out_of_bounds}};
   json["certificate"] = certificate_in_json(report);
   json["states"] = states_of(report.states);
+  if (!report.stages.empty()) {
+    json["stages"] = Json::array();
+    for (const std::string& stage : report.stages) json["stages"].push_back(Json::parse(stage));
+  }
   json["warnings"] = report.warnings;
   // A path need not be UTF-8; what is not becomes a replacement character.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string to_json(const EndedStage& stage, const RunReport& report) {
+  const Json json = {{"name", stage.name},
+                     {"ended_by", stage.ended_by},
+                     {"start_s", stage.start},
+                     {"end_s", report.simulated_time},
+                     {"steps_so_far", report.steps},
+                     {"grains", report.grains},
+                     {"planes", report.planes},
+                     {"contacts", report.contacts},
+                     {"energy", energy_of(report.energy)},
+                     {"certificate", certificate_in_json(report)}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 void write_run_report(const std::filesystem::path& folder, const RunReport& report) {

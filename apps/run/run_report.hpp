@@ -97,6 +97,8 @@ struct RunReport {
   std::size_t lost_out_of_bounds = 0;
   StateHashes states;
   std::vector<std::string> warnings;
+  std::vector<std::string> stages;  ///< that have ended, each a JSON object
+  std::string ended_by;             ///< what ended the last of them
 };
 
 /// ms, of a step that this part of the run took; 0 if there was none.
@@ -107,6 +109,15 @@ inline double ms_per_step(const RunReport& report) noexcept {
 
 /// The report as a JSON object.
 std::string to_json(const RunReport& report);
+
+/// A stage that has ended, for RunReport::stages: when, by what, and the certificate of the run up
+/// to there.
+struct EndedStage {
+  std::string name;
+  std::string ended_by;
+  double start = 0.0;  ///< s
+};
+std::string to_json(const EndedStage& stage, const RunReport& report);
 
 /// Writes run.json into a folder, complete or not at all. @throws dynamics::OutputError
 void write_run_report(const std::filesystem::path& folder, const RunReport& report);

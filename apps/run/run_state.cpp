@@ -10,21 +10,6 @@ namespace {
 
 using geometry::StateArchive;
 
-/// Texts as one, each closed by a character that none has.
-void exchange_texts(const StateArchive& archive, const char* name,
-                    std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += text + '\0';
-  archive(name, all);
-  if (!archive.is_reading()) return;
-  texts.clear();
-  for (std::size_t begin = 0; begin < all.size();) {
-    const std::size_t end = std::min(all.find('\0', begin), all.size());
-    texts.push_back(all.substr(begin, end - begin));
-    begin = end + 1;
-  }
-}
-
 void exchange_overlap(const StateArchive& archive, RunReport& report) {
   bool is_there = report.deepest_overlap.has_value();
   archive("is_there", is_there);
@@ -40,6 +25,20 @@ void exchange_overlap(const StateArchive& archive, RunReport& report) {
 }
 
 }  // namespace
+
+void exchange_texts(const StateArchive& archive, const char* name,
+                    std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += text + '\0';
+  archive(name, all);
+  if (!archive.is_reading()) return;
+  texts.clear();
+  for (std::size_t begin = 0; begin < all.size();) {
+    const std::size_t end = std::min(all.find('\0', begin), all.size());
+    texts.push_back(all.substr(begin, end - begin));
+    begin = end + 1;
+  }
+}
 
 void exchange_files(const StateArchive& archive, WrittenFiles& files) {
   const StateArchive sizes = archive.group("files");

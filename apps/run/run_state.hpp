@@ -14,8 +14,13 @@
 namespace plekton::apps {
 
 inline constexpr const char* kRunGroup = "run";
+inline constexpr const char* kStageGroup = "stage";  ///< in that group, of scenarios with stages
 
 void exchange_files(const geometry::StateArchive& archive, WrittenFiles& files);
+
+/// Texts as one, each closed by a character that none has.
+void exchange_texts(const geometry::StateArchive& archive, const char* name,
+                    std::vector<std::string>& texts);
 
 /// What a report has collected so far.
 void exchange_so_far(const geometry::StateArchive& archive, RunReport& report);

@@ -20,9 +20,11 @@ const std::vector<std::set<std::string>>& absences() {
       {"loads[].plane", "loads[].grains", "loads[].angular_velocity", "loads[].turn",
        "membranes[].longest_hole", "membranes[].wrap_detail", "membranes[].wire",
        "output.reactions[].grains", "grains[].centres", "grains[].radii", "loads[].rigid_body",
-       "output.reactions[].rigid_body", "rigid_bodies[].spheres", "rigid_bodies[].mass"},
+       "output.reactions[].rigid_body", "rigid_bodies[].spheres", "rigid_bodies[].mass",
+       "stages[].remove[].grains", "stages[].fix[].grains", "stages[].free[].grains"},
       {"loads[].plane", "loads[].membrane", "output.reactions[].membrane", "loads[].rigid_body",
-       "output.reactions[].rigid_body"},
+       "output.reactions[].rigid_body", "stages[].remove[].membrane", "stages[].fix[].membrane",
+       "stages[].free[].membrane"},
       {},
       {"loads[].plane"}};
   return sets;

@@ -188,6 +188,33 @@ constexpr std::array kOfOutput = std::to_array<KeyMeaning>({
     {"output.reactions[].nodes", "which of its nodes"},
 });
 
+constexpr std::array kOfStages = std::to_array<KeyMeaning>({
+    {"stages[].name", "what messages, run.json and --from call it; names must differ"},
+    {"stages[].max_duration", "the run fails where the stage has not ended by then"},
+    {"stages[].end.duration", "the stage ends after this time"},
+    {"stages[].end.kinetic_energy", "it ends when the kinetic energy is below"},
+    {"stages[].end.unbalanced_force", "it ends when the unbalanced force ratio is below"},
+    {"stages[].end.servo.load", "it ends when the plane of this servo bears the wanted force"},
+    {"stages[].end.servo.tolerance", "part of the wanted force"},
+    {"stages[].end.displacement.plane", "it ends when this plane has moved"},
+    {"stages[].end.displacement.distance", "by this, from the start of the stage"},
+    {"stages[].end.strain.between", "two planes, of whose distance it is a part"},
+    {"stages[].end.strain.strain", "it ends when the distance has changed by this part"},
+    {"stages[].end.after", "no rest and no servo counts before; without it once they did not hold"},
+    {"stages[].remove[].membrane", "stays in all stages"},
+    {"stages[].remove[].grains", "table of which grains are taken out; or plane or load, by name"},
+    {"stages[].remove[].above", "those with their centres above this height"},
+    {"stages[].remove[].below", "and below this height"},
+    {"stages[].remove[].box.min", "and in this box"},
+    {"stages[].remove[].box.max", "its larger corner"},
+    {"stages[].fix[].membrane", "whose nodes are held from the start of the stage on"},
+    {"stages[].fix[].grains", "likewise"},
+    {"stages[].fix[].nodes", "which of them"},
+    {"stages[].free[].membrane", "whose nodes are free from the start of the stage on"},
+    {"stages[].free[].grains", "likewise"},
+    {"stages[].free[].nodes", "which of them"},
+});
+
 /// Parameters of laws have their meaning with the law.
 std::string_view meaning_of_parameter(std::string_view name) {
   std::string_view meaning;
@@ -212,7 +239,8 @@ std::vector<KeyMeaning> key_meanings() {
        {std::span<const KeyMeaning>(kOfSimulation), std::span<const KeyMeaning>(kOfMaterials),
         std::span<const KeyMeaning>(kOfMembranes), std::span<const KeyMeaning>(kOfShapes),
         std::span<const KeyMeaning>(kOfGrains), std::span<const KeyMeaning>(kOfRigidBodies),
-        std::span<const KeyMeaning>(kOfLoads), std::span<const KeyMeaning>(kOfOutput)})
+        std::span<const KeyMeaning>(kOfLoads), std::span<const KeyMeaning>(kOfOutput),
+        std::span<const KeyMeaning>(kOfStages)})
     all.insert(all.end(), table.begin(), table.end());
   return all;
 }

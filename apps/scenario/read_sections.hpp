@@ -39,6 +39,8 @@ PlaneSettings read_plane(Section section, const Known& known);
 /// @param scenario  with its duration, from which the intervals have their defaults, and its bodies
 OutputSettings read_output(Section section, const Scenario& scenario);
 StopSettings read_stop(Section section);
+/// @param scenario  of the stage, with its bodies, planes and loads
+StageSettings read_stage(Section section, const Scenario& scenario);
 
 /// @param scenario  with its membranes, grains and planes
 /// @param number    Position among the tables, for those without a name.

@@ -6,6 +6,7 @@
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/rigid_body_settings.hpp"
 #include "apps/scenario/shape_settings.hpp"
+#include "apps/scenario/stage_settings.hpp"
 #include "contact/law_list.hpp"
 #include "dynamics/structure/bond_strength.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
@@ -197,6 +198,9 @@ struct Scenario {
   std::vector<LoadSettings> loads;
   OutputSettings output;
   std::optional<StopSettings> stop;
+  std::optional<StageSettings> stage;  ///< of which this is the scenario
+  NamesOfStages names_of_stages;       ///< where there are some
+  std::vector<Scenario> stages;        ///< all of them; the rest of this is the first one
 };
 
 }  // namespace plekton::apps

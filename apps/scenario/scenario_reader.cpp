@@ -4,6 +4,8 @@
 #include "apps/scenario/overrides.hpp"
 #include "apps/scenario/read_rigid_body.hpp"
 #include "apps/scenario/read_sections.hpp"
+#include "apps/scenario/stage_tables.hpp"
+#include "apps/scenario/staged_scenario.hpp"
 #include "apps/scenario/toml_file.hpp"
 #include "apps/scenario/toml_text.hpp"
 
@@ -74,19 +76,56 @@ Scenario read_root(Section root, Problems& problems, const fs::path& path) {
   scenario.output =
       read_output(output.value_or(Section(none, root.place(), "output", problems)), scenario);
   if (const auto section = root.table("stop")) scenario.stop = read_stop(*section);
+  for (Section& section : root.tables("stages")) scenario.stage = read_stage(section, scenario);
   root.finish();
   return scenario;
 }
 
 /// @param start  where what is missing is said to be
-Scenario scenario_of(const Table& table, const fs::path& path, const Place& start) {
-  Problems problems;
+Scenario scenario_of(const Table& table, const Place& start, const fs::path& path,
+                     Problems& problems) {
   Scenario scenario = read_root(Section(table, start, "", problems), problems, path);
   if (problems.empty() && scenario.membranes.empty() && scenario.grains.empty()) {
     problems.add(start,
                  "nothing to simulate; expected at least one table [[grains]] or [[membranes]]");
   }
+  return scenario;
+}
+
+/// All stages; the first one is the scenario itself.
+Scenario staged_scenario(const Table& table, const Place& start, const fs::path& path,
+                         Problems& problems) {
+  std::vector<Scenario> stages;
+  for (StageTable& stage : stage_tables(table, problems)) {
+    stages.push_back(scenario_of(stage.table, start, path, problems));
+    if (!stages.back().stage) continue;
+    stages.back().stage->number = stages.size() - 1;
+    stages.back().stage->origins = std::move(stage.origins);
+  }
+  if (!problems.empty()) return {};
+  stages.back().stage->is_last = true;
+  check_stages(stages, problems);
+  const NamesOfStages names = names_in(stages);
+  for (Scenario& stage : stages) stage.names_of_stages = names;
+  Scenario first = stages.front();
+  first.stages = std::move(stages);
+  return first;
+}
+
+/// @param start  where what is missing is said to be
+Scenario whole_scenario(const Table& table, const Place& start, std::string_view text,
+                        std::span<const std::string> overrides) {
+  const fs::path path = start.source;
+  Problems problems;
+  Scenario scenario = has_stages(table) ? staged_scenario(table, start, path, problems)
+                                        : scenario_of(table, start, path, problems);
   problems.throw_if_any();
+  const auto note_origin = [&](Scenario& of) {
+    of.text = text;
+    of.overrides.assign(overrides.begin(), overrides.end());
+  };
+  note_origin(scenario);
+  for (Scenario& stage : scenario.stages) note_origin(stage);
   return scenario;
 }
 
@@ -96,19 +135,13 @@ Scenario parse_scenario(std::string_view text, const fs::path& path,
                         std::span<const std::string> overrides) {
   Table table = parse_toml(text, path.string());
   apply_overrides(table, overrides);
-  Scenario scenario = scenario_of(table, path, {path.string(), 1, 1});
-  scenario.text = text;
-  scenario.overrides.assign(overrides.begin(), overrides.end());
-  return scenario;
+  return whole_scenario(table, {path.string(), 1, 1}, text, overrides);
 }
 
 Scenario scenario_from(Table table, const fs::path& path, std::span<const std::string> overrides) {
-  std::string text = to_toml(table);
+  const std::string text = to_toml(table);
   apply_overrides(table, overrides);
-  Scenario scenario = scenario_of(table, path, {path.string(), 0, 0});
-  scenario.text = std::move(text);
-  scenario.overrides.assign(overrides.begin(), overrides.end());
-  return scenario;
+  return whole_scenario(table, {path.string(), 0, 0}, text, overrides);
 }
 
 Scenario read_scenario(const fs::path& path, std::span<const std::string> overrides) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/build_loads.hpp"
 
+#include "apps/scene/at_start.hpp"
 #include "apps/scene/node_set.hpp"
 #include "apps/scene/prescribed_once.hpp"
 #include "dynamics/loads/surface_pressure.hpp"
@@ -21,16 +22,19 @@ using geometry::NodeId;
 /// Adds one load after the other and collects what is wrong with them.
 class LoadBuilder {
  public:
-  LoadBuilder(const Scenario& scenario, BuiltScene& built)
+  LoadBuilder(const Scenario& scenario, BuiltScene& built, const StageBodies* bodies)
       : scenario_(scenario),
         built_(built),
+        bodies_(bodies),
         loads_(built.scene.loads),
         prescribed_(built.scene.properties.held) {}
 
   void add_all() {
-    for (const LoadSettings& settings : scenario_.loads) {
-      current_ = &settings;
-      std::visit([&](const auto& load) { add(load); }, settings.load);
+    for (std::size_t i = 0; i < scenario_.loads.size(); ++i) {
+      current_ = &scenario_.loads[i];
+      start_ = bodies_ ? &bodies_->starts[scenario_.stage->origins.loads[i]] : nullptr;
+      const AtStart at_start(built_, start_);
+      std::visit([&](const auto& load) { add(load); }, current_->load);
     }
     problems_.throw_if_any();
   }
@@ -39,12 +43,14 @@ class LoadBuilder {
   void add(const GravitySettings& gravity) {
     if (std::exchange(has_gravity_, true))
       complain(current_->place, "kind", "there is a load of kind gravity already; expected one");
-    loads_.gravity_factor = gravity.factor;
+    loads_.gravity_factor = begun(gravity.factor);
   }
 
   void add(const MotionSettings& settings) {
     dynamics::PrescribedMotion motion = settings.motion;
     motion.nodes = nodes_of_set(settings.nodes);
+    motion.factor = begun(motion.factor);
+    motion.start = places_of(motion.nodes);
     const std::string taken = prescribed_.add(motion, *current_);
     if (!taken.empty()) {
       complain(
@@ -59,13 +65,15 @@ class LoadBuilder {
   void add(const ForceSettings& settings) {
     dynamics::NodalForce load = settings.load;
     load.nodes = nodes_of_set(settings.nodes);
+    load.factor = begun(load.factor);
     if (settings.is_total && !load.nodes.empty())
       load.force /= static_cast<double>(load.nodes.size());
     loads_.forces.push_back(std::move(load));
   }
 
   void add(const GroundSpringSettings& settings) {
-    loads_.ground_springs.push_back({nodes_of_set(settings.nodes), settings.springs.stiffness});
+    const std::vector<NodeId> nodes = nodes_of_set(settings.nodes);
+    loads_.ground_springs.push_back({nodes, settings.springs.stiffness, places_of(nodes)});
   }
 
   void add(const MassDampingSettings& settings) {
@@ -97,21 +105,26 @@ class LoadBuilder {
                            name));
     else if (load.gas || load.by_volume)
       require_closed(settings, load);
+    load.factor = begun(load.factor);
+    if (load.gas && start_ != nullptr) load.start_volume = volume_of(load);
     loads_.pressures.push_back(std::move(load));
   }
 
-  void add(const dynamics::PlaneMotion& motion) {
+  void add(dynamics::PlaneMotion motion) {
     drive(motion.plane);
     const PlaneSettings& plane = scenario_.planes[motion.plane];
     if (!plane.velocity.isZero(0.0))
       complain(current_->place, "plane",
                fmt::format("\"{}\" has a velocity of its own; leave planes.{}.velocity out",
                            plane.name, plane.name));
+    motion.factor = begun(motion.factor);
+    if (start_ != nullptr) motion.start = start_->planes[motion.plane];
     loads_.plane_motions.push_back(motion);
   }
 
-  void add(const dynamics::PlaneServo& servo) {
+  void add(dynamics::PlaneServo servo) {
     drive(servo.plane);
+    servo.factor = begun(servo.factor);
     loads_.servos.push_back(servo);
   }
 
@@ -157,13 +170,31 @@ class LoadBuilder {
     return nodes;
   }
 
+  /// Its numbers count from when the load began.
+  dynamics::TimeTable begun(const dynamics::TimeTable& factor) const {
+    return start_ ? factor.from(start_->time) : factor;
+  }
+
+  /// m, where the load began; empty if that is now.
+  std::vector<geometry::Vec3> places_of(const std::vector<NodeId>& nodes) const {
+    std::vector<geometry::Vec3> places;
+    for (std::size_t i = 0; start_ != nullptr && i < nodes.size(); ++i)
+      places.push_back(start_->positions[index_of(nodes[i])]);
+    return places;
+  }
+
+  /// m³
+  double volume_of(const dynamics::SurfacePressure& load) const {
+    std::vector<std::array<NodeId, 3>> corners;
+    for (const geometry::FaceId facet : load.facets)
+      corners.push_back(built_.scene.elements.facets[index_of(facet)].nodes);
+    return dynamics::volume_under(corners, built_.scene.state.position);
+  }
+
   void require_closed(const PressureSettings& settings, const dynamics::SurfacePressure& load) {
     std::vector<geometry::Facet> facets;
-    std::vector<std::array<NodeId, 3>> corners;
-    for (const geometry::FaceId facet : load.facets) {
+    for (const geometry::FaceId facet : load.facets)
       facets.push_back(built_.scene.elements.facets[index_of(facet)]);
-      corners.push_back(facets.back().nodes);
-    }
     const std::string& name = built_.membranes[settings.membrane].name;
     const std::string_view key = load.gas ? "gas" : "by_volume";
     if (!dynamics::are_closed(facets))
@@ -173,7 +204,7 @@ class LoadBuilder {
                       "it (fill_holes), or leave {} out for a pressure that does not depend "
                       "on the volume",
                       name, key));
-    else if (!(dynamics::volume_under(corners, built_.scene.state.position) > 0.0))
+    else if (!(volume_of(load) > 0.0))
       complain(
           settings.volume_place, key,
           fmt::format("the facets of \"{}\" face inward; expected them to face outward", name));
@@ -194,18 +225,20 @@ class LoadBuilder {
 
   const Scenario& scenario_;
   BuiltScene& built_;
+  const StageBodies* bodies_;
   dynamics::Loads& loads_;
   PrescribedOnce prescribed_;
   Problems problems_;
   const LoadSettings* current_ = nullptr;
+  const StageStart* start_ = nullptr;        // of the load; nothing: it begins with the scene
   std::vector<const LoadSettings*> driven_;  // by plane
   bool has_gravity_ = false;
 };
 
 }  // namespace
 
-void add_loads(const Scenario& scenario, BuiltScene& built) {
-  LoadBuilder(scenario, built).add_all();
+void add_loads(const Scenario& scenario, BuiltScene& built, const StageBodies* bodies) {
+  LoadBuilder(scenario, built, bodies).add_all();
 }
 
 }  // namespace plekton::apps

@@ -9,6 +9,7 @@ namespace plekton::apps {
 /// and beams.
 /// @throws InputError listing every problem, each with its place: sets without nodes, motions that
 /// are prescribed twice or held, pressure on a net, a gas in a surface that is not closed.
-void add_loads(const Scenario& scenario, BuiltScene& built);
+/// @param bodies  of the stage: how things stood where a load began; nothing: they begin now
+void add_loads(const Scenario& scenario, BuiltScene& built, const StageBodies* bodies = nullptr);
 
 }  // namespace plekton::apps

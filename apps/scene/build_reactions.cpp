@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/build_reactions.hpp"
 
+#include "apps/scene/at_start.hpp"
 #include "apps/scene/node_set.hpp"
 
 #include <fmt/format.h>
@@ -49,11 +50,14 @@ std::string problem_of(const ReactionSettings& settings, const BuiltReaction& re
 
 }  // namespace
 
-void add_reactions(const Scenario& scenario, BuiltScene& built) {
+void add_reactions(const Scenario& scenario, BuiltScene& built, const StageBodies* bodies) {
   Problems problems;
   const std::vector<Held> held =
       dynamics::held_with_motions(built.scene.properties.held, built.scene.loads.motions);
-  for (const ReactionSettings& settings : scenario.output.reactions) {
+  for (std::size_t i = 0; i < scenario.output.reactions.size(); ++i) {
+    const ReactionSettings& settings = scenario.output.reactions[i];
+    const AtStart at_start(
+        built, bodies ? &bodies->starts[scenario.stage->origins.reactions[i]] : nullptr);
     BuiltReaction reaction{settings.name, settings.kind, settings.plane, {}, settings.about};
     if (settings.kind != ReactionKind::plane) reaction.nodes = nodes_of(settings.nodes, built);
     if (settings.kind == ReactionKind::contacts && settings.nodes.rigid_body)

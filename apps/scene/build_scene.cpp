@@ -33,9 +33,11 @@ void add_materials_and_planes(const Scenario& scenario, dynamics::Scene& scene) 
 }
 
 /// Everything in the scene that has a place, for the grains to keep clear of.
-std::vector<Obstacle> obstacles_of(const BuiltScene& built) {
+/// @param there  what of it is elsewhere than where it was made
+std::vector<Obstacle> obstacles_of(const BuiltScene& built, const BodiesThere& there) {
   const dynamics::Scene& scene = built.scene;
-  const geometry::Positions x = scene.state.position;
+  std::vector<Vec3> x = scene.state.position;
+  std::copy(there.positions.begin(), there.positions.end(), x.begin());
   std::vector<Obstacle> obstacles;
   for (const geometry::Facet& facet : scene.elements.facets)
     obstacles.push_back({geometry::core(facet, x), facet.radius});
@@ -50,7 +52,9 @@ std::vector<Obstacle> obstacles_of(const BuiltScene& built) {
     first += membrane.beams;
   }
   for (const geometry::Sphere& sphere : scene.elements.spheres) {
-    const Vec3& centre = x[index_of(sphere.nodes[0])];
+    const std::size_t node = index_of(sphere.nodes[0]);
+    if (!there.are_in_the_way && node < there.positions.size()) continue;
+    const Vec3& centre = x[node];
     obstacles.push_back({{centre, centre, centre}, sphere.radius});
   }
   return obstacles;
@@ -79,11 +83,21 @@ std::vector<PlacedGrain> in_order_of_space(const std::vector<PlacedGrain>& grain
   return sorted;
 }
 
+/// A table of grains that are there: its nodes come next.
+std::vector<PlacedGrain> grains_there(std::size_t table, const BodiesThere& there,
+                                      const BuiltScene& built) {
+  std::vector<PlacedGrain> grains;
+  std::size_t node = built.scene.state.size();
+  for (const double radius : there.grains[table])
+    grains.push_back({there.positions[node++], radius});
+  return grains;
+}
+
 /// Where it is told, in that order; or in the box, clear of all that is there.
-std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, const BuiltScene& built,
-                                       const HearSetUp& hear) {
+std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, const BodiesThere& there,
+                                       const BuiltScene& built, const HearSetUp& hear) {
   if (settings.centres.empty()) {
-    const std::vector<Obstacle> obstacles = obstacles_of(built);
+    const std::vector<Obstacle> obstacles = obstacles_of(built, there);
     const auto tell = [&](double share) {
       if (hear) hear("placing grains " + settings.name, share);
     };
@@ -98,12 +112,11 @@ std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, const Buil
   return grains;
 }
 
-BuiltGrains add_grains(const GrainSettings& settings, double density, BuiltScene& built,
-                       const HearSetUp& hear) {
+BuiltGrains add_grains(const GrainSettings& settings, const std::vector<PlacedGrain>& grains,
+                       double density, BuiltScene& built) {
   dynamics::Scene& scene = built.scene;
-  const std::vector<PlacedGrain> grains = placed_grains(settings, built, hear);
-  BuiltGrains result{settings.name, grains.size(), 0.0, grains.front().radius,
-                     grains.front().radius};
+  BuiltGrains result{settings.name, grains.size(), 0.0, 0.0, 0.0};
+  if (!grains.empty()) result.smallest = result.largest = grains.front().radius;
   for (const PlacedGrain& grain : grains) {
     const auto id = scene.add_sphere(grain.centre, grain.radius, density,
                                      static_cast<contact::MaterialId>(settings.material));
@@ -128,6 +141,14 @@ BuiltGrains add_grains(const GrainSettings& settings, double density, BuiltScene
 }  // namespace
 
 BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear) {
+  BuiltScene built = build_bodies(scenario, {}, hear);
+  add_loads(scenario, built);
+  hold_as_loaded(scenario, built);
+  add_reactions(scenario, built);
+  return built;
+}
+
+BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there, const HearSetUp& hear) {
   BuiltScene built;
   Problems problems;
   add_materials_and_planes(scenario, built.scene);
@@ -152,8 +173,12 @@ BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear) {
         add_rigid_spheres(scenario.rigid_bodies[*grains.rigid_body], grains, built);
         continue;
       }
+      const std::size_t table = built.grains.size();
+      const std::vector<PlacedGrain> placed = table < there.grains.size()
+                                                  ? grains_there(table, there, built)
+                                                  : placed_grains(grains, there, built, hear);
       built.grains.push_back(
-          add_grains(grains, scenario.materials[grains.material].density.value(), built, hear));
+          add_grains(grains, placed, scenario.materials[grains.material].density.value(), built));
     } catch (const DoesNotFit& error) {
       problems.add(grains.place, fmt::format("grains.{}", error.what()));
     } catch (const InputError& error) {
@@ -163,9 +188,6 @@ BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear) {
     }
   }
   problems.throw_if_any();
-  add_loads(scenario, built);
-  hold_as_loaded(scenario, built);
-  add_reactions(scenario, built);
   return built;
 }
 

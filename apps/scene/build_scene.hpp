@@ -2,12 +2,14 @@
 #pragma once
 
 #include "apps/scenario/scenario.hpp"
+#include "apps/scene/stage_bodies.hpp"
 #include "dynamics/model/scene.hpp"
 #include "geometry/mesh/repair/report.hpp"
 
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -84,5 +86,17 @@ using HearSetUp = std::function<void(const std::string& what, double share)>;
 /// @throws InputError listing every problem that only the files and the geometry show: meshes that
 ///         cannot be used, nothing to hold, grains that do not fit.
 BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear = {});
+
+/// Bodies that are there already.
+struct BodiesThere {
+  std::span<const std::vector<double>> grains;  ///< m, radii, of the first tables of grains
+  std::span<const Vec3> positions;              ///< m, of all their nodes; empty: there are none
+  bool are_in_the_way = true;                   ///< whether new grains keep clear of these grains
+};
+
+/// The same without loads and reactions. Membranes are where they are made; grains that are there
+/// where they are, and the others clear of all of them as they are.
+BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there,
+                        const HearSetUp& hear = {});
 
 }  // namespace plekton::apps

@@ -71,7 +71,7 @@ TEST(KeyList, HasEveryTableOfTheDocumentation) {
   EXPECT_EQ(tables, Words({"[simulation]", "[materials.NAME]", "[[contacts]]", "[[membranes]]",
                            "[[membranes]] shape", "[[rigid_bodies]]", "[[rigid_bodies]] shape",
                            "[[grains]]", "[[planes]]", "[[loads]]", "[output]",
-                           "[[output.reactions]]", "[stop]"}));
+                           "[[output.reactions]]", "[stop]", "[[stages]]"}));
 }
 
 TEST(KeyList, HasNoKeyThatIsNotDocumented) {

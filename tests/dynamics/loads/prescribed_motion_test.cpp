@@ -55,6 +55,19 @@ TEST(PrescribedMotion, CountsTheDisplacementFromThatOfTheStart) {
   EXPECT_NEAR(simulation.state().position[0].y(), -2.0 + 0.025, 8.0 * kEps * 2.0);
 }
 
+/// Of a load that began in another scene, a second ago, when the node was elsewhere.
+TEST(PrescribedMotion, CountsFromWhereTheNodeWasAtTheStartOfItsFactor) {
+  PrescribedMotion motion;
+  motion.displacement = Vec3(0.0, 0.1, 0.0);
+  motion.factor = TimeTable({{0.0, 5.0}, {4.0, 9.0}}).from(-1.0);
+  motion.start = {Vec3(1.0, -2.1, 0.5)};
+  auto simulation = simulation_of(lump_that(motion), 0.25);
+
+  simulation.step();
+
+  EXPECT_NEAR(simulation.state().position[0].y(), -2.1 + 0.125, 8.0 * kEps * 2.0);
+}
+
 TEST(PrescribedMotion, IsAtTheIntegralOfItsVelocityTable) {
   PrescribedMotion motion;
   motion.velocity = Vec3(2.0, 0.0, 1.0);

@@ -66,6 +66,18 @@ TEST(TimeTable, MayBeOneNumberForEver) {
   EXPECT_EQ(TimeTable().at(1.0), 1.0);
 }
 
+TEST(TimeTable, MayCountFromALaterStart) {
+  const TimeTable later = table().from(10.0);
+
+  EXPECT_EQ(later.start(), 10.0);
+  for (const double time : {-1.0, 0.0, 1.5, 2.75, 4.0}) {
+    EXPECT_EQ(later.at(10.0 + time), table().at(time)) << time;
+    EXPECT_EQ(later.slope(10.0 + time), table().slope(time)) << time;
+    EXPECT_EQ(later.integral(10.0 + time), table().integral(time)) << time;
+  }
+  EXPECT_EQ(later.largest(), table().largest());
+}
+
 TEST(TimeTable, RefusesRowsWithoutAnOrderInTime) {
   EXPECT_THAT(problems_of({{0.0, 1.0}, {2.0, 1.0}, {2.0, 3.0}}),
               HasSubstr("row 2 is at 2 s, not after 2 s of the row before"));

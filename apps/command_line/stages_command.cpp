@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/stages_command.hpp"
+
+#include "apps/command_line/summary.hpp"
+#include "apps/scenario/staged_scenario.hpp"
+#include "apps/scene/build_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+namespace plekton::apps {
+namespace {
+
+/// The first stage to be run, and from where it goes on.
+struct Begin {
+  PreparedRun prepared;
+  geometry::StateTree state;
+  std::optional<Resumption> from = std::nullopt;
+};
+
+/// The stage after one that has ended.
+std::unique_ptr<Begin> after(const Scenario& scenario, const Scenario& ended, PreparedRun& there,
+                             const geometry::StateTree& state, bool same_folder,
+                             const HearSetUp& hear) {
+  if (ended.stage->is_last)
+    throw InputError(
+        fmt::format("{}: is the last one, and has ended; there is nothing to go on "
+                    "with",
+                    ended.stage->path));
+  StageBegin next = next_stage(scenario.stages[ended.stage->number + 1], there, state, hear);
+  auto begin = std::make_unique<Begin>(Begin{std::move(next.prepared), std::move(next.run)});
+  const double time = begin->prepared.simulation->time();
+  begin->from.emplace(Resumption{begin->state, same_folder,
+                                 same_folder ? std::nullopt : std::optional(time), true});
+  return begin;
+}
+
+std::unique_ptr<Begin> begin_of(const Scenario& scenario, const StagesAsked& asked,
+                                const HearSetUp& hear) {
+  if (asked.resume != nullptr) {
+    const StageOfState of = stage_of(*asked.resume);
+    const Scenario& stage = scenario.stages.at(of.bodies.stage);
+    auto begin = std::make_unique<Begin>(Begin{prepare_stage(stage, *asked.resume, hear), {}});
+    if (!of.has_ended) {
+      begin->from.emplace(Resumption{*asked.resume, true, std::nullopt, false});
+      return begin;
+    }
+    begin->prepared.simulation->restore(*asked.resume);
+    return after(scenario, stage, begin->prepared, *asked.resume, true, hear);
+  }
+  if (asked.from.empty()) return std::make_unique<Begin>(Begin{prepare_run(scenario, hear), {}});
+  const Scenario& stage = stage_called(scenario, asked.from[0]);
+  const geometry::StateTree state = end_of_stage(asked.from[1], asked.from[0]);
+  PreparedRun there = ended_stage(scenario, stage, state, hear);
+  return after(scenario, stage, there, state, false, hear);
+}
+
+std::string limits_of(const StageSettings& stage) {
+  const StageEnd& end = stage.end;
+  std::vector<std::string> ends;
+  if (end.duration) ends.push_back(fmt::format("after {:.6g} s", *end.duration));
+  if (end.kinetic_energy)
+    ends.push_back(fmt::format("kinetic energy below {:.6g} J", *end.kinetic_energy));
+  if (end.unbalanced_force)
+    ends.push_back(fmt::format("unbalanced force ratio below {:.6g}", *end.unbalanced_force));
+  if (end.servo)
+    ends.push_back(
+        fmt::format("servo \"{}\" within {:.3g} %", end.servo->load, 100.0 * end.servo->tolerance));
+  if (end.displacement)
+    ends.push_back(fmt::format("displacement of {:.6g} m", end.displacement->distance));
+  if (end.strain) ends.push_back(fmt::format("strain of {:.6g}", end.strain->strain));
+  std::string text = fmt::format("ends: {}", fmt::join(ends, ", or "));
+  if (stage.max_duration) text += fmt::format("; fails after {:.6g} s", *stage.max_duration);
+  return text;
+}
+
+}  // namespace
+
+RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
+                           const RunSettings& settings, const HearSetUp& hear,
+                           std::ostream* aloud) {
+  StagesToRun stages;
+  stages.last = asked.until.empty() ? scenario.stages.size() - 1
+                                    : stage_called(scenario, asked.until).stage->number;
+  const std::unique_ptr<Begin> begin = begin_of(scenario, asked, hear);
+  if (begin->prepared.bodies.stage > stages.last)
+    throw InputError(
+        fmt::format("--until {}: that stage has ended where this run begins", asked.until));
+  if (aloud != nullptr) {
+    stages.begins = [&](const Scenario& stage, const PreparedRun& prepared) {
+      *aloud << fmt::format("stage {} ({} of {}), from {:.6g} s\n", stage.stage->name,
+                            stage.stage->number + 1, scenario.stages.size(),
+                            prepared.simulation->time())
+             << summary_of(prepared) << std::flush;
+    };
+    stages.ends = [&](const Scenario& stage, const RunReport& report) {
+      *aloud << fmt::format("stage {} has ended by {} at {:.6g} s, step {}\n", stage.stage->name,
+                            report.ended_by, report.simulated_time, report.steps)
+             << std::flush;
+    };
+  }
+  RunSettings from_there = settings;
+  if (begin->from) from_there.resume = &*begin->from;
+  return run_stages(scenario, std::move(begin->prepared), from_there, stages);
+}
+
+std::string text_of_stages(const Scenario& scenario, const HearSetUp& hear) {
+  std::string text;
+  StageBodies bodies;
+  std::vector<Vec3> positions;
+  for (const Scenario& stage : scenario.stages) {
+    BuiltScene built;
+    if (bodies.empty()) {
+      built = build_scene(stage, hear);
+      bodies = first_stage(built);
+      positions = built.scene.state.position;
+    } else {
+      built = try_stage(stage, bodies, positions, hear);
+    }
+    text +=
+        fmt::format("stage {} ({} of {}): {}; {} grains, {} planes, {} loads\n", stage.stage->name,
+                    stage.stage->number + 1, scenario.stages.size(), limits_of(*stage.stage),
+                    built.scene.elements.spheres.size(), stage.planes.size(), stage.loads.size());
+  }
+  return text;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/run/run_stages.hpp"
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace plekton::apps {
+
+/// Where the stages of a command begin and end.
+struct StagesAsked {
+  std::vector<std::string> from;                ///< name of a stage and folder of its run; or empty
+  const geometry::StateTree* resume = nullptr;  ///< the state to go on from in the same folder
+  std::string until;                            ///< name of the last stage; empty: all
+};
+
+/// Runs stages and says on a stream, if one is given, which.
+/// @throws InputError also for stages that there are not
+RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
+                           const RunSettings& settings, const HearSetUp& hear, std::ostream* aloud);
+
+/// What `plekton check` says of stages, in the order in which they come. Looks at each as far as it
+/// can be known before it is run: what it says, that its scene can be built, and that its grains
+/// have room beside membranes and planes.
+/// @throws InputError
+std::string text_of_stages(const Scenario& scenario, const HearSetUp& hear);
+
+}  // namespace plekton::apps

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/stage_change.hpp"
+
+#include "apps/run/run_state.hpp"
+#include "apps/scene/build_stage.hpp"
+#include "geometry/base/state_archive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace plekton::apps {
+namespace {
+
+using geometry::index_of;
+using geometry::StateArchive;
+
+bool is_removed(const RemovalSettings& removal, const Vec3& centre) {
+  if (!(centre[2] > removal.above && centre[2] < removal.below)) return false;
+  return !removal.box || ((centre.array() >= removal.box->lower.array()).all() &&
+                          (centre.array() <= removal.box->upper.array()).all());
+}
+
+/// The bodies of a stage without those that the next one takes out.
+class KeptBodies {
+ public:
+  KeptBodies(const StageSettings& stage, const PreparedRun& before) {
+    const dynamics::Simulation& simulation = *before.simulation;
+    const auto& spheres = simulation.elements().spheres;
+    places_.nodes.assign(simulation.state().size(), 0);
+    std::size_t sphere = 0;
+    for (std::size_t table = 0; table < before.bodies.grains.size(); ++table) {
+      bodies_.grains.emplace_back();
+      for (const double radius : before.bodies.grains[table]) {
+        const std::size_t node = index_of(spheres[sphere++].nodes[0]);
+        const Vec3& centre = simulation.state().position[node];
+        const bool is_out = std::any_of(
+            stage.removals.begin(), stage.removals.end(), [&](const RemovalSettings& removal) {
+              return removal.grains == table && is_removed(removal, centre);
+            });
+        places_.spheres.push_back(is_out ? -1 : next_sphere_++);
+        if (is_out)
+          places_.nodes[node] = -1;
+        else
+          bodies_.grains.back().push_back(radius);
+      }
+    }
+    std::int32_t next = 0;
+    for (std::int32_t& node : places_.nodes)
+      if (node == 0) node = next++;
+    bodies_.stage = before.bodies.stage;
+    bodies_.held = kept(before.bodies.held);
+    for (const StageStart& start : before.bodies.starts)
+      bodies_.starts.push_back({start.time, kept(start.positions), start.planes});
+    positions_ = kept(simulation.state().position);
+  }
+
+  template <class Thing>
+  std::vector<Thing> kept(const std::vector<Thing>& of_nodes) const {
+    std::vector<Thing> left;
+    for (std::size_t i = 0; i < of_nodes.size(); ++i)
+      if (places_.nodes[i] >= 0) left.push_back(of_nodes[i]);
+    return left;
+  }
+
+  StageBodies& bodies() noexcept { return bodies_; }
+  std::vector<Vec3>& positions() noexcept { return positions_; }
+  const contact::BodyPlaces& places() const noexcept { return places_; }
+
+ private:
+  contact::BodyPlaces places_;
+  std::int32_t next_sphere_ = 0;
+  StageBodies bodies_;
+  std::vector<Vec3> positions_;
+};
+
+/// A stage with its planes where they are.
+Scenario with_planes_of_now(Scenario stage, const dynamics::Simulation& before) {
+  const StageOrigins& origins = stage.stage->origins;
+  for (std::size_t i = 0; i < stage.planes.size(); ++i) {
+    if (origins.planes[i] >= 0 && !origins.moved_planes[i])
+      stage.planes[i].point = before.planes()[static_cast<std::size_t>(origins.planes[i])].point;
+  }
+  return stage;
+}
+
+dynamics::SceneChange change_to(const StageOrigins& origins, contact::BodyPlaces places,
+                                std::size_t planes_before) {
+  places.planes.assign(planes_before, -1);
+  for (std::size_t i = 0; i < origins.planes.size(); ++i)
+    if (origins.planes[i] >= 0)
+      places.planes[static_cast<std::size_t>(origins.planes[i])] = static_cast<std::int32_t>(i);
+  return {std::move(places), origins.moved_planes};
+}
+
+/// Flags of grains, by those of now.
+void carry_flags(const StateArchive& from, const StateArchive& to, const char* name,
+                 const contact::BodyPlaces& places, std::size_t spheres) {
+  std::vector<bool> before, now(spheres, false);
+  from(name, before);
+  for (std::size_t i = 0; i < places.spheres.size(); ++i)
+    if (places.spheres[i] >= 0) now[static_cast<std::size_t>(places.spheres[i])] = before[i];
+  to(name, now);
+}
+
+/// Which grains are lost, of those of now. What has come may be outside of where all began.
+void carry_lost_grains(const StateArchive& from, const StateArchive& to,
+                       const contact::BodyPlaces& places, const dynamics::Simulation& now) {
+  const std::size_t spheres = now.elements().spheres.size();
+  carry_flags(from, to, "is_through", places, spheres);
+  carry_flags(from, to, "is_out", places, spheres);
+  std::vector<Vec3> positions = now.state().position;
+  to("before", positions);
+  Vec3 lower, upper;
+  from("lower_bounds", lower);
+  from("upper_bounds", upper);
+  std::vector<bool> was_there(positions.size(), false);
+  for (const std::int32_t node : places.nodes)
+    if (node >= 0) was_there[static_cast<std::size_t>(node)] = true;
+  for (const geometry::Sphere& grain : now.elements().spheres) {
+    const std::size_t node = index_of(grain.nodes[0]);
+    if (was_there[node]) continue;
+    lower = lower.cwiseMin((positions[node].array() - grain.radius).matrix());
+    upper = upper.cwiseMax((positions[node].array() + grain.radius).matrix());
+  }
+  to("lower_bounds", lower);
+  to("upper_bounds", upper);
+}
+
+/// What the run knows, of the bodies of now.
+geometry::StateTree run_state(const geometry::StateTree& before, const contact::BodyPlaces& places,
+                              const dynamics::Simulation& now) {
+  const std::string group = std::string(kRunGroup) + "/";
+  geometry::StateTree state;
+  for (const auto& [name, array] : before.arrays)
+    if (name.starts_with(group)) state.arrays[name] = array;
+  const auto lost = [](const StateArchive& archive) {
+    return archive.group(kRunGroup).group("lost_grains");
+  };
+  carry_lost_grains(lost(StateArchive::reader(before)), lost(StateArchive::writer(state)), places,
+                    now);
+  return state;
+}
+
+}  // namespace
+
+StageOfState stage_of(const geometry::StateTree& state) {
+  const auto archive = StateArchive::reader(state).group(kRunGroup).group(kStageGroup);
+  if (!state.arrays.contains(std::string(kRunGroup) + "/" + kStageGroup + "/has_ended"))
+    throw InputError("the checkpoint is one of a scenario without [[stages]]");
+  StageOfState stage;
+  stage.bodies.exchange(archive);
+  archive("has_ended", stage.has_ended);
+  return stage;
+}
+
+PreparedRun prepare_stage(const Scenario& stage, const geometry::StateTree& state,
+                          const HearSetUp& hear) {
+  PreparedRun prepared;
+  prepared.bodies = stage_of(state).bodies;
+  std::vector<Vec3> positions;
+  StateArchive::reader(state).group("nodes")("position", positions);
+  prepared.built = build_stage(stage, prepared.bodies, positions, hear);
+  if (hear) hear("looking for contacts", 0.0);
+  prepared.simulation = simulation_of(stage, prepared.built);
+  prepared.duration = stage.simulation.duration;
+  return prepared;
+}
+
+StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry::StateTree& state,
+                      const HearSetUp& hear) {
+  KeptBodies kept(*stage.stage, before);
+  dynamics::Simulation& ended = *before.simulation;
+  const Scenario now = with_planes_of_now(stage, ended);
+  StageBegin begin;
+  PreparedRun& next = begin.prepared;
+  next.bodies = std::move(kept.bodies());
+  next.built = begin_stage(now, next.bodies, kept.positions(), ended.time(), hear);
+  if (hear) hear("looking for contacts", 0.0);
+  next.simulation = simulation_of(now, next.built);
+  next.duration = stage.simulation.duration;
+  try {
+    if (stage.stage->origins.changes_nothing) {
+      next.simulation->restore(ended.snapshot());
+    } else {
+      next.simulation->go_on_from(
+          ended, change_to(stage.stage->origins, kept.places(), ended.planes().size()));
+      if (!stage.simulation.time_step && !std::isfinite(next.simulation->time_step()))
+        throw InputError(fmt::format(
+            "{}: nothing moves freely at its start, so no time step can be chosen; free or add "
+            "something, give simulation.time_step, or end the run before it with --until",
+            stage.stage->path));
+      choose_time_step(stage.simulation, *next.simulation);
+    }
+  } catch (const geometry::StateMismatch& error) {
+    throw InputError(fmt::format("{}: {}", stage.stage->path, error.what()));
+  }
+  begin.run = run_state(state, kept.places(), *next.simulation);
+  return begin;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scenario/stage_settings.hpp"
+#include "apps/scene/stage_bodies.hpp"
+#include "dynamics/simulation.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace plekton::apps {
+
+/// A stage whose end has not come in time.
+struct StageFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Looks whether a stage has ended.
+class StageWatch {
+ public:
+  /// @param start  of the stage; both must outlive this
+  StageWatch(const StageSettings& stage, const StageStart& start) : stage_(stage), start_(start) {}
+
+  /// s, at which it ends or fails at the latest.
+  double latest() const noexcept { return start_.time + stage_.longest(); }
+
+  /// To be called every so many steps. @returns what has ended it, as in "unbalanced_force"; empty:
+  /// it goes on
+  std::string look(const dynamics::Simulation& simulation);
+
+  /// What has ended it at latest(). @throws StageFailed with how far its ends are off
+  std::string end_in_time(const dynamics::Simulation& simulation) const;
+
+  void exchange(const geometry::StateArchive& archive);
+
+ private:
+  /// What looks have seen of an end: bodies that are let go have no kinetic energy either.
+  struct Seen {
+    bool was_off = false;  ///< whether it has not held at some look
+    int in_a_row = 0;      ///< looks, the last ones, at which it has held
+  };
+  bool counts(bool holds, Seen& seen, double time) const;
+  std::string state_of_ends(const dynamics::Simulation& simulation) const;
+
+  const StageSettings& stage_;
+  const StageStart& start_;
+  Seen kinetic_energy_;
+  Seen unbalanced_;
+  Seen servo_;
+};
+
+}  // namespace plekton::apps

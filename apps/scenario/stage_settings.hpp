@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scenario/load_settings.hpp"
+#include "apps/scenario/problems.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plekton::apps {
+
+/// The force of a servo is reached.
+struct ServoEnd {
+  std::size_t plane = 0;   ///< that it drives
+  std::string load;        ///< its name
+  double tolerance = 0.0;  ///< of the force
+};
+
+/// A plane is so far from where it was at the start of the stage.
+struct DisplacementEnd {
+  std::size_t plane = 0;
+  double distance = 0.0;  ///< m
+};
+
+/// The distance of two planes has changed by this part of what it was at the start of the stage.
+struct StrainEnd {
+  std::array<std::size_t, 2> planes{};
+  double strain = 0.0;
+};
+
+/// When a stage ends: the first of these.
+struct StageEnd {
+  std::optional<double> duration;          ///< s, from its start
+  std::optional<double> kinetic_energy;    ///< J, below
+  std::optional<double> unbalanced_force;  ///< ratio, below
+  std::optional<ServoEnd> servo;
+  std::optional<DisplacementEnd> displacement;
+  std::optional<StrainEnd> strain;
+  /// s, from its start, before which kinetic energy, unbalanced force and servo do not count;
+  /// nothing: once they were above.
+  std::optional<double> after;
+};
+
+/// Grains that are taken out: those whose centres are in all of this.
+struct RemovalSettings {
+  std::size_t grains = 0;                                   ///< table
+  double above = -std::numeric_limits<double>::infinity();  ///< m, height
+  double below = std::numeric_limits<double>::infinity();   ///< m, height
+  std::optional<geometry::Box> box;                         ///< m
+};
+
+/// What of a stage is that of the stage before. A load begins in the stage that names it, and goes
+/// on until one names it again; a plane goes on from where it is, unless a stage says its point.
+struct StageOrigins {
+  std::vector<std::size_t> loads;      ///< by load: the stage in which it began
+  std::vector<std::size_t> reactions;  ///< by reaction, likewise
+  std::vector<int> planes;             ///< by plane: its number in the stage before; -1: new
+  std::vector<bool> moved_planes;      ///< by plane: whether the stage says where it is
+  bool changes_nothing = false;        ///< but when it ends and what is written
+};
+
+/// What a stage says beside its scenario.
+struct StageSettings {
+  std::string name;
+  std::string path;  ///< what messages call it, as in "stages.pack"
+  Place place;
+  std::size_t number = 0;  ///< from 0
+  bool is_last = false;
+  StageEnd end;
+  std::optional<double> max_duration;  ///< s, by which it has failed
+  std::vector<RemovalSettings> removals;
+  std::vector<NodeSetSettings> fixed;  ///< at its start
+  std::vector<NodeSetSettings> freed;  ///< at its start
+  StageOrigins origins;
+
+  /// s, from its start: it ends, or fails, at the latest then.
+  double longest() const noexcept {
+    const double never = std::numeric_limits<double>::infinity();
+    return std::min(end.duration.value_or(never), max_duration.value_or(never));
+  }
+};
+
+/// A load of kind pressure, as pressures.csv has it.
+struct PressureColumn {
+  std::string load;
+  bool has_volume = false;
+  bool operator==(const PressureColumn&) const = default;
+};
+
+/// What there is in any stage, in the order in which it comes: columns of histories stay the same.
+struct NamesOfStages {
+  std::vector<std::string> planes;  ///< names, or as in "planes[0]"
+  std::vector<PressureColumn> pressures;
+  std::vector<std::string> reactions;
+};
+
+}  // namespace plekton::apps

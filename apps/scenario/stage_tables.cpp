@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/stage_tables.hpp"
+
+#include "apps/scenario/closest_word.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace plekton::apps {
+namespace {
+
+constexpr std::array<std::string_view, 4> kSimulationKeys = {"damping", "damp_gravity", "gravity",
+                                                             "time_step"};
+constexpr std::array<std::string_view, 4> kMaterialKeys = {"friction_angle", "poisson_ratio",
+                                                           "stiffness_ratio", "young_modulus"};
+constexpr std::array<std::string_view, 7> kOutputKeys = {
+    "checkpoint_interval", "contacts", "grains", "history_interval", "interval",
+    "membranes",           "reactions"};
+
+const std::string* text_of(const Table& table, std::string_view key) {
+  const Entry* const entry = table.find(key);
+  return entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
+}
+
+const Table* table_in(const Value& value) {
+  return std::get_if<Table>(&value.data);
+}
+
+/// The list of a key; made where it is missing.
+Array& list_of(Table& table, std::string_view key, const Place& place) {
+  if (Entry* const entry = table.find(key)) {
+    if (auto* const list = std::get_if<Array>(&entry->value.data)) return *list;
+    entry->value.data = Array{};
+    return std::get<Array>(entry->value.data);
+  }
+  table.entries.push_back({std::string(key), place, Value{place, Array{}}});
+  return std::get<Array>(table.entries.back().value.data);
+}
+
+void set(Table& table, const Entry& entry) {
+  if (Entry* const there = table.find(entry.key))
+    *there = entry;
+  else
+    table.entries.push_back(entry);
+}
+
+/// Table in the list with this text under a key; the length of the list if there is none.
+std::size_t place_in(const Array& list, std::string_view key, const std::string& text) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const Value& value) {
+    const Table* const table = table_in(value);
+    const std::string* const own = table ? text_of(*table, key) : nullptr;
+    return own != nullptr && *own == text;
+  });
+  return static_cast<std::size_t>(found - list.begin());
+}
+
+/// Text that two values have in common if they mean the same.
+void write(const Value& value, std::string& text) {
+  if (const auto* const list = std::get_if<Array>(&value.data)) {
+    text += '[';
+    for (const Value& item : *list) write(item, text);
+    text += ']';
+  } else if (const Table* const table = table_in(value)) {
+    text += '{';
+    for (const Entry& entry : table->entries) {
+      text += entry.key + '=';
+      write(entry.value, text);
+    }
+    text += '}';
+  } else {
+    text += shown(value) + ',';
+  }
+}
+
+/// Goes from stage to stage.
+class Stages {
+ public:
+  Stages(const Table& scenario, Problems& problems) : problems_(problems) {
+    for (const Entry& entry : scenario.entries)
+      if (entry.key != "stages") now_.entries.push_back(entry);
+    origins_.loads.assign(count("loads"), 0);
+    origins_.reactions.assign(reaction_count(), 0);
+    if (const Entry* const stop = now_.find("stop"))
+      complain(stop->place, "stop", "does not go with stages; say it in the `end` of a stage");
+    if (const Table* const simulation = table_of("simulation")) {
+      if (const Entry* const duration = simulation->find("duration"))
+        complain(duration->place, "simulation.duration",
+                 "does not go with stages; each has a duration in its `end`, or a max_duration");
+    }
+  }
+
+  StageTable next(const Table& stage, const Place& place) {
+    path_ = fmt::format("stages[{}]", number_);
+    if (const std::string* const name = text_of(stage, "name")) path_ = "stages." + *name;
+    begin_origins();
+    const std::string before = text_of_all();
+    Table own;
+    if (const Entry* const removals = stage.find("remove"))
+      own.entries.push_back(remove(*removals));
+    changes_bodies_ = stage.find("fix") != nullptr || stage.find("free") != nullptr ||
+                      stage.find("remove") != nullptr;
+    for (const Entry& entry : stage.entries)
+      if (entry.key != "remove" && !change(entry)) own.entries.push_back(entry);
+    origins_.changes_nothing = number_ > 0 && !changes_bodies_ && text_of_all() == before;
+    Table table = now_;
+    set_duration(table, stage, place);
+    table.entries.push_back({"stages", place, Value{place, Array{Value{place, std::move(own)}}}});
+    ++number_;
+    return {std::move(table), origins_};
+  }
+
+ private:
+  void begin_origins() {
+    origins_.planes.clear();
+    for (std::size_t i = 0; i < count("planes"); ++i)
+      origins_.planes.push_back(number_ == 0 ? -1 : static_cast<int>(i));
+    origins_.moved_planes.assign(count("planes"), false);
+  }
+
+  /// All but what is written.
+  std::string text_of_all() const {
+    std::string text;
+    for (const Entry& entry : now_.entries) {
+      if (entry.key == "output") continue;
+      text += entry.key + ':';
+      write(entry.value, text);
+    }
+    return text;
+  }
+
+  /// @returns whether it is a key of scenarios
+  bool change(const Entry& entry) {
+    if (entry.key == "simulation")
+      change_table(entry, kSimulationKeys);
+    else if (entry.key == "materials")
+      change_materials(entry);
+    else if (entry.key == "contacts")
+      change_contacts(entry);
+    else if (entry.key == "planes" || entry.key == "loads")
+      change_named(now_, entry);
+    else if (entry.key == "grains")
+      add_grains(entry);
+    else if (entry.key == "output")
+      change_output(entry);
+    else
+      return refuse_membranes(entry);
+    return true;
+  }
+
+  bool refuse_membranes(const Entry& entry) {
+    if (entry.key != "membranes") return false;
+    complain(entry.place, "membranes",
+             "membranes are there from the first stage on; write them outside of the stages");
+    return true;
+  }
+
+  /// Keys of a table replace those from before.
+  void change_table(const Entry& entry, std::span<const std::string_view> allowed) {
+    const Table* const changes = table_in(entry.value);
+    if (changes == nullptr) {
+      complain(entry.place, entry.key, fmt::format("got {}; expected a table", shown(entry.value)));
+      return;
+    }
+    Entry* const there = now_.find(entry.key);
+    if (there == nullptr) now_.entries.push_back({entry.key, entry.place, {entry.place, Table{}}});
+    Entry& all = there ? *there : now_.entries.back();
+    auto* const table = std::get_if<Table>(&all.value.data);
+    if (table == nullptr) return;  // the reader complains
+    for (const Entry& key : changes->entries)
+      if (is_allowed(key, entry.key, allowed)) set(*table, key);
+  }
+
+  bool is_allowed(const Entry& key, const std::string& of,
+                  std::span<const std::string_view> allowed) {
+    if (std::find(allowed.begin(), allowed.end(), key.key) != allowed.end()) return true;
+    const std::string hint = did_you_mean(key.key, allowed);
+    complain(key.place, fmt::format("{}.{}", of, key.key),
+             fmt::format("is the same in all stages{}; a stage may change {}", hint,
+                         fmt::join(allowed, ", ")));
+    return false;
+  }
+
+  void change_materials(const Entry& entry) {
+    const Table* const changes = table_in(entry.value);
+    Entry* const all = now_.find("materials");
+    auto* const materials = all ? std::get_if<Table>(&all->value.data) : nullptr;
+    if (changes == nullptr || materials == nullptr) {
+      change_table(entry, {});
+      return;
+    }
+    for (const Entry& material : changes->entries) {
+      Entry* const there = materials->find(material.key);
+      const Table* const keys = table_in(material.value);
+      auto* const old = there ? std::get_if<Table>(&there->value.data) : nullptr;
+      if (old == nullptr || keys == nullptr) {
+        set(*materials, material);
+        continue;
+      }
+      for (const Entry& key : keys->entries)
+        if (is_allowed(key, "materials." + material.key, kMaterialKeys)) set(*old, key);
+    }
+  }
+
+  /// Tables of one name are one.
+  void change_named(Table& of, const Entry& entry) {
+    const auto* const changes = std::get_if<Array>(&entry.value.data);
+    if (changes == nullptr) {
+      set(of, entry);  // the reader complains
+      return;
+    }
+    Array& all = list_of(of, entry.key, entry.place);
+    std::set<std::string> names;
+    for (const Value& value : *changes) {
+      const Table* const table = table_in(value);
+      const std::string* const name = table ? text_of(*table, "name") : nullptr;
+      const bool is_first = name == nullptr || names.insert(*name).second;
+      const std::size_t place =
+          name != nullptr && is_first ? place_in(all, "name", *name) : all.size();
+      if (place == all.size()) {
+        all.push_back(value);
+      } else {
+        all[place].place = value.place;
+        for (const Entry& key : table->entries) set(std::get<Table>(all[place].data), key);
+      }
+      note_origin(entry.key, place, table);
+    }
+  }
+
+  void note_origin(std::string_view list, std::size_t place, const Table* table) {
+    const auto note = [&](auto& all, auto what) {
+      if (place == all.size())
+        all.push_back(what);
+      else
+        all[place] = what;
+    };
+    if (list == "loads") note(origins_.loads, number_);
+    if (list == "reactions") note(origins_.reactions, number_);
+    if (list != "planes") return;
+    if (place == origins_.planes.size()) origins_.planes.push_back(-1);
+    note(origins_.moved_planes, table != nullptr && table->find("point") != nullptr);
+  }
+
+  void change_contacts(const Entry& entry) {
+    const auto* const changes = std::get_if<Array>(&entry.value.data);
+    if (changes == nullptr) {
+      set(now_, entry);
+      return;
+    }
+    Array& all = list_of(now_, entry.key, entry.place);
+    for (const Value& value : *changes) {
+      const auto same = std::find_if(all.begin(), all.end(),
+                                     [&](const Value& old) { return same_pair(old, value); });
+      if (same == all.end()) {
+        all.push_back(value);
+        continue;
+      }
+      for (const Entry& key : table_in(value)->entries) set(std::get<Table>(same->data), key);
+    }
+  }
+
+  static bool same_pair(const Value& a, const Value& b) {
+    std::array<std::multiset<std::string>, 2> pairs;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Table* const table = table_in(i == 0 ? a : b);
+      if (table == nullptr) return false;
+      for (const char* const key : {"between", "and"})
+        if (const std::string* const name = text_of(*table, key)) pairs[i].insert(*name);
+    }
+    return pairs[0].size() == 2 && pairs[0] == pairs[1];
+  }
+
+  void add_grains(const Entry& entry) {
+    const auto* const added = std::get_if<Array>(&entry.value.data);
+    if (added == nullptr) {
+      set(now_, entry);
+      return;
+    }
+    Array& all = list_of(now_, entry.key, entry.place);
+    all.insert(all.end(), added->begin(), added->end());
+  }
+
+  void change_output(const Entry& entry) {
+    change_table({entry.key, entry.place, without(entry.value, "reactions")}, kOutputKeys);
+    const Table* const changes = table_in(entry.value);
+    const Entry* const reactions = changes ? changes->find("reactions") : nullptr;
+    if (reactions == nullptr) return;
+    auto* const output = std::get_if<Table>(&now_.find("output")->value.data);
+    if (output != nullptr) change_named(*output, *reactions);
+  }
+
+  static Value without(Value value, std::string_view key) {
+    if (auto* const table = std::get_if<Table>(&value.data))
+      std::erase_if(table->entries, [&](const Entry& entry) { return entry.key == key; });
+    return value;
+  }
+
+  /// Takes out planes and loads. @returns the removals of what is left: grains
+  Entry remove(const Entry& removals) {
+    const auto* const all = std::get_if<Array>(&removals.value.data);
+    if (all == nullptr) return removals;  // the reader complains
+    Array left;
+    for (const Value& value : *all) {
+      const Table* const table = table_in(value);
+      const bool is_plane = table != nullptr && table->find("plane") != nullptr;
+      const bool is_load = table != nullptr && table->find("load") != nullptr;
+      if (is_plane)
+        remove_named("planes", "plane", *table);
+      else if (is_load)
+        remove_named("loads", "load", *table);
+      else
+        left.push_back(value);
+    }
+    return {removals.key, removals.place, Value{removals.value.place, std::move(left)}};
+  }
+
+  void remove_named(std::string_view list, std::string_view key, const Table& removal) {
+    const Entry& named = *removal.find(key);
+    if (removal.entries.size() > 1)
+      complain(named.place, "remove",
+               fmt::format("a {} is taken out as a whole; expected {{ {} = "
+                           "NAME }}",
+                           key, key));
+    const std::string* const name = std::get_if<std::string>(&named.value.data);
+    Array& all = list_of(now_, list, named.place);
+    const std::size_t place = name ? place_in(all, "name", *name) : all.size();
+    if (place == all.size()) {
+      complain(named.value.place, fmt::format("remove.{}", key),
+               fmt::format("there is none called {} in the stage before", shown(named.value)));
+      return;
+    }
+    const auto at = static_cast<std::ptrdiff_t>(place);
+    all.erase(all.begin() + at);
+    if (list == "loads") origins_.loads.erase(origins_.loads.begin() + at);
+    if (list != "planes") return;
+    origins_.planes.erase(origins_.planes.begin() + at);
+    origins_.moved_planes.erase(origins_.moved_planes.begin() + at);
+  }
+
+  /// The duration of the scenario is that of the stage: intervals of output follow from it.
+  void set_duration(Table& table, const Table& stage, const Place& place) {
+    const Entry* const end = stage.find("end");
+    const Table* const ends = end ? table_in(end->value) : nullptr;
+    const Entry* longest = ends ? ends->find("duration") : nullptr;
+    if (longest == nullptr) longest = stage.find("max_duration");
+    // Without any the stage complains.
+    const Value duration = longest ? longest->value : Value{place, 1.0};
+    Entry* const simulation = table.find("simulation");
+    if (simulation == nullptr) {
+      table.entries.push_back({"simulation", place, Value{place, Table{}}});
+      set(std::get<Table>(table.entries.back().value.data), {"duration", place, duration});
+    } else if (auto* const keys = std::get_if<Table>(&simulation->value.data)) {
+      set(*keys, {"duration", place, duration});
+    }
+  }
+
+  const Table* table_of(std::string_view key) const {
+    const Entry* const entry = now_.find(key);
+    return entry ? table_in(entry->value) : nullptr;
+  }
+  std::size_t count(std::string_view key) const {
+    const Entry* const entry = now_.find(key);
+    const auto* const list = entry ? std::get_if<Array>(&entry->value.data) : nullptr;
+    return list ? list->size() : 0;
+  }
+  std::size_t reaction_count() const {
+    const Table* const output = table_of("output");
+    const Entry* const reactions = output ? output->find("reactions") : nullptr;
+    const auto* const list = reactions ? std::get_if<Array>(&reactions->value.data) : nullptr;
+    return list ? list->size() : 0;
+  }
+
+  void complain(const Place& place, std::string_view key, const std::string& what) {
+    problems_.add(place, path_.empty() ? fmt::format("{}: {}", key, what)
+                                       : fmt::format("{}.{}: {}", path_, key, what));
+  }
+
+  Problems& problems_;
+  Table now_;
+  StageOrigins origins_;
+  std::size_t number_ = 0;
+  std::string path_;
+  bool changes_bodies_ = false;
+};
+
+}  // namespace
+
+bool has_stages(const Table& scenario) {
+  return scenario.find("stages") != nullptr;
+}
+
+std::vector<StageTable> stage_tables(const Table& scenario, Problems& problems) {
+  const Entry& entry = *scenario.find("stages");
+  const auto* const list = std::get_if<Array>(&entry.value.data);
+  if (list == nullptr || list->empty()) {
+    problems.add(entry.place, fmt::format("stages: got {}; expected at least one table, under "
+                                          "[[stages]]",
+                                          shown(entry.value)));
+    return {};
+  }
+  Stages stages(scenario, problems);
+  std::vector<StageTable> tables;
+  std::set<std::string> names;
+  for (const Value& value : *list) {
+    const Table* const stage = table_in(value);
+    if (stage == nullptr) {
+      problems.add(value.place, fmt::format("stages: got {}; expected a table", shown(value)));
+      continue;
+    }
+    const std::string* const name = text_of(*stage, "name");
+    if (name != nullptr && !names.insert(*name).second)
+      problems.add(stage->find("name")->value.place,
+                   fmt::format("stages.{}.name: \"{}\" has this name already; names must differ",
+                               *name, *name));
+    tables.push_back(stages.next(*stage, value.place));
+  }
+  return tables;
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenarios with stages: the same bits at once and one by one, with any threads, and what they say
+// when something is wrong.
+#include "apps/command_line/stages_command.hpp"
+
+#include "apps/run/checkpoints.hpp"
+#include "tests/apps/command_line/program_fixture.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Grains that fall on a sheet in a box.
+constexpr const char* kBodies = R"([simulation]
+damping = 0.2
+[materials.sand]
+density = "2650 kg/m3"
+young_modulus = "10 MPa"
+friction_angle = "30 deg"
+[[membranes]]
+name = "sheet"
+shape = { kind = "sheet", width = "60 mm", length = "60 mm", cells = [6, 6] }
+thickness = "2 mm"
+material = "sand"
+young_modulus = "50 MPa"
+areal_mass = "300 g/m2"
+hold = "rim"
+[[grains]]
+name = "first"
+material = "sand"
+count = 60
+radius = "4 mm"
+velocity = [0, 0, "-0.5 m/s"]
+box = { min = ["-28 mm", "-28 mm", "2 mm"], max = ["28 mm", "28 mm", "36 mm"] }
+[[planes]]
+name = "left"
+point = ["-30 mm", 0, 0]
+normal = [1, 0, 0]
+material = "sand"
+[[planes]]
+name = "right"
+point = ["30 mm", 0, 0]
+normal = [-1, 0, 0]
+material = "sand"
+[[planes]]
+name = "front"
+point = [0, "-30 mm", 0]
+normal = [0, 1, 0]
+material = "sand"
+[[planes]]
+name = "back"
+point = [0, "30 mm", 0]
+normal = [0, -1, 0]
+material = "sand"
+[output]
+interval = "5 ms"
+history_interval = "1 ms"
+hash_interval = 50
+)";
+
+/// All that may change.
+constexpr const char* kStages = R"([[stages]]
+name = "pour"
+end = { duration = "12 ms" }
+materials.sand.friction_angle = "5 deg"
+[[stages]]
+name = "level"
+end = { duration = "6 ms" }
+materials.sand.friction_angle = "30 deg"
+remove = [{ grains = "first", above = "20 mm" }]
+fix = [{ grains = "first", nodes = "z_min" }]
+[[stages.grains]]
+name = "second"
+material = "sand"
+count = 10
+radius = "3 mm"
+box = { min = ["-28 mm", "-28 mm", "30 mm"], max = ["28 mm", "28 mm", "60 mm"] }
+[[stages]]
+name = "press"
+end = { duration = "8 ms" }
+free = [{ grains = "first", nodes = "all" }]
+[[stages.planes]]
+name = "lid"
+point = [0, 0, "62 mm"]
+normal = [0, 0, -1]
+material = "sand"
+[[stages.loads]]
+name = "push"
+kind = "motion"
+plane = "lid"
+velocity = [0, 0, "-1 m/s"]
+[[stages.output.reactions]]
+name = "lid"
+kind = "plane"
+plane = "lid"
+)";
+
+class Stages : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) const {
+    test::write_bytes(folder_ / name, text);
+    return (folder_ / name).string();
+  }
+  std::string all_stages() const { return write("all.toml", std::string(kBodies) + kStages); }
+  std::string in(const std::string& name) const { return (folder_ / name).string(); }
+
+  Outcome run(const std::string& scenario, const std::string& out,
+              const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"run", scenario, "--quiet", "--out", in(out)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Program(arguments).wait();
+  }
+  json report(const std::string& out) const {
+    return json::parse(test::bytes_of(folder_ / (out + "/run.json")));
+  }
+  json hashes(const std::string& out) const { return report(out)["states"]["step_time_hash"]; }
+
+  /// Those at the steps at which both have one, but for the last: a run without stages cuts it.
+  void expect_same_states(const std::string& a, const std::string& b, std::size_t least) const {
+    std::size_t common = 0;
+    for (const json& state : hashes(a)) {
+      for (const json& other : hashes(b)) {
+        if (other[0] != state[0] || state[0].get<int>() % 50 != 0) continue;
+        ++common;
+        EXPECT_EQ(other[2], state[2]) << "step " << state[0];
+      }
+    }
+    EXPECT_GE(common, least);
+  }
+
+  std::string failure_of(const std::string& stages) const {
+    const Outcome outcome = run(write("wrong.toml", std::string(kBodies) + stages), "wrong");
+    EXPECT_EQ(outcome.exit_code, 1);
+    return outcome.err;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Stages, AreNotSeenWhereAStageChangesNothing) {
+  const std::string one = R"([[stages]]
+name = "a"
+end = { duration = "16 ms" }
+)";
+  const std::string two = R"([[stages]]
+name = "a"
+end = { duration = "7 ms" }
+[[stages]]
+name = "b"
+end = { duration = "9 ms" }
+)";
+  ASSERT_EQ(run(write("one.toml", kBodies + one), "one").exit_code, 0);
+  ASSERT_EQ(run(write("two.toml", kBodies + two), "two").exit_code, 0);
+  std::string plain(kBodies);
+  plain.replace(plain.find("damping"), 0, "duration = \"16 ms\"\n");
+  ASSERT_EQ(run(write("plain.toml", plain), "plain").exit_code, 0);
+
+  expect_same_states("one", "two", 4);
+  expect_same_states("one", "plain", 4);
+  EXPECT_EQ(report("two")["stages"].size(), 2U);
+  EXPECT_FALSE(report("plain").contains("stages"));
+}
+
+/// Through Simulation::go_on_from: the load is there and pulls with nothing, the plane far away.
+TEST_F(Stages, LeaveTheBitsOfWhatTheyDoNotChange) {
+  const std::string step = R"([[stages]]
+name = "a"
+end = { duration = "7 ms" }
+simulation.time_step = "5 us"
+)";
+  const std::string next = R"([[stages]]
+name = "b"
+end = { duration = "9 ms" }
+)";
+  const std::string changes = R"([[stages.loads]]
+kind = "force"
+grains = "first"
+force = [0, 0, 0]
+[[stages.planes]]
+name = "far"
+point = [0, 0, "-1 m"]
+material = "sand"
+)";
+  ASSERT_EQ(run(write("same.toml", kBodies + step + next), "same").exit_code, 0);
+  ASSERT_EQ(run(write("other.toml", kBodies + step + next + changes), "other").exit_code, 0);
+  // Hashes have the planes in them: the trajectories are compared.
+  EXPECT_EQ(test::bytes_of(folder_ / "same/energy.csv"),
+            test::bytes_of(folder_ / "other/energy.csv"));
+}
+
+TEST_F(Stages, HaveTheSameBitsAtOnceOneByOneAndWithAnyThreads) {
+  ASSERT_EQ(run(all_stages(), "once").exit_code, 0);
+  ASSERT_EQ(run(all_stages(), "pour", {"--until", "pour", "--threads", "2"}).exit_code, 0);
+  ASSERT_EQ(
+      run(all_stages(), "level", {"--from", "pour", in("pour"), "--until", "level"}).exit_code, 0);
+  ASSERT_EQ(
+      run(all_stages(), "press", {"--from", "level", in("level"), "--threads", "4"}).exit_code, 0);
+  ASSERT_EQ(run(all_stages(), "threads", {"--threads", "4"}).exit_code, 0);
+
+  const json once = report("once");
+  EXPECT_EQ(once["stages"].size(), 3U);
+  EXPECT_EQ(report("press")["states"]["chain"], once["states"]["chain"]);
+  EXPECT_EQ(report("threads")["states"]["chain"], once["states"]["chain"]);
+  EXPECT_EQ(report("press")["timing"]["steps"], once["timing"]["steps"]);
+  EXPECT_EQ(test::bytes_of(folder_ / "threads/energy.csv"),
+            test::bytes_of(folder_ / "once/energy.csv"));
+}
+
+TEST_F(Stages, TakeOutGrainsBringOthersAndTellOfEach) {
+  ASSERT_EQ(run(all_stages(), "once").exit_code, 0);
+
+  const json stages = report("once")["stages"];
+  ASSERT_EQ(stages.size(), 3U);
+  EXPECT_EQ(stages[0]["name"], "pour");
+  EXPECT_EQ(stages[0]["ended_by"], "duration");
+  EXPECT_EQ(stages[0]["grains"], 60);
+  const int level = stages[1]["grains"];
+  EXPECT_LT(level, 70);
+  EXPECT_GT(level, 20);
+  EXPECT_EQ(stages[2]["grains"], level);
+  EXPECT_EQ(stages[2]["planes"], 5);
+  EXPECT_EQ(stages[1]["start_s"], stages[0]["end_s"]);
+  EXPECT_EQ(stages[2]["certificate"].size(), report("once")["certificate"].size());
+  const std::string planes = test::bytes_of(folder_ / "once/planes.csv");
+  EXPECT_THAT(planes.substr(0, planes.find('\n')), HasSubstr("lid.point_z (m)"));
+  EXPECT_THAT(test::bytes_of(folder_ / "once/reactions.csv"), HasSubstr("lid.force_z (N)"));
+}
+
+/// What a kill after a checkpoint leaves.
+TEST_F(Stages, GoOnFromAnyCheckpointToTheLastByte) {
+  ASSERT_EQ(
+      run(all_stages(), "whole", {"--set", "output.checkpoint_interval=\"3.1 ms\""}).exit_code, 0);
+  const auto files = checkpoints_of(folder_ / "whole");
+  ASSERT_GE(files.size(), 8U);
+  for (std::size_t left = 1; left < files.size(); ++left) {
+    const fs::path stopped = folder_ / "stopped";
+    fs::remove_all(stopped);
+    fs::copy(folder_ / "whole", stopped, fs::copy_options::recursive);
+    fs::remove(stopped / "run.json");
+    for (std::size_t i = left; i < files.size(); ++i)
+      fs::remove(stopped / kCheckpointFolder / files[i].filename());
+
+    const Outcome outcome =
+        Program({"run", "--resume", stopped.string(), "--quiet", "--threads", "2"}).wait();
+
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(report("stopped")["states"], report("whole")["states"]) << files[left - 1];
+    EXPECT_EQ(report("stopped")["stages"], report("whole")["stages"]) << files[left - 1];
+    for (const char* const name : {"energy.csv", "planes.csv", "reactions.csv", "grains.pvd"})
+      EXPECT_EQ(test::bytes_of(stopped / name), test::bytes_of(folder_ / "whole" / name))
+          << name << " from " << files[left - 1];
+  }
+}
+
+TEST_F(Stages, FailWhereTheirEndDoesNotComeAndKeepThoseBefore) {
+  const std::string stages = R"([[stages]]
+name = "pour"
+end = { duration = "4 ms" }
+[[stages]]
+name = "press"
+end = { servo = { load = "lid" } }
+max_duration = "2 ms"
+[[stages.planes]]
+name = "lid"
+point = [0, 0, "40 mm"]
+normal = [0, 0, -1]
+material = "sand"
+[[stages.loads]]
+name = "lid"
+kind = "servo"
+plane = "lid"
+force = "10 kN"
+speed = "0.5 m/s"
+)";
+  const std::string err = failure_of(stages);
+
+  EXPECT_THAT(err, HasSubstr("stages.press: has not ended within its max_duration of 0.002 s"));
+  EXPECT_THAT(err, HasSubstr("servo \"lid\" feels 0 N and wants 1e+04 N within 2 %"));
+  const json failed = report("wrong");
+  EXPECT_EQ(failed["status"], "failed");
+  ASSERT_EQ(failed["stages"].size(), 1U);
+  EXPECT_EQ(failed["stages"][0]["name"], "pour");
+  const std::string scenario =
+      write("longer.toml",
+            std::string(kBodies) + std::string(stages).replace(stages.find("10 kN"), 5, "1 N"));
+  const Outcome again =
+      run(scenario, "again",
+          {"--from", "pour", in("wrong"), "--set", "stages.press.max_duration=\"300 ms\""});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(report("again")["stages"][1]["ended_by"], "servo");
+}
+
+TEST_F(Stages, ThatCannotBeginLeaveAReportOfThoseBefore) {
+  const std::string stages = R"([[stages]]
+name = "pour"
+end = { duration = "2 ms" }
+[[stages]]
+name = "pull"
+end = { duration = "2 ms" }
+remove = [{ grains = "first" }]
+[[stages.loads]]
+kind = "force"
+grains = "first"
+force = [0, 0, 1]
+)";
+  EXPECT_THAT(failure_of(stages), HasSubstr("\"first\" has no node there"));
+  const json failed = report("wrong");
+  EXPECT_EQ(failed["status"], "failed");
+  EXPECT_EQ(failed["stages"].size(), 1U);
+  EXPECT_EQ(checkpoints_of(folder_ / "wrong").size(), 1U);
+}
+
+TEST_F(Stages, EndAtRestAtADisplacementAndAtAStrain) {
+  const std::string stages = R"([[stages]]
+name = "pour"
+end = { kinetic_energy = "50 uJ", unbalanced_force = 1e-6 }
+max_duration = "1 s"
+simulation.damping = 0.5
+[[stages]]
+name = "move"
+end = { displacement = { plane = "left", distance = "0.2 mm" }, duration = "10 ms" }
+[[stages.loads]]
+name = "push"
+kind = "motion"
+plane = "left"
+velocity = ["0.1 m/s", 0, 0]
+[[stages]]
+name = "squeeze"
+end = { strain = { between = ["left", "right"], strain = 0.005 }, duration = "10 ms" }
+)";
+  const Outcome outcome = run(write("ends.toml", kBodies + stages), "ends");
+
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json ended = report("ends")["stages"];
+  EXPECT_EQ(ended[0]["ended_by"], "kinetic_energy");
+  EXPECT_LT(ended[0]["energy"]["kinetic_J"], 50e-6);
+  EXPECT_EQ(ended[1]["ended_by"], "displacement");
+  EXPECT_NEAR(ended[1]["end_s"].get<double>() - ended[1]["start_s"].get<double>(), 2e-3, 2e-4);
+  EXPECT_EQ(ended[2]["ended_by"], "strain");
+  // 0.5 % of 59.8 mm.
+  EXPECT_NEAR(ended[2]["end_s"].get<double>() - ended[2]["start_s"].get<double>(), 2.99e-3, 2e-4);
+}
+
+TEST_F(Stages, AreRefusedWhereTheyMakeNoSense) {
+  const Outcome none = run(write("none.toml", std::string("stages = []\n") + kBodies), "wrong");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.err, HasSubstr("stages: got a list of 0; expected at least one table"));
+  EXPECT_THAT(failure_of("[[stages]]\nname = \"a\"\n"), HasSubstr("stages.a.end: missing"));
+  EXPECT_THAT(failure_of("[[stages]]\nname = \"a\"\nend = { unbalanced_force = 0.1 }\n"),
+              HasSubstr("stages.a.max_duration: missing"));
+  EXPECT_THAT(failure_of("[[stages]]\nname = \"a\"\nend = { duration = 1 }\n"
+                         "[[stages]]\nname = \"a\"\nend = { duration = 1 }\n"),
+              HasSubstr("stages.a.name: \"a\" has this name already"));
+  EXPECT_THAT(failure_of("[[stages]]\nname = \"a\"\nend = { duration = 1 }\n"
+                         "remove = [{ plane = \"lidd\" }]\n"),
+              HasSubstr("stages.a.remove.plane: there is none called \"lidd\""));
+  EXPECT_THAT(failure_of("[[stages]]\nname = \"a\"\nend = { duration = 1 }\n"
+                         "materials.sand.density = 1000\n"),
+              HasSubstr("materials.sand.density: is the same in all stages"));
+  EXPECT_THAT(failure_of("[[stages]]\nname = \"a\"\nend = { servo = { load = \"no\" } }\n"
+                         "max_duration = 1\n"),
+              HasSubstr("there is no load \"no\" of kind \"servo\""));
+  EXPECT_THAT(failure_of("[[stages]]\nname = \"a\"\nend = { duration = 1 }\n[[stages]]\nname = "
+                         "\"b\"\nend = { duration = 1 }\n[[stages.contacts]]\nbetween = \"sand\"\n"
+                         "and = \"sand\"\nlaw = \"hertz_mindlin\"\n"),
+              HasSubstr("had another contact law before"));
+  EXPECT_FALSE(fs::exists(folder_ / "wrong"));
+}
+
+TEST_F(Stages, ThatThereAreNotAreNotBegunFrom) {
+  ASSERT_EQ(run(all_stages(), "pour", {"--until", "pour"}).exit_code, 0);
+
+  EXPECT_THAT(run(all_stages(), "x", {"--from", "puor", in("pour")}).err,
+              HasSubstr("has no stage \"puor\"; did you mean \"pour\"?"));
+  EXPECT_THAT(run(all_stages(), "x", {"--from", "level", in("pour")}).err,
+              HasSubstr("has no end of a stage \"level\"; it has those of \"pour\""));
+  EXPECT_THAT(run(all_stages(), "x", {"--until", "end"}).err, HasSubstr("has no stage \"end\""));
+  EXPECT_THAT(run(all_stages(), "pour", {"--from", "pour", in("pour"), "--overwrite"}).err,
+              HasSubstr("is to be kept"));
+  EXPECT_FALSE(fs::exists(folder_ / "x"));
+}
+
+TEST_F(Stages, AreAllLookedAtByCheck) {
+  const Outcome sound = Program({"check", all_stages()}).wait();
+  EXPECT_EQ(sound.exit_code, 0) << sound.err;
+  EXPECT_THAT(sound.out, HasSubstr("stage press (3 of 3): ends: after 0.008 s; 70 grains"));
+
+  std::string tight = std::string(kBodies) + kStages;
+  tight.replace(tight.find("count = 10"), 10, "count = 900");
+  const Outcome full = Program({"check", write("tight.toml", tight)}).wait();
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.err, HasSubstr("grains.second"));
+}
+
+}  // namespace
+}  // namespace plekton::apps

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What each stage of a scenario is as a scenario of its own.
+#include "apps/scenario/stage_tables.hpp"
+
+#include "apps/scenario/scenario_reader.hpp"
+#include "apps/scenario/staged_scenario.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+
+namespace plekton::apps {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+constexpr const char* kScenario = R"([simulation]
+damping = 0.1
+[materials.sand]
+density = 2650
+young_modulus = 1e7
+friction_angle = "30 deg"
+[[grains]]
+name = "first"
+material = "sand"
+radius = 0.01
+centres = [[0, 0, 0.02]]
+[[planes]]
+name = "floor"
+point = [0, 0, 0]
+material = "sand"
+[[planes]]
+name = "wall"
+point = [-1, 0, 0]
+normal = [1, 0, 0]
+material = "sand"
+[[loads]]
+name = "push"
+kind = "force"
+grains = "first"
+force = [1, 0, 0]
+[output]
+interval = 0.25
+)";
+
+constexpr const char* kStages = R"([[stages]]
+name = "a"
+end = { duration = 1 }
+materials.sand.friction_angle = "5 deg"
+[[stages]]
+name = "b"
+max_duration = 2
+end = { kinetic_energy = 1e-6 }
+simulation.damping = 0.5
+remove = [{ plane = "floor" }]
+[[stages.planes]]
+name = "lid"
+point = [0, 0, 1]
+normal = [0, 0, -1]
+material = "sand"
+[[stages.planes]]
+name = "wall"
+point = [-2, 0, 0]
+[[stages]]
+name = "c"
+end = { duration = 3 }
+materials.sand.friction_angle = "20 deg"
+output.interval = 0.5
+[[stages.loads]]
+name = "push"
+force = [2, 0, 0]
+[[stages.loads]]
+kind = "gravity"
+factor = [[0, 1]]
+[[stages.grains]]
+name = "second"
+material = "sand"
+radius = 0.01
+centres = [[0.5, 0, 0.02]]
+[[stages]]
+name = "d"
+end = { duration = 4 }
+output.interval = 1
+)";
+
+Scenario parsed(const std::string& stages) {
+  return parse_scenario(kScenario + stages, "case.toml");
+}
+
+class StageTables : public testing::Test {
+ protected:
+  const Scenario scenario_ = parsed(kStages);
+  const std::vector<Scenario>& stages_ = scenario_.stages;
+};
+
+TEST_F(StageTables, ChangeNumbersFromThereOn) {
+  ASSERT_EQ(stages_.size(), 4U);
+  const auto friction = [&](std::size_t k) { return stages_[k].materials[0].friction_angle; };
+  EXPECT_DOUBLE_EQ(friction(0), 5 * kDegree);
+  EXPECT_DOUBLE_EQ(friction(1), 5 * kDegree);
+  EXPECT_DOUBLE_EQ(friction(2), 20 * kDegree);
+  EXPECT_EQ(stages_[0].simulation.damping, 0.1);
+  EXPECT_EQ(stages_[1].simulation.damping, 0.5);
+  EXPECT_EQ(stages_[3].simulation.damping, 0.5);
+  EXPECT_EQ(stages_[1].output.interval, 0.25);
+  EXPECT_EQ(stages_[2].output.interval, 0.5);
+}
+
+TEST_F(StageTables, HaveDurationsFromTheirEndsAndIntervalsFromThese) {
+  EXPECT_EQ(stages_[0].simulation.duration, 1.0);
+  EXPECT_EQ(stages_[1].simulation.duration, 2.0);
+  EXPECT_EQ(stages_[1].output.history_interval, 2e-3);
+  EXPECT_EQ(stages_[1].stage->longest(), 2.0);
+}
+
+TEST_F(StageTables, AddChangeAndTakeOutPlanesThatGoOnFromWhereTheyAre) {
+  const auto names = [&](std::size_t k) {
+    std::vector<std::string> names;
+    for (const PlaneSettings& plane : stages_[k].planes) names.push_back(plane.name);
+    return names;
+  };
+  EXPECT_THAT(names(0), ElementsAre("floor", "wall"));
+  EXPECT_THAT(names(1), ElementsAre("wall", "lid"));
+  EXPECT_THAT(stages_[1].stage->origins.planes, ElementsAre(1, -1));
+  EXPECT_THAT(stages_[1].stage->origins.moved_planes, ElementsAre(true, true));
+  EXPECT_EQ(stages_[1].planes[0].point, Vec3(-2, 0, 0));
+  EXPECT_THAT(stages_[2].stage->origins.planes, ElementsAre(0, 1));
+  EXPECT_THAT(stages_[2].stage->origins.moved_planes, ElementsAre(false, false));
+  EXPECT_THAT(plane_names(stages_[0]), ElementsAre("floor", "wall", "lid"));
+  EXPECT_THAT(plane_numbers(stages_[1]), ElementsAre(1U, 2U));
+}
+
+TEST_F(StageTables, BeginLoadsWhereTheyAreNamed) {
+  EXPECT_THAT(stages_[1].stage->origins.loads, ElementsAre(0U));
+  EXPECT_THAT(stages_[2].stage->origins.loads, ElementsAre(2U, 2U));
+  EXPECT_THAT(stages_[3].stage->origins.loads, ElementsAre(2U, 2U));
+  EXPECT_EQ(std::get<ForceSettings>(stages_[2].loads[0].load).load.force, Vec3(2, 0, 0));
+}
+
+TEST_F(StageTables, BringGrainsAfterThoseThatAreThere) {
+  EXPECT_EQ(stages_[1].grains.size(), 1U);
+  ASSERT_EQ(stages_[2].grains.size(), 2U);
+  EXPECT_EQ(stages_[2].grains[1].name, "second");
+  EXPECT_EQ(stages_[3].grains.size(), 2U);
+}
+
+TEST_F(StageTables, KnowWhereNothingChangesButWhatIsWritten) {
+  EXPECT_FALSE(stages_[0].stage->origins.changes_nothing);
+  EXPECT_FALSE(stages_[1].stage->origins.changes_nothing);
+  EXPECT_FALSE(stages_[2].stage->origins.changes_nothing);
+  EXPECT_TRUE(stages_[3].stage->origins.changes_nothing);
+}
+
+TEST(StageTable, LeavesAScenarioWithoutStagesAsItIs) {
+  std::string text(kScenario);
+  text.replace(text.find("damping"), 0, "duration = 1\n");
+  const Scenario scenario = parse_scenario(text, "case.toml");
+
+  EXPECT_TRUE(scenario.stages.empty());
+  EXPECT_FALSE(scenario.stage);
+  EXPECT_THAT(plane_names(scenario), ElementsAre("floor", "wall"));
+}
+
+TEST(StageTable, TellsEveryProblemOnceWithItsPlace) {
+  EXPECT_THAT([] { parsed("[[stages]]\nname = \"a\"\nend = { duration = 1, durration = 2 }\n"); },
+              ThrowsMessage<InputError>(HasSubstr("durration")));
+  EXPECT_THAT([] { parsed("[[stages]]\nend = { duration = 1 }\n"); },
+              ThrowsMessage<InputError>(HasSubstr("stages[0].name: missing")));
+  EXPECT_THAT(
+      [] { parsed("[[stages]]\nname = \"a\"\nend = { duration = 1 }\nsimulation.seed = 2\n"); },
+      ThrowsMessage<InputError>(HasSubstr("stages.a.simulation.seed: is the same in all stages")));
+  EXPECT_THAT(
+      [] {
+        parsed(
+            "[stop]\nkinetic_energy = 1\n[[stages]]\nname = \"a\"\nend = { duration "
+            "= 1 }\n[[stages]]\nname = \"b\"\nend = { duration = 1 }\n");
+      },
+      ThrowsMessage<InputError>(HasSubstr("stop: does not go with stages")));
+}
+
+TEST(StageTable, IsFoundByItsName) {
+  const Scenario scenario = parsed(kStages);
+
+  EXPECT_EQ(stage_called(scenario, "c").stage->number, 2U);
+  EXPECT_THAT([&] { stage_called(scenario, "e"); },
+              ThrowsMessage<InputError>(HasSubstr("has no stage \"e\"")));
+}
+
+}  // namespace
+}  // namespace plekton::apps
