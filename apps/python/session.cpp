@@ -79,6 +79,9 @@ Session::Session(apps::ResumedRun resumed, std::optional<fs::path> folder)
 }
 
 std::shared_ptr<apps::PreparedRun> Session::prepare() const {
+  if (scenario_.stage)
+    throw apps::InputError(
+        "the scenario has [[stages]], which are run by the program: plekton run");
   const py::gil_scoped_release free;
   auto prepared = std::make_shared<apps::PreparedRun>(
       apps::prepare_run(scenario_, [](const std::string&, double) { check_signals(); }));
