@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/check_report.hpp"
 
+#include "apps/command_line/enclosed_bodies.hpp"
 #include "apps/command_line/run_estimate.hpp"
 #include "apps/command_line/start_listing.hpp"
 #include "apps/command_line/step_advice.hpp"
@@ -105,6 +106,13 @@ Json overlaps_of(const Scenario& scenario, const InitialContacts& start) {
   return list;
 }
 
+Json enclosed_in(const PreparedRun& prepared) {
+  Json list = Json::array();
+  for (const EnclosedBody& body : enclosed_bodies(prepared))
+    list.push_back({{"of", {body.name, body.in}}, {"inside", body.inside}, {"all", body.all}});
+  return list;
+}
+
 Json estimate_of(const RunEstimate& estimate) {
   // Numbers that are not finite become null.
   Json json = {{"steps", {estimate.steps.low, estimate.steps.high}},
@@ -130,7 +138,8 @@ Json check_report(const Scenario& scenario, PreparedRun& prepared) {
                  {"boxes", boxes_of(scenario, prepared)},
                  {"time_step", time_step_of(scenario, prepared)},
                  {"bonds", bonds_of(scenario, prepared.start)},
-                 {"overlaps", overlaps_of(scenario, prepared.start)}};
+                 {"overlaps", overlaps_of(scenario, prepared.start)},
+                 {"inside", enclosed_in(prepared)}};
   // Last, since it moves the simulation on.
   report["estimate"] = estimate_of(estimate_run(scenario, prepared));
   return report;

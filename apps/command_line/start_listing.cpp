@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/start_listing.hpp"
 
+#include "apps/command_line/enclosed_bodies.hpp"
 #include "apps/scenario/section.hpp"
 #include "geometry/primitives/box.hpp"
 
@@ -97,7 +98,8 @@ std::vector<NamedBox> boxes_at_start(const Scenario& scenario, const PreparedRun
 std::string listing_of_start(const Scenario& scenario, const PreparedRun& prepared) {
   std::string text;
   for (const NamedBox& body : boxes_at_start(scenario, prepared)) text += line_of(body);
-  return text + bonds(scenario, prepared.start) + overlaps(scenario, prepared.start);
+  return text + bonds(scenario, prepared.start) + overlaps(scenario, prepared.start) +
+         listing_of(enclosed_bodies(prepared));
 }
 
 }  // namespace plekton::apps

@@ -19,8 +19,8 @@ struct NamedBox {
 /// Planes have none.
 std::vector<NamedBox> boxes_at_start(const Scenario& scenario, const PreparedRun& prepared);
 
-/// How a scene begins, in lines: the boxes around its bodies, the bonds that hold, and who overlaps
-/// whom, with the deepest places.
+/// How a scene begins, in lines: the boxes around its bodies, the bonds that hold, who overlaps
+/// whom, with the deepest places, and who begins inside of a closed membrane.
 std::string listing_of_start(const Scenario& scenario, const PreparedRun& prepared);
 
 }  // namespace plekton::apps

@@ -15,6 +15,7 @@
 #include "apps/run/run_warnings.hpp"
 #include "apps/run/scenario_copy.hpp"
 #include "apps/run/stage_watch.hpp"
+#include "apps/run/stiffness_warnings.hpp"
 #include "apps/run/written_files.hpp"
 #include "apps/scene/build_stage.hpp"
 #include "dynamics/output/file.hpp"
@@ -593,6 +594,8 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   choose_time_step(scenario.simulation, *prepared.simulation);
   prepared.start = initial_contacts(scenario, prepared.built, *prepared.simulation);
   for (std::string& warning : warnings_about(prepared.start, scenario))
+    prepared.built.warnings.push_back(std::move(warning));
+  for (std::string& warning : warnings_about_stiffness(scenario, prepared.built))
     prepared.built.warnings.push_back(std::move(warning));
   return prepared;
 }

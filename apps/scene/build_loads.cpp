@@ -105,6 +105,7 @@ class LoadBuilder {
                            name));
     else if (load.gas || load.by_volume)
       require_closed(settings, load);
+    warn_about_turned_facets(built_.membranes[settings.membrane]);
     load.factor = begun(load.factor);
     if (load.gas && start_ != nullptr) load.start_volume = volume_of(load);
     loads_.pressures.push_back(std::move(load));
@@ -208,6 +209,15 @@ class LoadBuilder {
       complain(
           settings.volume_place, key,
           fmt::format("the facets of \"{}\" face inward; expected them to face outward", name));
+  }
+
+  /// Pressure acts along the normals, so it matters which side was meant.
+  void warn_about_turned_facets(const BuiltMembrane& membrane) {
+    if (!membrane.report || membrane.report->changed.flipped_facets == 0) return;
+    built_.warnings.push_back(fmt::format(
+        "{}: {} of the {} facets of \"{}\" faced the other way in their file and were turned over, "
+        "so that the pressure pushes all of them to one side; look whether it is the right one",
+        current_->path, membrane.report->changed.flipped_facets, membrane.facets, membrane.name));
   }
 
   void drive(std::size_t plane) {

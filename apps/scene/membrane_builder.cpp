@@ -203,6 +203,10 @@ BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) 
   MembraneBody body = make_membrane_body(settings, first_node);
   for (const std::string& warning : body.membrane.warnings)
     built.warnings.push_back(settings.name + ": " + warning);
+  if (body.report) {
+    for (const std::string& reason : body.report->reasons)
+      built.warnings.push_back(settings.name + ": " + reason);
+  }
 
   BuiltMembrane result;
   result.name = settings.name;
