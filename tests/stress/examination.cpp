@@ -146,7 +146,8 @@ class Examination {
       Findings findings;
       watch.finish(simulation, findings);
       for (const Finding& finding : findings.all) find(finding.fault, finding.text);
-      tell_(fmt::format("momentum {}\n", conserved.momentum ? 1 : 0));
+      tell_(fmt::format("momentum {}\ncontacts {}\n", conserved.momentum ? 1 : 0,
+                        watch.most_contacts()));
     };
     try {
       RunReport report = apps::run(scenario, prepared, settings);
@@ -177,8 +178,8 @@ class Examination {
   }
 
   void judge(const RunReport& report) const {
-    tell_(fmt::format("contacts {}\nbroken {}\nclosure {}\n", report.contacts,
-                      report.broken_bonds + report.torn_facets, report.energy_closure));
+    tell_(fmt::format("broken {}\nclosure {}\n", report.broken_bonds + report.torn_facets,
+                      report.energy_closure));
     if (report.energy_closure > kStatedClosure && !is_attracted())
       find(Fault::energy, fmt::format("the balance is off by {:.3g} % of what went through",
                                       100.0 * report.energy_closure));

@@ -43,7 +43,7 @@ struct Findings {
   bool is_refused = false;      ///< by `check` and `run` alike
   bool knows_momentum = false;  ///< nothing but even gravity acted from outside
   std::int64_t steps = 0;       ///< of all its runs
-  std::size_t contacts = 0;     ///< the most at a look
+  std::size_t contacts = 0;     ///< the most at a time
   std::size_t broken = 0;       ///< bonds and facets, at the end
   double closure = 0.0;         ///< of the energy, over what went through
 

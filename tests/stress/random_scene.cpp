@@ -158,7 +158,7 @@ class Maker {
 
   /// m, where the next body begins: mostly just above the last one, now and then in it.
   double place_above(double half_height) {
-    const double gap = chance(0.06) ? -power(-3.5, -1.8) : power(-5.0, -2.5);
+    const double gap = chance(0.06) ? -power(-3.5, -1.8) : power(-5.0, -3.0);
     const double z = top_ + gap + half_height;
     top_ = std::max(top_, z + half_height);
     return z;
@@ -166,7 +166,7 @@ class Maker {
 
   /// m/s: what is higher comes down faster.
   Vec3 velocity() {
-    const double fall = random_.uniform(0.3, 1.5) * static_cast<double>(bodies_);
+    const double fall = random_.uniform(0.5, 3.0) * static_cast<double>(bodies_);
     return Vec3(random_.uniform(-1.0, 1.0), random_.uniform(-1.0, 1.0), -fall);
   }
 
@@ -420,7 +420,7 @@ class Maker {
     if (is_lattice) set(t, "placement", word("lattice"));
     const double half = random_.uniform(0.025, 0.06);
     const double solids = count * 4.2 * std::pow(largest, 3);
-    const double room = solids / (is_lattice ? 0.3 : 0.12) / (4.0 * half * half);
+    const double room = solids / (is_lattice ? 0.35 : 0.2) / (4.0 * half * half);
     const double half_height = std::max(1.3 * largest, 0.5 * room);
     const double z = place_above(half_height);
     set(t, "box",
@@ -440,9 +440,9 @@ class Maker {
 
   void add_planes() {
     if (chance(0.5))
-      add_plane("floor", {0, 0, -power(-5.0, -2.5)},
+      add_plane("floor", {0, 0, -power(-5.0, -3.0)},
                 {random_.uniform(-0.02, 0.02), 0.0, random_.uniform(0.5, 2.0)});
-    if (chance(0.25)) add_plane("lid", {0, 0, top_ + power(-5.0, -2.5)}, {0, 0, -1});
+    if (chance(0.25)) add_plane("lid", {0, 0, top_ + power(-5.0, -3.0)}, {0, 0, -1});
     if (chance(0.15)) add_plane("left", {-0.2, 0, 0}, {1, 0, 0});
     if (chance(0.15)) add_plane("right", {0.2, 0, 0}, {-1, 0, 0});
   }

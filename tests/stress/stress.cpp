@@ -125,7 +125,7 @@ std::string table_of(const Tally& tally) {
   add("  of known momentum", tally.free);
   add("  with an energy balance off by more than 1 %", tally.poor_closure);
   add("steps, of all runs", tally.steps);
-  add("contacts, at the ends", tally.contacts);
+  add("contacts, the most at a time in each", tally.contacts);
   add("broken bonds and torn facets, at the ends", tally.broken);
   table += "scenes with\n";
   for (const auto& [word, number] : tally.words) add("  " + word, number);

@@ -19,7 +19,7 @@ struct StressOptions {
   std::uint64_t first = 0;                   ///< number of the first scene of the seed
   std::uint64_t scenes = 0;                  ///< how many; 0: until the time is over
   std::chrono::duration<double> time{60.0};  ///< if no number is given
-  std::int64_t steps = 1000;                 ///< of each scene, about, at most
+  std::int64_t steps = 1500;                 ///< of each scene, about, at most
   std::chrono::seconds shrinking{120};       ///< the longest for one failure
   std::filesystem::path out = "stress-failures";
   std::function<void(dynamics::Simulation&, Part)> disturb;  ///< see ExaminationOptions
@@ -32,7 +32,7 @@ struct Tally {
   std::uint64_t free = 0;  ///< of known momentum
   std::uint64_t failed = 0;
   std::int64_t steps = 0;
-  std::uint64_t contacts = 0;  ///< at the ends, over all scenes
+  std::uint64_t contacts = 0;  ///< the most at a time, over all scenes
   std::uint64_t broken = 0;
   std::uint64_t poor_closure = 0;  ///< scenes whose energy is off by more than 1 %
   std::array<std::uint64_t, kFaultNames.size()> faults{};

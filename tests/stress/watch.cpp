@@ -105,6 +105,9 @@ void Watch::look(const dynamics::Simulation& simulation) {
     velocity_[i] = state.velocity[i];
     spin_[i] = state.angular_velocity[i];
   }
+  const contact::ContactCounts counts = simulation.contacts().counts();
+  most_contacts_ = std::max(most_contacts_, counts.sphere_sphere + counts.sphere_surface +
+                                                counts.between_structures + counts.with_planes);
   drift_ = simulation.time() - time_;
   time_ = simulation.time();
 }

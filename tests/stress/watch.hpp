@@ -27,6 +27,7 @@ class Watch {
   Watch(const Conserved& conserved, const dynamics::Simulation& simulation);
 
   void look(const dynamics::Simulation& simulation);
+  std::size_t most_contacts() const noexcept { return most_contacts_; }
 
   /// At the end of the run. @param elastic  J, stored at the start
   void finish(const dynamics::Simulation& simulation, Findings& findings) const;
@@ -48,12 +49,13 @@ class Watch {
   Sums first_;
   std::vector<geometry::Vec3> velocity_;  ///< m/s, after the last step
   std::vector<geometry::Vec3> spin_;
-  double mass_ = 0.0;            ///< kg
-  double time_ = 0.0;            ///< s, after the last step
-  double drift_ = 0.0;           ///< s, of the last step
-  double exchanged_ = 0.0;       ///< N s, sum of m |change of v|
-  double turned_ = 0.0;          ///< N m s, likewise
-  std::int64_t lost_step_ = -1;  ///< at which something was no number
+  double mass_ = 0.0;              ///< kg
+  double time_ = 0.0;              ///< s, after the last step
+  double drift_ = 0.0;             ///< s, of the last step
+  double exchanged_ = 0.0;         ///< N s, sum of m |change of v|
+  double turned_ = 0.0;            ///< N m s, likewise
+  std::size_t most_contacts_ = 0;  ///< at a time
+  std::int64_t lost_step_ = -1;    ///< at which something was no number
 };
 
 }  // namespace plekton::stress
