@@ -70,6 +70,7 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
     const NodeId node = spheres[i].nodes[0];
     spheres_.push_back(
         {node, spheres[i].radius, materials_.of_spheres[i], materials_.mass_of(node)});
+    structure_of_sphere_.push_back(geometry::StructureId{-1});
   }
   for (std::size_t n = 0; n < surface.node_count(); ++n) {
     const auto structure = surface.structure_of(geometry::id_at<NodeId>(n));
@@ -78,6 +79,7 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
     const NodeId node = geometry::id_at<NodeId>(n);
     spheres_.push_back({node, surface.radius(structure),
                         materials_.of_structures[index_of(structure)], materials_.mass_of(node)});
+    structure_of_sphere_.push_back(structure);
   }
 }
 

@@ -70,10 +70,10 @@ class SceneContacts final : public Contacts {
     with_spheres_.for_each_record(x, visit);
     with_surfaces_.for_each_record(x, visit);
     between_structures_.for_each_record(x, visit);
-    with_planes_.for_each_record(x, *surface_, visit);
+    with_planes_.for_each_record(x, structure_of_sphere_, visit);
   }
   void for_each_plane_record(Positions x, Visit<const ContactRecord&> visit) const override {
-    with_planes_.for_each_record(x, *surface_, visit);
+    with_planes_.for_each_record(x, structure_of_sphere_, visit);
   }
   void for_each_structure_record_on(
       NodeId node, Positions x,
@@ -168,6 +168,8 @@ class SceneContacts final : public Contacts {
   ContactMaterials materials_;
   std::uint64_t materials_hash_;     ///< as they were at the start
   std::vector<SphereBody> spheres_;  ///< the spheres, then the nodes of the surface
+  /// By the same numbers: -1 for a sphere. A node keeps its structure when its last element is gone.
+  std::vector<geometry::StructureId> structure_of_sphere_;
   geometry::Neighbours neighbours_;
   geometry::CellNeighbours cell_neighbours_;
   PlaneNeighbours plane_neighbours_;

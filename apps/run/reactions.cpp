@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/reactions.hpp"
 
+#include "geometry/critical/product_features.hpp"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -33,32 +35,27 @@ std::vector<dynamics::CsvColumn> columns_of(const std::vector<std::string>& reac
   return columns;
 }
 
-/// Spheres and structures.
-struct BodySet {
-  std::vector<bool> spheres;     // by SphereId
-  std::vector<bool> structures;  // by StructureId
+/// The bodies that have some nodes. Structures come apart where bonds break, down to single nodes,
+/// but nodes stay with their body.
+class BodySet {
+ public:
+  BodySet(const BuiltReaction& reaction, const dynamics::Simulation& simulation)
+      : simulation_(simulation), is_node_(simulation.state().size()) {
+    for (const geometry::NodeId node : reaction.nodes) is_node_[index_of(node)] = true;
+  }
 
   bool has(const contact::ContactBody& body) const {
-    const auto index = static_cast<std::size_t>(body.index);
-    if (body.kind == contact::BodyKind::sphere) return spheres[index];
-    return body.kind == contact::BodyKind::structure && structures[index];
+    if (body.kind == contact::BodyKind::plane) return false;
+    if (body.kind == contact::BodyKind::structure)
+      return is_node_[index_of(nodes_of(simulation_.surface(), body.feature).ids[0])];
+    const auto sphere = static_cast<std::size_t>(body.index);
+    return is_node_[index_of(simulation_.elements().spheres[sphere].nodes[0])];
   }
-};
 
-/// Those of the nodes, as they are now: structures come apart where bonds break.
-BodySet bodies_of(const BuiltReaction& reaction, const dynamics::Simulation& simulation) {
-  std::vector<bool> is_node(simulation.state().size());
-  for (const geometry::NodeId node : reaction.nodes) is_node[index_of(node)] = true;
-  BodySet bodies;
-  for (const geometry::Sphere& sphere : simulation.elements().spheres)
-    bodies.spheres.push_back(is_node[index_of(sphere.nodes[0])]);
-  bodies.structures.resize(simulation.surface().structure_count());
-  for (const geometry::NodeId node : reaction.nodes) {
-    const geometry::StructureId structure = simulation.surface().structure_of(node);
-    if (structure != geometry::StructureId{-1}) bodies.structures[index_of(structure)] = true;
-  }
-  return bodies;
-}
+ private:
+  const dynamics::Simulation& simulation_;
+  std::vector<bool> is_node_;
+};
 
 Vec3 about(const BuiltReaction& reaction) {
   return reaction.about.value_or(Vec3::Zero());
@@ -67,7 +64,7 @@ Vec3 about(const BuiltReaction& reaction) {
 ForceAndMoment of_contacts(const BuiltReaction& reaction,
                            std::span<const contact::ContactRecord> contacts,
                            const dynamics::Simulation& simulation) {
-  const BodySet bodies = bodies_of(reaction, simulation);
+  const BodySet bodies(reaction, simulation);
   return dynamics::contact_force_on(
       contacts, [&](const contact::ContactBody& body) { return bodies.has(body); },
       about(reaction));

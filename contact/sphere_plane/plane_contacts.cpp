@@ -176,17 +176,18 @@ Vec3 PlaneContacts::force_on(std::size_t plane) const {
   return force;
 }
 
-void PlaneContacts::for_each_record(Positions x, const geometry::Surface& surface,
+void PlaneContacts::for_each_record(Positions x, std::span<const geometry::StructureId> structures,
                                     VisitRecord visit) const {
   records_.for_each([&](const PlaneForce& record) {
     const Slot& slot = slots_[record.contact];
     const geometry::Feature node(slot.node);
-    const geometry::StructureId structure = surface.structure_of(slot.node);
+    const std::int32_t sphere = rekey_.key(record.contact).a;
+    const geometry::StructureId structure = structures[static_cast<std::size_t>(sphere)];
     ContactRecord row;
     row.id = slot.id;
     // Spheres come first among the spheres.
     row.a = structure == geometry::StructureId{-1}
-                ? ContactBody{BodyKind::sphere, rekey_.key(record.contact).a, node}
+                ? ContactBody{BodyKind::sphere, sphere, node}
                 : ContactBody{BodyKind::structure, static_cast<std::int32_t>(structure), node};
     row.b = {BodyKind::plane, static_cast<std::int32_t>(slot.plane), {}};
     row.normal = slot.memory.normal;

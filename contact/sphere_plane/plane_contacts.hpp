@@ -84,8 +84,9 @@ class PlaneContacts {
   }
 
   /// Calls visit(ContactRecord) for every touching pair of the last step, in the order of the list.
-  /// @param surface  of whose nodes some of the spheres are
-  void for_each_record(Positions x, const geometry::Surface& surface, VisitRecord visit) const;
+  /// @param structures  by sphere of the list: of what it is a node; -1 for a sphere by itself
+  void for_each_record(Positions x, std::span<const geometry::StructureId> structures,
+                       VisitRecord visit) const;
 
   /// @param list  makes the list anew by rebuild()
   void exchange(const geometry::StateArchive& archive, geometry::FunctionRef<void()> list,

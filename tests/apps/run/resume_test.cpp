@@ -110,7 +110,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Scene{"net", kSameBits, "12"}, Scene{"sheets", kSameBits, "60"},
                     Scene{"tube", kSameBits, "12"}, Scene{"turn", kSameBits, "50"},
                     Scene{"glued", kScenes, "12"}, Scene{"rolling", kScenes, "60"},
-                    Scene{"shells", kScenes, "25"}, Scene{"lattice", kScenes, "40"}),
+                    Scene{"shells", kScenes, "25"}, Scene{"lattice", kScenes, "40"},
+                    Scene{"loose", kScenes, "15"}),
     [](const auto& scene) { return std::string(scene.param.name); });
 
 /// Two facets under a grain.

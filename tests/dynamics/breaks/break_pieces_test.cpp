@@ -53,6 +53,24 @@ TEST(BreakPieces, NothingMovesWhenAChainAtRestBreaks) {
   }
 }
 
+TEST(BreakPieces, ANodeWithoutElementsTouchesAPlaneAsOfItsStructure) {
+  // All bonds of a chain that lies on a plane are gone, and only nodes are left.
+  Scene scene = free_chain(3, kMesh);
+  scene.planes.push_back({Vec3(0.0, 0.0, -0.99 * kWireRadius), Vec3::UnitZ(), Vec3::Zero(), kWire});
+  BreakingSimulation simulation(scene, weightless());
+  for (const std::size_t bond : {0U, 1U, 2U}) simulation.break_bond(bond);
+  simulation.step();
+  simulation.step();
+
+  const std::vector<contact::ContactRecord> records = simulation.contact_rows();
+  ASSERT_EQ(records.size(), 4U);
+  for (const contact::ContactRecord& record : records) {
+    EXPECT_EQ(record.a.kind, contact::BodyKind::structure);
+    EXPECT_EQ(record.a.index, 0);
+    EXPECT_EQ(record.a.feature.kind, geometry::FeatureKind::node);
+  }
+}
+
 TEST(BreakPieces, PiecesOfAChainTouchEachOtherUnlessStructuresDoNotTouchThemselves) {
   // A piece of two cylinders flies along x at another, 0.1 m away.
   for (const bool self_contact : {true, false}) {
