@@ -140,21 +140,24 @@ class Examination {
                                      apps::Progress::Clock::now(),
                                      true,
                                      resume};
-    const auto ended = [&] {
+    const auto ended = [&](bool in_order) {
       tell_(fmt::format("steps {}\n", simulation.steps()));
       if (!watched) return;
       Findings findings;
-      watch.finish(simulation, findings);
+      if (in_order)
+        watch.finish(simulation, findings);
+      else
+        watch.find_lost(findings);
       for (const Finding& finding : findings.all) find(finding.fault, finding.text);
       tell_(fmt::format("momentum {}\ncontacts {}\n", conserved.momentum ? 1 : 0,
                         watch.most_contacts()));
     };
     try {
       RunReport report = apps::run(scenario, prepared, settings);
-      ended();
+      ended(true);
       return report;
     } catch (const dynamics::Diverged&) {
-      tell_(fmt::format("steps {}\n", simulation.steps()));
+      ended(false);
       throw;
     }
   }

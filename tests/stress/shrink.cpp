@@ -50,7 +50,7 @@ class Shrinking {
       : scene_(std::move(scene)), fails_(fails), end_(end) {}
 
   SceneText execute() {
-    while (!is_over() && (drop_tables() | drop_keys() | halve_duration() | halve_numbers())) {
+    while (!is_over() && (halve_duration() | drop_tables() | drop_keys() | halve_numbers())) {
     }
     return std::move(scene_);
   }

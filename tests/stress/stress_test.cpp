@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr const char* kScene = R"([simulation]
-duration = 0.004
+duration = 0.001
 gravity = [0, 0, 0]
 damping = 0.1
 [materials.stone]

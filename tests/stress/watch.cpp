@@ -112,10 +112,14 @@ void Watch::look(const dynamics::Simulation& simulation) {
   time_ = simulation.time();
 }
 
-void Watch::finish(const dynamics::Simulation& simulation, Findings& findings) const {
+void Watch::find_lost(Findings& findings) const {
   if (lost_step_ >= 0)
     findings.all.push_back(
         {Fault::not_finite, fmt::format("something is no number after step {}", lost_step_)});
+}
+
+void Watch::finish(const dynamics::Simulation& simulation, Findings& findings) const {
+  find_lost(findings);
   const Sums last = sums_of(simulation);
   // The velocities are those in the middle of the last drift.
   const Vec3 fallen = mass_ * (time_ - 0.5 * drift_) * simulation.gravity();

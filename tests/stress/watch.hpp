@@ -29,7 +29,9 @@ class Watch {
   void look(const dynamics::Simulation& simulation);
   std::size_t most_contacts() const noexcept { return most_contacts_; }
 
-  /// At the end of the run. @param elastic  J, stored at the start
+  /// Also of a run that has become meaningless.
+  void find_lost(Findings& findings) const;
+  /// At the end of the run.
   void finish(const dynamics::Simulation& simulation, Findings& findings) const;
 
  private:

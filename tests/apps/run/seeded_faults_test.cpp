@@ -145,7 +145,9 @@ TEST_F(SeededFault, ASliverFacetIsNamedByItsAngleAndAsWhatLimitsTheStep) {
   const geometry::Vec3& xc = mesh.points[geometry::index_of(c)];
   const auto apex = geometry::id_at<geometry::NodeId>(mesh.points.size());
   const geometry::Vec3 middle = 0.5 * (xa + xb);
-  mesh.points.push_back(middle + 1e-5 * (xc - middle).normalized());
+  const geometry::Vec3 along = (xb - xa).normalized();
+  const geometry::Vec3 height = xc - middle - (xc - middle).dot(along) * along;
+  mesh.points.push_back(middle + 1e-5 * height.normalized());
   mesh.facets.front() = {a, b, apex};
   mesh.facets.push_back({b, c, apex});
   mesh.facets.push_back({c, a, apex});
