@@ -8,8 +8,8 @@
 
 namespace plekton::stress {
 
-/// Makes a scene that fails as small as it can be: leaves out tables, then keys, and halves whole
-/// numbers and the duration, as long as it still fails, until nothing more can go.
+/// Makes a scene that fails as small as it can be: leaves out tables, then keys, and halves
+/// numbers of parts and the duration, as long as it still fails, until nothing more can go.
 /// @param fails    whether a scene still fails in the same way
 /// @param longest  after which it stays as small as it is
 SceneText shrunk(SceneText scene, const std::function<bool(const SceneText&)>& fails,
