@@ -269,14 +269,18 @@ Energy Simulation::energy() const {
 /// What rounding may add up to in the ledger. A place is rounded by eps |x| and a turn by eps in
 /// each step, which is worth 1/2 k (eps |x|)² in a spring; these add up like the variances of a
 /// random walk. The sum over nodes that gives the energy of gravity is rounded by n eps of its
-/// absolute terms, and their change in each step by eps.
+/// absolute terms, and their change in each step by eps. Work in a step is a sum of terms of either
+/// sign, as that of pressure on a shell that is moved, each rounded by eps; those of the last step
+/// stand for all.
 double Simulation::rounding_energy() const {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
   double furthest = 0.0;  // m, from the origin
   double weight = 0.0;    // J, sum of m |g.x|
+  double power = 0.0;     // W, sum of |f| |v|
   for (std::size_t i = 0; i < scene_.state.size(); ++i) {
     const Vec3& x = scene_.state.position[i];
     furthest = std::max(furthest, x.cwiseAbs().maxCoeff());
+    power += forces_.force[i].cwiseAbs().dot(scene_.state.velocity[i].cwiseAbs());
     if (holds_translation(scene_.properties.held[i])) continue;
     weight += scene_.properties.mass[i] * full_gravity_.cwiseAbs().dot(x.cwiseAbs());
   }
@@ -284,7 +288,8 @@ double Simulation::rounding_energy() const {
   const double springs =
       initial_stiffness_.translation * furthest * furthest + initial_stiffness_.rotation;
   return 0.5 * kEps * kEps * springs * (1.0 + steps) +
-         kEps * weight * (static_cast<double>(scene_.state.size()) + steps);
+         kEps * weight * (static_cast<double>(scene_.state.size()) + steps) +
+         kEps * power * last_drift_ * steps;
 }
 
 CriticalStep Simulation::critical_step() const {
