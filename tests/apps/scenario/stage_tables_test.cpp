@@ -184,6 +184,18 @@ TEST(StageTable, TellsEveryProblemOnceWithItsPlace) {
       ThrowsMessage<InputError>(HasSubstr("stop: does not go with stages")));
 }
 
+TEST(StageTable, GoesWithNoRigidBodies) {
+  EXPECT_THAT(
+      [] {
+        parsed(
+            "[[rigid_bodies]]\nname = \"stone\"\nmaterial = \"sand\"\nspheres = [{ centre = [0, 0, "
+            "1], "
+            "radius = 0.1 }]\ndensity = 2600\n[[stages]]\nname = \"a\"\nend = { duration = 1 }\n");
+      },
+      ThrowsMessage<InputError>(
+          HasSubstr("rigid_bodies.stone: got a rigid body in a scenario with [[stages]]")));
+}
+
 TEST(StageTable, IsFoundByItsName) {
   const Scenario scenario = parsed(kStages);
 
