@@ -76,6 +76,8 @@ Json schema_of(const ValueType& type) {
   switch (type.kind) {
     case Kind::quantity:
       return quantity_schema(type.quantity, type.words);
+    case Kind::quantities:
+      return list_of(quantity_schema(type.quantity, {}), 1, 0);
     case Kind::vector:
       return list_of(quantity_schema(type.quantity, {}), 3, 3);
     case Kind::vectors:
@@ -88,6 +90,8 @@ Json schema_of(const ValueType& type) {
       return whole_number_schema(type.low.front(), type.high);
     case Kind::whole_numbers:
       return whole_numbers_schema(type);
+    case Kind::whole_rows:
+      return list_of(whole_numbers_schema(type), 1, 0);
     case Kind::truth:
       return {{"type", "boolean"}};
     case Kind::text:

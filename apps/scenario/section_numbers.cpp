@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace plekton::apps {
 namespace {
@@ -138,7 +139,7 @@ std::vector<geometry::Vec3> Section::vectors(std::string_view key, const Quantit
 
 std::vector<double> Section::quantities(std::string_view key, const Quantity& expected,
                                         std::size_t count) {
-  if (records(key, "list of " + kind_text(expected), {})) return {};
+  if (records(key, ValueType::of(Kind::quantities, expected), {})) return {};
   const Value* value = require(key);
   if (value == nullptr) return {};
   const auto* array = std::get_if<Array>(&value->data);
@@ -153,7 +154,11 @@ std::vector<double> Section::quantities(std::string_view key, const Quantity& ex
 
 std::vector<std::int32_t> Section::places(std::string_view key, std::size_t columns,
                                           std::size_t size) {
-  if (records(key, fmt::format("list of {} x whole number from 0", columns), {})) return {};
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  if (records(key,
+              ValueType::whole_from(Kind::whole_rows, std::vector<std::int64_t>(columns, 0), kMost),
+              {}))
+    return {};
   const Value* value = require(key);
   if (value == nullptr) return {};
   const auto* rows = std::get_if<Array>(&value->data);

@@ -73,6 +73,8 @@ std::string text_of(const ValueType& type) {
   switch (type.kind) {
     case Kind::quantity:
       return text_of(type.quantity) + (type.words.empty() ? "" : ", or " + in_quotes(type.words));
+    case Kind::quantities:
+      return "list of " + text_of(type.quantity);
     case Kind::vector:
       return "3 x " + text_of(type.quantity);
     case Kind::vectors:
@@ -83,6 +85,8 @@ std::string text_of(const ValueType& type) {
       return fmt::format("whole number from {}", least_of(type.low));
     case Kind::whole_numbers:
       return fmt::format("{} x whole number from {}", type.low.size(), least_of(type.low));
+    case Kind::whole_rows:
+      return fmt::format("list of {} x whole number from {}", type.low.size(), least_of(type.low));
     case Kind::truth:
       return "true or false";
     case Kind::text:
@@ -102,6 +106,8 @@ std::string name_of(const ValueType& type) {
   switch (type.kind) {
     case Kind::quantity:
       return noun;
+    case Kind::quantities:
+      return "list of " + noun;
     case Kind::vector:
       return "3 x " + noun;
     case Kind::vectors:
@@ -112,6 +118,8 @@ std::string name_of(const ValueType& type) {
       return "whole number";
     case Kind::whole_numbers:
       return fmt::format("{} x whole number", type.low.size());
+    case Kind::whole_rows:
+      return fmt::format("list of {} x whole number", type.low.size());
     case Kind::word:
       return "word";
     default:
@@ -122,6 +130,7 @@ std::string name_of(const ValueType& type) {
 std::string unit_of(const ValueType& type) {
   switch (type.kind) {
     case Kind::quantity:
+    case Kind::quantities:
     case Kind::vector:
     case Kind::vectors:
       return unit_of(type.quantity);
@@ -140,6 +149,7 @@ std::string range_of(const ValueType& type) {
     case Kind::quantity:
       return trimmed(type.quantity.range.text) +
              (type.words.empty() ? "" : ", or " + in_quotes(type.words));
+    case Kind::quantities:
     case Kind::vector:
     case Kind::vectors:
       return trimmed(type.quantity.range.text);
@@ -152,6 +162,7 @@ std::string range_of(const ValueType& type) {
     }
     case Kind::whole_number:
     case Kind::whole_numbers:
+    case Kind::whole_rows:
       if (type.high == std::numeric_limits<std::int64_t>::max())
         return "from " + least_of(type.low);
       return fmt::format("from {} to {}", least_of(type.low), type.high);

@@ -45,11 +45,13 @@ struct Quantity {
 struct ValueType {
   enum class Kind {
     quantity,
-    vector,   ///< three quantities
-    vectors,  ///< a list of such
-    pairs,    ///< a list of pairs of quantities
+    quantities,  ///< a list of such
+    vector,      ///< three quantities
+    vectors,     ///< a list of such
+    pairs,       ///< a list of pairs of quantities
     whole_number,
     whole_numbers,  ///< so many as there are entries of `low`
+    whole_rows,     ///< a list of such
     truth,
     text,
     texts,
@@ -58,7 +60,7 @@ struct ValueType {
   };
 
   Kind kind = Kind::text;
-  Quantity quantity = {};          ///< of a vector that of its components; the first one of pairs
+  Quantity quantity = {};          ///< of lists and vectors that of each; the first one of pairs
   Quantity second = {};            ///< of pairs
   std::size_t least = 1;           ///< entries of a list of vectors
   std::vector<std::int64_t> low;   ///< of whole numbers
