@@ -26,13 +26,14 @@ std::vector<Body> bodies_of(const PreparedRun& prepared) {
   std::vector<Body> bodies;
   for (const BuiltMembrane& membrane : prepared.built.membranes) {
     const auto first = x.begin() + static_cast<std::ptrdiff_t>(membrane.first_node);
-    bodies.push_back({"membranes." + membrane.name,
+    bodies.push_back({(membrane.is_rigid ? "rigid_bodies." : "membranes.") + membrane.name,
                       "nodes",
                       {first, first + static_cast<std::ptrdiff_t>(membrane.nodes)}});
   }
   std::size_t sphere = 0;
   for (const BuiltGrains& grains : prepared.built.grains) {
-    Body& body = bodies.emplace_back(Body{"grains." + grains.name, "grains", {}});
+    Body& body = bodies.emplace_back(
+        Body{(grains.is_rigid ? "rigid_bodies." : "grains.") + grains.name, "grains", {}});
     for (const std::size_t end = sphere + grains.count; sphere < end; ++sphere)
       body.x.push_back(x[index_of(scene.elements.spheres[sphere].nodes[0])]);
   }

@@ -13,7 +13,8 @@ struct NamedModulus {
   double modulus;  ///< Pa
 };
 
-/// Of the materials that a body has, and of the membranes.
+/// Of the materials that a body has, and of the membranes; the surface of a rigid body has none of
+/// its own.
 std::vector<NamedModulus> moduli_of(const Scenario& scenario, const BuiltScene& built) {
   std::vector<bool> is_used(scenario.materials.size(), false);
   for (const MembraneSettings& membrane : scenario.membranes) is_used[membrane.material] = true;
@@ -25,7 +26,8 @@ std::vector<NamedModulus> moduli_of(const Scenario& scenario, const BuiltScene& 
     if (is_used[i]) moduli.push_back({"materials." + material.name, material.young_modulus});
   }
   for (const BuiltMembrane& membrane : built.membranes)
-    moduli.push_back({"membranes." + membrane.name, membrane.young_modulus});
+    if (!membrane.is_rigid)
+      moduli.push_back({"membranes." + membrane.name, membrane.young_modulus});
   return moduli;
 }
 

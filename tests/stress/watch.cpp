@@ -47,6 +47,7 @@ bool is_finite(const dynamics::NodeState& state) {
 
 Conserved conserved_in(const apps::Scenario& scenario) {
   Conserved conserved;
+  if (!scenario.rigid_bodies.empty()) return conserved;  // the sums are over nodes
   const auto& motion = scenario.simulation;
   conserved.momentum =
       motion.damping == 0.0 && scenario.planes.empty() && !holds_some(scenario) &&

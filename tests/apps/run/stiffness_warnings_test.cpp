@@ -44,6 +44,14 @@ TEST(StiffnessWarnings, CountMembranesAndNoMaterialThatNothingHas) {
               ElementsAre(HasSubstr("membranes.net with E = 1e+13 Pa")));
 }
 
+TEST(StiffnessWarnings, LeaveTheSurfacesOfRigidBodiesOut) {
+  BuiltScene built;
+  built.membranes.emplace_back();
+  built.membranes.front().is_rigid = true;  // has no modulus
+
+  EXPECT_THAT(warnings_about_stiffness(scenario_of(1e7, 1e7), built), IsEmpty());
+}
+
 TEST(StiffnessWarnings, NameTangentialStiffnessesFarAboveTheNormalOnes) {
   Scenario scenario = scenario_of(1e7, 1e7);
   scenario.materials[1].stiffness_ratio = 1.0;
