@@ -26,12 +26,14 @@ double seconds_since(Clock::time_point begin) {
 
 std::vector<std::string> arguments_of(const StudyRuns& study, const PlannedRun& run,
                                       const MakeSettings& settings) {
+  // Absolute, so that no name can be an option.
   std::vector<std::string> arguments = {settings.program.string(), "run",
-                                        study.study().scenario.string()};
+                                        std::filesystem::absolute(study.study().scenario).string()};
   for (const std::string& replaced : run.overrides)
     arguments.insert(arguments.end(), {"--set", replaced});
   arguments.insert(arguments.end(), {"--threads", std::to_string(settings.threads), "--out",
-                                     study.folder_of(run).string(), "--overwrite", "--quiet"});
+                                     std::filesystem::absolute(study.folder_of(run)).string(),
+                                     "--overwrite", "--quiet"});
   return arguments;
 }
 

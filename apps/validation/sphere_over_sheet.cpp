@@ -96,7 +96,7 @@ CaseReport validate_sphere_over_sheet(bool full) {
   const double normal = kStiffness * kOverlap;
   const double limit = kFriction * normal;
   const double increment = kRatio * kStiffness * kSpeed * 1.01 * kStep;  // N in a step
-  const Felt felt = dragged_over(full ? 140 : 14);
+  const Felt felt = dragged_over(full ? 42 : 14);
   std::vector<double> expected;
   double worst_normal = 0.0;
   double worst_tangential = 0.0;

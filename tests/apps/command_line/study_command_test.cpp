@@ -170,6 +170,23 @@ steps = { report = "timing.steps" }
   EXPECT_EQ(reports().size(), 1U);
 }
 
+TEST_F(StudyCommand, FailsTheRowsAloneOfValuesThatNoScenarioCanHave) {
+  write_study(
+      "[grid]\nsimulation.damping = [0, 2]\n[results]\nmost = { report = \"counts.grains\" }\n");
+
+  const Outcome outcome = plekton_study();
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("1 of 2 runs failed"), HasSubstr("simulation.damping=2")));
+  const auto rows = table();
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[1].cells[2], "20");
+  EXPECT_EQ(rows[1].cells[3], "complete");
+  EXPECT_EQ(rows[2].cells[3], "failed");
+  EXPECT_EQ(rows[2].cells[5], "");  // has no key
+}
+
 TEST_F(StudyCommand, MakesRunsAnewWhoseMeshOrScenarioWasChangedButNotForAComment) {
   write_study(
       "[grid]\nsimulation.damping = [0, 0.1]\n[results]\nsteps = { report = \"timing.steps\" }\n");
