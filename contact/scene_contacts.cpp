@@ -191,6 +191,7 @@ void SceneContacts::exchange_of_planes(const geometry::StateArchive& archive,
 void SceneContacts::exchange_start(const geometry::StateArchive& archive) {
   Start start = start_;
   archive("start", start);
+  archive.require(start == Start::ahead || start == Start::now || start == Start::over, "start");
   const bool has_ended = start == Start::over && start_ != Start::over;
   start_ = start;
   if (has_ended && materials_.pairs.end_start()) between_structures_.take_parameters(materials_);

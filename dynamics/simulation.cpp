@@ -704,9 +704,20 @@ void Simulation::exchange_motion(const geometry::StateArchive& archive) {
 
 namespace {
 
+template <class Id>
+bool is_below(std::size_t count, Id id) noexcept {
+  const auto i = static_cast<std::int64_t>(id);
+  return i >= 0 && i < static_cast<std::int64_t>(count);
+}
+template <class Nodes>
+bool has_nodes(const Scene& scene, const Nodes& nodes) noexcept {
+  return std::all_of(nodes.begin(), nodes.end(),
+                     [&](NodeId node) { return is_below(scene.state.size(), node); });
+}
+
 /// Elements with their materials. @returns whether they are others than before
 template <class Element>
-bool exchange_table(const geometry::StateArchive& archive, const char* name,
+bool exchange_table(const geometry::StateArchive& archive, const char* name, const Scene& scene,
                     std::vector<Element>& elements, std::vector<contact::MaterialId>& materials) {
   struct Kept {
     Element element;
@@ -714,10 +725,12 @@ bool exchange_table(const geometry::StateArchive& archive, const char* name,
   };
   std::vector<Kept> kept;
   for (std::size_t i = 0; i < elements.size(); ++i) kept.push_back({elements[i], materials[i]});
-  archive.rows(name, kept, [](geometry::RowFields& row, Kept& one) {
+  archive.rows(name, kept, [&](geometry::RowFields& row, Kept& one) {
     row("nodes", one.element.nodes);
+    row.require(has_nodes(scene, one.element.nodes), "nodes");
     row("radius", one.element.radius);
     row("material", one.material);
+    row.require(is_below(scene.materials.size(), one.material), "material");
   });
   const bool is_same = std::equal(
       kept.begin(), kept.end(), elements.begin(), elements.end(),
@@ -736,8 +749,9 @@ bool exchange_table(const geometry::StateArchive& archive, const char* name,
 /// What is left of the elements. Contacts and loads go on with it as if all had broken at once.
 void Simulation::exchange_elements(const geometry::StateArchive& archive) {
   const bool others =
-      exchange_table(archive, "cylinders", scene_.elements.cylinders, scene_.cylinder_materials) |
-      exchange_table(archive, "facets", scene_.elements.facets, scene_.facet_materials);
+      exchange_table(archive, "cylinders", scene_, scene_.elements.cylinders,
+                     scene_.cylinder_materials) |
+      exchange_table(archive, "facets", scene_, scene_.elements.facets, scene_.facet_materials);
   if (!others) return;
   try {
     follow_surface();
@@ -752,14 +766,16 @@ void Simulation::exchange_asked_breaks(const geometry::StateArchive& archive) {
   archive("bonds", broken_.bonds);
   archive("cylinders", broken_.cylinders);
   archive("facets", broken_.facets);
-  for (const std::size_t bond : broken_.bonds)
-    if (bond >= bonds_.size())
-      throw geometry::StateMismatch("the state breaks a bond that is none");
+  for (const std::size_t bond : broken_.bonds) archive.require(bond < bonds_.size(), "bonds");
+  for (const auto& nodes : broken_.cylinders)
+    archive.require(has_nodes(scene_, nodes), "cylinders");
+  for (const auto& nodes : broken_.facets) archive.require(has_nodes(scene_, nodes), "facets");
 }
 
 /// How long steps are, and what the next choice of one knows.
 void Simulation::exchange_step(const geometry::StateArchive& archive) {
   archive("time_step", dt_);
+  archive.require(dt_ >= 0.0 && std::isfinite(dt_), "time_step");
   archive("drift", drift_);
   archive("last_drift", last_drift_);
   archive("fastest", fastest_);

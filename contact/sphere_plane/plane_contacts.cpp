@@ -220,6 +220,7 @@ void PlaneContacts::exchange(const geometry::StateArchive& archive,
   archive.rows("touching", pairs, [&](geometry::RowFields& row, KeptPair& kept) {
     place = exchange_pair(row, kept, place);
     if (row.is_reading()) keep(kept, place, overlap_ratio);
+    ++place;  // each pair touches once
   });
 }
 

@@ -42,9 +42,8 @@ void PlaneNeighbours::exchange(const geometry::StateArchive& archive, std::size_
   archive.rows("pairs", pairs_, [&](geometry::RowFields& row, geometry::IndexPair& pair) {
     row("sphere", pair.a);
     row("plane", pair.b);
-    if (pair.a < 0 || static_cast<std::size_t>(pair.a) >= sphere_count || pair.b < 0 ||
-        static_cast<std::size_t>(pair.b) >= plane_count)
-      throw geometry::StateMismatch("the state has more spheres or planes than there are here");
+    row.require(pair.a >= 0 && static_cast<std::size_t>(pair.a) < sphere_count, "sphere");
+    row.require(pair.b >= 0 && static_cast<std::size_t>(pair.b) < plane_count, "plane");
   });
 }
 

@@ -87,12 +87,12 @@ void SphereBlocks::find_places() {
 void SphereBlocks::exchange_order(const geometry::StateArchive& archive) {
   archive("order", order_);
   archive("lists_in_order", lists_in_order_);
+  archive.require(lists_in_order_ >= 0 && lists_in_order_ < kListsPerOrder, "lists_in_order");
   if (!archive.is_reading()) return;
   std::vector<bool> has_place(order_.size(), false);
   for (const std::int32_t sphere : order_) {
     const auto i = static_cast<std::size_t>(sphere);
-    if (sphere < 0 || i >= order_.size() || has_place[i])
-      throw geometry::StateMismatch("the order of spheres in the state is none: it is damaged");
+    archive.require(sphere >= 0 && i < order_.size() && !has_place[i], "order");
     has_place[i] = true;
   }
   find_places();

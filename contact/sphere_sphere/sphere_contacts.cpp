@@ -320,6 +320,7 @@ void SphereContacts::exchange(const geometry::StateArchive& archive,
   archive.rows("touching", pairs, [&](geometry::RowFields& row, KeptPair& pair) {
     place = exchange_pair(row, pair, place);
     if (row.is_reading()) keep(pair, place);
+    ++place;  // each pair touches once
   });
   if (!archive.is_reading()) return;
   outcomes_.assign(1, {});

@@ -640,9 +640,9 @@ void SurfaceContacts::exchange(const geometry::StateArchive& archive,
   });
   archive.rows("forces", forces, [&](geometry::RowFields& row, KeptForce& kept) {
     row("contact", kept.contact);
-    if (kept.contact >= pairs.size()) throw_unlisted_contact();
+    row.require(kept.contact < pairs.size(), "contact");
     SurfaceForce& record = kept.record;
-    contact::exchange(row, "core", record.core);
+    contact::exchange(row, "core", record.core, *surface_);
     row("force", record.force);
     row("torque_a", record.torque_a);
     row("torque_b", record.torque_b);
@@ -751,6 +751,9 @@ std::size_t SurfaceContacts::exchange_contact(geometry::RowFields& row, KeptCont
   row("elastic_energy", contact.elastic_energy);
   row("id", contact.id);
   row("minima", kept.minima);
+  row.require(std::all_of(kept.minima.begin(), kept.minima.end(),
+                          [&](const Feature& minimum) { return has(*surface_, minimum); }),
+              "minima");
   return place;
 }
 

@@ -29,6 +29,11 @@ geometry::FeatureNodes some_of(const geometry::FeatureNodes& nodes, unsigned cor
   return some;
 }
 
+/// Whether these are some of the nodes, at least one.
+bool are_corners_of(const geometry::FeatureNodes& nodes, unsigned corners) noexcept {
+  return corners > 0 && corners < 1U << nodes.count;
+}
+
 /// N, how hard the forces of a term push its features apart.
 double push_of(const PairTerm& term, const Vec3& normal) {
   double push = 0.0;
@@ -382,6 +387,10 @@ void PairTerms::exchange(const geometry::StateArchive& archive) {
   }
   archive.fixed("nearest_corners", corners, "pairs of cells");
   for (std::size_t i = 0; i < corners.size() && archive.is_reading(); ++i) {
+    const PairTerm& term = terms_[term_of_pair_[i]];
+    archive.require(is_near_[i] == 0 || (are_corners_of(term.a, corners[i][0]) &&
+                                         are_corners_of(term.b, corners[i][1])),
+                    "nearest_corners");
     proximity_[i].cores.points.corners_a = corners[i][0];
     proximity_[i].cores.points.corners_b = corners[i][1];
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/base/motion.hpp"
+#include "contact/tracking/contact_state.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
@@ -120,8 +121,10 @@ class PatchSide {
     for (std::size_t i = 0; i < nodes_.size(); ++i) visit(nodes_[i], shares_[i]);
   }
 
-  void exchange(geometry::RowFields& row, const std::string& name) {
+  void exchange(geometry::RowFields& row, const std::string& name,
+                const geometry::Surface& surface) {
     row(name + "_nodes", nodes_);
+    row.require(has_nodes(surface, nodes_), name + "_nodes");
     row(name + "_forces", forces_);
     row(name + "_attractions", attractions_);
     row(name + "_shares", shares_);

@@ -60,8 +60,10 @@ struct SpreadContact {
         spin += shares[i] * motion.angular_velocity[index_of(nodes[i])];
       return spin;
     }
-    void exchange(geometry::RowFields& row, const std::string& name) {
+    void exchange(geometry::RowFields& row, const std::string& name,
+                  const geometry::Surface& surface) {
       row(name + "_nodes", nodes);
+      row.require(has_nodes(surface, nodes), name + "_nodes");
       row(name + "_shares", shares);
       row(name + "_point", point);
     }
@@ -192,14 +194,15 @@ struct SpreadContact {
   }
 
   /// All but its pair of cells. @throws geometry::StateMismatch
-  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs) {
+  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs,
+                const geometry::Surface& surface) {
     const AnyLaw::Functions* const law = exchange_pair(row, structure_pair, pairs);
     row("patch", patch);
     row("is_turned", is_turned);
     row("is_of_bar", is_of_bar);
     row("is_wrapped", is_wrapped);
-    a.exchange(row, "a");
-    b.exchange(row, "b");
+    a.exchange(row, "a", surface);
+    b.exchange(row, "b", surface);
     row("elastic_force", elastic_force);
     row("normal_force", normal_force);
     row("gap", gap);

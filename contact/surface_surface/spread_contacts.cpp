@@ -308,7 +308,8 @@ void SpreadContacts::for_each_stiffness(
 void SpreadContacts::exchange(const geometry::StateArchive& archive,
                               const StructurePatches& patches) {
   archive.rows("spread", contacts_, [&](geometry::RowFields& row, SpreadContact& spread) {
-    spread.exchange(row, patches.structure_pairs());
+    spread.exchange(row, patches.structure_pairs(), patches.surface());
+    row.require(spread.patch < patches.patches().size(), "patch");
   });
 }
 

@@ -86,13 +86,15 @@ struct StructureBond {
   }
 
   /// All but the place of its cells in a list. @throws geometry::StateMismatch
-  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs) {
+  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs,
+                const geometry::Surface& surface) {
     const AnyLaw::Functions* const law = exchange_pair(row, structure_pair, pairs);
     row("cell_a", cells.a);
     row("cell_b", cells.b);
+    row.require(has(surface, cells), "cell_a");
     row("is_turned", is_turned);
-    contact::exchange(row, "a", a);
-    contact::exchange(row, "b", b);
+    contact::exchange(row, "a", a, surface);
+    contact::exchange(row, "b", b, surface);
     row("contacts", count);
     contact::exchange(row, memory, law);
     row("patch", patch);

@@ -272,7 +272,8 @@ void StructureBonds::for_each_stiffness(
 void StructureBonds::exchange(const geometry::StateArchive& archive,
                               const StructurePatches& patches) {
   archive.rows("bonds", bonds_, [&](geometry::RowFields& row, StructureBond& bond) {
-    bond.exchange(row, patches.structure_pairs());
+    bond.exchange(row, patches.structure_pairs(), patches.surface());
+    row.require(bond.patch >= -1 && bond.patch < std::ssize(patches.patches()), "patch");
   });
 }
 

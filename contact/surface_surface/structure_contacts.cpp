@@ -192,9 +192,9 @@ void StructureContacts::exchange_pair(geometry::RowFields& row, PairOfCells& pai
   row("patch", pair.patch);
   row("is_turned", pair.is_turned);
   row("spread", pair.spread);
-  if (pair.patch >= std::ssize(patches_.patches()) ||
-      pair.spread >= static_cast<std::ptrdiff_t>(spread_.size()))
-    throw_unlisted_contact();
+  row.require(pair.patch >= -1 && pair.patch < std::ssize(patches_.patches()), "patch");
+  row.require(pair.spread >= -1 && pair.spread < static_cast<std::ptrdiff_t>(spread_.size()),
+              "spread");
 }
 
 }  // namespace plekton::contact

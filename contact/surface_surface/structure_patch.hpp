@@ -138,7 +138,8 @@ struct StructurePatch {
   }
 
   /// @param pairs  of structures. @throws geometry::StateMismatch
-  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs) {
+  void exchange(geometry::RowFields& row, std::span<const StructurePair> pairs,
+                const geometry::Surface& surface) {
     const AnyLaw::Functions* const law = exchange_pair(row, structure_pair, pairs);
     row("energy", energy);
     row("attraction_energy", attraction_energy);
@@ -146,8 +147,8 @@ struct StructurePatch {
     row("normal_force", normal_force);
     row("contacts", count);
     row("gap", gap);
-    first.exchange(row, "first");
-    second.exchange(row, "second");
+    first.exchange(row, "first", surface);
+    second.exchange(row, "second", surface);
     row("free_part", free_part);
     row("point_part", point_part);
     row("bar_part", bar_part);
@@ -157,6 +158,7 @@ struct StructurePatch {
     row("other_force", other_force);
     row("moment", moment);
     row("deepest", deepest);
+    row.require(has(surface, deepest[0]) && has(surface, deepest[1]), "deepest");
     row("deepest_overlap", deepest_overlap);
   }
 

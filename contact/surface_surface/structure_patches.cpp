@@ -408,7 +408,7 @@ void StructurePatches::exchange(const geometry::StateArchive& archive) {
   archive("crossings", crossings_);
   terms_.exchange(archive.group("terms"));
   archive.rows("patches", patches_, [&](geometry::RowFields& row, StructurePatch& patch) {
-    patch.exchange(row, structure_pairs_);
+    patch.exchange(row, structure_pairs_, *surface_);
   });
 }
 

@@ -8,8 +8,10 @@
 #include "geometry/primitives/feature.hpp"
 #include "geometry/primitives/proximity.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -46,10 +48,44 @@ struct NumbersOf<FeatureNodes> : NumbersAs<std::int32_t, 4> {
 
 namespace plekton::contact {
 
-inline void exchange(geometry::RowFields& row, const std::string& name, geometry::CorePoint& core) {
+// What a surface has of nodes, cells and features: others are refused when a state is read.
+
+template <class Id>
+bool is_below(std::size_t count, Id id) noexcept {
+  const auto i = static_cast<std::int64_t>(id);
+  return i >= 0 && i < static_cast<std::int64_t>(count);
+}
+template <class Nodes>
+bool has_nodes(const geometry::Surface& surface, const Nodes& nodes) noexcept {
+  return std::all_of(std::begin(nodes), std::end(nodes),
+                     [&](NodeId node) { return is_below(surface.node_count(), node); });
+}
+inline bool has(const geometry::Surface& surface, const geometry::FeatureNodes& of) noexcept {
+  return of.count >= 1 && of.count <= of.ids.size() && has_nodes(surface, of);
+}
+inline bool has(const geometry::Surface& surface, const geometry::CellPair& cells) noexcept {
+  return is_below(surface.cell_count(), cells.a) && is_below(surface.cell_count(), cells.b);
+}
+inline bool has(const geometry::Surface& surface, const geometry::Feature& feature) noexcept {
+  switch (feature.kind) {
+    case geometry::FeatureKind::node:
+      return is_below(surface.node_count(), feature.id);
+    case geometry::FeatureKind::edge:
+      return is_below(surface.edge_count(), feature.id);
+    case geometry::FeatureKind::face:
+      return is_below(surface.face_count(), feature.id);
+  }
+  return false;
+}
+
+/// @param on  the surface that the point is on
+inline void exchange(geometry::RowFields& row, const std::string& name, geometry::CorePoint& core,
+                     const geometry::Surface& on) {
   row(name + "_nodes", core.nodes);
+  row.require(has_nodes(on, core.nodes), name + "_nodes");
   row(name + "_weights", core.weights);
   row(name + "_feature", core.feature);
+  row.require(has(on, core.feature), name + "_feature");
 }
 
 /// Numbers of a history; none of one that no law has looked at.

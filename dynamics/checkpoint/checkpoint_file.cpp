@@ -178,10 +178,10 @@ std::optional<Head> parsed_head(std::string_view bytes) {
 /// A reader of one file that knows what to say of it.
 class Reader {
  public:
-  explicit Reader(std::filesystem::path path) : path_(std::move(path)) {}
+  Reader(std::string bytes, std::filesystem::path path)
+      : path_(std::move(path)), bytes_(std::move(bytes)) {}
 
   StateTree read() {
-    bytes_ = bytes_of_file();
     check_head();
     const QuietErrors quiet;
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -191,9 +191,13 @@ class Reader {
     const Handle file(H5Fopen("checkpoint", H5F_ACC_RDONLY, access.get()), H5Fclose);
     if (!file) throw damaged();
     std::vector<std::string> names;
-    const auto add_name = [](hid_t at, const char* name, const H5L_info_t*, void* to) -> herr_t {
+    // A soft or an external link would lead elsewhere, to another file even.
+    const auto add_name = [](hid_t at, const char* name, const H5L_info_t* link,
+                             void* to) -> herr_t {
       H5O_info_t info;
-      if (H5Oget_info_by_name2(at, name, &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0) return -1;
+      if (link->type != H5L_TYPE_HARD ||
+          H5Oget_info_by_name2(at, name, &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0)
+        return -1;
       if (info.type == H5O_TYPE_DATASET)
         static_cast<std::vector<std::string>*>(to)->emplace_back(name);
       return 0;
@@ -205,14 +209,6 @@ class Reader {
   }
 
  private:
-  std::string bytes_of_file() const {
-    try {
-      return geometry::read_regular_file(path_, "a checkpoint (.h5)");
-    } catch (const geometry::UnreadableFile& error) {
-      throw CheckpointError(error.what());
-    }
-  }
-
   /// Nothing that is damaged gets to the library, whose readers are not made for it.
   void check_head() const {
     const std::optional<Head> head = parsed_head(bytes_);
@@ -236,6 +232,7 @@ class Reader {
     if (!set) throw damaged();
     const Handle type(H5Dget_type(set.get()), H5Tclose);
     const Handle space(H5Dget_space(set.get()), H5Sclose);
+    if (!is_in_one_piece(set.get())) throw damaged();
     std::array<hsize_t, 2> size{};
     if (H5Sget_simple_extent_ndims(space.get()) != 2 ||
         H5Sget_simple_extent_dims(space.get(), size.data(), nullptr) != 2 || size[1] == 0)
@@ -245,6 +242,14 @@ class Reader {
     if (H5Tequal(type.get(), H5T_STD_I32LE) > 0) return read_numbers<std::int32_t>(set.get(), size);
     if (H5Tequal(type.get(), H5T_STD_U8LE) > 0) return read_numbers<std::uint8_t>(set.get(), size);
     throw damaged();
+  }
+
+  /// Whether the numbers of a set lie in this file one after the other: not packed, in other files,
+  /// or put together from other sets.
+  static bool is_in_one_piece(hid_t set) {
+    const Handle how(H5Dget_create_plist(set), H5Pclose);
+    return how && H5Pget_layout(how.get()) == H5D_CONTIGUOUS &&
+           H5Pget_external_count(how.get()) == 0 && H5Pget_nfilters(how.get()) == 0;
   }
 
   /// Only what lies in the file as it is: a size that is said and not there takes no memory.
@@ -283,7 +288,15 @@ void write_checkpoint(const std::filesystem::path& file, const StateTree& state)
 }
 
 StateTree read_checkpoint(const std::filesystem::path& file) {
-  return Reader(file).read();
+  try {
+    return parse_checkpoint(geometry::read_regular_file(file, "a checkpoint (.h5)"), file);
+  } catch (const geometry::UnreadableFile& error) {
+    throw CheckpointError(error.what());
+  }
+}
+
+StateTree parse_checkpoint(std::string bytes, const std::filesystem::path& name) {
+  return Reader(std::move(bytes), name).read();
 }
 
 }  // namespace plekton::dynamics

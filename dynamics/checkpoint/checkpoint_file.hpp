@@ -34,4 +34,7 @@ void write_checkpoint(const std::filesystem::path& file, const geometry::StateTr
 ///         damaged. No more memory is taken than the file has bytes, times two.
 geometry::StateTree read_checkpoint(const std::filesystem::path& file);
 
+/// The same from memory. @param name  what messages call it
+geometry::StateTree parse_checkpoint(std::string bytes, const std::filesystem::path& name);
+
 }  // namespace plekton::dynamics

@@ -23,6 +23,12 @@ void StateArchive::throw_other_kind(std::string_view name) const {
                       "\" of the state has numbers of another kind or number than expected");
 }
 
+void StateArchive::throw_impossible(std::string_view name) const {
+  throw StateMismatch(
+      "\"" + prefix_ + std::string(name) +
+      "\" of the state has numbers that none of this scene can have: it is damaged");
+}
+
 void StateArchive::throw_other_count(std::size_t found, std::size_t expected,
                                      std::string_view what) {
   throw StateMismatch("the state has " + std::to_string(found) + " " + std::string(what) +

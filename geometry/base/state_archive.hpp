@@ -142,6 +142,12 @@ class StateArchive {
     if (things.size() != count) throw_other_count(things.size(), count, what);
   }
 
+  /// Refuses a state that is read, by the name of an array, unless its numbers can be.
+  /// @throws StateMismatch
+  void require(bool holds, std::string_view name) const {
+    if (is_reading() && !holds) throw_impossible(name);
+  }
+
   /// Something that has to be the same: written, and compared when read. @throws StateMismatch with
   /// what it is
   template <class Thing>
@@ -180,6 +186,7 @@ class StateArchive {
   }
   const StateArray& find(std::string_view name) const;
   [[noreturn]] void throw_other_kind(std::string_view name) const;
+  [[noreturn]] void throw_impossible(std::string_view name) const;
   [[noreturn]] static void throw_other_count(std::size_t found, std::size_t expected,
                                              std::string_view what);
   [[noreturn]] static void throw_other(std::string_view what);
@@ -195,6 +202,8 @@ class RowFields {
   explicit RowFields(StateArchive archive) : archive_(std::move(archive)) {}
 
   bool is_reading() const noexcept { return archive_.is_reading(); }
+  /// Of the row that is read. @throws StateMismatch
+  void require(bool holds, std::string_view name) const { archive_.require(holds, name); }
   void begin_row() noexcept { next_ = 0; }
 
   template <class Thing>
@@ -216,8 +225,10 @@ class RowFields {
   void operator()(std::string_view name, std::vector<Thing>& things) {
     using Numbers = NumbersOf<Thing>;
     using Number = typename Numbers::Number;
+    const std::string count_name = std::string(name) + "_count";
     std::size_t count = things.size();
-    (*this)(std::string(name) + "_count", count);
+    (*this)(count_name, count);
+    require(count <= kMostInRow, count_name);
     Number* at = take<Number>(name, Numbers::count, count * Numbers::count);
     things.resize(count);
     for (Thing& thing : things) {
@@ -233,6 +244,9 @@ class RowFields {
   void finish();
 
  private:
+  /// No list of a row is longer, and none of them is so long that its size in bytes overflows.
+  static constexpr std::size_t kMostInRow = std::size_t{1} << 40U;
+
   struct Column {
     std::string name;
     StateArray array;

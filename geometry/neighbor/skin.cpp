@@ -14,9 +14,14 @@ namespace plekton::geometry {
 
 namespace {
 
+constexpr double kSmallestSkin = 1e-100;
+
+bool is_skin(double skin) noexcept {
+  return std::isfinite(skin) && (skin == 0.0 || skin >= kSmallestSkin);
+}
+
 double checked(double skin) {
-  constexpr double kSmallestSkin = 1e-100;
-  if (!std::isfinite(skin) || skin < 0.0 || (skin > 0.0 && skin < kSmallestSkin)) {
+  if (!is_skin(skin)) {
     std::ostringstream message;
     message << "Skin: got a skin of " << skin << " m, expected 0 or a finite length of at least "
             << kSmallestSkin << " m; a tenth of the smallest radius is a good start";
@@ -53,8 +58,8 @@ void Skin::exchange(const StateArchive& archive) {
   archive("skin", skin_);
   archive("is_built", built_);
   archive("built_positions", built_positions_);
+  archive.require(is_skin(skin_), "skin");
   if (!archive.is_reading()) return;
-  skin_ = checked(skin_);
   way_ = std::numeric_limits<double>::infinity();
   furthest_ = furthest(built_positions_);
 }

@@ -173,5 +173,62 @@ TEST(RestoreErrors, DoNotCrashOnAStateWithAWrongNumber) {
   }
 }
 
+/// The message, or that there was none.
+std::string refusal_of(Simulation& simulation, const StateTree& state) {
+  try {
+    simulation.restore(state);
+  } catch (const StateMismatch& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// Ids of nodes, features, cells, contacts, patches and materials, which places in memory are found
+/// by: one that is none is refused by the name of its array.
+TEST(RestoreErrors, NameTheArrayWithAnIdThatIsNone) {
+  const ReportedScene scene;
+  Simulation simulation = scene.simulation(test::kLaws[5]);
+  advance(simulation, 20);
+  const StateTree state = simulation.snapshot();
+  int count = 0;
+  for (const char* const name : {"elements/facets/nodes",
+                                 "elements/facets/material",
+                                 "contacts/spheres/order",
+                                 "contacts/spheres/lists_in_order",
+                                 "contacts/surfaces/contacts/minima",
+                                 "contacts/surfaces/forces/contact",
+                                 "contacts/surfaces/forces/core_nodes",
+                                 "contacts/surfaces/forces/core_feature",
+                                 "contacts/structures/patches/first_nodes",
+                                 "contacts/structures/patches/deepest",
+                                 "contacts/structures/spread/a_nodes",
+                                 "contacts/structures/spread/patch",
+                                 "contacts/structures/bonds/a_nodes",
+                                 "contacts/structures/bonds/b_feature",
+                                 "contacts/structures/bonds/cell_a",
+                                 "contacts/structures/bonds/patch",
+                                 "contacts/structures/pairs/patch",
+                                 "contacts/structures/pairs/spread",
+                                 "contacts/plane_neighbours/pairs/sphere",
+                                 "contacts/plane_neighbours/pairs/plane",
+                                 "contacts/start"}) {
+    ASSERT_TRUE(state.arrays.contains(name)) << name;
+    if (state.arrays.at(name).size() == 0) continue;
+    ++count;
+    for (const std::int64_t wrong : {std::int64_t{-7}, std::int64_t{1} << 30U}) {
+      StateTree changed = state;
+      std::visit(
+          [&](auto& numbers) {
+            using Number = typename std::decay_t<decltype(numbers)>::value_type;
+            numbers.back() = static_cast<Number>(wrong);
+          },
+          changed.arrays[name].numbers);
+      Simulation other = scene.simulation(test::kLaws[5]);
+      EXPECT_THAT(refusal_of(other, changed), HasSubstr("\"" + std::string(name) + "\"")) << wrong;
+    }
+  }
+  EXPECT_GE(count, 18);
+}
+
 }  // namespace
 }  // namespace plekton::dynamics

@@ -2,13 +2,19 @@
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 
 #include "dynamics/output/file.hpp"
+#include "geometry/base/bit_hash.hpp"
 #include "tests/support/seeded_random.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
+#include <sstream>
 
 namespace plekton::dynamics {
 namespace {
@@ -109,6 +115,68 @@ TEST_F(CheckpointFile, IsTheSameStateOrRefusedWithAnyByteChanged) {
     } catch (const CheckpointError&) {
     }
   }
+}
+
+/// A file that leads elsewhere, with the head that a checkpoint has.
+std::string forged(const std::filesystem::path& file, void (*fill)(hid_t)) {
+  constexpr hsize_t kHead = 512;  // bytes
+  const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+  H5Pset_userblock(creation, kHead);
+  const hid_t made = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+  fill(made);
+  H5Fclose(made);
+  H5Pclose(creation);
+  const std::string image = test::bytes_of(file).substr(kHead);
+  geometry::BitHash hash;
+  for (std::size_t i = 0; i < image.size(); i += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, image.data() + i, std::min(sizeof word, image.size() - i));
+    hash.add(word);
+  }
+  std::ostringstream head;
+  head << "plekton checkpoint\nversion " << kCheckpointVersion << "\nwriter x\nbytes "
+       << image.size() << "\nchecksum " << std::hex << hash.value() << '\n';
+  std::string bytes = head.str();
+  bytes.resize(kHead, '\0');
+  return bytes + image;
+}
+
+void add_rows(hid_t file, hid_t how) {
+  const std::array<hsize_t, 2> size = {4, 1};
+  const hid_t space = H5Screate_simple(2, size.data(), nullptr);
+  const std::array<double, 4> numbers = {1.0, 2.0, 3.0, 4.0};
+  const hid_t set = H5Dcreate2(file, "a", H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+  H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+  H5Dclose(set);
+  H5Sclose(space);
+}
+
+/// The checksum is no signature, so whoever made a file may have put anything into it.
+TEST_F(CheckpointFile, RefusesOneThatLeadsToAnotherFile) {
+  const std::string plain = forged(file(), [](hid_t made) { add_rows(made, H5P_DEFAULT); });
+  EXPECT_EQ(parse_checkpoint(plain, "plain").arrays.at("a").rows(), 4U);
+
+  const std::string numbers_elsewhere = forged(file(), [](hid_t made) {
+    const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_external(how, "/dev/zero", 0, 4 * sizeof(double));
+    add_rows(made, how);
+    H5Pclose(how);
+  });
+  EXPECT_THROW(parse_checkpoint(numbers_elsewhere, "forged"), CheckpointError);
+
+  const std::string packed = forged(file(), [](hid_t made) {
+    const std::array<hsize_t, 2> chunk = {4, 1};
+    const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(how, 2, chunk.data());
+    add_rows(made, how);
+    H5Pclose(how);
+  });
+  EXPECT_THROW(parse_checkpoint(packed, "forged"), CheckpointError);
+
+  const std::string link = forged(file(), [](hid_t made) {
+    H5Lcreate_external("/nonexistent/other.h5", "a", made, "b", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  EXPECT_THROW(parse_checkpoint(link, "forged"), CheckpointError);
 }
 
 }  // namespace
