@@ -46,16 +46,16 @@ struct Sum {
     PropertiesOf<Whole> whole;
     PropertiesOf<Part> part;
   };
-  template <class Real>
-  requires detail::HasNumbersOf<Whole, Real> && detail::HasNumbersOf<Part, Real>
+  template <class Real, class = std::enable_if_t<detail::HasNumbersOf<Whole, Real> &&
+                                                 detail::HasNumbersOf<Part, Real>>>
   struct ParametersOf {
     typename detail::NumbersOf<Whole, Real>::Parameters whole;
     typename detail::NumbersOf<Part, Real>::Parameters part;
   };
   using Parameters = ParametersOf<double>;
 
-  template <class Real>
-  requires detail::HasNumbersOf<Whole, Real> && detail::HasNumbersOf<Part, Real>
+  template <class Real, class = std::enable_if_t<detail::HasNumbersOf<Whole, Real> &&
+                                                 detail::HasNumbersOf<Part, Real>>>
   struct HistoryOf {
     typename detail::NumbersOf<Whole, Real>::History whole;
     typename detail::NumbersOf<Part, Real>::History part;
