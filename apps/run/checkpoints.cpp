@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/checkpoints.hpp"
 
-#include "apps/run/output_folder.hpp"
 #include "apps/scenario/problems.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
+#include "dynamics/output/file.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ std::string name_of_checkpoint(std::int64_t steps) {
 void write_run_checkpoint(const fs::path& folder, std::int64_t steps,
                           const geometry::StateTree& state) {
   const fs::path below = folder / kCheckpointFolder;
-  make_output_folder(below);
+  dynamics::ensure_output_folder(below);  // not those above it: they are gone if somebody took them
   dynamics::write_checkpoint(below / name_of_checkpoint(steps), state);
 }
 
