@@ -84,7 +84,12 @@ SizeCurve read_sizes(Section& section) {
   const auto by = static_cast<PassingBy>(section.choice("passing_by", kWords, 0));
   if (!has_sieves) return SizeCurve(2.0 * radius);
   const std::vector<Sieve> sieves = read_sieves(section);
-  return sieves.empty() ? SizeCurve(1.0) : SizeCurve(sieves, by);
+  if (sieves.empty()) return SizeCurve(1.0);
+  const SizeCurve curve(sieves, by);
+  if (std::isnormal(curve.mean_volume())) return curve;
+  section.complain("sieves", fmt::format("sizes from {} to {} m are too extreme to compute with",
+                                         sieves.front().size, sieves.back().size));
+  return SizeCurve(1.0);
 }
 
 /// Complains about a volume of solids (m3) that makes more grains than may be.

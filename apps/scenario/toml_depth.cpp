@@ -9,11 +9,16 @@ namespace {
 /// Goes through a text by what may be a key: words, dots and texts in quotes, with blanks between.
 class KeyScanner {
  public:
-  KeyScanner(std::string_view text, int most) : text_(text), most_(most) {}
+  /// Looks for a key of more parts, or else for a character beyond ASCII that is in no quotes.
+  KeyScanner(std::string_view text, std::optional<int> most) : text_(text), most_(most) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+  }
 
   std::optional<KeyPlace> find() noexcept {
     while (at_ < text_.size()) {
       const char c = text_[at_];
+      if (!most_ && static_cast<unsigned char>(c) >= 0x80) return here();
       if (c == '#') {
         at_ = std::min(text_.find('\n', at_), text_.size());
       } else if (c == '"' || c == '\'') {
@@ -21,7 +26,7 @@ class KeyScanner {
         pass_quoted(c);
       } else {
         if (is_of_a_key(c)) begin_key();
-        if (c == '.' && ++parts_ > most_) return key_;
+        if (c == '.' && most_ && ++parts_ > *most_) return key_;
         if (!is_of_a_key(c) && c != ' ' && c != '\t') parts_ = 0;
         pass();
       }
@@ -39,8 +44,10 @@ class KeyScanner {
   void begin_key() noexcept {
     if (parts_ > 0) return;
     parts_ = 1;
-    key_ = {line_, static_cast<int>(at_ - line_begin_) + 1};
+    key_ = here();
   }
+
+  KeyPlace here() const noexcept { return {line_, static_cast<int>(at_ - line_begin_) + 1}; }
 
   void pass() noexcept {
     if (text_[at_++] != '\n') return;
@@ -67,7 +74,7 @@ class KeyScanner {
   }
 
   std::string_view text_;
-  int most_;
+  std::optional<int> most_;
   std::size_t at_ = 0;
   int line_ = 1;
   std::size_t line_begin_ = 0;
@@ -79,6 +86,10 @@ class KeyScanner {
 
 std::optional<KeyPlace> key_of_more_parts(std::string_view text, int most) noexcept {
   return KeyScanner(text, most).find();
+}
+
+std::optional<KeyPlace> first_beyond_ascii(std::string_view text) noexcept {
+  return KeyScanner(text, std::nullopt).find();
 }
 
 }  // namespace plekton::apps

@@ -17,4 +17,8 @@ struct KeyPlace {
 /// the text, whether that is TOML or not.
 std::optional<KeyPlace> key_of_more_parts(std::string_view text, int most) noexcept;
 
+/// The first character beyond ASCII that is in neither quotes nor a comment, where TOML has none:
+/// what version 3.3 of the parser makes of one is not defined. Linear in the text.
+std::optional<KeyPlace> first_beyond_ascii(std::string_view text) noexcept;
+
 }  // namespace plekton::apps

@@ -5,14 +5,34 @@
 #include "geometry/base/regular_file.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <stdexcept>
 #include <system_error>
 #include <tuple>
+
+namespace plekton::apps {
+namespace {
+
+/// The parser has met a text that it takes for impossible.
+struct ImpossibleToml : std::exception {};
+[[noreturn]] void throw_impossible_toml() {
+  throw ImpossibleToml();
+}
+
+}  // namespace
+}  // namespace plekton::apps
+
+// What the parser asserts of a text does not hold for every one: version 3.3 takes the ")" of "[)"
+// for a key. It is told to stop there, whereas without its assertions it may do anything.
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#define TOML_ASSERT(holds) ((holds) ? void() : plekton::apps::throw_impossible_toml())
+#include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 
 namespace plekton::apps {
 namespace {
@@ -27,6 +47,11 @@ Place place_of(const toml::source_region& region, const std::string& source) {
 toml::table parsed(std::string_view text, const std::string& source) {
   if (const auto place = key_of_more_parts(text, kDeepest))
     refuse_depth({source, place->line, place->column});
+  if (const auto place = first_beyond_ascii(text))
+    throw InputError(
+        fmt::format("{}: not TOML: a character beyond ASCII outside of quotes and comments; put a "
+                    "name that has one in quotes",
+                    to_string(Place{source, place->line, place->column})));
   return toml::parse(text);
 }
 
@@ -63,9 +88,15 @@ Value converted(const toml::node& node, const std::string& source, int depth) {
   return value;
 }
 
+constexpr std::size_t kLongest = std::size_t{64} << 20U;  // bytes, a thousand long scenarios
+
+InputError too_long(std::string_view name) {
+  return InputError(
+      fmt::format("{}: is longer than {} MiB; expected a scenario (.toml)", name, kLongest >> 20U));
+}
+
 /// All of it, to its end. @throws InputError
 std::string text_of_standard_input() {
-  constexpr std::size_t kLongest = std::size_t{64} << 20U;  // bytes, a thousand long scenarios
   std::string text;
   std::array<char, 65536> block;
   while (true) {
@@ -77,10 +108,7 @@ std::string text_of_standard_input() {
                                    kStandardInputName, std::generic_category().message(errno)));
     }
     text.append(block.data(), static_cast<std::size_t>(count));
-    if (text.size() > kLongest) {
-      throw InputError(fmt::format("{}: is longer than {} MiB; expected a scenario (.toml)",
-                                   kStandardInputName, kLongest >> 20U));
-    }
+    if (text.size() > kLongest) throw too_long(kStandardInputName);
   }
 }
 
@@ -109,11 +137,19 @@ Table parse_toml(std::string_view text, const std::string& source) {
                  fmt::format("not TOML: {}", error.description()));
     problems.throw_if_any();
     throw;
+  } catch (const ImpossibleToml&) {
+    throw InputError(
+        fmt::format("{}: not TOML: brackets of a table, as in [name] or [[name]], hold no name or "
+                    "another character that is in no name",
+                    source));
   }
 }
 
 std::string read_toml_text(const fs::path& path) {
   if (path == kStandardInput) return text_of_standard_input();
+  std::error_code ignored;
+  if (const auto size = fs::file_size(path, ignored); !ignored && size > kLongest)
+    throw too_long(path.string());
   try {
     return geometry::read_regular_file(path, "a scenario (.toml)");
   } catch (const geometry::UnreadableFile& error) {
@@ -123,12 +159,15 @@ std::string read_toml_text(const fs::path& path) {
 
 Value parse_toml_value(std::string_view text, const Place& place) {
   Value value{place, std::string(text)};
+  if (first_beyond_ascii(text)) return value;  // without quotes no TOML
   try {
     const toml::table table = parsed("value = " + std::string(text), place.source);
     // A line break in the text could add keys; then it is no single value.
     if (table.size() == 1) value = converted(table.begin()->second, place.source, 0);
   } catch (const toml::parse_error&) {
     // Not TOML, so it is the text itself.
+  } catch (const ImpossibleToml&) {
+    // Likewise.
   }
   set_place(value, place);
   return value;

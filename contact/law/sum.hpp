@@ -46,6 +46,7 @@ struct Sum {
     PropertiesOf<Whole> whole;
     PropertiesOf<Part> part;
   };
+  // Not by a requires-clause: clang 14 crashes on that of a template within a template.
   template <class Real, class = std::enable_if_t<detail::HasNumbersOf<Whole, Real> &&
                                                  detail::HasNumbersOf<Part, Real>>>
   struct ParametersOf {

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
+#include <limits>
 #include <system_error>
 
 namespace plekton::geometry {
@@ -49,11 +51,23 @@ bool is_regular(int descriptor) {
   return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && !is_made_up(descriptor);
 }
 
+/// bytes
+std::uintmax_t size_of(int descriptor) {
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 ? static_cast<std::uintmax_t>(status.st_size) : 0;
+}
+
+/// bytes, of the machine
+std::uintmax_t memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGESIZE);
+  return pages > 0 && size > 0
+             ? static_cast<std::uintmax_t>(pages) * static_cast<std::uintmax_t>(size)
+             : std::numeric_limits<std::uintmax_t>::max();
+}
+
 /// The bytes of an open file, as many as its size; errno says why there are fewer.
 std::string bytes_of(int descriptor) {
-  struct stat status {};
-  ::fstat(descriptor, &status);
-  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+  std::string bytes(size_of(descriptor), '\0');
   std::size_t count = 0;
   errno = 0;
   while (count < bytes.size()) {
@@ -84,6 +98,9 @@ std::string read_regular_file(const fs::path& path, std::string_view expected) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (file.number() < 0) throw fail("cannot be read; check its permissions");
   if (!is_regular(file.number())) throw fail(no_file);
+  if (const std::uintmax_t size = size_of(file.number()); size > memory())
+    throw fail("has " + std::to_string(size) + " bytes, more than this machine has memory (" +
+               std::to_string(memory()) + "); expected " + std::string(expected));
   std::string bytes = bytes_of(file.number());
   if (errno != 0) throw fail("cannot be read; check the disk and its connection");
   return bytes;

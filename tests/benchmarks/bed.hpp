@@ -4,6 +4,8 @@
 #include "geometry/base/types.hpp"
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace plekton::benchmarks {
@@ -22,10 +24,16 @@ struct Bed {
   std::vector<Grain> grains;
 };
 
-/// @throws std::runtime_error naming file and line
+/// @throws std::runtime_error naming file and line. No more memory is taken than lines need.
 Bed read_bed(const std::filesystem::path& file);
 
-/// With 12 digits. @throws std::runtime_error naming the file if it cannot be written
+/// The same from memory. @param name  what messages call it
+Bed parse_bed(std::string_view text, const std::filesystem::path& name);
+
+/// With 12 digits.
+std::string text_of(const Bed& bed);
+
+/// @throws std::runtime_error naming the file if it cannot be written
 void write_bed(const Bed& bed, const std::filesystem::path& file);
 
 }  // namespace plekton::benchmarks

@@ -189,5 +189,15 @@ TEST(Bed, SaysWhichLineOfAFileIsShort) {
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("line 3")));
 }
 
+TEST(Bed, RefusesANumberOfSpheresThatItHasNoLinesForBeforeMemoryIsTaken) {
+  for (const char* count : {"1000000000000000", "-5", "1.5", "nan", "3"}) {
+    const std::string text =
+        std::string(count) + " 0.01 1\n0 0 0 1e-3 0 0 0 0 0 0\n0 0 0 1e-3 0 0 0 0 0 0\n";
+    EXPECT_THAT([&] { parse_bed(text, "bed"); },
+                testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("line 1")))
+        << count;
+  }
+}
+
 }  // namespace
 }  // namespace plekton::benchmarks

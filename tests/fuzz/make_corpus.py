@@ -131,7 +131,89 @@ def imports():
     return {name: content for name, content in files.items() if len(content) <= 2048}
 
 
+SCENARIO = b"""[simulation]
+duration = "2 s"
+gravity = [0, 0, "-9.81 m/s2"]
+threads = 2
+[materials.gravel]
+density = "2650 kg/m3"
+young_modulus = "20 MPa"
+friction_angle = "35 deg"
+[[contacts]]
+materials = ["gravel", "gravel"]
+law = "cohesive_frictional"
+tensile_strength = "1 kPa"
+[[membranes]]
+name = "sheet"
+shape = { kind = "plane_sheet", width = 0.4, length = "40 cm", cells = [4, 4] }
+material = "gravel"
+thickness = "1 mm"
+hold = "rim"
+[[grains]]
+name = "gravel"
+material = "gravel"
+mass = "2 kg"
+sieves = [{ sieve = "6 mm", passing = 0 }, { sieve = "8 mm", passing = "30 %" }, { sieve = "16 mm", passing = 1 }]
+box = { min = ["0 m", "0 m", "0 m"], max = ["10 cm", "10 cm", "10 cm"] }
+[[planes]]
+name = "floor"
+point = [0, 0, 0]
+normal = [0, 0, 2]
+material = "gravel"
+[[loads]]
+kind = "force"
+membrane = "sheet"
+force = [0, 0, "1 N"]
+[output]
+interval = "1 ms"
+contact_list = true
+reactions = [{ kind = "plane", plane = "floor" }]
+[stop]
+kinetic_energy = "1e-6 J"
+"""
+
+
+def scenario():
+    """The examples of the program too, where their meshes are not needed."""
+    files = {"small.toml": SCENARIO,
+             "overrides.toml": b"--set grains.gravel.mass=3 kg\n--set simulation.damping=0.2\n" + SCENARIO}
+    examples = pathlib.Path(__file__).resolve().parents[2] / "apps" / "examples"
+    for example in sorted(examples.glob("*/*.toml")):
+        files[example.name] = example.read_bytes()
+    return files
+
+
+def sieves():
+    """A byte of choices, then for each row its size and what passes."""
+    rows = [(0.006, 0), (0.008, 19660), (0.01, 19660), (0.016, 65535)]
+    table = b"".join(struct.pack("<dH", *row) for row in rows)
+    return {f"table_{choice}.bin": bytes([choice]) + table for choice in range(4)}
+
+
+def bed():
+    sphere = (0.1, 0.2, 0.3, 0.001, 0, 0, -1e-3, 0, 1.5, 0)
+    return {"two.txt": lines((2, 0.01, 1), sphere, [2 * x for x in sphere]), "none.txt": b"0 0.01 3\n"}
+
+
+def checkpoint():
+    """A head without an image: what HDF5 writes is added by a run of the program, see README.md."""
+    return {"head.h5": b"plekton checkpoint\nversion 1\nwriter 0.1.0\nbytes 0\nchecksum 243f6a8885a308d3\n".ljust(512, b"\0")}
+
+
+def state():
+    """Changes: place of an array, what to do, a power of 2, the place of a number, the number."""
+    return {f"array_{k}.bin": struct.pack("<HBBIi", 7 * k, k % 9, (8 * k) % 64, k, (-1) ** k * k) for k in range(30)}
+
+
 WORDS = {
+    "scenario": "[simulation] [materials.a] [[contacts]] [[membranes]] [[grains]] [[planes]] [[loads]] [output] [stop] duration "
+                "time_step gravity damping threads density young_modulus friction_angle law shape mesh kind plane_sheet net tube "
+                "sphere box_shell material thickness hold rim sieves sieve passing passing_by mass number count volume radius box "
+                "min max centres velocity interval reactions inf nan -inf 1e999 -1 --set true false mm deg kPa",
+    "sieves": "",
+    "bed": "1e999 nan inf -1 1e300 0x1 18446744073709551615",
+    "checkpoint": "plekton checkpoint version writer bytes checksum",
+    "state": "",
     "off": "OFF COFF NOFF CNOFF STOFF # nan inf 1e999 1e-999 -1 1e75",
     "obj": "v vt vn f fo l # \\ / // -1 nan 1e999",
     "stl": "solid facet normal outer loop vertex endloop endfacet endsolid nan 1e999",
@@ -156,7 +238,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     root = pathlib.Path(sys.argv[1])
-    for maker in (off, obj, stl, ply, gmsh, vtp, imports):
+    for maker in (off, obj, stl, ply, gmsh, vtp, imports, scenario, sieves, checkpoint, state, bed):
         folder = root / ("import" if maker is imports else maker.__name__)
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in maker().items():

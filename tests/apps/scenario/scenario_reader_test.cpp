@@ -374,5 +374,29 @@ TEST(ScenarioReader, RefusesAMissingFileAndAFolder) {
   EXPECT_THROW(read_scenario(folder.path()), InputError);
 }
 
+/// What the parser of TOML (3.3) takes for impossible or does anything with.
+TEST(ScenarioReader, RefusesTextsThatItsParserIsNotMadeFor) {
+  EXPECT_THAT(error_of("[)"), HasSubstr("not TOML"));
+  EXPECT_THAT(error_of("[[ ,]]\na = 1"), HasSubstr("not TOML"));
+  EXPECT_THAT(error_of("[simulation]\n[a\xD2\x89"
+                       "b]\n"),
+              HasSubstr("case.toml:2:3: not TOML: a character beyond ASCII outside of quotes"));
+  EXPECT_THAT(error_of("[simulation]\nd\xC3\xA9 = 1\n"), HasSubstr("case.toml:2:2: not TOML"));
+}
+
+TEST(ScenarioReader, TakesAnyCharacterInQuotesCommentsAndOverrides) {
+  const std::string text =
+      "\xEF\xBB\xBF# K\xC3\xB6rner\n" + edited("name = \"gravel\"", "name = \"K\xC3\xB6rner\"");
+  EXPECT_EQ(parse_scenario(text, "case.toml").grains.front().name, "K\xC3\xB6rner");
+
+  const std::vector<std::string> overrides = {"grains.gravel.name=K\xC3\xB6rner"};
+  EXPECT_EQ(parse_scenario(kGood, "case.toml", overrides).grains.front().name, "K\xC3\xB6rner");
+}
+
+TEST(ScenarioReader, RefusesSievesThatAreTooExtremeToComputeWith) {
+  EXPECT_THAT(error_of(edited("{ sieve = \"16 mm\"", "{ sieve = 1e200")),
+              HasSubstr("sizes from 0.006 to 1e+200 m are too extreme to compute with"));
+}
+
 }  // namespace
 }  // namespace plekton::apps
