@@ -216,7 +216,7 @@ TEST(ThreadPool, DoesThePartsOfThreadsThatHaveNotBegun) {
   std::thread([&] {
     cpu_set_t one;
     CPU_ZERO(&one);
-    CPU_SET(::sched_getcpu(), &one);
+    CPU_SET(static_cast<std::size_t>(::sched_getcpu()), &one);
     ::sched_setaffinity(0, sizeof one, &one);
     ThreadPool pool(2);
     for (int round = 0; round < 2000; ++round) {
