@@ -8,6 +8,7 @@
 #include "tests/support/reported_scene.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
@@ -58,7 +59,8 @@ bool change_number(StateArray& array, const Change& change) {
 /// @returns whether a step can be taken with what comes of it
 bool apply(const Change& change, StateTree& state) {
   if (state.arrays.empty()) return true;
-  const auto at = std::next(state.arrays.begin(), change.array % state.arrays.size());
+  const auto at = std::next(state.arrays.begin(),
+                            static_cast<std::ptrdiff_t>(change.array % state.arrays.size()));
   StateArray& array = at->second;
   switch (change.what % 8U) {
     case 0:

@@ -121,9 +121,9 @@ TEST_F(StageTables, HaveDurationsFromTheirEndsAndIntervalsFromThese) {
 
 TEST_F(StageTables, AddChangeAndTakeOutPlanesThatGoOnFromWhereTheyAre) {
   const auto names = [&](std::size_t k) {
-    std::vector<std::string> names;
-    for (const PlaneSettings& plane : stages_[k].planes) names.push_back(plane.name);
-    return names;
+    std::vector<std::string> of_stage;
+    for (const PlaneSettings& plane : stages_[k].planes) of_stage.push_back(plane.name);
+    return of_stage;
   };
   EXPECT_THAT(names(0), ElementsAre("floor", "wall"));
   EXPECT_THAT(names(1), ElementsAre("wall", "lid"));

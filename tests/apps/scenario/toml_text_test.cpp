@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 namespace plekton::apps {
@@ -43,22 +44,34 @@ bool same(const Value& a, const Value& b) {
   return std::get<bool>(a.data) == std::get<bool>(b.data);
 }
 
+Value value(decltype(Value::data) data) {
+  Value made;
+  made.data = std::move(data);
+  return made;
+}
+
 Entry entry(const std::string& key, decltype(Value::data) data) {
-  return {key, {}, {{}, std::move(data)}};
+  return {key, {}, value(std::move(data))};
+}
+
+Array list(std::initializer_list<decltype(Value::data)> entries) {
+  Array array;
+  for (const auto& data : entries) array.push_back(value(data));
+  return array;
 }
 
 TEST(TomlText, ReadsBackAsTheSameTables) {
   Table table;
   table.entries = {
       entry("a", std::int64_t{1}),
-      entry("b", Array{{{}, 1.5}, {{}, -0.0}, {{}, 1e300}, {{}, std::string("x")}}),
+      entry("b", list({1.5, -0.0, 1e300, std::string("x")})),
       entry("simulation",
             Table{{entry("duration", std::string("1 s")),
-                   entry("deep", Table{{entry("list", Array{{{}, Table{{entry("x", true)}}},
-                                                            {{}, Table{{entry("x", false)}}}}),
+                   entry("deep", Table{{entry("list", list({Table{{entry("x", true)}},
+                                                            Table{{entry("x", false)}}})),
                                         entry("empty", Table{})}})}}),
       entry("materials", Table{{entry("with a dot.", Table{})}}),
-      entry("grains", Array{{{}, Table{{entry("n", std::int64_t{-3})}}}, {{}, Table{}}}),
+      entry("grains", list({Table{{entry("n", std::int64_t{-3})}}, Table{}})),
       entry("none", Array{})};
 
   const Table read = parse_toml(to_toml(table), "text");
