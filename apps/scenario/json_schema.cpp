@@ -194,6 +194,36 @@ Json object_schema(const std::string& path, const Chosen& chosen) {
   return schema;
 }
 
+/// The same where any of its keys may be left out.
+Json partial(Json schema) {
+  if (schema.is_object()) {
+    schema.erase("required");
+    if (schema.contains("oneOf")) {
+      schema["anyOf"] = std::move(schema["oneOf"]);
+      schema.erase("oneOf");
+    }
+  }
+  if (schema.is_structured())
+    for (Json& part : schema) part = partial(std::move(part));
+  return schema;
+}
+
+/// A stage says again what changes, as it stands outside of the stages; which ends a scenario is
+/// said by the stages then.
+void add_changes_of_stages(Json& schema) {
+  Json& stage = schema["properties"]["stages"]["items"];
+  for (const char* table :
+       {"simulation", "materials", "contacts", "grains", "planes", "loads", "output"})
+    stage["properties"][table] = partial(schema["properties"][table]);
+  for (const char* removed : {"plane", "load"})
+    stage["properties"]["remove"]["items"]["properties"][removed] = {
+        {"type", "string"}, {"minLength", 1}, {"description", "name of what is taken out"}};
+  Json& required = schema["properties"]["simulation"]["required"];
+  required.erase(std::remove(required.begin(), required.end(), "duration"), required.end());
+  schema["if"] = {{"not", {{"required", {"stages"}}}}};
+  schema["then"] = {{"properties", {{"simulation", {{"required", {"duration"}}}}}}};
+}
+
 }  // namespace
 
 Json scenario_schema() {
@@ -205,6 +235,7 @@ Json scenario_schema() {
        "have to do with each other, and with files."}};
   schema.update(object_schema("", {}));
   schema["required"].push_back("simulation");
+  add_changes_of_stages(schema);
   return schema;
 }
 

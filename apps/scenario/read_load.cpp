@@ -243,6 +243,8 @@ LoadSettings read_load(Section section, const Scenario& scenario, std::size_t nu
       settings.load = read_pressure(section, scenario);
       break;
     case 3:
+      section.tell_default("plane", "required without rigid_body");
+      section.tell_default("direction", "required with rigid_body");
       if (section.has("rigid_body"))
         settings.load = read_body_servo(section, scenario);
       else

@@ -90,9 +90,8 @@ std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
 }
 
 NodeSetSettings read_whole_body(Section& section, const Scenario& scenario) {
-  NodeSetSettings set;
-  set.place = section.place();
   if (section.has("rigid_body")) {
+    NodeSetSettings set;
     for (const std::string_view key : {"membrane", "grains"}) {
       if (section.has(key))
         section.complain(key, "rigid_body says already what is meant; leave one of them out");
@@ -101,6 +100,12 @@ NodeSetSettings read_whole_body(Section& section, const Scenario& scenario) {
     set.rigid_body = read_rigid_body_name(section, scenario).value_or(0);
     return set;
   }
+  return read_flexible_body(section, scenario);
+}
+
+NodeSetSettings read_flexible_body(Section& section, const Scenario& scenario) {
+  NodeSetSettings set;
+  set.place = section.place();
   set.of_grains = section.has("grains");
   if (set.of_grains == section.has("membrane")) {
     section.complain("membrane", fmt::format("got {} of membrane and grains; expected exactly one "
@@ -114,17 +119,12 @@ NodeSetSettings read_whole_body(Section& section, const Scenario& scenario) {
   return set;
 }
 
-NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
+namespace {
+
+/// With the nodes of a body that the key `nodes` says.
+NodeSetSettings with_nodes(Section& section, NodeSetSettings set) {
   constexpr std::array<std::string_view, 8> kWords = {"all",   "rim",   "x_min", "x_max",
                                                       "y_min", "y_max", "z_min", "z_max"};
-  NodeSetSettings set = read_whole_body(section, scenario);
-  if (set.rigid_body) {
-    if (section.has("nodes"))
-      section.complain("nodes",
-                       "a rigid body moves as one, and its inner nodes bear no loads of "
-                       "their own; leave nodes out");
-    return set;
-  }
   if (section.has("grains") == section.has("membrane")) {
     section.has("nodes");
     return set;
@@ -143,6 +143,24 @@ NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
                      "grains have no rim; expected \"all\", a side such as \"z_max\", or "
                      "a box { min = [...], max = [...] }");
   return set;
+}
+
+}  // namespace
+
+NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
+  const NodeSetSettings set = read_whole_body(section, scenario);
+  if (set.rigid_body) {
+    if (section.has("nodes"))
+      section.complain("nodes",
+                       "a rigid body moves as one, and its inner nodes bear no loads of "
+                       "their own; leave nodes out");
+    return set;
+  }
+  return with_nodes(section, set);
+}
+
+NodeSetSettings read_flexible_nodes(Section& section, const Scenario& scenario) {
+  return with_nodes(section, read_flexible_body(section, scenario));
 }
 
 }  // namespace plekton::apps

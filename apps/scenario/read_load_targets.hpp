@@ -24,10 +24,14 @@ std::optional<std::size_t> read_plane_name(Section& section, const Scenario& sce
 std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
                                                          const Scenario& scenario);
 
-/// All nodes of the body that the key `membrane` or `grains` names.
+/// All nodes of the body that the key `membrane`, `grains` or `rigid_body` names.
 NodeSetSettings read_whole_body(Section& section, const Scenario& scenario);
+
+/// The same but for rigid bodies.
+NodeSetSettings read_flexible_body(Section& section, const Scenario& scenario);
 
 /// From the keys `membrane` or `grains`, and `nodes`.
 NodeSetSettings read_node_set(Section& section, const Scenario& scenario);
+NodeSetSettings read_flexible_nodes(Section& section, const Scenario& scenario);
 
 }  // namespace plekton::apps

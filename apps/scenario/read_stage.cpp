@@ -93,7 +93,7 @@ void require_end(Section& section, const StageSettings& stage) {
 
 RemovalSettings read_removal(Section section, const Scenario& scenario) {
   RemovalSettings removal;
-  const NodeSetSettings body = read_whole_body(section, scenario);
+  const NodeSetSettings body = read_flexible_body(section, scenario);
   removal.grains = body.body;
   if (!body.of_grains && section.has("membrane"))
     section.complain("membrane",
@@ -109,7 +109,7 @@ std::vector<NodeSetSettings> read_sets(Section& stage, std::string_view key,
                                        const Scenario& scenario) {
   std::vector<NodeSetSettings> sets;
   for (Section& section : stage.tables(key)) {
-    sets.push_back(read_node_set(section, scenario));
+    sets.push_back(read_flexible_nodes(section, scenario));
     section.finish();
   }
   return sets;

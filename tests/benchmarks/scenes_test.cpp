@@ -183,7 +183,7 @@ TEST(Bed, ComesBackFromAFile) {
 
 TEST(Bed, SaysWhichLineOfAFileIsShort) {
   const test::TemporaryFolder folder;
-  test::write_bytes(folder / "bed.txt", "2 0.01 1\n0 0 0 1e-3 0 0 0 0 0 0\n0 0 0\n");
+  test::write_bytes(folder / "bed.txt", "2 0.01 1\n0 0 0 1e-3 0 0 0 0 0 0\n0 0 0 1e-3 0 0 0 0 0\n");
 
   EXPECT_THAT([&] { read_bed(folder / "bed.txt"); },
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("line 3")));

@@ -29,7 +29,7 @@ def completion_failures(program, root):
     """What is not completed as it should be."""
     catch = str(Path(root, "apps/examples/catch/catch.toml"))
     expected = [
-        (["v"], {"view", "verify"}),
+        (["v"], {"validate", "verify", "view"}),
         (["run", "--ov"], {"--overwrite"}),
         (["view", "--se"], {"--serve"}),
         (["check", catch, "--set", "grains.gravel.co"], {"grains.gravel.count="}),

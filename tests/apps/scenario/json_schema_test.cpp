@@ -22,8 +22,23 @@ TEST(ScenarioSchema, HasRangesAndDefaultsInSiUnits) {
   EXPECT_EQ(property(simulation, "gravity").at("default"), Json::parse("[0, 0, -9.81]"));
   EXPECT_EQ(property(simulation, "time_step").at("anyOf").at(2),
             Json::parse(R"({"enum": ["auto"]})"));
-  EXPECT_EQ(simulation.at("required"), Json::parse(R"(["duration"])"));
   EXPECT_EQ(simulation.at("additionalProperties"), false);
+}
+
+TEST(ScenarioSchema, AsksForADurationWhereThereAreNoStages) {
+  const Json schema = scenario_schema();
+
+  EXPECT_EQ(schema.at("if"), Json::parse(R"({"not": {"required": ["stages"]}})"));
+  EXPECT_EQ(property(schema.at("then"), "simulation").at("required"),
+            Json::parse(R"(["duration"])"));
+}
+
+TEST(ScenarioSchema, TakesAnyPartOfATableInAStage) {
+  const Json stage = property(scenario_schema(), "stages").at("items");
+
+  EXPECT_FALSE(property(stage, "planes").at("items").contains("required"));
+  EXPECT_EQ(property(stage, "planes").at("items").at("additionalProperties"), false);
+  EXPECT_TRUE(property(stage, "loads").at("items").contains("anyOf"));
 }
 
 TEST(ScenarioSchema, HasOneAlternativeForEachKindOfATable) {

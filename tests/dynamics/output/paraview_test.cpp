@@ -89,7 +89,7 @@ constexpr const char* kExpected =
     R"(Körner <1> & "2".vtp: time 0.25 points 2 in 0..1 0..0 0.25..0.25 cells 2+0+0 [radius:1:0.75,velocity:3:1.5,angular_velocity:3:1.5,force:3:1.5,id:1:30] []
 contacts.vtp: time 0.25 points 2 in 0..0 0..0 0..1 cells 0+1+0 [] [id:1:7,kind_a:1:0,body_a:1:3,feature_a:1:5,kind_b:1:4,body_b:1:2,feature_b:1:-1,point:3:0.5,normal:3:1,gap:1:-0.5,normal_force:3:5,normal_force_magnitude:1:5,tangential_force:3:7,tangential_force_magnitude:1:5,moment:3:2,is_bonded:1:0,is_slipping:1:1]
 many.vtp: time 0 points 100000 in 0..99999 0..0 0..0 cells 100000+0+0 [odd:1:50000] []
-no_contacts.vtp: time 0.5 points 0 in nothing cells 0+0+0 [] [id:1:0,kind_a:1:0,body_a:1:0,feature_a:1:0,kind_b:1:0,body_b:1:0,feature_b:1:0,point:3:0,normal:3:0,gap:1:0,normal_force:3:0,normal_force_magnitude:1:0,tangential_force:3:0,tangential_force_magnitude:1:0,moment:3:0,is_bonded:1:0,is_slipping:1:0]
+no_contacts.vtp: time 0.5 points 0 in nothing cells 0+0+0 [] [id:1:0,kind_a:1:0,body_a:1:0,feature_a:1:0,kind_b:1:0,body_b:1:0,feature_b:1:0,point:3:0,normal:3:0,gap:1:0,normal_force:3:0,normal_force_magnitude:1:0,tangential_force:3:0,tangential_force_magnitude:1:0,moment:3:0,is_bonded:1:0,is_slipping:1:0,group_a:1:0,material_a:1:0,group_b:1:0,material_b:1:0]
 no_grains.vtp: time 0.5 points 0 in nothing cells 0+0+0 [radius:1:0,velocity:3:0,angular_velocity:3:0,force:3:0,id:1:0] []
 no_surface.vtp: time 0.5 points 0 in nothing cells 0+0+0 [velocity:3:0,angular_velocity:3:0,force:3:0,node:1:0] [radius:1:0,tension:1:0]
 surface.vtp: time 0.25 points 4 in 0..1 0..1 0..1 cells 0+2+1 [velocity:3:3,angular_velocity:3:3,force:3:3,node:1:6] [radius:1:1.5,tension:1:10]
