@@ -39,7 +39,13 @@ double smallest_radius(const geometry::Elements& elements) noexcept {
   return smallest;
 }
 
-geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positions x) {
+/// The point of a plane that is nearest to a point.
+Vec3 foot_on(const contact::Plane& plane, const Vec3& point) {
+  return point - (point - plane.point).dot(plane.normal) * plane.normal;
+}
+
+geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positions x,
+                           std::span<const contact::Plane> planes) {
   geometry::Box bounds{Vec3::Constant(std::numeric_limits<double>::max()),
                        Vec3::Constant(std::numeric_limits<double>::lowest())};
   const auto include = [&](const auto& list) {
@@ -52,6 +58,14 @@ geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positio
   include(elements.spheres);
   include(elements.cylinders);
   include(elements.facets);
+  const geometry::Box of_elements = bounds;
+  for (const contact::Plane& plane : planes) {
+    for (const Vec3& corner : {of_elements.lower, of_elements.upper}) {
+      const Vec3 foot = foot_on(plane, corner);
+      bounds.lower = bounds.lower.cwiseMin(foot);
+      bounds.upper = bounds.upper.cwiseMax(foot);
+    }
+  }
   const double margin = (bounds.upper - bounds.lower).maxCoeff();
   return {bounds.lower.array() - margin, bounds.upper.array() + margin};
 }
@@ -70,9 +84,10 @@ bool passes_through(const Vec3& point0, const Vec3& point1, const std::array<Vec
   return foot_is_inside(point0 + t * (point1 - point0), triangle);
 }
 
-LostGrains::LostGrains(const geometry::Elements& elements, geometry::Positions x)
+LostGrains::LostGrains(const geometry::Elements& elements, geometry::Positions x,
+                       std::span<const contact::Plane> planes)
     : elements_(elements),
-      bounds_(start_bounds(elements, x)),
+      bounds_(start_bounds(elements, x, planes)),
       smallest_radius_(smallest_radius(elements)),
       before_(x.begin(), x.end()),
       is_through_(elements.spheres.size(), false),

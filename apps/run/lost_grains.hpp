@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/base/bodies.hpp"
 #include "geometry/neighbor/neighbours.hpp"
 #include "geometry/primitives/elements.hpp"
 
@@ -18,8 +19,8 @@ namespace plekton::apps {
 /// Which grains a simulation has lost. A grain is lost for good
 /// - when its centre has passed through a facet of a membrane, which no contact force should let
 ///   happen, or
-/// - when its centre has left the box around everything at the start, grown on every side by its
-///   own longest side.
+/// - when its centre has left the box around everything at the start and around the feet of that
+///   on the planes, grown on every side by its own longest side.
 ///
 /// Between two looks a grain and the corners of a facet are taken to move straight and evenly. The
 /// centre passes through the facet if it changes sides of its plane and, at the moment it lies in
@@ -28,7 +29,8 @@ namespace plekton::apps {
 class LostGrains {
  public:
   /// @param x  m, at the start. The elements must outlive this.
-  LostGrains(const geometry::Elements& elements, geometry::Positions x);
+  LostGrains(const geometry::Elements& elements, geometry::Positions x,
+             std::span<const contact::Plane> planes);
 
   /// Looks at what happened since the last look. Call it so often that no grain moves by its radius
   /// in between, see steps_to_next_look.

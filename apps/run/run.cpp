@@ -93,7 +93,7 @@ RunReport begun_report(const Scenario& scenario, const PreparedRun& prepared) {
 RunStart start_of(const Scenario& scenario, const PreparedRun& prepared) {
   const dynamics::Simulation& simulation = *prepared.simulation;
   return {begun_report(scenario, prepared), settings_for(scenario.output, simulation),
-          LostGrains(simulation.elements(), simulation.state().position)};
+          LostGrains(simulation.elements(), simulation.state().position, simulation.planes())};
 }
 
 /// One run: what is written, and what is watched.

@@ -23,14 +23,14 @@ std::array<Vec3, 3> triangle_at(double height) {
 /// A facet and a grain of radius 0.1 m, to be moved step by step.
 class Scene {
  public:
-  explicit Scene(const Vec3& grain)
+  explicit Scene(const Vec3& grain, const std::vector<contact::Plane>& planes = {})
       : positions_{{triangle_at(0.0)[0], triangle_at(0.0)[1], triangle_at(0.0)[2], grain}} {
     elements_.facets.push_back({{id_at<NodeId>(0), id_at<NodeId>(1), id_at<NodeId>(2)}, 0.01});
     elements_.spheres.push_back({{id_at<NodeId>(3)}, 0.1});
     surface_ = geometry::Surface({}, elements_.facets, positions_.size());
     neighbours_.emplace(elements_.spheres, surface_, 0.05);
     neighbours_->update(positions_, pool_);
-    lost_.emplace(elements_, positions_);
+    lost_.emplace(elements_, positions_, planes);
   }
 
   /// Moves the grain on a straight way in small steps, with a look after each.
@@ -88,6 +88,15 @@ TEST(LostGrains, CountAGrainThatLeavesTheGrownBox) {
 
   EXPECT_EQ(scene.lost().out_of_bounds(), 1U);
   EXPECT_EQ(scene.lost().total(), 1U);
+}
+
+TEST(LostGrains, CountNoneThatFallsOnAPlaneFarBelow) {
+  const contact::Plane floor{{0.0, 0.0, -50.0}, {0.0, 0.0, 1.0}};
+  Scene scene({1.5, 0.2, 0.3}, {floor});
+
+  scene.move_to({1.5, 0.2, -49.9});
+
+  EXPECT_EQ(scene.lost().total(), 0U);
 }
 
 TEST(LostGrains, WantToBeLookedAtTheMoreOftenTheFasterAnythingMoves) {
