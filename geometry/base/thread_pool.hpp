@@ -36,8 +36,9 @@ class ThreadPool {
   int thread_count() const noexcept { return thread_count_; }
 
   /// Calls body(begin, end, worker) once for every worker in [0, thread_count()), each on whichever
-  /// thread comes to it, and waits for all. No call may wait for another one. The parts [begin, end) follow each other in the order of the workers, cover
-  /// [0, count) and differ by at most 1 in length; they depend on count and thread_count() alone.
+  /// thread comes to it, and waits for all. No call may wait for another one. The parts [begin,
+  /// end) follow each other in the order of the workers, cover [0, count) and differ by at most 1
+  /// in length; they depend on count and thread_count() alone.
   /// With fewer indices than threads the later parts are empty (begin == end) and their workers are
   /// called all the same; with none at all nobody is called. The calling thread does the part of
   /// worker 0; with one thread this is a plain call. No allocation unless a body throws.
