@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/contacts.hpp"
 #include "contact/base/material.hpp"
+#include "contact/contacts.hpp"
 #include "geometry/neighbor/exclusion_groups.hpp"
 
 #include <functional>

@@ -65,7 +65,8 @@ std::map<geometry::RepairStep, RepairKey> repair_keys(Section& section) {
        {RepairStep::remesh, "target_edge"}}};
   std::map<RepairStep, RepairKey> keys;
   for (const auto& [step, key] : kKeys)
-    if (section.has(key)) keys.try_emplace(step, RepairKey{std::string(key), section.place_of(key)});
+    if (section.has(key))
+      keys.try_emplace(step, RepairKey{std::string(key), section.place_of(key)});
   return keys;
 }
 
