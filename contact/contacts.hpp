@@ -40,12 +40,6 @@ struct BodyPlaces {
   std::vector<std::int32_t> planes;   ///< by plane
 };
 
-/// N/m.
-struct PairStiffness {
-  double normal;
-  double tangential;
-};
-
 /// All contacts of a scene, whatever their law: spheres with spheres, spheres with surfaces,
 /// structures with each other and with themselves, spheres and nodes of surfaces with planes. A
 /// ContactModel makes them (contact_model.hpp).
@@ -179,9 +173,10 @@ class Contacts {
   virtual void add_elastic_forces(Positions x, NodeForces& forces, PatchFinder& finder,
                                   geometry::FunctionRef<bool(NodeId)> of) const = 0;
 
-  /// Calls visit(node, normal and tangential stiffness (N/m), radius (m)) for what contacts between
-  /// structures are to their nodes.
-  virtual void for_each_structure_stiffness(Visit<NodeId, double, double, double> visit) const = 0;
+  /// Calls visit(node, stiffness, radius (m)) for what contacts between structures are to their
+  /// nodes.
+  virtual void for_each_structure_stiffness(
+      Visit<NodeId, const PairStiffness&, double> visit) const = 0;
   /// Calls visit(cells) for the listed pairs of cells of structures that do not touch, but may be
   /// as near as a margin (m).
   virtual void for_each_near_cell_pair(double margin,

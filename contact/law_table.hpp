@@ -60,6 +60,8 @@ struct LawTable {
                              double gap) { return Law::normal_stiffness(of(p), gap); },
       .tangential_stiffness = [](const Parameters& p,
                                  double gap) { return Law::tangential_stiffness(of(p), gap); },
+      .normal_damping = [](const Parameters& p,
+                           double gap) { return normal_damping_of<Law>(of(p), gap); },
       .interaction_range = [](const Parameters& p) { return interaction_range_of<Law>(of(p)); },
       .attraction = [](const Parameters& p) { return attraction_of<Law>(of(p)); },
       .without_attraction =
@@ -95,6 +97,8 @@ struct LawTable {
       .history_energy = [](const Parameters& p, const History& history) -> double {
         return Law::history_energy(of(p), own(history));
       },
+      .loss_after = [](const History& history,
+                       double parting) { return contact::loss_after<Law>(own(history), parting); },
       .holds = [](const History& history) { return contact::holds<Law>(own(history)); },
       .moment = [](const History& history, const Vec3& normal) -> Vec3 {
         if constexpr (HasMoments<Law>) return Law::moment(own(history), normal);

@@ -65,7 +65,7 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
       surface_(&surface) {
   neighbours_.leave_out(groups);
   cell_neighbours_.leave_out(groups);
-  materials_.structure_masses = structure::mean_node_masses(surface, materials_);
+  materials_.structure_masses = structure::mean_node_masses(surface, materials_.masses);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const NodeId node = spheres[i].nodes[0];
     spheres_.push_back(

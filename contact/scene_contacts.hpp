@@ -116,7 +116,8 @@ class SceneContacts final : public Contacts {
                           geometry::FunctionRef<bool(NodeId)> of) const override {
     with_surfaces_.add_elastic_forces(neighbours_.cells(), x, forces, finder, of);
   }
-  void for_each_structure_stiffness(Visit<NodeId, double, double, double> visit) const override {
+  void for_each_structure_stiffness(
+      Visit<NodeId, const PairStiffness&, double> visit) const override {
     between_structures_.for_each_stiffness(visit);
   }
   void for_each_near_cell_pair(double margin,
@@ -133,8 +134,7 @@ class SceneContacts final : public Contacts {
   PairStiffness stiffness(const BodyPart& a, const BodyPart& b, double gap,
                           double count) const override {
     const auto parameters = AnyLaw::scaled(materials_.pairs.combine(a, b), count);
-    return {AnyLaw::normal_stiffness(parameters, gap),
-            AnyLaw::tangential_stiffness(parameters, gap)};
+    return PairSprings(parameters).stiffness(gap);
   }
 
   std::int64_t list_count() const noexcept override { return list_count_; }

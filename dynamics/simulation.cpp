@@ -447,7 +447,7 @@ PlanePress Simulation::plane_press(std::size_t plane, double way) const {
       [&](NodeId, std::size_t near, const contact::PairSprings& pair, double gap) {
         if (near != plane || !(gap < way)) return;
         press.force += pair.normal_force(gap - way);
-        press.stiffness += pair.normal_stiffness(gap - way);
+        press.stiffness += pair.stiffness(gap - way).normal;
       });
   return press;
 }

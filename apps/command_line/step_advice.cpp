@@ -65,6 +65,11 @@ class StepAdvice {
         node_, body(), scene_.properties.mass[node_], cause_.step.rotation ? "turns" : "moves",
         100.0 * cause_.share, part());
     text += fmt::format("  to lengthen it: {}\n", advice());
+    if (cause_.without_gas_and_damping < kShortened * cause_.without_dashpots)
+      text += fmt::format(
+          "  dashpots shorten it from {:.4g} s, most where heavy grains meet light nodes: raise "
+          "restitution, or make these nodes heavier\n",
+          cause_.without_dashpots);
     if (cause_.step.dt < kShortened * cause_.without_gas_and_damping)
       text += fmt::format(
           "  gas and viscous damping shorten it from {:.4g} s: lower the pressure, ratio or rate "

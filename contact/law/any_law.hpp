@@ -76,6 +76,7 @@ struct AnyLaw {
     double (*elastic_normal_energy)(const Parameters&, double);
     double (*normal_stiffness)(const Parameters&, double);
     double (*tangential_stiffness)(const Parameters&, double);
+    double (*normal_damping)(const Parameters&, double);
     double (*interaction_range)(const Parameters&);
     double (*attraction)(const Parameters&);
     Parameters (*without_attraction)(const Parameters&);
@@ -87,6 +88,7 @@ struct AnyLaw {
     ContactForce (*force)(const Parameters&, const RelativeMotion&, History&, double);
     double (*tangential_limit)(const Parameters&, double, const History&);
     double (*history_energy)(const Parameters&, const History&);
+    double (*loss_after)(const History&, double);
     bool (*holds)(const History&);
     Vec3 (*moment)(const History&, const Vec3&);
     void (*rotate)(History&, const FrameRotation&);
@@ -124,6 +126,11 @@ struct AnyLaw {
     return p.law->tangential_stiffness(p, gap);
   }
 
+  /// See DampsNormally.
+  static double normal_damping(const Parameters& p, double gap) {
+    return p.law->normal_damping(p, gap);
+  }
+
   /// See HasInteractionRange.
   static double interaction_range(const Parameters& p) { return p.law->interaction_range(p); }
   static bool holds(const History& history) {
@@ -159,6 +166,10 @@ struct AnyLaw {
   }
   static double history_energy(const Parameters& p, const History& history) {
     return history.law != p.law ? 0.0 : p.law->history_energy(p, history);
+  }
+  /// See WorksAfterwards.
+  static double loss_after(const History& history, double parting) {
+    return history.law == nullptr ? 0.0 : history.law->loss_after(history, parting);
   }
   static void rotate(History& history, const FrameRotation& rotation) {
     if (history.law != nullptr) history.law->rotate(history, rotation);

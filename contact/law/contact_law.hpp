@@ -113,6 +113,42 @@ concept HasInteractionRange = requires(const typename Law::Parameters& parameter
   { Law::holds(history) } -> std::same_as<bool>;
 };
 
+/// A law that damps motion along the normal: normal_damping(parameters, gap) (N s/m).
+template <class Law>
+concept DampsNormally = requires(const typename Law::Parameters& parameters, double gap) {
+  { Law::normal_damping(parameters, gap) } -> std::same_as<double>;
+};
+
+/// N s/m, 0 for laws that do not damp.
+template <class Law>
+double normal_damping_of(const typename Law::Parameters& parameters, double gap) {
+  if constexpr (DampsNormally<Law>) {
+    return Law::normal_damping(parameters, gap);
+  } else {
+    return 0.0;
+  }
+}
+
+/// A law with forces that no potential has: in a leapfrog they go on for half a step after the
+/// contact has ended.
+///
+/// loss_after(history, parting): the energy (J) dissipated in it, of bodies that part by so much
+/// (m) along the last normal in the step that ends the contact.
+template <class Law>
+concept WorksAfterwards = requires(const typename Law::History& history, double parting) {
+  { Law::loss_after(history, parting) } -> std::same_as<double>;
+};
+
+/// J, 0 for laws that have nothing more to say.
+template <class Law>
+double loss_after(const typename Law::History& history, double parting) {
+  if constexpr (WorksAfterwards<Law>) {
+    return Law::loss_after(history, parting);
+  } else {
+    return 0.0;
+  }
+}
+
 /// m, 0 for laws that only push.
 template <class Law>
 double interaction_range_of(const typename Law::Parameters& parameters) {

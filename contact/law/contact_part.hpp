@@ -29,8 +29,6 @@ concept ContactPart = requires(const typename Part::Properties& properties,
   { Part::force(parameters, motion, stiffness, history, number) } -> std::same_as<ContactForce>;
   /// Energy (J) stored by the history.
   { Part::history_energy(parameters, other) } -> std::same_as<double>;
-  /// The stiffness that a time step has to be safe for, of a law that has this one.
-  { Part::effective(parameters, stiffness) } -> std::same_as<ContactStiffness>;
   { Part::rotate(history, rotation) } -> std::same_as<void>;
   { Part::accumulate_history(history, other, number) } -> std::same_as<void>;
 };
@@ -39,6 +37,30 @@ concept ContactPart = requires(const typename Part::Properties& properties,
 template <class Part>
 concept PartTellsForce = requires(const typename Part::History& history, const Vec3& normal) {
   { Part::force_of_state(history, normal) } -> std::same_as<Vec3>;
+};
+
+/// A part that is as stiff as something in a law's slip.
+///
+/// effective(parameters, stiffness): the stiffness that a time step has to be safe for, of a law
+/// that has this one.
+template <class Part>
+concept PartStiffens = requires(const typename Part::Parameters& parameters,
+                                const ContactStiffness& stiffness) {
+  { Part::effective(parameters, stiffness) } -> std::same_as<ContactStiffness>;
+};
+
+/// A part that damps motion along the normal: by normal_damping(parameters, stiffness) (N s/m) of a
+/// law that has this stiffness.
+template <class Part>
+concept PartDamps = requires(const typename Part::Parameters& parameters,
+                             const ContactStiffness& stiffness) {
+  { Part::normal_damping(parameters, stiffness) } -> std::same_as<double>;
+};
+
+/// A part that does work while the bodies part: see WorksAfterwards.
+template <class Part>
+concept PartWorksAfterwards = requires(const typename Part::History& history, double parting) {
+  { Part::loss_after(history, parting) } -> std::same_as<double>;
 };
 
 /// What a bond has of a part, and a contact beside bonds (HasBonds): of one that says nothing about

@@ -157,12 +157,26 @@ struct Sum {
   template <class Real>
   PLEKTON_INLINE static Real normal_stiffness(const ParametersOf<Real>& p,
                                               const std::type_identity_t<Real>& gap) noexcept {
-    return Part::effective(p.part, stiffness(p, gap)).normal;
+    return effective(p, gap).normal;
   }
   template <class Real>
   PLEKTON_INLINE static Real tangential_stiffness(const ParametersOf<Real>& p,
                                                   const std::type_identity_t<Real>& gap) noexcept {
-    return Part::effective(p.part, stiffness(p, gap)).tangential;
+    return effective(p, gap).tangential;
+  }
+
+  /// See DampsNormally.
+  static double normal_damping(const Parameters& p, double gap) noexcept {
+    double damping = normal_damping_of<Whole>(p.whole, gap);
+    if constexpr (PartDamps<Part>) damping += Part::normal_damping(p.part, stiffness(p, gap));
+    return damping;
+  }
+
+  /// See WorksAfterwards.
+  static double loss_after(const History& history, double parting) noexcept {
+    double loss = contact::loss_after<Whole>(history.whole, parting);
+    if constexpr (PartWorksAfterwards<Part>) loss += Part::loss_after(history.part, parting);
+    return loss;
   }
 
   template <class Real>
@@ -182,6 +196,15 @@ struct Sum {
   PLEKTON_INLINE static ContactStiffnessOf<Real> stiffness(
       const ParametersOf<Real>& p, const std::type_identity_t<Real>& gap) noexcept {
     return {Whole::normal_stiffness(p.whole, gap), Whole::tangential_stiffness(p.whole, gap)};
+  }
+  template <class Real>
+  PLEKTON_INLINE static ContactStiffnessOf<Real> effective(
+      const ParametersOf<Real>& p, const std::type_identity_t<Real>& gap) noexcept {
+    if constexpr (PartStiffens<Part>) {
+      return Part::effective(p.part, stiffness(p, gap));
+    } else {
+      return stiffness(p, gap);
+    }
   }
 };
 

@@ -23,7 +23,7 @@ double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
     return Slot{sphere.node, plane, sphere.radius, 0.0, parameters, {}, 0};
   };
   rekey_(slots_, keys, make,
-         [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.memory); });
+         [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.memory, 0.0); });
   sphere_count_ = slots_.empty() ? 0 : spheres.size();
   return lost;
 }
@@ -65,7 +65,9 @@ double PlaneContacts::advance_spheres(std::size_t begin, std::size_t end, const 
       touching.height[touching.count++] = height;
       touching.all_have_images &= height + slot.radius > 0.0;
     } else if (!slot.memory.is_new()) {
-      dissipated += forget<AnyLaw>(slot.parameters, slot.memory);
+      const Vec3 velocity = planes[slot.plane].velocity - motion.velocity[index_of(slot.node)];
+      const double parting = dt * velocity.dot(slot.memory.normal);
+      dissipated += forget<AnyLaw>(slot.parameters, slot.memory, parting);
       slot.id = 0;
     }
   }

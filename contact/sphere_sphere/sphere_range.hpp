@@ -234,7 +234,8 @@ void SphereLoop<Law>::advance_one(std::size_t row, std::size_t lane) const noexc
       (memory.is_new() ||
        !goes_on<Law>(of_pair, memory.history,
                      spheres.separation.norm() - (spheres.radius_a + spheres.radius_b)))) {
-    work_.outcome.dissipated[lane] += forget<Law>(of_pair, memory);
+    const double parting = work_.dt * spheres.velocity.dot(memory.normal);
+    work_.outcome.dissipated[lane] += forget<Law>(of_pair, memory, parting);
     return keep(0);
   }
   const double distance = spheres.separation.norm();

@@ -163,7 +163,7 @@ double SurfaceContacts::keep_minima(const Pair& pair, const geometry::SurfaceCha
       if (const auto minimum = change.now(minima[m])) minima[left++] = *minimum;
     }
     contact.minimum_count = left;
-    if (left == 0) lost += forget<AnyLaw>(pair.parameters, contact.memory);
+    if (left == 0) lost += forget<AnyLaw>(pair.parameters, contact.memory, 0.0);
   }
   return lost;
 }
@@ -378,13 +378,31 @@ EnergyLoss SurfaceContacts::advance_pair(Pair& pair, std::span<const geometry::C
   return loss;
 }
 
+double SurfaceContacts::loss_at_end(const Pair& pair, const AnyLaw::History& history,
+                                    double parting) {
+  return AnyLaw::history_energy(pair.parameters, history) + AnyLaw::loss_after(history, parting);
+}
+
+double SurfaceContacts::loss_at_end(const Pair& pair, const Contact& old, const Motion& motion,
+                                    double dt) const {
+  if (old.minimum_count == 0) return loss_at_end(pair, old.memory.history, 0.0);
+  const Feature minimum =
+      previous_[static_cast<std::size_t>(pair.contacts.worker)].minima[old.first_minimum];
+  const std::size_t ball = index_of(pair.node);
+  const Positions x = motion.position;
+  const geometry::SurfaceFoot foot = geometry::foot_on(
+      *surface_, geometry::closest_feature(*surface_, minimum, x[ball], x), x[ball], x);
+  const Vec3 velocity = velocity_at(foot.core, Vec3::Zero(), motion) - motion.velocity[ball];
+  return loss_at_end(pair, old.memory.history, dt * velocity.dot(old.memory.normal));
+}
+
 /// Asks the law, and keeps the contact and its forces. @returns the energy (J) dissipated
 double SurfaceContacts::add_contact(const Pair& pair, std::span<const PatchTerm> terms,
                                     const PatchState& state,
                                     std::span<const PatchTermForce> term_forces,
                                     const Transferred& transferred, double dt, int worker_index) {
   if (!(state.gap < 0.0) && !AnyLaw::holds(transferred.history))
-    return AnyLaw::history_energy(pair.parameters, transferred.history);
+    return loss_at_end(pair, transferred.history, dt * state.relative_velocity.dot(state.normal));
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const RelativeMotion relative = relative_motion(state.normal, state.gap, state.elastic_force,
                                                   state.relative_velocity, state.relative_spin);
@@ -424,7 +442,7 @@ EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
                       .find({minima, old.minimum_count}, motion.position[index_of(pair.node)],
                             motion.position, {&patch, 1}, worker.patches)
                       .empty()) {
-      loss.dissipated = stored;
+      loss.dissipated = loss_at_end(pair, old, motion, dt);
       continue;
     }
     loss.tracking = stored;
@@ -500,8 +518,10 @@ EnergyLoss SurfaceContacts::transfer(const Pair& pair, std::span<const Patch> pa
     const auto successors = worker.successors.find(
         {minima.data() + old.first_minimum, old.minimum_count},
         motion.position[index_of(pair.node)], motion.position, patches, worker.patches);
-    (successors.empty() ? loss.dissipated : loss.tracking) +=
-        AnyLaw::history_energy(pair.parameters, old.memory.history);
+    if (successors.empty())
+      loss.dissipated += loss_at_end(pair, old, motion, dt);
+    else
+      loss.tracking += AnyLaw::history_energy(pair.parameters, old.memory.history);
     double total = 0.0;
     for (const std::uint32_t successor : successors)
       total += worker.states[successor].elastic_force;

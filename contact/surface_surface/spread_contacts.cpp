@@ -288,17 +288,16 @@ double SpreadContacts::elastic_energy() const {
 
 void SpreadContacts::for_each_stiffness(
     const StructurePatches& patches,
-    geometry::FunctionRef<void(NodeId, double, double, double)> visit) const {
+    geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const {
   for (const SpreadContact& spread : contacts_) {
     if (!spread.is_of_bar) continue;
     const StructurePair& structure_pair = patches.structure_pairs()[spread.structure_pair];
     // Joints in a wrap move one by one, against the whole spring of a bar.
     const double contacts = spread.is_wrapped ? std::max(1.0, spread.count) : spread.count;
     const auto parameters = AnyLaw::scaled(structure_pair.parameters, contacts);
+    const PairStiffness stiffness = PairSprings(parameters).stiffness(spread.gap);
     const auto on = [&](const SpreadContact::Side& side, double radius) {
-      for (std::size_t i = 0; i < 3; ++i)
-        visit(side.nodes[i], side.shares[i] * AnyLaw::normal_stiffness(parameters, spread.gap),
-              side.shares[i] * AnyLaw::tangential_stiffness(parameters, spread.gap), radius);
+      for (std::size_t i = 0; i < 3; ++i) visit(side.nodes[i], side.shares[i] * stiffness, radius);
     };
     on(spread.a, structure_pair.radius_first);
     on(spread.b, structure_pair.radius_second);

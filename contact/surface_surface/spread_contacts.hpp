@@ -48,8 +48,9 @@ class SpreadContacts {
                      NodeForces& forces) const;
   double elastic_energy() const;
   /// Of bars; the patch tells that of facets.
-  void for_each_stiffness(const StructurePatches& patches,
-                          geometry::FunctionRef<void(NodeId, double, double, double)> visit) const;
+  void for_each_stiffness(
+      const StructurePatches& patches,
+      geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const;
 
   std::size_t size() const noexcept { return contacts_.size(); }
   SpreadContact& operator[](std::int32_t place) noexcept {

@@ -252,17 +252,15 @@ double StructureBonds::elastic_energy(const StructurePatches& patches) const {
 
 void StructureBonds::for_each_stiffness(
     const StructurePatches& patches,
-    geometry::FunctionRef<void(NodeId, double, double, double)> visit) const {
+    geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const {
   for (const StructureBond& bond : bonds_) {
     if (bond.gap < 0.0 || bond.is_broken) continue;
     const StructurePair& structure_pair = patches.structure_pairs()[bond.structure_pair];
     const auto parameters = bond.parameters(structure_pair);
+    const PairStiffness stiffness = PairSprings(parameters).stiffness(0.0);
     const auto on = [&](const geometry::CorePoint& core, double radius) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double share = core.weights[static_cast<int>(i)];
-        visit(core.nodes[i], share * AnyLaw::normal_stiffness(parameters, 0.0),
-              share * AnyLaw::tangential_stiffness(parameters, 0.0), radius);
-      }
+      for (std::size_t i = 0; i < 3; ++i)
+        visit(core.nodes[i], core.weights[static_cast<int>(i)] * stiffness, radius);
     };
     on(bond.a, structure_pair.radius_first);
     on(bond.b, structure_pair.radius_second);

@@ -42,8 +42,9 @@ class StructureBonds {
   void add_forces(const StructurePatches& patches, NodeForces& forces) const;
   double elastic_energy(const StructurePatches& patches) const;
   /// Of bonds over a distance; the patch tells that of what touches.
-  void for_each_stiffness(const StructurePatches& patches,
-                          geometry::FunctionRef<void(NodeId, double, double, double)> visit) const;
+  void for_each_stiffness(
+      const StructurePatches& patches,
+      geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const;
 
   bool empty() const noexcept { return bonds_.empty(); }
   std::span<StructureBond> all() noexcept { return bonds_; }

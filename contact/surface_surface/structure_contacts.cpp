@@ -62,7 +62,7 @@ double StructureContacts::elastic_energy() const {
 }
 
 void StructureContacts::for_each_stiffness(
-    geometry::FunctionRef<void(NodeId, double, double, double)> visit) const {
+    geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const {
   patches_.for_each_stiffness(visit);
   spread_.for_each_stiffness(patches_, visit);
   bonds_.for_each_stiffness(patches_, visit);

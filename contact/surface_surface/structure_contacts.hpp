@@ -68,7 +68,8 @@ class StructureContacts {
 
   /// Calls visit(node, stiffness (N/m), radius (m), tangential over normal stiffness) for what
   /// every patch, and every bond over a distance, adds to the stiffness around its nodes.
-  void for_each_stiffness(geometry::FunctionRef<void(NodeId, double, double, double)> visit) const;
+  void for_each_stiffness(
+      geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const;
 
   /// Calls visit(cells) for the listed pairs of cells that do not touch, but may be as near as a
   /// margin (m).

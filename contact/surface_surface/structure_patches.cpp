@@ -49,7 +49,7 @@ std::vector<StructurePair> StructurePatches::find_structure_pairs(
     const ContactMaterials& materials) const {
   std::vector<StructurePair> structure_pairs;
   const std::vector<double> masses = materials.structure_masses.empty()
-                                         ? mean_node_masses(*surface_, materials)
+                                         ? mean_node_masses(*surface_, materials.masses)
                                          : materials.structure_masses;
   const auto part = [&](std::size_t i) {
     const auto id = geometry::id_at<geometry::StructureId>(i);
@@ -379,16 +379,15 @@ double StructurePatches::elastic_energy() const {
 
 /// That of pairs with a bar is told by these.
 void StructurePatches::for_each_stiffness(
-    geometry::FunctionRef<void(NodeId, double, double, double)> visit) const {
+    geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const {
   for (const StructurePatch& patch : patches_) {
     if (!patch.pushes() || patch.bar_part == 1.0) continue;
     const StructurePair& structure_pair = structure_pair_of(patch);
     const auto parameters = patch.whole_parameters(structure_pair);
+    const PairStiffness stiffness = PairSprings(parameters).stiffness(patch.gap);
     const auto on = [&](double radius) {
       return [&, radius](NodeId node, double share) {
-        const double part = (1.0 - patch.bar_part) * std::abs(share);
-        visit(node, part * AnyLaw::normal_stiffness(parameters, patch.gap),
-              part * AnyLaw::tangential_stiffness(parameters, patch.gap), radius);
+        visit(node, (1.0 - patch.bar_part) * std::abs(share) * stiffness, radius);
       };
     };
     patch.first.for_each_share(on(structure_pair.radius_first));

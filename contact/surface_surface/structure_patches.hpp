@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/law/material_pairs.hpp"
+#include "contact/law/pair_springs.hpp"
 #include "contact/surface_surface/pair_terms.hpp"
 #include "contact/surface_surface/structure_patch.hpp"
 #include "contact/surface_surface/touching_patches.hpp"
@@ -86,7 +87,8 @@ class StructurePatches {
 
   void add_forces(NodeForces& forces) const;
   double elastic_energy() const;
-  void for_each_stiffness(geometry::FunctionRef<void(NodeId, double, double, double)> visit) const;
+  void for_each_stiffness(
+      geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const;
 
   /// Nothing is listed and nothing touches.
   bool empty() const noexcept { return terms_.empty() && patches_.empty(); }

@@ -31,11 +31,14 @@ typename Law::History carried_history(const ContactMemory<Law>& memory, const Ve
   return history;
 }
 
-/// Ends a contact. @returns the energy (J) its history still held, which is lost.
+/// Ends a contact. @returns the energy (J) its history still held, which is lost
+/// @param parting  m, by how much the bodies parted along the normal of the last step since then
 template <ContactLaw Law>
-double forget(const typename Law::Parameters& parameters, ContactMemory<Law>& memory) noexcept {
+double forget(const typename Law::Parameters& parameters, ContactMemory<Law>& memory,
+              double parting) noexcept {
   if (memory.is_new()) return 0.0;
-  const double lost = Law::history_energy(parameters, memory.history);
+  const double lost =
+      Law::history_energy(parameters, memory.history) + loss_after<Law>(memory.history, parting);
   memory = {};
   return lost;
 }

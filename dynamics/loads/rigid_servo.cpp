@@ -13,7 +13,7 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
   const auto is_own = [&, own = body](NodeId node) { return rigid.body_followed_by(node) == own; };
   // Of a law that gets stiffer with the overlap as stiff as it may get on the way.
   const auto add = [&](double slope, double gap, double weight, const contact::PairSprings& pair) {
-    const double stiffness = pair.normal_stiffness(std::min(gap, 0.0) - std::abs(slope) * longest);
+    const double stiffness = pair.stiffness(std::min(gap, 0.0) - std::abs(slope) * longest).normal;
     springs_.push_back({slope, gap, weight * pair.normal_force(gap), weight * stiffness});
   };
   contacts.for_each_near_sphere_pair(
@@ -42,9 +42,10 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
       [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
         if (is_own(ball)) add(-direction.dot(planes[plane].normal), gap, 1.0, pair);
       });
-  contacts.for_each_structure_stiffness([&](NodeId node, double normal, double, double) {
-    if (is_own(node)) springs_.push_back({1.0, 0.0, 0.0, normal});
-  });
+  contacts.for_each_structure_stiffness(
+      [&](NodeId node, const contact::PairStiffness& stiffness, double) {
+        if (is_own(node)) springs_.push_back({1.0, 0.0, 0.0, stiffness.normal});
+      });
 }
 
 PlanePress BodyPress::at(double way) const noexcept {

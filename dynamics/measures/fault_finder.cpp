@@ -109,7 +109,7 @@ NodeState FaultFinder::state_before(double drift) const {
 double FaultFinder::critical_step_at(NodeState& state, double last, bool expected) {
   std::swap(*state_, state);
   const std::vector<Vec3> x = positions_before(*state_, last);
-  const CriticalStep step = expected ? limits_->coming(x) : limits_->present(x);
+  const CriticalStep step = expected ? limits_->coming() : limits_->present(x);
   std::swap(*state_, state);
   return step.dt;
 }

@@ -73,7 +73,7 @@ double ContactSprings::collision_step(const NodeState& state,
       }
     }
     if (!(mobility > 0.0)) continue;
-    const double stiffness = spring.contact.normal_stiffness;
+    const double stiffness = spring.contact.elastic_stiffness();
     const double overlap = spring.contact.overlap;
     const double own = 0.5 * (stiffness * overlap * overlap + speed * speed / mobility);
     energy += own;

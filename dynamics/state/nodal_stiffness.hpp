@@ -32,6 +32,29 @@ struct CriticalStep {
   Eigen::Matrix<double, 6, 1> mode = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
+// Dashpots push with the speed of half a step before. Beside springs K such a damping C is stable in
+// a leapfrog if dt²/4 (K + 2 C / dt) <= M: of one mode dt <= 2 / omega (sqrt(1 + xi²) - xi) with
+// xi = c / (2 m omega) (Belytschko, Liu & Moran, Nonlinear Finite Elements, 2000, section 6.2). So
+// where a heavy ball meets a light node, it is the mass of the node that counts, and where many
+// dashpots hold a node, their sum.
+
+/// 1/s, times a damping (N s/m) the spring (N/m) as which it counts in a step (s); 0 for an infinite
+/// one.
+inline double dashpot_rate(double dt) noexcept {
+  return 2.0 / dt;
+}
+
+/// s, a step that is stable with dashpots, not longer than the critical one.
+///
+/// With c the critical step of K + 2 C / tried: longer steps than the one that was tried have less
+/// of C, so that c itself is stable if it is longer; and in shorter ones K + 2 C / dt is at most
+/// tried / dt times as much, so that c² / tried is stable.
+/// @param tried  s, > 0
+/// @param found  s, the critical step with dashpots as they count in the one tried
+inline double stable_with_dashpots(double tried, double found) noexcept {
+  return found < tried ? found * (found / tried) : found;
+}
+
 /// Springs of a contact between a and b.
 struct ContactStiffness {
   Vec3 normal;                  ///< unit
@@ -40,8 +63,12 @@ struct ContactStiffness {
   double arm_a;                 ///< m, from the core point of a to the contact point
   double arm_b;                 ///< m, likewise of b
   double overlap = 0.0;         ///< m, of now
-  double weight = 1.0;  ///< of the force of one contact; the stiffness has its magnitude, at
-                        ///< least 1
+  double weight = 1.0;   ///< of the force of one contact; the stiffness has its magnitude, at
+                         ///< least 1
+  double dashpot = 0.0;  ///< N/m, part of the normal stiffness that stands for a dashpot
+
+  /// N/m, without what stands for a dashpot.
+  double elastic_stiffness() const noexcept { return normal_stiffness - dashpot; }
 };
 
 /// How a node takes part in the spring of a contact: the contact point on b moves by weight (shift

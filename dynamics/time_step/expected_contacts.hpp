@@ -2,7 +2,9 @@
 #pragma once
 
 #include "contact/contacts.hpp"
+#include "contact/surface_surface/mean_node_masses.hpp"
 #include "dynamics/model/scene.hpp"
+#include "dynamics/model/scene_figures.hpp"
 #include "dynamics/state/nodal_stiffness.hpp"
 #include "dynamics/time_step/coming_partner.hpp"
 #include "geometry/primitives/elements.hpp"
@@ -24,12 +26,25 @@ inline constexpr double kExpectedOverlap = 0.02;
 struct ExpectedStiffness {
   double normal = 0.0;      ///< N/m
   double tangential = 0.0;  ///< N/m
+  double damping = 0.0;     ///< N s/m, along the normal
   ComingPartner partner;    ///< whose normal stiffness this is
 
-  void take(double other_normal, double other_tangential, const ComingPartner& with) noexcept {
-    if (other_normal > normal) partner = with;
-    normal = std::max(normal, other_normal);
-    tangential = std::max(tangential, other_tangential);
+  void take(const contact::PairStiffness& other, const ComingPartner& with) noexcept {
+    if (other.normal > normal) partner = with;
+    normal = std::max(normal, other.normal);
+    tangential = std::max(tangential, other.tangential);
+    damping = std::max(damping, other.normal_damping);
+  }
+};
+
+/// What may come to hold a node.
+struct ExpectedOfNode {
+  IsotropicStiffness stiffness;
+  double damping = 0.0;  ///< N s/m, of its translation
+
+  /// @param rate  1/s, dashpot_rate()
+  IsotropicStiffness with_dashpots(double rate) const noexcept {
+    return {stiffness.translation + rate * damping, stiffness.rotation};
   }
 };
 
@@ -37,7 +52,7 @@ class ExpectedContacts {
  public:
   ExpectedContacts(const Scene& scene, const geometry::Surface& surface,
                    const contact::Contacts& contacts)
-      : scene_(scene), surface_(surface), contacts_(contacts) {
+      : scene_(scene), surface_(surface), contacts_(contacts), masses_(contact_masses(scene)) {
     collect_structures();
     collect_kinds();
     collect_extents();
@@ -45,41 +60,43 @@ class ExpectedContacts {
 
   /// By NodeId. Spheres as if packed densely among the hardest they can meet, nodes of surfaces as
   /// if touched by the hardest.
-  std::vector<IsotropicStiffness> of_nodes() const {
-    std::vector<IsotropicStiffness> stiffness(surface_.node_count());
+  std::vector<ExpectedOfNode> of_nodes() const {
+    std::vector<ExpectedOfNode> expected(surface_.node_count());
     for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
-      const geometry::Sphere& sphere = scene_.elements.spheres[i];
-      const ExpectedStiffness k = hardest_partner({scene_.sphere_materials[i], sphere.radius});
-      stiffness[index_of(sphere.nodes[0])] =
-          in_dense_packing(k.normal, k.tangential, sphere.radius);
+      const double radius = scene_.elements.spheres[i].radius;
+      const ExpectedStiffness k = hardest_partner(kind_of_sphere(i));
+      expected[index_of(scene_.elements.spheres[i].nodes[0])] = {
+          in_dense_packing(k.normal, k.tangential, radius),
+          in_dense_packing(k.damping, 0.0, radius).translation};
     }
     for (std::size_t n = 0; n < surface_.node_count(); ++n) {
       const auto node = geometry::id_at<NodeId>(n);
-      if (surface_.structure_of(node) != geometry::StructureId{-1}) stiffness[n] = of_touch(node);
+      if (surface_.structure_of(node) != geometry::StructureId{-1}) expected[n] = of_touch(node);
     }
-    return stiffness;
+    return expected;
   }
 
   /// By NodeId, of structures: with another one, or itself, that lies on all that is around a node.
-  std::vector<IsotropicStiffness> of_structures() const {
-    std::vector<IsotropicStiffness> stiffness(surface_.node_count());
+  std::vector<ExpectedOfNode> of_structures() const {
+    std::vector<ExpectedOfNode> expected(surface_.node_count());
     for (std::size_t n = 0; n < surface_.node_count(); ++n) {
       const geometry::StructureId own = surface_.structure_of(geometry::id_at<NodeId>(n));
       if (own == geometry::StructureId{-1}) continue;
       ExpectedStiffness hardest;
       for (std::size_t i = 0; i < structures_.size(); ++i)
         take_structure(geometry::id_at<NodeId>(n), i, hardest);
-      stiffness[n] = from_all_sides(2.0 * hardest.normal, 2.0 * hardest.tangential,
-                                    structures_[index_of(own)].radius);
+      const double radius = structures_[index_of(own)].radius;
+      expected[n] = {from_all_sides(2.0 * hardest.normal, 2.0 * hardest.tangential, radius),
+                     from_all_sides(2.0 * hardest.damping, 0.0, radius).translation};
     }
-    return stiffness;
+    return expected;
   }
 
   /// A step (s) that follows collisions of all spheres that are free: min sqrt(m / (8 k)), k the
   /// stiffness of the hardest contact with one of its size, a structure or a plane. One of two
   /// equal spheres takes 6 such steps, one with a wall 9: the energy that a leapfrog is off by as a
-  /// contact begins and ends is (omega dt)² / 4 of that of the collision at most. Infinite without
-  /// free spheres.
+  /// contact begins and ends is (omega dt)² / 4 of that of the collision at most. Shorter with a
+  /// dashpot, by as much as a stable step is. Infinite without free spheres.
   double collision_step() const {
     double shortest = std::numeric_limits<double>::infinity();
     const RigidNodes rigid(scene_.rigid_bodies, scene_.state, scene_.properties);
@@ -87,8 +104,11 @@ class ExpectedContacts {
       const geometry::Sphere& sphere = scene_.elements.spheres[i];
       const double lightness = lightness_of(sphere.nodes[0], rigid);
       if (lightness == 0.0) continue;
-      const double k = hardest_partner({scene_.sphere_materials[i], sphere.radius}).normal;
-      if (k > 0.0) shortest = std::min(shortest, std::sqrt(1.0 / (8.0 * k * lightness)));
+      const ExpectedStiffness k = hardest_partner(kind_of_sphere(i));
+      if (!(k.normal > 0.0)) continue;
+      const double xi = 0.5 * k.damping * std::sqrt(lightness / k.normal);
+      const double shorter = std::sqrt(1.0 + xi * xi) - xi;
+      shortest = std::min(shortest, shorter * std::sqrt(1.0 / (8.0 * k.normal * lightness)));
     }
     return shortest;
   }
@@ -102,8 +122,7 @@ class ExpectedContacts {
     }
     for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
       const geometry::Sphere& sphere = scene_.elements.spheres[i];
-      if (sphere.nodes[0] == node)
-        return hardest_partner({scene_.sphere_materials[i], sphere.radius}).partner;
+      if (sphere.nodes[0] == node) return hardest_partner(kind_of_sphere(i)).partner;
     }
     return {};
   }
@@ -122,13 +141,19 @@ class ExpectedContacts {
     contact::MaterialId material;
     double radius;
     contact::Shape shape = contact::Shape::sphere;
+    double mass = std::numeric_limits<double>::infinity();  ///< kg, see contact::Body
+
+    contact::BodyPart part() const noexcept { return {material, radius, mass, shape}; }
   };
+  Kind kind_of_sphere(std::size_t i) const {
+    const geometry::Sphere& sphere = scene_.elements.spheres[i];
+    return {scene_.sphere_materials[i], sphere.radius, contact::Shape::sphere,
+            masses_[index_of(sphere.nodes[0])]};
+  }
   /// Of so many contacts of two kinds side by side.
   contact::PairStiffness stiffness(const Kind& a, const Kind& b, double count = 1.0) const {
     const double gap = -kExpectedOverlap * std::min(a.radius, b.radius);
-    return contacts_.stiffness({.material = a.material, .radius = a.radius, .shape = a.shape},
-                               {.material = b.material, .radius = b.radius, .shape = b.shape}, gap,
-                               count);
+    return contacts_.stiffness(a.part(), b.part(), gap, count);
   }
   /// To a contact a plane has the radius of what meets it.
   Kind plane_under(std::size_t id, double radius) const {
@@ -148,12 +173,12 @@ class ExpectedContacts {
   /// @param with  what b is
   void take(const Kind& a, const Kind& b, const ComingPartner& with,
             ExpectedStiffness& hardest) const {
-    const auto [normal, tangential] = stiffness(a, b);
-    hardest.take(normal, tangential, with);
+    hardest.take(stiffness(a, b), with);
   }
 
   void collect_structures() {
     structures_.resize(surface_.structure_count());
+    structure_masses_ = contact::structure::mean_node_masses(surface_, masses_);
     const auto set = [&](NodeId node, contact::MaterialId material, double radius) {
       const geometry::StructureId structure = surface_.structure_of(node);
       structures_[index_of(structure)] = {material, radius, contact::shape_of(surface_, structure)};
@@ -173,12 +198,11 @@ class ExpectedContacts {
     std::vector<Kind> smallest(scene_.materials.size());
     std::vector<Kind> largest(scene_.materials.size());
     for (std::size_t i = 0; i < scene_.elements.spheres.size(); ++i) {
-      const auto material = scene_.sphere_materials[i];
-      const double radius = scene_.elements.spheres[i].radius;
-      Kind& least = smallest[static_cast<std::size_t>(material)];
-      Kind& most = largest[static_cast<std::size_t>(material)];
-      if (least.radius == 0.0 || radius < least.radius) least = {material, radius};
-      if (radius > most.radius) most = {material, radius};
+      const Kind kind = kind_of_sphere(i);
+      Kind& least = smallest[static_cast<std::size_t>(kind.material)];
+      Kind& most = largest[static_cast<std::size_t>(kind.material)];
+      if (least.radius == 0.0 || kind.radius < least.radius) least = kind;
+      if (kind.radius > most.radius) most = kind;
     }
     for (const auto& kinds : {smallest, largest}) {
       for (const Kind& kind : kinds) {
@@ -214,20 +238,22 @@ class ExpectedContacts {
     return hardest;
   }
   void take_structure(NodeId node, std::size_t i, ExpectedStiffness& hardest) const {
-    const Kind& own = structures_[index_of(surface_.structure_of(node))];
-    const Kind& other = structures_[i];
+    const std::size_t its = index_of(surface_.structure_of(node));
+    Kind own = structures_[its];
+    Kind other = structures_[i];
+    own.mass = structure_masses_[its];
+    other.mass = structure_masses_[i];
     const double range = own.radius + other.radius;
     const double count =
         1.0 + length_[index_of(node)] / range + area_[index_of(node)] / (range * range);
-    const auto [normal, tangential] = stiffness(own, other, count);
-    hardest.take(normal, tangential, structure(i));
+    hardest.take(stiffness(own, other, count), structure(i));
   }
 
   ExpectedStiffness hardest_partner(const Kind& sphere) const {
     ExpectedStiffness hardest;
     // Of spheres, one as large as itself: in_dense_packing says why this covers other sizes.
     for (const Kind& other : kinds_) {
-      const Kind equal{other.material, sphere.radius};
+      const Kind equal{other.material, sphere.radius, contact::Shape::sphere, sphere.mass};
       take(sphere, equal, balls(equal), hardest);
     }
     for (std::size_t i = 0; i < structures_.size(); ++i)
@@ -248,7 +274,8 @@ class ExpectedContacts {
     Touch touch;
     for (const Kind& kind : kinds_) take(kind, own, balls(kind), touch.grain);
     for (std::size_t i = 0; i < scene_.planes.size(); ++i)
-      take({own.material, own.radius}, plane_under(i, own.radius), plane(i), touch.plane);
+      take({own.material, own.radius, contact::Shape::sphere, masses_[index_of(node)]},
+           plane_under(i, own.radius), plane(i), touch.plane);
     touch.structure = hardest_structure(node);
     return touch;
   }
@@ -256,17 +283,21 @@ class ExpectedContacts {
   /// The hardest grain, with its full weight, from one side, another structure, and a plane from
   /// the other. More grains on the same node come one after the other: the step is looked at again
   /// before they have arrived.
-  IsotropicStiffness of_touch(NodeId node) const {
+  ExpectedOfNode of_touch(NodeId node) const {
     const auto [grain, plane, other] = touch_of(node);
-    return from_all_sides(2.0 * (grain.normal + other.normal) + plane.normal,
-                          2.0 * (grain.tangential + other.tangential) + plane.tangential,
-                          structures_[index_of(surface_.structure_of(node))].radius);
+    const double radius = structures_[index_of(surface_.structure_of(node))].radius;
+    const double damping = 2.0 * (grain.damping + other.damping) + plane.damping;
+    return {from_all_sides(2.0 * (grain.normal + other.normal) + plane.normal,
+                           2.0 * (grain.tangential + other.tangential) + plane.tangential, radius),
+            from_all_sides(damping, 0.0, radius).translation};
   }
 
   const Scene& scene_;
   const geometry::Surface& surface_;
   const contact::Contacts& contacts_;
-  std::vector<Kind> structures_;
+  std::vector<double> masses_;            ///< kg, by node
+  std::vector<Kind> structures_;          ///< a surface that a sphere meets counts as held
+  std::vector<double> structure_masses_;  ///< kg, mean of their nodes: where two of them meet
   std::vector<Kind> kinds_;
   std::vector<double> length_;  ///< m, of cylinders, by node
   std::vector<double> area_;    ///< m², of facets, by node

@@ -21,6 +21,7 @@ struct PresentContacts {
   const contact::Contacts& contacts;
   std::span<const contact::Plane> planes;
   std::span<const double> radii;  ///< m, of the ball around each node
+  double dashpot_rate = 0.0;      ///< 1/s, see dynamics::dashpot_rate()
 
   /// Every touching pair, as it is now.
   /// @param further  m, by how much contacts may get deeper
@@ -71,8 +72,14 @@ struct PresentContacts {
 
   ContactStiffness stiffness_of(const Vec3& normal, const contact::PairSprings& pair, double gap,
                                 NodeId a, NodeId b) const {
-    return {normal, pair.normal_stiffness(gap), pair.tangential_stiffness(gap), radii[index_of(a)],
-            radii[index_of(b)]};
+    const contact::PairStiffness stiffness = pair.stiffness(gap);
+    const double dashpot = dashpot_rate * stiffness.normal_damping;
+    return {.normal = normal,
+            .normal_stiffness = stiffness.normal + dashpot,
+            .tangential_stiffness = stiffness.tangential,
+            .arm_a = radii[index_of(a)],
+            .arm_b = radii[index_of(b)],
+            .dashpot = dashpot};
   }
 
   template <class Springs>
@@ -97,8 +104,9 @@ struct PresentContacts {
       add_on_surface(springs, {ball, core, range, force}, pair, further, x);
     });
     contacts.for_each_structure_stiffness(
-        [&](NodeId node, double normal, double tangential, double radius) {
-          springs.add(node, from_all_sides(2.0 * normal, 2.0 * tangential, radius));
+        [&](NodeId node, const contact::PairStiffness& stiffness, double radius) {
+          const double normal = stiffness.normal + dashpot_rate * stiffness.normal_damping;
+          springs.add(node, from_all_sides(2.0 * normal, 2.0 * stiffness.tangential, radius));
         });
   }
 
@@ -116,7 +124,10 @@ struct PresentContacts {
     const double of_one = pair.normal_force(gap);
     const double weight = of_one > 0.0 ? part.force / of_one : 1.0;
     contact.weight = weight;
-    contact.normal_stiffness *= std::max(1.0, std::abs(weight));
+    // A patch has one dashpot, of which the terms have their parts.
+    const double elastic = contact.elastic_stiffness();
+    contact.dashpot *= std::abs(weight);
+    contact.normal_stiffness = std::max(1.0, std::abs(weight)) * elastic + contact.dashpot;
     contact.overlap = std::max(0.0, -gap);
     const double deeper = weight * pair.normal_force(gap - further);
     springs.add_on_surface(part.ball, part.core, contact,

@@ -112,7 +112,7 @@ void SpreadStiffness::take_springs(const ContactSprings& springs,
           way += end.weight * per_root_of_mass(properties, i) * contact.normal.dot(motion_[i]);
         }
         const double signed_stiffness =
-            contact.normal_stiffness * contact.weight / std::max(1.0, std::abs(contact.weight));
+            contact.elastic_stiffness() * contact.weight / std::max(1.0, std::abs(contact.weight));
         for (const SpringEnd& end : ends)
           product_[index_of(end.node)] -= (end.weight * signed_stiffness * way) * contact.normal;
       });

@@ -36,6 +36,7 @@ struct StepCause {
   StepPart part;
   double share = 0.0;  ///< of the part in the stiffness along that motion, from 0 to 1
   double without_gas_and_damping = step.dt;  ///< s, before gases and viscous damping shorten it
+  double without_dashpots = step.dt;         ///< s, the same before dashpots of contacts do
 };
 
 /// Finds the stiffest part of what holds a node along the motion that limits a step. It has the

@@ -58,7 +58,7 @@ double StepChooser::choose(double dt, const Pace& pace) {
   const double usual = steps * step * (pace.speed + steps * step * pace.gravity);
   look_ = {of_.contacts.list_count(), 0.0,
            std::max(std::min(usual, kLongestWay * pace_radius_), pace.speed * step)};
-  const double critical = near(2.0 * look_.longest_way).dt;
+  const double critical = near(2.0 * look_.longest_way, dt / kSafety);
   const double stable =
       std::min(kSafety * critical, springs_.collision_step(of_.scene.state, of_.scene.properties));
   const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
@@ -71,33 +71,35 @@ double StepChooser::choose(double dt, const Pace& pace) {
   return chosen;
 }
 
-/// Critical step with the contacts of now and those that are nearer than a margin (m).
-CriticalStep StepChooser::near(double margin) {
+/// Critical step (s) with the contacts of now and those that are nearer than a margin (m).
+/// @param tried  s, the last one
+double StepChooser::near(double margin, double tried) {
+  const double rate = limits_->is_damped() ? dashpot_rate(tried) : 0.0;
   space_.begin_at(0);
   springs_.clear();
   limits_->add_structures(space_);
-  limits_->add_near_contacts(springs_, margin);
-  add_near_structures(margin);
+  limits_->add_near_contacts(springs_, margin, rate);
+  add_near_structures(margin, rate);
   limits_->add_spread(space_, springs_, spread_, of_.scene.state.position);
   shares_.add(springs_, of_.scene.properties, space_);
-  CriticalStep step = space_.critical_step(of_.scene.properties);
-  step.dt = of_.loads.critical_step(step.dt, of_.scene);
-  return step;
+  double step = space_.critical_step(of_.scene.properties).dt;
+  if (limits_->is_damped()) step = stable_with_dashpots(tried, step);
+  return of_.loads.critical_step(step, of_.scene);
 }
 
 /// Nodes of structures that another one may come to lie on, and that nothing of the kind touches
 /// yet: with what expected_contacts.hpp says of that.
-void StepChooser::add_near_structures(double margin) {
+void StepChooser::add_near_structures(double margin, double rate) {
   if (of_structures_.empty()) return;
   std::fill(is_counted_.begin(), is_counted_.end(), char{0});
   of_.contacts.for_each_structure_stiffness(
-      [&](NodeId node, double, double, double) { is_counted_[index_of(node)] = 1; });
+      [&](NodeId node, const contact::PairStiffness&, double) { is_counted_[index_of(node)] = 1; });
   of_.contacts.for_each_near_cell_pair(margin, [&](const geometry::CellPair& cells) {
     for (const geometry::CellId cell : {cells.a, cells.b}) {
       for (const NodeId node : of_.surface.nodes_of(cell)) {
         if (is_counted_[index_of(node)]) continue;
         is_counted_[index_of(node)] = 1;
-        springs_.add(node, of_structures_[index_of(node)]);
+        springs_.add(node, of_structures_[index_of(node)].with_dashpots(rate));
       }
     }
   });

@@ -75,8 +75,8 @@ class StepChooser {
   void exchange(const geometry::StateArchive& archive);
 
  private:
-  CriticalStep near(double margin);
-  void add_near_structures(double margin);
+  double near(double margin, double tried);
+  void add_near_structures(double margin, double rate);
 
   Resistance of_;
   const StepLimits* limits_;
@@ -85,8 +85,8 @@ class StepChooser {
   ContactSprings springs_;   ///< of the last look
   SpringShares shares_;      ///< working space of a look
   SpreadStiffness spread_;   ///< likewise; goes on from look to look
-  std::vector<IsotropicStiffness> of_structures_;  ///< by node, of a contact with another structure
-  std::vector<char> is_counted_;                   ///< by node, working space of a look
+  std::vector<ExpectedOfNode> of_structures_;  ///< by node, of a contact with another structure
+  std::vector<char> is_counted_;               ///< by node, working space of a look
   /// What is known from the last look to the next one.
   struct LastLook {
     std::int64_t lists = 0;    ///< of contact::Contacts::list_count()

@@ -6,7 +6,6 @@
 #include "dynamics/state/contact_springs.hpp"
 #include "dynamics/state/spring_shares.hpp"
 #include "dynamics/structure/beam_stiffness.hpp"
-#include "dynamics/time_step/expected_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +13,8 @@
 namespace plekton::dynamics {
 namespace {
 
-/// Leaves out the springs along the normals of contacts with surfaces: the forces of the contacts'
-/// energy have them, and what turns with them.
+/// Leaves out the springs along the normals of contacts with surfaces, but for dashpots: the forces
+/// of the contacts' energy have them, and what turns with them.
 struct SlipOnSurfaces {
   ContactSprings& springs;
 
@@ -24,7 +23,7 @@ struct SlipOnSurfaces {
   }
   void add_on_surface(NodeId ball, const geometry::CorePoint& core, ContactStiffness contact,
                       const SurfaceTurning&) {
-    contact.normal_stiffness = 0.0;
+    contact.normal_stiffness = contact.dashpot;
     springs.add_on_surface(ball, core, contact);
   }
   void add_to_wall(NodeId ball, const ContactStiffness& contact) {
@@ -39,11 +38,13 @@ StepLimits::StepLimits(const Resistance& of)
     : of_(of),
       radii_(node_radii(of.scene, of.surface)),
       expected_(ExpectedContacts(of.scene, of.surface, of.contacts).of_nodes()),
+      is_damped_(std::ranges::any_of(
+          expected_, [](const ExpectedOfNode& expected) { return expected.damping > 0.0; })),
       pace_radius_(pace_radius(of.scene.elements)) {}
 
-void StepLimits::add_expected(NodalStiffness& stiffness) const {
+void StepLimits::add_expected(NodalStiffness& stiffness, double rate) const {
   for (std::size_t i = 0; i < expected_.size(); ++i)
-    stiffness.add(geometry::id_at<NodeId>(i), expected_[i]);
+    stiffness.add(geometry::id_at<NodeId>(i), expected_[i].with_dashpots(rate));
 }
 
 void StepLimits::add_structures(NodalStiffness& stiffness) const {
@@ -56,8 +57,8 @@ void StepLimits::add_structures(NodalStiffness& stiffness) const {
   of_.loads.add_pressures_to(stiffness, of_.scene.state.position);
 }
 
-void StepLimits::add_near_contacts(ContactSprings& springs, double margin) const {
-  contacts().add_near_to(springs, margin, of_.scene.state.position);
+void StepLimits::add_near_contacts(ContactSprings& springs, double margin, double rate) const {
+  contacts(rate).add_near_to(springs, margin, of_.scene.state.position);
 }
 
 void StepLimits::add_spread(NodalStiffness& stiffness, ContactSprings& springs,
@@ -83,7 +84,7 @@ void StepLimits::for_each_piece(NodalStiffness& space, const Look& look) const {
 NodalStiffness::Total StepLimits::total_stiffness(NodalStiffness& space) const {
   NodalStiffness::Total sum;
   for_each_piece(space, [&] {
-    add_expected(space);
+    add_expected(space, 0.0);
     add_structures(space);
     const NodalStiffness::Total total = space.total();
     sum.translation += total.translation;
@@ -98,10 +99,29 @@ CriticalStep StepLimits::with_loads(CriticalStep step) const {
   return step;
 }
 
+/// The critical step where dashpots count by the step itself, to a thousandth and never above it:
+/// from one of which nothing is known the first stable one is found, and from then on longer ones.
+/// @param find  (rate, 1/s) -> the critical step with dashpots as they count at that rate
+template <class Step, class Find>
+Step StepLimits::with_dashpots(const Find& find) const {
+  constexpr int kMostSteps = 40;  // of which each takes away half of the error or more
+  constexpr double kTolerance = 1e-3;
+  Step step = find(0.0);
+  for (int i = 0; is_damped_ && std::isfinite(step.dt) && i < kMostSteps; ++i) {
+    const double tried = step.dt;
+    step = find(dashpot_rate(tried));
+    step.dt = stable_with_dashpots(tried, step.dt);
+    if (std::abs(step.dt - tried) <= kTolerance * tried) break;
+  }
+  return step;
+}
+
 CriticalStep StepLimits::critical(NodalStiffness& space, geometry::Positions x) const {
-  const CriticalStep coming = structural(space, true, x);
-  const CriticalStep now = present(space, x);
-  return with_loads(now.dt < coming.dt ? now : coming);
+  return with_loads(with_dashpots<CriticalStep>([&](double rate) {
+    const CriticalStep coming = structural(space, rate);
+    const CriticalStep now = present(space, x, rate);
+    return now.dt < coming.dt ? now : coming;
+  }));
 }
 
 CriticalStep StepLimits::critical(geometry::Positions x) const {
@@ -111,37 +131,44 @@ CriticalStep StepLimits::critical(geometry::Positions x) const {
 
 CriticalStep StepLimits::present(geometry::Positions x) const {
   NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
-  return with_loads(present(space, x));
+  return with_loads(
+      with_dashpots<CriticalStep>([&](double rate) { return present(space, x, rate); }));
 }
 
-CriticalStep StepLimits::coming(geometry::Positions x) const {
+CriticalStep StepLimits::coming() const {
   NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
-  return with_loads(structural(space, true, x));
+  return with_loads(
+      with_dashpots<CriticalStep>([&](double rate) { return structural(space, rate); }));
 }
 
 /// Of the contacts of now, without gases and viscous damping.
 /// @param space  where there are no surfaces it is all the space that is needed
-CriticalStep StepLimits::present(NodalStiffness& space, geometry::Positions x) const {
-  if (of_.surface.structure_count() == 0) return structural(space, false, x);
+CriticalStep StepLimits::present(NodalStiffness& space, geometry::Positions x, double rate) const {
+  if (of_.surface.structure_count() == 0) {
+    return shortest_of_pieces(space, [&] { contacts(rate).add_to(space, 0.0, x); });
+  }
   NodalStiffness whole(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
   ContactSprings springs(&of_.rigid);
   SpreadStiffness spread(of_.surface, of_.rigid);
   add_structures(whole);
-  contacts().add_to(springs, 0.0, x);
+  contacts(rate).add_to(springs, 0.0, x);
   add_spread(whole, springs, spread, x);
   SpringShares().add(springs, of_.scene.properties, whole);
   return whole.critical_step(of_.scene.properties);
 }
 
-/// Without gases and viscous damping.
-/// @param expected  with the contacts that may come, or else with those of now
-CriticalStep StepLimits::structural(NodalStiffness& space, bool expected,
-                                    geometry::Positions x) const {
+/// With the contacts that may come, without gases and viscous damping.
+CriticalStep StepLimits::structural(NodalStiffness& space, double rate) const {
+  return shortest_of_pieces(space, [&] { add_expected(space, rate); });
+}
+
+/// @param add_contacts  adds contacts to the space
+template <class Add>
+CriticalStep StepLimits::shortest_of_pieces(NodalStiffness& space, const Add& add_contacts) const {
   CriticalStep shortest;
   for_each_piece(space, [&] {
-    if (expected) add_expected(space);
+    add_contacts();
     add_structures(space);
-    if (!expected) contacts().add_to(space, 0.0, x);
     const CriticalStep step = space.critical_step(of_.scene.properties);
     if (step.dt < shortest.dt) shortest = step;
   });
@@ -149,36 +176,47 @@ CriticalStep StepLimits::structural(NodalStiffness& space, bool expected,
 }
 
 ExactStep StepLimits::exact(geometry::Positions x, double time) const {
-  ContactSprings springs(&of_.rigid);
-  SlipOnSurfaces slip{springs};
-  contacts().add_to(slip, 0.0, x);
   contact::PatchFinder finder(of_.surface);
   const auto normal = [&](geometry::Positions places, NodeForces& forces) {
     of_.contacts.add_elastic_forces(places, forces, finder, [](NodeId) { return true; });
   };
-  return exact_critical_step(of_.scene, {of_.bonds, of_.sheet_facets}, of_.loads, springs, time,
-                             normal);
+  return with_dashpots<ExactStep>([&](double rate) {
+    ContactSprings springs(&of_.rigid);
+    SlipOnSurfaces slip{springs};
+    contacts(rate).add_to(slip, 0.0, x);
+    return exact_critical_step(of_.scene, {of_.bonds, of_.sheet_facets}, of_.loads, springs, time,
+                               normal);
+  });
 }
 
 StepCause StepLimits::cause(geometry::Positions x) const {
   NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
-  const CriticalStep coming = structural(space, true, x);
-  const CriticalStep now = present(space, x);
-  const CriticalStep& shortest = now.dt < coming.dt ? now : coming;
+  bool is_coming = false;
+  double rate = 0.0;
+  double without_dashpots = 0.0;
+  const CriticalStep shortest = with_dashpots<CriticalStep>([&](double tried) {
+    rate = tried;
+    const CriticalStep coming = structural(space, rate);
+    const CriticalStep now = present(space, x, rate);
+    is_coming = !(now.dt < coming.dt);
+    if (rate == 0.0) without_dashpots = std::min(now.dt, coming.dt);
+    return is_coming ? coming : now;
+  });
   StepCause cause{shortest, {}, 0.0, shortest.dt};
   if (std::isfinite(shortest.dt)) {
     StiffestPart parts(shortest, of_.scene.properties, of_.rigid);
     consider_structures(parts);
-    if (&shortest == &now) {
-      contacts().add_to(parts, 0.0, x);
-    } else {
+    if (is_coming) {
       StepPart part{StepPart::Kind::coming_contacts};
       part.partner = ExpectedContacts(of_.scene, of_.surface, of_.contacts)
                          .partner_of(most_touched_of(parts.node()));
-      parts.consider(part, [&](NodalStiffness& stiffness) { add_expected(stiffness); });
+      parts.consider(part, [&](NodalStiffness& stiffness) { add_expected(stiffness, rate); });
+    } else {
+      contacts(rate).add_to(parts, 0.0, x);
     }
     cause = parts.cause();
   }
+  cause.without_dashpots = without_dashpots;
   cause.step.dt = of_.loads.critical_step(shortest.dt, of_.scene);
   return cause;
 }
@@ -190,7 +228,8 @@ NodeId StepLimits::most_touched_of(NodeId node) const {
   if (body < 0) return node;
   NodeId most = node;
   for (const NodeId follower : of_.scene.rigid_bodies[static_cast<std::size_t>(body)].nodes) {
-    if (expected_[index_of(follower)].translation > expected_[index_of(most)].translation)
+    if (expected_[index_of(follower)].stiffness.translation >
+        expected_[index_of(most)].stiffness.translation)
       most = follower;
   }
   return most;

@@ -8,6 +8,7 @@
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/time_step/exact_step.hpp"
+#include "dynamics/time_step/expected_contacts.hpp"
 #include "dynamics/time_step/present_contacts.hpp"
 #include "dynamics/time_step/spread_stiffness.hpp"
 #include "dynamics/time_step/step_cause.hpp"
@@ -44,7 +45,7 @@ class StepLimits {
   /// Of the structures and contacts as they are now alone.
   CriticalStep present(geometry::Positions x) const;
   /// Of the structures as they are now and the contacts that may come alone.
-  CriticalStep coming(geometry::Positions x) const;
+  CriticalStep coming() const;
   /// What limits critical().
   StepCause cause(geometry::Positions x) const;
   /// By the frequencies of the scene as a whole (exact_step.hpp).
@@ -53,7 +54,10 @@ class StepLimits {
 
   /// What a step is chosen for: contacts of now, and those of bodies that are nearer than a margin
   /// (m), go into the springs.
-  void add_near_contacts(ContactSprings& springs, double margin) const;
+  /// @param rate  1/s, dashpot_rate() of the step in question
+  void add_near_contacts(ContactSprings& springs, double margin, double rate) const;
+  /// Whether any contact that may come has a dashpot.
+  bool is_damped() const noexcept { return is_damped_; }
   void add_structures(NodalStiffness& stiffness) const;
   /// What contacts that are more or less than one resist beside their springs
   /// (spread_stiffness.hpp).
@@ -66,18 +70,25 @@ class StepLimits {
  private:
   template <class Look>
   void for_each_piece(NodalStiffness& space, const Look& look) const;
+  template <class Step, class Find>
+  Step with_dashpots(const Find& find) const;
   CriticalStep with_loads(CriticalStep step) const;
-  CriticalStep structural(NodalStiffness& space, bool expected, geometry::Positions x) const;
-  CriticalStep present(NodalStiffness& space, geometry::Positions x) const;
-  void add_expected(NodalStiffness& stiffness) const;
+  template <class Add>
+  CriticalStep shortest_of_pieces(NodalStiffness& space, const Add& add_contacts) const;
+  CriticalStep structural(NodalStiffness& space, double rate) const;
+  CriticalStep present(NodalStiffness& space, geometry::Positions x, double rate) const;
+  void add_expected(NodalStiffness& stiffness, double rate) const;
   NodeId most_touched_of(NodeId node) const;
   void consider_structures(StiffestPart& parts) const;
-  PresentContacts contacts() const noexcept { return {of_.contacts, of_.scene.planes, radii_}; }
+  PresentContacts contacts(double rate) const noexcept {
+    return {of_.contacts, of_.scene.planes, radii_, rate};
+  }
 
   Resistance of_;
-  std::vector<double> radii_;                 ///< m, of the ball around each node; 0: none
-  std::vector<IsotropicStiffness> expected_;  ///< of the contacts that may come, by node
-  double pace_radius_;                        ///< m
+  std::vector<double> radii_;             ///< m, of the ball around each node; 0: none
+  std::vector<ExpectedOfNode> expected_;  ///< of the contacts that may come, by node
+  bool is_damped_;
+  double pace_radius_;  ///< m
 };
 
 }  // namespace plekton::dynamics

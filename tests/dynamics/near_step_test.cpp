@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/simulation.hpp"
 #include "geometry/mesh/generate/generators.hpp"
+#include "tests/support/named_laws.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <gtest/gtest.h>
@@ -96,8 +97,8 @@ Scene random_scene(std::uint64_t seed) {
 }
 
 /// The largest of all steps over the critical one of that moment.
-double largest_step(std::uint64_t seed, double duration) {
-  Simulation simulation(random_scene(seed), {.motion = {.gravity = kGravity}});
+double largest_step(std::uint64_t seed, double duration, const contact::ContactModel& model) {
+  Simulation simulation(random_scene(seed), {.motion = {.gravity = kGravity}}, model);
   double largest = 0.0;
   std::size_t contacts = 0;
   for (int i = 0; simulation.time() < duration; ++i) {
@@ -116,7 +117,23 @@ double largest_step(std::uint64_t seed, double duration) {
 TEST(ChosenStep, IsNeverAboveItsPartOfTheCriticalOneInAnyOfManyScenes) {
   constexpr int kScenes = 24;
   for (int seed = 1; seed <= kScenes; ++seed) {
-    const double largest = largest_step(static_cast<std::uint64_t>(seed), 0.02);
+    const double largest =
+        largest_step(static_cast<std::uint64_t>(seed), 0.02, contact::linear_frictional());
+
+    EXPECT_LE(largest, dynamics::kLargestStep) << "scene " << seed;
+  }
+}
+
+TEST(ChosenStep, IsNeverAboveItsPartWithDashpotsEither) {
+  constexpr int kScenes = 24;
+  for (int seed = 1; seed <= kScenes; ++seed) {
+    const double xi = Random(static_cast<std::uint64_t>(100 + seed)).uniform(0.05, 1.0);
+    const auto law = with<contact::LinearFrictional>({}, {}, {xi});
+    contact::PairProperties<contact::AnyLaw> properties;
+    for (const auto& [a, b] : {std::pair{0, 0}, std::pair{0, 1}, std::pair{1, 1}})
+      properties[{MaterialId{a}, MaterialId{b}}] = law;
+    const double largest =
+        largest_step(static_cast<std::uint64_t>(seed), 0.02, contact::any_law(properties));
 
     EXPECT_LE(largest, dynamics::kLargestStep) << "scene " << seed;
   }
