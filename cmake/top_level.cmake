@@ -10,5 +10,6 @@ endif()
 
 find_program(PLEKTON_CCACHE ccache DOC "Compiler cache, used when found")
 if(PLEKTON_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${PLEKTON_CCACHE})
+  # Without this it does not keep what is compiled with precompiled headers, as tests are.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${PLEKTON_CCACHE})
 endif()

@@ -16,6 +16,20 @@ constexpr double kTie = 1e-12;
 /// A ring needs three pairs of cells and three terms that join them.
 constexpr std::size_t kFewest = 6;
 
+/// By insertion, linear where few have moved, as long as that is not more work than a sort is.
+template <class Item, class Before>
+void sort_mostly_sorted(std::vector<Item>& items, const Before& before) {
+  std::size_t moves_left = 8 * items.size();
+  for (std::size_t i = 1; i < items.size(); ++i) {
+    const Item item = items[i];
+    std::size_t place = i;
+    for (; place > 0 && before(item, items[place - 1]); --place) items[place] = items[place - 1];
+    items[place] = item;
+    if (i - place > moves_left) return std::sort(items.begin(), items.end(), before);
+    moves_left -= i - place;
+  }
+}
+
 }  // namespace
 
 bool RingSearch::find(std::span<const std::uint32_t> acting, std::span<const PairTerm> terms,
@@ -73,7 +87,7 @@ void RingSearch::sort(std::span<const std::uint32_t> acting, std::span<const Pai
     order_.push_back({0.0, term});
   }
   for (Level& level : order_) level.overlap = terms[level.term].overlap;
-  std::sort(order_.begin(), order_.end(), [](const Level& p, const Level& q) {
+  sort_mostly_sorted(order_, [](const Level& p, const Level& q) {
     return p.overlap != q.overlap ? p.overlap > q.overlap : p.term < q.term;
   });
 }

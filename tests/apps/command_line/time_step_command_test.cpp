@@ -87,6 +87,16 @@ TEST_F(TimeStepAdvice, SaysThatGasOrDampingShortensTheStep) {
   EXPECT_THAT(check({}), HasSubstr("gas and viscous damping shorten it from "));
 }
 
+TEST_F(TimeStepAdvice, SaysThatDashpotsShortenTheStep) {
+  const std::string table =
+      "[[contacts]]\nbetween = \"gravel\"\nand = \"fabric\"\nrestitution = 0.05\n";
+  test::write_bytes(folder_ / "case.toml", std::string(kScenario) + table);
+
+  EXPECT_THAT(check({"grains.gravel.radius=20 mm"}), HasSubstr("dashpots shorten it from "));
+  EXPECT_THAT(check({"grains.gravel.radius=20 mm", "contacts.0.restitution=1"}),
+              Not(HasSubstr("dashpots")));
+}
+
 TEST_F(TimeStepAdvice, IsJoinedByPowerIterationIfAsked) {
   const std::string asked = check({}, {"--power-iteration"});
 
