@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace plekton::geometry {
 namespace {
@@ -25,7 +26,8 @@ Neighbours::Neighbours(std::span<const Sphere> spheres, const Surface& surface, 
     : spheres_(spheres), surface_(&surface), skin_(skin), reach_(reach) {}
 
 bool Neighbours::update(Positions x, ThreadPool& pool, double way) {
-  ++steps_of_list_;
+  // Where all is at rest a list may last for longer than can be counted; that many are as good.
+  if (steps_of_list_ < std::numeric_limits<int>::max()) ++steps_of_list_;
   if (!skin_.may_need_rebuild(way) || !skin_.needs_rebuild(x, pool)) return false;
   if (usual_radius_ > 0.0 && rebuild_count_ > 0) choose_skin();
   // Without spheres the lists stay empty; that they are due is news for lists of other bodies.
@@ -39,6 +41,7 @@ bool Neighbours::update(Positions x, ThreadPool& pool, double way) {
 void Neighbours::exchange(const StateArchive& archive, ThreadPool& pool) {
   skin_.exchange(archive);
   archive("steps_of_list", steps_of_list_);
+  archive.require(steps_of_list_ >= 0, "steps_of_list");
   archive("rebuild_count", rebuild_count_);
   if (!archive.is_reading()) return;
   if (list_positions().size() != surface_->node_count())

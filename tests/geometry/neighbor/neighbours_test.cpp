@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/neighbor/neighbours.hpp"
 
+#include "geometry/base/state_archive.hpp"
 #include "geometry/closest/foot_point.hpp"
 #include "geometry/critical/descent.hpp"
 #include "tests/support/complexes.hpp"
@@ -8,6 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace plekton::test {
 namespace {
@@ -140,6 +144,29 @@ TEST(Neighbours, AreMadeOnceWhileNothingMoves) {
   EXPECT_FALSE(neighbours.update(scene.complex.x, pool));
   EXPECT_EQ(neighbours.rebuild_count(), 1);
   EXPECT_EQ(neighbours.skin(), 0.1);
+}
+
+/// A scene at rest, whose steps outnumber an int, begins to move.
+TEST(Neighbours, ChooseASoundSkinAfterAListThatLastedForBillionsOfSteps) {
+  constexpr double kRadius = 0.2;
+  Random random(31);
+  const Scene scene(random);
+  ThreadPool pool;
+  Neighbours neighbours(scene.spheres, scene.surface, 0.1);
+  neighbours.tune_skin(kRadius);
+  neighbours.update(scene.complex.x, pool);
+  StateTree state;
+  neighbours.exchange(StateArchive::writer(state), pool);
+  state.arrays.at("steps_of_list").numbers =
+      std::vector<std::int32_t>{std::numeric_limits<std::int32_t>::max() - 1};
+  neighbours.exchange(StateArchive::reader(state), pool);
+
+  for (int k = 0; k < 3; ++k) EXPECT_FALSE(neighbours.update(scene.complex.x, pool));
+  std::vector<Vec3> moved = scene.complex.x;
+  for (Vec3& x : moved) x.x() += 1.0;
+
+  EXPECT_TRUE(neighbours.update(moved, pool));
+  EXPECT_DOUBLE_EQ(neighbours.skin(), 0.7 * 0.1);  // as short as it may become at once
 }
 
 }  // namespace
