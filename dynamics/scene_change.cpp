@@ -115,6 +115,7 @@ void Simulation::take_ledger(const Simulation& before) {
   most_accounted_ = before.most_accounted_;
   suspect_ = before.suspect_;
   initial_stiffness_ = before.initial_stiffness_;
+  momentum_.take_over(before.momentum_);
   largest_overlap_ratio_ = before.largest_overlap_ratio_;
   pass_throughs_ = before.pass_throughs_;
   most_crossings_ = before.most_crossings_;

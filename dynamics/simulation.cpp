@@ -110,7 +110,8 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       forces_(scene_.state.size()),
       furthest_(furthest_in_a_step(scene_)),
       pace_radius_(pace_radius(scene_.elements)),
-      full_gravity_(options.motion.gravity) {
+      full_gravity_(options.motion.gravity),
+      momentum_(scene_.state.position) {
   motion_.gravity = scene_.loads.gravity_factor.at(0.0) * full_gravity_;
   loads_.start(scene_.state);
   rigid_bodies_.start(scene_.state, scene_.properties);
@@ -322,6 +323,7 @@ void Simulation::advance(double longest) {
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
   sheet_facets_.add_forces(forces_, pool_);
+  if (MomentumBalance::is_due(steps_)) watch_momentum();
   apply_loads();
   const StepLengths lengths{0.5 * (last_drift_ + drift_), drift_};
   StepWork work =
@@ -392,6 +394,17 @@ void Simulation::check_energy() {
   if (static_cast<double>(kStepsBetweenLooks) * speed * last_drift_ <= furthest_[i]) return;
   throw Diverged(divergence, std::max<std::int64_t>(0, steps_ - 1), time_ - last_drift_,
                  scene_.state, finder.fault(divergence, {last_drift_, last_drift_}, suspect_));
+}
+
+/// Before loads are added. With springs of stiffness k_i that have the energies e_i, the forces add
+/// up to no more than sqrt(2 sum k_i sum e_i) (Cauchy-Schwarz): what bodies carry in balance.
+void Simulation::watch_momentum() {
+  const double elastic = std::abs(contacts_->elastic_energy()) + bonds_.elastic_energy() +
+                         sheet_facets_.elastic_energy();
+  momentum_.look(
+      {scene_.state.position, forces_, *contacts_,
+       std::sqrt(2.0 * initial_stiffness_.translation * elastic), 0.5 * (last_drift_ + drift_)},
+      pool_);
 }
 
 FaultFinder Simulation::fault_finder() noexcept {
@@ -808,6 +821,7 @@ void Simulation::exchange_ledger(const geometry::StateArchive& archive) {
   archive("initial_moment", initial_moment_);
   archive("initial_translation", initial_stiffness_.translation);
   archive("initial_rotation", initial_stiffness_.rotation);
+  momentum_.exchange(archive.group("momentum"));
   archive("largest_overlap_ratio", largest_overlap_ratio_);
   archive("pass_throughs", pass_throughs_);
   archive("most_crossings", most_crossings_);

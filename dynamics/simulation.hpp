@@ -11,6 +11,7 @@
 #include "dynamics/measures/diverged.hpp"
 #include "dynamics/measures/energy.hpp"
 #include "dynamics/measures/facet_traction.hpp"
+#include "dynamics/measures/momentum_balance.hpp"
 #include "dynamics/measures/reactions.hpp"
 #include "dynamics/model/scene.hpp"
 #include "dynamics/rigid/rigid_bodies.hpp"
@@ -162,6 +163,9 @@ class Simulation {
   /// the kinetic energy has doubled, and now and then; at the end of a run it is for the caller.
   /// @throws Diverged naming the contact or element that acts most where most of it is
   void check_energy();
+  /// How far the balance of momentum has been off at most (measures/momentum_balance.hpp): no more
+  /// than rounding.
+  MomentumDrift momentum_drift() const noexcept { return momentum_.drift(); }
   /// Largest overlap of any step so far over the radius of the smaller ball.
   double largest_overlap_ratio() const noexcept { return largest_overlap_ratio_; }
   /// How often so far a sphere's centre went through a facet or a cylinder: its overlap was deeper
@@ -238,6 +242,7 @@ class Simulation {
   void account(const StepWork& work, const StepLengths& lengths);
   void check_motion();
   void watch_energy();
+  void watch_momentum();
   FaultFinder fault_finder() noexcept;
   void set_first_step(double asked);
   void require_time_step() const;
@@ -296,6 +301,7 @@ class Simulation {
   Vec3 full_gravity_;    ///< m/s², of which motion_.gravity is a part
   Vec3 initial_moment_ = Vec3::Zero();       ///< kg m, free moment at the start
   NodalStiffness::Total initial_stiffness_;  ///< with the contacts that may come
+  MomentumBalance momentum_;
   double largest_overlap_ratio_ = 0.0;
   std::int64_t pass_throughs_ = 0;
   std::size_t most_crossings_ = 0;

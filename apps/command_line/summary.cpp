@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace plekton::apps {
@@ -103,6 +104,9 @@ std::string summary_of(const RunReport& report) {
       "{}\n",
       report.contacts, 100.0 * report.largest_overlap_ratio, 100.0 * report.energy_closure,
       report.lost_grains);
+  text += fmt::format("momentum drift {:.2g}, exact decisions {:.2g} for each node and step\n",
+                      std::max(report.momentum.linear, report.momentum.angular),
+                      exact_decisions_per_node(report));
   if (report.broken_bonds > 0)
     text += fmt::format("broken bonds: {} of {}\n", report.broken_bonds, report.bonds);
   if (report.torn_facets > 0) text += fmt::format("torn facets: {}\n", report.torn_facets);

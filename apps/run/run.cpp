@@ -19,6 +19,7 @@
 #include "apps/run/written_files.hpp"
 #include "apps/scene/build_stage.hpp"
 #include "dynamics/output/file.hpp"
+#include "geometry/base/sign_totals.hpp"
 #include "geometry/base/state_archive.hpp"
 #include "geometry/base/vector_width.hpp"
 
@@ -309,6 +310,7 @@ class Run {
     report_.resumed_step = before.resumed_step;
     report_.output_time = before.output_time;
     wall_time_before_ = before.wall_time;
+    decisions_before_ = before.exact_decisions;
   }
 
   /// What the run knows beside the simulation and its files.
@@ -465,9 +467,18 @@ class Run {
     const double tracking = std::max(largest_tracking_, std::abs(report_.energy.tracking));
     report_.energy_closure = report_.energy.closure(turnover);
     report_.tracking_ratio = turnover > 0.0 ? tracking / turnover : 0.0;
+    report_.momentum = simulation_.momentum_drift();
+    report_.exact_decisions = exact_decisions();
     report_.lost_grains = lost_.total();
     report_.lost_through_membranes = lost_.through_membranes();
     report_.lost_out_of_bounds = lost_.out_of_bounds();
+  }
+
+  geometry::SignCounters exact_decisions() const noexcept {
+    const geometry::SignCounters now = geometry::sign_totals();
+    return {decisions_before_.double_double + now.double_double - decisions_.double_double,
+            decisions_before_.interval + now.interval - decisions_.interval,
+            decisions_before_.exact + now.exact - decisions_.exact};
   }
 
   /// After an error: its message matters more than that the report cannot be written either.
@@ -498,10 +509,12 @@ class Run {
   Progress progress_;
   RunReport report_;
   Progress::Clock::time_point start_ = Progress::Clock::now();
-  double wall_time_before_ = 0.0;       // s
-  double next_row_ = 0.0;               // s
-  double next_reactions_ = 0.0;         // s; infinite if there are none
-  double next_frame_ = 0.0;             // s
+  double wall_time_before_ = 0.0;                               // s
+  geometry::SignCounters decisions_ = geometry::sign_totals();  // as the run began
+  geometry::SignCounters decisions_before_;                     // of stages before
+  double next_row_ = 0.0;                                       // s
+  double next_reactions_ = 0.0;                                 // s; infinite if there are none
+  double next_frame_ = 0.0;                                     // s
   double next_checkpoint_ = 0.0;        // s; infinite if there is only one at the end
   double largest_turnover_ = 0.0;       // J, of all rows
   double largest_tracking_ = 0.0;       // J, magnitude, of all rows

@@ -68,9 +68,17 @@ Json energy_of(const dynamics::Energy& energy) {
           {"turnover_J", energy.turnover()}};
 }
 
-Json certificate_in_json(const RunReport& report) {
+Json exact_decisions_of(const RunReport& report) {
+  const geometry::SignCounters& counters = report.exact_decisions;
+  return {{"double_double", counters.double_double},
+          {"interval", counters.interval},
+          {"exact", counters.exact},
+          {"exact_per_node_and_step", exact_decisions_per_node(report)}};
+}
+
+Json json_of(const std::vector<Check>& certificate) {
   Json rows = Json::array();
-  for (const Check& check : certificate_of(report))
+  for (const Check& check : certificate)
     rows.push_back({{"name", check.name},
                     {"value", check.value},
                     {"limit", check.limit},
@@ -141,7 +149,10 @@ std::string to_json(const RunReport& report) {
   json["lost_grains"] = report.lost_grains;
   json["lost"] = {{"through_membranes", report.lost_through_membranes},
                   {"out_of_bounds", report.lost_out_of_bounds}};
-  json["certificate"] = certificate_in_json(report);
+  json["momentum_drift"] = {{"linear", report.momentum.linear},
+                            {"angular", report.momentum.angular}};
+  json["exact_decisions"] = exact_decisions_of(report);
+  json["certificate"] = json_of(certificate_of(report));
   json["states"] = states_of(report.states);
   if (!report.stages.empty()) {
     json["stages"] = Json::array();
@@ -162,7 +173,7 @@ std::string to_json(const EndedStage& stage, const RunReport& report) {
                      {"planes", report.planes},
                      {"contacts", report.contacts},
                      {"energy", energy_of(report.energy)},
-                     {"certificate", certificate_in_json(report)}};
+                     {"certificate", json_of(certificate_of_motion(report))}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -4,6 +4,8 @@
 #include "apps/run/state_hashes.hpp"
 #include "apps/scene/build_scene.hpp"
 #include "dynamics/measures/energy.hpp"
+#include "dynamics/measures/momentum_balance.hpp"
+#include "geometry/base/predicates.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -92,6 +94,10 @@ struct RunReport {
   double energy_closure = 0.0;
   /// Energy lost or made in tracking, in magnitude and at most so far, over the same.
   double tracking_ratio = 0.0;
+  dynamics::MomentumDrift momentum;
+  /// Signs that a double could not tell, by all threads of the program in the steps that it took;
+  /// how many of them there are depends on the threads.
+  geometry::SignCounters exact_decisions;
   std::size_t lost_grains = 0;
   std::size_t lost_through_membranes = 0;
   std::size_t lost_out_of_bounds = 0;
@@ -100,6 +106,13 @@ struct RunReport {
   std::vector<std::string> stages;  ///< that have ended, each a JSON object
   std::string ended_by;             ///< what ended the last of them
 };
+
+/// Signs that took arithmetic of any length, of a node and a step that this part of the run took.
+inline double exact_decisions_per_node(const RunReport& report) noexcept {
+  const double steps = static_cast<double>(report.steps - report.resumed_step);
+  const double looks = steps * static_cast<double>(report.nodes);
+  return looks > 0.0 ? static_cast<double>(report.exact_decisions.exact) / looks : 0.0;
+}
 
 /// ms, of a step that this part of the run took; 0 if there was none.
 inline double ms_per_step(const RunReport& report) noexcept {

@@ -2,6 +2,7 @@
 #include "geometry/base/predicates.hpp"
 
 #include "geometry/base/double_double.hpp"
+#include "geometry/base/sign_totals.hpp"
 
 #include <CGAL/FPU.h>
 #include <CGAL/Interval_nt.h>
@@ -79,7 +80,7 @@ int sign_of(const Exact& value) {
 /// mode.
 template <class Polynomial>
 int interval_sign(Polynomial polynomial) noexcept {
-  ++sign_counters().interval;
+  count_sign(sign_counters().interval);
   const CGAL::Protect_FPU_rounding<true> rounding;
   return sign_if_certain(polynomial());
 }
@@ -96,7 +97,7 @@ int double_double_sign(double magnitude, Polynomial polynomial) noexcept {
   constexpr double kError = 64.0 * detail::kRoundoff * detail::kRoundoff;
   constexpr double kSmallest = 1e-130;
   if (!(magnitude > kSmallest) || std::fegetround() != FE_TONEAREST) return 2;
-  ++sign_counters().double_double;
+  count_sign(sign_counters().double_double);
   const double value = polynomial().high();
   if (std::abs(value) > kError * magnitude) return value > 0.0 ? 1 : -1;
   return 2;
@@ -150,11 +151,6 @@ std::optional<Vec3> part_across(const Arrow& w, const Arrow& u) noexcept {
 
 }  // namespace
 
-SignCounters& sign_counters() noexcept {
-  thread_local SignCounters counters;
-  return counters;
-}
-
 namespace detail {
 
 int past_vertex_exact(const Vec3& a, const Vec3& b, const Vec3& p, double magnitude) noexcept {
@@ -163,7 +159,7 @@ int past_vertex_exact(const Vec3& a, const Vec3& b, const Vec3& p, double magnit
   if (quick != 2) return quick;
   const int sign = interval_sign([&] { return past_vertex<Interval>(a, b, p); });
   if (sign != 2) return sign;
-  ++sign_counters().exact;
+  count_sign(sign_counters().exact);
   return sign_of(past_vertex<Exact>(a, b, p));
 }
 
@@ -173,7 +169,7 @@ int crosses_exact(const Arrow& u, const Arrow& v, const Arrow& w, double magnitu
   if (quick != 2) return quick;
   const int sign = interval_sign([&] { return product_of_crosses<Interval>(u, v, w); });
   if (sign != 2) return sign;
-  ++sign_counters().exact;
+  count_sign(sign_counters().exact);
   return sign_of(product_of_crosses<Exact>(u, v, w));
 }
 
@@ -182,7 +178,7 @@ int volume_exact(const Arrow& u, const Arrow& v, const Arrow& w, double magnitud
   if (quick != 2) return quick;
   const int sign = interval_sign([&] { return volume<Interval>(u, v, w); });
   if (sign != 2) return sign;
-  ++sign_counters().exact;
+  count_sign(sign_counters().exact);
   return sign_of(volume<Exact>(u, v, w));
 }
 

@@ -69,11 +69,34 @@ TEST(RunWarnings, NameEnergyThatDoesNotAddUpWhereNegativePartsOutweighTheRest) {
   EXPECT_THAT(warnings_about(report), ElementsAre(HasSubstr("off by 50 %")));
 }
 
+TEST(RunWarnings, NameMomentumThatWasMadeFromNothing) {
+  RunReport report;
+  report.momentum = {1e-16, 0.9e-10};
+  EXPECT_TRUE(warnings_about(report).empty());
+
+  report.momentum.angular = 3e-7;
+  EXPECT_THAT(warnings_about(report),
+              ElementsAre(AllOf(HasSubstr("made momentum from nothing"), HasSubstr("3e-07"))));
+}
+
+TEST(RunWarnings, NameDegeneratePlacesByTheStepsOfThisPartOfTheRun) {
+  RunReport report;
+  report.nodes = 10;
+  report.steps = 1000;
+  report.resumed_step = 900;
+  report.exact_decisions = {.double_double = 99999, .interval = 5000, .exact = 1000};
+  EXPECT_TRUE(warnings_about(report).empty());  // 1 for each node and step
+
+  report.exact_decisions.exact = 2000;
+  EXPECT_THAT(warnings_about(report),
+              ElementsAre(AllOf(HasSubstr("2000 times, 2 for each"), HasSubstr("shift or turn"))));
+}
+
 TEST(Certificate, IsGreenForASoundRunAndSaysSo) {
   const std::vector<Check> certificate = certificate_of(RunReport());
 
   EXPECT_FALSE(has_red(certificate));
-  EXPECT_EQ(summary_of(certificate), "certificate: 8 of 8 green");
+  EXPECT_EQ(summary_of(certificate), "certificate: 10 of 10 green");
 }
 
 TEST(Certificate, NamesWhatIsRedWithValueAndLimit) {
@@ -84,7 +107,7 @@ TEST(Certificate, NamesWhatIsRedWithValueAndLimit) {
 
   EXPECT_TRUE(has_red(certificate));
   EXPECT_EQ(summary_of(certificate),
-            "certificate: 6 of 8 green; red: largest_overlap_ratio 6.23 % (at most 5 %), "
+            "certificate: 8 of 10 green; red: largest_overlap_ratio 6.23 % (at most 5 %), "
             "lost_grains 3 (at most 0)");
   EXPECT_EQ(warnings_about(report).size(), 2U);
 }

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/contacts.hpp"
+#include "dynamics/measures/force_and_moment.hpp"
+#include "dynamics/state/node_state.hpp"
+#include "geometry/base/parallel_sum.hpp"
+
+#include <cstdint>
+
+namespace plekton::geometry {
+class StateArchive;
+}
+
+namespace plekton::dynamics {
+
+/// What bodies did to each other in a step: contacts, bonds and sheets, before loads are added.
+struct InnerForces {
+  geometry::Positions position;  ///< m, of the nodes
+  const NodeForces& forces;      ///< on all nodes, also those that are held
+  const contact::Contacts& contacts;
+  double carried = 0.0;  ///< N, how much bodies carry, also where it cancels at each node
+  double kick = 0.0;     ///< s, for how long the forces act
+};
+
+/// Momentum that the forces between bodies make from nothing, over what they carry.
+struct MomentumDrift {
+  double linear = 0.0;
+  double angular = 0.0;
+};
+
+/// Whether a scene keeps the balance of linear and angular momentum.
+///
+/// The momentum p of a scene changes by the impulse J of what acts from outside (weight, loads,
+/// planes, what holds nodes) and by nothing else. As all nodes are stepped by the sum of their
+/// forces, p - p0 - J is the impulse of the forces between bodies, on free and on held nodes, plus
+/// that of contacts on the planes, told by the planes: by Newton's third law 0 but for rounding. It
+/// is added up over the steps that are looked at, with the angular one about the middle of the
+/// scene; so is what they carry, the sum of magnitudes.
+///
+/// Linear in the nodes and the contacts with planes. The same bits for any number of threads.
+class MomentumBalance {
+ public:
+  /// So seldom that it costs nothing that could be measured.
+  static constexpr std::int64_t kStepsBetweenLooks = 16;
+  static bool is_due(std::int64_t steps) noexcept { return steps % kStepsBetweenLooks == 0; }
+
+  MomentumBalance() = default;
+  /// @param start  m, where the nodes are
+  explicit MomentumBalance(geometry::Positions start) noexcept;
+
+  /// Adds a step.
+  void look(const InnerForces& inner, geometry::ThreadPool& pool);
+
+  /// The largest so far; 0 as long as nothing has acted.
+  MomentumDrift drift() const noexcept;
+
+  /// Goes on from where another one is.
+  void take_over(const MomentumBalance& before) noexcept { sums_ = before.sums_; }
+  void exchange(const geometry::StateArchive& archive);
+
+ private:
+  /// Of all nodes.
+  struct NodeSums {
+    ForceAndMoment made;
+    double force = 0.0;   ///< N, of magnitudes
+    double moment = 0.0;  ///< N m, likewise
+    double reach = 0.0;   ///< m, from the middle to the furthest node that a force acts on
+
+    NodeSums& operator+=(const NodeSums& other) noexcept;
+  };
+
+  /// Of all looks.
+  struct Sums {
+    geometry::Vec3 about = geometry::Vec3::Zero();    ///< m, point of the moments
+    geometry::Vec3 linear = geometry::Vec3::Zero();   ///< N s
+    geometry::Vec3 angular = geometry::Vec3::Zero();  ///< N m s
+    double most_linear = 0.0;                         ///< N s, the largest magnitude so far
+    double most_angular = 0.0;                        ///< N m s, likewise
+    double carried_linear = 0.0;                      ///< N s, of magnitudes
+    double carried_angular = 0.0;                     ///< N m s, likewise
+  };
+
+  NodeSums node_sums(const InnerForces& inner, geometry::ThreadPool& pool);
+
+  Sums sums_;
+  geometry::ParallelSum<NodeSums> sum_;
+};
+
+}  // namespace plekton::dynamics
