@@ -1,15 +1,61 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing (Debian 12, as root or with sudo), builds everything and runs all tests.
+#
+#   sh tests/run.sh                       all tests, as CI does
+#   sh tests/run.sh --coverage            the same in build/coverage; then which lines of geometry, contact and dynamics have
+#                                         run, at least 90 % of each, and which have not
+#   sh tests/run.sh --coverage geometry   by the tests of these folders alone (of tests/), of the lines of these
 set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
 . cmake/debian.sh
 
-need_packages build test
-say "Configuring build/release"
-cmake --preset release -DPLEKTON_BUILD_TESTS=ON
-say "Building"
-cmake --build --preset release --parallel "$(nproc)"
-say "Running the tests"
-ctest --preset release --output-on-failure -j2
-say "All tests passed"
+configure() {
+  need_packages build test
+  say "Configuring build/$1"
+  cmake --preset "$1" -DPLEKTON_BUILD_TESTS=ON
+}
+
+run_tests() {
+  configure release
+  say "Building"
+  cmake --build --preset release --parallel "$(nproc)"
+  say "Running the tests"
+  ctest --preset release --output-on-failure -j2
+  say "All tests passed"
+}
+
+# run_coverage [FOLDER...]: of the tests of these folders; of all without any. What an earlier build has counted is forgotten.
+run_coverage() {
+  configure coverage
+  say "Building"
+  if [ $# -eq 0 ]; then
+    cmake --build --preset coverage --parallel "$(nproc)"
+  else
+    # shellcheck disable=SC2046
+    cmake --build --preset coverage --parallel "$(nproc)" --target $(printf 'plekton_%s_tests ' "$@")
+  fi
+  find build/coverage -name '*.gcda' -delete
+  say "Running the tests"
+  if [ $# -eq 0 ]; then
+    # What is compiled anew without counters, or measures times, tells nothing here.
+    ctest --preset coverage --output-on-failure -j2 -E '^(consumer|benchmarks)\.'
+    set -- geometry contact dynamics
+  else
+    ctest --preset coverage --output-on-failure -j2 -R "^($(echo "$@" | tr ' ' '|'))\."
+  fi
+  say "Lines that have run"
+  python3 -B tests/coverage/report.py build/coverage "$@" --least 90
+}
+
+case "${1:-}" in
+  '') run_tests ;;
+  --coverage)
+    shift
+    run_coverage "$@"
+    ;;
+  *)
+    echo "tests/run.sh: unknown argument $1; expected nothing, or --coverage and folders of tests/" >&2
+    exit 2
+    ;;
+esac
