@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run that goes on from any of its checkpoints is the run that was never stopped, to the last
-// byte of all that it writes.
+// byte of all that it writes. Each of the scenes is run by 1 and by 4 threads and goes on with 2 and
+// 1; with PLEKTON_RESUMES=all in the environment from every checkpoint, otherwise from a few.
 #include "apps/run/checkpoints.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "tests/apps/command_line/program_fixture.hpp"
@@ -9,8 +10,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdlib>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plekton::apps {
@@ -24,94 +27,124 @@ constexpr const char* kScenes = "tests/apps/run/scenes/";
 struct Scene {
   const char* name;
   const char* folder;
-  const char* duration;  ///< shorter than its own, so that the test takes seconds
+  double duration;          ///< ms, shorter than its own, so that the test takes seconds
+  bool has_stages = false;  ///< then it is its own
 };
 
 std::ostream& operator<<(std::ostream& out, const Scene& scene) {
   return out << scene.name;
 }
 
+bool all_are_asked_for() {
+  const char* const asked = std::getenv("PLEKTON_RESUMES");
+  return asked != nullptr && std::string_view(asked) == "all";
+}
+
 class Resume : public testing::TestWithParam<Scene> {
  protected:
-  std::string straight() const { return (folder_ / "straight").string(); }
+  std::string straight(int threads) const {
+    return (folder_ / ("straight_" + std::to_string(threads))).string();
+  }
   std::string stopped() const { return (folder_ / "stopped").string(); }
 
   /// The whole run, with some six checkpoints.
-  Outcome run_straight() const {
+  Outcome run_straight(int threads) const {
     const Scene& scene = GetParam();
-    const double duration = std::stod(scene.duration);
-    const auto set = [&](const char* key, double part) {
-      return std::string("output.") + key + "=\"" + std::to_string(duration / part) + " ms\"";
+    const auto ms = [&](const char* key, double part) {
+      return key + ("=\"" + std::to_string(scene.duration / part)) + " ms\"";
     };
-    return Program({"run", scene.folder + std::string(scene.name) + ".toml", "--quiet", "--out",
-                    straight(), "--threads", "1", "--set",
-                    "simulation.duration=\"" + std::string(scene.duration) + " ms\"", "--set",
-                    set("interval", 9), "--set", set("history_interval", 70), "--set",
-                    set("checkpoint_interval", 6.3), "--set", "output.contact_list=true", "--set",
-                    "output.hash_interval=50"})
-        .wait();
+    std::vector<std::string> arguments = {"run",
+                                          scene.folder + std::string(scene.name) + ".toml",
+                                          "--quiet",
+                                          "--out",
+                                          straight(threads),
+                                          "--threads",
+                                          std::to_string(threads)};
+    for (const std::string& key :
+         {ms("output.interval", 9), ms("output.history_interval", 70),
+          ms("output.checkpoint_interval", 6.3), std::string("output.contact_list=true"),
+          std::string("output.hash_interval=50")})
+      arguments.insert(arguments.end(), {"--set", key});
+    if (!scene.has_stages)
+      arguments.insert(arguments.end(), {"--set", ms("simulation.duration", 1)});
+    return Program(arguments).wait();
   }
 
   /// The folder as a kill some time after a checkpoint leaves it, with more rows than the checkpoint
   /// knows and a frame that is listed.
-  void stop_after(const fs::path& checkpoint) const {
+  void stop_after(const fs::path& checkpoint, int threads) const {
     fs::remove_all(stopped());
-    fs::copy(straight(), stopped(), fs::copy_options::recursive);
+    fs::copy(straight(threads), stopped(), fs::copy_options::recursive);
     fs::remove(fs::path(stopped()) / "run.json");
     for (const fs::path& file : checkpoints_of(stopped()))
       if (file.filename() > checkpoint.filename()) fs::remove(file);
   }
 
-  void expect_same_files() const {
+  void expect_same_files(const std::string& whole, const std::string& other) const {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(straight()))
-      if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), straight()));
+    for (const auto& entry : fs::recursive_directory_iterator(whole))
+      if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), whole));
     for (const fs::path& file : files) {
-      if (file == "run.json") continue;
-      EXPECT_EQ(test::bytes_of(straight() / file), test::bytes_of(stopped() / file)) << file;
+      if (file == "run.json" || file == "scenario-as-run.toml") continue;  // they tell the threads
+      EXPECT_EQ(test::bytes_of(whole / file), test::bytes_of(other / file)) << file;
     }
     std::size_t count = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(stopped()))
+    for (const auto& entry : fs::recursive_directory_iterator(other))
       count += entry.is_regular_file() ? 1U : 0U;
     EXPECT_EQ(count, files.size());
     const auto report = [](const std::string& folder) {
       std::ifstream file(fs::path(folder) / "run.json");
       return nlohmann::json::parse(file);
     };
-    EXPECT_EQ(report(straight())["states"], report(stopped())["states"]);
-    EXPECT_EQ(report(straight())["energy"], report(stopped())["energy"]);
-    EXPECT_EQ(report(straight())["warnings"], report(stopped())["warnings"]);
+    for (const char* const part : {"states", "energy", "momentum_drift", "warnings"})
+      EXPECT_EQ(report(whole)[part], report(other)[part]);
+  }
+
+  /// @param threads  of the run that is stopped
+  void expect_to_go_on(int threads, const fs::path& checkpoint, int later_threads) const {
+    stop_after(checkpoint, threads);
+    const Outcome resumed = Program({"run", "--resume", stopped(), "--quiet", "--threads",
+                                     std::to_string(later_threads)})
+                                .wait();
+    ASSERT_EQ(resumed.exit_code, kDone) << resumed.err;
+    expect_same_files(straight(1), stopped());
+    if (HasFailure()) FAIL() << "from " << checkpoint << " with " << later_threads << " threads";
   }
 
   test::TemporaryFolder folder_;
 };
 
 TEST_P(Resume, IsTheRunThatWasNotStoppedFromAnyCheckpointWithAnyThreads) {
-  const Outcome whole = run_straight();
-  ASSERT_EQ(whole.exit_code, kDone) << whole.err;
-  const std::vector<fs::path> checkpoints = checkpoints_of(straight());
-  ASSERT_GE(checkpoints.size(), 5U);
-  int threads = 2;
-  for (const fs::path& checkpoint : checkpoints) {
-    stop_after(checkpoint);
-    const Outcome resumed =
-        Program({"run", "--resume", stopped(), "--quiet", "--threads", std::to_string(threads)})
-            .wait();
-    ASSERT_EQ(resumed.exit_code, kDone) << resumed.err;
-    expect_same_files();
-    threads = 5 - threads;
-    if (HasFailure()) FAIL() << "from " << checkpoint;
+  for (const int threads : {1, 4}) {
+    const Outcome whole = run_straight(threads);
+    ASSERT_EQ(whole.exit_code, kDone) << whole.err;
+  }
+  expect_same_files(straight(1), straight(4));
+  std::vector<fs::path> checkpoints = checkpoints_of(straight(1));
+  ASSERT_GE(checkpoints.size(), 6U);
+  checkpoints.pop_back();  // at the end
+  const bool all = all_are_asked_for();
+  for (std::size_t i = 0; i < checkpoints.size(); ++i) {
+    if (all || i % 3 == 1) {
+      ASSERT_NO_FATAL_FAILURE(expect_to_go_on(1, checkpoints[i], 2));
+    }
+    if (all || i == 2) {
+      ASSERT_NO_FATAL_FAILURE(expect_to_go_on(4, checkpoints[i], 1));
+    }
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(
     , Resume,
-    testing::Values(Scene{"catch", kSameBits, "60"}, Scene{"hertz", kSameBits, "40"},
-                    Scene{"net", kSameBits, "12"}, Scene{"sheets", kSameBits, "60"},
-                    Scene{"tube", kSameBits, "12"}, Scene{"turn", kSameBits, "50"},
-                    Scene{"glued", kScenes, "12"}, Scene{"rolling", kScenes, "60"},
-                    Scene{"shells", kScenes, "25"}, Scene{"lattice", kScenes, "40"},
-                    Scene{"loose", kScenes, "15"}),
+    testing::Values(Scene{"catch", kSameBits, 60}, Scene{"net", kSameBits, 12},
+                    Scene{"shells", kScenes, 25}, Scene{"cohesive", kScenes, 25},
+                    Scene{"hertz", kSameBits, 40}, Scene{"rolling", kScenes, 60},
+                    Scene{"servo", kScenes, 30}, Scene{"tube", kSameBits, 12},
+                    Scene{"adhesion", kScenes, 8}, Scene{"glued", kScenes, 12},
+                    Scene{"turn", kSameBits, 50}, Scene{"boulder", kScenes, 20},
+                    Scene{"rigid", kScenes, 30}, Scene{"staged", kScenes, 35, true},
+                    Scene{"sheets", kSameBits, 60}, Scene{"lattice", kScenes, 40},
+                    Scene{"loose", kScenes, 15}),
     [](const auto& scene) { return std::string(scene.param.name); });
 
 /// Two facets under a grain.
