@@ -94,6 +94,7 @@ void Simulation::take_structures(Simulation& before, const contact::BodyPlaces& 
   before.bonds_.exchange(write.group("bonds"));
   before.yielding_bonds_.exchange(write.group("yield"));
   before.sheet_facets_.exchange(write.group("sheets"));
+  before.ties_.exchange(write.group("ties"));
   before.exchange_asked_breaks(write.group("asked_breaks"));
   const auto read = geometry::StateArchive::reader(tree);
   exchange_elements(read.group("elements"));
@@ -101,6 +102,7 @@ void Simulation::take_structures(Simulation& before, const contact::BodyPlaces& 
   loads_.follow(bonds_);
   yielding_bonds_.exchange(read.group("yield"));
   sheet_facets_.exchange(read.group("sheets"));
+  ties_.exchange(read.group("ties"));
   exchange_asked_breaks(read.group("asked_breaks"));
 }
 

@@ -3,6 +3,7 @@
 #include "dynamics/model/rigid_check.hpp"
 #include "dynamics/model/scene.hpp"
 #include "dynamics/model/shape_check.hpp"
+#include "dynamics/ties/ties_check.hpp"
 #include "geometry/base/problems.hpp"
 
 #include <algorithm>
@@ -39,6 +40,7 @@ class SceneProblems {
     list_structures();
     list_shape_problems(scene_, text_);
     list_rigid_problems(scene_, text_);
+    list_tie_problems(scene_, text_);
     list_load_problems(scene_, text_);
   }
 

@@ -103,6 +103,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       bonds_(scene_.bonds, scene_.state.size()),
       yielding_bonds_(scene_.bond_laws, scene_.bonds),
       sheet_facets_(scene_.sheet_facets, scene_.state.size()),
+      ties_(scene_),
       loads_(scene_),
       driven_planes_(scene_.loads, scene_.planes),
       driven_bodies_(scene_.loads),
@@ -126,6 +127,8 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
   sheet_facets_.forget_dissipated();
   follow_breaks();
   bonds_.advance(scene_.state, pool_);
+  ties_.advance(scene_.state.position);
+  ties_.forget_dissipated();
   contacts_->advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
   forces_.set_zero();
   limits_ = std::make_unique<StepLimits>(resistance());
@@ -135,7 +138,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
                   rigid_bodies_.turning_energy(scene_.state, scene_.properties);
   most_kinetic_ = work_.kinetic;
   initial_energy_ = work_.kinetic + contacts_->elastic_energy() + bonds_.elastic_energy() +
-                    sheet_facets_.elastic_energy();
+                    ties_.elastic_energy() + sheet_facets_.elastic_energy();
 }
 
 /// @param asked  s; 0: chosen
@@ -198,7 +201,7 @@ double Simulation::motion_ratio() const noexcept {
 }
 
 Resistance Simulation::resistance() const noexcept {
-  return {scene_, surface_, *contacts_, bonds_, sheet_facets_, loads_, rigid_nodes_};
+  return {scene_, surface_, *contacts_, bonds_, sheet_facets_, ties_, loads_, rigid_nodes_};
 }
 
 Pace Simulation::pace() const noexcept {
@@ -251,15 +254,15 @@ Energy Simulation::energy() const {
   Energy energy;
   energy.kinetic = work_.kinetic;
   energy.contact_elastic = contacts_->elastic_energy();
-  energy.bond_elastic = bonds_.elastic_energy();
+  energy.bond_elastic = bonds_.elastic_energy() + ties_.elastic_energy();
   energy.sheet_elastic = sheet_facets_.elastic_energy();
   // Kinetic and elastic energy are those at the moment of the last forces, one step before the
   // positions.
   energy.gravity = -motion_.gravity.dot(free_moment(last_drift_) - initial_moment_);
   energy.friction = contacts_->dissipated();
   energy.tracking = contacts_->tracking_loss();
-  energy.bond_dissipated =
-      broken_energy_ + yielding_bonds_.dissipated() + sheet_facets_.dissipated();
+  energy.bond_dissipated = broken_energy_ + yielding_bonds_.dissipated() +
+                           sheet_facets_.dissipated() + ties_.dissipated();
   energy.damping = work_.damped - pending_.damped;
   energy.external_work = work_.external - pending_.external;
   energy.initial = initial_energy_;
@@ -322,6 +325,8 @@ void Simulation::advance(double longest) {
   drift_ = std::min(dt_, longest);
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
+  ties_.advance(scene_.state.position);
+  ties_.add_forces(forces_);
   sheet_facets_.add_forces(forces_, pool_);
   if (MomentumBalance::is_due(steps_)) watch_momentum();
   apply_loads();
@@ -572,6 +577,7 @@ void Simulation::follow_surface() {
   for (std::size_t i = 0; i < at.size(); ++i) at[i] -= 0.5 * last_drift_ * scene_.state.velocity[i];
   contacts_->follow(change, motion(), at, pool_);
   loads_.follow(change);
+  ties_.follow(scene_.elements);
 }
 
 // What can be read out between steps.
@@ -626,6 +632,8 @@ double Simulation::unbalanced_force_ratio() const {
     const BondForces forces = bond_forces(i);
     carried.add(elementary::hypot(forces.tension, forces.shear.norm()));
   }
+  for (std::size_t i = 0; i < ties_.size(); ++i)
+    if (!ties_.is_broken(i)) carried.add(std::abs(ties_.pull(i)));
   for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
     if (sheet_facets_.is_broken(i)) continue;
     for (std::size_t corner = 0; corner < 3; ++corner)
@@ -682,6 +690,7 @@ void Simulation::exchange(const geometry::StateArchive& archive) {
   if (archive.is_reading()) loads_.follow(bonds_);
   yielding_bonds_.exchange(archive.group("yield"));
   sheet_facets_.exchange(archive.group("sheets"));
+  if (!ties_.empty()) ties_.exchange(archive.group("ties"));
   loads_.exchange(archive.group("loads"));
   if (!rigid_bodies_.empty()) rigid_bodies_.exchange(archive.group("rigid_bodies"));
   exchange_asked_breaks(archive.group("asked_breaks"));

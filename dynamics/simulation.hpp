@@ -21,6 +21,7 @@
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/yielding_bonds.hpp"
+#include "dynamics/ties/ties.hpp"
 #include "dynamics/time_step/exact_step.hpp"
 #include "dynamics/time_step/motion_step.hpp"
 #include "dynamics/time_step/step_cause.hpp"
@@ -125,6 +126,8 @@ class Simulation {
   /// What a bond carries where its nodes are now.
   BondForces bond_forces(std::size_t bond) const;
   const SheetFacets& sheet_facets() const noexcept { return sheet_facets_; }
+  /// By place in Scene::ties: what they carry, have slid and taken.
+  const Ties& ties() const noexcept { return ties_; }
   /// By place in Scene::rigid_bodies: their angular momenta.
   const RigidBodies& rigid_bodies() const noexcept { return rigid_bodies_; }
   const AppliedLoads& loads() const noexcept { return loads_; }
@@ -271,6 +274,7 @@ class Simulation {
   BeamBonds bonds_;
   YieldingBonds yielding_bonds_;
   SheetFacets sheet_facets_;
+  Ties ties_;
   AppliedLoads loads_;
   DrivenPlanes driven_planes_;
   DrivenBodies driven_bodies_;

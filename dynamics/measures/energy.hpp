@@ -11,13 +11,14 @@ namespace plekton::dynamics {
 struct Energy {
   double kinetic = 0.0;  ///< of all motions that are free
   double contact_elastic = 0.0;
-  double bond_elastic = 0.0;
+  double bond_elastic = 0.0;  ///< with that of ties
   double sheet_elastic = 0.0;
   double gravity = 0.0;          ///< of the nodes that are free, from their places at the start
   double friction = 0.0;         ///< dissipated in contacts
   double tracking = 0.0;         ///< lost, or below 0 made, where contacts go on as others: handed
                                  ///< from patch to patch, and with elements that break
-  double bond_dissipated = 0.0;  ///< by bonds that yielded or broke, sheets that tore
+  double bond_dissipated = 0.0;  ///< by bonds that yielded or broke, sheets that tore, ties
+                                 ///< that slid, paid out or broke
   double damping = 0.0;          ///< taken by numerical damping
   double external_work = 0.0;    ///< done on the bodies by what moves as prescribed and by loads
   double initial = 0.0;          ///< kinetic + elastic at the start; kinetic as the leapfrog has

@@ -3,6 +3,7 @@
 
 #include "contact/base/bodies.hpp"
 #include "dynamics/model/loads.hpp"
+#include "dynamics/model/ties.hpp"
 #include "dynamics/rigid/mass_properties.hpp"
 #include "dynamics/state/node_state.hpp"
 #include "dynamics/state/rigid_body.hpp"
@@ -33,6 +34,8 @@ struct Scene {
       cylinder_materials;  ///< one for each cylinder; one material for a connected structure
   std::vector<contact::MaterialId> facet_materials;  ///< one for each facet
   std::vector<RigidBody> rigid_bodies;
+  std::vector<Cable> cables;
+  std::vector<Tie> ties;
   Loads loads;
 
   /// Adds a node at rest. Mass and inertia are filled in by what is attached to it.
@@ -78,7 +81,8 @@ struct Scene {
   ///         range, a node without mass that is not held, a value that is not finite, a structure
   ///         of several materials, a facet without area, a cylinder without length, a sphere on a
   ///         node of another element, rigid bodies that share nodes or have bonds of their own
-  ///         (rigid_check.hpp), loads that cannot be applied (loads/loads_check.hpp).
+  ///         (rigid_check.hpp), ties that hold nothing (ties/ties_check.hpp), loads that cannot be
+  ///         applied (loads/loads_check.hpp).
   void check() const;
 };
 

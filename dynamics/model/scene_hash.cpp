@@ -69,6 +69,22 @@ void add_rigid_bodies(const std::vector<RigidBody>& bodies, BitHash& hash) {
   }
 }
 
+/// Scenes without any have the hash they had before there were ties.
+void add_ties(const Scene& scene, BitHash& hash) {
+  for (const Cable& cable : scene.cables) {
+    add_number(cable.is_closed, hash);
+    add_number(cable.nodes.size(), hash);
+    for (const NodeId node : cable.nodes) add_number(node, hash);
+  }
+  for (const Tie& tie : scene.ties) {
+    add_number(tie.node, hash);
+    add_number(tie.to.index(), hash);
+    if (const auto* const point = std::get_if<MaterialPoint>(&tie.to))
+      for (const NodeId node : point->nodes) add_number(node, hash);
+    hash.add(tie.stiffness);
+  }
+}
+
 }  // namespace
 
 std::uint64_t scene_hash(const Scene& scene) {
@@ -80,6 +96,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   add_bonds(scene.bonds, hash);
   add_sheets(scene.sheet_facets, hash);
   add_rigid_bodies(scene.rigid_bodies, hash);
+  add_ties(scene, hash);
   add_number(scene.planes.size(), hash);
   for (const contact::Plane& plane : scene.planes) {
     hash.add(plane.normal);

@@ -51,6 +51,7 @@ class ScaledStiffness {
         time_(time),
         bonds_(structures.bonds),
         sheets_(structures.sheets),
+        ties_(structures.ties),
         rigid_(scene.rigid_bodies, scene.state, scene.properties),
         moved_(scene.state),
         shift_(scene.state.size(), Vec3::Zero()),
@@ -147,6 +148,7 @@ class ScaledStiffness {
     bonds_.add_forces(forces_, pool_);
     sheets_.advance(moved_, pool_);
     sheets_.add_forces(forces_, pool_);
+    ties_.add_forces_at(moved_.position, forces_);
     loads_.add_elastic_forces(time_, moved_, forces_, pool_);
     if (normal_) normal_(moved_.position, forces_);
     gather_on_bodies();
@@ -166,6 +168,7 @@ class ScaledStiffness {
   double time_;
   BeamBonds bonds_;
   SheetFacets sheets_;
+  const Ties& ties_;
   RigidNodes rigid_;
   std::vector<Mat3> turn_roots_;  // 1/sqrt(kg m²), by body
   geometry::ThreadPool pool_;

@@ -5,6 +5,7 @@
 #include "dynamics/model/scene.hpp"
 #include "dynamics/state/contact_springs.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
+#include "dynamics/ties/ties.hpp"
 
 #include <functional>
 #include <limits>
@@ -24,6 +25,7 @@ struct ExactStep {
 struct Structures {
   const BeamBonds& bonds;
   const SheetFacets& sheets;
+  const Ties& ties;
 };
 
 /// Adds forces (N) that follow from where the nodes are (m) alone.
@@ -34,7 +36,7 @@ using ForcesOfPlaces = std::function<void(geometry::Positions x, NodeForces& for
 /// something is about to buckle or snap through, counts by its magnitude: what grows by
 /// exp(sqrt(-omega²) t) needs as short a step as what swings.
 ///
-/// K times a motion is a central difference of the forces of bonds, sheets, springs to ground and
+/// K times a motion is a central difference of the forces of bonds, sheets, ties, springs to ground and
 /// pressure (with the stiffness of gases), and of what else follows from the places of nodes, and
 /// what the contacts' springs resist. So it has what coupling, tension and pressure do to the scene
 /// where it is now, and nothing of contacts that are still to come: critical_step() counts those.

@@ -15,6 +15,7 @@ struct StepPart {
     nothing,
     bond,
     sheet_facet,
+    tie,
     ball_contact,       ///< of the node's ball with another
     surface_contact,    ///< of a ball with a surface
     structure_contact,  ///< of two structures, or of one with itself
@@ -24,7 +25,7 @@ struct StepPart {
     pressure
   };
   Kind kind = Kind::nothing;
-  std::size_t id = 0;       ///< of a bond or sheet facet
+  std::size_t id = 0;       ///< of a bond, sheet facet or tie
   NodeId a{-1};             ///< of a contact: its ball
   NodeId b{-1};             ///< of a contact: its other ball, or a node of its surface
   ComingPartner partner{};  ///< of coming_contacts: the stiffest of them

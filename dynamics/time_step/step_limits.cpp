@@ -53,6 +53,7 @@ void StepLimits::add_structures(NodalStiffness& stiffness) const {
       add_beam(stiffness, of_.scene.bonds[i], of_.scene.state, of_.bonds.spring(i).length);
   }
   of_.sheet_facets.add_to(stiffness, of_.scene.state);
+  of_.ties.add_to(stiffness, of_.scene.state.position);
   of_.loads.add_springs_to(stiffness);
   of_.loads.add_pressures_to(stiffness, of_.scene.state.position);
 }
@@ -184,8 +185,8 @@ ExactStep StepLimits::exact(geometry::Positions x, double time) const {
     ContactSprings springs(&of_.rigid);
     SlipOnSurfaces slip{springs};
     contacts(rate).add_to(slip, 0.0, x);
-    return exact_critical_step(of_.scene, {of_.bonds, of_.sheet_facets}, of_.loads, springs, time,
-                               normal);
+    return exact_critical_step(of_.scene, {of_.bonds, of_.sheet_facets, of_.ties}, of_.loads,
+                               springs, time, normal);
   });
 }
 
@@ -251,6 +252,15 @@ void StepLimits::consider_structures(StiffestPart& parts) const {
     if (of_.sheet_facets.is_broken(i) || !holds_it(of_.sheet_facets.nodes(i))) continue;
     parts.consider({StepPart::Kind::sheet_facet, i}, [&](NodalStiffness& stiffness) {
       of_.sheet_facets.add_to(stiffness, of_.scene.state, i);
+    });
+  }
+  for (std::size_t i = 0; i < of_.ties.size(); ++i) {
+    bool is_held = false;
+    of_.ties.for_each_node(
+        i, [&](NodeId node) { is_held = is_held || of_.rigid.mover_of(node) == parts.node(); });
+    if (!is_held) continue;
+    parts.consider({StepPart::Kind::tie, i}, [&](NodalStiffness& stiffness) {
+      of_.ties.add_to(stiffness, of_.scene.state.position, i);
     });
   }
   parts.consider({StepPart::Kind::ground_springs},

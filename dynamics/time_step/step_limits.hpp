@@ -7,6 +7,7 @@
 #include "dynamics/state/nodal_stiffness.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
+#include "dynamics/ties/ties.hpp"
 #include "dynamics/time_step/exact_step.hpp"
 #include "dynamics/time_step/expected_contacts.hpp"
 #include "dynamics/time_step/present_contacts.hpp"
@@ -24,6 +25,7 @@ struct Resistance {
   const contact::Contacts& contacts;
   const BeamBonds& bonds;
   const SheetFacets& sheet_facets;
+  const Ties& ties;
   const AppliedLoads& loads;
   const RigidNodes& rigid;
 };
