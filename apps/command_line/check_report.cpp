@@ -65,6 +65,17 @@ Json rigid_bodies_of(const BuiltScene& built) {
   return list;
 }
 
+Json ties_of(const BuiltScene& built) {
+  Json list = Json::array();
+  for (const BuiltTies& ties : built.ties) {
+    list.push_back({{"name", ties.name},
+                    {"count", ties.count},
+                    {"longest_gap_m", ties.longest_gap},
+                    {"stiffness_N_per_m", {ties.softest, ties.stiffest}}});
+  }
+  return list;
+}
+
 Json boxes_of(const Scenario& scenario, const PreparedRun& prepared) {
   Json list = Json::array();
   for (const NamedBox& body : boxes_at_start(scenario, prepared)) {
@@ -134,6 +145,7 @@ Json check_report(const Scenario& scenario, PreparedRun& prepared) {
                  {"membranes", membranes_of(prepared.built)},
                  {"grains", grains_of(prepared.built)},
                  {"rigid_bodies", rigid_bodies_of(prepared.built)},
+                 {"ties", ties_of(prepared.built)},
                  {"planes", prepared.simulation->planes().size()},
                  {"boxes", boxes_of(scenario, prepared)},
                  {"time_step", time_step_of(scenario, prepared)},

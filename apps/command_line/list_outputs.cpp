@@ -6,6 +6,7 @@
 #include "apps/run/pressures.hpp"
 #include "apps/run/reactions.hpp"
 #include "apps/run/rigid_motions.hpp"
+#include "apps/run/tie_histories.hpp"
 #include "dynamics/output/contact_fields.hpp"
 #include "dynamics/output/frame_fields.hpp"
 
@@ -40,6 +41,9 @@ std::vector<OutputTable> output_tables() {
       table_of(
           "rigid_bodies.csv, every `history_interval`, for each of [[rigid_bodies]]: _x, _y, _z",
           rigid_fields()),
+      table_of("ties.csv, every `history_interval`, for each of [[ties]]", tie_fields()),
+      table_of("ties.csv, for each tie of a table with `each`, as NAME[0].tension",
+               single_tie_fields()),
       table_of("planes.csv, every `interval`, for each of [[planes]]", plane_fields()),
       table_of("grains.pvd, every `interval`: points", kOfGrains),
       table_of("membranes.pvd, every `interval`: points", kOfNodes),

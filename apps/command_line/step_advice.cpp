@@ -121,6 +121,9 @@ class StepAdvice {
                            cause_.part.id,
                            length_text(smallest_height(scene_.sheet_facets[cause_.part.id])),
                            length_text(scene_.sheet_facets[cause_.part.id].section.thickness));
+      case StepPart::Kind::tie:
+        return fmt::format("its tie {}, of {:.3g} N/m", cause_.part.id,
+                           scene_.ties[cause_.part.id].stiffness);
       case StepPart::Kind::ball_contact:
         return fmt::format("the contact of nodes {} and {}", index_of(cause_.part.a),
                            index_of(cause_.part.b));
@@ -183,6 +186,8 @@ class StepAdvice {
       case StepPart::Kind::sheet_facet:
         return size_advice(smallest_height(scene_.sheet_facets[cause_.part.id]),
                            median(heights_of_facets()), "facet");
+      case StepPart::Kind::tie:
+        return "lower the stiffness of [[ties]], or give the node more mass";
       case StepPart::Kind::ground_springs:
         return "lower the stiffness of loads of kind ground_springs, or give the node more mass";
       case StepPart::Kind::pressure:

@@ -46,6 +46,15 @@ std::string line_of(const BuiltRigidBody& body) {
       axes_of(dynamics::free_turns(body.held)));
 }
 
+std::string line_of(const BuiltTies& ties) {
+  if (ties.count == 0) return fmt::format("ties {}: none\n", ties.name);
+  const std::string stiffness = ties.softest < ties.stiffest
+                                    ? fmt::format("{:.3g} to {:.3g}", ties.softest, ties.stiffest)
+                                    : fmt::format("{:.3g}", ties.softest);
+  return fmt::format("ties {}: {}, longest gap at the start {:.4g} m, {} N/m\n", ties.name,
+                     ties.count, ties.longest_gap, stiffness);
+}
+
 /// The time step at the start, the critical one with all contacts that may come, and what limits
 /// the step where that is not what is stiff. A chosen step follows what touches.
 std::string line_of_step(const PreparedRun& prepared) {
@@ -76,6 +85,7 @@ std::string summary_of(const PreparedRun& prepared) {
   for (const BuiltGrains& grains : prepared.built.grains)
     if (!grains.is_rigid) text += line_of(grains);
   for (const BuiltRigidBody& body : prepared.built.rigid_bodies) text += line_of(body);
+  for (const BuiltTies& ties : prepared.built.ties) text += line_of(ties);
   if (!prepared.simulation->planes().empty())
     text += fmt::format("planes: {}\n", prepared.simulation->planes().size());
   text += line_of_step(prepared);
@@ -109,6 +119,8 @@ std::string summary_of(const RunReport& report) {
                       exact_decisions_per_node(report));
   if (report.broken_bonds > 0)
     text += fmt::format("broken bonds: {} of {}\n", report.broken_bonds, report.bonds);
+  if (report.broken_ties > 0)
+    text += fmt::format("broken ties: {} of {}\n", report.broken_ties, report.ties);
   if (report.torn_facets > 0) text += fmt::format("torn facets: {}\n", report.torn_facets);
   for (const std::string& warning : report.warnings) text += "warning: " + warning + '\n';
   return text + summary_of(certificate_of(report)) + '\n';

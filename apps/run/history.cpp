@@ -12,14 +12,15 @@ constexpr std::array<dynamics::OutputField, 22> kFields = {{
     {"time", "s", "simulated"},
     {"kinetic", "J", "energy of motion of free nodes"},
     {"contact_elastic", "J", "energy stored in contacts"},
-    {"bond_elastic", "J", "energy stored in beams and bars"},
+    {"bond_elastic", "J", "energy stored in beams, bars and ties"},
     {"sheet_elastic", "J", "energy stored in sheets"},
     {"gravity", "J", "energy of weight, from the start"},
     {"friction", "J", "dissipated by contacts"},
     {"tracking", "J",
      "lost, or below 0 made, where contacts are handed on: from patch to patch, and with elements "
      "that break"},
-    {"bond_dissipated", "J", "dissipated by bonds that yield or break, and by sheets that tear"},
+    {"bond_dissipated", "J",
+     "dissipated by bonds that yield or break, by sheets that tear, and by ties"},
     {"damping", "J", "dissipated by numerical and viscous damping"},
     {"external_work", "J",
      "done by loads and by what is moved, less what springs to ground and an enclosed gas have "

@@ -15,10 +15,10 @@ namespace plekton::apps {
 void make_output_folder(const std::filesystem::path& folder);
 
 /// What a run may write into its folder, beside its frames.
-inline constexpr std::array<std::string_view, 11> kResultFiles = {
-    "run.json",   "energy.csv",    "reactions.csv", "pressures.csv",
-    "planes.csv", "contacts.csv",  kScenarioCopy,   kCheckpointFolder,
-    "grains.pvd", "membranes.pvd", "contacts.pvd"};
+inline constexpr std::array<std::string_view, 12> kResultFiles = {
+    "run.json",        "energy.csv", "reactions.csv", "pressures.csv",
+    "ties.csv",        "planes.csv", "contacts.csv",  kScenarioCopy,
+    kCheckpointFolder, "grains.pvd", "membranes.pvd", "contacts.pvd"};
 
 /// Refuses a folder that holds a file of these names.
 /// @param maker  What made them, for the message: "run" or "import".

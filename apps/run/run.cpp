@@ -16,6 +16,7 @@
 #include "apps/run/scenario_copy.hpp"
 #include "apps/run/stage_watch.hpp"
 #include "apps/run/stiffness_warnings.hpp"
+#include "apps/run/tie_histories.hpp"
 #include "apps/run/written_files.hpp"
 #include "apps/scene/build_stage.hpp"
 #include "dynamics/output/file.hpp"
@@ -87,6 +88,7 @@ RunReport begun_report(const Scenario& scenario, const PreparedRun& prepared) {
   report.cylinders = elements.cylinders.size();
   report.bonds = simulation.bonds().size();
   report.planes = simulation.planes().size();
+  report.ties = simulation.ties().size();
   report.names = names_of(scenario);
   return report;
 }
@@ -116,6 +118,7 @@ class Run {
                    before()),
         pressures_(settings.out, scenario, before()),
         rigid_bodies_(settings.out, prepared.built, before()),
+        ties_(settings.out, prepared.built, before()),
         planes_(settings.out, scenario, before()),
         progress_(settings.progress, settings.style, end_time_),
         report_(std::move(start.report)) {
@@ -238,6 +241,7 @@ class Run {
     reactions_.flush();
     pressures_.flush();
     rigid_bodies_.flush();
+    ties_.flush();
     planes_.flush();
     next_checkpoint_ = std::max(next_checkpoint_ + checkpoint_interval(), simulation_.time());
     geometry::StateTree state = simulation_.snapshot();
@@ -249,6 +253,7 @@ class Run {
     reactions_.tell(files);
     pressures_.tell(files);
     rigid_bodies_.tell(files);
+    ties_.tell(files);
     planes_.tell(files);
     exchange_files(archive, files);
     ScenarioText text = text_of(scenario_);
@@ -380,6 +385,7 @@ class Run {
     history_.add(simulation_, energy, lost_);
     pressures_.add(simulation_);
     rigid_bodies_.add(simulation_);
+    ties_.add(simulation_);
     last_row_step_ = simulation_.steps();
   }
 
@@ -395,6 +401,7 @@ class Run {
     reactions_.flush();
     pressures_.flush();
     rigid_bodies_.flush();
+    ties_.flush();
     planes_.flush();
     last_frame_step_ = simulation_.steps();
   }
@@ -419,6 +426,7 @@ class Run {
     reactions_.close();
     pressures_.close();
     rigid_bodies_.close();
+    ties_.close();
     planes_.close();
   }
 
@@ -454,6 +462,7 @@ class Run {
                        counts.with_planes;
     report_.broken_bonds = broken_bonds(simulation_);
     report_.torn_facets = torn_facets(simulation_);
+    report_.broken_ties = simulation_.ties().broken();
     report_.frames = frames_.count();
     report_.simulated_time = simulation_.time();
     report_.steps = simulation_.steps();
@@ -505,6 +514,7 @@ class Run {
   Reactions reactions_;
   Pressures pressures_;
   RigidMotions rigid_bodies_;
+  TieHistories ties_;
   PlanePlaces planes_;
   Progress progress_;
   RunReport report_;

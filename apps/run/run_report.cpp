@@ -47,6 +47,8 @@ Json counts_of(const RunReport& report) {
           {"planes", report.planes},
           {"broken_bonds", report.broken_bonds},
           {"torn_facets", report.torn_facets},
+          {"ties", report.ties},
+          {"broken_ties", report.broken_ties},
           {"contacts", report.contacts},
           {"frames", report.frames}};
 }

@@ -70,6 +70,8 @@ struct RunReport {
   std::size_t bonds = 0;
   std::size_t broken_bonds = 0;  ///< at the end
   std::size_t torn_facets = 0;   ///< of sheets, at the end
+  std::size_t ties = 0;
+  std::size_t broken_ties = 0;  ///< at the end
   std::size_t planes = 0;
   std::size_t contacts = 0;  ///< at the end
   std::size_t frames = 0;

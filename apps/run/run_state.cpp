@@ -43,7 +43,7 @@ void exchange_texts(const StateArchive& archive, const char* name,
 void exchange_files(const StateArchive& archive, WrittenFiles& files) {
   const StateArchive sizes = archive.group("files");
   for (const char* const name : {kHistoryFile, kReactionsFile, kPressuresFile, kRigidBodiesFile,
-                                 kPlanesFile, kContactsFile}) {
+                                 kTiesFile, kPlanesFile, kContactsFile}) {
     const auto known = files.sizes.find(name);
     std::uint64_t size = known == files.sizes.end() ? 0 : known->second;  // 0: there is none
     sizes(name, size);

@@ -18,6 +18,7 @@ inline constexpr const char* kHistoryFile = "energy.csv";
 inline constexpr const char* kReactionsFile = "reactions.csv";
 inline constexpr const char* kPressuresFile = "pressures.csv";
 inline constexpr const char* kRigidBodiesFile = "rigid_bodies.csv";
+inline constexpr const char* kTiesFile = "ties.csv";
 inline constexpr const char* kPlanesFile = "planes.csv";
 inline constexpr const char* kContactsFile = "contacts.csv";
 

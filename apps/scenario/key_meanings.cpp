@@ -136,6 +136,29 @@ constexpr std::array kOfRigidBodies = std::to_array<KeyMeaning>({
     {"rigid_bodies[].angular_velocity", "at the start; about held axes for good"},
 });
 
+constexpr std::array kOfTies = std::to_array<KeyMeaning>({
+    {"ties[].name", "of its columns in ties.csv"},
+    {"ties[].from.membrane", "whose nodes are tied"},
+    {"ties[].from.rigid_body", "whose centre is tied, instead of the nodes of a membrane"},
+    {"ties[].from.nodes", "which nodes of the membrane"},
+    {"ties[].to.place", "a point in space"},
+    {"ties[].to.membrane", "to which each of them is tied where it is nearest"},
+    {"ties[].to.rigid_body", "instead of a membrane: its surface, or of kind nodes its centre"},
+    {"ties[].to.nodes", "which nodes of the membrane"},
+    {"ties[].to.friction", "coefficient, of the force along the cable over that across it"},
+    {"ties[].to.slip_force", "added to friction: force along the cable at which it slides"},
+    {"ties[].within", "what is further away at the start is not tied"},
+    {"ties[].stiffness",
+     "of the spring that each tie is; else that of the bars, beams and sheets "
+     "around its softer end"},
+    {"ties[].rest_length", "beyond which it pulls"},
+    {"ties[].only_pulls", "whether it is slack where it is shorter"},
+    {"ties[].strength", "tension at which it breaks"},
+    {"ties[].brake.force", "tension at which it pays out"},
+    {"ties[].brake.stroke", "how much it pays out; after that it is a spring again"},
+    {"ties[].each", "whether ties.csv has each tie, and not all of them together"},
+});
+
 constexpr std::array kOfLoads = std::to_array<KeyMeaning>({
     {"loads[].name", "what messages call it"},
     {"loads[].membrane", "on which it acts, or whose nodes"},
@@ -239,8 +262,8 @@ std::vector<KeyMeaning> key_meanings() {
        {std::span<const KeyMeaning>(kOfSimulation), std::span<const KeyMeaning>(kOfMaterials),
         std::span<const KeyMeaning>(kOfMembranes), std::span<const KeyMeaning>(kOfShapes),
         std::span<const KeyMeaning>(kOfGrains), std::span<const KeyMeaning>(kOfRigidBodies),
-        std::span<const KeyMeaning>(kOfLoads), std::span<const KeyMeaning>(kOfOutput),
-        std::span<const KeyMeaning>(kOfStages)})
+        std::span<const KeyMeaning>(kOfTies), std::span<const KeyMeaning>(kOfLoads),
+        std::span<const KeyMeaning>(kOfOutput), std::span<const KeyMeaning>(kOfStages)})
     all.insert(all.end(), table.begin(), table.end());
   return all;
 }

@@ -122,13 +122,9 @@ NodeSetSettings read_flexible_body(Section& section, const Scenario& scenario) {
 namespace {
 
 /// With the nodes of a body that the key `nodes` says.
-NodeSetSettings with_nodes(Section& section, NodeSetSettings set) {
+NodeSetSettings with_choice(Section& section, NodeSetSettings set) {
   constexpr std::array<std::string_view, 8> kWords = {"all",   "rim",   "x_min", "x_max",
                                                       "y_min", "y_max", "z_min", "z_max"};
-  if (section.has("grains") == section.has("membrane")) {
-    section.has("nodes");
-    return set;
-  }
   set.place = section.place_of("nodes");
   section.tell_default("nodes", "required; of grains \"all\"");
   if (section.is_table("nodes", box_type())) {
@@ -142,6 +138,13 @@ NodeSetSettings with_nodes(Section& section, NodeSetSettings set) {
     section.complain("nodes",
                      "grains have no rim; expected \"all\", a side such as \"z_max\", or "
                      "a box { min = [...], max = [...] }");
+  return set;
+}
+
+/// The same where the body is known.
+NodeSetSettings with_nodes(Section& section, const NodeSetSettings& set) {
+  if (section.has("grains") != section.has("membrane")) return with_choice(section, set);
+  section.has("nodes");
   return set;
 }
 
@@ -161,6 +164,30 @@ NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
 
 NodeSetSettings read_flexible_nodes(Section& section, const Scenario& scenario) {
   return with_nodes(section, read_flexible_body(section, scenario));
+}
+
+NodeSetSettings read_tied_body(Section& section, const Scenario& scenario) {
+  NodeSetSettings set;
+  set.place = section.place();
+  if (section.has("rigid_body")) {
+    if (section.has("membrane"))
+      section.complain("membrane", "rigid_body says already what is meant; leave one of them out");
+    set.place = section.place_of("rigid_body");
+    set.rigid_body = read_rigid_body_name(section, scenario).value_or(0);
+    return set;
+  }
+  set.body = read_membrane_name(section, scenario).value_or(0);
+  return set;
+}
+
+NodeSetSettings read_tied_nodes(Section& section, const Scenario& scenario) {
+  const NodeSetSettings set = read_tied_body(section, scenario);
+  if (!set.rigid_body) return with_choice(section, set);
+  if (section.has("nodes"))
+    section.complain("nodes",
+                     "of a rigid body its centre is tied; leave nodes out, or tie to its "
+                     "kind = \"surface\"");
+  return set;
 }
 
 }  // namespace plekton::apps

@@ -34,4 +34,8 @@ NodeSetSettings read_flexible_body(Section& section, const Scenario& scenario);
 NodeSetSettings read_node_set(Section& section, const Scenario& scenario);
 NodeSetSettings read_flexible_nodes(Section& section, const Scenario& scenario);
 
+/// The same of a membrane or a rigid body alone: grains may be gone, or elsewhere, in a later stage.
+NodeSetSettings read_tied_nodes(Section& section, const Scenario& scenario);
+NodeSetSettings read_tied_body(Section& section, const Scenario& scenario);
+
 }  // namespace plekton::apps

@@ -46,6 +46,10 @@ StageSettings read_stage(Section section, const Scenario& scenario);
 /// @param number    Position among the tables, for those without a name.
 LoadSettings read_load(Section section, const Scenario& scenario, std::size_t number);
 
+/// @param scenario  with its membranes and rigid bodies
+/// @param number    Position among the tables, for those without a name.
+TieSettings read_tie(Section section, const Scenario& scenario, std::size_t number);
+
 /// The material that a key names; nothing after a problem.
 std::optional<std::size_t> read_material_of(Section& section, const Known& known,
                                             std::string_view key = "material");

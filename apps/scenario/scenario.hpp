@@ -7,6 +7,7 @@
 #include "apps/scenario/rigid_body_settings.hpp"
 #include "apps/scenario/shape_settings.hpp"
 #include "apps/scenario/stage_settings.hpp"
+#include "apps/scenario/tie_settings.hpp"
 #include "contact/law_list.hpp"
 #include "dynamics/structure/bond_strength.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
@@ -194,6 +195,7 @@ struct Scenario {
   std::vector<MembraneSettings> membranes;  ///< after these the surfaces of rigid bodies
   std::vector<GrainSettings> grains;        ///< before these the spheres of rigid bodies
   std::vector<RigidBodySettings> rigid_bodies;
+  std::vector<TieSettings> ties;
   std::vector<PlaneSettings> planes;
   std::vector<LoadSettings> loads;
   OutputSettings output;

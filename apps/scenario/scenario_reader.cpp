@@ -48,6 +48,9 @@ void read_bodies(Section& root, Scenario& scenario) {
     return read_grains(section, known, scenario.grains.size() - rigid);
   });
   require_own_names(root, scenario);
+  read_tables(root, "ties", scenario.ties, [&](Section& section) {
+    return read_tie(section, scenario, scenario.ties.size());
+  });
   read_tables(root, "planes", scenario.planes,
               [&](Section& section) { return read_plane(section, known); });
   read_tables(root, "loads", scenario.loads, [&](Section& section) {

@@ -149,14 +149,15 @@ class Stages {
     else if (entry.key == "output")
       change_output(entry);
     else
-      return refuse_membranes(entry);
+      return refuse_structures(entry);
     return true;
   }
 
-  bool refuse_membranes(const Entry& entry) {
-    if (entry.key != "membranes") return false;
-    complain(entry.place, "membranes",
-             "membranes are there from the first stage on; write them outside of the stages");
+  bool refuse_structures(const Entry& entry) {
+    if (entry.key != "membranes" && entry.key != "ties") return false;
+    complain(entry.place, entry.key,
+             fmt::format("{} are there from the first stage on; write them outside of the stages",
+                         entry.key));
     return true;
   }
 

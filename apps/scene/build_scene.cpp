@@ -3,6 +3,7 @@
 
 #include "apps/scene/build_loads.hpp"
 #include "apps/scene/build_reactions.hpp"
+#include "apps/scene/build_ties.hpp"
 #include "apps/scene/grain_generator.hpp"
 #include "apps/scene/membrane_builder.hpp"
 #include "apps/scene/rigid_builder.hpp"
@@ -188,6 +189,7 @@ BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there, cons
     }
   }
   problems.throw_if_any();
+  add_ties(scenario, built);
   return built;
 }
 

@@ -64,11 +64,23 @@ struct BuiltReaction {
   std::optional<Vec3> about;            ///< m
 };
 
+/// The ties of one table in the scene.
+struct BuiltTies {
+  std::string name;
+  std::size_t first = 0;  ///< among Scene::ties
+  std::size_t count = 0;
+  double longest_gap = 0.0;  ///< m, at the start
+  double softest = 0.0;      ///< N/m
+  double stiffest = 0.0;     ///< N/m
+  bool lists_each = false;   ///< whether ties.csv has each of them
+};
+
 struct BuiltScene {
   dynamics::Scene scene;
   std::vector<BuiltMembrane> membranes;
   std::vector<BuiltGrains> grains;
   std::vector<BuiltRigidBody> rigid_bodies;
+  std::vector<BuiltTies> ties;
   std::vector<BuiltReaction> reactions;
   std::vector<std::string> warnings;
 };

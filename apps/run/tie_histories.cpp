@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/run/tie_histories.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <system_error>
+
+namespace plekton::apps {
+namespace {
+
+constexpr std::array<dynamics::OutputField, 6> kFields = {{
+    {"largest_tension", "N", "of any of them, in the last step; below 0: all of them push"},
+    {"mean_tension", "N", "of those that are whole"},
+    {"largest_slip", "m", "way along the cable so far, or what the brake has paid out"},
+    {"elastic", "J", "energy stored in them"},
+    {"dissipated", "J", "taken so far by friction, by brakes and as they broke"},
+    {"broken", "", "how many so far"},
+}};
+
+constexpr std::array<dynamics::OutputField, 3> kSingleFields = {{
+    {"tension", "N", "in the last step; below 0: it pushes"},
+    {"slip", "m", "way along the cable so far, or what the brake has paid out"},
+    {"broken", "", "1 once it is broken"},
+}};
+
+/// The numbers of kFields.
+std::array<double, kFields.size()> numbers_of(const BuiltTies& table, const dynamics::Ties& ties) {
+  double largest = 0.0, sum = 0.0, slip = 0.0, elastic = 0.0, dissipated = 0.0;
+  std::size_t whole = 0;
+  for (std::size_t i = table.first; i < table.first + table.count; ++i) {
+    slip = std::max(slip, ties.slip(i));
+    dissipated += ties.dissipated(i);
+    if (ties.is_broken(i)) continue;
+    largest = whole == 0 ? ties.pull(i) : std::max(largest, ties.pull(i));
+    sum += ties.pull(i);
+    elastic += ties.elastic_energy(i);
+    ++whole;
+  }
+  const double mean = whole > 0 ? sum / static_cast<double>(whole) : 0.0;
+  return {largest, mean, slip, elastic, dissipated, static_cast<double>(table.count - whole)};
+}
+
+}  // namespace
+
+std::span<const dynamics::OutputField> tie_fields() {
+  return kFields;
+}
+
+std::span<const dynamics::OutputField> single_tie_fields() {
+  return kSingleFields;
+}
+
+TieHistories::TieHistories(const std::filesystem::path& folder, const BuiltScene& built,
+                           const WrittenFiles* before)
+    : tables_(built.ties) {
+  std::error_code ignored;
+  if (before == nullptr) std::filesystem::remove(folder / kTiesFile, ignored);
+  if (tables_.empty()) return;
+  std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
+  const auto add_columns = [&](const std::string& name, const auto& fields) {
+    for (const dynamics::OutputField& field : fields)
+      columns.push_back({name + "." + std::string(field.name), std::string(field.unit)});
+  };
+  for (const BuiltTies& table : tables_) {
+    add_columns(table.name, kFields);
+    for (std::size_t i = 0; table.lists_each && i < table.count; ++i)
+      add_columns(table.name + "[" + std::to_string(i) + "]", kSingleFields);
+  }
+  writer_ = history_file(folder, kTiesFile, columns, before);
+}
+
+void TieHistories::add(const dynamics::Simulation& simulation) {
+  if (!writer_) return;
+  const dynamics::Ties& ties = simulation.ties();
+  std::vector<double> row{simulation.time()};
+  for (const BuiltTies& table : tables_) {
+    const auto numbers = numbers_of(table, ties);
+    row.insert(row.end(), numbers.begin(), numbers.end());
+    for (std::size_t i = table.first; table.lists_each && i < table.first + table.count; ++i)
+      row.insert(row.end(), {ties.pull(i), ties.slip(i), ties.is_broken(i) ? 1.0 : 0.0});
+  }
+  writer_->add(row);
+}
+
+void TieHistories::flush() {
+  if (writer_) writer_->flush();
+}
+
+void TieHistories::close() {
+  if (writer_) writer_->close();
+}
+
+void TieHistories::tell(WrittenFiles& written) const {
+  if (writer_) written.sizes[kTiesFile] = writer_->size();
+}
+
+}  // namespace plekton::apps

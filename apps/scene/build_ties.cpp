@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scene/build_ties.hpp"
+
+#include "apps/scene/node_set.hpp"
+#include "geometry/closest/point_segment.hpp"
+#include "geometry/closest/point_triangle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace plekton::apps {
+namespace {
+
+using dynamics::CablePlace;
+using dynamics::FixedPoint;
+using dynamics::MaterialPoint;
+using geometry::index_of;
+using geometry::NodeId;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Where a node is tied.
+struct Found {
+  std::variant<FixedPoint, MaterialPoint, CablePlace> to;
+  std::vector<NodeId> nodes;    ///< of what it is tied to; none of space
+  double distance = kInfinite;  ///< m
+};
+
+/// N/m, of the bars, beams and sheets around each node, by NodeId; 0 where there are none.
+std::vector<double> stiffness_around(const dynamics::Scene& scene) {
+  std::vector<double> stiffness(scene.state.size(), 0.0);
+  for (const dynamics::BeamBond& bond : scene.bonds) {
+    for (const NodeId node : bond.nodes)
+      stiffness[index_of(node)] += bond.section.young_modulus * bond.section.area / bond.length;
+  }
+  for (const dynamics::SheetFacet& facet : scene.sheet_facets) {
+    for (const NodeId node : facet.nodes)
+      stiffness[index_of(node)] += facet.section.tensile_stiffness / 3.0;
+  }
+  return stiffness;
+}
+
+/// Adds the ties of one table after the other and collects what is wrong with them.
+class TieBuilder {
+ public:
+  TieBuilder(const Scenario& scenario, BuiltScene& built)
+      : scenario_(scenario), built_(built), around_(stiffness_around(built.scene)) {}
+
+  void add_all() {
+    for (const TieSettings& settings : scenario_.ties) {
+      current_ = &settings;
+      add(settings);
+    }
+    problems_.throw_if_any();
+  }
+
+ private:
+  void add(const TieSettings& settings) {
+    const std::vector<NodeId> nodes = nodes_of_set(settings.from, "from");
+    if (settings.kind == TieTo::nodes) targets_ = nodes_of_set(settings.to, "to");
+    if (settings.kind == TieTo::surface && !has_surface(settings.to)) return;
+    if (settings.kind == TieTo::cable) cable_ = cable_of(settings.to.body);
+    if (settings.kind == TieTo::cable && !cable_) return;
+    BuiltTies result{settings.name, built_.scene.ties.size(), 0, 0.0, kInfinite, 0.0,
+                     settings.each};
+    double nearest = kInfinite;
+    for (const NodeId node : nodes) {
+      const Found found = find(settings, node);
+      nearest = std::min(nearest, found.distance);
+      if (!(found.distance <= settings.within) || !std::isfinite(found.distance)) continue;
+      const std::optional<dynamics::Tie> tie = tie_of(settings, node, found);
+      if (!tie) return;
+      result.longest_gap = std::max(result.longest_gap, found.distance);
+      result.softest = std::min(result.softest, tie->stiffness);
+      result.stiffest = std::max(result.stiffest, tie->stiffness);
+      built_.scene.ties.push_back(*tie);
+      ++result.count;
+    }
+    if (result.count == 0 && !nodes.empty()) warn_of_nothing(settings, nearest);
+    built_.ties.push_back(std::move(result));
+  }
+
+  void warn_of_nothing(const TieSettings& settings, double nearest) {
+    built_.warnings.push_back(
+        std::isfinite(nearest)
+            ? fmt::format("{}: ties nothing; the nearest place to tie to is {:.4g} m away, and "
+                          "within is {:.4g} m",
+                          settings.path, nearest, settings.within)
+            : fmt::format("{}: ties nothing; its nodes are all there is to tie them to",
+                          settings.path));
+  }
+
+  /// Nothing after a problem.
+  std::optional<dynamics::Tie> tie_of(const TieSettings& settings, NodeId node,
+                                      const Found& found) {
+    dynamics::Tie tie{.node = node, .to = found.to};
+    tie.rest_length = settings.rest_length.value_or(found.distance);
+    tie.pushes = !settings.only_pulls;
+    tie.strength = settings.strength;
+    tie.brake_force = settings.brake_force;
+    tie.stroke = settings.stroke;
+    tie.friction = settings.friction;
+    tie.slip_force = settings.slip_force;
+    tie.stiffness = settings.stiffness.value_or(default_stiffness(node, found));
+    if (std::isfinite(tie.stiffness) && tie.stiffness > 0.0) return tie;
+    complain("stiffness",
+             "missing; what it ties is rigid or has no bars, beams or sheets, so that none follows "
+             "from that; expected a stiffness");
+    return std::nullopt;
+  }
+
+  /// N/m, as much as the bars, beams and sheets around the softer end: so a tie hardly changes how
+  /// stiff what it joins is, and does not shorten the time step much. Infinite without any.
+  double default_stiffness(NodeId node, const Found& found) const {
+    double softest = kInfinite;
+    const auto look = [&](NodeId end) {
+      if (around_[index_of(end)] > 0.0) softest = std::min(softest, around_[index_of(end)]);
+    };
+    look(node);
+    for (const NodeId end : found.nodes) look(end);
+    return softest;
+  }
+
+  Found find(const TieSettings& settings, NodeId node) const {
+    const Vec3& x = place(node);
+    switch (settings.kind) {
+      case TieTo::ground:
+        return {FixedPoint{x}, {}, 0.0};
+      case TieTo::point:
+        return {FixedPoint{settings.point}, {}, (x - settings.point).norm()};
+      case TieTo::nodes:
+        return nearest_node(node);
+      case TieTo::surface:
+        return nearest_on_surface(node, settings.to);
+      case TieTo::cable:
+        break;
+    }
+    return nearest_on_cable(node);
+  }
+
+  Found nearest_node(NodeId node) const {
+    Found nearest;
+    for (const NodeId other : targets_) {
+      const double distance = (place(other) - place(node)).norm();
+      if (other == node || !(distance < nearest.distance)) continue;
+      nearest = {dynamics::material_point(other), {other}, distance};
+    }
+    return nearest;
+  }
+
+  Found nearest_on_surface(NodeId node, const NodeSetSettings& set) const {
+    Found nearest;
+    const auto look = [&](std::array<NodeId, 3> nodes, const geometry::ClosestPoints& closest) {
+      const bool is_own = std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+      if (is_own || !(closest.distance < nearest.distance)) return;
+      nearest = {MaterialPoint{nodes, closest.weights_b}, {}, closest.distance};
+      for (std::size_t k = 0; k < 3; ++k)
+        if (closest.weights_b[static_cast<int>(k)] > 0.0) nearest.nodes.push_back(nodes[k]);
+    };
+    for_each_facet(set, [&](const std::array<NodeId, 3>& nodes) {
+      look(nodes, geometry::point_triangle(place(node),
+                                           {place(nodes[0]), place(nodes[1]), place(nodes[2])}));
+    });
+    for_each_bar(set, [&](const std::array<NodeId, 2>& nodes) {
+      look({nodes[0], nodes[1], nodes[0]},
+           geometry::point_segment(place(node), {place(nodes[0]), place(nodes[1])}));
+    });
+    return nearest;
+  }
+
+  Found nearest_on_cable(NodeId node) const {
+    Found nearest;
+    const dynamics::Cable& cable = built_.scene.cables[*cable_];
+    if (std::find(cable.nodes.begin(), cable.nodes.end(), node) != cable.nodes.end())
+      return nearest;
+    for (std::size_t s = 0; s < cable.segments(); ++s) {
+      const std::array<NodeId, 2> ends = {cable.nodes[s],
+                                          cable.nodes[(s + 1) % cable.nodes.size()]};
+      const auto closest = geometry::point_segment(place(node), {place(ends[0]), place(ends[1])});
+      if (!(closest.distance < nearest.distance)) continue;
+      nearest = {
+          CablePlace{*cable_, s, closest.weights_b[1]}, {ends[0], ends[1]}, closest.distance};
+    }
+    return nearest;
+  }
+
+  // What there is of bodies.
+
+  const Vec3& place(NodeId node) const { return built_.scene.state.position[index_of(node)]; }
+
+  /// The place of the membrane, or of the surface of a rigid body, among those that are built.
+  std::optional<std::size_t> surface_of(const NodeSetSettings& set) const {
+    if (!set.rigid_body) return set.body;
+    for (std::size_t i = 0; i < scenario_.membranes.size(); ++i)
+      if (scenario_.membranes[i].rigid_body == set.rigid_body) return i;
+    return std::nullopt;
+  }
+
+  bool has_surface(const NodeSetSettings& set) {
+    if (surface_of(set)) return true;
+    complain("to", fmt::format("\"{}\" is of spheres and has no surface of facets; expected kind = "
+                               "\"nodes\", which ties to its centre",
+                               name_of(set, built_)));
+    return false;
+  }
+
+  template <class Visit>
+  void for_each_facet(const NodeSetSettings& set, const Visit& visit) const {
+    const auto [first, count] = range_of(*surface_of(set), &BuiltMembrane::facets);
+    for (std::size_t i = first; i < first + count; ++i)
+      visit(built_.scene.elements.facets[i].nodes);
+  }
+  /// Where there are facets they are their sides.
+  template <class Visit>
+  void for_each_bar(const NodeSetSettings& set, const Visit& visit) const {
+    const std::size_t membrane = *surface_of(set);
+    if (built_.membranes[membrane].facets > 0) return;
+    const auto [first, count] = range_of(membrane, &BuiltMembrane::beams);
+    for (std::size_t i = first; i < first + count; ++i)
+      visit(built_.scene.elements.cylinders[i].nodes);
+  }
+
+  std::pair<std::size_t, std::size_t> range_of(std::size_t membrane,
+                                               std::size_t BuiltMembrane::*count) const {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < membrane; ++i) first += built_.membranes[i].*count;
+    return {first, built_.membranes[membrane].*count};
+  }
+
+  std::vector<NodeId> nodes_of_set(const NodeSetSettings& set, std::string_view key) {
+    std::vector<NodeId> nodes = nodes_of(set, built_);
+    if (nodes.empty())
+      complain_at(set.place, fmt::format("{}.nodes", key),
+                  set.which == SetWhich::rim
+                      ? fmt::format("\"{}\" is closed and has no rim; expected a side such as "
+                                    "\"x_min\", or a box {{ min = [...], max = [...] }}",
+                                    name_of(set, built_))
+                      : fmt::format("\"{}\" has no node there; the box counts in the scene, after "
+                                    "scale, rotate and translate",
+                                    name_of(set, built_)));
+    return nodes;
+  }
+
+  /// The bars of a membrane as a cable; nothing after a problem.
+  std::optional<std::size_t> cable_of(std::size_t membrane) {
+    if (const auto known = cables_.find(membrane); known != cables_.end()) return known->second;
+    std::map<NodeId, std::vector<NodeId>> beside;
+    const auto [first, count] = range_of(membrane, &BuiltMembrane::beams);
+    for (std::size_t i = first; i < first + count; ++i) {
+      const auto& [a, b] = built_.scene.elements.cylinders[i].nodes;
+      beside[a].push_back(b);
+      beside[b].push_back(a);
+    }
+    dynamics::Cable cable = chain_of(beside);
+    const bool is_chain = std::all_of(beside.begin(), beside.end(),
+                                      [](const auto& node) { return node.second.size() <= 2; }) &&
+                          !beside.empty() && cable.nodes.size() == beside.size();
+    if (!is_chain) {
+      complain_at(current_->to.place, "to.membrane",
+                  fmt::format("\"{}\" is no cable; expected a membrane of bars that follow each "
+                              "other without branches, as shape = {{ kind = \"chain\", ... }}",
+                              built_.membranes[membrane].name));
+      return std::nullopt;
+    }
+    built_.scene.cables.push_back(std::move(cable));
+    return cables_[membrane] = built_.scene.cables.size() - 1;
+  }
+
+  /// From the end with the lowest node, or from the lowest node of a ring, as far as it goes.
+  static dynamics::Cable chain_of(const std::map<NodeId, std::vector<NodeId>>& beside) {
+    dynamics::Cable cable;
+    if (beside.empty()) return cable;
+    const auto end = std::find_if(beside.begin(), beside.end(),
+                                  [](const auto& node) { return node.second.size() == 1; });
+    cable.is_closed = end == beside.end();
+    NodeId before{-1};
+    NodeId here = cable.is_closed ? beside.begin()->first : end->first;
+    const NodeId start = here;
+    do {
+      cable.nodes.push_back(here);
+      const std::vector<NodeId>& ways = beside.at(here);
+      const auto on =
+          std::find_if(ways.begin(), ways.end(), [&](NodeId other) { return other != before; });
+      if (on == ways.end()) break;
+      before = std::exchange(here, *on);
+    } while (here != start && cable.nodes.size() < beside.size());
+    return cable;
+  }
+
+  void complain(std::string_view key, const std::string& what) {
+    complain_at(current_->to_place, key, what);
+  }
+  void complain_at(const Place& where, std::string_view key, const std::string& what) {
+    problems_.add(where, fmt::format("{}.{}: {}", current_->path, key, what));
+  }
+
+  const Scenario& scenario_;
+  BuiltScene& built_;
+  Problems problems_;
+  const TieSettings* current_ = nullptr;
+  std::vector<double> around_;                 // N/m, by NodeId
+  std::vector<NodeId> targets_;                // of kind nodes
+  std::optional<std::size_t> cable_;           // of kind cable
+  std::map<std::size_t, std::size_t> cables_;  // by membrane
+};
+
+}  // namespace
+
+void add_ties(const Scenario& scenario, BuiltScene& built) {
+  if (!scenario.ties.empty()) TieBuilder(scenario, built).add_all();
+}
+
+}  // namespace plekton::apps

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/scene/build_scene.hpp"
+
+namespace plekton::apps {
+
+/// Adds the ties of a scenario between its membranes and rigid bodies where these are made, so that
+/// they are the same in all stages.
+/// @throws InputError listing every problem: no nodes to tie, cables that are no chains, ties
+///         without a stiffness
+void add_ties(const Scenario& scenario, BuiltScene& built);
+
+}  // namespace plekton::apps
