@@ -3,10 +3,11 @@
 
 #include "dynamics/ties/cable_slide.hpp"
 #include "geometry/base/state_archive.hpp"
+#include "geometry/primitives/node_sets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <set>
 #include <string>
 
 namespace plekton::dynamics {
@@ -14,33 +15,33 @@ namespace {
 
 using geometry::Positions;
 
-/// The sets of nodes that bars and facets hold together, and the sides of facets.
-class Carriers {
- public:
-  explicit Carriers(const geometry::Elements& elements) {
-    for (const geometry::Cylinder& cylinder : elements.cylinders)
-      add({cylinder.nodes[0], cylinder.nodes[1]});
-    for (const geometry::Facet& facet : elements.facets) {
-      add({facet.nodes[0], facet.nodes[1], facet.nodes[2]});
-      for (std::size_t i = 0; i < 3; ++i) add({facet.nodes[i], facet.nodes[(i + 1) % 3]});
-    }
+/// Up to three nodes that are held together; -1 in place of those that are not needed.
+using NodeSet = std::array<NodeId, 3>;
+constexpr NodeId kNone{-1};
+
+/// What bars, facets and sides of facets hold together.
+geometry::NodeSets<3> carriers_of(const geometry::Elements& elements) {
+  geometry::NodeSets<3> carriers;
+  for (const geometry::Cylinder& cylinder : elements.cylinders)
+    carriers.add({cylinder.nodes[0], cylinder.nodes[1], kNone});
+  for (const geometry::Facet& facet : elements.facets) {
+    carriers.add(facet.nodes);
+    for (const auto& [a, b] : geometry::sides_of(facet)) carriers.add({a, b, kNone});
   }
-  bool hold(const std::set<NodeId>& nodes) const { return sets_.contains(nodes); }
+  carriers.sort();
+  return carriers;
+}
 
- private:
-  void add(const std::set<NodeId>& nodes) { sets_.insert(nodes); }
-  std::set<std::set<NodeId>> sets_;
-};
-
-std::set<NodeId> nodes_of(const MaterialPoint& point) {
-  std::set<NodeId> nodes;
-  for (int k = 0; k < 3; ++k)
-    if (point.weights[k] > 0.0) nodes.insert(point.nodes[static_cast<std::size_t>(k)]);
+/// Those that share in a point.
+NodeSet nodes_of(const MaterialPoint& point) {
+  NodeSet nodes;
+  for (std::size_t k = 0; k < 3; ++k)
+    nodes[k] = point.weights[static_cast<int>(k)] > 0.0 ? point.nodes[k] : kNone;
   return nodes;
 }
 
-std::set<NodeId> nodes_of(const Cable& cable, std::size_t segment) {
-  return {cable.nodes[segment], cable.nodes[(segment + 1) % cable.nodes.size()]};
+NodeSet nodes_of(const Cable& cable, std::size_t segment) {
+  return {cable.nodes[segment], cable.nodes[(segment + 1) % cable.nodes.size()], kNone};
 }
 
 }  // namespace
@@ -53,17 +54,17 @@ Ties::Ties(const Scene& scene)
       points_(scene.ties.size(), MaterialPoint{{}, Vec3::Zero()}),
       forces_(scene.ties.size(), Vec3::Zero()) {
   if (ties_.empty()) return;
-  const Carriers carriers(scene.elements);
+  const geometry::NodeSets<3> carriers = carriers_of(scene.elements);
   for (const Cable& cable : cables_) {
     is_there_.emplace_back(cable.segments(), char{1});
     is_carried_.emplace_back();
     for (std::size_t s = 0; s < cable.segments(); ++s)
-      is_carried_.back().push_back(carriers.hold(nodes_of(cable, s)) ? 1 : 0);
+      is_carried_.back().push_back(carriers.contains(nodes_of(cable, s)) ? 1 : 0);
   }
   for (std::size_t i = 0; i < ties_.size(); ++i) {
     if (const auto* const point = std::get_if<MaterialPoint>(&ties_[i].to)) {
       points_[i] = *point;
-      is_on_element_[i] = carriers.hold(nodes_of(*point)) ? 1 : 0;
+      is_on_element_[i] = carriers.contains(nodes_of(*point)) ? 1 : 0;
     } else if (const auto* const place = std::get_if<CablePlace>(&ties_[i].to)) {
       kept_[i].segment = place->segment;
       kept_[i].along = place->along;
@@ -187,16 +188,17 @@ void Ties::add_forces_at(Positions x, NodeForces& forces) const {
 
 void Ties::follow(const geometry::Elements& left) {
   if (ties_.empty()) return;
-  const Carriers carriers(left);
+  const geometry::NodeSets<3> carriers = carriers_of(left);
   for (std::size_t c = 0; c < cables_.size(); ++c) {
     for (std::size_t s = 0; s < cables_[c].segments(); ++s)
-      if (is_carried_[c][s] != 0) is_there_[c][s] = carriers.hold(nodes_of(cables_[c], s)) ? 1 : 0;
+      if (is_carried_[c][s] != 0)
+        is_there_[c][s] = carriers.contains(nodes_of(cables_[c], s)) ? 1 : 0;
   }
   for (std::size_t i = 0; i < ties_.size(); ++i) {
     if (const auto* const on = std::get_if<CablePlace>(&ties_[i].to))
       kept_[i].is_lost = is_there_[on->cable][kept_[i].segment] == 0;
     else if (is_on_element_[i] != 0)
-      kept_[i].is_lost = !carriers.hold(nodes_of(points_[i]));
+      kept_[i].is_lost = !carriers.contains(nodes_of(points_[i]));
   }
 }
 
