@@ -367,6 +367,50 @@ TEST(Ties, CloseTheLedgerOfARopeThatPaysOutAndSlides) {
   EXPECT_TRUE(simulation.ties().is_broken(4));
 }
 
+/// Where ties slide, are slack or on their brakes: the bound is never above the true limit.
+TEST(Ties, AreInTheBoundOfTheStepWhereverTheySlide) {
+  auto simulation = simulation_of(loaded_rope(), 1e-5, Vec3(8.0, 3.0, -18.0));
+  for (int i = 0; i < 20; ++i) {
+    step_until(simulation, 0.02 * (i + 1));
+    const double exact = simulation.exact_critical_step().dt;
+    EXPECT_LE(simulation.present_critical_step().dt, exact * (1.0 + 2e-3)) << i;
+    EXPECT_GE(simulation.present_critical_step().dt, 0.5 * exact) << i;
+  }
+}
+
+/// A tetrahedron that hangs by a corner and swings about it, spinning: the tie acts on a node that
+/// follows.
+TEST(Ties, TurnRigidBodiesByTheNodesThatFollowThem) {
+  Scene scene;
+  scene.materials.push_back({1e6, 0.3, 0.0});
+  std::array<NodeId, 4> corners{};
+  const std::array<Vec3, 4> places = {Vec3(0.0, 0.0, 0.0), Vec3(0.1, 0.0, -0.2),
+                                      Vec3(-0.1, 0.1, -0.2), Vec3(0.0, -0.1, -0.2)};
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = scene.add_node(places[i], Held::everything);
+  scene.add_facet(corners[1], corners[2], corners[3], 0.001, contact::MaterialId{0});
+  const geometry::Mat3 inertia = Vec3(0.02, 0.03, 0.01).asDiagonal();
+  scene.add_rigid_body(corners, {2.0, Vec3(0.0, 0.0, -0.15), inertia});
+  const std::size_t body = index_of(scene.rigid_bodies[0].node);
+  scene.state.angular_velocity[body] = Vec3(1.0, 2.0, 3.0);
+  scene.ties.push_back({.node = corners[0], .to = FixedPoint{places[0]}, .stiffness = 1e4});
+  auto simulation = simulation_of(scene, 1e-4, Vec3(0.0, 0.0, -10.0));
+
+  double furthest = 0.0;
+  double turnover = 0.0;
+  double error = 0.0;
+  while (simulation.time() < 2.0) {
+    simulation.step();
+    furthest = std::max(furthest, simulation.state().position[0].norm());
+    turnover = std::max(turnover, simulation.energy().turnover());
+    error = std::max(error, std::abs(simulation.energy().closure_error()));
+  }
+
+  // Weight and what goes round pull it out by some F / k, twice that as it is let go.
+  EXPECT_GT(furthest, 20.0 / 1e4);
+  EXPECT_LT(furthest, 3.0 * 40.0 / 1e4);
+  EXPECT_LT(error, 1e-3 * turnover);
+}
+
 TEST(Ties, GoOnFromAStateToTheLastBitWithAnyThreads) {
   Scene scene = sliding_bead(0.2, 0.5);
   scene.ties.push_back({.node = NodeId{9}, .to = FixedPoint{Vec3::Zero()}, .stiffness = 1e4});
