@@ -10,7 +10,6 @@ from pathlib import Path
 
 MASS, SPEED, RADIUS, GRAVITY = 500.0, 6.0, 0.35357, 9.81  # SI
 BRAKE_FORCE, STROKE = 10e3, 0.6  # N, m
-FRICTION = 0.1  # of shackles
 SIDES = ("left", "right", "front", "back")
 
 
@@ -50,12 +49,12 @@ def check(run, bounds):
     bounds.expect("boulder turns before the end: time left (s)", t[-1] - t[low], 0.02, 1e9, "it is stopped")
 
     # Brakes are rigid and perfectly plastic but for their springs.
-    heads = [f"{side} brakes[{end}]" for side in SIDES for end in (0, 1)]
+    heads = [f"{side}_brakes[{end}]" for side in SIDES for end in (0, 1)]
     paid = [max(ties[f"{head}.slip"]) for head in heads]
     tension = max(max(ties[f"{head}.tension"]) for head in heads)
     bounds.expect("largest tension in a brake (N)", tension, 0.99 * BRAKE_FORCE, (1 + 1e-9) * BRAKE_FORCE, "it pays out at that")
     bounds.expect("longest way of a brake (m)", max(paid), 0.0, STROKE, "its stroke")
-    in_brakes = sum(ties[f"{side} brakes.dissipated"][-1] for side in SIDES)
+    in_brakes = sum(ties[f"{side}_brakes.dissipated"][-1] for side in SIDES)
     bounds.expect("energy in brakes over force times way", in_brakes / (BRAKE_FORCE * sum(paid)), 0.99, 1.01, "F s")
     for one, other in (("left", "right"), ("front", "back")):
         ways = [sum(paid[2 * SIDES.index(side) : 2 * SIDES.index(side) + 2]) for side in (one, other)]
@@ -63,7 +62,7 @@ def check(run, bounds):
 
     # What the boulder had is somewhere.
     row = lambda name: energy[name][-1]
-    in_shackles = sum(ties[f"{side} shackles.dissipated"][-1] for side in SIDES)
+    in_shackles = sum(ties[f"{side}_shackles.dissipated"][-1] for side in SIDES)
     split = {
         "brakes": in_brakes,
         "shackles that slide": in_shackles,
