@@ -2,6 +2,7 @@
 #include "apps/command_line/list_outputs.hpp"
 
 #include "apps/run/history.hpp"
+#include "apps/run/measures.hpp"
 #include "apps/run/plane_places.hpp"
 #include "apps/run/pressures.hpp"
 #include "apps/run/reactions.hpp"
@@ -44,6 +45,8 @@ std::vector<OutputTable> output_tables() {
       table_of("ties.csv, every `history_interval`, for each of [[ties]]", tie_fields()),
       table_of("ties.csv, for each tie of a table with `each`, as NAME[0].tension",
                single_tie_fields()),
+      table_of("measures/NAME.csv, every `history_interval`, for each of [[output.measures]]",
+               measure_fields()),
       table_of("planes.csv, every `interval`, for each of [[planes]]", plane_fields()),
       table_of("grains.pvd, every `interval`: points", kOfGrains),
       table_of("membranes.pvd, every `interval`: points", kOfNodes),

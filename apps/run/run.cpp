@@ -4,6 +4,7 @@
 #include "apps/run/checkpoints.hpp"
 #include "apps/run/history.hpp"
 #include "apps/run/lost_grains.hpp"
+#include "apps/run/measures.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/plane_places.hpp"
 #include "apps/run/pressures.hpp"
@@ -117,6 +118,7 @@ class Run {
         reactions_(settings.out, prepared.built.reactions, scenario.names_of_stages.reactions,
                    before()),
         pressures_(settings.out, scenario, before()),
+        measures_(settings.out, scenario, before()),
         rigid_bodies_(settings.out, prepared.built, before()),
         ties_(settings.out, prepared.built, before()),
         planes_(settings.out, scenario, before()),
@@ -240,6 +242,7 @@ class Run {
     history_.flush();
     reactions_.flush();
     pressures_.flush();
+    measures_.flush();
     rigid_bodies_.flush();
     ties_.flush();
     planes_.flush();
@@ -252,6 +255,7 @@ class Run {
     history_.tell(files);
     reactions_.tell(files);
     pressures_.tell(files);
+    measures_.tell(files);
     rigid_bodies_.tell(files);
     ties_.tell(files);
     planes_.tell(files);
@@ -384,6 +388,7 @@ class Run {
     largest_tracking_ = std::max(largest_tracking_, std::abs(energy.tracking));
     history_.add(simulation_, energy, lost_);
     pressures_.add(simulation_);
+    measures_.add(simulation_);
     rigid_bodies_.add(simulation_);
     ties_.add(simulation_);
     last_row_step_ = simulation_.steps();
@@ -400,6 +405,7 @@ class Run {
     history_.flush();
     reactions_.flush();
     pressures_.flush();
+    measures_.flush();
     rigid_bodies_.flush();
     ties_.flush();
     planes_.flush();
@@ -425,6 +431,7 @@ class Run {
     history_.close();
     reactions_.close();
     pressures_.close();
+    measures_.close();
     rigid_bodies_.close();
     ties_.close();
     planes_.close();
@@ -513,6 +520,7 @@ class Run {
   History history_;
   Reactions reactions_;
   Pressures pressures_;
+  Measures measures_;
   RigidMotions rigid_bodies_;
   TieHistories ties_;
   PlanePlaces planes_;

@@ -40,6 +40,20 @@ void exchange_texts(const StateArchive& archive, const char* name,
   }
 }
 
+/// Their files have names of their own.
+void exchange_measures(const StateArchive& archive, WrittenFiles& files) {
+  const std::string folder = std::string(kMeasuresFolder) + "/";
+  std::vector<std::string> names;
+  for (const auto& [name, size] : files.sizes)
+    if (name.starts_with(folder)) names.push_back(name);
+  exchange_texts(archive, "names", names);
+  std::vector<std::uint64_t> sizes;
+  for (const std::string& name : names) sizes.push_back(files.sizes[name]);
+  archive("sizes", sizes);
+  for (std::size_t i = 0; i < std::min(names.size(), sizes.size()); ++i)
+    files.sizes[names[i]] = sizes[i];
+}
+
 void exchange_files(const StateArchive& archive, WrittenFiles& files) {
   const StateArchive sizes = archive.group("files");
   for (const char* const name : {kHistoryFile, kReactionsFile, kPressuresFile, kRigidBodiesFile,
@@ -49,6 +63,7 @@ void exchange_files(const StateArchive& archive, WrittenFiles& files) {
     sizes(name, size);
     if (size > 0) files.sizes[name] = size;
   }
+  exchange_measures(archive.group("measures"), files);
   archive("frames", files.frames);
 }
 

@@ -20,6 +20,7 @@ inline constexpr const char* kPressuresFile = "pressures.csv";
 inline constexpr const char* kRigidBodiesFile = "rigid_bodies.csv";
 inline constexpr const char* kTiesFile = "ties.csv";
 inline constexpr const char* kPlanesFile = "planes.csv";
+inline constexpr const char* kMeasuresFolder = "measures";  ///< a file for each
 inline constexpr const char* kContactsFile = "contacts.csv";
 
 /// What a run has written at a moment: where it goes on from a checkpoint.

@@ -209,6 +209,17 @@ constexpr std::array kOfOutput = std::to_array<KeyMeaning>({
     {"output.reactions[].grains", "whose supports or contacts"},
     {"output.reactions[].rigid_body", "what it, its supports or its contacts bear"},
     {"output.reactions[].nodes", "which of its nodes"},
+    {"output.measures[].name", "of its file, measures/NAME.csv"},
+    {"output.measures[].sphere.centre", "of the region, instead of the box around all grains"},
+    {"output.measures[].sphere.radius", "of the region"},
+    {"output.measures[].box.min", "lower corner of the region"},
+    {"output.measures[].box.max", "its upper corner"},
+    {"output.measures[].cylinder.from", "centre of one end of the region"},
+    {"output.measures[].cylinder.to", "centre of the other end"},
+    {"output.measures[].cylinder.radius", "of the region"},
+    {"output.measures[].heights.bottom", "of the box around all grains, what is above"},
+    {"output.measures[].heights.top", "and below this height"},
+    {"output.measures[].between", "planes that cut the region, where they are at any time"},
 });
 
 constexpr std::array kOfStages = std::to_array<KeyMeaning>({

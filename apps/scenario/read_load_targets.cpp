@@ -64,6 +64,14 @@ std::optional<std::size_t> read_plane_name(Section& section, const Scenario& sce
   return find_name(section, "plane", read_name(section, "plane"), scenario.planes);
 }
 
+std::vector<std::size_t> read_plane_names(Section& section, std::string_view key,
+                                          const Scenario& scenario) {
+  std::vector<std::size_t> planes;
+  for (const std::string& name : section.texts(key))
+    if (const auto plane = find_name(section, key, name, scenario.planes)) planes.push_back(*plane);
+  return planes;
+}
+
 std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
                                                          const Scenario& scenario) {
   const std::vector<std::string> names = section.texts("between");

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 /// What a load acts on, by name. Each function complains about names that are not there.
@@ -19,6 +20,10 @@ std::optional<std::size_t> read_rigid_body_name(Section& section, const Scenario
 
 /// The plane that the key `plane` names; nothing after a problem.
 std::optional<std::size_t> read_plane_name(Section& section, const Scenario& scenario);
+
+/// The planes that a list of names says, those that are there.
+std::vector<std::size_t> read_plane_names(Section& section, std::string_view key,
+                                          const Scenario& scenario);
 
 /// The planes that the key `between` names, in pairs that follow each other.
 std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/read_load_targets.hpp"
+#include "apps/scenario/read_measure.hpp"
 #include "apps/scenario/read_sections.hpp"
 
 #include <fmt/format.h>
@@ -86,6 +87,8 @@ OutputSettings read_output(Section section, const Scenario& scenario) {
   output.contact_list = section.truth("contact_list", output.contact_list);
   for (Section& reaction : section.tables("reactions"))
     output.reactions.push_back(read_reaction(reaction, scenario, output.reactions));
+  for (Section& measure : section.tables("measures"))
+    output.measures.push_back(read_measure(measure, scenario, output.measures));
   section.finish();
   return output;
 }

@@ -15,6 +15,7 @@
 #include "geometry/base/types.hpp"
 #include "geometry/mesh/repair/repair.hpp"
 #include "geometry/primitives/box.hpp"
+#include "geometry/query/region.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -123,9 +124,9 @@ struct MembraneSettings {
   std::optional<std::size_t> rigid_body;  ///< whose surface it is, and no membrane
 };
 
-/// How grains are placed in their box: one after the other at random, or on a face-centred cubic
-/// lattice.
-enum class GrainPlacement : std::uint8_t { random, lattice };
+/// How grains are placed in their space: one after the other at random, on a face-centred cubic
+/// lattice, or grown until they are as dense as asked for.
+enum class GrainPlacement : std::uint8_t { random, lattice, packed };
 
 struct GrainSettings {
   std::string name;
@@ -134,10 +135,14 @@ struct GrainSettings {
   SizeCurve sizes{1.0};
   std::variant<std::size_t, double> amount{
       std::size_t{0}};                            ///< count, or volume of the solids (m³)
-  std::vector<Vec3> centres;                      ///< m, of all grains; empty: placed in the box
+  std::optional<double> porosity;                 ///< of the space, instead of an amount
+  std::optional<double> stress;                   ///< Pa, mean pressure to which they are packed
+  std::vector<Vec3> centres;                      ///< m, of all grains; empty: placed in the space
   std::vector<double> radii;                      ///< m, by centre; empty: as sizes says
   std::optional<std::size_t> rigid_body;          ///< whose spheres they are, and no grains
   geometry::Box box{Vec3::Zero(), Vec3::Zero()};  ///< m, holds the grains wholly
+  std::optional<geometry::CylinderRegion> cylinder;  ///< instead of the box
+  std::string inside;                                ///< a closed membrane, instead of the box
   GrainPlacement placement = GrainPlacement::random;
   Vec3 velocity = Vec3::Zero();          ///< m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
@@ -166,6 +171,15 @@ struct ReactionSettings {
   std::optional<Vec3> about;  ///< m, point of the moment; nothing: that of the plane, or the origin
 };
 
+/// A part of the sample to be measured as time goes on.
+struct MeasureSettings {
+  std::string name;                        ///< of its file too
+  std::optional<geometry::Region> region;  ///< nothing: the box around the grains at that time
+  double bottom = -std::numeric_limits<double>::infinity();  ///< m, height; with that box
+  double top = std::numeric_limits<double>::infinity();      ///< m, height
+  std::vector<std::size_t> planes;  ///< that cut the region, where they are at that time
+};
+
 struct OutputSettings {
   double interval = 0.0;                      ///< s, between frames
   double history_interval = 0.0;              ///< s, between rows of energy.csv
@@ -177,6 +191,7 @@ struct OutputSettings {
   bool contacts = true;
   bool contact_list = false;  ///< contacts.csv
   std::vector<ReactionSettings> reactions;
+  std::vector<MeasureSettings> measures;
 };
 
 /// When to stop before the duration is over.

@@ -19,8 +19,8 @@ constexpr std::array<std::string_view, 4> kSimulationKeys = {"damping", "damp_gr
                                                              "time_step"};
 constexpr std::array<std::string_view, 4> kMaterialKeys = {"friction_angle", "poisson_ratio",
                                                            "stiffness_ratio", "young_modulus"};
-constexpr std::array<std::string_view, 7> kOutputKeys = {
-    "checkpoint_interval", "contacts", "grains", "history_interval", "interval",
+constexpr std::array<std::string_view, 8> kOutputKeys = {
+    "checkpoint_interval", "contacts", "grains", "history_interval", "interval", "measures",
     "membranes",           "reactions"};
 
 const std::string* text_of(const Table& table, std::string_view key) {
@@ -287,12 +287,15 @@ class Stages {
   }
 
   void change_output(const Entry& entry) {
-    change_table({entry.key, entry.place, without(entry.value, "reactions")}, kOutputKeys);
+    change_table({entry.key, entry.place, without(without(entry.value, "reactions"), "measures")},
+                 kOutputKeys);
     const Table* const changes = table_in(entry.value);
-    const Entry* const reactions = changes ? changes->find("reactions") : nullptr;
-    if (reactions == nullptr) return;
-    auto* const output = std::get_if<Table>(&now_.find("output")->value.data);
-    if (output != nullptr) change_named(*output, *reactions);
+    for (const char* const list : {"reactions", "measures"}) {
+      const Entry* const named = changes ? changes->find(list) : nullptr;
+      if (named == nullptr) continue;
+      auto* const output = std::get_if<Table>(&now_.find("output")->value.data);
+      if (output != nullptr) change_named(*output, *named);
+    }
   }
 
   static Value without(Value value, std::string_view key) {

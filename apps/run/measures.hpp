@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "apps/run/written_files.hpp"
+#include "apps/scenario/scenario.hpp"
+#include "dynamics/measure_sample.hpp"
+#include "dynamics/output/output_field.hpp"
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace plekton::apps {
+
+/// The columns of measures/NAME.csv.
+std::span<const dynamics::OutputField> measure_fields();
+
+/// The region of a measure at the time of the last step, cut at its planes; what is cut away wholly
+/// has no volume.
+geometry::Region region_of(const MeasureSettings& settings, const dynamics::Simulation& simulation,
+                           const dynamics::Sample& sample);
+
+/// Writes a file measures/NAME.csv for each of [[output.measures]].
+class Measures {
+ public:
+  /// Removes the files of an earlier run, unless that goes on.
+  /// @throws dynamics::OutputError
+  Measures(const std::filesystem::path& folder, const Scenario& scenario,
+           const WrittenFiles* before = nullptr);
+
+  /// Appends a row to each; rows reach the files in blocks, at flush() and at close().
+  /// @throws dynamics::OutputError
+  void add(const dynamics::Simulation& simulation);
+  void flush();
+  void close();
+  /// After a flush.
+  void tell(WrittenFiles& written) const;
+
+ private:
+  std::vector<MeasureSettings> measures_;
+  std::vector<std::unique_ptr<dynamics::CsvWriter>> writers_;  ///< one for each
+};
+
+}  // namespace plekton::apps
