@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/grains/sphere_packing.hpp"
 
+#include "geometry/base/elementary.hpp"
 #include "geometry/closest/point_triangle.hpp"
 
 #include <algorithm>
@@ -22,15 +23,15 @@ constexpr double kFirstStep = 0.1;
 constexpr double kLongestStep = 0.25;
 
 constexpr double kApart = 2e-4;  // of the radii, by which spheres are larger while they are relaxed
-constexpr double kBalanced = 1e-3;  // mean resultant over the mean force of a contact
+constexpr double kBalanced = 1e-3;  // sum of the resultants over that of the forces of contacts
 constexpr int kStepsBetweenLooks = 20;
 constexpr int kMostSteps = 6000;  // of one relaxation
 
-constexpr double kSkin = 0.25;        // of the smallest radius
+constexpr double kSkin = 0.25;         // of the smallest radius
 constexpr double kFirstGrowth = 0.02;  // of the volume of the container that solids take more of
 constexpr double kNearJamming = 0.55;  // solids of that volume from which on growth is slower
 constexpr double kSlowGrowth = 0.005;
-constexpr double kLeastGrowth = 2.5e-4;
+constexpr double kLeastGrowth = 6e-4;
 constexpr double kPressureTolerance = 0.01;
 constexpr int kMostCompressions = 60;
 
@@ -160,8 +161,8 @@ void SpherePacking::find_walls() {
   near_obstacles_.clear();
   Cells cells(container_.bounds, 2.0 * largest_ * listed_factor_ + margin);
   for (std::uint32_t wall = 0; wall < obstacles_.size(); ++wall) {
-    const Box reach = geometry::bounding_box(obstacles_[wall].core,
-                                             obstacles_[wall].radius + largest_ * listed_factor_ + margin);
+    const Box reach = geometry::bounding_box(
+        obstacles_[wall].core, obstacles_[wall].radius + largest_ * listed_factor_ + margin);
     if ((reach.lower.array() > container_.bounds.upper.array()).any() ||
         (reach.upper.array() < container_.bounds.lower.array()).any())
       continue;
@@ -243,10 +244,10 @@ SpherePacking::Forces SpherePacking::add_forces() {
   return sum;
 }
 
-double SpherePacking::mean_resultant() const {
+double SpherePacking::sum_of_resultants() const {
   double sum = 0.0;
   for (const Vec3& force : f_) sum += force.norm();
-  return sum / static_cast<double>(f_.size());
+  return sum;
 }
 
 SpherePacking::Relaxed SpherePacking::relax(bool to_balance) {
@@ -258,8 +259,7 @@ SpherePacking::Relaxed SpherePacking::relax(bool to_balance) {
     if (!to_balance && sum.deepest < kApart) return Relaxed::apart;
     if (k % kStepsBetweenLooks == kStepsBetweenLooks - 1) {
       if (sum.contacts == 0) return Relaxed::apart;
-      const double mean = sum.carried / static_cast<double>(sum.contacts);
-      if (mean_resultant() < kBalanced * mean) return Relaxed::balanced;
+      if (sum_of_resultants() < kBalanced * sum.carried) return Relaxed::balanced;
     }
     double power = 0.0, speed = 0.0, force = 0.0;
     for (std::size_t i = 0; i < x_.size(); ++i) {
@@ -299,7 +299,7 @@ bool SpherePacking::grow_to(double factor, const std::function<void(double)>& te
   while (reached < aim) {
     const double filled = solids * cube(reached);
     if (filled > kNearJamming) growth = std::min(growth, kSlowGrowth);
-    set_factor(std::min(aim, reached * std::cbrt((filled + growth) / filled)));
+    set_factor(std::min(aim, reached * elementary::pow((filled + growth) / filled, 1.0 / 3.0)));
     if (relax(false) == Relaxed::apart) {
       reached = factor_;
       before = x_;

@@ -86,7 +86,7 @@ class SpherePacking {
   Forces add_forces();
   void push_apart(const Pair& pair, Forces& sum);
   void push(std::size_t sphere, const Vec3& outward, double distance, Forces& sum);
-  double mean_resultant() const;
+  double sum_of_resultants() const;
   Relaxed relax(bool to_balance);
 
   const Container& container_;
@@ -102,8 +102,8 @@ class SpherePacking {
   std::vector<Vec3> x_;
   std::vector<Vec3> v_;
   std::vector<Vec3> f_;
-  std::vector<Vec3> listed_;       // m, where they were when neighbours were looked for
-  double listed_factor_ = 0.0;     // up to which the lists are good
+  std::vector<Vec3> listed_;    // m, where they were when neighbours were looked for
+  double listed_factor_ = 0.0;  // up to which the lists are good
   std::vector<Pair> pairs_;
   std::vector<Near> near_planes_;
   std::vector<Near> near_obstacles_;

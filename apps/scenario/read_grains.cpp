@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/scenario/grain_table.hpp"
+#include "apps/scenario/read_measure.hpp"
 #include "apps/scenario/read_sections.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace plekton::apps {
 namespace {
@@ -101,16 +105,17 @@ void require_few_enough(Section& section, std::string_view key, double volume,
                                     count, kMostGrains));
 }
 
-/// From one of the keys count, mass and volume.
+/// From one of the keys count, mass, volume and porosity; or none of them with a stress.
 std::variant<std::size_t, double> read_amount(Section& section, std::optional<double> density,
                                               const SizeCurve& sizes) {
-  constexpr std::array<std::string_view, 3> kKeys = {"count", "mass", "volume"};
+  constexpr std::array<std::string_view, 4> kKeys = {"count", "mass", "volume", "porosity"};
   const auto given = std::count_if(kKeys.begin(), kKeys.end(),
                                    [&](std::string_view key) { return section.has(key); });
-  if (given != 1)
+  const bool may_be_missing = section.has("stress");
+  if (given > 1 || (given == 0 && !may_be_missing))
     section.complain(
         "count", fmt::format("got {} of {}; expected exactly one of them", given, listed(kKeys)));
-  std::variant<std::size_t, double> amount{std::size_t{1}};
+  std::variant<std::size_t, double> amount{std::size_t{given == 0 ? 0U : 1U}};
   if (section.has("mass")) {
     const double mass = section.quantity("mass", {kMass, kPositive});
     amount = mass / density.value_or(1.0);
@@ -126,18 +131,61 @@ std::variant<std::size_t, double> read_amount(Section& section, std::optional<do
   return amount;
 }
 
-/// The corners of the space in which grains are placed.
-geometry::Box read_space(Section& section) {
-  if (const auto box = section.table("box")) return read_box(*box);
-  if (!section.has("box"))
+/// The space in which grains are placed.
+void read_space(Section& section, GrainSettings& grains) {
+  constexpr std::array<std::string_view, 3> kKeys = {"box", "cylinder", "inside"};
+  const auto given = std::count_if(kKeys.begin(), kKeys.end(),
+                                   [&](std::string_view key) { return section.has(key); });
+  if (given == 0)
     section.complain("box",
                      "missing; expected the corners of the space for the grains, box = { min = "
-                     "[...], max = [...] }, or the place of each, centres = [[x, y, z], ...]");
-  return {Vec3::Zero(), Vec3::Zero()};
+                     "[...], max = [...] }, or a cylinder, a closed membrane to be inside of, the "
+                     "place of each, centres = [[x, y, z], ...], or a table of them");
+  if (given > 1)
+    section.complain(
+        section.has("inside") ? "inside" : "cylinder",
+        fmt::format("got {} of {}; expected exactly one of them", given, listed(kKeys)));
+  if (const auto box = section.optional_table("box")) grains.box = read_box(*box);
+  if (const auto cylinder = section.optional_table("cylinder"))
+    grains.cylinder = read_cylinder(*cylinder);
+  if (section.has("inside")) grains.inside = section.text("inside");
+}
+
+void read_porosity(Section& section, GrainSettings& grains) {
+  // What spheres leave at least: of equal ones in a crystal 1 - pi / sqrt(18) (Kepler; Hales), in
+  // a random packing 0.35, whichever way it is made; 0.36 is common.
+  constexpr double kDensestCrystal = 0.2595;
+  constexpr double kDensestRandom = 0.35;
+  constexpr Range kPorosity{0.0, 1.0, false, false, " above 0 and below 1"};
+  if (!section.has("porosity")) return;
+  const double porosity = section.quantity("porosity", {kNumber, kPorosity});
+  grains.porosity = porosity;
+  const bool are_equal = grains.sizes.diameter_at(0.0) == grains.sizes.largest_diameter();
+  const double least =
+      grains.placement == GrainPlacement::lattice ? kDensestCrystal : kDensestRandom;
+  if (are_equal && porosity < least)
+    section.complain(
+        "porosity",
+        fmt::format(
+            "got {}; expected at least {} of equal grains, which no {} of spheres goes "
+            "below; ask for more, or for sieves of several sizes",
+            porosity, least,
+            grains.placement == GrainPlacement::lattice ? "arrangement" : "random packing"));
+}
+
+void read_stress(Section& section, GrainSettings& grains) {
+  if (!section.has("stress")) return;
+  grains.stress = section.quantity("stress", {kPressure, kPositive});
+  if (grains.placement != GrainPlacement::packed)
+    section.complain("stress", "goes with placement = \"packed\": other grains do not touch");
+  if (section.has("porosity"))
+    section.complain("stress",
+                     "got porosity too; without friction one follows from the other: leave one of "
+                     "them out (a looser sample comes to a stress by a servo, in a stage)");
 }
 
 GrainPlacement read_placement(Section& section) {
-  constexpr std::array<std::string_view, 2> kWords = {"random", "lattice"};
+  constexpr std::array<std::string_view, 3> kWords = {"random", "lattice", "packed"};
   return static_cast<GrainPlacement>(section.choice("placement", kWords, 0));
 }
 
@@ -148,16 +196,20 @@ std::uint64_t read_seed(Section& section, const Known& known, std::size_t number
   return static_cast<std::uint64_t>(seed) + (section.has("seed") ? 0 : number);
 }
 
-/// The places of all grains, without what says how they would be placed.
-std::vector<Vec3> read_centres(Section& section) {
+/// Complains about what says how grains would be placed.
+/// @param says  the key that tells their places
+void refuse_placement(Section& section, std::string_view says) {
   for (const std::string_view key :
-       {"count", "mass", "volume", "box", "placement", "seed", "sieves", "passing_by"}) {
+       {"count", "mass", "volume", "porosity", "stress", "box", "cylinder", "inside", "placement",
+        "seed", "sieves", "passing_by"}) {
     if (section.has(key))
-      section.complain(key,
-                       "centres says where each grain is, and how many there are; leave one "
-                       "of them out");
+      section.complain(key, fmt::format("{} says where each grain is, and how many there are; "
+                                        "leave one of them out",
+                                        says));
   }
-  std::vector<Vec3> centres = section.vectors("centres", {kLength}, 1);
+}
+
+void refuse_equal(Section& section, std::string_view says, const std::vector<Vec3>& centres) {
   std::vector<Vec3> sorted = centres;
   const auto before = [](const Vec3& a, const Vec3& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
@@ -165,10 +217,30 @@ std::vector<Vec3> read_centres(Section& section) {
   std::sort(sorted.begin(), sorted.end(), before);
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
   if (twice != sorted.end())
-    section.complain("centres", fmt::format("two grains are at ({}, {}, {}) m; expected a place of "
-                                            "its own for each",
-                                            (*twice)[0], (*twice)[1], (*twice)[2]));
-  return centres;
+    section.complain(says, fmt::format("two grains are at ({}, {}, {}) m; expected a place of "
+                                       "its own for each",
+                                       (*twice)[0], (*twice)[1], (*twice)[2]));
+}
+
+/// Places and radii from a file.
+void read_table(Section& section, const Known& known, GrainSettings& grains) {
+  for (const std::string_view key : {"centres", "radius", "radii"}) {
+    if (section.has(key))
+      section.complain(key,
+                       "the table has the places and radii of all grains; leave one of them "
+                       "out");
+  }
+  refuse_placement(section, "table");
+  const std::string name = section.text("table");
+  if (name.empty()) return;
+  try {
+    GrainTable table = read_grain_table(known.folder / name);
+    grains.centres = std::move(table.centres);
+    grains.radii = std::move(table.radii);
+  } catch (const InputError& error) {
+    section.complain("table", error.what());
+  }
+  refuse_equal(section, "table", grains.centres);
 }
 
 }  // namespace
@@ -187,15 +259,23 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
                                                known.materials[*material].name));
     }
   }
-  grains.sizes = read_sizes(section);
-  if (section.has("centres")) {
-    grains.centres = read_centres(section);
+  if (section.has("table")) {
+    read_table(section, known, grains);
+  } else {
+    grains.sizes = read_sizes(section);
+  }
+  if (section.has("centres") && !section.has("table")) {
+    refuse_placement(section, "centres");
+    grains.centres = section.vectors("centres", {kLength}, 1);
+    refuse_equal(section, "centres", grains.centres);
     if (section.has("radii"))
       grains.radii = section.quantities("radii", {kLength, kPositive}, grains.centres.size());
-  } else {
-    grains.amount = read_amount(section, density, grains.sizes);
-    grains.box = read_space(section);
+  } else if (!section.has("table")) {
     grains.placement = read_placement(section);
+    grains.amount = read_amount(section, density, grains.sizes);
+    read_space(section, grains);
+    read_porosity(section, grains);
+    read_stress(section, grains);
     grains.seed = read_seed(section, known, number);
   }
   grains.velocity = section.vector("velocity", {kVelocity}, grains.velocity);

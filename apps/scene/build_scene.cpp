@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/build_scene.hpp"
 
+#include "apps/scenario/section.hpp"
 #include "apps/scene/build_loads.hpp"
 #include "apps/scene/build_reactions.hpp"
 #include "apps/scene/build_ties.hpp"
@@ -10,11 +11,13 @@
 #include "geometry/base/elementary.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/neighbor/space_order.hpp"
+#include "geometry/query/surface_query.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 namespace plekton::apps {
@@ -94,16 +97,87 @@ std::vector<PlacedGrain> grains_there(std::size_t table, const BodiesThere& ther
   return grains;
 }
 
-/// Where it is told, in that order; or in the box, clear of all that is there.
-std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, const BodiesThere& there,
-                                       const BuiltScene& built, const HearSetUp& hear) {
-  if (settings.centres.empty()) {
-    const std::vector<Obstacle> obstacles = obstacles_of(built, there);
-    const auto tell = [&](double share) {
-      if (hear) hear("placing grains " + settings.name, share);
-    };
-    return in_order_of_space(generate_grains(settings, {obstacles, built.scene.planes}, tell));
+/// A closed surface at its place now, and what it encloses.
+struct Enclosure {
+  std::vector<geometry::Facet> facets;
+  geometry::Surface surface;
+  std::unique_ptr<geometry::SurfaceQuery> query;
+};
+
+std::size_t membrane_called(const std::string& name, const BuiltScene& built) {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < built.membranes.size(); ++i) {
+    if (built.membranes[i].name == name) return i;
+    names.push_back(built.membranes[i].name);
   }
+  throw InputError(fmt::format("inside: there is no membrane or rigid body called \"{}\"; {}", name,
+                               names.empty() ? "there are none" : "there are " + listed(names)));
+}
+
+/// @param x  m, where nodes are
+Container container_inside(const std::string& name, const BuiltScene& built,
+                           std::span<const Vec3> x, Enclosure& enclosure) {
+  const std::size_t number = membrane_called(name, built);
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < number; ++i) first += built.membranes[i].facets;
+  const auto begin = built.scene.elements.facets.begin() + static_cast<std::ptrdiff_t>(first);
+  enclosure.facets.assign(begin,
+                          begin + static_cast<std::ptrdiff_t>(built.membranes[number].facets));
+  enclosure.surface = geometry::Surface({}, enclosure.facets, x.size());
+  enclosure.query = std::make_unique<geometry::SurfaceQuery>(enclosure.surface, x);
+  if (!enclosure.query->is_closed())
+    throw InputError(
+        fmt::format("inside: \"{}\" is not closed; expected a surface without a rim, "
+                    "or a box or cylinder in which the grains are placed",
+                    name));
+  Container container;
+  std::vector<Vec3> corners;
+  for (const geometry::Facet& facet : enclosure.facets) {
+    const auto core = geometry::core(facet, x);
+    corners.insert(corners.end(), core.begin(), core.end());
+  }
+  container.bounds = geometry::bounding_box(corners, 0.0);
+  const Vec3& origin = container.bounds.lower;
+  double area = 0.0;
+  for (const geometry::Facet& facet : enclosure.facets) {
+    const auto [a, b, c] = geometry::core(facet, x);
+    container.volume += (a - origin).dot((b - origin).cross(c - origin)) / 6.0;
+    area += 0.5 * (b - a).cross(c - a).norm();
+  }
+  // Up to the inner face.
+  container.volume = std::abs(container.volume) - area * enclosure.facets.front().radius;
+  container.is_inside = [query = enclosure.query.get()](const Vec3& point) {
+    return query->side_of(point) == geometry::Side::inside;
+  };
+  return container;
+}
+
+/// In their space, clear of all that is there.
+std::vector<PlacedGrain> made_grains(const GrainSettings& settings, double young_modulus,
+                                     const BodiesThere& there, const BuiltScene& built,
+                                     const HearSetUp& hear) {
+  const std::vector<Obstacle> obstacles = obstacles_of(built, there);
+  Enclosure enclosure;
+  std::optional<Container> container;
+  if (!settings.inside.empty()) {
+    std::vector<Vec3> x = built.scene.state.position;
+    std::copy(there.positions.begin(), there.positions.end(), x.begin());
+    container = container_inside(settings.inside, built, x, enclosure);
+  }
+  const bool packs = settings.placement == GrainPlacement::packed;
+  const auto tell = [&](double share) {
+    if (hear) hear((packs ? "packing grains " : "placing grains ") + settings.name, share);
+  };
+  return in_order_of_space(generate_grains(
+      settings, {obstacles, built.scene.planes, container ? &*container : nullptr, young_modulus},
+      tell));
+}
+
+/// Where it is told, in that order; or in their space.
+std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, double young_modulus,
+                                       const BodiesThere& there, const BuiltScene& built,
+                                       const HearSetUp& hear) {
+  if (settings.centres.empty()) return made_grains(settings, young_modulus, there, built, hear);
   std::vector<PlacedGrain> grains;
   for (std::size_t i = 0; i < settings.centres.size(); ++i) {
     const double radius =
@@ -175,9 +249,11 @@ BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there, cons
         continue;
       }
       const std::size_t table = built.grains.size();
-      const std::vector<PlacedGrain> placed = table < there.grains.size()
-                                                  ? grains_there(table, there, built)
-                                                  : placed_grains(grains, there, built, hear);
+      const std::vector<PlacedGrain> placed =
+          table < there.grains.size()
+              ? grains_there(table, there, built)
+              : placed_grains(grains, scenario.materials[grains.material].young_modulus, there,
+                              built, hear);
       built.grains.push_back(
           add_grains(grains, placed, scenario.materials[grains.material].density.value(), built));
     } catch (const DoesNotFit& error) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/grains/container.hpp"
 #include "apps/grains/free_space.hpp"
 #include "apps/scenario/scenario.hpp"
 
@@ -22,6 +23,8 @@ struct PlacedGrain {
 struct Surroundings {
   std::span<const Obstacle> obstacles;
   std::span<const contact::Plane> planes;
+  const Container* container = nullptr;  ///< that is to hold the grains; nothing: box or cylinder
+  double young_modulus = 0.0;            ///< Pa, of the grains, for a packing to a stress
 };
 
 /// Grains that do not fit the space they are given. The message names both volumes, how far it
@@ -30,13 +33,16 @@ struct DoesNotFit : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Draws grains from the size curve and places them in the box without overlap, the largest first.
+/// Draws grains from the size curve and places them in their space, the largest first; without
+/// overlap, unless they are packed to a stress.
 ///
 /// Placed at random, each is tried at random positions, with a bounded number of trials; for equal
 /// grains that ends at about 0.38 of a box that is far larger than they are. On a lattice,
 /// face-centred cubic with the spacing of the largest diameter, each is moved by a random part of
-/// the room it has there; that goes up to 0.74 less what the edges of the box take. Neither stands
-/// in for the other. The result depends on the settings and the surroundings alone, not on the
+/// the room it has there; that goes up to 0.74 less what the edges of the box take. Packed, they are
+/// placed at random a good deal smaller, then grow together (sphere_packing.hpp): to their sizes, or
+/// until they press on each other as asked for, with sizes that may be some percent off. None of
+/// these stands in for another. The result depends on the settings and the surroundings alone, not on the
 /// standard library.
 /// @param tell  called now and then with the part of the grains that are placed, if given
 /// @throws DoesNotFit  with how many found room

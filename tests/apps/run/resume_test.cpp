@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Scene{"turn", kSameBits, 50}, Scene{"boulder", kScenes, 20},
                     Scene{"rigid", kScenes, 30}, Scene{"staged", kScenes, 35, true},
                     Scene{"sheets", kSameBits, 60}, Scene{"lattice", kScenes, 40},
-                    Scene{"loose", kScenes, 15}),
+                    Scene{"loose", kScenes, 15}, Scene{"packed", kScenes, 20}),
     [](const auto& scene) { return std::string(scene.param.name); });
 
 /// Two facets under a grain.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/build_scene.hpp"
 
+#include "apps/grains/free_space.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/io/mesh_file.hpp"
@@ -272,6 +273,102 @@ TEST_F(BuildScene, WarnsOfAThicknessThatDoesNotGoWithTheMesh) {
   EXPECT_THAT(
       scene.warnings,
       testing::Contains(HasSubstr("sheet: the thickness of 0.012 m exceeds the length of")));
+}
+
+/// Grains inside of a closed ball of 5 cm, in a given way.
+constexpr std::string_view kInBall = R"([simulation]
+duration = "1 s"
+[materials.gravel]
+density = "2650 kg/m3"
+young_modulus = "20 MPa"
+friction_angle = "35 deg"
+[[membranes]]
+name = "ball"
+mesh = "ball.off"
+translate = [1, 0, 0]
+thickness = "2 mm"
+material = "gravel"
+sheet_stiffness = "20 kN/m"
+areal_mass = "300 g/m2"
+[[grains]]
+name = "gravel"
+material = "gravel"
+porosity = 0.8
+radius = "4 mm"
+inside = "ball"
+)";
+
+TEST_F(BuildScene, PlacesGrainsInsideOfAClosedMembraneInEveryWay) {
+  for (const std::string placement : {"random", "packed"}) {
+    const std::string porosity = placement == "packed" ? "0.5" : "0.8";
+    const BuiltScene ball =
+        build_scene(parse_scenario(kInBall, folder_ / "case.toml",
+                                   std::vector<std::string>{"grains.gravel.placement=" + placement,
+                                                            "grains.gravel.porosity=" + porosity}));
+
+    // An icosphere of 80 facets lies within its ball of 5 cm, and holds one of 0.92 of that.
+    double solids = 0.0;
+    for (const geometry::Sphere& sphere : ball.scene.elements.spheres) {
+      const Vec3& centre = ball.scene.state.position[index_of(sphere.nodes[0])];
+      EXPECT_LE((centre - Vec3(1.0, 0.0, 0.0)).norm() + sphere.radius, 0.05 - 0.001);
+      solids += geometry::volume(sphere);
+      for (const geometry::Facet& facet : ball.scene.elements.facets)
+        EXPECT_GE(distance_to_triangle(centre, geometry::core(facet, ball.scene.state.position)),
+                  (sphere.radius + facet.radius) * (1.0 - 1e-9));
+    }
+    // Of the volume up to the inner face: V - A t / 2 of the mesh.
+    double volume = 0.0;
+    for (const geometry::Facet& facet : ball.scene.elements.facets) {
+      const auto [a, b, c] = geometry::core(facet, ball.scene.state.position);
+      const Vec3 middle(1.0, 0.0, 0.0);
+      volume += (a - middle).dot((b - middle).cross(c - middle)) / 6.0 -
+                0.5 * (b - a).cross(c - a).norm() * facet.radius;
+    }
+    // To half of a grain.
+    EXPECT_NEAR(solids, (1.0 - std::stod(porosity)) * volume, geometry::ball_volume(0.0041) / 2);
+  }
+}
+
+TEST_F(BuildScene, RefusesToPlaceGrainsInsideOfWhatIsOpen) {
+  const auto problem = [&](const std::string& override) {
+    try {
+      build_scene(parse_scenario(kInBall, folder_ / "case.toml", std::vector{override}));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+
+  EXPECT_THAT(problem("membranes.ball.mesh=sheet.off"),
+              HasSubstr("grains.inside: \"ball\" is not closed; expected a surface without a rim"));
+  EXPECT_THAT(problem("grains.gravel.inside=bell"),
+              HasSubstr("there is no membrane or rigid body called \"bell\"; there are \"ball\""));
+}
+
+TEST_F(BuildScene, TakesGrainsFromATable) {
+  test::write_bytes(folder_ / "soil.csv", "x (mm),y (mm),z (mm),r (mm)\n1,2,3,4\n-10,0,0,5\n");
+  std::string text(kScenario);
+  const std::string keys =
+      "count = 50\nradius = \"5 mm\"\nbox = { min = [\"-0.1 m\", \"-0.1 m\", "
+      "\"-2 cm\"], max = [\"0.1 m\", \"0.1 m\", \"3 cm\"] }\n";
+  const std::size_t place = text.find(keys);
+  ASSERT_NE(place, std::string::npos);
+  const std::string with_table =
+      std::string(text).replace(place, keys.size(), "table = \"soil.csv\"\n");
+
+  const BuiltScene scene = build_scene(parse_scenario(with_table, folder_ / "case.toml"));
+
+  ASSERT_EQ(scene.grains[0].count, 2U);
+  EXPECT_NEAR(scene.scene.elements.spheres[0].radius, 4e-3, 1e-15);
+  const auto node = index_of(scene.scene.elements.spheres[1].nodes[0]);
+  EXPECT_NEAR((scene.scene.state.position[node] - Vec3(-0.01, 0.0, 0.0)).norm(), 0.0, 1e-15);
+  EXPECT_THROW(
+      parse_scenario(std::string(with_table).replace(with_table.find("soil.csv"), 8, "sail.csv"),
+                     folder_ / "case.toml"),
+      InputError);
+  EXPECT_THROW(parse_scenario(std::string(text).replace(place, 0, "table = \"soil.csv\"\n"),
+                              folder_ / "case.toml"),
+               InputError);
 }
 
 }  // namespace

@@ -196,6 +196,82 @@ TEST(GrainGenerator, SaysHowFarItWentWhenGrainsDoNotFit) {
   EXPECT_THAT(error, HasSubstr("placement = \"lattice\""));
 }
 
+// Random sequential placement ends at 0.38 of a large box: these fill 0.55.
+TEST(GrainGenerator, PacksGradedGrainsToAPorosityWithTheirSizes) {
+  GrainSettings settings = graded(0, {0.12, 0.12, 0.12});
+  settings.placement = GrainPlacement::packed;
+  settings.porosity = 0.45;
+
+  const std::vector<PlacedGrain> grains = generate_grains(settings, {});
+
+  double solids = 0.0;
+  for (const PlacedGrain& grain : grains) {
+    EXPECT_GE(grain.radius, 0.003);
+    EXPECT_LE(grain.radius, 0.008);
+    solids += geometry::ball_volume(grain.radius);
+  }
+  // To the last grain, the mean of which has 2e-4 of the box.
+  EXPECT_NEAR(1.0 - solids / (0.12 * 0.12 * 0.12), 0.45, 1e-3);
+  expect_apart_and_inside(grains, settings.box);
+}
+
+TEST(GrainGenerator, PacksGrainsUntilTheyPressOnEachOther) {
+  GrainSettings settings = equal(0, 0.005, {0.06, 0.06, 0.06});
+  settings.placement = GrainPlacement::packed;
+  settings.stress = 1e4;
+  Surroundings surroundings;
+  surroundings.young_modulus = 1e7;
+
+  const std::vector<PlacedGrain> grains = generate_grains(settings, surroundings);
+
+  // Stress by its definition, from all overlaps: 2 E r / 2 between grains, E r at walls.
+  double moment = 0.0;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double r = grains[i].radius;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = grains[i].centre[axis] - settings.box.lower[axis];
+      for (const double distance : {x, 0.06 - x})
+        if (distance < r) moment += 1e7 * r * (r - distance) * distance;
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const double distance = (grains[i].centre - grains[j].centre).norm();
+      if (distance < 2.0 * r) moment += 1e7 * r * (2.0 * r - distance) * distance;
+    }
+  }
+  EXPECT_NEAR(moment / (3.0 * 0.06 * 0.06 * 0.06), 1e4, 0.011e4);
+  EXPECT_NEAR(grains[0].radius, 0.005, 0.0005);
+}
+
+TEST(GrainGenerator, PlacesGrainsInACylinderInEveryWay) {
+  for (const GrainPlacement placement :
+       {GrainPlacement::random, GrainPlacement::lattice, GrainPlacement::packed}) {
+    GrainSettings settings = equal(150, 0.005, Vec3::Ones());
+    settings.cylinder = geometry::CylinderRegion{{0.0, 0.0, 0.1}, {0.0, 0.1, 0.2}, 0.04};
+    settings.placement = placement;
+
+    const std::vector<PlacedGrain> grains = generate_grains(settings, {});
+
+    ASSERT_EQ(grains.size(), 150U);
+    const Vec3 axis = Vec3(0.0, 1.0, 1.0).normalized();
+    for (const PlacedGrain& grain : grains) {
+      const Vec3 from = grain.centre - Vec3(0.0, 0.0, 0.1);
+      const double height = axis.dot(from);
+      EXPECT_LE((from - height * axis).norm(), 0.035 * (1.0 + 1e-6));
+      EXPECT_GE(height, 0.005 * (1.0 - 1e-6));
+      EXPECT_LE(height, 0.1 * std::sqrt(2.0) - 0.005 * (1.0 - 1e-6));
+    }
+  }
+}
+
+TEST(GrainGenerator, SaysAtWhichPorosityAPackingJams) {
+  GrainSettings settings = graded(0, {0.08, 0.08, 0.08});
+  settings.placement = GrainPlacement::packed;
+  settings.porosity = 0.2;
+
+  EXPECT_THAT(error_of(settings),
+              testing::ContainsRegex("packed without friction they jam at a porosity of 0.[34]"));
+}
+
 TEST(GrainGenerator, RefusesAGrainLargerThanTheBox) {
   EXPECT_THAT(error_of(equal(1, 0.06, {0.1, 0.2, 0.2})), HasSubstr("0 of 1 found room"));
 }

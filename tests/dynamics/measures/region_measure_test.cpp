@@ -109,8 +109,7 @@ TEST(RegionMeasure, OfACubicCrystalIsKnown) {
 TEST(RegionMeasure, HasTheStressOfAUniformSampleInAnyBoxOfWholeColumns) {
   const Made made = crystal(4, {2.0, 2.0, 2.0});
 
-  const RegionMeasure part =
-      measure_region(Box{{0.0, 0.0, 0.9}, {4.0, 4.0, 2.3}}, made.view());
+  const RegionMeasure part = measure_region(Box{{0.0, 0.0, 0.9}, {4.0, 4.0, 2.3}}, made.view());
 
   EXPECT_NEAR(part.stress(2, 2), -2.0, kRounding);
 }
@@ -144,8 +143,7 @@ TEST(RegionMeasure, HasTheStressThatTheWallsExert) {
   made.touch(1, 2, force);
   made.touch_plane(2, {0.0, 0.0, 2.6}, force);
 
-  const RegionMeasure all =
-      measure_region(Box{{-1.0, -1.0, 0.0}, {2.0, 1.0, 2.6}}, made.view());
+  const RegionMeasure all = measure_region(Box{{-1.0, -1.0, 0.0}, {2.0, 1.0, 2.6}}, made.view());
 
   EXPECT_NEAR(all.stress(2, 2) * all.volume, -5.0 * 2.6, kRounding * 13.0);
   EXPECT_NEAR(all.stress(0, 0), 0.0, kRounding);

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/grains/sphere_packing.hpp"
+
+#include "apps/grains/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace plekton::apps {
+namespace {
+
+/// Equal spheres of radius 1 that shall fill a part of a space, small and apart at first.
+struct Sparse {
+  std::vector<Vec3> centres;
+  std::vector<double> radii;
+  double factor = 0.0;
+};
+
+Sparse sparse(std::size_t count, double filled, const Container& container) {
+  Random random(4);
+  Sparse made{{}, std::vector<double>(count, 1.0), std::cbrt(0.15 / filled)};
+  FreeSpace space(container.bounds, made.factor, {});
+  while (made.centres.size() < count) {
+    const Vec3 centre = random.in_box(container.bounds.lower, container.bounds.upper);
+    if (!space.has_room(centre, made.factor) || !container.holds(centre, made.factor)) continue;
+    space.add({{centre, centre, centre}, made.factor});
+    made.centres.push_back(centre);
+  }
+  return made;
+}
+
+/// A cube that so many spheres of radius 1 fill to a part.
+Container cube(std::size_t count, double filled) {
+  const double side = std::cbrt(static_cast<double>(count) * geometry::ball_volume(1.0) / filled);
+  return container_of(Box{Vec3::Zero(), Vec3::Constant(side)});
+}
+
+SpherePacking packing_of(const Sparse& made, const Container& container,
+                         const PackingWalls& walls = {}) {
+  return SpherePacking(made.centres, made.radii, made.factor, container, walls);
+}
+
+double least_gap(const std::vector<Vec3>& x, double radius) {
+  double least = 1e9;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) least = std::min(least, (x[i] - x[j]).norm());
+  return least - 2.0 * radius;
+}
+
+TEST(SpherePacking, GrowsToADensityThatChanceDoesNotReachWithoutOverlap) {
+  // Random sequential placement ends at 0.38.
+  const Container container = cube(300, 0.52);
+  SpherePacking packing = packing_of(sparse(300, 0.52, container), container);
+
+  ASSERT_TRUE(packing.grow_to(1.0));
+
+  EXPECT_DOUBLE_EQ(packing.factor(), 1.0);
+  EXPECT_GE(least_gap(packing.centres(), 1.0), 0.0);
+  for (const Vec3& centre : packing.centres()) {
+    EXPECT_GE(centre.minCoeff(), 1.0);
+    EXPECT_LE(centre.maxCoeff(), container.bounds.upper[0] - 1.0);
+  }
+}
+
+TEST(SpherePacking, StaysInACylinderOfAnyDirection) {
+  const Vec3 axis = Vec3(1.0, 2.0, -1.0).normalized();
+  const geometry::CylinderRegion cylinder{{3.0, 0.0, 0.0}, Vec3(3.0, 0.0, 0.0) + 12.0 * axis, 6.0};
+  const Container container = container_of(cylinder);
+  const auto count = static_cast<std::size_t>(0.5 * container.volume / geometry::ball_volume(1.0));
+  SpherePacking packing = packing_of(sparse(count, 0.5, container), container);
+
+  ASSERT_TRUE(packing.grow_to(1.0));
+
+  EXPECT_GE(least_gap(packing.centres(), 1.0), 0.0);
+  for (const Vec3& centre : packing.centres()) EXPECT_TRUE(container.holds(centre, 1.0));
+}
+
+// Equal frictionless spheres jam at 0.64 far from walls; at walls they are looser. Denser than
+// 0.645 would be a crystal.
+TEST(SpherePacking, JamsWhereRandomPackingsEnd) {
+  const Container container = cube(400, 0.7);
+  SpherePacking packing = packing_of(sparse(400, 0.7, container), container);
+
+  EXPECT_FALSE(packing.grow_to(1.0));
+
+  const double filled = 0.7 * std::pow(packing.factor(), 3);
+  EXPECT_GT(filled, 0.55);
+  EXPECT_LT(filled, 0.645);
+  EXPECT_GE(least_gap(packing.centres(), packing.factor()), 0.0);
+}
+
+// A crystal of one sphere in a cube: pressed on by six walls with E r times the overlap each.
+TEST(SpherePacking, PressesOneSphereInACubeAsTheSpringsSay) {
+  const Container container = container_of(Box{Vec3::Zero(), Vec3::Constant(2.0)});
+  SpherePacking packing({Vec3::Constant(1.0)}, {1.0}, 0.5, container, {});
+
+  packing.grow_to(2.0);
+  ASSERT_TRUE(packing.press_to(1e-3));
+
+  // 6 forces r (r - 1) at a distance of 1, over 3 volumes of 8: r (r - 1) / 4.
+  const double r = packing.factor();
+  EXPECT_NEAR(r * (r - 1.0) / 4.0, 1e-3, 1e-5);
+  EXPECT_NEAR(packing.pressure(), r * (r - 1.0) / 4.0, 1e-9);
+}
+
+TEST(SpherePacking, PressesSpheresToAPressureInEquilibrium) {
+  const Container container = cube(150, 0.6);
+  SpherePacking packing = packing_of(sparse(150, 0.6, container), container);
+
+  packing.grow_to(2.0);
+  ASSERT_TRUE(packing.press_to(1e-3));
+
+  EXPECT_NEAR(packing.pressure(), 1e-3, 1e-5);
+}
+
+TEST(SpherePacking, GoesAroundWhatIsThere) {
+  const Container container = cube(200, 0.45);
+  const double side = container.bounds.upper[0];
+  const double middle = 0.5 * side;
+  // A wall across half of the cube, as a triangle, and a ball.
+  const std::vector<Obstacle> obstacles{
+      {{Vec3(0.0, 0.0, middle), Vec3(side, 0.0, middle), Vec3(0.0, side, middle)}, 0.1},
+      {{Vec3(middle, middle, 2.0), Vec3(middle, middle, 2.0), Vec3(middle, middle, 2.0)}, 1.5}};
+  Random random(4);
+  Sparse made{{}, std::vector<double>(200, 1.0), 0.6};
+  FreeSpace space(container.bounds, made.factor, {});
+  for (const Obstacle& obstacle : obstacles) space.add(obstacle);
+  while (made.centres.size() < 200) {
+    const Vec3 centre = random.in_box(container.bounds.lower, container.bounds.upper);
+    if (!space.has_room(centre, made.factor)) continue;
+    space.add({{centre, centre, centre}, made.factor});
+    made.centres.push_back(centre);
+  }
+  const contact::Plane floor{{0.0, 0.0, 0.2}, Vec3::UnitZ()};
+  SpherePacking packing = packing_of(made, container, {obstacles, {&floor, 1}});
+
+  ASSERT_TRUE(packing.grow_to(1.0));
+
+  for (const Vec3& centre : packing.centres()) {
+    EXPECT_GE(centre[2], 1.2);
+    for (const Obstacle& obstacle : obstacles)
+      EXPECT_GE(distance_to_triangle(centre, obstacle.core), 1.0 + obstacle.radius);
+  }
+}
+
+TEST(SpherePacking, IsTheSameEachTime) {
+  const Container container = cube(100, 0.5);
+  SpherePacking one = packing_of(sparse(100, 0.5, container), container);
+  SpherePacking other = packing_of(sparse(100, 0.5, container), container);
+
+  one.grow_to(1.0);
+  other.grow_to(1.0);
+
+  EXPECT_EQ(one.centres(), other.centres());
+}
+
+}  // namespace
+}  // namespace plekton::apps
