@@ -87,5 +87,5 @@ ln -s "$(command -v id)" "$bin/id"
 add_tool sudo 'while [ "${1#*=}" != "$1" ]; do shift; done; exec "$@"'
 add_tool cmake "exit 7"
 check apps/quickstart.sh "build"
-check tests/run.sh "build test"
+check tests/run.sh "build python test"
 echo "both commands name their packages and end with 1 where they cannot install them"
