@@ -6,11 +6,14 @@ set -eu
 CDPATH='' cd -- "$(dirname -- "$0")/.."
 . cmake/debian.sh
 
+begun=$(date +%s)
 need_packages build
+built_from=$(date +%s)
 say "Configuring build/release"
 cmake --preset release -DPLEKTON_BUILD_TESTS=OFF
 say "Building the program"
 cmake --build --preset release --parallel "$(nproc)" --target plekton
+build_time=$(seconds_since "$built_from")
 
 # is_done: whether the run has come to its end and neither the program nor the scenario has changed since.
 is_done() {
@@ -19,6 +22,7 @@ is_done() {
     apps/examples/catch/hammock.stl -newer out/catch/run.json)" ]
 }
 
+run_from=$(date +%s)
 if is_done; then
   say "The run of apps/examples/catch/catch.toml is done; remove out/catch to do it again"
 else
@@ -26,6 +30,7 @@ else
   # What is there is of another program or scenario, or was not finished.
   build/release/apps/plekton run apps/examples/catch/catch.toml --out out/catch --overwrite --threads 2
 fi
+run_time=$(seconds_since "$run_from")
 
 say "Summary, from out/catch/run.json"
 cmake -DREPORT=out/catch/run.json -P cmake/run_summary.cmake
@@ -36,3 +41,4 @@ for file in out/catch/view.html out/catch/*.pvd out/catch/*.csv out/catch/run.js
     echo "  $file"
   fi
 done
+say "Took $(seconds_since "$begun") s: installing $((built_from - begun)) s, building $build_time s, running $run_time s, with $(nproc) processors"

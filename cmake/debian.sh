@@ -7,6 +7,11 @@ say() {
   printf '\n==> %s\n' "$*"
 }
 
+# seconds_since START: of `date +%s`.
+seconds_since() {
+  echo $(($(date +%s) - $1))
+}
+
 # packages_for USE...: the packages of cmake/debian-packages.txt for these uses, one a line.
 packages_for() {
   for use in "$@"; do

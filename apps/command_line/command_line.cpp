@@ -5,6 +5,7 @@
 #include "apps/command_line/examples_command.hpp"
 #include "apps/command_line/generate_command.hpp"
 #include "apps/command_line/import_command.hpp"
+#include "apps/command_line/import_yade_command.hpp"
 #include "apps/command_line/inspect_command.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/list_command.hpp"
@@ -91,6 +92,7 @@ struct CommandLine {
   double limit = ViewArguments{}.limit;
   std::optional<std::string> serve;
   StudyArguments study;
+  ImportYadeArguments yade;
   std::vector<std::string> columns;
   std::string at;
   ValidateArguments validate;
@@ -479,6 +481,12 @@ int render_command(const CommandLine& line) {
   return kDone;
 }
 
+int import_yade_command(const CommandLine& line) {
+  import_yade(line.yade, std::cout);
+  flush_output();
+  return kDone;
+}
+
 int validate_command(const CommandLine& line) {
   const bool is_well = validate(line.validate, std::cout, std::cerr);
   flush_output();
@@ -584,6 +592,19 @@ CLI::App* add_import(CLI::App& app, CommandLine& line) {
   import->add_flag("--overwrite", line.overwrite,
                    "Replace the files of an earlier import in that folder");
   import->add_flag("--json", line.json, "Print the report as JSON");
+  return import;
+}
+
+CLI::App* add_import_yade(CLI::App& app, CommandLine& line) {
+  CLI::App* import = app.add_subcommand(
+      "import-yade", "Run a script of YADE to an iteration, and write what is there as a scenario");
+  import->add_option("script", line.yade.script, "Script of YADE (.py)")->required();
+  import->add_option("--iteration", line.yade.iteration, "To run to; 0 is what the script makes")
+      ->capture_default_str();
+  import->add_option("--out", line.yade.out,
+                     "Folder for the scenario and report.txt; out/<script>-yade if not given");
+  import->add_flag("--overwrite", line.yade.overwrite,
+                   "Replace the files of an earlier import in that folder");
   return import;
 }
 
@@ -733,6 +754,7 @@ int dispatch(int argc, const char* const* argv) {
   const CLI::App* const run = add_run(app, line);
   const CLI::App* const check = add_check(app, line);
   const CLI::App* const import = add_import(app, line);
+  const CLI::App* const import_yade_of = add_import_yade(app, line);
   const CLI::App* const inspect = add_inspect(app, line);
   const CLI::App* const verify = add_verify(app, line);
   const CLI::App* const list =
@@ -757,6 +779,7 @@ int dispatch(int argc, const char* const* argv) {
   if (run->parsed()) return run_command(line);
   if (check->parsed()) return check_command(line);
   if (import->parsed()) return import_command(line);
+  if (import_yade_of->parsed()) return import_yade_command(line);
   if (inspect->parsed()) return inspect_command(line);
   if (verify->parsed()) return verify_command(line);
   if (study->parsed()) return study_command(line);

@@ -71,6 +71,7 @@ constexpr std::array kOfMembranes = std::to_array<KeyMeaning>({
     {"membranes[].hold_rotation", "held nodes do not turn either"},
     {"membranes[].velocity", "of the held nodes"},
     {"membranes[].initial_velocity", "of the other nodes, at the start"},
+    {"membranes[].initial_velocities", "instead, one for each point of a shape that tells them"},
 });
 
 constexpr std::array kOfShapes = std::to_array<KeyMeaning>({
@@ -92,7 +93,8 @@ constexpr std::array kOfShapes = std::to_array<KeyMeaning>({
     {"membranes[].shape.meshes", "across, and rows of twists"},
     {"membranes[].shape.points", "of all nodes, or through which a chain goes"},
     {"membranes[].shape.facets", "three points each, by their numbers from 0"},
-    {"membranes[].shape.bars", "two points each, by their numbers from 0"},
+    {"membranes[].shape.bars",
+     "two points each, by their numbers from 0; of facets those that are no side of one"},
 });
 
 constexpr std::array kOfGrains = std::to_array<KeyMeaning>({
@@ -121,6 +123,8 @@ constexpr std::array kOfGrains = std::to_array<KeyMeaning>({
     {"grains[].table", "file of a grain in each row, x,y,z,r (CSV), instead of all of these"},
     {"grains[].velocity", "at the start"},
     {"grains[].angular_velocity", "at the start"},
+    {"grains[].velocities", "instead of velocity, one for each of the centres"},
+    {"grains[].angular_velocities", "likewise"},
     {"grains[].seed", "of the random numbers that place them"},
     {"planes[].name", "what loads and outputs call it"},
     {"planes[].point", "any point of the plane"},

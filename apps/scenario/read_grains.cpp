@@ -243,6 +243,21 @@ void read_table(Section& section, const Known& known, GrainSettings& grains) {
   refuse_equal(section, "table", grains.centres);
 }
 
+/// A vector for each of the centres, instead of one for all; empty if it is not given.
+std::vector<Vec3> read_of_each(Section& section, std::string_view each, std::string_view all,
+                               const Quantity& expected, std::size_t centres) {
+  if (!section.has(each)) return {};
+  if (section.has(all))
+    section.complain(all, fmt::format("{} says that of each grain; leave one of them out", each));
+  std::vector<Vec3> vectors = section.vectors(each, expected, 1);
+  if (!section.has("centres"))
+    section.complain(each, "goes with centres, one for each of them");
+  else if (!vectors.empty() && centres > 0 && vectors.size() != centres)
+    section.complain(each, fmt::format("got a list of {}; expected one for each of the {} centres",
+                                       vectors.size(), centres));
+  return vectors;
+}
+
 }  // namespace
 
 GrainSettings read_grains(Section section, const Known& known, std::size_t number) {
@@ -281,6 +296,10 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
   grains.velocity = section.vector("velocity", {kVelocity}, grains.velocity);
   grains.angular_velocity =
       section.vector("angular_velocity", {kAngularVelocity}, grains.angular_velocity);
+  grains.velocities =
+      read_of_each(section, "velocities", "velocity", {kVelocity}, grains.centres.size());
+  grains.angular_velocities = read_of_each(section, "angular_velocities", "angular_velocity",
+                                           {kAngularVelocity}, grains.centres.size());
   section.finish();
   return grains;
 }

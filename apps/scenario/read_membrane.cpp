@@ -56,9 +56,28 @@ void require_mode(Section& section, const MembraneSettings& membrane) {
                        "and a truss has none");
     return;
   }
+  if (membrane.shape && has_bars(*membrane.shape))
+    section.complain("mode", "the bars beside the facets are beams; use \"lattice\" or \"truss\"");
   if (membrane.shape && is_net(*membrane.shape))
     section.complain("mode",
                      "a net has no facets that could be a sheet; use \"lattice\" or \"truss\"");
+}
+
+/// A velocity for each point of a shape that tells its points.
+void read_initial_velocities(Section& section, MembraneSettings& membrane) {
+  if (!section.has("initial_velocities")) return;
+  if (section.has("initial_velocity"))
+    section.complain("initial_velocity",
+                     "initial_velocities says how each node moves; leave one of them out");
+  const std::size_t points = membrane.shape ? told_points(*membrane.shape) : 0;
+  membrane.initial_velocities = section.vectors("initial_velocities", {kVelocity}, 1);
+  if (points == 0)
+    section.complain("initial_velocities",
+                     "goes with a shape of kind facets or bars, one for each of its points");
+  else if (!membrane.initial_velocities.empty() && membrane.initial_velocities.size() != points)
+    section.complain("initial_velocities",
+                     fmt::format("got a list of {}; expected one for each of the {} points",
+                                 membrane.initial_velocities.size(), points));
 }
 
 /// Keys that ask for what a net, a closed shape or a wrapped mesh does not have.
@@ -77,6 +96,8 @@ void require_parts(Section& section, const MembraneSettings& membrane) {
                        "a net has no facets to weigh; leave mass_mode out: half the mass of each "
                        "bar goes to either end");
   }
+  if (membrane.shape && has_bars(*membrane.shape) && membrane.mass_mode == MassMode::area)
+    section.complain("mass_mode", "the bars beside the facets would have no mass; use \"edge\"");
   const bool closed = membrane.shape ? is_closed(*membrane.shape) : membrane.repair.wrap;
   if (closed && membrane.hold.which == HoldWhich::rim)
     section.complain("hold", fmt::format("a {} is closed and has no rim; hold the nodes in a box, "
@@ -119,6 +140,7 @@ MembraneSettings read_membrane(Section section, const Known& known) {
   membrane.hold = read_hold(section);
   membrane.initial_velocity =
       section.vector("initial_velocity", {kVelocity}, membrane.initial_velocity);
+  read_initial_velocities(section, membrane);
   require_parts(section, membrane);
   require_mode(section, membrane);
   section.finish();

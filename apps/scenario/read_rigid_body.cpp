@@ -72,6 +72,8 @@ void read_surface(Section& section, const Known& known, MembraneSettings& surfac
                   RigidBodySettings& body) {
   constexpr std::array<std::string_view, 2> kFillings = {"solid", "shell"};
   read_membrane_source(section, known, surface);
+  if (surface.shape && has_bars(*surface.shape))
+    section.complain("shape", "a rigid body has facets alone; leave the bars out");
   if (surface.shape && is_net(*surface.shape))
     section.complain("shape",
                      "a net has no facets; expected a mesh, or a sheet, tube, sphere or box");

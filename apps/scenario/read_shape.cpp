@@ -139,33 +139,59 @@ ShapeSettings read_chain(Section& section) {
   return chain;
 }
 
+/// Rows of the key bars between so many points, sorted.
+std::vector<std::array<NodeId, 2>> read_pairs(Section& section, std::size_t points) {
+  std::vector<std::array<NodeId, 2>> bars;
+  const auto ends = section.places("bars", 2, points);
+  for (std::size_t i = 0; i < ends.size(); i += 2) {
+    const auto [low, high] = std::minmax(ends[i], ends[i + 1]);
+    bars.push_back({NodeId{low}, NodeId{high}});
+  }
+  std::ranges::sort(bars);
+  const auto twice = std::ranges::adjacent_find(bars);
+  if (twice != bars.end())
+    section.complain("bars",
+                     fmt::format("two are between the points {} and {}; leave one out",
+                                 geometry::index_of((*twice)[0]), geometry::index_of((*twice)[1])));
+  require_few(section, "bars", static_cast<double>(bars.size()));
+  return bars;
+}
+
+/// Bars beside facets, whose sides are bars already.
+std::vector<std::array<NodeId, 2>> read_bars_beside(Section& section, const geometry::Mesh& mesh) {
+  std::vector<std::array<NodeId, 2>> bars = read_pairs(section, mesh.points.size());
+  for (const auto& [a, b, c] : mesh.facets) {
+    for (const auto& [first, second] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+      const std::array<NodeId, 2> side{std::min(first, second), std::max(first, second)};
+      if (!std::ranges::binary_search(bars, side)) continue;
+      section.complain("bars",
+                       fmt::format("the one between the points {} and {} is a side of a "
+                                   "facet, which is a bar already; leave it out",
+                                   geometry::index_of(side[0]), geometry::index_of(side[1])));
+      return bars;
+    }
+  }
+  return bars;
+}
+
 ShapeSettings read_facets(Section& section) {
-  geometry::Mesh mesh;
+  FacetShape shape;
+  geometry::Mesh& mesh = shape.mesh;
   mesh.points = section.vectors("points", {kLength}, 3);
   const auto corners = section.places("facets", 3, mesh.points.size());
   for (std::size_t i = 0; i < corners.size(); i += 3)
     mesh.facets.push_back({NodeId{corners[i]}, NodeId{corners[i + 1]}, NodeId{corners[i + 2]}});
   require_few(section, "facets", static_cast<double>(mesh.facets.size()));
-  return mesh;
+  if (section.has("bars")) shape.bars = read_bars_beside(section, mesh);
+  return shape;
 }
 
 /// Sorted, as the bars of every lattice.
 ShapeSettings read_bars(Section& section) {
   geometry::Lattice lattice;
   lattice.points = section.vectors("points", {kLength}, 2);
-  const auto ends = section.places("bars", 2, lattice.points.size());
-  for (std::size_t i = 0; i < ends.size(); i += 2) {
-    const auto [low, high] = std::minmax(ends[i], ends[i + 1]);
-    lattice.edges.push_back({{NodeId{low}, NodeId{high}}, geometry::LatticePart::link});
-  }
-  const auto nodes = [](const geometry::LatticeEdge& edge) { return edge.nodes; };
-  std::ranges::sort(lattice.edges, {}, nodes);
-  const auto twice = std::ranges::adjacent_find(lattice.edges, {}, nodes);
-  if (twice != lattice.edges.end())
-    section.complain("bars", fmt::format("two are between the points {} and {}; leave one out",
-                                         geometry::index_of(twice->nodes[0]),
-                                         geometry::index_of(twice->nodes[1])));
-  require_few(section, "bars", static_cast<double>(lattice.edges.size()));
+  for (const auto& bar : read_pairs(section, lattice.points.size()))
+    lattice.edges.push_back({bar, geometry::LatticePart::link});
   return lattice;
 }
 

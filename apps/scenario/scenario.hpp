@@ -121,6 +121,7 @@ struct MembraneSettings {
   double areal_mass = 0.0;  ///< kg/m²
   HoldSettings hold;
   Vec3 initial_velocity = Vec3::Zero();   ///< m/s, of the nodes that are not held
+  std::vector<Vec3> initial_velocities;   ///< m/s, instead, by point of the shape; or empty
   std::optional<std::size_t> rigid_body;  ///< whose surface it is, and no membrane
 };
 
@@ -146,6 +147,8 @@ struct GrainSettings {
   GrainPlacement placement = GrainPlacement::random;
   Vec3 velocity = Vec3::Zero();          ///< m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
+  std::vector<Vec3> velocities;          ///< m/s, instead, by centre; or empty
+  std::vector<Vec3> angular_velocities;  ///< rad/s, instead, by centre; or empty
   std::uint64_t seed = 0;
 };
 

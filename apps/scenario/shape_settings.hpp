@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <variant>
+#include <vector>
 
 namespace plekton::apps {
 
@@ -23,11 +24,17 @@ struct BoxShape {
   std::array<bool, 6> open{};  ///< sides that are left out: x_min, x_max, y_min, ... z_max
 };
 
+/// Facets between points, and bars that are no side of a facet.
+struct FacetShape {
+  geometry::Mesh mesh;
+  std::vector<std::array<geometry::NodeId, 2>> bars;  ///< lower node first, ascending
+};
+
 /// What a membrane without a mesh file is made from. Of a mesh and a lattice every point is told.
 using ShapeSettings =
     std::variant<geometry::PlaneSheet, geometry::Tube, SphereShape, BoxShape,
                  geometry::BiaxialGeogrid, geometry::UniaxialGeogrid, geometry::HexagonalNet,
-                 geometry::Chain, geometry::Mesh, geometry::Lattice>;
+                 geometry::Chain, FacetShape, geometry::Lattice>;
 
 /// Whether a shape is of bars anywhere in space: it has ends for a rim, and no area.
 inline bool is_chain(const ShapeSettings& shape) noexcept {
@@ -40,6 +47,19 @@ inline bool is_net(const ShapeSettings& shape) noexcept {
   return std::holds_alternative<geometry::BiaxialGeogrid>(shape) ||
          std::holds_alternative<geometry::UniaxialGeogrid>(shape) ||
          std::holds_alternative<geometry::HexagonalNet>(shape) || is_chain(shape);
+}
+
+/// Whether a shape of facets has bars beside them.
+inline bool has_bars(const ShapeSettings& shape) noexcept {
+  const auto* const facets = std::get_if<FacetShape>(&shape);
+  return facets != nullptr && !facets->bars.empty();
+}
+
+/// Of a shape whose points are told, how many there are; otherwise 0.
+inline std::size_t told_points(const ShapeSettings& shape) noexcept {
+  if (const auto* const facets = std::get_if<FacetShape>(&shape)) return facets->mesh.points.size();
+  const auto* const bars = std::get_if<geometry::Lattice>(&shape);
+  return bars != nullptr ? bars->points.size() : 0;
 }
 
 /// Whether a shape has no rim.

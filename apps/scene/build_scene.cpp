@@ -192,7 +192,8 @@ BuiltGrains add_grains(const GrainSettings& settings, const std::vector<PlacedGr
   dynamics::Scene& scene = built.scene;
   BuiltGrains result{settings.name, grains.size(), 0.0, 0.0, 0.0};
   if (!grains.empty()) result.smallest = result.largest = grains.front().radius;
-  for (const PlacedGrain& grain : grains) {
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const PlacedGrain& grain = grains[i];
     const auto id = scene.add_sphere(grain.centre, grain.radius, density,
                                      static_cast<contact::MaterialId>(settings.material));
     const geometry::Sphere& sphere = scene.elements.spheres[index_of(id)];
@@ -204,8 +205,11 @@ BuiltGrains add_grains(const GrainSettings& settings, const std::vector<PlacedGr
                       "moment of inertia that can be computed with; check the units",
                       settings.name, grain.radius, density));
     }
-    scene.state.velocity[index_of(sphere.nodes[0])] = settings.velocity;
-    scene.state.angular_velocity[index_of(sphere.nodes[0])] = settings.angular_velocity;
+    scene.state.velocity[index_of(sphere.nodes[0])] =
+        i < settings.velocities.size() ? settings.velocities[i] : settings.velocity;
+    scene.state.angular_velocity[index_of(sphere.nodes[0])] = i < settings.angular_velocities.size()
+                                                                  ? settings.angular_velocities[i]
+                                                                  : settings.angular_velocity;
     result.mass += density * geometry::volume(sphere);
     result.smallest = std::min(result.smallest, grain.radius);
     result.largest = std::max(result.largest, grain.radius);

@@ -178,11 +178,22 @@ Lattice make(const geometry::HexagonalNet& net) {
 Lattice make(const geometry::Chain& chain) {
   return geometry::chain(chain);
 }
-const Mesh& make(const Mesh& mesh) {
-  return mesh;
-}
 const Lattice& make(const Lattice& lattice) {
   return lattice;
+}
+
+MembraneBody body_of(const FacetShape& shape, const MembraneSettings& settings,
+                     std::size_t first_node) {
+  MembraneBody body = body_of(shape.mesh, settings, first_node);
+  auto& edges = body.membrane.edges;
+  for (const auto& [a, b] : shape.bars)
+    edges.push_back({geometry::id_at<NodeId>(index_of(a) + first_node),
+                     geometry::id_at<NodeId>(index_of(b) + first_node)});
+  std::ranges::sort(edges);
+  return body;
+}
+const FacetShape& make(const FacetShape& shape) {
+  return shape;
 }
 
 /// Of a chain, and of bars anywhere, the ends are the rim, and there is no area.

@@ -60,7 +60,9 @@ std::size_t add_nodes(const MembraneSettings& settings, const MembraneBody& body
     built.scene.add_node(position, turns_nodes(settings) ? Held::nothing : Held::rotation);
   const std::vector<bool> held = held_nodes(settings.hold, body);
   for (std::size_t i = 0; i < held.size(); ++i) {
-    built.scene.state.velocity[first_node + i] = settings.initial_velocity;
+    built.scene.state.velocity[first_node + i] = settings.initial_velocities.empty()
+                                                     ? settings.initial_velocity
+                                                     : settings.initial_velocities[i];
     if (!held[i]) continue;
     built.scene.properties.held[first_node + i] =
         settings.hold.rotation || !turns_nodes(settings) ? Held::everything : Held::translation;

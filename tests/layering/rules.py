@@ -12,7 +12,7 @@ from pathlib import Path
 LIBRARIES = ("geometry", "contact", "dynamics", "apps")
 """In the order of the arrow: a file may include its own folder and those before it."""
 
-APP_FOLDERS = ("grains", "scenario", "scene", "run", "viewer", "programs", "study", "pictures", "validation", "command_line", "python")
+APP_FOLDERS = ("grains", "scenario", "scene", "run", "viewer", "programs", "takeover", "study", "pictures", "validation", "command_line", "python")
 """The folders of apps, in the order of their arrow; main.cpp and the examples may include any."""
 
 ONLY_HOME = {"fcl": "geometry/neighbor/broad_phase.cpp", "ccd": "geometry/closest/deep.cpp"}

@@ -9,7 +9,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 bin=$folder/bin
 mkdir "$bin"
-for tool in awk dirname sed tr; do
+for tool in awk date dirname sed tr; do
   ln -s "$(command -v "$tool")" "$bin/$tool"
 done
 shell=$(command -v sh)

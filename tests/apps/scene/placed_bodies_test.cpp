@@ -179,5 +179,69 @@ TEST(PlacedBodies, HaveRadiiOfTheirOwn) {
               HasSubstr("grains.pair.radius: radii says how large each grain is"));
 }
 
+TEST(PlacedBodies, HaveBarsBesideFacetsOnTheSameNodes) {
+  const std::string shape =
+      "membranes.rope.shape={kind = \"facets\", points = [[0, 0, 1], [1, 0, 1], [0, 1, 1], [2, 0, "
+      "1]], facets = [[0, 1, 2]], bars = [[3, 1]]}";
+
+  const BuiltScene scene = built({shape});
+
+  EXPECT_EQ(scene.membranes.at(0).facets, 1u);
+  EXPECT_EQ(scene.membranes.at(0).beams, 4u);
+  ASSERT_EQ(scene.scene.elements.cylinders.size(), 4u);
+  EXPECT_EQ(scene.scene.elements.cylinders[3].nodes, (std::array{NodeId{1}, NodeId{3}}));
+  // 1000 kg/m3 pi (1 cm)², of four sides: 1, 1, sqrt(2) and 1 m
+  EXPECT_NEAR(scene.membranes.at(0).mass, 0.1 * std::numbers::pi * (3.0 + std::numbers::sqrt2),
+              1e-12);
+  EXPECT_THAT(error_of({shape, "membranes.rope.shape.bars=[[1, 0]]"}),
+              HasSubstr("shape.bars: the one between the points 0 and 1 is a side of a facet"));
+  EXPECT_THAT(error_of({shape, "membranes.rope.mode=continuum"}),
+              HasSubstr("mode: the bars beside the facets are beams"));
+  EXPECT_THAT(error_of({shape, "membranes.rope.mass_mode=area"}),
+              HasSubstr("mass_mode: the bars beside the facets would have no mass"));
+}
+
+std::string without(std::string text, const std::string& line) {
+  return text.erase(text.find(line), line.size());
+}
+
+TEST(PlacedBodies, MoveEachAsItIsTold) {
+  const std::string text =
+      without(without(without(std::string(kScenario), "velocity = [0, 0, -1]\n"),
+                      "angular_velocity = [0, \"7 rad/s\", 0]\n"),
+              "initial_velocity = [0, 0, \"3 m/s\"]\n");
+  const std::vector<std::string> overrides = {
+      "grains.pair.velocities=[[1, 0, 0], [0, \"2 m/s\", 0]]",
+      "grains.pair.angular_velocities=[[0, 0, 3], [4, 0, 0]]",
+      "membranes.rope.shape={kind = \"bars\", points = [[0, 0, 1], [1, 0, 1], [2, 0, 1]], bars = "
+      "[[0, 1], [1, 2]]}",
+      "membranes.rope.initial_velocities=[[9, 0, 0], [0, 5, 0], [9, 0, 0]]"};
+
+  const dynamics::NodeState state =
+      build_scene(parse_scenario(text, "case.toml", overrides)).scene.state;
+
+  EXPECT_EQ(state.velocity[0], Vec3::Zero());  // held
+  EXPECT_EQ(state.velocity[1], Vec3(0.0, 5.0, 0.0));
+  EXPECT_EQ(state.velocity[3], Vec3(1.0, 0.0, 0.0));
+  EXPECT_EQ(state.velocity[4], Vec3(0.0, 2.0, 0.0));
+  EXPECT_EQ(state.angular_velocity[3], Vec3(0.0, 0.0, 3.0));
+  EXPECT_EQ(state.angular_velocity[4], Vec3(4.0, 0.0, 0.0));
+}
+
+TEST(PlacedBodies, RefuseVelocitiesThatAreNotOneForEach) {
+  EXPECT_THAT(
+      error_of({"grains.pair.velocities=[[1, 0, 0]]"}),
+      testing::AllOf(HasSubstr("velocities: got a list of 1; expected one for each of the 2"),
+                     HasSubstr("velocity: velocities says that of each grain")));
+  EXPECT_THAT(
+      error_of({"membranes.rope.initial_velocities=[[1, 0, 0]]"}),
+      testing::AllOf(HasSubstr("initial_velocities: goes with a shape of kind facets or bars"),
+                     HasSubstr("initial_velocity: initial_velocities says how each node")));
+  EXPECT_THAT(error_of({"membranes.rope.shape={kind = \"bars\", points = [[0, 0, 1], [1, 0, 1]], "
+                        "bars = [[0, 1]]}",
+                        "membranes.rope.initial_velocities=[[1, 0, 0]]"}),
+              HasSubstr("initial_velocities: got a list of 1; expected one for each of the 2"));
+}
+
 }  // namespace
 }  // namespace plekton::apps

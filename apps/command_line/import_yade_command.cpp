@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/import_yade_command.hpp"
+
+#include "apps/run/output_folder.hpp"
+#include "apps/run/run.hpp"
+#include "apps/scenario/problems.hpp"
+#include "apps/scenario/scenario_reader.hpp"
+#include "apps/takeover/run_yade.hpp"
+#include "apps/takeover/scenario_text.hpp"
+#include "dynamics/output/file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace plekton::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is wrong with a scenario as it stands; empty if nothing is.
+std::string problem_of(const std::string& text, const fs::path& file) {
+  try {
+    const PreparedRun prepared = prepare_run(parse_scenario(text, file));
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+/// Tried with YADE's time step, and with one that is chosen where that is refused.
+yade::Takeover tried(const yade::Scene& scene, const fs::path& script, const fs::path& file) {
+  yade::TakeoverOptions options;
+  options.script = script.filename().string();
+  yade::Takeover takeover = yade::take_over(scene, options);
+  std::string problem = problem_of(takeover.scenario, file);
+  if (problem.find("simulation.time_step") != std::string::npos) {
+    const std::string refused = problem;
+    options.has_chosen_step = true;
+    takeover = yade::take_over(scene, options);
+    takeover.notes.push_back(
+        fmt::format("YADE's time step is refused, so one is chosen: {}", refused));
+    problem = problem_of(takeover.scenario, file);
+  }
+  if (!problem.empty())
+    takeover.notes.push_back(fmt::format("plekton refuses the scenario as it stands: {}", problem));
+  return takeover;
+}
+
+std::string report_of(const yade::Takeover& takeover, const yade::Scene& scene,
+                      const fs::path& script) {
+  std::string text = fmt::format("{} at iteration {}, {:.6g} s, time step {:.6g} s\n",
+                                 script.string(), scene.iteration, scene.time, scene.time_step);
+  text += "taken over:\n";
+  for (const std::string& line : takeover.counts) text += fmt::format("  {}\n", line);
+  if (takeover.counts.empty()) text += "  nothing\n";
+  text += "not as in YADE:\n";
+  for (const std::string& line : takeover.notes) text += fmt::format("  {}\n", line);
+  if (takeover.notes.empty()) text += "  nothing that is known of\n";
+  return text;
+}
+
+}  // namespace
+
+void import_yade(const ImportYadeArguments& arguments, std::ostream& out) {
+  if (arguments.iteration < 0)
+    throw InputError(fmt::format("--iteration: got {}; expected at least 0", arguments.iteration));
+  const std::string stem = arguments.script.stem().string();
+  const fs::path folder =
+      arguments.out.empty() ? fs::path("out") / (stem + "-yade") : arguments.out;
+  const std::string scenario_name = stem + ".toml";
+  if (!arguments.overwrite)
+    refuse_results(folder, "import-yade",
+                   std::array<std::string_view, 2>{scenario_name, "report.txt"});
+  const yade::Scene scene = yade::run_to(arguments.script, arguments.iteration);
+  const yade::Takeover takeover = tried(scene, arguments.script, folder / scenario_name);
+  if (takeover.counts.empty())
+    throw InputError(
+        fmt::format("{}: at iteration {} there are no bodies that could be taken over; "
+                    "does the script make them later?",
+                    arguments.script.string(), scene.iteration));
+  make_output_folder(folder);
+  dynamics::OutputFile scenario(folder / scenario_name);
+  scenario.write(takeover.scenario);
+  dynamics::OutputFile report(folder / "report.txt");
+  const std::string text = report_of(takeover, scene, arguments.script);
+  report.write(text);
+  scenario.commit();
+  report.commit();
+  out << text
+      << fmt::format("wrote {} and {}\n", (folder / scenario_name).string(),
+                     (folder / "report.txt").string());
+}
+
+}  // namespace plekton::apps

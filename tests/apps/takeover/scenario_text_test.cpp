@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/takeover/scenario_text.hpp"
+
+#include "apps/scenario/scenario_reader.hpp"
+#include "apps/scene/build_scene.hpp"
+#include "tests/apps/takeover/grid_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plekton::apps::yade {
+namespace {
+
+using dynamics::Held;
+using testing::Contains;
+using testing::HasSubstr;
+
+BuiltScene built(const Scene& scene, Takeover* told = nullptr) {
+  const Takeover takeover = take_over(scene, {.script = "case.py"});
+  if (told != nullptr) *told = takeover;
+  return build_scene(parse_scenario(takeover.scenario, "case.toml"));
+}
+
+Sphere sphere_at(const Vec3& centre, double radius) {
+  Sphere sphere;
+  sphere.id = 300;
+  sphere.material = 0;
+  sphere.position = centre;
+  sphere.radius = radius;
+  sphere.mass = 1000.0 * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  return sphere;
+}
+
+TEST(ScenarioText, HasTheNodesFacetsAndMassesOfGrids) {
+  const Scene scene = grid_scene();
+
+  const BuiltScene result = built(scene);
+
+  ASSERT_EQ(result.membranes.size(), 2u);
+  EXPECT_EQ(result.membranes[0].nodes, 5u);
+  EXPECT_EQ(result.membranes[0].facets, 1u);
+  EXPECT_EQ(result.membranes[0].beams, 6u);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    EXPECT_EQ(result.scene.state.position[i], scene.nodes[i].position);
+  }
+  double mass = 0.0;
+  for (std::size_t i = 0; i < 5; ++i) mass += scene.nodes[i].mass;
+  EXPECT_NEAR(result.membranes[0].mass, mass, 1e-12 * mass);
+}
+
+TEST(ScenarioText, HoldsAndMovesWhatIsBlocked) {
+  Scene scene = grid_scene();
+  for (const std::size_t i : {0u, 1u}) scene.nodes[i].blocked = "xyzXYZ";
+  scene.nodes[4].blocked = "xz";
+  scene.nodes[4].velocity = {0.25, 0.0, 0.0};
+  scene.nodes[3].blocked = "X";
+
+  Takeover told;
+  const BuiltScene result = built(scene, &told);
+
+  EXPECT_EQ(result.scene.properties.held[0], Held::everything);
+  EXPECT_EQ(result.scene.properties.held[1], Held::everything);
+  EXPECT_EQ(result.scene.properties.held[2], Held::nothing);
+  EXPECT_THAT(told.scenario, HasSubstr("components = \"xz\"\nvelocity = [0.25, 0, 0]"));
+  EXPECT_THAT(told.notes, Contains(HasSubstr("rotation is blocked about X alone: left out")));
+}
+
+TEST(ScenarioText, HasSpheresWithTheirMotionAndForces) {
+  Scene scene = grid_scene();
+  scene.spheres = {sphere_at({0.3, 0.3, 1.0}, 0.1), sphere_at({0.3, 0.3, 2.0}, 0.2)};
+  scene.spheres[1].id = 301;
+  scene.spheres[1].velocity = {0.0, 0.0, -3.0};
+  scene.forces = {{301, {5.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}};
+
+  const BuiltScene result = built(scene);
+
+  ASSERT_EQ(result.grains.size(), 1u);
+  EXPECT_NEAR(result.grains[0].mass, scene.spheres[0].mass + scene.spheres[1].mass, 1e-9);
+  EXPECT_EQ(result.scene.state.velocity[7], Vec3::Zero());
+  EXPECT_EQ(result.scene.state.velocity[8], Vec3(0.0, 0.0, -3.0));
+  ASSERT_EQ(result.scene.loads.forces.size(), 1u);
+}
+
+TEST(ScenarioText, TurnsAWallToTheBodiesAndLeavesOneBetweenThemOut) {
+  Scene scene = grid_scene();
+  Wall wall;
+  wall.id = 400;
+  wall.material = 0;
+  wall.axis = 2;
+  wall.position = {0.0, 0.0, 1.0};
+  scene.walls = {wall};
+
+  EXPECT_EQ(built(scene).scene.planes.at(0).normal, Vec3(0.0, 0.0, -1.0));
+
+  scene.spheres = {sphere_at({0.3, 0.3, 2.0}, 0.1)};
+  Takeover told;
+  EXPECT_TRUE(built(scene, &told).scene.planes.empty());
+  EXPECT_THAT(told.notes, Contains(HasSubstr("wall 400: there are bodies on both of its sides")));
+}
+
+TEST(ScenarioText, KeepsTheOuterSizeOfABox) {
+  Scene scene;
+  scene.time_step = 1e-6;
+  scene.materials = {{.type = "FrictMat", .label = "steel", .young = 1e9, .poisson = 0.3}};
+  scene.spheres = {sphere_at({0.0, 0.0, 5.0}, 0.5)};
+  RigidFacets box;
+  box.material = 0;
+  box.is_box = true;
+  box.blocked = "xyzXYZ";
+  for (int i = 0; i < 8; ++i)
+    box.points.emplace_back((i & 1) * 2 - 1, (i >> 1 & 1) * 2 - 1, (i >> 2) * 2 - 1);
+  box.facets = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  scene.facets = {box};
+
+  const BuiltScene result = built(scene);
+
+  ASSERT_EQ(result.scene.elements.facets.size(), 12u);
+  const double half = result.scene.elements.facets[0].radius;
+  double top = 0.0;
+  for (const auto& x : result.scene.state.position)
+    if (x[2] < 4.0) top = std::max(top, x[2]);
+  EXPECT_NEAR(top + half, 1.0, 1e-15);
+}
+
+TEST(ScenarioText, HasClumpsAsRigidBodies) {
+  Scene scene = grid_scene();
+  Clump clump;
+  clump.id = 500;
+  clump.material = 0;
+  clump.position = {0.0, 0.0, 3.0};
+  clump.mass = 2.0;
+  clump.inertia = {0.1, 0.2, 0.25};
+  clump.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  clump.centres = {{-0.1, 0.0, 3.0}, {0.1, 0.0, 3.0}};
+  clump.radii = {0.15, 0.15};
+  clump.velocity = {0.0, 1.0, 0.0};
+  scene.clumps = {clump};
+
+  const BuiltScene result = built(scene);
+
+  ASSERT_EQ(result.rigid_bodies.size(), 1u);
+  EXPECT_NEAR(result.rigid_bodies[0].mass.mass, 2.0, 1e-15);
+  EXPECT_EQ(result.rigid_bodies[0].moments.maxCoeff(), 0.25);
+}
+
+TEST(ScenarioText, SaysWhatIsLeftOut) {
+  Scene scene = grid_scene();
+  scene.is_periodic = true;
+  scene.others = {{"Polyhedra", 4}};
+  scene.engines = {"NewtonIntegrator", "PyRunner"};
+  scene.functors.push_back("Law2_ScGeom_ViscElPhys_Basic");
+  scene.contacts = 3;
+
+  const std::vector<std::string> notes = take_over(scene, {}).notes;
+
+  for (const char* what : {"the cell is periodic", "4 bodies of shape Polyhedra", "engine PyRunner",
+                           "Law2_ScGeom_ViscElPhys_Basic: has no counterpart",
+                           "3 contacts are there", "grids do not touch each other in YADE"})
+    EXPECT_THAT(notes, Contains(HasSubstr(what)));
+}
+
+}  // namespace
+}  // namespace plekton::apps::yade
