@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs a script in YADE to an iteration and writes what is there then, as JSON in SI units.
 
-Usage, from plekton import-yade: yade -n -x -j1 export_scene.py SCRIPT ITERATION OUT
+Usage, from plekton import-yade: yade -n -x -j1 export_scene.py SCRIPT ITERATION OUT [LATER_ITERATION OUT]...
 """
 
 import json
@@ -12,7 +12,8 @@ import sys
 import traceback
 import types
 
-script, iteration, out = sys.argv[1], int(sys.argv[2]), sys.argv[3]
+script = sys.argv[1]
+stops = [(int(at), out) for at, out in zip(sys.argv[2::2], sys.argv[3::2])]
 
 
 class Anything:
@@ -58,8 +59,8 @@ def with_any_locale():
 
 
 def run_script():
-    """Runs it as YADE would, from its own folder and among the names that YADE's engines know, and goes on to the iteration."""
-    omega, target, file_name = O, iteration, script
+    """Runs it as YADE would, from its own folder and among the names that YADE's engines know, and goes on to the first iteration."""
+    omega, target, file_name = O, stops[0][0], script
     os.chdir(os.path.dirname(file_name))
     sys.argv = [file_name]
     sys.path.insert(0, os.path.dirname(file_name))
@@ -251,7 +252,7 @@ def engine_facts():
     return facts
 
 
-def export():
+def export(out):
     scene = Export()
     for body in O.bodies:
         scene.add(body)
@@ -272,7 +273,9 @@ def main():
     code = 0
     try:
         run_script()
-        export()
+        for at, out in stops:
+            O.run(at - O.iter, True) if at > O.iter else None
+            export(out)
     except SystemExit as stop:
         print(stop)
         code = 1

@@ -149,6 +149,7 @@ class GridMaker {
     std::vector<double> moduli, ratios, shear, strengths;
     std::size_t missing = 0, limp = 0;
     double strain = 0.0, force = 0.0;
+    double shortest = std::numeric_limits<double>::infinity();
     for (const Pair& edge : edges) {
       const auto found = bonds_.find(edge);
       if (found == bonds_.end() || found->second->is_broken) {
@@ -172,6 +173,7 @@ class GridMaker {
       }
       strain = std::max(strain, std::abs(distance(edge) / bond.rest_length - 1.0));
       force = std::max(force, bond.force);
+      shortest = std::min(shortest, bond.rest_length);
     }
     if (moduli.empty()) {
       note(number, "no beam holds its nodes together; the young_modulus is that of its material");
@@ -196,6 +198,11 @@ class GridMaker {
     grid.bends = !ratios.empty();
     if (grid.bends && limp > 0)
       note(number, fmt::format("{} of its beams do not bend in YADE; here all do", limp));
+    if (grid.bends)
+      note(number,
+           fmt::format("across its beams YADE 2023 has 2 r / length of their stiffness in "
+                       "shear ({:.2g} here), so they bend more there; here they have all of it",
+                       2.0 * grid.radius / shortest));
     if (grid.bends) set_bending(grid, std::move(ratios), std::move(shear), number);
     if (!strengths.empty()) grid.strength = spread_of(std::move(strengths)).middle;
   }

@@ -2,11 +2,12 @@
 """Takes scripts of YADE over and goes on with both programs; prints, for each, counts, masses and how far bodies are apart.
 
 Run on request, with YADE and Plekton's module for Python: PYTHONPATH=build/release/python /usr/bin/python3
-compare_with_yade.py PROGRAM SCRIPT... [--steps 1000] [--iteration 0]. A script that fails is told and counted; ends 1 if any does.
+compare_with_yade.py PROGRAM SCRIPT... [--steps 1000] [--iteration 0] [--mend-shear]. A script that fails is told and counted; ends 1 if any does.
 """
 
 import argparse
 import json
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,14 +19,33 @@ import plekton
 EXPORTER = Path(__file__).resolve().parents[3] / "apps/takeover/export_scene.py"
 
 
-def exported(script, iteration, folder):
-    """What YADE has at an iteration."""
-    out = folder / f"scene_{iteration}.json"
-    command = ["yade", "-n", "-x", "-j1", EXPORTER, script.resolve(), str(iteration), out]
+MEND_SHEAR = """
+for _i in O.interactions:
+    if type(_i.geom).__name__ == "GridNodeGeom6D":
+        _length = (O.bodies[_i.id2].state.pos - O.bodies[_i.id1].state.pos).norm()
+        _i.phys.ks *= _length / (2 * O.bodies[_i.id1].shape.radius)
+"""
+"""What YADE 2023 leaves out of the shear of a beam between grid nodes: it has 2 r / length of its stiffness."""
+
+
+def exported(script, stops, folder):
+    """What YADE has at each iteration, of one run: GTS may number what it reads otherwise in the next."""
+    command = ["yade", "-n", "-x", "-j1", EXPORTER, script.resolve()]
+    files = [folder / f"scene_{at}.json" for at in stops]
+    for at, file in zip(stops, files):
+        command += [at, file]
     said = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, capture_output=True, text=True)
     if said.returncode != 0:
         raise RuntimeError(said.stdout.strip().splitlines()[-1])
-    return json.loads(out.read_text())
+    return [json.loads(file.read_text()) for file in files]
+
+
+def mended(script, folder):
+    """A copy with what it reads beside it."""
+    shutil.copytree(script.parent, folder / "mended")
+    copy = folder / "mended" / script.name
+    copy.write_text(copy.read_text() + MEND_SHEAR)
+    return copy
 
 
 def moving(scene):
@@ -34,7 +54,7 @@ def moving(scene):
 
 
 def compare(program, script, iteration, steps, folder):
-    before, after = exported(script, iteration, folder), exported(script, iteration + steps, folder)
+    before, after = exported(script, [iteration, iteration + steps], folder)
     command = [program, "import-yade", script, "--iteration", str(iteration), "--out", folder / "taken", "--overwrite"]
     said = subprocess.run([str(c) for c in command], capture_output=True, text=True)
     if said.returncode != 0:
@@ -70,10 +90,13 @@ def main():
     parser.add_argument("scripts", nargs="+", type=Path)
     parser.add_argument("--steps", type=int, default=1000)
     parser.add_argument("--iteration", type=int, default=0)
+    parser.add_argument("--mend-shear", action="store_true", help="with the whole shear stiffness of beams in YADE")
     arguments = parser.parse_args()
     failed = 0
     for script in arguments.scripts:
         with tempfile.TemporaryDirectory() as folder:
+            if arguments.mend_shear:
+                script = mended(script, Path(folder))
             try:
                 failed += not compare(arguments.program, script, arguments.iteration, arguments.steps, Path(folder))
             except (RuntimeError, plekton.Error) as error:
