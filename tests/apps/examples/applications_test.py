@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs an application of apps/examples and its check; then with wrong physics, which the check has to see.
+
+Usage: python3 applications_test.py PROGRAM ROOT NAME
+"""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+APPLICATIONS = {
+    "bouncing_sphere": {
+        "right": {
+            "wall": ("bouncing_sphere", []),
+            "half the step": ("bouncing_sphere", ["simulation.time_step=2.5 us"]),
+            "gas": ("gas", []),
+            "incline": ("incline", []),
+        },
+        "wrong": {
+            "a wall that takes energy": ("bouncing_sphere", ["simulation.damping=0.1"]),
+            "gas that is kept at its temperature": ("gas", ["stages.inflate.loads.air.gas.exponent=1"]),
+            "more friction than there is": ("incline", ["materials.plastic.friction_angle=30 deg"]),
+        },
+    },
+}
+"""For each the runs, scenario and what is set, that its check passes, and those that it must not pass."""
+
+
+def run(program, folder, scenario, settings, out):
+    options = [word for setting in settings for word in ("--set", setting)]
+    command = [program, "run", folder / f"{scenario}.toml", "--out", out, "--quiet", *options]
+    subprocess.run(command, check=True, stderr=subprocess.PIPE)
+    return out
+
+
+def check(folder, runs):
+    done = subprocess.run([sys.executable, "-B", folder / "check.py", *runs], capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+def main():
+    program, folder, name = sys.argv[1], Path(sys.argv[2], "apps/examples", sys.argv[3]), sys.argv[3]
+    failures = []
+    with tempfile.TemporaryDirectory() as work:
+        right = [run(program, folder, *what, Path(work, label)) for label, what in APPLICATIONS[name]["right"].items()]
+        code, said = check(folder, right)
+        print(said)
+        if code != 0:
+            failures.append(f"{name}: the check fails")
+        for label, what in APPLICATIONS[name]["wrong"].items():
+            code, said = check(folder, [run(program, folder, *what, Path(work, "wrong " + label))])
+            if code != 1 or "OUT OF BOUNDS" not in said:
+                failures.append(f"{name}: the check passes {label}\n{said}")
+    print("\n".join(failures))
+    sys.exit(1 if failures else 0)
+
+
+main()
