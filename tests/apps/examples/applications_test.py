@@ -10,6 +10,10 @@ import tempfile
 from pathlib import Path
 
 APPLICATIONS = {
+    "buckling_tube": {
+        "right": {"lattice": ("buckling_tube", []), "sheet": ("continuum", [])},
+        "wrong": {"beams that are a tenth too thick": ("buckling_tube", ["membranes.tube.thickness=2.2 mm"])},
+    },
     "bouncing_sphere": {
         "right": {
             "wall": ("bouncing_sphere", []),
