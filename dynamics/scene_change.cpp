@@ -5,13 +5,25 @@
 #include "dynamics/simulation.hpp"
 #include "dynamics/time_step/step_chooser.hpp"
 #include "geometry/base/state_archive.hpp"
+#include "geometry/primitives/node_sets.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 namespace plekton::dynamics {
 namespace {
+
+using geometry::StateArchive;
+using geometry::StateArray;
+using geometry::StateMismatch;
+using geometry::StateTree;
 
 /// Calls visit(before, now) for all that is in both scenes.
 template <class Visit>
@@ -20,12 +32,136 @@ void for_each_kept(const std::vector<std::int32_t>& places, Visit&& visit) {
     if (places[i] >= 0) visit(i, static_cast<std::size_t>(places[i]));
 }
 
-/// What is held now and was not before stands still.
-void stop_newly_held(Held before, Held now, Vec3& velocity, Vec3& spin) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (holds_along(now, axis) && !holds_along(before, axis)) velocity[axis] = 0.0;
-    if (holds_about(now, axis) && !holds_about(before, axis)) spin[axis] = 0.0;
+/// Puts the rows of an array over those of another one.
+void put_over(const StateArray& before, const std::vector<std::int32_t>& places, StateArray& now) {
+  std::visit(
+      [&](const auto& from) {
+        auto& to = std::get<std::remove_cvref_t<decltype(from)>>(now.numbers);
+        const std::size_t columns = now.columns;
+        for_each_kept(places, [&](std::size_t i, std::size_t k) {
+          std::copy_n(from.data() + i * columns, columns, to.data() + k * columns);
+        });
+      },
+      before.numbers);
+}
+
+/// Rows of a group of arrays, and where they are in the other scene.
+struct KeptRows {
+  std::string_view group;
+  const std::vector<std::int32_t>& places;
+};
+
+/// The state of another scene with what was before: rows of groups by their places, all else as it
+/// was.
+StateTree carried(const StateTree& before, StateTree now, std::span<const KeptRows> groups) {
+  for (const auto& [name, array] : before.arrays) {
+    const auto group =
+        std::find_if(groups.begin(), groups.end(),
+                     [&, key = &name](const KeptRows& g) { return key->starts_with(g.group); });
+    if (group == groups.end())
+      now.arrays[name] = array;
+    else if (const auto to = now.arrays.find(name); to != now.arrays.end())
+      put_over(array, group->places, to->second);
   }
+  return now;
+}
+
+/// Where the rigid bodies of a scene are among those of another.
+std::vector<std::int32_t> body_places(const Scene& before, const RigidNodes& now,
+                                      const std::vector<std::int32_t>& nodes) {
+  std::vector<std::int32_t> places;
+  for (const RigidBody& body : before.rigid_bodies) {
+    const std::int32_t node = nodes[index_of(body.node)];
+    places.push_back(node < 0 ? -1 : now.body_at(NodeId{node}));
+  }
+  return places;
+}
+
+/// What of each node is held in a scene.
+struct Holds {
+  std::vector<Held> all;
+  std::vector<Held> prescribed;  ///< by loads, which say how it moves
+};
+
+Holds holds_of(const Scene& scene) {
+  Scene loaded;
+  loaded.properties.held.assign(scene.properties.size(), Held::nothing);
+  loaded.loads = scene.loads;
+  loaded.rigid_bodies = scene.rigid_bodies;
+  return {scene.properties.held, held_as_prescribed(std::move(loaded)).properties.held};
+}
+
+/// Motions that are held from now on, and those whose load has ended and that are held without it.
+Held stopped(std::size_t then, const Holds& before, std::size_t now, const Holds& holds) {
+  constexpr auto kBits = [](Held held) { return static_cast<unsigned>(held); };
+  const unsigned own_before = kBits(before.all[then]) & ~kBits(before.prescribed[then]);
+  const unsigned own = kBits(holds.all[now]) & ~kBits(holds.prescribed[now]);
+  return static_cast<Held>((kBits(holds.all[now]) & ~kBits(before.all[then])) |
+                           (own & ~own_before));
+}
+
+void stop(Held motions, Vec3& velocity, Vec3& spin) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (holds_along(motions, axis)) velocity[axis] = 0.0;
+    if (holds_about(motions, axis)) spin[axis] = 0.0;
+  }
+}
+
+/// @returns whether there were any
+template <class Element>
+bool erase_absent(const Scene& scene, std::vector<Element>& elements,
+                  std::vector<contact::MaterialId>& materials) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!scene.is_there(elements[i].nodes[0])) continue;
+    elements[kept] = elements[i];
+    materials[kept++] = materials[i];
+  }
+  const bool are_fewer = kept < elements.size();
+  elements.resize(kept);
+  materials.resize(kept);
+  return are_fewer;
+}
+
+/// Of the nodes of structures, which come first in both.
+bool are_same_there(const Scene& a, const Scene& b) {
+  for (std::size_t i = 0; i < std::min(a.state.size(), b.state.size()); ++i) {
+    const auto node = geometry::id_at<NodeId>(i);
+    if (a.is_there(node) != b.is_there(node)) return false;
+  }
+  return true;
+}
+
+/// @param elements  as they are made, without what is absent; becomes what is left of them
+/// @returns whether any are others than they were made
+template <class Element>
+bool take_table(const Scene& before, const std::vector<Element>& there,
+                const std::vector<contact::MaterialId>& there_materials, const Scene& now,
+                std::vector<Element>& elements, std::vector<contact::MaterialId>& materials) {
+  geometry::NodeSets<Element{}.nodes.size()> were, made;
+  for (const Element& element : there) were.add(element.nodes);
+  for (const Element& element : elements) made.add(element.nodes);
+  were.sort();
+  made.sort();
+  std::vector<Element> kept;
+  std::vector<contact::MaterialId> kept_materials;
+  const auto keep = [&](const Element& element, contact::MaterialId material) {
+    kept.push_back(element);
+    kept_materials.push_back(material);
+  };
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!before.is_there(elements[i].nodes[0]) || were.contains(elements[i].nodes))
+      keep(elements[i], materials[i]);
+  }
+  const std::size_t of_made = kept.size();
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    if (now.is_there(there[i].nodes[0]) && !made.contains(there[i].nodes))
+      keep(there[i], there_materials[i]);
+  }
+  const bool others = kept.size() != elements.size() || of_made != kept.size();
+  elements = std::move(kept);
+  materials = std::move(kept_materials);
+  return others;
 }
 
 std::vector<bool> driven_planes(const Scene& scene) {
@@ -42,92 +178,118 @@ void Simulation::go_on_from(Simulation& before, const SceneChange& change) {
     throw std::logic_error(
         "a simulation goes on from another one before its first step, not after " +
         std::to_string(steps_));
-  take_motion(before, change);
-  take_structures(before, change.places);
-  contacts_->take_over(*before.contacts_, change.places, scene_.planes, scene_.state.position,
-                       pool_);
-  take_ledger(before);
+  require_same_structures(before, change.places);
+  take_state(before, change);
+  take_contacts(before, change.places);
+  ties_.follow(scene_.elements);
+  follow_holds(before, change.places);
+  note_change(before);
   if (chooser_ != nullptr) set_first_step(0.0);
 }
 
-void Simulation::take_motion(const Simulation& before, const SceneChange& change) {
-  time_ = before.time_;
-  steps_ = before.steps_;
-  drift_ = before.drift_;
-  last_drift_ = before.last_drift_;
-  motion_.gravity = before.motion_.gravity;
-  const bool has_new_nodes = std::count_if(change.places.nodes.begin(), change.places.nodes.end(),
-                                           [](std::int32_t node) { return node >= 0; }) !=
-                             static_cast<std::ptrdiff_t>(scene_.state.size());
-  for_each_kept(change.places.nodes, [&](std::size_t then, std::size_t now) {
-    NodeState& state = scene_.state;
-    state.position[now] = before.scene_.state.position[then];
-    state.velocity[now] = before.scene_.state.velocity[then];
-    state.angular_velocity[now] = before.scene_.state.angular_velocity[then];
-    state.orientation[now] = before.scene_.state.orientation[then];
-    stop_newly_held(before.scene_.properties.held[then], scene_.properties.held[now],
-                    state.velocity[now], state.angular_velocity[now]);
-    forces_.force[now] = before.forces_.force[then];
-    forces_.torque[now] = before.forces_.torque[then];
-  });
-  fastest_ = before.fastest_;
-  fastest_spin_ = before.fastest_spin_;
-  if (has_new_nodes) fastest_ = std::max(fastest_, largest_speed(scene_.state));
-  const std::vector<bool> are_driven = driven_planes(scene_);
-  for_each_kept(change.places.planes, [&](std::size_t then, std::size_t now) {
-    if (!change.moved_planes.empty() && change.moved_planes[now]) return;
-    scene_.planes[now].point = before.scene_.planes[then].point;
-    if (are_driven[now]) scene_.planes[now].velocity = before.scene_.planes[then].velocity;
-  });
-}
-
-/// What has yielded, broken or torn.
-void Simulation::take_structures(Simulation& before, const contact::BodyPlaces& places) {
+void Simulation::require_same_structures(const Simulation& before,
+                                         const contact::BodyPlaces& places) const {
   for (std::size_t node = 0; node < before.surface_.node_count(); ++node) {
     if (before.surface_.structure_of(geometry::id_at<NodeId>(node)) != geometry::StructureId{-1} &&
         places.nodes[node] != static_cast<std::int32_t>(node))
-      throw geometry::StateMismatch("the nodes of structures have other ids than before");
+      throw StateMismatch("the nodes of structures have other ids than before");
   }
-  geometry::StateTree tree;
-  const auto write = geometry::StateArchive::writer(tree);
-  before.exchange_elements(write.group("elements"));
-  before.bonds_.exchange(write.group("bonds"));
-  before.yielding_bonds_.exchange(write.group("yield"));
-  before.sheet_facets_.exchange(write.group("sheets"));
-  before.ties_.exchange(write.group("ties"));
-  before.exchange_asked_breaks(write.group("asked_breaks"));
-  const auto read = geometry::StateArchive::reader(tree);
-  exchange_elements(read.group("elements"));
-  bonds_.exchange(read.group("bonds"));
-  loads_.follow(bonds_);
-  yielding_bonds_.exchange(read.group("yield"));
-  sheet_facets_.exchange(read.group("sheets"));
-  ties_.exchange(read.group("ties"));
-  exchange_asked_breaks(read.group("asked_breaks"));
+}
+
+/// All that is kept from step to step, but for contacts and how a step is chosen.
+void Simulation::take_state(Simulation& before, const SceneChange& change) {
+  const bool has_new_nodes = std::count_if(change.places.nodes.begin(), change.places.nodes.end(),
+                                           [](std::int32_t node) { return node >= 0; }) !=
+                             static_cast<std::ptrdiff_t>(scene_.state.size());
+  const std::vector<contact::Plane> planes = scene_.planes;
+  const std::vector<std::int32_t> bodies =
+      body_places(before.scene_, rigid_nodes_, change.places.nodes);
+  const std::array groups{KeptRows{"nodes/", change.places.nodes},
+                          KeptRows{"planes/", change.places.planes},
+                          KeptRows{"rigid_bodies/", bodies}};
+  StateTree there, here;
+  before.exchange_kept(StateArchive::writer(there));
+  exchange_kept(StateArchive::writer(here));
+  const StateTree state = carried(there, std::move(here), groups);
+  exchange_kept(StateArchive::reader(state));
+  if (has_new_nodes) fastest_ = std::max(fastest_, largest_speed(scene_.state));
+  const std::vector<bool> are_driven = driven_planes(scene_);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    if (!change.moved_planes.empty() && change.moved_planes[i])
+      scene_.planes[i] = planes[i];
+    else if (!are_driven[i])
+      scene_.planes[i].velocity = planes[i].velocity;
+  }
+}
+
+void Simulation::leave_out_absent() {
+  if (scene_.is_absent.empty()) return;
+  whole_ = surface_;
+  const bool are_fewer = erase_absent(scene_, scene_.elements.facets, scene_.facet_materials) |
+                         erase_absent(scene_, scene_.elements.cylinders, scene_.cylinder_materials);
+  if (are_fewer) follow_surface();
+}
+
+/// Contacts on the surface as it was, and then what has come and gone of that. Energy that they had
+/// stored on what is gone is work from outside, and none that tracking lost.
+void Simulation::take_contacts(Simulation& before, const contact::BodyPlaces& places) {
+  const geometry::Surface whole = whole_ ? *whole_ : surface_;
+  const geometry::Surface made = surface_;
+  const Scene& there = before.scene_;
+  const auto part = [&whole](const geometry::Elements& of) {
+    return whole.left_with(of.cylinders, of.facets);
+  };
+  const bool others = take_table(there, there.elements.facets, there.facet_materials, scene_,
+                                 scene_.elements.facets, scene_.facet_materials) |
+                      take_table(there, there.elements.cylinders, there.cylinder_materials, scene_,
+                                 scene_.elements.cylinders, scene_.cylinder_materials);
+  const bool comes_or_goes = !are_same_there(there, scene_);
+  if (others || comes_or_goes) change_surface(part(there.elements));
+  contacts_->take_over(*before.contacts_, places, scene_.planes, scene_.state.position, pool_);
+  work_.external += contacts_->elastic_energy() - before.contacts_->elastic_energy();
+  if (comes_or_goes) {
+    const double tracking = contacts_->tracking_loss();
+    change_surface(part(scene_.elements));
+    const double gone = contacts_->tracking_loss() - tracking;
+    taken_out_ += gone;
+    work_.external -= gone;
+  }
+  if (others) loads_.follow(geometry::SurfaceChange(made, surface_));
+}
+
+/// Rigid bodies that are held in another way turn from now on as they move now; the others to the
+/// last bit as before.
+void Simulation::follow_holds(const Simulation& before, const contact::BodyPlaces& places) {
+  const Holds holds_before = holds_of(before.scene_);
+  const Holds holds = holds_of(scene_);
+  for_each_kept(places.nodes, [&](std::size_t then, std::size_t now) {
+    const Held stopping = stopped(then, holds_before, now, holds);
+    const Held was = holds_before.all[then], is = holds.all[now];
+    if (was == is && stopping == Held::nothing) return;
+    stop(stopping, scene_.state.velocity[now], scene_.state.angular_velocity[now]);
+    const auto node = geometry::id_at<NodeId>(now);
+    const bool turns_on = (was & Held::rotation) == (is & Held::rotation) &&
+                          (stopping & Held::rotation) == Held::nothing;
+    if (turns_on)
+      rigid_bodies_.go_on_turning_from(node, scene_.state, scene_.properties);
+    else
+      rigid_bodies_.start_from(node, scene_.state, scene_.properties);
+  });
 }
 
 /// Energy that comes or goes with bodies, stiffness and fixity is work from outside. Where weight
 /// has no energy is a matter of choice: what comes and goes leaves the energy of weight as it is.
-void Simulation::take_ledger(const Simulation& before) {
-  work_ = before.work_;
-  pending_ = before.pending_;
-  broken_energy_ = before.broken_energy_;
-  initial_energy_ = before.initial_energy_;
-  most_kinetic_ = before.most_kinetic_;
-  most_accounted_ = before.most_accounted_;
-  suspect_ = before.suspect_;
-  initial_stiffness_ = before.initial_stiffness_;
-  momentum_.take_over(before.momentum_);
-  largest_overlap_ratio_ = before.largest_overlap_ratio_;
-  pass_throughs_ = before.pass_throughs_;
-  most_crossings_ = before.most_crossings_;
+void Simulation::note_change(const Simulation& before) {
   initial_moment_ =
       before.initial_moment_ + (free_moment(last_drift_) - before.free_moment(last_drift_));
-  const double kinetic = kinetic_energy(scene_.state, scene_.properties) -
-                         kinetic_energy(before.scene_.state, before.scene_.properties);
-  const double elastic = contacts_->elastic_energy() - before.contacts_->elastic_energy();
+  const double kinetic = moving_energy() - before.moving_energy();
   work_.kinetic += kinetic;
-  work_.external += kinetic + elastic;
+  work_.external += kinetic;
+}
+
+double Simulation::moving_energy() const {
+  return kinetic_energy(scene_.state, scene_.properties) +
+         rigid_bodies_.turning_energy(scene_.state, scene_.properties);
 }
 
 }  // namespace plekton::dynamics

@@ -114,6 +114,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       full_gravity_(options.motion.gravity),
       momentum_(scene_.state.position) {
   motion_.gravity = scene_.loads.gravity_factor.at(0.0) * full_gravity_;
+  leave_out_absent();
   loads_.start(scene_.state);
   rigid_bodies_.start(scene_.state, scene_.properties);
   least_furthest_ = furthest_.empty() ? 0.0 : *std::min_element(furthest_.begin(), furthest_.end());
@@ -134,8 +135,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
   limits_ = std::make_unique<StepLimits>(resistance());
   set_first_step(options.time_step);
   initial_moment_ = free_moment(0.0);
-  work_.kinetic = kinetic_energy(scene_.state, scene_.properties) +
-                  rigid_bodies_.turning_energy(scene_.state, scene_.properties);
+  work_.kinetic = moving_energy();
   most_kinetic_ = work_.kinetic;
   initial_energy_ = work_.kinetic + contacts_->elastic_energy() + bonds_.elastic_energy() +
                     ties_.elastic_energy() + sheet_facets_.elastic_energy();
@@ -260,7 +260,7 @@ Energy Simulation::energy() const {
   // positions.
   energy.gravity = -motion_.gravity.dot(free_moment(last_drift_) - initial_moment_);
   energy.friction = contacts_->dissipated();
-  energy.tracking = contacts_->tracking_loss();
+  energy.tracking = contacts_->tracking_loss() - taken_out_;
   energy.bond_dissipated = broken_energy_ + yielding_bonds_.dissipated() +
                            sheet_facets_.dissipated() + ties_.dissipated();
   energy.damping = work_.damped - pending_.damped;
@@ -570,14 +570,20 @@ void Simulation::break_asked() {
 /// The scene's elements have become fewer. Elastic energies of contacts before and after are
 /// compared half a drift ago, for the same reason as those of bonds.
 void Simulation::follow_surface() {
-  geometry::Surface before = surface_.left_with(scene_.elements.cylinders, scene_.elements.facets);
-  std::swap(before, surface_);
-  const geometry::SurfaceChange change(before, surface_);
+  const geometry::Surface before =
+      change_surface(surface_.left_with(scene_.elements.cylinders, scene_.elements.facets));
+  loads_.follow(geometry::SurfaceChange(before, surface_));
+  ties_.follow(scene_.elements);
+}
+
+/// Contacts go on where their features are there still.
+/// @returns the surface of before
+geometry::Surface Simulation::change_surface(geometry::Surface next) {
+  std::swap(next, surface_);
   std::vector<Vec3> at = scene_.state.position;
   for (std::size_t i = 0; i < at.size(); ++i) at[i] -= 0.5 * last_drift_ * scene_.state.velocity[i];
-  contacts_->follow(change, motion(), at, pool_);
-  loads_.follow(change);
-  ties_.follow(scene_.elements);
+  contacts_->follow(geometry::SurfaceChange(next, surface_), motion(), at, pool_);
+  return next;
 }
 
 // What can be read out between steps.
@@ -628,14 +634,14 @@ double Simulation::unbalanced_force_ratio() const {
   contacts_->for_each_record(
       positions, [&](const contact::ContactRecord& row) { carried.add(row.force().norm()); });
   for (std::size_t i = 0; i < bonds_.size(); ++i) {
-    if (bonds_.is_broken(i)) continue;
+    if (bonds_.is_broken(i) || !scene_.is_there(scene_.bonds[i].nodes[0])) continue;
     const BondForces forces = bond_forces(i);
     carried.add(elementary::hypot(forces.tension, forces.shear.norm()));
   }
   for (std::size_t i = 0; i < ties_.size(); ++i)
     if (!ties_.is_broken(i)) carried.add(std::abs(ties_.pull(i)));
   for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
-    if (sheet_facets_.is_broken(i)) continue;
+    if (sheet_facets_.is_broken(i) || !scene_.is_there(scene_.sheet_facets[i].nodes[0])) continue;
     for (std::size_t corner = 0; corner < 3; ++corner)
       carried.add(sheet_facets_.corner_force(i, corner).norm());
   }
@@ -684,18 +690,24 @@ void Simulation::load(const std::filesystem::path& file) {
 
 void Simulation::exchange(const geometry::StateArchive& archive) {
   archive.same("scene", scene_hash_, "another scene");
-  exchange_motion(archive);
+  exchange_kept(archive);
   exchange_elements(archive.group("elements"));
+  loads_.exchange(archive.group("loads"));
+  contacts_->exchange(archive.group("contacts"), scene_.planes, pool_);
+  exchange_step(archive.group("step"));
+}
+
+/// What goes on in another scene too.
+void Simulation::exchange_kept(const geometry::StateArchive& archive) {
+  exchange_motion(archive);
   bonds_.exchange(archive.group("bonds"));
   if (archive.is_reading()) loads_.follow(bonds_);
   yielding_bonds_.exchange(archive.group("yield"));
   sheet_facets_.exchange(archive.group("sheets"));
   if (!ties_.empty()) ties_.exchange(archive.group("ties"));
-  loads_.exchange(archive.group("loads"));
   if (!rigid_bodies_.empty()) rigid_bodies_.exchange(archive.group("rigid_bodies"));
   exchange_asked_breaks(archive.group("asked_breaks"));
-  contacts_->exchange(archive.group("contacts"), scene_.planes, pool_);
-  exchange_step(archive.group("step"));
+  exchange_last_step(archive.group("step"));
   exchange_ledger(archive.group("ledger"));
 }
 
@@ -794,14 +806,17 @@ void Simulation::exchange_asked_breaks(const geometry::StateArchive& archive) {
   for (const auto& nodes : broken_.facets) archive.require(has_nodes(scene_, nodes), "facets");
 }
 
-/// How long steps are, and what the next choice of one knows.
-void Simulation::exchange_step(const geometry::StateArchive& archive) {
-  archive("time_step", dt_);
-  archive.require(dt_ >= 0.0 && std::isfinite(dt_), "time_step");
+void Simulation::exchange_last_step(const geometry::StateArchive& archive) {
   archive("drift", drift_);
   archive("last_drift", last_drift_);
   archive("fastest", fastest_);
   archive("fastest_spin", fastest_spin_);
+}
+
+/// How long steps are, and what the next choice of one knows.
+void Simulation::exchange_step(const geometry::StateArchive& archive) {
+  archive("time_step", dt_);
+  archive.require(dt_ >= 0.0 && std::isfinite(dt_), "time_step");
   bool is_chosen = chooser_ != nullptr;
   archive("is_chosen", is_chosen);
   if (is_chosen && chooser_ == nullptr)
@@ -823,6 +838,7 @@ void Simulation::exchange_ledger(const geometry::StateArchive& archive) {
   exchange_work("work", work_);
   exchange_work("pending", pending_);
   archive("broken", broken_energy_);
+  archive("taken_out", taken_out_);
   archive("initial", initial_energy_);
   archive("most_kinetic", most_kinetic_);
   archive("most_accounted", most_accounted_);

@@ -33,6 +33,7 @@
 #include <iosfwd>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -153,6 +154,11 @@ class Simulation {
   /// bodies contact_force_on() there tells what contacts do to them.
   /// @param about  m, point of the moment
   ForceAndMoment support_reaction(std::span<const NodeId> nodes, const Vec3& about) const;
+  /// N, of all contacts on the nodes of a rigid body in the last step, by place in
+  /// Scene::rigid_bodies.
+  const Vec3& gathered_force(std::size_t body) const noexcept {
+    return rigid_bodies_.gathered_force(body);
+  }
   /// How far from balance the last step was: measures/unbalanced_force.hpp. Like all reading out it
   /// costs nothing until it is asked for; then time linear in the number of nodes and contacts.
   double unbalanced_force_ratio() const;
@@ -235,6 +241,7 @@ class Simulation {
   void follow_breaks();
   void break_asked();
   void follow_surface();
+  geometry::Surface change_surface(geometry::Surface next);
   void apply_loads();
   void drive_planes();
   PlanePress plane_press(std::size_t plane, double way) const;
@@ -254,20 +261,27 @@ class Simulation {
   void move_planes();
   double rounding_energy() const;
   void exchange(const geometry::StateArchive& archive);
+  void exchange_kept(const geometry::StateArchive& archive);
   void exchange_elements(const geometry::StateArchive& archive);
   void exchange_motion(const geometry::StateArchive& archive);
   void exchange_ledger(const geometry::StateArchive& archive);
   void exchange_asked_breaks(const geometry::StateArchive& archive);
+  void exchange_last_step(const geometry::StateArchive& archive);
   void exchange_step(const geometry::StateArchive& archive);
-  void take_motion(const Simulation& before, const SceneChange& change);
-  void take_structures(Simulation& before, const contact::BodyPlaces& places);
-  void take_ledger(const Simulation& before);
+  void leave_out_absent();
+  void take_contacts(Simulation& before, const contact::BodyPlaces& places);
+  void require_same_structures(const Simulation& before, const contact::BodyPlaces& places) const;
+  void take_state(Simulation& before, const SceneChange& change);
+  void follow_holds(const Simulation& before, const contact::BodyPlaces& places);
+  void note_change(const Simulation& before);
+  double moving_energy() const;
 
   Scene scene_;
   std::uint64_t scene_hash_;  ///< as it was given
   MotionOptions motion_;
   geometry::ThreadPool pool_;
   geometry::Surface surface_;
+  std::optional<geometry::Surface> whole_;  ///< with what is absent, if anything is
   RigidNodes rigid_nodes_;
   RigidBodies rigid_bodies_;
   std::unique_ptr<contact::Contacts> contacts_;
@@ -282,6 +296,7 @@ class Simulation {
   std::vector<Vec3> plane_reactions_;  ///< N, to drive planes
   BrokenParts broken_;                 ///< asked for, in the next step
   double broken_energy_ = 0.0;         ///< J, of bonds that were asked for
+  double taken_out_ = 0.0;             ///< J, that contacts had stored on what was taken out
   NodeForces forces_;
   Leapfrog leapfrog_;
   std::unique_ptr<StepLimits> limits_;

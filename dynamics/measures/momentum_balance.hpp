@@ -55,8 +55,6 @@ class MomentumBalance {
   /// The largest so far; 0 as long as nothing has acted.
   MomentumDrift drift() const noexcept;
 
-  /// Goes on from where another one is.
-  void take_over(const MomentumBalance& before) noexcept { sums_ = before.sums_; }
   void exchange(const geometry::StateArchive& archive);
 
  private:

@@ -37,6 +37,13 @@ struct Scene {
   std::vector<Cable> cables;
   std::vector<Tie> ties;
   Loads loads;
+  /// By node: the facets and cylinders on it are not there, not yet or not any more; all nodes of a
+  /// structure alike, and held. What its bonds and sheets are goes on. Empty: all are there.
+  std::vector<bool> is_absent;
+
+  bool is_there(NodeId node) const noexcept {
+    return is_absent.empty() || !is_absent[static_cast<std::size_t>(node)];
+  }
 
   /// Adds a node at rest. Mass and inertia are filled in by what is attached to it.
   NodeId add_node(const Vec3& position, Held held = Held::nothing);

@@ -90,6 +90,16 @@ void RigidBodies::start_from(NodeId node, NodeState& state, const NodeProperties
   }
 }
 
+void RigidBodies::go_on_turning_from(NodeId node, NodeState& state,
+                                     const NodeProperties& properties) {
+  for (Body& body : bodies_) {
+    if (body.node != node) continue;
+    const Vec3 momentum = body.momentum;
+    start(body, state, properties);
+    body.momentum = momentum;
+  }
+}
+
 void RigidBodies::start(Body& body, NodeState& state, const NodeProperties& properties) {
   const std::size_t reference = index_of(body.node);
   const Held held = properties.held[reference];

@@ -39,6 +39,8 @@ class RigidBodies {
   void start(NodeState& state, const NodeProperties& properties);
   /// The same of one body, if the node is its reference node.
   void start_from(NodeId node, NodeState& state, const NodeProperties& properties);
+  /// The same where the angular momentum goes on, as only its translation is another.
+  void go_on_turning_from(NodeId node, NodeState& state, const NodeProperties& properties);
 
   /// J, of what is free to turn. (That of the translation is the reference node's.)
   double turning_energy(const NodeState& state, const NodeProperties& properties) const;

@@ -19,6 +19,20 @@ constexpr std::int64_t kListsPerTree = 16;
 constexpr double kCostOfLists = 9.0;
 constexpr double kCostOfSkin = 0.7;
 
+template <class Id>
+std::size_t kept_of(const SurfaceChange& change, std::size_t count) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (change.now(Feature(id_at<Id>(i)))) ++kept;
+  return kept;
+}
+
+bool brings_elements(const SurfaceChange& change) {
+  const Surface& before = change.before();
+  return kept_of<FaceId>(change, before.face_count()) < change.after().face_count() ||
+         kept_of<EdgeId>(change, before.edge_count()) < change.after().edge_count();
+}
+
 }  // namespace
 
 Neighbours::Neighbours(std::span<const Sphere> spheres, const Surface& surface, double skin,
@@ -107,8 +121,10 @@ bool Neighbours::may_touch(const IndexPair& pair, Positions x) const noexcept {
 }
 
 /// A side lies in the box of its facet.
+/// Where cells come that are in no list, it is made anew with the next step.
 void Neighbours::follow(const SurfaceChange& change) {
   surface_ = &change.after();
+  if (brings_elements(change)) skin_ = Skin(skin());
   std::vector<IndexPair> left;
   for (const IndexPair& pair : sphere_cells_) {
     for (const CellId cell : change.left_of(CellId{pair.b}))

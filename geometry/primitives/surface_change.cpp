@@ -2,11 +2,32 @@
 #include "geometry/primitives/surface_change.hpp"
 
 #include <algorithm>
+#include <type_traits>
+#include <utility>
 
 namespace plekton::geometry {
 namespace {
 
-/// New ids by old ones: both lists have the same order, so the first that is alike is the one.
+/// By their nodes, where both lists have what the other one has not.
+template <class Id>
+std::vector<Id> sought_ids(const Surface& before, std::size_t count, const Surface& after,
+                           std::size_t now) {
+  using Nodes = std::remove_cvref_t<decltype(after.nodes_of(Id{0}))>;
+  std::vector<std::pair<Nodes, Id>> places;
+  for (std::size_t i = 0; i < now; ++i)
+    places.emplace_back(after.nodes_of(id_at<Id>(i)), id_at<Id>(i));
+  std::sort(places.begin(), places.end());
+  std::vector<Id> ids;
+  for (std::size_t old = 0; old < count; ++old) {
+    const Nodes& nodes = before.nodes_of(id_at<Id>(old));
+    const auto found = std::lower_bound(places.begin(), places.end(), std::pair(nodes, Id{-1}));
+    ids.push_back(found != places.end() && found->first == nodes ? found->second : Id{-1});
+  }
+  return ids;
+}
+
+/// New ids by old ones: both lists have the same order, so where nothing has come the first that is
+/// alike is the one.
 template <class Id>
 std::vector<Id> new_ids(const Surface& before, std::size_t count, const Surface& after,
                         std::size_t left) {
@@ -16,6 +37,7 @@ std::vector<Id> new_ids(const Surface& before, std::size_t count, const Surface&
     if (before.nodes_of(id_at<Id>(old)) != after.nodes_of(id_at<Id>(next))) continue;
     ids[old] = id_at<Id>(next++);
   }
+  if (next < left) return sought_ids<Id>(before, count, after, left);
   return ids;
 }
 

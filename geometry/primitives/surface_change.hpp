@@ -10,12 +10,13 @@
 
 namespace plekton::geometry {
 
-/// Where the features of a surface are in what is left of it (Surface::left_with): what refers to
-/// them goes on with their new numbers, in the same order as before.
+/// Where the features of a surface are in another part of the same whole (Surface::left_with), as in
+/// what is left of it: what refers to them goes on with their new numbers, in the same order as
+/// before.
 class SurfaceChange {
  public:
-  /// Linear in the number of features.
-  /// @param before, after  must outlive this; after is left of before
+  /// Linear in the number of features, times their logarithm where some have come.
+  /// @param before, after  must outlive this; parts of one surface, or one of the other
   SurfaceChange(const Surface& before, const Surface& after);
 
   const Surface& before() const noexcept { return *before_; }

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -138,6 +139,47 @@ TEST_P(SceneGoesOn, WithTheForcesOfAllThatStaysWhereASphereIsTakenOut) {
   EXPECT_NEAR(next.energy().closure_error(), whole.energy().closure_error(),
               1e-12 * taken_along + 1e-15 * whole.energy().turnover());
   advance(next, 60);
+}
+
+/// A facet far below, on nodes of its own, which come last.
+void add_far_facet(Scene& scene, bool is_there) {
+  const std::size_t first = scene.state.size();
+  for (const Vec3& x : {Vec3(0, 0, -9), Vec3(1, 0, -9), Vec3(0, 1, -9)})
+    scene.add_node(x, Held::everything);
+  const auto node = [&](std::size_t i) { return geometry::id_at<NodeId>(first + i); };
+  scene.add_facet(node(0), node(1), node(2), 0.1, contact::MaterialId{0});
+  if (is_there) return;
+  scene.is_absent.assign(first, false);
+  scene.is_absent.resize(scene.state.size(), true);
+}
+
+/// What the facet has no part in goes on to the last bit where it comes, and where it goes.
+TEST_P(SceneGoesOn, ToTheLastBitWhereAStructureComesOrGoesThatNothingTouches) {
+  for (const bool comes : {true, false}) {
+    ReportedScene scene_before, scene_now;
+    const std::size_t nodes = before_.scene.state.size();
+    add_far_facet(scene_before.scene, !comes);
+    add_far_facet(scene_now.scene, comes);
+    Simulation whole = scene_before.simulation(GetParam());
+    advance(whole, 40);
+    Simulation next = scene_now.simulation(GetParam(), 2);
+    SceneChange change = nothing_moves(scene_before.scene);
+    for (std::size_t i = nodes; comes && i < change.places.nodes.size(); ++i)
+      change.places.nodes[i] = kOmitted;
+    EXPECT_EQ(next.elements().facets.size(), before_.scene.elements.facets.size() + comes);
+    next.go_on_from(whole, change);
+
+    EXPECT_EQ(next.elements().facets.size(), before_.scene.elements.facets.size() + comes);
+    EXPECT_EQ(next.energy().contact_elastic, whole.energy().contact_elastic);
+    EXPECT_EQ(next.energy().tracking, whole.energy().tracking);
+    advance(whole, 60);
+    advance(next, 60);
+    const auto same = [&](const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+      return std::equal(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(nodes), b.begin());
+    };
+    EXPECT_TRUE(same(next.state().position, whole.state().position));
+    EXPECT_TRUE(same(next.state().angular_velocity, whole.state().angular_velocity));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, SceneGoesOn, testing::ValuesIn(test::kLaws),

@@ -57,6 +57,24 @@ TEST(SurfaceChange, FindsTheFeaturesThatAreLeftAndNoOthers) {
   EXPECT_EQ(change.now(CellId{2}), CellId{1});
 }
 
+/// From the second facet and the cylinder to both facets: what is kept has other numbers, what has
+/// come has none before.
+TEST(SurfaceChange, FindsTheFeaturesThatStayWhereOthersCome) {
+  const Complex complex = kite();
+  const Surface all = complex.surface();
+  const std::array second{complex.facets[1]};
+  const Surface before = all.left_with(complex.cylinders, second);
+  const Surface after = all.left_with({}, complex.facets);
+  const SurfaceChange change(before, after);
+
+  EXPECT_EQ(change.now(Feature(FaceId{0})), Feature(FaceId{1}));
+  EXPECT_EQ(change.now(edge_between(before, 2, 3)), edge_between(after, 2, 3));
+  EXPECT_FALSE(change.now(edge_between(before, 3, 4)));
+  EXPECT_EQ(change.now(Feature(NodeId{3})), Feature(NodeId{3}));
+  EXPECT_FALSE(change.now(Feature(NodeId{4})));
+  EXPECT_EQ(change.now(CellId{0}), CellId{1});
+}
+
 TEST(SurfaceChange, LeavesTheSidesOfATornFacetThatHaveCylinders) {
   Complex complex = kite();
   const Surface before = complex.surface();
