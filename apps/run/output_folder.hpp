@@ -19,11 +19,6 @@ inline constexpr std::array<std::string_view, 13> kResultFiles = {
     "run.json",      "energy.csv",   "reactions.csv", "pressures.csv",   "ties.csv",
     "planes.csv",    "contacts.csv", kScenarioCopy,   kCheckpointFolder, "grains.pvd",
     "membranes.pvd", "contacts.pvd", "measures"};
-=======
-"run.json", "energy.csv", "reactions.csv", "pressures.csv", "planes.csv", "contacts.csv",
-    kScenarioCopy, kCheckpointFolder, "grains.pvd", "membranes.pvd", "contacts.pvd", "measures"
-};
->>>>>>> 82769b0 (Measure porosity, coordination, stress and fabric of a part of the sample)
 
 /// Refuses a folder that holds a file of these names.
 /// @param maker  What made them, for the message: "run" or "import".
