@@ -170,7 +170,7 @@ Frames::Frames(const fs::path& folder, const OutputSettings& settings, const Bod
   for (const std::string_view part : kParts)
     series_.try_emplace(std::string(part), folder_ / fmt::format("{}.pvd", part));
   if (settings_.contact_list)
-    contact_list_ = history_file(folder_, kContactsFile, dynamics::contact_columns(), before);
+    contact_list_.open(folder_, kContactsFile, dynamics::contact_columns(), before);
   if (before != nullptr) go_on(*before);
 }
 
@@ -202,7 +202,7 @@ void Frames::go_on(const WrittenFiles& before) {
 
 void Frames::tell(WrittenFiles& written) const {
   written.frames = times_;
-  if (contact_list_) written.sizes[kContactsFile] = contact_list_->size();
+  contact_list_.tell(written);
 }
 
 void Frames::list_contacts(double time, const std::vector<contact::ContactRecord>& contacts) {
@@ -210,20 +210,20 @@ void Frames::list_contacts(double time, const std::vector<contact::ContactRecord
   std::vector<double> row;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     dynamics::fill_contact_row(time, contacts[i], labels[i], row);
-    contact_list_->add(row);
+    contact_list_.add_row(row);
   }
-  contact_list_->flush();
+  contact_list_.flush();
 }
 
 void Frames::write(dynamics::Simulation& simulation) {
   std::vector<contact::ContactRecord> contacts;
-  if (settings_.contacts || contact_list_) contacts = simulation.list_contacts();
+  if (settings_.contacts || contact_list_.is_open()) contacts = simulation.list_contacts();
   for (const auto& [name, data] : frame_of(settings_, simulation, bodies_, contacts)) {
     const fs::path file = file_of(name, times_.size());
     dynamics::write_vtp(file, data);
     series_.at(name).add({{data.time, name, file}});
   }
-  if (contact_list_) list_contacts(simulation.time(), contacts);
+  if (contact_list_.is_open()) list_contacts(simulation.time(), contacts);
   times_.push_back(simulation.time());
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/run/body_tables.hpp"
-#include "apps/run/written_files.hpp"
+#include "apps/run/history_file.hpp"
 #include "apps/scenario/scenario.hpp"
 #include "dynamics/output/csv_writer.hpp"
 #include "dynamics/output/pvd_series.hpp"
@@ -63,7 +63,7 @@ class Frames {
   OutputSettings settings_;
   const BodyTables& bodies_;
   std::map<std::string, dynamics::PvdSeries> series_;  ///< by name
-  std::unique_ptr<dynamics::CsvWriter> contact_list_;
+  HistoryFile contact_list_;
   std::vector<double> times_;  ///< s, by frame
 };
 

@@ -67,34 +67,35 @@ std::span<const dynamics::OutputField> history_fields() {
   return kFields;
 }
 
-History::History(const std::filesystem::path& folder, const WrittenFiles* before)
-    : writer_(history_file(folder, kHistoryFile, columns(), before)) {}
+History::History(const std::filesystem::path& folder, const WrittenFiles* before) {
+  open(folder, kHistoryFile, columns(), before);
+}
 
 void History::add(const dynamics::Simulation& simulation, const dynamics::Energy& energy,
                   const LostGrains& lost) {
   const contact::ContactCounts counts = simulation.contacts().counts();
-  writer_->add({simulation.time(),
-                energy.kinetic,
-                energy.contact_elastic,
-                energy.bond_elastic,
-                energy.sheet_elastic,
-                energy.gravity + 0.0,  // not -0, where there is no gravity
-                energy.friction,
-                energy.tracking,
-                energy.bond_dissipated,
-                energy.damping,
-                energy.external_work,
-                energy.closure_error(),
-                static_cast<double>(counts.sphere_sphere),
-                static_cast<double>(counts.sphere_surface),
-                static_cast<double>(counts.between_structures),
-                static_cast<double>(counts.with_planes),
-                static_cast<double>(broken_bonds(simulation)),
-                static_cast<double>(torn_facets(simulation)),
-                simulation.contacts().largest_overlap_ratio(),
-                simulation.time_step(),
-                static_cast<double>(lost.total()),
-                simulation.unbalanced_force_ratio()});
+  add_row({simulation.time(),
+           energy.kinetic,
+           energy.contact_elastic,
+           energy.bond_elastic,
+           energy.sheet_elastic,
+           energy.gravity + 0.0,  // not -0, where there is no gravity
+           energy.friction,
+           energy.tracking,
+           energy.bond_dissipated,
+           energy.damping,
+           energy.external_work,
+           energy.closure_error(),
+           static_cast<double>(counts.sphere_sphere),
+           static_cast<double>(counts.sphere_surface),
+           static_cast<double>(counts.between_structures),
+           static_cast<double>(counts.with_planes),
+           static_cast<double>(broken_bonds(simulation)),
+           static_cast<double>(torn_facets(simulation)),
+           simulation.contacts().largest_overlap_ratio(),
+           simulation.time_step(),
+           static_cast<double>(lost.total()),
+           simulation.unbalanced_force_ratio()});
 }
 
 }  // namespace plekton::apps

@@ -138,28 +138,27 @@ Measures::Measures(const fs::path& folder, const Scenario& scenario, const Writt
   if (before == nullptr) remove_files(folder / kMeasuresFolder);
   if (!measures_.empty()) dynamics::ensure_output_folder(folder / kMeasuresFolder);
   for (const MeasureSettings& measure : measures_)
-    writers_.push_back(history_file(folder, file_of(measure), columns(), before));
+    files_.emplace_back().open(folder, file_of(measure), columns(), before);
 }
 
 void Measures::add(const dynamics::Simulation& simulation) {
   if (measures_.empty()) return;
   const dynamics::Sample sample(simulation);
   for (std::size_t i = 0; i < measures_.size(); ++i)
-    writers_[i]->add(
+    files_[i].add_row(
         row_of(simulation.time(), sample.measure(region_of(measures_[i], simulation, sample))));
 }
 
 void Measures::flush() {
-  for (const auto& writer : writers_) writer->flush();
+  for (HistoryFile& file : files_) file.flush();
 }
 
 void Measures::close() {
-  for (const auto& writer : writers_) writer->close();
+  for (HistoryFile& file : files_) file.close();
 }
 
 void Measures::tell(WrittenFiles& written) const {
-  for (std::size_t i = 0; i < measures_.size(); ++i)
-    written.sizes[file_of(measures_[i])] = writers_[i]->size();
+  for (const HistoryFile& file : files_) file.tell(written);
 }
 
 }  // namespace plekton::apps

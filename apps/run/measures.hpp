@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/run/written_files.hpp"
+#include "apps/run/history_file.hpp"
 #include "apps/scenario/scenario.hpp"
 #include "dynamics/measure_sample.hpp"
-#include "dynamics/output/output_field.hpp"
 
 #include <filesystem>
 #include <span>
@@ -38,7 +37,7 @@ class Measures {
 
  private:
   std::vector<MeasureSettings> measures_;
-  std::vector<std::unique_ptr<dynamics::CsvWriter>> writers_;  ///< one for each
+  std::vector<HistoryFile> files_;  ///< one for each
 };
 
 }  // namespace plekton::apps

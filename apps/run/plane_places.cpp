@@ -7,7 +7,6 @@
 #include <array>
 #include <limits>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace plekton::apps {
@@ -30,22 +29,16 @@ std::span<const dynamics::OutputField> plane_fields() {
 
 PlanePlaces::PlanePlaces(const std::filesystem::path& folder, const Scenario& scenario,
                          const WrittenFiles* before) {
-  std::error_code ignored;
-  if (before == nullptr) std::filesystem::remove(folder / kPlanesFile, ignored);
   const std::vector<std::string> names = plane_names(scenario);
   columns_ = names.size();
   places_ = plane_numbers(scenario);
-  if (names.empty()) return;
-  std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
-  for (const std::string& name : names) {
-    for (const dynamics::OutputField& field : kFields)
-      columns.push_back({name + "." + std::string(field.name), std::string(field.unit)});
-  }
-  writer_ = history_file(folder, kPlanesFile, columns, before);
+  HistoryColumns columns;
+  for (const std::string& name : names) columns.add(name, kFields);
+  open(folder, kPlanesFile, columns, before);
 }
 
 void PlanePlaces::add(const dynamics::Simulation& simulation) {
-  if (!writer_) return;
+  if (!is_open()) return;
   constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> row(1 + kFields.size() * columns_, kNotThere);
   row[0] = simulation.time();
@@ -55,19 +48,7 @@ void PlanePlaces::add(const dynamics::Simulation& simulation) {
     std::copy_n(plane.point.data(), 3, at);
     std::copy_n(plane.normal.data(), 3, at + 3);
   }
-  writer_->add(row);
-}
-
-void PlanePlaces::flush() {
-  if (writer_) writer_->flush();
-}
-
-void PlanePlaces::close() {
-  if (writer_) writer_->close();
-}
-
-void PlanePlaces::tell(WrittenFiles& written) const {
-  if (writer_) written.sizes[kPlanesFile] = writer_->size();
+  add_row(row);
 }
 
 }  // namespace plekton::apps

@@ -7,7 +7,6 @@
 #include <array>
 #include <limits>
 #include <string>
-#include <system_error>
 
 namespace plekton::apps {
 namespace {
@@ -20,10 +19,6 @@ constexpr std::array<dynamics::OutputField, 2> kFields = {{
 constexpr std::size_t kNotThere = static_cast<std::size_t>(-1);
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-dynamics::CsvColumn column_of(const std::string& load, const dynamics::OutputField& field) {
-  return {load + "." + std::string(field.name), std::string(field.unit)};
-}
-
 }  // namespace
 
 std::span<const dynamics::OutputField> pressure_fields() {
@@ -32,23 +27,21 @@ std::span<const dynamics::OutputField> pressure_fields() {
 
 Pressures::Pressures(const std::filesystem::path& folder, const Scenario& scenario,
                      const WrittenFiles* before) {
-  std::error_code ignored;
-  if (before == nullptr) std::filesystem::remove(folder / kPressuresFile, ignored);
-  std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
+  HistoryColumns columns;
   const std::vector<PressureColumn> own = names_in({&scenario, 1}).pressures;
   for (const PressureColumn& pressure : scenario.stage ? scenario.names_of_stages.pressures : own) {
     const auto place = std::find(own.begin(), own.end(), pressure);
     loads_.push_back(place == own.end() ? kNotThere
                                         : static_cast<std::size_t>(place - own.begin()));
     has_volume_.push_back(pressure.has_volume);
-    columns.push_back(column_of(pressure.load, kFields[0]));
-    if (has_volume_.back()) columns.push_back(column_of(pressure.load, kFields[1]));
+    columns.add(pressure.load, kFields[0]);
+    if (has_volume_.back()) columns.add(pressure.load, kFields[1]);
   }
-  if (!has_volume_.empty()) writer_ = history_file(folder, kPressuresFile, columns, before);
+  open(folder, kPressuresFile, columns, before);
 }
 
 void Pressures::add(const dynamics::Simulation& simulation) {
-  if (!writer_) return;
+  if (!is_open()) return;
   std::vector<double> row{simulation.time()};
   for (std::size_t i = 0; i < has_volume_.size(); ++i) {
     const bool is_there = loads_[i] != kNotThere;
@@ -56,19 +49,7 @@ void Pressures::add(const dynamics::Simulation& simulation) {
     row.push_back(is_there ? surfaces[loads_[i]].pressure() : kNothing);
     if (has_volume_[i]) row.push_back(is_there ? surfaces[loads_[i]].volume() : kNothing);
   }
-  writer_->add(row);
-}
-
-void Pressures::flush() {
-  if (writer_) writer_->flush();
-}
-
-void Pressures::close() {
-  if (writer_) writer_->close();
-}
-
-void Pressures::tell(WrittenFiles& written) const {
-  if (writer_) written.sizes[kPressuresFile] = writer_->size();
+  add_row(row);
 }
 
 }  // namespace plekton::apps

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/run/written_files.hpp"
+#include "apps/run/history_file.hpp"
 #include "apps/scenario/scenario.hpp"
-#include "dynamics/output/csv_writer.hpp"
-#include "dynamics/output/output_field.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <filesystem>
@@ -17,25 +15,18 @@ namespace plekton::apps {
 std::span<const dynamics::OutputField> pressure_fields();
 
 /// Writes pressures.csv, if there are loads of kind pressure.
-class Pressures {
+class Pressures : public HistoryFile {
  public:
-  /// Removes the file of an earlier run, unless that goes on.
   /// @throws dynamics::OutputError
   Pressures(const std::filesystem::path& folder, const Scenario& scenario,
             const WrittenFiles* before = nullptr);
 
-  /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
-  /// dynamics::OutputError
+  /// Appends a row. @throws dynamics::OutputError
   void add(const dynamics::Simulation& simulation);
-  void flush();
-  void close();
-  /// After a flush.
-  void tell(WrittenFiles& written) const;
 
  private:
   std::vector<bool> has_volume_;    ///< by load of kind pressure, of all stages
   std::vector<std::size_t> loads_;  ///< likewise: its place among those of now
-  std::unique_ptr<dynamics::CsvWriter> writer_;
 };
 
 }  // namespace plekton::apps

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <system_error>
 
 namespace plekton::apps {
 namespace {
@@ -22,18 +21,6 @@ constexpr std::array<dynamics::OutputField, 3> kFields = {{
 
 /// Numbers of a reaction in a row.
 constexpr std::size_t kNumbers = 3 * kFields.size();
-
-std::vector<dynamics::CsvColumn> columns_of(const std::vector<std::string>& reactions) {
-  std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
-  for (const std::string& reaction : reactions) {
-    for (const dynamics::OutputField& field : kFields) {
-      for (const char* axis : {"_x", "_y", "_z"})
-        columns.push_back(
-            {reaction + "." + std::string(field.name) + axis, std::string(field.unit)});
-    }
-  }
-  return columns;
-}
 
 /// The bodies that have some nodes. Structures come apart where bonds break, down to single nodes,
 /// but nodes stay with their body.
@@ -124,12 +111,12 @@ Reactions::Reactions(const std::filesystem::path& folder,
     : reactions_(reactions), names_(of_all_stages) {
   if (names_.empty())
     for (const BuiltReaction& reaction : reactions_) names_.push_back(reaction.name);
-  std::error_code ignored;
-  if (before == nullptr) std::filesystem::remove(folder / kReactionsFile, ignored);
   lists_contacts_ = std::any_of(reactions_.begin(), reactions_.end(), [](const auto& reaction) {
     return reaction.kind == ReactionKind::contacts;
   });
-  if (!names_.empty()) writer_ = history_file(folder, kReactionsFile, columns_of(names_), before);
+  HistoryColumns columns;
+  for (const std::string& name : names_) columns.add_vectors(name, kFields);
+  open(folder, kReactionsFile, columns, before);
 }
 
 void Reactions::add(dynamics::Simulation& simulation) {
@@ -146,19 +133,7 @@ void Reactions::add(dynamics::Simulation& simulation) {
     std::copy_n(value.moment.data(), 3, at + 3);
     std::copy_n(position.data(), 3, at + 6);
   }
-  writer_->add(row);
-}
-
-void Reactions::flush() {
-  if (writer_) writer_->flush();
-}
-
-void Reactions::close() {
-  if (writer_) writer_->close();
-}
-
-void Reactions::tell(WrittenFiles& written) const {
-  if (writer_) written.sizes[kReactionsFile] = writer_->size();
+  add_row(row);
 }
 
 }  // namespace plekton::apps

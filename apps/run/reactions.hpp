@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/run/written_files.hpp"
+#include "apps/run/history_file.hpp"
 #include "apps/scene/build_scene.hpp"
-#include "dynamics/output/csv_writer.hpp"
-#include "dynamics/output/output_field.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <filesystem>
@@ -27,9 +25,8 @@ ReactionValue reaction_in(const dynamics::Simulation& simulation, const BuiltRea
                           std::span<const contact::ContactRecord> contacts);
 
 /// Writes reactions.csv, if any are asked for.
-class Reactions {
+class Reactions : public HistoryFile {
  public:
-  /// Removes the file of an earlier run, unless that goes on.
   /// @throws dynamics::OutputError
   Reactions(const std::filesystem::path& folder, const std::vector<BuiltReaction>& reactions,
             const std::vector<std::string>& of_all_stages = {},
@@ -37,19 +34,13 @@ class Reactions {
 
   bool empty() const noexcept { return reactions_.empty(); }
 
-  /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
-  /// dynamics::OutputError
+  /// Appends a row. @throws dynamics::OutputError
   void add(dynamics::Simulation& simulation);
-  void flush();
-  void close();
-  /// After a flush.
-  void tell(WrittenFiles& written) const;
 
  private:
   std::vector<BuiltReaction> reactions_;
   std::vector<std::string> names_;  ///< of all stages
   bool lists_contacts_ = false;     ///< one of them is of kind contacts
-  std::unique_ptr<dynamics::CsvWriter> writer_;
 };
 
 }  // namespace plekton::apps

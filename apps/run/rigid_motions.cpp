@@ -5,7 +5,6 @@
 
 #include <array>
 #include <string>
-#include <system_error>
 
 namespace plekton::apps {
 namespace {
@@ -39,24 +38,17 @@ std::span<const dynamics::OutputField> rigid_fields() {
 
 RigidMotions::RigidMotions(const std::filesystem::path& folder, const BuiltScene& built,
                            const WrittenFiles* before) {
-  std::error_code ignored;
-  if (before == nullptr) std::filesystem::remove(folder / kRigidBodiesFile, ignored);
-  if (built.rigid_bodies.empty()) return;
-  std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
+  HistoryColumns columns;
   for (const BuiltRigidBody& body : built.rigid_bodies) {
     references_.push_back(body.node);
     starts_.push_back(body.orientation);
-    for (const dynamics::OutputField& field : kFields) {
-      for (const char* axis : {"_x", "_y", "_z"})
-        columns.push_back(
-            {body.name + "." + std::string(field.name) + axis, std::string(field.unit)});
-    }
+    columns.add_vectors(body.name, kFields);
   }
-  writer_ = history_file(folder, kRigidBodiesFile, columns, before);
+  open(folder, kRigidBodiesFile, columns, before);
 }
 
 void RigidMotions::add(const dynamics::Simulation& simulation) {
-  if (!writer_) return;
+  if (!is_open()) return;
   const dynamics::NodeState& state = simulation.state();
   std::vector<double> row{simulation.time()};
   const auto add_vector = [&](const Vec3& v) { row.insert(row.end(), v.data(), v.data() + 3); };
@@ -69,19 +61,7 @@ void RigidMotions::add(const dynamics::Simulation& simulation) {
     add_vector(simulation.forces().force[i]);
     add_vector(simulation.forces().torque[i]);
   }
-  writer_->add(row);
-}
-
-void RigidMotions::flush() {
-  if (writer_) writer_->flush();
-}
-
-void RigidMotions::close() {
-  if (writer_) writer_->close();
-}
-
-void RigidMotions::tell(WrittenFiles& written) const {
-  if (writer_) written.sizes[kRigidBodiesFile] = writer_->size();
+  add_row(row);
 }
 
 }  // namespace plekton::apps

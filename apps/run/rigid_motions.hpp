@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/run/written_files.hpp"
+#include "apps/run/history_file.hpp"
 #include "apps/scene/build_scene.hpp"
-#include "dynamics/output/csv_writer.hpp"
-#include "dynamics/output/output_field.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,24 +15,18 @@ namespace plekton::apps {
 std::span<const dynamics::OutputField> rigid_fields();
 
 /// Writes rigid_bodies.csv, if there are rigid bodies: how they move and what acts on them.
-class RigidMotions {
+class RigidMotions : public HistoryFile {
  public:
-  /// Removes the file of an earlier run, unless that goes on. @throws dynamics::OutputError
+  /// @throws dynamics::OutputError
   RigidMotions(const std::filesystem::path& folder, const BuiltScene& built,
                const WrittenFiles* before = nullptr);
 
-  /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
-  /// dynamics::OutputError
+  /// Appends a row. @throws dynamics::OutputError
   void add(const dynamics::Simulation& simulation);
-  void flush();
-  void close();
-  /// After a flush.
-  void tell(WrittenFiles& written) const;
 
  private:
   std::vector<geometry::NodeId> references_;
   std::vector<geometry::Quat> starts_;  // orientations, of the principal axes
-  std::unique_ptr<dynamics::CsvWriter> writer_;
 };
 
 }  // namespace plekton::apps

@@ -237,28 +237,27 @@ class Run {
     return scenario_.output.checkpoint_interval.value_or(std::numeric_limits<double>::infinity());
   }
 
+  template <class Visit>
+  void for_each_history(const Visit& visit) {
+    visit(history_);
+    visit(reactions_);
+    visit(pressures_);
+    visit(measures_);
+    visit(rigid_bodies_);
+    visit(ties_);
+    visit(planes_);
+  }
+
   void write_checkpoint() {
     const TimeInto output(report_.output_time);
-    history_.flush();
-    reactions_.flush();
-    pressures_.flush();
-    measures_.flush();
-    rigid_bodies_.flush();
-    ties_.flush();
-    planes_.flush();
+    for_each_history([](auto& history) { history.flush(); });
     next_checkpoint_ = std::max(next_checkpoint_ + checkpoint_interval(), simulation_.time());
     geometry::StateTree state = simulation_.snapshot();
     const auto archive = geometry::StateArchive::writer(state).group(kRunGroup);
     exchange(archive);
     WrittenFiles files;
     frames_.tell(files);
-    history_.tell(files);
-    reactions_.tell(files);
-    pressures_.tell(files);
-    measures_.tell(files);
-    rigid_bodies_.tell(files);
-    ties_.tell(files);
-    planes_.tell(files);
+    for_each_history([&](const auto& history) { history.tell(files); });
     exchange_files(archive, files);
     ScenarioText text = text_of(scenario_);
     text.exchange(archive);
@@ -402,13 +401,7 @@ class Run {
   void write_frame() {
     frames_.write(simulation_);
     planes_.add(simulation_);
-    history_.flush();
-    reactions_.flush();
-    pressures_.flush();
-    measures_.flush();
-    rigid_bodies_.flush();
-    ties_.flush();
-    planes_.flush();
+    for_each_history([](auto& history) { history.flush(); });
     last_frame_step_ = simulation_.steps();
   }
 
@@ -428,13 +421,7 @@ class Run {
   }
 
   void close_files() {
-    history_.close();
-    reactions_.close();
-    pressures_.close();
-    measures_.close();
-    rigid_bodies_.close();
-    ties_.close();
-    planes_.close();
+    for_each_history([](auto& history) { history.close(); });
   }
 
   void watch_time_step() {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <system_error>
 
 namespace plekton::apps {
 namespace {
@@ -54,24 +53,17 @@ std::span<const dynamics::OutputField> single_tie_fields() {
 TieHistories::TieHistories(const std::filesystem::path& folder, const BuiltScene& built,
                            const WrittenFiles* before)
     : tables_(built.ties) {
-  std::error_code ignored;
-  if (before == nullptr) std::filesystem::remove(folder / kTiesFile, ignored);
-  if (tables_.empty()) return;
-  std::vector<dynamics::CsvColumn> columns{{"time", "s"}};
-  const auto add_columns = [&](const std::string& name, const auto& fields) {
-    for (const dynamics::OutputField& field : fields)
-      columns.push_back({name + "." + std::string(field.name), std::string(field.unit)});
-  };
+  HistoryColumns columns;
   for (const BuiltTies& table : tables_) {
-    add_columns(table.name, kFields);
+    columns.add(table.name, kFields);
     for (std::size_t i = 0; table.lists_each && i < table.count; ++i)
-      add_columns(table.name + "[" + std::to_string(i) + "]", kSingleFields);
+      columns.add(table.name + "[" + std::to_string(i) + "]", kSingleFields);
   }
-  writer_ = history_file(folder, kTiesFile, columns, before);
+  open(folder, kTiesFile, columns, before);
 }
 
 void TieHistories::add(const dynamics::Simulation& simulation) {
-  if (!writer_) return;
+  if (!is_open()) return;
   const dynamics::Ties& ties = simulation.ties();
   std::vector<double> row{simulation.time()};
   for (const BuiltTies& table : tables_) {
@@ -80,19 +72,7 @@ void TieHistories::add(const dynamics::Simulation& simulation) {
     for (std::size_t i = table.first; table.lists_each && i < table.first + table.count; ++i)
       row.insert(row.end(), {ties.pull(i), ties.slip(i), ties.is_broken(i) ? 1.0 : 0.0});
   }
-  writer_->add(row);
-}
-
-void TieHistories::flush() {
-  if (writer_) writer_->flush();
-}
-
-void TieHistories::close() {
-  if (writer_) writer_->close();
-}
-
-void TieHistories::tell(WrittenFiles& written) const {
-  if (writer_) written.sizes[kTiesFile] = writer_->size();
+  add_row(row);
 }
 
 }  // namespace plekton::apps

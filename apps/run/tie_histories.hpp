@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/run/written_files.hpp"
+#include "apps/run/history_file.hpp"
 #include "apps/scene/build_scene.hpp"
-#include "dynamics/output/csv_writer.hpp"
-#include "dynamics/output/output_field.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <filesystem>
@@ -19,23 +17,17 @@ std::span<const dynamics::OutputField> tie_fields();
 std::span<const dynamics::OutputField> single_tie_fields();
 
 /// Writes ties.csv, if there are ties.
-class TieHistories {
+class TieHistories : public HistoryFile {
  public:
-  /// Removes the file of an earlier run, unless that goes on. @throws dynamics::OutputError
+  /// @throws dynamics::OutputError
   TieHistories(const std::filesystem::path& folder, const BuiltScene& built,
                const WrittenFiles* before = nullptr);
 
-  /// Appends a row; rows reach the file in blocks, at flush() and at close(). @throws
-  /// dynamics::OutputError
+  /// Appends a row. @throws dynamics::OutputError
   void add(const dynamics::Simulation& simulation);
-  void flush();
-  void close();
-  /// After a flush.
-  void tell(WrittenFiles& written) const;
 
  private:
   std::vector<BuiltTies> tables_;
-  std::unique_ptr<dynamics::CsvWriter> writer_;
 };
 
 }  // namespace plekton::apps
