@@ -15,7 +15,7 @@ constexpr std::array<dynamics::OutputField, 2> kFields = {{{"force", "N", ""}, {
 
 class HistoryFileTest : public testing::Test {
  protected:
-  std::string text() const { return test::read_bytes(folder_.path() / "a.csv"); }
+  std::string text() const { return test::bytes_of(folder_.path() / "a.csv"); }
 
   test::TemporaryFolder folder_;
 };
