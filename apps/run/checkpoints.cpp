@@ -46,6 +46,11 @@ std::vector<fs::path> checkpoints_of(const fs::path& folder) {
   return files;
 }
 
+void remove_run_checkpoint(const fs::path& folder, std::int64_t steps) {
+  std::error_code ignored;
+  fs::remove(folder / kCheckpointFolder / name_of_checkpoint(steps), ignored);
+}
+
 void remove_checkpoints(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::path& file : checkpoints_of(folder)) fs::remove(file, ignored);

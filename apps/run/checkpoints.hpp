@@ -22,6 +22,8 @@ void write_run_checkpoint(const std::filesystem::path& folder, std::int64_t step
 
 /// Files of a run, in the order of their steps.
 std::vector<std::filesystem::path> checkpoints_of(const std::filesystem::path& folder);
+/// One of them. What cannot be removed stays.
+void remove_run_checkpoint(const std::filesystem::path& folder, std::int64_t steps);
 /// Those of an earlier run. What cannot be removed will be replaced.
 void remove_checkpoints(const std::filesystem::path& folder);
 

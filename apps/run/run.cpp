@@ -2,6 +2,7 @@
 #include "apps/run/run.hpp"
 
 #include "apps/run/checkpoints.hpp"
+#include "apps/run/clock_checkpoints.hpp"
 #include "apps/run/history.hpp"
 #include "apps/run/lost_grains.hpp"
 #include "apps/run/measures.hpp"
@@ -122,6 +123,7 @@ class Run {
         rigid_bodies_(settings.out, prepared.built, before()),
         ties_(settings.out, prepared.built, before()),
         planes_(settings.out, scenario, before()),
+        clock_checkpoints_(settings.out, scenario.output.checkpoint_wall_interval),
         progress_(settings.progress, settings.style, end_time_),
         report_(std::move(start.report)) {
     if (reactions_.empty()) next_reactions_ = std::numeric_limits<double>::infinity();
@@ -210,6 +212,7 @@ class Run {
       write_due(simulation_.time());
       report_.states.look(simulation_);
       if (simulation_.time() >= next_checkpoint_) write_checkpoint();
+      if (looks && clock_checkpoints_.is_due()) write_checkpoint_by_clock();
       if (looks) progress_.update(simulation_.time(), simulation_.steps());
       if (settings_.is_interrupted()) return RunStatus::interrupted;
       if (looks && is_at_rest()) return RunStatus::at_rest;
@@ -249,9 +252,24 @@ class Run {
   }
 
   void write_checkpoint() {
+    next_checkpoint_ = std::max(next_checkpoint_ + checkpoint_interval(), simulation_.time());
+    geometry::StateTree state = written_state();
+    last_checkpoint_step_ = simulation_.steps();
+    clock_checkpoints_.replaced_by(simulation_.steps());
+    if (settings_.end_of_stage != nullptr && !ended_by_.empty())
+      *settings_.end_of_stage = std::move(state);
+  }
+
+  /// As if there had been none: what is due by simulated time, and when, stays as it is.
+  void write_checkpoint_by_clock() {
+    if (last_checkpoint_step_ == simulation_.steps()) return;
+    written_state();
+    clock_checkpoints_.written(simulation_.steps());
+  }
+
+  geometry::StateTree written_state() {
     const TimeInto output(report_.output_time);
     for_each_history([](auto& history) { history.flush(); });
-    next_checkpoint_ = std::max(next_checkpoint_ + checkpoint_interval(), simulation_.time());
     geometry::StateTree state = simulation_.snapshot();
     const auto archive = geometry::StateArchive::writer(state).group(kRunGroup);
     exchange(archive);
@@ -263,9 +281,7 @@ class Run {
     text.exchange(archive);
     if (stage_) exchange_stage(archive.group(kStageGroup));
     write_run_checkpoint(settings_.out, simulation_.steps(), state);
-    last_checkpoint_step_ = simulation_.steps();
-    if (settings_.end_of_stage != nullptr && !ended_by_.empty())
-      *settings_.end_of_stage = std::move(state);
+    return state;
   }
 
   void exchange_stage(const geometry::StateArchive& archive) {
@@ -511,6 +527,7 @@ class Run {
   RigidMotions rigid_bodies_;
   TieHistories ties_;
   PlanePlaces planes_;
+  ClockCheckpoints clock_checkpoints_;
   Progress progress_;
   RunReport report_;
   Progress::Clock::time_point start_ = Progress::Clock::now();

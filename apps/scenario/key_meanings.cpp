@@ -209,6 +209,9 @@ constexpr std::array kOfOutput = std::to_array<KeyMeaning>({
     {"output.interval", "between frames for ParaView"},
     {"output.history_interval", "between rows of energy.csv"},
     {"output.reactions_interval", "between rows of reactions.csv"},
+    {"output.checkpoint_wall_interval",
+     "time of the clock between checkpoints for --resume, of which the last one stays until the "
+     "run ends; it changes nothing else"},
     {"output.checkpoint_interval", "between checkpoints, from which plekton run --resume goes on"},
     {"output.hash_interval", "steps between hashes of the state in run.json"},
     {"output.grains", "whether grains.pvd is written"},

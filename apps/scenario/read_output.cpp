@@ -80,6 +80,9 @@ OutputSettings read_output(Section section, const Scenario& scenario) {
       section.quantity("reactions_interval", {kTime, kPositive}, output.history_interval);
   if (section.has("checkpoint_interval"))
     output.checkpoint_interval = section.quantity("checkpoint_interval", {kTime, kPositive});
+  if (section.has("checkpoint_wall_interval"))
+    output.checkpoint_wall_interval =
+        section.quantity("checkpoint_wall_interval", {kTime, kPositive});
   output.hash_interval = section.integer("hash_interval", 1, kLongestHashInterval, kHashInterval);
   output.grains = section.truth("grains", output.grains);
   output.membranes = section.truth("membranes", output.membranes);

@@ -184,11 +184,12 @@ struct MeasureSettings {
 };
 
 struct OutputSettings {
-  double interval = 0.0;                      ///< s, between frames
-  double history_interval = 0.0;              ///< s, between rows of energy.csv
-  double reactions_interval = 0.0;            ///< s, between rows of reactions.csv
-  std::optional<double> checkpoint_interval;  ///< s; nothing: one at the end alone
-  std::int64_t hash_interval = 0;             ///< steps, between hashes of the state in run.json
+  double interval = 0.0;                           ///< s, between frames
+  double history_interval = 0.0;                   ///< s, between rows of energy.csv
+  double reactions_interval = 0.0;                 ///< s, between rows of reactions.csv
+  std::optional<double> checkpoint_interval;       ///< s; nothing: one at the end alone
+  std::optional<double> checkpoint_wall_interval;  ///< s, of the clock; nothing: none by it
+  std::int64_t hash_interval = 0;  ///< steps, between hashes of the state in run.json
   bool grains = true;
   bool membranes = true;
   bool contacts = true;
