@@ -3,7 +3,7 @@
 
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/toml_file.hpp"
-#include "apps/study/csv_text.hpp"
+#include "apps/viewer/csv_text.hpp"
 #include "apps/study/sobol.hpp"
 #include "apps/study/value_text.hpp"
 #include "geometry/base/elementary.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/study/study_table.hpp"
 
-#include "apps/study/csv_text.hpp"
+#include "apps/viewer/csv_text.hpp"
 #include "apps/study/run_results.hpp"
 #include "dynamics/output/file.hpp"
 

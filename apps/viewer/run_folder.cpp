@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/viewer/run_folder.hpp"
 
+#include "apps/viewer/csv_text.hpp"
 #include "apps/viewer/view_error.hpp"
 #include "geometry/base/regular_file.hpp"
 #include "geometry/mesh/io/xml_elements.hpp"
@@ -76,6 +77,7 @@ History::Column column_of(std::string_view head) {
           {}};
 }
 
+/// Of a row of numbers.
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   while (true) {
@@ -163,8 +165,10 @@ History read_history(const fs::path& file) {
       add_row(line, number, file, history);
       continue;
     }
-    for (const std::string_view head : cells_of(line)) history.columns.push_back(column_of(head));
-    if (history.columns.front().name != "time")
+    // Names may have commas and quotes, but no line breaks.
+    for (const CsvRow& row : parse_csv(line))
+      for (const std::string& head : row.cells) history.columns.push_back(column_of(head));
+    if (history.columns.empty() || history.columns.front().name != "time")
       throw ViewError(file.string() +
                       ": is no history of plekton: its first column is not the time; move the "
                       "file away to see the rest");

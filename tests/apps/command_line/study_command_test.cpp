@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plekton study, as a program: it starts itself for each run.
-#include "apps/study/csv_text.hpp"
+#include "apps/viewer/csv_text.hpp"
 #include "tests/apps/command_line/command_fixture.hpp"
 
 #include <map>

@@ -78,6 +78,20 @@ TEST(RunFolder, ReadsHistoriesWithUnitsAndWithoutARowThatIsBeingWritten) {
   EXPECT_TRUE(std::isinf(history.columns[2].values[0]));
 }
 
+TEST(RunFolder, ReadsNamesOfColumnsWithCommasAndQuotes) {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "reactions.csv",
+                    "time (s),\"a, \"\"b\"\".force (N)\",plain\n0,1,2\n3,4,5\n");
+
+  const History history = read_history(folder / "reactions.csv");
+
+  ASSERT_EQ(history.columns.size(), 3U);
+  EXPECT_EQ(history.columns[1].name, "a, \"b\".force");
+  EXPECT_EQ(history.columns[1].unit, "N");
+  EXPECT_EQ(history.columns[2].name, "plain");
+  EXPECT_EQ(history.columns[2].values, (std::vector<double>{2.0, 5.0}));
+}
+
 TEST(RunFolder, RefusesHistoriesThatAreNone) {
   const test::TemporaryFolder folder;
   for (const std::string bytes : {"a,b\n1,2\n", "time (s),b\n1\n", "time (s),b\n1,x\n"}) {

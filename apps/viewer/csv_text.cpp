@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "apps/study/csv_text.hpp"
+#include "apps/viewer/csv_text.hpp"
 
 #include <algorithm>
 
