@@ -18,7 +18,13 @@ using test::ReportedScene;
 /// Forces on two nodes, 2 m from each other, that are said to be those between bodies.
 class TwoNodes : public testing::Test {
  protected:
-  TwoNodes() : simulation_(Scene(), {.time_step = 1.0}), balance_(position_), forces_(2) {}
+  TwoNodes() : simulation_(Scene(), options()), balance_(position_), forces_(2) {}
+
+  static SimulationOptions options() {
+    SimulationOptions options;
+    options.time_step = 1.0;
+    return options;
+  }
 
   MomentumDrift drift(double carried = 0.0, int looks = 1) {
     geometry::ThreadPool pool;
