@@ -138,9 +138,7 @@ struct Task {
 /// @param attained  how far it went, as in "no arrangement of balls can"
 [[noreturn]] void fail(const Task& task, const std::string& attained) {
   const GrainPlacement placement = task.settings.placement;
-  const std::string_view easy = placement == GrainPlacement::random    ? "a quarter"
-                                : placement == GrainPlacement::lattice ? "half"
-                                                                       : "0.58";
+  const std::string_view easy = placement == GrainPlacement::random ? "a quarter" : "half";
   const std::string_view denser =
       placement == GrainPlacement::random
           ? ", or take placement = \"packed\" or a crystal, placement = \"lattice\", which are "

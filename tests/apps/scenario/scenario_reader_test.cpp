@@ -172,8 +172,9 @@ TEST(ScenarioReader, RefusesSieveTablesThatDoNotRise) {
 }
 
 TEST(ScenarioReader, RefusesGrainsWithoutOrWithTwoAmounts) {
-  EXPECT_THAT(error_of(edited("count = 10", "")),
-              HasSubstr("got 0 of \"count\", \"mass\", \"volume\"; expected exactly one"));
+  EXPECT_THAT(
+      error_of(edited("count = 10", "")),
+      HasSubstr("got 0 of \"count\", \"mass\", \"volume\", \"porosity\"; expected exactly one"));
   EXPECT_THAT(error_of(edited("count = 10", "count = 10\nmass = \"1 kg\"")), HasSubstr("got 2 of"));
   EXPECT_THAT(error_of(edited("count = 10", "count = 0")),
               HasSubstr("got 0; expected a whole number from 1"));
@@ -335,7 +336,7 @@ TEST(ScenarioReader, ReadsHowGrainsArePlaced) {
   EXPECT_EQ(placement_of("placement = \"lattice\"\n"), GrainPlacement::lattice);
   EXPECT_THAT(error_of(edited("count = 10\n", "count = 10\nplacement = \"latice\"\n")),
               HasSubstr("case.toml:14:13: grains.gravel.placement: got \"latice\"; expected one of "
-                        "\"random\", \"lattice\"; did you mean \"lattice\"?"));
+                        "\"random\", \"lattice\", \"packed\"; did you mean \"lattice\"?"));
 }
 
 /// Materials, each with a pair of its own, and as many planes.
