@@ -12,8 +12,8 @@ import sys
 import traceback
 import types
 
-script = sys.argv[1]
-stops = [(int(at), out) for at, out in zip(sys.argv[2::2], sys.argv[3::2])]
+script = os.path.abspath(sys.argv[1])
+stops = [(int(at), os.path.abspath(out)) for at, out in zip(sys.argv[2::2], sys.argv[3::2])]
 
 
 class Anything:

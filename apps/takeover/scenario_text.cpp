@@ -69,6 +69,33 @@ double ball_volume(double radius) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
 
+/// What is said of some bodies in the same words, once: `membrane "grid 0" and 3 more: ...`.
+std::vector<std::string> folded(const std::vector<std::string>& notes) {
+  struct Note {
+    std::string who, kind, what;
+    std::size_t count = 1;
+  };
+  std::vector<Note> found;
+  for (const std::string& note : notes) {
+    const std::size_t colon = note.find("\": ");
+    const std::string who = colon == std::string::npos ? "" : note.substr(0, colon + 1);
+    const Note next{who, who.substr(0, who.find('"')), note.substr(who.size())};
+    const auto same = std::ranges::find_if(found, [&](const Note& n) {
+      return !n.who.empty() && n.kind == next.kind && n.what == next.what;
+    });
+    if (same == found.end())
+      found.push_back(next);
+    else
+      ++same->count;
+  }
+  std::vector<std::string> lines;
+  for (const Note& note : found)
+    lines.push_back(note.count == 1
+                        ? note.who + note.what
+                        : fmt::format("{} and {} more{}", note.who, note.count - 1, note.what));
+  return lines;
+}
+
 class Writer {
  public:
   Writer(const Scene& scene, const TakeoverOptions& options)
@@ -86,7 +113,7 @@ class Writer {
     Takeover result;
     result.scenario = head(grids) + materials_.text(notes_) + bodies_ + loads_;
     result.counts = std::move(counts_);
-    result.notes = std::move(notes_);
+    result.notes = folded(notes_);
     return result;
   }
 
@@ -113,10 +140,6 @@ class Writer {
   bool grids_touch() const {
     return has_functor(scene_, "Ig2_GridConnection_GridConnection_GridCoGridCoGeom") ||
            has_functor(scene_, "Ig2_PFacet_PFacet_ScGeom");
-  }
-
-  void count(std::string_view what, std::size_t number, double mass) {
-    counts_.push_back(fmt::format("{}: {}, {:.6g} kg", what, number, mass));
   }
 
   void write_grid(const Grid& grid, std::size_t number) {
@@ -160,9 +183,9 @@ class Writer {
                       "begin without",
                       name, turning));
     bodies_ += '\n';
-    count(fmt::format("membrane {}, nodes", name), grid.nodes.size(), mass);
-    counts_.push_back(fmt::format("membrane {}: {} facets, {} bars beside them", name,
-                                  grid.facets.size(), grid.bars.size()));
+    counts_.push_back(
+        fmt::format("membrane {}: {} nodes, {:.6g} kg, {} facets, {} bars beside them", name,
+                    grid.nodes.size(), mass, grid.facets.size(), grid.bars.size()));
     hold_nodes(grid, name, points);
     load_nodes(grid, name, points);
   }
@@ -294,7 +317,7 @@ class Writer {
     if (any_moves(angular_velocities))
       bodies_ += fmt::format("angular_velocities = {}\n", list_of_vectors(angular_velocities));
     bodies_ += '\n';
-    count(fmt::format("grains {}", name), spheres.size(), mass);
+    counts_.push_back(fmt::format("grains {}: {}, {:.6g} kg", name, spheres.size(), mass));
     if (hold != Hold{})
       write_hold(fmt::format("grains = {}\n", name), hold,
                  static_cast<std::ptrdiff_t>(spheres.size()), true);
@@ -310,6 +333,8 @@ class Writer {
   }
 
   void write_clumps() {
+    std::size_t spheres = 0;
+    double mass = 0.0;
     for (const Clump& clump : scene_.clumps) {
       const std::string name = fmt::format("\"clump {}\"", clump.id);
       bodies_ +=
@@ -326,8 +351,12 @@ class Writer {
         write_force(fmt::format("rigid_body = {}\n", name), key_of(force_on(clump.id)->force),
                     key_of(force_on(clump.id)->torque));
       bodies_ += '\n';
-      count(fmt::format("rigid body {}, spheres", name), clump.radii.size(), clump.mass);
+      spheres += clump.radii.size();
+      mass += clump.mass;
     }
+    if (!scene_.clumps.empty())
+      counts_.push_back(fmt::format("clumps as rigid bodies: {}, {} spheres, {:.6g} kg",
+                                    scene_.clumps.size(), spheres, mass));
   }
 
   /// A scenario says moments about x, y and z alone.
@@ -371,19 +400,18 @@ class Writer {
     return 1e-3 * (scene_.facets[0].points[1] - scene_.facets[0].points[0]).norm();
   }
 
-  /// Facets that move alike are one body; so are those of a box.
+  /// Facets and boxes that move alike are one body, which does not touch itself.
   void write_rigid_facets() {
     if (scene_.facets.empty()) return;
     const double thickness = rigid_thickness();
-    std::map<std::tuple<int, Key, Key, int>, RigidFacets> groups;
+    std::map<std::tuple<int, Key, Key>, RigidFacets> groups;
     std::size_t free = 0;
     for (const RigidFacets& body : scene_.facets) {
       if (body.blocked.size() < 6) ++free;
-      const auto key = std::tuple{body.material, key_of(body.velocity),
-                                  key_of(body.angular_velocity), body.is_box ? body.id : -1};
+      const auto key =
+          std::tuple{body.material, key_of(body.velocity), key_of(body.angular_velocity)};
       RigidFacets& group = groups.try_emplace(key, RigidFacets{}).first->second;
       static_cast<Body&>(group) = body;
-      group.is_box = body.is_box;
       append(group, body, thickness);
     }
     for (const auto& [key, group] : groups) write_rigid(group, thickness);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -149,7 +148,6 @@ class GridMaker {
     std::vector<double> moduli, ratios, shear, strengths;
     std::size_t missing = 0, limp = 0;
     double strain = 0.0, force = 0.0;
-    double shortest = std::numeric_limits<double>::infinity();
     for (const Pair& edge : edges) {
       const auto found = bonds_.find(edge);
       if (found == bonds_.end() || found->second->is_broken) {
@@ -173,7 +171,6 @@ class GridMaker {
       }
       strain = std::max(strain, std::abs(distance(edge) / bond.rest_length - 1.0));
       force = std::max(force, bond.force);
-      shortest = std::min(shortest, bond.rest_length);
     }
     if (moduli.empty()) {
       note(number, "no beam holds its nodes together; the young_modulus is that of its material");
@@ -200,9 +197,8 @@ class GridMaker {
       note(number, fmt::format("{} of its beams do not bend in YADE; here all do", limp));
     if (grid.bends)
       note(number,
-           fmt::format("across its beams YADE 2023 has 2 r / length of their stiffness in "
-                       "shear ({:.2g} here), so they bend more there; here they have all of it",
-                       2.0 * grid.radius / shortest));
+           "across its beams YADE 2023 has 2 r / length of their stiffness in shear, so they "
+           "bend more there; here they have all of it");
     if (grid.bends) set_bending(grid, std::move(ratios), std::move(shear), number);
     if (!strengths.empty()) grid.strength = spread_of(std::move(strengths)).middle;
   }

@@ -144,6 +144,31 @@ TEST(ScenarioText, HasClumpsAsRigidBodies) {
   EXPECT_EQ(result.rigid_bodies[0].moments.maxCoeff(), 0.25);
 }
 
+TEST(ScenarioText, SaysOnceWhatIsSoOfManyBodies) {
+  const std::vector<std::string> notes = take_over(grid_scene(), {}).notes;
+
+  EXPECT_THAT(notes, Contains(HasSubstr("membrane \"grid 0\" and 1 more: across its beams")));
+}
+
+TEST(ScenarioText, JoinsFacetsAndBoxesThatMoveAlike) {
+  Scene scene = grid_scene();
+  RigidFacets facets;
+  facets.material = 0;
+  facets.blocked = "xyzXYZ";
+  facets.points = {{0, 0, -5}, {1, 0, -5}, {0, 1, -5}};
+  facets.facets = {{0, 1, 2}};
+  scene.facets.assign(3, facets);
+  scene.facets[1].points = {{1, 0, -5}, {1, 1, -5}, {0, 1, -5}};
+  scene.facets[2].points[2] = {0, 9, -5};
+  scene.facets[2].velocity = {0, 0, 1};
+
+  const BuiltScene result = built(scene);
+
+  ASSERT_EQ(result.rigid_bodies.size(), 2u);
+  EXPECT_EQ(result.scene.elements.facets.size(), 1u + 3u);
+  EXPECT_EQ(result.scene.state.velocity.back(), Vec3(0.0, 0.0, 1.0));
+}
+
 TEST(ScenarioText, SaysWhatIsLeftOut) {
   Scene scene = grid_scene();
   scene.is_periodic = true;
