@@ -409,11 +409,12 @@ void Simulation::watch_momentum() {
   double carried = 0.0;
   if (steps_ % (kLooks * MomentumBalance::kStepsBetweenLooks) == 0) {
     const double elastic = std::abs(contacts_->elastic_energy()) + bonds_.elastic_energy() +
-                           sheet_facets_.elastic_energy();
+                           sheet_facets_.elastic_energy() + ties_.elastic_energy();
     carried = kLooks * std::sqrt(2.0 * initial_stiffness_.translation * elastic);
   }
   momentum_.look(
-      {scene_.state.position, forces_, *contacts_, carried, 0.5 * (last_drift_ + drift_)}, pool_);
+      {scene_.state.position, forces_, *contacts_, ties_, carried, 0.5 * (last_drift_ + drift_)},
+      pool_);
 }
 
 FaultFinder Simulation::fault_finder() noexcept {

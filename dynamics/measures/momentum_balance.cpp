@@ -59,6 +59,11 @@ void MomentumBalance::look(const InnerForces& inner, geometry::ThreadPool& pool)
     sums.made.add(lever, row.force(), row.moment);
     sums.reach = std::max(sums.reach, lever.norm());
   });
+  inner.ties.for_each_on_fixed_point([&](const Vec3& place, const Vec3& force) {
+    const Vec3 lever = place - sums_.about;
+    sums.made.add(lever, force, Vec3::Zero());
+    sums.reach = std::max(sums.reach, lever.norm());
+  });
   sums_.linear += inner.kick * sums.made.force;
   sums_.angular += inner.kick * sums.made.moment;
   sums_.most_linear = std::max(sums_.most_linear, sums_.linear.norm());

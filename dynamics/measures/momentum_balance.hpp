@@ -4,6 +4,7 @@
 #include "contact/contacts.hpp"
 #include "dynamics/measures/force_and_moment.hpp"
 #include "dynamics/state/node_state.hpp"
+#include "dynamics/ties/ties.hpp"
 #include "geometry/base/parallel_sum.hpp"
 
 #include <cstdint>
@@ -14,11 +15,12 @@ class StateArchive;
 
 namespace plekton::dynamics {
 
-/// What bodies did to each other in a step: contacts, bonds and sheets, before loads are added.
+/// What bodies did to each other in a step: contacts, bonds, sheets and ties, before loads are added.
 struct InnerForces {
   geometry::Positions position;  ///< m, of the nodes
   const NodeForces& forces;      ///< on all nodes, also those that are held
   const contact::Contacts& contacts;
+  const Ties& ties;
   double carried = 0.0;  ///< N, how much bodies carry, also where it cancels at each node
   double kick = 0.0;     ///< s, for how long the forces act
 };
@@ -34,7 +36,7 @@ struct MomentumDrift {
 /// The momentum p of a scene changes by the impulse J of what acts from outside (weight, loads,
 /// planes, what holds nodes) and by nothing else. As all nodes are stepped by the sum of their
 /// forces, p - p0 - J is the impulse of the forces between bodies, on free and on held nodes, plus
-/// that of contacts on the planes, told by the planes: by Newton's third law 0 but for rounding. It
+/// that of contacts on the planes, told by the planes, and of ties on fixed points: by Newton's third law 0 but for rounding. It
 /// is added up over the steps that are looked at, with the angular one about the middle of the
 /// scene; so is what they carry, the sum of magnitudes.
 ///

@@ -39,6 +39,15 @@ class Ties {
   void advance(geometry::Positions x);
   /// Adds the forces of the last advance.
   void add_forces(NodeForces& forces) const;
+  /// Calls visit(place (m), force on it (N)) for each fixed point that a tie of the last advance
+  /// holds on to.
+  template <class Visit>
+  void for_each_on_fixed_point(const Visit& visit) const {
+    for (std::size_t i = 0; i < ties_.size(); ++i) {
+      const auto* const fixed = std::get_if<FixedPoint>(&ties_[i].to);
+      if (fixed != nullptr && !kept_[i].is_broken) visit(fixed->place, Vec3(-forces_[i]));
+    }
+  }
   /// Adds those that there would be at other positions (m) if nothing slid, yielded or broke.
   void add_forces_at(geometry::Positions x, NodeForces& forces) const;
 

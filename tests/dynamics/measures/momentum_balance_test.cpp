@@ -29,7 +29,8 @@ class TwoNodes : public testing::Test {
   MomentumDrift drift(double carried = 0.0, int looks = 1) {
     geometry::ThreadPool pool;
     for (int k = 0; k < looks; ++k)
-      balance_.look({position_, forces_, simulation_.contacts(), carried, 0.5}, pool);
+      balance_.look({position_, forces_, simulation_.contacts(), simulation_.ties(), carried, 0.5},
+                    pool);
     return balance_.drift();
   }
 
@@ -104,6 +105,23 @@ TEST_P(MomentumOfScenes, IsKeptWithTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(more.linear, one.linear);
     EXPECT_EQ(more.angular, one.angular);
   }
+}
+
+/// A weight that swings on a post: what the post bears comes from outside.
+TEST(MomentumOfATie, IsKeptWhereItHoldsOnToAFixedPoint) {
+  Scene scene;
+  scene.materials = {{1e6, 0.0, 0.0}};
+  scene.add_sphere(Vec3(1, 0, 0), 0.1, 1000.0, contact::MaterialId{0});
+  scene.ties.push_back({.node = geometry::NodeId{0},
+                        .to = FixedPoint{Vec3::Zero()},
+                        .stiffness = 1e4,
+                        .rest_length = 1.0});
+  Simulation simulation(scene, {.motion = {.gravity = Vec3(0, 0, -9.81)}});
+  for (int k = 0; k < 500; ++k) simulation.step();
+
+  EXPECT_GT(simulation.ties().pull(0), 0.0);
+  EXPECT_LE(simulation.momentum_drift().linear, 1e-14);
+  EXPECT_LE(simulation.momentum_drift().angular, 1e-14);
 }
 
 /// At 1e5 times the width of the scene from the origin places are rounded by 1e-11 of it, and so
