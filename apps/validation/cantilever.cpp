@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/validation/recorded.hpp"
 #include "apps/validation/validation_case.hpp"
 #include "dynamics/simulation.hpp"
 
@@ -69,12 +70,15 @@ CaseReport validate_cantilever(bool full) {
   Figure figure{"Cantilever under a load at its end", "place (m)", "deflection (m)", {}};
   const std::vector<int> numbers =
       full ? std::vector<int>{1, 2, 4, 8, 16, 32} : std::vector<int>{1, 2, 8};
+  Curve ends{"Plekton", CurveStyle::line, {}, {}};
   for (const int beams : numbers) {
     const Bent result = bent(beams);
     report.findings.push_back(
         {fmt::format("deflection of the end, {} beam{}", beams, beams > 1 ? "s" : ""),
          result.w.back(), kDeflection, 1e-5 * kDeflection, "m",
          "Euler-Bernoulli: P L³ / (3 E I), exact at nodes"});
+    ends.x.push_back(beams);
+    ends.y.push_back(result.w.back());
     if (beams <= 8)
       figure.curves.push_back(
           {fmt::format("{} beams", beams), CurveStyle::points, result.x, result.w});
@@ -86,6 +90,12 @@ CaseReport validate_cantilever(bool full) {
   }
   figure.curves.push_back(std::move(theory));
   report.figures.push_back(std::move(figure));
+  Curve exact{"Euler-Bernoulli", CurveStyle::dashed, ends.x, {}};
+  exact.y.assign(exact.x.size(), kDeflection);
+  report.figures.push_back({"How many beams the cantilever has",
+                            "beams",
+                            "deflection of its end (m)",
+                            {ends, exact, recorded_curve("yade_cantilever")}});
   return report;
 }
 

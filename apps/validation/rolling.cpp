@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/validation/recorded.hpp"
 #include "apps/validation/validation_case.hpp"
 #include "dynamics/simulation.hpp"
 #include "geometry/base/elementary.hpp"
@@ -56,14 +57,17 @@ Descent descent(double slope, double friction, int cells) {
   return descent;
 }
 
-Figure figure_of(const std::string& title, const Descent& descent, double acceleration) {
+/// @param recorded  name of the curve of another program
+Figure figure_of(const std::string& title, const Descent& descent, double acceleration,
+                 std::string_view recorded) {
   std::vector<double> theory;
   for (const double t : descent.times) theory.push_back(0.5 * acceleration * t * t);
   return {title,
           "time (s)",
           "way (m)",
-          {{"Plekton", CurveStyle::points, descent.times, descent.places},
-           {"rigid sphere", CurveStyle::dashed, descent.times, theory}}};
+          {{"Plekton", CurveStyle::line, descent.times, descent.places},
+           {"rigid sphere", CurveStyle::dashed, descent.times, theory},
+           recorded_curve(recorded)}};
 }
 
 }  // namespace
@@ -85,8 +89,8 @@ CaseReport validate_rolling(bool full) {
                       kTolerance * roll, "m/s2", "rigid sphere: 5/7 g sin(slope)"},
                      {"acceleration, sliding down 30 deg", sliding.acceleration(), slide,
                       kTolerance * slide, "m/s2", "Coulomb: g (sin - mu cos)"}};
-  report.figures = {figure_of("Rolling down 10 degrees", rolling, roll),
-                    figure_of("Sliding down 30 degrees", sliding, slide)};
+  report.figures = {figure_of("Rolling down 10 degrees", rolling, roll, "yade_rolling"),
+                    figure_of("Sliding down 30 degrees", sliding, slide, "yade_sliding")};
   return report;
 }
 

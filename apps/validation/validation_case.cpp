@@ -11,11 +11,14 @@ bool Finding::passes() const noexcept {
 }
 
 std::span<const ValidationCase> validation_cases() {
-  static constexpr std::array<ValidationCase, 5> kCases = {{
+  static constexpr std::array<ValidationCase, 7> kCases = {{
       {"sphere_over_sheet", "a sphere is dragged over a flat sheet of irregular facets, pressed in",
        validate_sphere_over_sheet},
       {"rolling", "a sphere rolls and slides down a sheet of facets", validate_rolling},
       {"cantilever", "beams in a row bend under a load at their end", validate_cantilever},
+      {"tube", "a tube of a lattice of beams buckles between rings that come together",
+       validate_tube},
+      {"bounce", "a hollow sphere bounces on a wall and on an incline", validate_bounce},
       {"conservation", "a spinning sphere collides with a free facet on beams, with friction",
        validate_conservation},
       {"determinism", "grains fall on a membrane, with 1, 2 and 4 threads", validate_determinism},

@@ -41,6 +41,8 @@ std::span<const ValidationCase> validation_cases();
 CaseReport validate_sphere_over_sheet(bool full);
 CaseReport validate_rolling(bool full);
 CaseReport validate_cantilever(bool full);
+CaseReport validate_tube(bool full);
+CaseReport validate_bounce(bool full);
 CaseReport validate_conservation(bool full);
 CaseReport validate_determinism(bool full);
 
