@@ -10,6 +10,19 @@ import tempfile
 from pathlib import Path
 
 APPLICATIONS = {
+    "pullout_grid": {
+        "right": {"grid": ("pullout_grid", []), "membrane": ("../pullout_membrane/pullout_membrane", [])},
+        "wrong": {
+            "a membrane with more friction than was said": (
+                "../pullout_membrane/pullout_membrane",
+                ["stages.pull.materials.soil.friction_angle=40 deg", "stages.pull.materials.plastic.friction_angle=40 deg"],
+            )
+        },
+    },
+    "membrane_tour": {
+        "right": {"tour": ("membrane_tour", [])},
+        "wrong": {"a tenth more friction": ("membrane_tour", ["materials.ball.friction_angle=22 deg", "simulation.duration=2.5 s"])},
+    },
     "buckling_tube": {
         "right": {"lattice": ("buckling_tube", []), "sheet": ("continuum", [])},
         "wrong": {"beams that are a tenth too thick": ("buckling_tube", ["membranes.tube.thickness=2.2 mm"])},
