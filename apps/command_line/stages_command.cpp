@@ -44,11 +44,11 @@ std::unique_ptr<Begin> begin_of(const Scenario& scenario, const StagesAsked& ask
     const Scenario& stage = scenario.stages.at(of.bodies.stage);
     auto begin = std::make_unique<Begin>(Begin{prepare_stage(stage, *asked.resume, hear), {}});
     if (!of.has_ended) {
-      begin->from.emplace(Resumption{*asked.resume, true, std::nullopt, false});
+      begin->from.emplace(Resumption{*asked.resume, asked.same_folder, std::nullopt, false});
       return begin;
     }
     begin->prepared.simulation->restore(*asked.resume);
-    return after(scenario, stage, begin->prepared, *asked.resume, true, hear);
+    return after(scenario, stage, begin->prepared, *asked.resume, asked.same_folder, hear);
   }
   if (asked.from.empty()) return std::make_unique<Begin>(Begin{prepare_run(scenario, hear), {}});
   const Scenario& stage = stage_called(scenario, asked.from[0]);
@@ -70,6 +70,10 @@ std::string limits_of(const StageSettings& stage) {
         fmt::format("servo \"{}\" within {:.3g} %", end.servo->load, 100.0 * end.servo->tolerance));
   if (end.displacement)
     ends.push_back(fmt::format("displacement of {:.6g} m", end.displacement->distance));
+  if (end.force)
+    ends.push_back(fmt::format("force of \"{}\" along {} {} {:.6g} N", end.force->reaction,
+                               "xyz"[end.force->axis], end.force->is_above ? "above" : "below",
+                               end.force->force));
   if (end.strain) ends.push_back(fmt::format("strain of {:.6g}", end.strain->strain));
   std::string text = fmt::format("ends: {}", fmt::join(ends, ", or "));
   if (stage.max_duration) text += fmt::format("; fails after {:.6g} s", *stage.max_duration);
@@ -88,13 +92,15 @@ RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
   if (begin->prepared.bodies.stage > stages.last)
     throw InputError(
         fmt::format("--until {}: that stage has ended where this run begins", asked.until));
-  if (aloud != nullptr) {
-    stages.begins = [&](const Scenario& stage, const PreparedRun& prepared) {
+  stages.begins = [&](const Scenario& stage, const PreparedRun& prepared) {
+    if (asked.begins) asked.begins(*prepared.simulation);
+    if (aloud != nullptr)
       *aloud << fmt::format("stage {} ({} of {}), from {:.6g} s\n", stage.stage->name,
                             stage.stage->number + 1, scenario.stages.size(),
                             prepared.simulation->time())
              << summary_of(prepared) << std::flush;
-    };
+  };
+  if (aloud != nullptr) {
     stages.ends = [&](const Scenario& stage, const RunReport& report) {
       *aloud << fmt::format("stage {} has ended by {} at {:.6g} s, step {}\n", stage.stage->name,
                             report.ended_by, report.simulated_time, report.steps)

@@ -4,6 +4,7 @@
 #include "apps/run/run_stages.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -13,8 +14,10 @@ namespace plekton::apps {
 /// Where the stages of a command begin and end.
 struct StagesAsked {
   std::vector<std::string> from;                ///< name of a stage and folder of its run; or empty
-  const geometry::StateTree* resume = nullptr;  ///< the state to go on from in the same folder
+  const geometry::StateTree* resume = nullptr;  ///< a state to go on from
   std::string until;                            ///< name of the last stage; empty: all
+  bool same_folder = true;                      ///< where the state to go on from is
+  std::function<void(const dynamics::Simulation&)> begins = {};  ///< hears of each stage
 };
 
 /// Runs stages and says on a stream, if one is given, which.

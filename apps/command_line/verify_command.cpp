@@ -3,6 +3,7 @@
 
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/stages_command.hpp"
 #include "apps/programs/scratch_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_state.hpp"
@@ -45,19 +46,33 @@ std::vector<std::string> differences(const StateTree& a, const StateTree& b, std
   return names;
 }
 
-/// The state of a run at the step of a later checkpoint, computed from an earlier one.
-StateTree computed_again(const ResumedRun& resumed, std::int64_t last_step) {
+/// The state of a run at that of a later checkpoint, computed from an earlier one.
+StateTree computed_again(const ResumedRun& resumed, const StateTree& last) {
   const ScratchFolder scratch("verify");
-  PreparedRun prepared = prepare_run(resumed.scenario);
   std::ostringstream silence;
   const InterruptGuard guard;
-  const Resumption from{resumed.checkpoint.state, false, std::nullopt};
+  const dynamics::Simulation* simulation = nullptr;
+  const bool ends_stage = resumed.scenario.stage && stage_of(last).has_ended;
   const auto is_there = [&] {
-    return guard.interrupted() || prepared.simulation->steps() >= last_step;
+    // A stage ends by itself, after this is asked.
+    return guard.interrupted() || (!ends_stage && simulation->steps() >= steps_of(last));
   };
-  const RunSettings settings{
-      scratch.path(), silence, ProgressStyle::none, is_there, Progress::Clock::now(), true, &from};
-  run(resumed.scenario, prepared, settings);
+  RunSettings settings{scratch.path(),         silence, ProgressStyle::none, is_there,
+                       Progress::Clock::now(), true};
+  if (resumed.scenario.stage) {
+    StagesAsked asked;
+    asked.resume = &resumed.checkpoint.state;
+    asked.same_folder = false;
+    asked.until = resumed.scenario.stages.at(stage_of(last).bodies.stage).stage->name;
+    asked.begins = [&](const dynamics::Simulation& of_stage) { simulation = &of_stage; };
+    run_stages_asked(resumed.scenario, asked, settings, {}, nullptr);
+  } else {
+    PreparedRun prepared = prepare_run(resumed.scenario);
+    simulation = prepared.simulation.get();
+    const Resumption from{resumed.checkpoint.state, false, std::nullopt};
+    settings.resume = &from;
+    run(resumed.scenario, prepared, settings);
+  }
   if (guard.interrupted()) throw InputError("verify: interrupted; nothing was compared");
   return last_checkpoint(scratch.path()).state;
 }
@@ -70,13 +85,8 @@ bool verify_run(const VerifyArguments& arguments, std::ostream& out) {
   const FoundCheckpoint last = last_checkpoint(arguments.folder, time_option("--interval", end));
   const std::optional<double> from = time_option("--interval", begin);
   const FoundCheckpoint first = checkpoint_before(arguments.folder, steps_of(last.state), from);
-  ResumedRun resumed = resumed_from(first, arguments.overrides);
-  if (resumed.scenario.stage)
-    throw InputError(fmt::format(
-        "{}: has stages, which verify does not compute again; run its scenario in "
-        "another folder, from the start or with --from, and compare `states` in run.json",
-        arguments.folder.string()));
-  const StateTree again = computed_again(resumed, steps_of(last.state));
+  const ResumedRun resumed = resumed_from(first, arguments.overrides);
+  const StateTree again = computed_again(resumed, last.state);
   std::size_t count = 0;
   const std::vector<std::string> others = differences(last.state, again, count);
   out << fmt::format("{}: {:.9g} s to {:.9g} s, steps {} to {}: ", arguments.folder.string(),

@@ -75,7 +75,9 @@ std::vector<dynamics::PrincipalForces> membrane_forces_of(const dynamics::Simula
   std::vector<dynamics::PrincipalForces> forces(facets.size());
   std::size_t next = 0;
   for (std::size_t i = 0; i < facets.size() && next < sheets.size(); ++i) {
-    while (next < sheets.size() && sheets.is_broken(next)) ++next;
+    while (next < sheets.size() &&
+           (sheets.is_broken(next) || !simulation.scene().is_there(sheets.nodes(next)[0])))
+      ++next;
     if (next == sheets.size() || facets[i].nodes != sheets.nodes(next)) continue;
     forces[i] =
         dynamics::principal_forces(sheets.membrane_force(next++, simulation.state().position));

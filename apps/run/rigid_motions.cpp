@@ -4,6 +4,7 @@
 #include "geometry/base/elementary.hpp"
 
 #include <array>
+#include <limits>
 #include <string>
 
 namespace plekton::apps {
@@ -42,6 +43,7 @@ RigidMotions::RigidMotions(const std::filesystem::path& folder, const BuiltScene
   for (const BuiltRigidBody& body : built.rigid_bodies) {
     references_.push_back(body.node);
     starts_.push_back(body.orientation);
+    are_absent_.push_back(body.is_absent);
     columns.add_vectors(body.name, kFields);
   }
   open(folder, kRigidBodiesFile, columns, before);
@@ -53,6 +55,10 @@ void RigidMotions::add(const dynamics::Simulation& simulation) {
   std::vector<double> row{simulation.time()};
   const auto add_vector = [&](const Vec3& v) { row.insert(row.end(), v.data(), v.data() + 3); };
   for (std::size_t b = 0; b < references_.size(); ++b) {
+    if (are_absent_[b]) {
+      row.insert(row.end(), 3 * kFields.size(), std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
     const std::size_t i = index_of(references_[b]);
     add_vector(state.position[i]);
     add_vector(state.velocity[i]);

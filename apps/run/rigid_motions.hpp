@@ -27,6 +27,7 @@ class RigidMotions : public HistoryFile {
  private:
   std::vector<geometry::NodeId> references_;
   std::vector<geometry::Quat> starts_;  // orientations, of the principal axes
+  std::vector<bool> are_absent_;        // by body, in this stage
 };
 
 }  // namespace plekton::apps

@@ -156,7 +156,7 @@ class Run {
   static std::optional<StageWatch> stage_watch(const Scenario& scenario,
                                                const PreparedRun& prepared) {
     if (!scenario.stage) return std::nullopt;
-    return StageWatch(*scenario.stage, prepared.bodies.starts.back());
+    return StageWatch(*scenario.stage, prepared.bodies.starts.back(), prepared.built);
   }
 
   /// What was reached is written before the checkpoint: the next stage begins after it.

@@ -45,6 +45,7 @@ void require_same_tables(const Scenario& then, const Scenario& now) {
   };
   require("grains", then.grains, now.grains);
   require("membranes", then.membranes, now.membranes);
+  require("rigid bodies", then.rigid_bodies, now.rigid_bodies);
   require("planes", then.planes, now.planes);
   if (then.stage->number != now.stage->number)
     throw InputError(

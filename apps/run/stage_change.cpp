@@ -41,7 +41,6 @@ class KeptBodies {
             stage.removals.begin(), stage.removals.end(), [&](const RemovalSettings& removal) {
               return removal.grains == table && is_removed(removal, centre);
             });
-        places_.spheres.push_back(is_out ? -1 : next_sphere_++);
         if (is_out)
           places_.nodes[node] = -1;
         else
@@ -53,6 +52,7 @@ class KeptBodies {
       if (node == 0) node = next++;
     bodies_.stage = before.bodies.stage;
     bodies_.held = kept(before.bodies.held);
+    bodies_.is_absent = before.bodies.is_absent;
     for (const StageStart& start : before.bodies.starts)
       bodies_.starts.push_back({start.time, kept(start.positions), start.planes});
     positions_ = kept(simulation.state().position);
@@ -72,7 +72,6 @@ class KeptBodies {
 
  private:
   contact::BodyPlaces places_;
-  std::int32_t next_sphere_ = 0;
   StageBodies bodies_;
   std::vector<Vec3> positions_;
 };
@@ -87,9 +86,32 @@ Scenario with_planes_of_now(Scenario stage, const dynamics::Simulation& before) 
   return stage;
 }
 
+/// By the spheres of before, which are where their nodes are.
+std::vector<std::int32_t> sphere_places(const std::vector<std::int32_t>& nodes,
+                                        const dynamics::Simulation& before,
+                                        const dynamics::Scene& now) {
+  std::vector<std::int32_t> of_node(now.state.size(), -1);
+  for (std::size_t i = 0; i < now.elements.spheres.size(); ++i)
+    of_node[index_of(now.elements.spheres[i].nodes[0])] = static_cast<std::int32_t>(i);
+  std::vector<std::int32_t> places;
+  for (const geometry::Sphere& sphere : before.elements().spheres) {
+    const std::int32_t node = nodes[index_of(sphere.nodes[0])];
+    places.push_back(node < 0 ? -1 : of_node[static_cast<std::size_t>(node)]);
+  }
+  return places;
+}
+
+/// @param places  of nodes and spheres
 dynamics::SceneChange change_to(const StageOrigins& origins, contact::BodyPlaces places,
-                                std::size_t planes_before) {
-  places.planes.assign(planes_before, -1);
+                                const dynamics::Simulation& before, const dynamics::Scene& now) {
+  // What comes begins as it is made.
+  for (std::size_t node = 0; node < places.nodes.size(); ++node) {
+    const std::int32_t place = places.nodes[node];
+    if (place >= 0 && !before.scene().is_there(geometry::id_at<geometry::NodeId>(node)) &&
+        now.is_there(geometry::NodeId{place}))
+      places.nodes[node] = -1;
+  }
+  places.planes.assign(before.planes().size(), -1);
   for (std::size_t i = 0; i < origins.planes.size(); ++i)
     if (origins.planes[i] >= 0)
       places.planes[static_cast<std::size_t>(origins.planes[i])] = static_cast<std::int32_t>(i);
@@ -179,6 +201,8 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
   PreparedRun& next = begin.prepared;
   next.bodies = std::move(kept.bodies());
   next.built = begin_stage(now, next.bodies, kept.positions(), ended.time(), hear);
+  contact::BodyPlaces places = kept.places();
+  places.spheres = sphere_places(places.nodes, ended, next.built.scene);
   if (hear) hear("looking for contacts", 0.0);
   next.simulation = simulation_of(now, next.built);
   next.duration = stage.simulation.duration;
@@ -187,7 +211,7 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
       next.simulation->restore(ended.snapshot());
     } else {
       next.simulation->go_on_from(
-          ended, change_to(stage.stage->origins, kept.places(), ended.planes().size()));
+          ended, change_to(stage.stage->origins, places, ended, next.simulation->scene()));
       if (!stage.simulation.time_step && !std::isfinite(next.simulation->time_step()))
         throw InputError(fmt::format(
             "{}: nothing moves freely at its start, so no time step can be chosen; free or add "
@@ -198,7 +222,7 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
   } catch (const geometry::StateMismatch& error) {
     throw InputError(fmt::format("{}: {}", stage.stage->path, error.what()));
   }
-  begin.run = run_state(state, kept.places(), *next.simulation);
+  begin.run = run_state(state, places, *next.simulation);
   return begin;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/stage_watch.hpp"
 
+#include "apps/run/reactions.hpp"
+#include "apps/scene/node_set.hpp"
 #include "dynamics/loads/plane_servo.hpp"
+#include "dynamics/loads/rigid_servo.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +15,9 @@
 
 namespace plekton::apps {
 namespace {
+
+using geometry::index_of;
+using geometry::NodeId;
 
 /// In a row: a force that swings through the wanted one has not reached it, and a few grains that
 /// strike hard make the mean force that contacts carry large for a moment.
@@ -24,6 +30,12 @@ struct ServoForce {
 
 ServoForce servo_force(const ServoEnd& end, const dynamics::Simulation& simulation) {
   const dynamics::Scene& scene = simulation.scene();
+  if (end.body_servo) {
+    const dynamics::BodyServo& servo = scene.loads.body_servos[*end.body_servo];
+    const Vec3 direction = dynamics::DrivenBodies::direction_of(servo);
+    return {0.0 - simulation.gathered_force(servo.body).dot(direction),
+            servo.factor.rows().back().value * (servo.force + servo.pressure * servo.area)};
+  }
   const auto servo = std::find_if(scene.loads.servos.begin(), scene.loads.servos.end(),
                                   [&](const auto& one) { return one.plane == end.plane; });
   const contact::Plane& plane = scene.planes[end.plane];
@@ -36,22 +48,56 @@ bool is_within(const ServoForce& force, double tolerance) {
   return std::abs(force.felt - force.wanted) <= tolerance * std::abs(force.wanted);
 }
 
-double moved(const DisplacementEnd& end, const StageStart& start,
-             const dynamics::Simulation& simulation) {
-  return (simulation.planes()[end.plane].point - start.planes[end.plane]).norm();
-}
-
-double strain_of(const StrainEnd& end, const StageStart& start,
-                 const dynamics::Simulation& simulation) {
-  const auto& planes = simulation.planes();
-  const auto [a, b] = end.planes;
-  const geometry::Vec3& normal = planes[a].normal;
-  const double before = normal.dot(start.planes[b] - start.planes[a]);
-  const double now = normal.dot(planes[b].point - planes[a].point);
-  return std::abs((now - before) / before);
+/// m
+Vec3 mean_place(const std::vector<NodeId>& nodes, const std::vector<Vec3>& positions) {
+  Vec3 sum = Vec3::Zero();
+  for (const NodeId node : nodes) sum += positions[index_of(node)];
+  return sum / static_cast<double>(nodes.size());
 }
 
 }  // namespace
+
+/// m
+double StageWatch::moved(const DisplacementEnd& end, const dynamics::Simulation& simulation) const {
+  if (!end.nodes) return (simulation.planes()[end.plane].point - start_.planes[end.plane]).norm();
+  return (mean_place(built_.moved_nodes, simulation.state().position) -
+          mean_place(built_.moved_nodes, start_.positions))
+      .norm();
+}
+
+double StageWatch::strain_of(const StrainEnd& end, const dynamics::Simulation& simulation) const {
+  const auto [a, b] = end.of;
+  Vec3 before, now, normal;  // from a to b
+  if (end.are_rigid_bodies) {
+    const std::size_t node_a = index_of(rigid_body_of(a, built_).node);
+    const std::size_t node_b = index_of(rigid_body_of(b, built_).node);
+    const auto& positions = simulation.state().position;
+    before = start_.positions[node_b] - start_.positions[node_a];
+    now = positions[node_b] - positions[node_a];
+    normal = before.normalized();
+  } else {
+    const auto& planes = simulation.planes();
+    before = start_.planes[b] - start_.planes[a];
+    now = planes[b].point - planes[a].point;
+    normal = planes[a].normal;
+  }
+  return std::abs(normal.dot(now - before) / normal.dot(before));
+}
+
+/// N
+double StageWatch::force_of(const ForceEnd& end, const dynamics::Simulation& simulation) const {
+  const auto reaction =
+      std::find_if(built_.reactions.begin(), built_.reactions.end(),
+                   [&](const BuiltReaction& one) { return one.name == end.reaction; });
+  std::vector<contact::ContactRecord> contacts;
+  if (reaction->kind == ReactionKind::contacts) contacts = simulation.contact_rows();
+  return reaction_in(simulation, *reaction, contacts).value.force[end.axis];
+}
+
+bool StageWatch::is_beyond(const ForceEnd& end, const dynamics::Simulation& simulation) const {
+  const double force = force_of(end, simulation);
+  return end.is_above ? force > end.force : force < end.force;
+}
 
 /// @param seen  of it in this stage; noted here
 bool StageWatch::counts(bool holds, Seen& seen, double time) const {
@@ -73,11 +119,10 @@ std::string StageWatch::look(const dynamics::Simulation& simulation) {
   if (end.unbalanced_force &&
       counts(simulation.unbalanced_force_ratio() < *end.unbalanced_force, unbalanced_, time))
     return "unbalanced_force";
-  if (end.displacement &&
-      moved(*end.displacement, start_, simulation) >= end.displacement->distance)
+  if (end.force && counts(is_beyond(*end.force, simulation), force_, time)) return "force";
+  if (end.displacement && moved(*end.displacement, simulation) >= end.displacement->distance)
     return "displacement";
-  if (end.strain && strain_of(*end.strain, start_, simulation) >= end.strain->strain)
-    return "strain";
+  if (end.strain && strain_of(*end.strain, simulation) >= end.strain->strain) return "strain";
   return "";
 }
 
@@ -107,12 +152,16 @@ std::string StageWatch::state_of_ends(const dynamics::Simulation& simulation) co
     all.push_back(fmt::format("the unbalanced force ratio is {:.4g}, to be below {:.4g}",
                               simulation.unbalanced_force_ratio(), *end.unbalanced_force));
   if (end.displacement)
-    all.push_back(fmt::format("the plane has moved by {:.4g} m of {:.4g} m",
-                              moved(*end.displacement, start_, simulation),
-                              end.displacement->distance));
+    all.push_back(fmt::format("what is to move has moved by {:.4g} m of {:.4g} m",
+                              moved(*end.displacement, simulation), end.displacement->distance));
   if (end.strain)
-    all.push_back(fmt::format("the strain is {:.4g} of {:.4g}",
-                              strain_of(*end.strain, start_, simulation), end.strain->strain));
+    all.push_back(fmt::format("the strain is {:.4g} of {:.4g}", strain_of(*end.strain, simulation),
+                              end.strain->strain));
+  if (end.force)
+    all.push_back(fmt::format("the force of \"{}\" along {} is {:.4g} N, to be {} {:.4g} N",
+                              end.force->reaction, "xyz"[end.force->axis],
+                              force_of(*end.force, simulation),
+                              end.force->is_above ? "above" : "below", end.force->force));
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
@@ -125,6 +174,7 @@ void StageWatch::exchange(const geometry::StateArchive& archive) {
   exchange_seen("kinetic_energy", kinetic_energy_);
   exchange_seen("unbalanced_force", unbalanced_);
   exchange_seen("servo", servo_);
+  exchange_seen("force", force_);
 }
 
 }  // namespace plekton::apps

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/scenario/stage_settings.hpp"
-#include "apps/scene/stage_bodies.hpp"
+#include "apps/scene/build_scene.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <stdexcept>
@@ -18,8 +18,10 @@ struct StageFailed : std::runtime_error {
 /// Looks whether a stage has ended.
 class StageWatch {
  public:
-  /// @param start  of the stage; both must outlive this
-  StageWatch(const StageSettings& stage, const StageStart& start) : stage_(stage), start_(start) {}
+  /// @param start  of the stage
+  /// @param built  all must outlive this
+  StageWatch(const StageSettings& stage, const StageStart& start, const BuiltScene& built)
+      : stage_(stage), start_(start), built_(built) {}
 
   /// s, at which it ends or fails at the latest.
   double latest() const noexcept { return start_.time + stage_.longest(); }
@@ -40,13 +42,19 @@ class StageWatch {
     int in_a_row = 0;      ///< looks, the last ones, at which it has held
   };
   bool counts(bool holds, Seen& seen, double time) const;
+  bool is_beyond(const ForceEnd& end, const dynamics::Simulation& simulation) const;
+  double moved(const DisplacementEnd& end, const dynamics::Simulation& simulation) const;
+  double strain_of(const StrainEnd& end, const dynamics::Simulation& simulation) const;
+  double force_of(const ForceEnd& end, const dynamics::Simulation& simulation) const;
   std::string state_of_ends(const dynamics::Simulation& simulation) const;
 
   const StageSettings& stage_;
   const StageStart& start_;
+  const BuiltScene& built_;
   Seen kinetic_energy_;
   Seen unbalanced_;
   Seen servo_;
+  Seen force_;
 };
 
 }  // namespace plekton::apps

@@ -212,10 +212,10 @@ Json partial(Json schema) {
 /// said by the stages then.
 void add_changes_of_stages(Json& schema) {
   Json& stage = schema["properties"]["stages"]["items"];
-  for (const char* table :
-       {"simulation", "materials", "contacts", "grains", "planes", "loads", "output"})
+  for (const char* table : {"simulation", "materials", "contacts", "membranes", "rigid_bodies",
+                            "grains", "planes", "loads", "output"})
     stage["properties"][table] = partial(schema["properties"][table]);
-  for (const char* removed : {"plane", "load"})
+  for (const char* removed : {"plane", "load", "rigid_body"})
     stage["properties"]["remove"]["items"]["properties"][removed] = {
         {"type", "string"}, {"minLength", 1}, {"description", "name of what is taken out"}};
   Json& required = schema["properties"]["simulation"]["required"];

@@ -35,12 +35,21 @@ const std::vector<std::set<std::string>>& absences() {
        "stages[].remove[].grains",
        "stages[].fix[].grains",
        "stages[].free[].grains",
+       "stages[].fix[].rigid_body",
+       "stages[].free[].rigid_body",
+       "stages[].end.displacement.rigid_body",
+       "stages[].end.displacement.grains",
+       "stages[].end.displacement.plane",
+       "stages[].end.force.above",
        "ties[].from.rigid_body",
        "ties[].to.rigid_body"},
       {"loads[].plane", "loads[].membrane", "grains[].table", "output.reactions[].membrane",
        "loads[].rigid_body", "output.reactions[].rigid_body", "stages[].remove[].membrane",
-       "stages[].fix[].membrane", "stages[].free[].membrane"},
-      {},
+       "stages[].fix[].membrane", "stages[].free[].membrane", "stages[].fix[].rigid_body",
+       "stages[].free[].rigid_body", "stages[].end.displacement.rigid_body",
+       "stages[].end.displacement.membrane", "stages[].end.displacement.plane",
+       "stages[].end.force.above"},
+      {"stages[].end.displacement.plane", "stages[].end.force.above"},
       {"loads[].plane"}};
   return sets;
 }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace plekton::apps {
 namespace {
 
@@ -17,7 +19,17 @@ std::optional<std::size_t> find_name(Section& section, std::string_view key,
   if (name.empty()) return std::nullopt;
   std::vector<std::string_view> names;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].name == name) return i;
+    if (bodies[i].name == name) {
+      if constexpr (requires { bodies[i].is_absent; }) {
+        if (bodies[i].is_absent)
+          section.complain(
+              key, fmt::format("\"{}\" is not there in this stage; expected a body that is; a load "
+                               "that goes on has to be taken out with its body, remove = [{{ load "
+                               "= NAME }}]",
+                               name));
+      }
+      return i;
+    }
     if (!bodies[i].name.empty()) names.push_back(bodies[i].name);
   }
   const std::string closest = closest_word(name, names);
@@ -70,6 +82,29 @@ std::vector<std::size_t> read_plane_names(Section& section, std::string_view key
   for (const std::string& name : section.texts(key))
     if (const auto plane = find_name(section, key, name, scenario.planes)) planes.push_back(*plane);
   return planes;
+}
+
+StrainEnd read_two_bodies(Section& section, const Scenario& scenario) {
+  const std::vector<std::string> names = section.texts("between");
+  StrainEnd end;
+  if (names.size() != 2) {
+    if (!names.empty())
+      section.complain("between",
+                       fmt::format("got {} names; expected those of two planes or two rigid bodies",
+                                   names.size()));
+    return end;
+  }
+  end.are_rigid_bodies = std::any_of(scenario.rigid_bodies.begin(), scenario.rigid_bodies.end(),
+                                     [&](const RigidBodySettings& body) {
+                                       return body.name == names[0] || body.name == names[1];
+                                     });
+  for (std::size_t i = 0; i < 2; ++i) {
+    end.of[i] =
+        (end.are_rigid_bodies ? find_name(section, "between", names[i], scenario.rigid_bodies)
+                              : find_name(section, "between", names[i], scenario.planes))
+            .value_or(0);
+  }
+  return end;
 }
 
 std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
@@ -168,10 +203,6 @@ NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
     return set;
   }
   return with_nodes(section, set);
-}
-
-NodeSetSettings read_flexible_nodes(Section& section, const Scenario& scenario) {
-  return with_nodes(section, read_flexible_body(section, scenario));
 }
 
 NodeSetSettings read_tied_body(Section& section, const Scenario& scenario) {

@@ -25,6 +25,9 @@ std::optional<std::size_t> read_plane_name(Section& section, const Scenario& sce
 std::vector<std::size_t> read_plane_names(Section& section, std::string_view key,
                                           const Scenario& scenario);
 
+/// The two planes, or the two rigid bodies, that the key `between` names.
+StrainEnd read_two_bodies(Section& section, const Scenario& scenario);
+
 /// The planes that the key `between` names, in pairs that follow each other.
 std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
                                                          const Scenario& scenario);
@@ -37,7 +40,6 @@ NodeSetSettings read_flexible_body(Section& section, const Scenario& scenario);
 
 /// From the keys `membrane` or `grains`, and `nodes`.
 NodeSetSettings read_node_set(Section& section, const Scenario& scenario);
-NodeSetSettings read_flexible_nodes(Section& section, const Scenario& scenario);
 
 /// The same of a membrane or a rigid body alone: grains may be gone, or elsewhere, in a later stage.
 NodeSetSettings read_tied_nodes(Section& section, const Scenario& scenario);

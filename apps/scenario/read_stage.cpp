@@ -12,41 +12,62 @@ namespace {
 
 constexpr double kServoTolerance = 0.02;
 
-/// The planes that a list of two names, whichever way they face.
-std::array<std::size_t, 2> read_two_planes(Section& section, const Scenario& scenario) {
-  const std::vector<std::string> names = section.texts("between");
-  std::array<std::size_t, 2> planes{};
-  if (names.size() != 2) {
-    if (!names.empty())
-      section.complain("between",
-                       fmt::format("got {} names; expected those of two planes", names.size()));
-    return planes;
-  }
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto found = std::find_if(scenario.planes.begin(), scenario.planes.end(),
-                                    [&](const PlaneSettings& p) { return p.name == names[i]; });
-    if (found == scenario.planes.end())
-      section.complain("between", fmt::format("there is no plane \"{}\" in this stage", names[i]));
-    else
-      planes[i] = static_cast<std::size_t>(found - scenario.planes.begin());
-  }
-  return planes;
-}
-
 ServoEnd read_servo_end(Section section, const Scenario& scenario) {
   ServoEnd end;
   end.load = section.text("load");
   end.tolerance = section.quantity("tolerance", {kNumber, kPositive}, kServoTolerance);
   section.finish();
+  std::size_t body_servos = 0;
   for (const LoadSettings& load : scenario.loads) {
     const auto* const servo = std::get_if<dynamics::PlaneServo>(&load.load);
-    if (load.name != end.load || servo == nullptr) continue;
-    end.plane = servo->plane;
-    return end;
+    const bool drives_body = std::holds_alternative<BodyServoSettings>(load.load);
+    if (load.name == end.load && (servo != nullptr || drives_body)) {
+      if (servo != nullptr)
+        end.plane = servo->plane;
+      else
+        end.body_servo = body_servos;
+      return end;
+    }
+    if (drives_body) ++body_servos;
   }
   if (!end.load.empty())
     section.complain(
         "load", fmt::format("there is no load \"{}\" of kind \"servo\" in this stage", end.load));
+  return end;
+}
+
+DisplacementEnd read_displacement_end(Section& section, const Scenario& scenario) {
+  DisplacementEnd end;
+  if (section.has("plane"))
+    end.plane = read_plane_name(section, scenario).value_or(0);
+  else
+    end.nodes = read_node_set(section, scenario);
+  end.distance = section.quantity("distance", {kLength, kPositive});
+  return end;
+}
+
+ForceEnd read_force_end(Section section, const Scenario& scenario) {
+  constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
+  ForceEnd end;
+  end.reaction = section.text("reaction");
+  const auto& reactions = scenario.output.reactions;
+  const bool is_there =
+      std::any_of(reactions.begin(), reactions.end(),
+                  [&](const ReactionSettings& one) { return one.name == end.reaction; });
+  if (!end.reaction.empty() && !is_there)
+    section.complain("reaction", fmt::format("there is no reaction \"{}\" in this stage; expected "
+                                             "one of [[output.reactions]]",
+                                             end.reaction));
+  end.axis = static_cast<int>(section.choice("component", kAxes));
+  end.is_above = section.has("above");
+  if (end.is_above) end.force = section.quantity("above", {kForce});
+  if (section.has("below")) {
+    if (end.is_above) section.complain("below", "got above and below; expected one of them");
+    end.force = section.quantity("below", {kForce});
+  } else if (!end.is_above) {
+    section.complain("above", "missing; expected above or below, a force to be reached");
+  }
+  section.finish();
   return end;
 }
 
@@ -60,15 +81,16 @@ StageEnd read_end(Section section, const Scenario& scenario) {
   if (const auto servo = section.optional_table("servo"))
     end.servo = read_servo_end(*servo, scenario);
   if (auto table = section.optional_table("displacement")) {
-    end.displacement = {read_plane_name(*table, scenario).value_or(0),
-                        table->quantity("distance", {kLength, kPositive})};
+    end.displacement = read_displacement_end(*table, scenario);
     table->finish();
   }
   if (auto table = section.optional_table("strain")) {
-    end.strain = {read_two_planes(*table, scenario),
-                  table->quantity("strain", {kNumber, kPositive})};
+    end.strain = read_two_bodies(*table, scenario);
+    end.strain->strain = table->quantity("strain", {kNumber, kPositive});
     table->finish();
   }
+  if (const auto table = section.optional_table("force"))
+    end.force = read_force_end(*table, scenario);
   if (section.has("after")) end.after = section.quantity("after", {kTime, kNotNegative});
   section.finish();
   return end;
@@ -76,12 +98,12 @@ StageEnd read_end(Section section, const Scenario& scenario) {
 
 void require_end(Section& section, const StageSettings& stage) {
   const StageEnd& end = stage.end;
-  const bool has_other =
-      end.kinetic_energy || end.unbalanced_force || end.servo || end.displacement || end.strain;
+  const bool has_other = end.kinetic_energy || end.unbalanced_force || end.servo ||
+                         end.displacement || end.strain || end.force;
   if (!end.duration && !has_other)
     section.complain("end",
                      "missing or empty; expected end = { duration = \"0.1 s\" } or one or more of "
-                     "kinetic_energy, unbalanced_force, servo, displacement, strain");
+                     "kinetic_energy, unbalanced_force, servo, displacement, strain, force");
   else if (!end.duration && !stage.max_duration)
     section.complain("max_duration",
                      "missing; expected the time after which the stage has failed, for its end may "
@@ -97,7 +119,7 @@ RemovalSettings read_removal(Section section, const Scenario& scenario) {
   removal.grains = body.body;
   if (!body.of_grains && section.has("membrane"))
     section.complain("membrane",
-                     "membranes stay in all stages; expected grains, a plane or a load");
+                     "a membrane is taken out as a whole; expected { membrane = NAME }");
   if (section.has("above")) removal.above = section.quantity("above", {kLength});
   if (section.has("below")) removal.below = section.quantity("below", {kLength});
   if (auto box = section.optional_table("box")) removal.box = read_box(*box);
@@ -109,7 +131,7 @@ std::vector<NodeSetSettings> read_sets(Section& stage, std::string_view key,
                                        const Scenario& scenario) {
   std::vector<NodeSetSettings> sets;
   for (Section& section : stage.tables(key)) {
-    sets.push_back(read_flexible_nodes(section, scenario));
+    sets.push_back(read_node_set(section, scenario));
     section.finish();
   }
   return sets;

@@ -31,6 +31,7 @@ struct RigidBodySettings {
   dynamics::Held held = dynamics::Held::nothing;
   geometry::Vec3 velocity = geometry::Vec3::Zero();          ///< m/s, at the start
   geometry::Vec3 angular_velocity = geometry::Vec3::Zero();  ///< rad/s, at the start
+  bool is_absent = false;  ///< not there yet in this stage, or any more
 };
 
 }  // namespace plekton::apps

@@ -123,6 +123,7 @@ struct MembraneSettings {
   Vec3 initial_velocity = Vec3::Zero();   ///< m/s, of the nodes that are not held
   std::vector<Vec3> initial_velocities;   ///< m/s, instead, by point of the shape; or empty
   std::optional<std::size_t> rigid_body;  ///< whose surface it is, and no membrane
+  bool is_absent = false;                 ///< not there yet in this stage, or any more
 };
 
 /// How grains are placed in their space: one after the other at random, on a face-centred cubic
@@ -141,6 +142,7 @@ struct GrainSettings {
   std::vector<Vec3> centres;                      ///< m, of all grains; empty: placed in the space
   std::vector<double> radii;                      ///< m, by centre; empty: as sizes says
   std::optional<std::size_t> rigid_body;          ///< whose spheres they are, and no grains
+  bool is_absent = false;                         ///< as a membrane is
   geometry::Box box{Vec3::Zero(), Vec3::Zero()};  ///< m, holds the grains wholly
   std::optional<geometry::CylinderRegion> cylinder;  ///< instead of the box
   std::string inside;                                ///< a closed membrane, instead of the box

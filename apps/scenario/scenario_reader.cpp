@@ -35,7 +35,23 @@ void read_tables(Section& root, std::string_view key, std::vector<Settings>& all
   }
 }
 
-void read_bodies(Section& root, Scenario& scenario) {
+bool is_set(const std::vector<bool>& flags, std::size_t i) {
+  return i < flags.size() && flags[i];
+}
+
+void mark_absent(const StageOrigins& stage, Scenario& scenario) {
+  for (std::size_t i = 0; i < scenario.membranes.size(); ++i)
+    scenario.membranes[i].is_absent =
+        !scenario.membranes[i].rigid_body && is_set(stage.absent_membranes, i);
+  for (std::size_t i = 0; i < scenario.rigid_bodies.size(); ++i) {
+    RigidBodySettings& body = scenario.rigid_bodies[i];
+    body.is_absent = is_set(stage.absent_rigid_bodies, i);
+    if (body.membrane) scenario.membranes[*body.membrane].is_absent = body.is_absent;
+    if (body.grains) scenario.grains[*body.grains].is_absent = body.is_absent;
+  }
+}
+
+void read_bodies(Section& root, const StageOrigins& stage, Scenario& scenario) {
   const Known known(scenario);
   MaterialPairSet taken;
   for (Section& section : root.tables("contacts"))
@@ -43,14 +59,14 @@ void read_bodies(Section& root, Scenario& scenario) {
   read_tables(root, "membranes", scenario.membranes,
               [&](Section& section) { return read_membrane(section, known); });
   for (Section& section : root.tables("rigid_bodies")) read_rigid_body(section, known, scenario);
+  mark_absent(stage, scenario);
   const std::size_t rigid = scenario.grains.size();
   read_tables(root, "grains", scenario.grains, [&](Section& section) {
     return read_grains(section, known, scenario.grains.size() - rigid);
   });
   require_own_names(root, scenario);
-  read_tables(root, "ties", scenario.ties, [&](Section& section) {
-    return read_tie(section, scenario, scenario.ties.size());
-  });
+  read_tables(root, "ties", scenario.ties,
+              [&](Section& section) { return read_tie(section, scenario, scenario.ties.size()); });
   read_tables(root, "planes", scenario.planes,
               [&](Section& section) { return read_plane(section, known); });
   read_tables(root, "loads", scenario.loads, [&](Section& section) {
@@ -59,7 +75,8 @@ void read_bodies(Section& root, Scenario& scenario) {
 }
 
 /// All sections, whether the root has a table or a recorder of keys.
-Scenario read_root(Section root, Problems& problems, const fs::path& path) {
+Scenario read_root(Section root, const StageOrigins& stage, Problems& problems,
+                   const fs::path& path) {
   Scenario scenario;
   scenario.file = path;
   const Table none;
@@ -74,7 +91,7 @@ Scenario read_root(Section root, Problems& problems, const fs::path& path) {
     for (auto& [name, material] : section->all_tables())
       scenario.materials.push_back(read_material(name, material));
   }
-  read_bodies(root, scenario);
+  read_bodies(root, stage, scenario);
   const auto output = root.table("output");
   scenario.output =
       read_output(output.value_or(Section(none, root.place(), "output", problems)), scenario);
@@ -85,9 +102,9 @@ Scenario read_root(Section root, Problems& problems, const fs::path& path) {
 }
 
 /// @param start  where what is missing is said to be
-Scenario scenario_of(const Table& table, const Place& start, const fs::path& path,
+Scenario scenario_of(const Table& table, const StageOrigins& stage, const Place& start,
                      Problems& problems) {
-  Scenario scenario = read_root(Section(table, start, "", problems), problems, path);
+  Scenario scenario = read_root(Section(table, start, "", problems), stage, problems, start.source);
   if (problems.empty() && scenario.membranes.empty() && scenario.grains.empty()) {
     problems.add(start,
                  "nothing to simulate; expected at least one table [[grains]] or [[membranes]]");
@@ -96,11 +113,10 @@ Scenario scenario_of(const Table& table, const Place& start, const fs::path& pat
 }
 
 /// All stages; the first one is the scenario itself.
-Scenario staged_scenario(const Table& table, const Place& start, const fs::path& path,
-                         Problems& problems) {
+Scenario staged_scenario(const Table& table, const Place& start, Problems& problems) {
   std::vector<Scenario> stages;
   for (StageTable& stage : stage_tables(table, problems)) {
-    stages.push_back(scenario_of(stage.table, start, path, problems));
+    stages.push_back(scenario_of(stage.table, stage.origins, start, problems));
     if (!stages.back().stage) continue;
     stages.back().stage->number = stages.size() - 1;
     stages.back().stage->origins = std::move(stage.origins);
@@ -118,10 +134,9 @@ Scenario staged_scenario(const Table& table, const Place& start, const fs::path&
 /// @param start  where what is missing is said to be
 Scenario whole_scenario(const Table& table, const Place& start, std::string_view text,
                         std::span<const std::string> overrides) {
-  const fs::path path = start.source;
   Problems problems;
-  Scenario scenario = has_stages(table) ? staged_scenario(table, start, path, problems)
-                                        : scenario_of(table, start, path, problems);
+  Scenario scenario = has_stages(table) ? staged_scenario(table, start, problems)
+                                        : scenario_of(table, {}, start, problems);
   problems.throw_if_any();
   const auto note_origin = [&](Scenario& of) {
     of.text = text;
@@ -155,7 +170,7 @@ Scenario read_scenario(const fs::path& path, std::span<const std::string> overri
 void record_keys(KeyRecorder& recorder) {
   Problems ignored;
   const Table none;
-  read_root(Section(none, {}, "", ignored, &recorder), ignored, {});
+  read_root(Section(none, {}, "", ignored, &recorder), {}, ignored, {});
 }
 
 }  // namespace plekton::apps

@@ -16,21 +16,33 @@ namespace plekton::apps {
 
 /// The force of a servo is reached.
 struct ServoEnd {
-  std::size_t plane = 0;   ///< that it drives
-  std::string load;        ///< its name
-  double tolerance = 0.0;  ///< of the force
+  std::string load;                       ///< its name
+  double tolerance = 0.0;                 ///< of the force
+  std::size_t plane = 0;                  ///< that it drives
+  std::optional<std::size_t> body_servo;  ///< of rigid bodies, by place among those
 };
 
-/// A plane is so far from where it was at the start of the stage.
+/// A plane, or the mean of some nodes, is so far from where it was at the start of the stage.
 struct DisplacementEnd {
-  std::size_t plane = 0;
   double distance = 0.0;  ///< m
+  std::size_t plane = 0;
+  std::optional<NodeSetSettings> nodes;  ///< instead of the plane
 };
 
-/// The distance of two planes has changed by this part of what it was at the start of the stage.
+/// The distance of two planes, or of the centres of two rigid bodies, has changed by this part of
+/// what it was at the start of the stage.
 struct StrainEnd {
-  std::array<std::size_t, 2> planes{};
   double strain = 0.0;
+  std::array<std::size_t, 2> of{};
+  bool are_rigid_bodies = false;
+};
+
+/// A component of a reaction is beyond a force.
+struct ForceEnd {
+  std::string reaction;  ///< its name
+  int axis = 0;          ///< 0 to 2
+  double force = 0.0;    ///< N
+  bool is_above = true;  ///< or below
 };
 
 /// When a stage ends: the first of these.
@@ -41,7 +53,8 @@ struct StageEnd {
   std::optional<ServoEnd> servo;
   std::optional<DisplacementEnd> displacement;
   std::optional<StrainEnd> strain;
-  /// s, from its start, before which kinetic energy, unbalanced force and servo do not count;
+  std::optional<ForceEnd> force;
+  /// s, from its start, before which kinetic energy and forces do not count;
   /// nothing: once they were above.
   std::optional<double> after;
 };
@@ -57,11 +70,14 @@ struct RemovalSettings {
 /// What of a stage is that of the stage before. A load begins in the stage that names it, and goes
 /// on until one names it again; a plane goes on from where it is, unless a stage says its point.
 struct StageOrigins {
-  std::vector<std::size_t> loads;      ///< by load: the stage in which it began
-  std::vector<std::size_t> reactions;  ///< by reaction, likewise
-  std::vector<int> planes;             ///< by plane: its number in the stage before; -1: new
-  std::vector<bool> moved_planes;      ///< by plane: whether the stage says where it is
-  bool changes_nothing = false;        ///< but when it ends and what is written
+  std::vector<std::size_t> loads;         ///< by load: the stage in which it began
+  std::vector<std::size_t> reactions;     ///< by reaction, likewise
+  std::vector<int> planes;                ///< by plane: its number in the stage before; -1: new
+  std::vector<bool> moved_planes;         ///< by plane: whether the stage says where it is
+  std::vector<bool> absent_membranes;     ///< by membrane: it is not there yet, or any more
+  std::vector<bool> absent_rigid_bodies;  ///< likewise
+  std::vector<bool> says_hold;            ///< by rigid body: whether the stage says what is held
+  bool changes_nothing = false;           ///< but when it ends and what is written
 };
 
 /// What a stage says beside its scenario.

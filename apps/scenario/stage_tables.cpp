@@ -19,6 +19,7 @@ constexpr std::array<std::string_view, 4> kSimulationKeys = {"damping", "damp_gr
                                                              "time_step"};
 constexpr std::array<std::string_view, 4> kMaterialKeys = {"friction_angle", "poisson_ratio",
                                                            "stiffness_ratio", "young_modulus"};
+constexpr std::array<std::string_view, 2> kBodyKeys = {"hold", "hold_rotation"};
 constexpr std::array<std::string_view, 8> kOutputKeys = {
     "checkpoint_interval", "contacts", "grains", "history_interval", "interval", "measures",
     "membranes",           "reactions"};
@@ -78,14 +79,36 @@ void write(const Value& value, std::string& text) {
   }
 }
 
+/// Membranes or rigid bodies: all of them are in the scenarios of all stages, so that what is known
+/// of one by its number stays so; some are not there yet, or any more.
+struct BodyList {
+  std::string key;                 ///< of the tables
+  std::string kind;                ///< as removals have it
+  std::vector<std::size_t> comes;  ///< by table: the stage at whose start it comes
+  std::size_t from_the_start = 0;  ///< how many stand outside of the stages; they come first
+  std::vector<bool> is_gone;       ///< by table
+
+  std::vector<bool> absent_in(std::size_t stage) const {
+    std::vector<bool> absent;
+    for (std::size_t i = 0; i < comes.size(); ++i) absent.push_back(comes[i] > stage || is_gone[i]);
+    return absent;
+  }
+};
+
 /// Goes from stage to stage.
 class Stages {
  public:
-  Stages(const Table& scenario, Problems& problems) : problems_(problems) {
+  Stages(const Table& scenario, const Array& stages, Problems& problems) : problems_(problems) {
     for (const Entry& entry : scenario.entries)
       if (entry.key != "stages") now_.entries.push_back(entry);
     origins_.loads.assign(count("loads"), 0);
     origins_.reactions.assign(reaction_count(), 0);
+    for (BodyList* const list : {&membranes_, &rigid_bodies_}) {
+      list->from_the_start = count(list->key);
+      list->comes.assign(list->from_the_start, 0);
+      for (std::size_t k = 0; k < stages.size(); ++k) list_coming(stages[k], k, *list);
+      list->is_gone.assign(list->comes.size(), false);
+    }
     if (const Entry* const stop = now_.find("stop"))
       complain(stop->place, "stop", "does not go with stages; say it in the `end` of a stage");
     if (const Table* const simulation = table_of("simulation")) {
@@ -107,6 +130,8 @@ class Stages {
                       stage.find("remove") != nullptr;
     for (const Entry& entry : stage.entries)
       if (entry.key != "remove" && !change(entry)) own.entries.push_back(entry);
+    origins_.absent_membranes = membranes_.absent_in(number_);
+    origins_.absent_rigid_bodies = rigid_bodies_.absent_in(number_);
     origins_.changes_nothing = number_ > 0 && !changes_bodies_ && text_of_all() == before;
     Table table = now_;
     set_duration(table, stage, place);
@@ -121,6 +146,7 @@ class Stages {
     for (std::size_t i = 0; i < count("planes"); ++i)
       origins_.planes.push_back(number_ == 0 ? -1 : static_cast<int>(i));
     origins_.moved_planes.assign(count("planes"), false);
+    origins_.says_hold.assign(count("rigid_bodies"), false);
   }
 
   /// All but what is written.
@@ -146,19 +172,64 @@ class Stages {
       change_named(now_, entry);
     else if (entry.key == "grains")
       add_grains(entry);
+    else if (entry.key == "rigid_bodies")
+      change_bodies(entry, rigid_bodies_);
+    else if (entry.key == "membranes")
+      change_bodies(entry, membranes_);
     else if (entry.key == "output")
       change_output(entry);
     else
-      return refuse_structures(entry);
+      return refuse_ties(entry);
     return true;
   }
 
-  bool refuse_structures(const Entry& entry) {
-    if (entry.key != "membranes" && entry.key != "ties") return false;
+  bool refuse_ties(const Entry& entry) {
+    if (entry.key != "ties") return false;
     complain(entry.place, entry.key,
-             fmt::format("{} are there from the first stage on; write them outside of the stages",
-                         entry.key));
+             "ties are there from the first stage on; write them outside of the stages");
     return true;
+  }
+
+  /// Lists bodies that have not been named before.
+  void list_coming(const Value& stage, std::size_t number, BodyList& list) {
+    const Table* const table = table_in(stage);
+    const Entry* const entry = table ? table->find(list.key) : nullptr;
+    const auto* const bodies = entry ? std::get_if<Array>(&entry->value.data) : nullptr;
+    if (bodies == nullptr) return;
+    Array& all = list_of(now_, list.key, entry->place);
+    for (const Value& body : *bodies) {
+      const Table* const own = table_in(body);
+      const std::string* const name = own ? text_of(*own, "name") : nullptr;
+      if (name != nullptr && place_in(all, "name", *name) < all.size()) continue;
+      all.push_back(body);
+      list.comes.push_back(number);
+    }
+  }
+
+  /// Some come, and of rigid bodies that are there the stage says what is held.
+  void change_bodies(const Entry& entry, const BodyList& list) {
+    const auto* const changes = std::get_if<Array>(&entry.value.data);
+    if (changes == nullptr) {
+      set(now_, entry);  // the reader complains
+      return;
+    }
+    changes_bodies_ = true;
+    Array& all = list_of(now_, list.key, entry.place);
+    for (const Value& value : *changes) {
+      const Table* const table = table_in(value);
+      const std::string* const name = table ? text_of(*table, "name") : nullptr;
+      const std::size_t place = name ? place_in(all, "name", *name) : all.size();
+      if (place == all.size()) continue;  // the reader complains of what has no name
+      if (place >= list.from_the_start && list.comes[place] == number_) continue;
+      auto* const body = std::get_if<Table>(&all[place].data);
+      const std::span<const std::string_view> allowed =
+          &list == &rigid_bodies_ ? std::span<const std::string_view>(kBodyKeys)
+                                  : std::span<const std::string_view>();
+      for (const Entry& key : table->entries) {
+        if (key.key != "name" && is_allowed(key, list.key + "." + *name, allowed)) set(*body, key);
+      }
+      if (&list == &rigid_bodies_) origins_.says_hold[place] = true;
+    }
   }
 
   /// Keys of a table replace those from before.
@@ -181,9 +252,13 @@ class Stages {
                   std::span<const std::string_view> allowed) {
     if (std::find(allowed.begin(), allowed.end(), key.key) != allowed.end()) return true;
     const std::string hint = did_you_mean(key.key, allowed);
-    complain(key.place, fmt::format("{}.{}", of, key.key),
-             fmt::format("is the same in all stages{}; a stage may change {}", hint,
-                         fmt::join(allowed, ", ")));
+    complain(
+        key.place, fmt::format("{}.{}", of, key.key),
+        allowed.empty()
+            ? std::string("is there already, and stays as it is; give what comes a name of its "
+                          "own")
+            : fmt::format("is the same in all stages{}; a stage may change {}", hint,
+                          fmt::join(allowed, ", ")));
     return false;
   }
 
@@ -313,17 +388,38 @@ class Stages {
       const Table* const table = table_in(value);
       const bool is_plane = table != nullptr && table->find("plane") != nullptr;
       const bool is_load = table != nullptr && table->find("load") != nullptr;
+      const bool is_rigid = table != nullptr && table->find("rigid_body") != nullptr;
+      const bool is_membrane =
+          table != nullptr && table->find("membrane") != nullptr && table->entries.size() == 1;
       if (is_plane)
         remove_named("planes", "plane", *table);
       else if (is_load)
         remove_named("loads", "load", *table);
+      else if (is_rigid)
+        remove_body(rigid_bodies_, *table);
+      else if (is_membrane)
+        remove_body(membranes_, *table);
       else
         left.push_back(value);
     }
     return {removals.key, removals.place, Value{removals.value.place, std::move(left)}};
   }
 
-  void remove_named(std::string_view list, std::string_view key, const Table& removal) {
+  void remove_body(BodyList& list, const Table& removal) {
+    const std::size_t place = place_of_removed(list.key, list.kind, removal);
+    if (place == list.comes.size()) return;
+    if (list.comes[place] >= std::max<std::size_t>(number_, 1) || list.is_gone[place])
+      complain_of_none(list.kind, *removal.find(list.kind));
+    list.is_gone[place] = true;
+  }
+
+  void complain_of_none(std::string_view key, const Entry& named) {
+    complain(named.value.place, fmt::format("remove.{}", key),
+             fmt::format("there is none called {} in the stage before", shown(named.value)));
+  }
+
+  /// @returns the length of the list after a problem
+  std::size_t place_of_removed(std::string_view list, std::string_view key, const Table& removal) {
     const Entry& named = *removal.find(key);
     if (removal.entries.size() > 1)
       complain(named.place, "remove",
@@ -331,13 +427,16 @@ class Stages {
                            "NAME }}",
                            key, key));
     const std::string* const name = std::get_if<std::string>(&named.value.data);
-    Array& all = list_of(now_, list, named.place);
+    const Array& all = list_of(now_, list, named.place);
     const std::size_t place = name ? place_in(all, "name", *name) : all.size();
-    if (place == all.size()) {
-      complain(named.value.place, fmt::format("remove.{}", key),
-               fmt::format("there is none called {} in the stage before", shown(named.value)));
-      return;
-    }
+    if (place == all.size()) complain_of_none(key, named);
+    return place;
+  }
+
+  void remove_named(std::string_view list, std::string_view key, const Table& removal) {
+    const std::size_t place = place_of_removed(list, key, removal);
+    Array& all = list_of(now_, list, removal.find(key)->place);
+    if (place == all.size()) return;
     const auto at = static_cast<std::ptrdiff_t>(place);
     all.erase(all.begin() + at);
     if (list == "loads") origins_.loads.erase(origins_.loads.begin() + at);
@@ -387,6 +486,8 @@ class Stages {
   Problems& problems_;
   Table now_;
   StageOrigins origins_;
+  BodyList membranes_{"membranes", "membrane", {}, 0, {}};
+  BodyList rigid_bodies_{"rigid_bodies", "rigid_body", {}, 0, {}};
   std::size_t number_ = 0;
   std::string path_;
   bool changes_bodies_ = false;
@@ -407,7 +508,7 @@ std::vector<StageTable> stage_tables(const Table& scenario, Problems& problems) 
                                           shown(entry.value)));
     return {};
   }
-  Stages stages(scenario, problems);
+  Stages stages(scenario, *list, problems);
   std::vector<StageTable> tables;
   std::set<std::string> names;
   for (const Value& value : *list) {

@@ -80,13 +80,6 @@ NamesOfStages names_in(std::span<const Scenario> stages) {
 }
 
 void check_stages(const std::vector<Scenario>& stages, Problems& problems) {
-  for (const RigidBodySettings& body : stages.front().rigid_bodies)
-    problems.add(
-        body.place,
-        fmt::format("{}: got a rigid body in a scenario with [[stages]]; expected none: the "
-                    "motion of rigid bodies cannot go from stage to stage yet; use planes "
-                    "or held membranes instead, or a scenario without stages",
-                    body.path));
   for (std::size_t k = 1; k < stages.size(); ++k) check_laws(stages[k - 1], stages[k], problems);
 }
 

@@ -48,6 +48,20 @@ std::string problem_of(const ReactionSettings& settings, const BuiltReaction& re
       name);
 }
 
+void find_moved_nodes(const Scenario& scenario, BuiltScene& built, const StageBodies* bodies,
+                      Problems& problems) {
+  if (!scenario.stage || !scenario.stage->end.displacement) return;
+  const std::optional<NodeSetSettings>& nodes = scenario.stage->end.displacement->nodes;
+  if (!nodes) return;
+  const AtStart at_start(built, bodies ? &bodies->starts.back() : nullptr);
+  built.moved_nodes = nodes_of(*nodes, built);
+  if (built.moved_nodes.empty())
+    problems.add(nodes->place,
+                 fmt::format("{}.end.displacement: \"{}\" has no node there at the start of the "
+                             "stage",
+                             scenario.stage->path, name_of(*nodes, built)));
+}
+
 }  // namespace
 
 void add_reactions(const Scenario& scenario, BuiltScene& built, const StageBodies* bodies) {
@@ -69,6 +83,7 @@ void add_reactions(const Scenario& scenario, BuiltScene& built, const StageBodie
     }
     built.reactions.push_back(std::move(reaction));
   }
+  find_moved_nodes(scenario, built, bodies, problems);
   problems.throw_if_any();
 }
 

@@ -43,13 +43,16 @@ std::vector<Obstacle> obstacles_of(const BuiltScene& built, const BodiesThere& t
   std::vector<Vec3> x = scene.state.position;
   std::copy(there.positions.begin(), there.positions.end(), x.begin());
   std::vector<Obstacle> obstacles;
-  for (const geometry::Facet& facet : scene.elements.facets)
-    obstacles.push_back({geometry::core(facet, x), facet.radius});
+  for (const geometry::Facet& facet : scene.elements.facets) {
+    if (scene.is_there(facet.nodes[0]))
+      obstacles.push_back({geometry::core(facet, x), facet.radius});
+  }
   std::size_t first = 0;
   for (const BuiltMembrane& membrane : built.membranes) {
     // Where there are facets the cylinders are their sides.
     for (std::size_t i = first; membrane.facets == 0 && i < first + membrane.beams; ++i) {
       const geometry::Cylinder& cylinder = scene.elements.cylinders[i];
+      if (!scene.is_there(cylinder.nodes[0])) continue;
       const auto [x0, x1] = geometry::core(cylinder, x);
       obstacles.push_back({{x0, x1, x1}, cylinder.radius});
     }
@@ -62,6 +65,18 @@ std::vector<Obstacle> obstacles_of(const BuiltScene& built, const BodiesThere& t
     obstacles.push_back({{centre, centre, centre}, sphere.radius});
   }
   return obstacles;
+}
+
+/// Its nodes stay where they are, without their elements.
+/// @param first  node
+void leave_out(std::size_t first, dynamics::Scene& scene) {
+  scene.is_absent.resize(first, false);
+  scene.is_absent.resize(scene.state.size(), true);
+  for (std::size_t node = first; node < scene.state.size(); ++node) {
+    dynamics::Held& held = scene.properties.held[node];
+    held = held | dynamics::Held::everything;
+    scene.state.velocity[node] = scene.state.angular_velocity[node] = Vec3::Zero();
+  }
 }
 
 /// Points to the step of the repair that failed, or else to the mesh or shape.
@@ -233,11 +248,13 @@ BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there, cons
   add_materials_and_planes(scenario, built.scene);
   for (const MembraneSettings& membrane : scenario.membranes) {
     if (hear) hear("making membrane " + membrane.name, 0.0);
+    const std::size_t first_node = built.scene.state.size();
     try {
       if (membrane.rigid_body)
         add_rigid_surface(scenario.rigid_bodies[*membrane.rigid_body], membrane, built);
       else
         built.membranes.push_back(add_membrane(membrane, built));
+      if (membrane.is_absent) leave_out(first_node, built.scene);
     } catch (const geometry::RefusedMesh& error) {
       complain(membrane, error.failed_step, error.what(), problems);
     } catch (const geometry::MeshError& error) {
@@ -249,7 +266,9 @@ BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there, cons
   for (const GrainSettings& grains : scenario.grains) {
     try {
       if (grains.rigid_body) {
+        const std::size_t first_node = built.scene.state.size();
         add_rigid_spheres(scenario.rigid_bodies[*grains.rigid_body], grains, built);
+        if (grains.is_absent) leave_out(first_node, built.scene);
         continue;
       }
       const std::size_t table = built.grains.size();
@@ -270,6 +289,7 @@ BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there, cons
   }
   problems.throw_if_any();
   add_ties(scenario, built);
+  if (!built.scene.is_absent.empty()) built.scene.is_absent.resize(built.scene.state.size(), false);
   return built;
 }
 

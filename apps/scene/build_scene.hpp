@@ -53,6 +53,7 @@ struct BuiltRigidBody {
   dynamics::MassProperties mass;
   Vec3 moments = Vec3::Zero();  ///< kg m², principal
   std::string volume;           ///< what of it has mass
+  bool is_absent = false;       ///< not there in this stage
 };
 
 /// A reaction that is asked for, with its nodes.
@@ -82,6 +83,7 @@ struct BuiltScene {
   std::vector<BuiltRigidBody> rigid_bodies;
   std::vector<BuiltTies> ties;
   std::vector<BuiltReaction> reactions;
+  std::vector<geometry::NodeId> moved_nodes;  ///< whose displacement ends the stage
   std::vector<std::string> warnings;
 };
 

@@ -4,6 +4,7 @@
 #include "apps/scene/build_loads.hpp"
 #include "apps/scene/build_reactions.hpp"
 #include "apps/scene/node_set.hpp"
+#include "apps/scene/rigid_builder.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,9 @@
 namespace plekton::apps {
 namespace {
 
+using dynamics::Held;
+using geometry::index_of;
+
 std::vector<Vec3> points_of(const std::vector<contact::Plane>& planes) {
   std::vector<Vec3> points;
   for (const contact::Plane& plane : planes) points.push_back(plane.point);
@@ -23,20 +27,25 @@ std::vector<Vec3> points_of(const std::vector<contact::Plane>& planes) {
 void add_conditions(const Scenario& stage, const StageBodies& bodies, BuiltScene& built) {
   built.scene.properties.held = bodies.held;
   add_loads(stage, built, &bodies);
+  hold_as_loaded(stage, built);
   add_reactions(stage, built, &bodies);
 }
 
-/// Grains come last, in the order of their tables.
-void take_new_grains(const BuiltScene& built, StageBodies& bodies, std::vector<Vec3>& positions) {
+/// Grains come last, in the order of their tables, after the spheres of rigid bodies, some of which
+/// may have come or gone.
+void take_new_grains(const Scenario& stage, const BuiltScene& built, StageBodies& bodies,
+                     std::vector<Vec3>& positions) {
   std::size_t sphere = 0;
   for (std::size_t table = 0; table < built.grains.size(); ++table) {
-    const bool is_new = table >= bodies.grains.size();
+    const bool is_rigid = stage.grains[table].rigid_body.has_value();
+    const bool is_new = !is_rigid && table >= bodies.grains.size();
     if (is_new) bodies.grains.emplace_back();
+    if (is_rigid) bodies.grains[table].clear();
     for (std::size_t i = 0; i < built.grains[table].count; ++i, ++sphere) {
-      if (!is_new) continue;
       const geometry::Sphere& grain = built.scene.elements.spheres[sphere];
-      const std::size_t node = geometry::index_of(grain.nodes[0]);
-      bodies.grains.back().push_back(grain.radius);
+      if (is_new || is_rigid) bodies.grains[table].push_back(grain.radius);
+      if (!is_new) continue;
+      const std::size_t node = index_of(grain.nodes[0]);
       positions.push_back(built.scene.state.position[node]);
       bodies.held.push_back(built.scene.properties.held[node]);
       for (StageStart& start : bodies.starts) start.positions.push_back(positions.back());
@@ -44,20 +53,47 @@ void take_new_grains(const BuiltScene& built, StageBodies& bodies, std::vector<V
   }
 }
 
+/// Structures that come are where they are made; what comes or goes is held as they are made, or
+/// where they are.
+void take_presence(const BuiltScene& built, StageBodies& bodies, std::vector<Vec3>& positions) {
+  const dynamics::Scene& scene = built.scene;
+  const std::vector<bool> was_absent = std::exchange(bodies.is_absent, scene.is_absent);
+  for (std::size_t node = 0; node < positions.size(); ++node) {
+    const bool was = node < was_absent.size() && was_absent[node];
+    const bool is = !scene.is_there(geometry::id_at<geometry::NodeId>(node));
+    if (was == is) continue;
+    bodies.held[node] = scene.properties.held[node];
+    if (is) continue;
+    positions[node] = scene.state.position[node];
+    for (StageStart& start : bodies.starts) start.positions[node] = positions[node];
+  }
+}
+
 void fix_and_free(const StageSettings& stage, const BuiltScene& there, StageBodies& bodies) {
   Problems problems;
-  const auto set_all = [&](const std::vector<NodeSetSettings>& sets, dynamics::Held held) {
+  const auto set_all = [&](const std::vector<NodeSetSettings>& sets, Held held) {
     for (const NodeSetSettings& set : sets) {
       const std::vector<geometry::NodeId> nodes = nodes_of(set, there);
       if (nodes.empty())
         problems.add(set.place,
                      fmt::format("{}: has no node there at the start of the stage", stage.path));
-      for (const geometry::NodeId node : nodes) bodies.held[geometry::index_of(node)] = held;
+      for (const geometry::NodeId node : nodes) {
+        Held& own = bodies.held[index_of(node)];
+        own = held | (own & Held::by_body);
+      }
     }
   };
-  set_all(stage.freed, dynamics::Held::nothing);
-  set_all(stage.fixed, dynamics::Held::everything);
+  set_all(stage.freed, Held::nothing);
+  set_all(stage.fixed, Held::everything);
   problems.throw_if_any();
+}
+
+/// Of bodies of which the stage says anew what is held.
+void hold_as_told(const Scenario& stage, const BuiltScene& built, StageBodies& bodies) {
+  for (const BuiltRigidBody& body : built.rigid_bodies) {
+    if (stage.stage->origins.says_hold[body.table])
+      bodies.held[index_of(body.node)] = stage.rigid_bodies[body.table].held | Held::by_body;
+  }
 }
 
 /// Of nothing that there was before, where these planes begin.
@@ -77,6 +113,7 @@ void note_new_planes(const Scenario& stage, const std::vector<Vec3>& points, Sta
 StageBodies first_stage(const BuiltScene& built) {
   StageBodies bodies;
   bodies.held = built.scene.properties.held;
+  bodies.is_absent = built.scene.is_absent;
   std::size_t sphere = 0;
   for (const BuiltGrains& grains : built.grains) {
     bodies.grains.emplace_back();
@@ -99,7 +136,9 @@ namespace {
 /// @param built  its bodies
 BuiltScene begun(BuiltScene built, const Scenario& stage, StageBodies& bodies,
                  std::vector<Vec3>& positions, double time) {
-  take_new_grains(built, bodies, positions);
+  take_presence(built, bodies, positions);
+  take_new_grains(stage, built, bodies, positions);
+  hold_as_told(stage, built, bodies);
   std::vector<Vec3> as_built = std::exchange(built.scene.state.position, positions);
   fix_and_free(*stage.stage, built, bodies);
   built.scene.state.position = std::move(as_built);
@@ -142,6 +181,9 @@ Scenario as_far_as_known(Scenario scenario) {
   erase(scenario.output.reactions, stage.origins.reactions, [](const ReactionSettings& reaction) {
     return reaction.kind != ReactionKind::plane && is_among_grains(reaction.nodes);
   });
+  if (stage.end.displacement && stage.end.displacement->nodes &&
+      is_among_grains(*stage.end.displacement->nodes))
+    stage.end.displacement.reset();
   std::erase_if(stage.fixed, among_grains);
   std::erase_if(stage.freed, among_grains);
   return scenario;

@@ -105,9 +105,10 @@ void add_body(const RigidBodySettings& body, std::size_t table, const std::vecto
   const NodeId reference = built.scene.rigid_bodies[number].node;
   built.scene.state.velocity[index_of(reference)] = body.velocity;
   built.scene.state.angular_velocity[index_of(reference)] = body.angular_velocity;
-  built.rigid_bodies.push_back(
-      {table, body.name, reference, built.scene.state.orientation[index_of(reference)], body.held,
-       mass, built.scene.rigid_bodies[number].moments, body.inertia ? "as told" : volume.what});
+  built.rigid_bodies.push_back({table, body.name, reference,
+                                built.scene.state.orientation[index_of(reference)], body.held, mass,
+                                built.scene.rigid_bodies[number].moments,
+                                body.inertia ? "as told" : volume.what, body.is_absent});
 }
 
 }  // namespace
@@ -148,6 +149,10 @@ void add_rigid_spheres(const RigidBodySettings& body, const GrainSettings& spher
   dynamics::Scene& scene = built.scene;
   std::vector<NodeId> nodes;
   for (std::size_t i = 0; i < spheres.centres.size(); ++i) {
+    if (spheres.is_absent) {
+      nodes.push_back(scene.add_node(spheres.centres[i]));
+      continue;
+    }
     const auto sphere = scene.add_sphere(spheres.centres[i], spheres.radii[i], 0.0,
                                          static_cast<contact::MaterialId>(spheres.material));
     nodes.push_back(scene.elements.spheres[index_of(sphere)].nodes[0]);
@@ -161,8 +166,9 @@ void add_rigid_spheres(const RigidBodySettings& body, const GrainSettings& spher
       fmt::format("a solid of what its spheres cover, to {:.1g}", std::max(all.error, 1e-13));
   add_body(body, spheres.rigid_body.value(), nodes, volume, built);
   const auto [smallest, largest] = std::minmax_element(spheres.radii.begin(), spheres.radii.end());
-  built.grains.push_back({spheres.name, spheres.radii.size(), built.rigid_bodies.back().mass.mass,
-                          *smallest, *largest, true});
+  const std::size_t count = spheres.is_absent ? 0 : spheres.radii.size();
+  built.grains.push_back(
+      {spheres.name, count, built.rigid_bodies.back().mass.mass, *smallest, *largest, true});
 }
 
 void hold_as_loaded(const Scenario& scenario, BuiltScene& built) {

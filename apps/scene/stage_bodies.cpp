@@ -23,6 +23,7 @@ void StageBodies::exchange(const geometry::StateArchive& archive) {
   grains.resize(tables);
   for (std::size_t i = 0; i < tables; ++i) archive("radii_" + std::to_string(i), grains[i]);
   archive("held", held);
+  archive("is_absent", is_absent);
 }
 
 }  // namespace plekton::apps

@@ -27,6 +27,7 @@ struct StageBodies {
   std::vector<StageStart> starts;           ///< of all stages up to this one; empty: no stages
   std::vector<std::vector<double>> grains;  ///< m, radii, by table
   std::vector<dynamics::Held> held;         ///< by node, without motions that loads prescribe
+  std::vector<bool> is_absent;              ///< by node of what was there first; as Scene has it
 
   bool empty() const noexcept { return starts.empty(); }
   void exchange(const geometry::StateArchive& archive);

@@ -184,16 +184,26 @@ TEST(StageTable, TellsEveryProblemOnceWithItsPlace) {
       ThrowsMessage<InputError>(HasSubstr("stop: does not go with stages")));
 }
 
-TEST(StageTable, GoesWithNoRigidBodies) {
-  EXPECT_THAT(
-      [] {
-        parsed(
-            "[[rigid_bodies]]\nname = \"stone\"\nmaterial = \"sand\"\nspheres = [{ centre = [0, 0, "
-            "1], "
-            "radius = 0.1 }]\ndensity = 2600\n[[stages]]\nname = \"a\"\nend = { duration = 1 }\n");
-      },
-      ThrowsMessage<InputError>(
-          HasSubstr("rigid_bodies.stone: got a rigid body in a scenario with [[stages]]")));
+TEST(StageTable, HasTheBodiesOfAllStagesAndKnowsWhichAreThere) {
+  const std::string stone =
+      "name = \"stone\"\nmaterial = \"sand\"\nspheres = [{ centre = [0, 0, 1], radius = 0.1 "
+      "}]\ndensity = 2600\n";
+  const Scenario scenario = parsed(
+      "[[stages]]\nname = \"a\"\nend = { duration = 1 }\n"
+      "[[stages]]\nname = \"b\"\nend = { duration = 1 }\n[[stages.rigid_bodies]]\n" +
+      stone +
+      "[[stages]]\nname = \"c\"\nend = { duration = 1 }\n[[stages.rigid_bodies]]\nname = "
+      "\"stone\"\nhold = \"xy\"\n"
+      "[[stages]]\nname = \"d\"\nend = { duration = 1 }\nremove = [{ rigid_body = \"stone\" }]\n");
+  const std::vector<bool> absent = {true, false, false, true};
+  for (std::size_t k = 0; k < 4; ++k) {
+    ASSERT_EQ(scenario.stages[k].rigid_bodies.size(), 1U);
+    EXPECT_EQ(scenario.stages[k].rigid_bodies[0].is_absent, absent[k]) << k;
+    EXPECT_EQ(scenario.stages[k].grains[0].is_absent, absent[k]) << k;
+  }
+  EXPECT_EQ(scenario.stages[1].rigid_bodies[0].held, dynamics::Held::nothing);
+  EXPECT_EQ(scenario.stages[2].rigid_bodies[0].held,
+            dynamics::Held::along_x | dynamics::Held::along_y);
 }
 
 TEST(StageTable, IsFoundByItsName) {

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Looks whether a run of shear_box.toml is sound: balance of forces, energy, and the friction angle.
+
+    python3 check.py RUN_FOLDER
+"""
+import csv
+import json
+import math
+import sys
+from pathlib import Path
+
+
+def columns(path):
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    numbers = [[float(cell) for cell in row] for row in rows[1:]]
+    return {name: [row[i] for row in numbers] for i, name in enumerate(rows[0])}
+
+
+def mean(values):
+    return sum(values) / len(values)
+
+
+def check(folder):
+    """Figures by name: (value, least, most)."""
+    report = json.loads((folder / "run.json").read_text())
+    shear = report["stages"][-1]
+    force = columns(folder / "reactions.csv")
+    rows = [i for i, time in enumerate(force["time (s)"]) if time > shear["start_s"] + 0.01]
+
+    def of(body, axis):
+        return [force[f"{body}.force_{axis} (N)"][i] for i in rows]
+
+    total = {axis: [sum(parts) for parts in zip(of("lower half", axis), of("upper half", axis), of("lid", axis))]
+             for axis in "xyz"}
+    # Through the shear plane goes what the lower half bears, but for the weight of the sand in it.
+    ratio = [x / -z for x, z in zip(of("lower half", "x"), of("lower half", "z"))]
+    window = 9  # ms; a row is a millisecond
+    peak = max(mean(ratio[i:i + window]) for i in range(len(ratio) - window))
+    lid = mean(of("lid", "z"))
+    return {
+        "peak friction angle (deg)": (math.degrees(math.atan(peak)), 25.0, 45.0),
+        "force of the lid (N)": (lid, 97.0, 103.0),
+        "sum of shear forces over that of the lid": (mean(total["x"]) / lid, -0.02, 0.02),
+        "sum of forces across over that of the lid": (mean(total["y"]) / lid, -0.02, 0.02),
+        "energy closure": (abs(report["energy_closure"]), 0.0, 0.01),
+    }
+
+
+def main():
+    failed = 0
+    for name, (value, least, most) in check(Path(sys.argv[1])).items():
+        is_sound = least <= value <= most
+        failed += not is_sound
+        print(f"{name}: {value:.4g} ({least:g} to {most:g}){'' if is_sound else ' WRONG'}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
