@@ -124,6 +124,7 @@ class Export:
         self.walls, self.facets, self.clumps, self.bonds = [], [], [], []
         self.others = {}
         self.contacts = 0
+        self.glued = 0
 
     def material(self, body):
         """Its place among the materials."""
@@ -204,6 +205,8 @@ class Export:
             return
         if type(interaction.geom).__name__ != "GridNodeGeom6D":
             self.contacts += 1
+            if getattr(interaction.phys, "normalAdhesion", 0) > 0 and not getattr(interaction.phys, "cohesionBroken", True):
+                self.glued += 1
             return
         phys = interaction.phys
         a, b = interaction.id1, interaction.id2
@@ -260,6 +263,9 @@ def export(out):
         scene.add_interaction(interaction)
     told = {"iteration": int(O.iter), "time": float(O.time), "dt": float(O.dt), "periodic": bool(O.periodic)}
     told.update(engine_facts(), forces=permanent_forces(), **vars(scene))
+    # YADE forgets that it was told to glue what touches once it has done so.
+    if scene.glued > 0 and "setCohesionNow" not in told["functors"]:
+        told["functors"].append("setCohesionNow")
     if told["stepper"]:
         O.step()  # it knows its step only then
         told["dt"] = float(O.dt)

@@ -61,8 +61,14 @@ Key key_of(const Vec3& v) {
 using Hold = std::tuple<std::string, Key, Key>;
 
 Hold hold_of(const Body& body) {
-  if (body.blocked.empty()) return {};
-  return {body.blocked, key_of(body.velocity), key_of(body.angular_velocity)};
+  Key velocity{}, angular_velocity{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    if (body.blocked.find("xyz"[axis]) != std::string::npos) velocity[axis] = body.velocity[k];
+    if (body.blocked.find("XYZ"[axis]) != std::string::npos)
+      angular_velocity[axis] = body.angular_velocity[k];
+  }
+  return {body.blocked, velocity, angular_velocity};
 }
 
 double ball_volume(double radius) {
@@ -236,11 +242,13 @@ class Writer {
     const auto& [blocked, velocity, angular] = hold;
     const std::string axes = among(blocked, "xyz"), turns_of = among(blocked, "XYZ");
     const bool is_clamped = turns && turns_of.size() == 3;
+    std::string who = target.substr(0, target.find('\n'));
+    who.erase(who.find("= "), 2);
     if (turns && !turns_of.empty() && !is_clamped)
       notes_.push_back(
-          fmt::format("{} nodes of {}: rotation is blocked about {} alone: left out, "
+          fmt::format("{}: rotation of {} nodes is blocked about {} alone: left out, "
                       "they turn freely",
-                      nodes, target.substr(0, target.find('\n')), turns_of));
+                      who, nodes, turns_of));
     if (axes.empty() && !is_clamped) return;
     loads_ += fmt::format("[[loads]]\nkind = \"motion\"\n{}", target);
     const Vec3 v(velocity[0], velocity[1], velocity[2]), w(angular[0], angular[1], angular[2]);

@@ -59,7 +59,7 @@ TEST(RunYade, TellsWhatAScriptHasMadeAtAnIteration) {
   // g t, after 100 steps of 1e-5 s
   EXPECT_NEAR(scene.spheres[0].velocity[2], -10.0 * 1e-3, 1e-12);
   EXPECT_EQ(scene.materials.at(static_cast<std::size_t>(scene.spheres[0].material)).label, "outer");
-  EXPECT_TRUE(has_functor(scene, "setCohesionNow"));
+  EXPECT_TRUE(has_functor(scene, "Law2_ScGeom6D_CohFrictPhys_CohesionMoment"));
 }
 
 TEST(RunYade, TellsWhyAScriptFails) {

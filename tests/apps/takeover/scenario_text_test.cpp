@@ -11,7 +11,6 @@
 namespace plekton::apps::yade {
 namespace {
 
-using dynamics::Held;
 using testing::Contains;
 using testing::HasSubstr;
 
@@ -54,15 +53,17 @@ TEST(ScenarioText, HoldsAndMovesWhatIsBlocked) {
   scene.nodes[4].blocked = "xz";
   scene.nodes[4].velocity = {0.25, 0.0, 0.0};
   scene.nodes[3].blocked = "X";
+  scene.nodes[4].angular_velocity = {0.0, 7.0, 0.0};  // about an axis that is free
 
   Takeover told;
   const BuiltScene result = built(scene, &told);
 
-  EXPECT_EQ(result.scene.properties.held[0], Held::everything);
-  EXPECT_EQ(result.scene.properties.held[1], Held::everything);
-  EXPECT_EQ(result.scene.properties.held[2], Held::nothing);
+  ASSERT_EQ(result.scene.loads.motions.size(), 2u);
+  EXPECT_THAT(told.scenario, HasSubstr("components = \"xyz\"\ndisplacement = [0, 0, 0]\n"
+                                       "hold_rotation = true\n"));
   EXPECT_THAT(told.scenario, HasSubstr("components = \"xz\"\nvelocity = [0.25, 0, 0]"));
-  EXPECT_THAT(told.notes, Contains(HasSubstr("rotation is blocked about X alone: left out")));
+  EXPECT_THAT(told.notes,
+              Contains(HasSubstr("rotation of 1 nodes is blocked about X alone: left out")));
 }
 
 TEST(ScenarioText, HasSpheresWithTheirMotionAndForces) {
