@@ -14,9 +14,10 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A sheet that hangs 30 mm below a cable along x.
+/// A sheet 30 mm below a cable along x, which moves down and along the cable.
 constexpr std::string_view kBodies = R"([simulation]
 gravity = [0, "-9.81 m/s2", 0]
+time_step = "10 us"
 [materials.stuff]
 density = "1000 kg/m3"
 young_modulus = "10 MPa"
@@ -38,11 +39,7 @@ thickness = "2 mm"
 material = "stuff"
 young_modulus = "10 MPa"
 density = "1000 kg/m3"
-[[rigid_bodies]]
-name = "weight"
-material = "stuff"
-density = "1000 kg/m3"
-spheres = [{ centre = ["1 m", 0, 0], radius = "20 mm" }]
+initial_velocity = ["0.5 m/s", "-1 m/s", 0]
 [output]
 interval = "50 ms"
 history_interval = "1 ms"
@@ -59,6 +56,14 @@ from = { membrane = "sheet", nodes = "y_min" }
 to = { kind = "ground" }
 brake = { force = "0.2 N", stroke = "5 mm" }
 each = true
+)";
+
+/// A sphere beside the sheet, tied to it.
+constexpr std::string_view kWeight = R"([[rigid_bodies]]
+name = "weight"
+material = "stuff"
+density = "1000 kg/m3"
+spheres = [{ centre = ["1 m", 0, 0], radius = "20 mm" }]
 [[ties]]
 name = "load"
 from = { rigid_body = "weight" }
@@ -94,8 +99,13 @@ class TiesCommand : public Command {
     return test::bytes_of(folder_ / (out + "/ties.csv"));
   }
 
+  static std::string last_row(const std::string& csv) {
+    return csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
+  }
+
   void expect_problem(const std::string& tie, const std::string& problem) const {
-    std::string text = std::string(kBodies) + "[[ties]]\nname = \"a\"\n" + tie;
+    std::string text =
+        std::string(kBodies) + std::string(kWeight) + "[[ties]]\nname = \"a\"\n" + tie;
     text.replace(text.find("gravity"), 0, "duration = \"60 ms\"\n");
     test::write_bytes(folder_ / "wrong.toml", text);
     const Outcome outcome = outcome_of({"check", (folder_ / "wrong.toml").string()});
@@ -106,13 +116,14 @@ class TiesCommand : public Command {
 };
 
 TEST_F(TiesCommand, AreListedByCheck) {
-  const Outcome outcome = outcome_of({"check", with_ties()});
+  const Outcome outcome = outcome_of({"check", with_ties(std::string(kWeight))});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("ties hang: 5, longest gap at the start 0.03 m, "));
   EXPECT_THAT(outcome.out, HasSubstr("ties foot: 5, longest gap at the start 0 m, "));
   EXPECT_THAT(outcome.out, HasSubstr("ties load: 1, longest gap at the start 0.8"));
-  const json ties = json::parse(outcome_of({"check", with_ties(), "--json"}).out)["ties"];
+  const json ties =
+      json::parse(outcome_of({"check", with_ties(std::string(kWeight)), "--json"}).out)["ties"];
   ASSERT_EQ(ties.size(), 3U);
   EXPECT_EQ(ties[0]["count"], 5);
   EXPECT_NEAR(ties[0]["longest_gap_m"].get<double>(), 0.03, 1e-15);
@@ -121,7 +132,8 @@ TEST_F(TiesCommand, AreListedByCheck) {
 /// Around a node of the sheet's side there are beams of 0.1 m and of 0.1 sqrt(2) m, of 10 MPa and
 /// 1 mm radius; the cable has bars of 0.1 m of 100 MPa and 5 mm radius.
 TEST_F(TiesCommand, AreAsStiffAsTheSofterOfWhatTheyTie) {
-  const json ties = json::parse(outcome_of({"check", with_ties(), "--json"}).out)["ties"];
+  const json ties =
+      json::parse(outcome_of({"check", with_ties(std::string(kWeight)), "--json"}).out)["ties"];
 
   const double beam = 10e6 * 3.14159265358979 * 1e-6 / 0.1;  // N/m
   const json range = ties[0]["stiffness_N_per_m"];
@@ -155,7 +167,7 @@ TEST_F(TiesCommand, HaveAHistoryAndAreCounted) {
   EXPECT_THAT(csv, HasSubstr("foot[4].tension (N),foot[4].slip (m),foot[4].broken"));
   EXPECT_THAT(csv, Not(HasSubstr("hang[0]")));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 62);
-  EXPECT_EQ(report_of("out")["counts"]["ties"], 11);
+  EXPECT_EQ(report_of("out")["counts"]["ties"], 10);
   EXPECT_EQ(report_of("out")["counts"]["broken_ties"], 0);
   EXPECT_LT(report_of("out")["energy_closure"].get<double>(), 0.01);
 
@@ -164,11 +176,12 @@ TEST_F(TiesCommand, HaveAHistoryAndAreCounted) {
   EXPECT_GE(report_of("broken")["counts"]["broken_ties"].get<int>(), 1);
 }
 
-/// The second stage changes something, so that its scene is built anew.
+/// The second stage changes something that nothing depends on, so that its scene is built anew; a
+/// step that is chosen would be chosen anew too.
 TEST_F(TiesCommand, GoOnOverStagesAndResumptionWithTheSameBits) {
   const std::string end = "end = { duration = \"30 ms\" }\n";
   const std::string second =
-      "[[stages]]\nname = \"b\"\n" + end + "materials.stuff.friction_angle = \"25 deg\"\n";
+      "[[stages]]\nname = \"b\"\n" + end + "materials.stuff.poisson_ratio = 0.25\n";
   const std::string staged =
       write("staged.toml", std::string(kTies) + "[[stages]]\nname = \"a\"\n" + end + second);
   ASSERT_EQ(run(staged, "staged").exit_code, 0);
@@ -181,8 +194,9 @@ TEST_F(TiesCommand, GoOnOverStagesAndResumptionWithTheSameBits) {
     return report_of(out)["states"]["step_time_hash"];
   };
   EXPECT_EQ(hashes("threads"), hashes("whole"));
-  EXPECT_EQ(ties_of("threads"), ties_of("whole"));
-  EXPECT_EQ(ties_of("later"), ties_of("staged"));
+  EXPECT_TRUE(ties_of("threads") == ties_of("whole"));
+  // Rows of a run that begins with a stage are at other times, but for the last one.
+  EXPECT_EQ(last_row(ties_of("later")), last_row(ties_of("staged")));
   std::size_t common = 0;
   for (const json& state : hashes("whole")) {
     for (const json& other : hashes("staged")) {
@@ -191,7 +205,7 @@ TEST_F(TiesCommand, GoOnOverStagesAndResumptionWithTheSameBits) {
       EXPECT_EQ(other[2], state[2]) << "step " << state[0];
     }
   }
-  EXPECT_GE(common, 8U);
+  EXPECT_GE(common, 50U);
 }
 
 TEST_F(TiesCommand, AreRefusedInAStage) {
