@@ -63,6 +63,8 @@ class TieBuilder {
 
  private:
   void add(const TieSettings& settings) {
+    if (!is_there(settings.from, "from")) return;
+    if (settings.kind >= TieTo::nodes && !is_there(settings.to, "to")) return;
     const std::vector<NodeId> nodes = nodes_of_set(settings.from, "from");
     if (settings.kind == TieTo::nodes) targets_ = nodes_of_set(settings.to, "to");
     if (settings.kind == TieTo::surface && !has_surface(settings.to)) return;
@@ -194,6 +196,19 @@ class TieBuilder {
   // What there is of bodies.
 
   const Vec3& place(NodeId node) const { return built_.scene.state.position[index_of(node)]; }
+
+  /// What a tie remembers begins with the first stage, and its forces need both its ends.
+  bool is_there(const NodeSetSettings& set, std::string_view key) {
+    const bool is_absent = set.rigid_body ? scenario_.rigid_bodies[*set.rigid_body].is_absent
+                                          : scenario_.membranes[set.body].is_absent;
+    if (!is_absent) return true;
+    complain_at(set.place, key,
+                fmt::format("\"{}\" is not there in all stages; ties hold what is there from the "
+                            "first to the last",
+                            set.rigid_body ? scenario_.rigid_bodies[*set.rigid_body].name
+                                           : scenario_.membranes[set.body].name));
+    return false;
+  }
 
   /// The place of the membrane, or of the surface of a rigid body, among those that are built.
   std::optional<std::size_t> surface_of(const NodeSetSettings& set) const {

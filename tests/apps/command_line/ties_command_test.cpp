@@ -219,6 +219,23 @@ TEST_F(TiesCommand, AreRefusedInAStage) {
                                      "them outside of the stages"));
 }
 
+TEST_F(TiesCommand, OfWhatComesLaterAreRefused) {
+  const std::string end = "end = { duration = \"5 ms\" }\n";
+  const std::string late =
+      "[[ties]]\nname = \"t\"\nfrom = { membrane = \"sheet\", nodes = \"y_max\" }\n"
+      "to = { kind = \"surface\", membrane = \"late\" }\n[[stages]]\nname = \"a\"\n" +
+      end + "[[stages]]\nname = \"b\"\n" + end +
+      "[[stages.membranes]]\nname = \"late\"\nshape = { kind = \"sheet\", width = \"0.1 m\", "
+      "length = \"0.1 m\", cells = [1, 1] }\nthickness = \"2 mm\"\nmaterial = \"stuff\"\n"
+      "young_modulus = \"10 MPa\"\ndensity = \"1000 kg/m3\"\n";
+
+  const Outcome outcome = outcome_of({"check", write("late.toml", late)});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("\"late\" is not there in all stages; ties hold what is there "
+                                     "from the first to the last"));
+}
+
 TEST_F(TiesCommand, BetweenWhatIsNotThereAreErrorsThatNameTheKey) {
   const std::string from = "from = { membrane = \"sheet\", nodes = \"y_max\" }\n";
   const std::string ground = "to = { kind = \"ground\" }\n";
