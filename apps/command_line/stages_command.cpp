@@ -48,7 +48,9 @@ std::unique_ptr<Begin> begin_of(const Scenario& scenario, const StagesAsked& ask
       return begin;
     }
     begin->prepared.simulation->restore(*asked.resume);
-    return after(scenario, stage, begin->prepared, *asked.resume, asked.same_folder, hear);
+    begin = after(scenario, stage, begin->prepared, *asked.resume, asked.same_folder, hear);
+    begin->from->from.reset();  // what is written goes on
+    return begin;
   }
   if (asked.from.empty()) return std::make_unique<Begin>(Begin{prepare_run(scenario, hear), {}});
   const Scenario& stage = stage_called(scenario, asked.from[0]);

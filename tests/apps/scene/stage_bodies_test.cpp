@@ -48,7 +48,7 @@ spheres = [
   { centre = ["2 mm", "5 mm", "45 mm"], radius = "3 mm" },
 ]
 velocity = [0, 0, "-0.5 m/s"]
-angular_velocity = ["20 1/s", "30 1/s", "-10 1/s"]
+angular_velocity = ["20 rad/s", "30 rad/s", "-10 rad/s"]
 [[grains]]
 name = "grit"
 material = "sand"
@@ -212,6 +212,7 @@ gravity = [0, 0, 0]
 time_step = "20 us"
 [materials.steel]
 young_modulus = "10 MPa"
+friction_angle = "30 deg"
 [[rigid_bodies]]
 name = "top"
 shape = { kind = "box", size = ["10 mm", "20 mm", "30 mm"] }
@@ -219,7 +220,7 @@ thickness = "1 mm"
 material = "steel"
 density = "7850 kg/m3"
 velocity = ["0.1 m/s", 0, 0]
-angular_velocity = ["0.1 1/s", "50 1/s", "0.1 1/s"]
+angular_velocity = ["0.1 rad/s", "50 rad/s", "0.1 rad/s"]
 [output]
 history_interval = "1 ms"
 [[stages]]
@@ -310,32 +311,6 @@ TEST_F(StageBodies, ComeStopMoveAndGo) {
   EXPECT_LT(std::abs(report("once")["energy_closure"].get<double>()), 1e-3);
 }
 
-TEST_F(StageBodies, StayWhereTheyLie) {
-  const std::string stages = R"([[stages]]
-name = "settle"
-end = { kinetic_energy = "1 nJ", after = "100 ms" }
-max_duration = "1 s"
-simulation.damping = 0.7
-[[stages]]
-name = "more"
-end = { duration = "20 ms" }
-[[stages.planes]]
-name = "far"
-point = [0, 0, "-1 m"]
-material = "sand"
-)";
-  run_well(write("lie.toml", kTray + stages), "lie");
-
-  const double begin = report("lie")["stages"][1]["start_s"];
-  const Columns columns = motions("lie");
-  const auto moved = [&](const char* axis) {
-    const std::string name = std::string("stone.position_") + axis + " (m)";
-    return std::abs(columns.at(name, 1e9) - columns.at(name, begin));
-  };
-  // The stone has 2.6 g: with 1 nJ it is slower than 1 mm/s, and goes on being damped.
-  for (const char* const axis : {"x", "y", "z"}) EXPECT_LT(moved(axis), 1e-3 * 0.02) << axis;
-}
-
 TEST_F(StageBodies, EndStagesByTheirForcesAndWays) {
   const std::string stages = R"([[stages]]
 name = "lower"
@@ -421,7 +396,7 @@ speed = "0.1 m/s"
   EXPECT_THAT(outcome.err, HasSubstr("stages.press: has not ended within its max_duration of 0.002 "
                                      "s: servo \"press\" feels 0 N and wants 1e+06 N within 2 %"));
   EXPECT_EQ(report("wrong")["stages"].size(), 1U);
-  EXPECT_EQ(checkpoints_of(folder_ / "wrong").size(), 2U);
+  EXPECT_EQ(checkpoints_of(folder_ / "wrong").size(), 1U);
 }
 
 TEST_F(StageBodies, AreRefusedByTheirNamesWhereTheyAreWrong) {
@@ -446,7 +421,8 @@ TEST_F(StageBodies, AreRefusedByTheirNamesWhereTheyAreWrong) {
                          write("flat.off",
                                "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n"
                                "3 0 1 2\n3 0 2 1\n3 1 3 2\n3 1 2 3\n") +
-                         "\"\nthickness = \"1 mm\"\nmaterial = \"sand\"\ndensity = \"1 kg/m3\"\n"),
+                         "\"\nthickness = \"1 mm\"\nmaterial = \"sand\"\ndensity = \"1 "
+                         "kg/m3\"\nfilling = \"solid\"\n"),
               HasSubstr("rigid_bodies.flat"));
   EXPECT_THAT(refusal_of(pour + next + "free = [{ rigid_body = \"tray\" }]\n" +
                          "[[stages.rigid_bodies]]\nname = \"sill\"\nshape = { kind = \"box\", "
