@@ -58,9 +58,10 @@ class Clearances {
     }
   }
 
-  /// Whether a pair may be in range, or so much (m) out of it, for all that is known.
+  /// Whether a pair may be in range, or so much (m) out of it, for all that is known. Of pairs that
+  /// are listed anew nothing is known before the next step.
   bool may_be_within(std::size_t pair, double margin) const noexcept {
-    return !(gone_ + 0.5 * margin < due_[pair]);
+    return pair >= due_.size() || !(gone_ + 0.5 * margin < due_[pair]);
   }
 
   /// @param clearance  m, by how much a pair is at least out of range now; less than 0: it is not
