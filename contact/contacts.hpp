@@ -152,7 +152,7 @@ class Contacts {
 
   using VisitSpheres = Visit<NodeId, NodeId, const PairSprings&, double>;
   using VisitSphereOnSurface =
-      Visit<NodeId, const geometry::CorePoint&, const PairSprings&, double, double>;
+      Visit<NodeId, const geometry::CorePoint&, const PairSprings&, double, const TermPart&>;
   using VisitPlane = Visit<NodeId, std::size_t, const PairSprings&, double>;
 
   /// Calls visit(a, b, springs, gap) for every touching pair of spheres, in the order of the list.
@@ -162,7 +162,7 @@ class Contacts {
   virtual void for_each_near_sphere_pair(double margin, Positions x, VisitSpheres visit) const = 0;
 
   /// Calls visit(sphere's node, core point, springs, range (m): radius of the sphere and of the
-  /// surface, elastic force (N)) for every part of a contact of a sphere with a surface.
+  /// surface, part) for every term of a contact of a sphere with a surface.
   virtual void for_each_surface_term(VisitSphereOnSurface visit) const = 0;
   /// The same, without force, for what is not in contact but may be once bodies are nearer by a
   /// margin (m).

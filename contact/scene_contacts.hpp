@@ -109,7 +109,7 @@ class SceneContacts final : public Contacts {
     with_surfaces_.for_each_coming(
         margin, neighbours_.cells(), x,
         [&](NodeId sphere, const geometry::CorePoint& core, const auto& parameters, double range) {
-          visit(sphere, core, parameters, range, 0.0);
+          visit(sphere, core, parameters, range, TermPart{});
         });
   }
   void add_elastic_forces(Positions x, NodeForces& forces, PatchFinder& finder,

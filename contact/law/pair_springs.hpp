@@ -16,6 +16,13 @@ struct PairStiffness {
   }
 };
 
+/// What a term of a contact of a sphere with a surface has of the contact.
+struct TermPart {
+  double elastic = 0.0;  ///< N, elastic force
+  double dashpot = 1.0;  ///< part of the contact's dashpot, as if it held the term alone: the parts
+                         ///< resist any motion at least as much as the one dashpot does
+};
+
 /// The springs of one contact of a pair of bodies by the gap (m, negative when overlapping). Refers
 /// to the parameters of the pair, which must live as long.
 class PairSprings {

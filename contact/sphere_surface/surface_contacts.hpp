@@ -3,6 +3,7 @@
 
 #include "contact/base/bodies.hpp"
 #include "contact/law/material_pairs.hpp"
+#include "contact/law/pair_springs.hpp"
 #include "contact/sphere_surface/deferred_pairs.hpp"
 #include "contact/sphere_surface/last_side.hpp"
 #include "contact/sphere_surface/patch.hpp"
@@ -23,6 +24,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
@@ -79,12 +81,22 @@ class SurfaceContacts {
   double elastic_energy() const;
 
   /// Calls visit(sphere's node, core point of a term, parameters, range (m): radius of the sphere
-  /// and of the surface, elastic force (N) of the term) for every term of every patch.
+  /// and of the surface, part) for every term of every patch.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
-    records_.for_each([&](const SurfaceForce& record) {
-      const Pair& pair = pairs_[record.pair];
-      visit(record.a, record.core, pair.parameters, pair.range, record.elastic);
+    records_.for_each_contact([&](std::span<const SurfaceForce> terms) {
+      double sum = 0.0, magnitudes = 0.0;
+      for (const SurfaceForce& term : terms) {
+        sum += term.elastic;
+        magnitudes += std::abs(term.elastic);
+      }
+      // With shares s_i and the ways u_i of the terms, (sum s_i u_i)² <= sum |s_i| sum |s_i| u_i².
+      const double per_force = sum > 0.0 ? magnitudes / (sum * sum) : 0.0;
+      const Pair& pair = pairs_[terms[0].pair];
+      for (const SurfaceForce& term : terms) {
+        const double dashpot = sum > 0.0 ? per_force * std::abs(term.elastic) : 1.0;
+        visit(term.a, term.core, pair.parameters, pair.range, TermPart{term.elastic, dashpot});
+      }
     });
   }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 /// Forces of contacts, written down by whoever computes them and summed afterwards, node by node in
@@ -92,6 +93,20 @@ class ForceRecords {
 
   const std::vector<List>& lists() const noexcept { return lists_; }
 
+  /// Calls visit(span of records) for those of one contact after the other.
+  template <class Visit>
+  void for_each_contact(Visit&& visit) const {
+    for (const List& list : lists_) {
+      for (std::size_t i = 0, end = 0; i < list.count; i = end) {
+        const Record& first = list.records[i];
+        for (end = i + 1; end < list.count; ++end) {
+          const Record& next = list.records[end];
+          if (next.pair != first.pair || next.contact != first.contact) break;
+        }
+        visit(std::span<const Record>(list.records.data() + i, end - i));
+      }
+    }
+  }
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (const List& list : lists_) {

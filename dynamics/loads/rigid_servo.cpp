@@ -23,7 +23,8 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
         add(is_own(a) ? along : -along, gap, 1.0, pair);
       });
   const auto add_on_surface = [&](NodeId ball, const geometry::CorePoint& core,
-                                  const contact::PairSprings& pair, double range, double force) {
+                                  const contact::PairSprings& pair, double range,
+                                  const contact::TermPart& part) {
     const bool is_ball = is_own(ball);
     if (is_ball == is_own(core.nodes[0])) return;
     const Vec3 to_core = geometry::position(core, x) - x[index_of(ball)];
@@ -32,7 +33,7 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
     const double gap = distance - range;
     const double along = direction.dot(to_core) / distance;
     const double of_one = pair.normal_force(gap);
-    const double weight = of_one > 0.0 && force != 0.0 ? force / of_one : 1.0;
+    const double weight = of_one > 0.0 && part.elastic != 0.0 ? part.elastic / of_one : 1.0;
     add(is_ball ? along : -along, gap, weight, pair);
   };
   contacts.for_each_surface_term(add_on_surface);

@@ -44,13 +44,13 @@ inline double dashpot_rate(double dt) noexcept {
   return 2.0 / dt;
 }
 
-/// s, a step that is stable with dashpots, not longer than the critical one.
+/// s, a step that is stable with dashpots, not longer than the longest one.
 ///
-/// With c the critical step of K + 2 C / tried: longer steps than the one that was tried have less
-/// of C, so that c itself is stable if it is longer; and in shorter ones K + 2 C / dt is at most
-/// tried / dt times as much, so that c² / tried is stable.
+/// With f a part of the critical step of K + 2 C / tried: longer steps than the one that was tried
+/// have less of C, so that f itself is not too long if it is longer; and in shorter ones K + 2 C /
+/// dt is at most tried / dt times as much, so that f² / tried is not.
 /// @param tried  s, > 0
-/// @param found  s, the critical step with dashpots as they count in the one tried
+/// @param found  s, the critical step, or a part of it, with dashpots as they count in the one tried
 inline double stable_with_dashpots(double tried, double found) noexcept {
   return found < tried ? found * (found / tried) : found;
 }

@@ -51,8 +51,8 @@ struct PresentContacts {
     contacts.for_each_coming_surface_term(
         margin, x,
         [&](NodeId ball, const geometry::CorePoint& core, const contact::PairSprings& pair,
-            double range, double) {
-          add_on_surface(springs, {ball, core, range, 0.0}, pair, margin, x);
+            double range, const contact::TermPart&) {
+          add_on_surface(springs, {ball, core, range, {}}, pair, margin, x);
         });
     contacts.for_each_near_plane_pair(
         margin, planes, x,
@@ -66,8 +66,8 @@ struct PresentContacts {
   struct OnSurface {
     NodeId ball;
     const geometry::CorePoint& core;
-    double range;  ///< m, radius of the ball and of the surface
-    double force;  ///< N, elastic; of rings it may be more than one contact has
+    double range;          ///< m, radius of the ball and of the surface
+    contact::TermPart of;  ///< of rings its force may be more than one contact has
   };
 
   ContactStiffness stiffness_of(const Vec3& normal, const contact::PairSprings& pair, double gap,
@@ -100,12 +100,14 @@ struct PresentContacts {
   void add_on_surfaces_to(Springs& springs, double further, geometry::Positions x) const {
     contacts.for_each_surface_term([&](NodeId ball, const geometry::CorePoint& core,
                                        const contact::PairSprings& pair, double range,
-                                       double force) {
-      add_on_surface(springs, {ball, core, range, force}, pair, further, x);
+                                       const contact::TermPart& term) {
+      add_on_surface(springs, {ball, core, range, term}, pair, further, x);
     });
+    // A contact that splits before the next look has a dashpot in each part.
+    const double dashpots = further > 0.0 ? 2.0 * dashpot_rate : dashpot_rate;
     contacts.for_each_structure_stiffness(
         [&](NodeId node, const contact::PairStiffness& stiffness, double radius) {
-          const double normal = stiffness.normal + dashpot_rate * stiffness.normal_damping;
+          const double normal = stiffness.normal + dashpots * stiffness.normal_damping;
           springs.add(node, from_all_sides(2.0 * normal, 2.0 * stiffness.tangential, radius));
         });
   }
@@ -122,11 +124,10 @@ struct PresentContacts {
     ContactStiffness contact =
         stiffness_of(normal, pair, gap - further, part.ball, part.core.nodes[0]);
     const double of_one = pair.normal_force(gap);
-    const double weight = of_one > 0.0 ? part.force / of_one : 1.0;
+    const double weight = of_one > 0.0 ? part.of.elastic / of_one : 1.0;
     contact.weight = weight;
-    // A patch has one dashpot, of which the terms have their parts.
     const double elastic = contact.elastic_stiffness();
-    contact.dashpot *= std::abs(weight);
+    contact.dashpot *= part.of.dashpot;
     contact.normal_stiffness = std::max(1.0, std::abs(weight)) * elastic + contact.dashpot;
     contact.overlap = std::max(0.0, -gap);
     const double deeper = weight * pair.normal_force(gap - further);

@@ -58,9 +58,8 @@ double StepChooser::choose(double dt, const Pace& pace) {
   const double usual = steps * step * (pace.speed + steps * step * pace.gravity);
   look_ = {of_.contacts.list_count(), 0.0,
            std::max(std::min(usual, kLongestWay * pace_radius_), pace.speed * step)};
-  const double critical = near(2.0 * look_.longest_way, dt / kSafety);
-  const double stable =
-      std::min(kSafety * critical, springs_.collision_step(of_.scene.state, of_.scene.properties));
+  const double stable = std::min(stable_near(2.0 * look_.longest_way, dt),
+                                 springs_.collision_step(of_.scene.state, of_.scene.properties));
   const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
   stable_step_ = std::min({stable, collision_step_, (may_grow ? kGrowth : 1.0) * stable_step_});
   double chosen = std::min(stable_step_, motion);
@@ -71,10 +70,12 @@ double StepChooser::choose(double dt, const Pace& pace) {
   return chosen;
 }
 
-/// Critical step (s) with the contacts of now and those that are nearer than a margin (m).
-/// @param tried  s, the last one
-double StepChooser::near(double margin, double tried) {
-  const double rate = limits_->is_damped() ? dashpot_rate(tried) : 0.0;
+/// A stable step (s) with the contacts of now and those that are nearer than a margin (m): kSafety
+/// times the critical one. With dashpots as they count in the step itself, so that what they and
+/// springs resist may grow by as much until the next look.
+/// @param last  s, the last step
+double StepChooser::stable_near(double margin, double last) {
+  const double rate = limits_->is_damped() ? dashpot_rate(last) : 0.0;
   space_.begin_at(0);
   springs_.clear();
   limits_->add_structures(space_);
@@ -82,18 +83,20 @@ double StepChooser::near(double margin, double tried) {
   add_near_structures(margin, rate);
   limits_->add_spread(space_, springs_, spread_, of_.scene.state.position);
   shares_.add(springs_, of_.scene.properties, space_);
-  double step = space_.critical_step(of_.scene.properties).dt;
-  if (limits_->is_damped()) step = stable_with_dashpots(tried, step);
-  return of_.loads.critical_step(step, of_.scene);
+  double stable = kSafety * space_.critical_step(of_.scene.properties).dt;
+  if (limits_->is_damped()) stable = stable_with_dashpots(last, stable);
+  return kSafety * of_.loads.critical_step(stable / kSafety, of_.scene);
 }
 
 /// Nodes of structures that another one may come to lie on, and that nothing of the kind touches
-/// yet: with what expected_contacts.hpp says of that.
+/// yet: with what expected_contacts.hpp says of that. With dashpots also those that are touched: each
+/// contact more has one of its own, while the stiffness of extents is shared.
 void StepChooser::add_near_structures(double margin, double rate) {
   if (of_structures_.empty()) return;
   std::fill(is_counted_.begin(), is_counted_.end(), char{0});
-  of_.contacts.for_each_structure_stiffness(
-      [&](NodeId node, const contact::PairStiffness&, double) { is_counted_[index_of(node)] = 1; });
+  if (!limits_->is_damped())
+    of_.contacts.for_each_structure_stiffness([&](NodeId node, const contact::PairStiffness&,
+                                                  double) { is_counted_[index_of(node)] = 1; });
   of_.contacts.for_each_near_cell_pair(margin, [&](const geometry::CellPair& cells) {
     for (const geometry::CellId cell : {cells.a, cells.b}) {
       for (const NodeId node : of_.surface.nodes_of(cell)) {

@@ -75,7 +75,7 @@ class StepChooser {
   void exchange(const geometry::StateArchive& archive);
 
  private:
-  double near(double margin, double tried);
+  double stable_near(double margin, double last);
   void add_near_structures(double margin, double rate);
 
   Resistance of_;

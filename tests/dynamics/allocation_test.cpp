@@ -216,7 +216,7 @@ TEST(Allocation, IsNoneInTheStepsOfGrainsOnANet) {
 
     std::size_t terms = 0;
     simulation.contacts().for_each_surface_term(
-        [&](NodeId, const geometry::CorePoint&, const auto&, double, double) { ++terms; });
+        [&](NodeId, const geometry::CorePoint&, const auto&, double, const auto&) { ++terms; });
     // Four wires and four crossings close the first ring around a hole.
     EXPECT_GE(terms, 8 * simulation.contacts().counts().sphere_surface);
     EXPECT_GT(terms, 0u);

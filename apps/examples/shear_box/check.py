@@ -53,7 +53,7 @@ def main():
     for name, (value, least, most) in check(Path(sys.argv[1])).items():
         is_sound = least <= value <= most
         failed += not is_sound
-        print(f"{name}: {value:.4g} ({least:g} to {most:g}){'' if is_sound else ' WRONG'}")
+        print(f"{name}: {value:.4g} ({least:g} to {most:g}){'' if is_sound else '  OUT OF BOUNDS'}")
     return 1 if failed else 0
 
 

@@ -41,6 +41,10 @@ APPLICATIONS = {
         "right": {"lattice": ("buckling_tube", []), "sheet": ("continuum", [])},
         "wrong": {"beams that are a tenth too thick": ("buckling_tube", ["membranes.tube.thickness=2.2 mm"])},
     },
+    "shear_box": {
+        "right": {"box": ("shear_box", [])},
+        "wrong": {"sand that slips": ("shear_box", ["stages.confine.materials.sand.friction_angle=5 deg"])},
+    },
     "rockfall_net": {
         "right": {"net": ("rockfall_net", COARSE_NET)},
         "wrong": {

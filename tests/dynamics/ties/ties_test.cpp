@@ -340,7 +340,8 @@ Scene loaded_rope() {
                           .stroke = 0.05});
   }
   for (const std::size_t segment : {3U, 9U, 15U}) {
-    const NodeId lump = add_lump(scene, Vec3(0.1 * segment + 0.05, 0.0, -0.02));
+    const NodeId lump =
+        add_lump(scene, Vec3(0.1 * static_cast<double>(segment) + 0.05, 0.0, -0.02));
     scene.ties.push_back({.node = lump,
                           .to = CablePlace{0, segment, 0.5},
                           .stiffness = 1e5,

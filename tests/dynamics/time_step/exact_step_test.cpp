@@ -26,7 +26,9 @@ constexpr double kTolerance = 1e-3;
 ExactStep exact_step(const Scene& scene, const ContactSprings& contacts = {}) {
   const BeamBonds bonds(scene.bonds, scene.state.size());
   const dynamics::SheetFacets sheets(scene.sheet_facets, scene.state.size());
-  return dynamics::exact_critical_step(scene, {bonds, sheets}, AppliedLoads(scene), contacts, 0.0);
+  const dynamics::Ties ties(scene);
+  return dynamics::exact_critical_step(scene, {bonds, sheets, ties}, AppliedLoads(scene), contacts,
+                                       0.0);
 }
 
 /// dt lies between (1 - error) of the reference and a little above it.

@@ -122,7 +122,7 @@ TEST(StepWithDashpots, IsLimitedByTheSumOfThoseAroundABall) {
 // A ball of 1 kg that presses on light nodes through a strong dashpot: at a step that only looked
 // at the ball the net tears itself apart.
 TEST(StepWithDashpots, LetsNoLightNetGainEnergyUnderAHeavyBall) {
-  constexpr double kPitch = 0.02, kWire = 0.001, kLight = 2e-4;  // m, m, kg
+  constexpr double kPitch = 0.02, kWire = 0.001;  // m
   constexpr int kNodes = 6;
   for (const double xi : {0.15, 0.5}) {
     Scene scene = with_ball(Vec3(0.003, 0.001, kRadius + kWire + 1e-4));
