@@ -71,7 +71,7 @@ def manual_failures(program):
             if done.returncode != 0 or complaints:
                 failures.append(f"{tool}: {complaints or done.returncode}")
     for line in output_of(program, "--help").partition("Subcommands:\n")[2].splitlines():
-        if line.startswith("  ") and line[2] != " " and f".SS {line.split()[0]}\n" not in page:
+        if line.startswith("  ") and line[2] != " " and f".SS {line.split()[0]}\n" not in page.replace("\\-", "-"):
             failures.append(f"plekton(1) does not have the command {line.split()[0]}")
     return failures
 

@@ -232,7 +232,8 @@ TEST_F(Stages, TakeOutGrainsBringOthersAndTellOfEach) {
   EXPECT_EQ(stages[2]["grains"], level);
   EXPECT_EQ(stages[2]["planes"], 5);
   EXPECT_EQ(stages[1]["start_s"], stages[0]["end_s"]);
-  EXPECT_EQ(stages[2]["certificate"].size(), report("once")["certificate"].size());
+  // Exact decisions are counted for the run as a whole.
+  EXPECT_EQ(stages[2]["certificate"].size() + 1, report("once")["certificate"].size());
   const std::string planes = test::bytes_of(folder_ / "once/planes.csv");
   EXPECT_THAT(planes.substr(0, planes.find('\n')), HasSubstr("lid.point_z (m)"));
   EXPECT_THAT(test::bytes_of(folder_ / "once/reactions.csv"), HasSubstr("lid.force_z (N)"));

@@ -89,7 +89,7 @@ TEST_F(TimeStepAdvice, SaysThatGasOrDampingShortensTheStep) {
 
 TEST_F(TimeStepAdvice, SaysThatDashpotsShortenTheStep) {
   const std::string table =
-      "[[contacts]]\nbetween = \"gravel\"\nand = \"fabric\"\nrestitution = 0.05\n";
+      "[[contacts]]\nbetween = \"gravel\"\nand = \"gravel\"\nrestitution = 0.05\n";
   test::write_bytes(folder_ / "case.toml", std::string(kScenario) + table);
 
   EXPECT_THAT(check({"grains.gravel.radius=20 mm"}), HasSubstr("dashpots shorten it from "));

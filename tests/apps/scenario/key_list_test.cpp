@@ -71,7 +71,7 @@ TEST(KeyList, HasEveryTableOfTheDocumentation) {
   EXPECT_EQ(tables, Words({"[simulation]", "[materials.NAME]", "[[contacts]]", "[[membranes]]",
                            "[[membranes]] shape", "[[rigid_bodies]]", "[[rigid_bodies]] shape",
                            "[[grains]]", "[[planes]]", "[[loads]]", "[output]",
-                           "[[output.reactions]]", "[stop]", "[[stages]]"}));
+                           "[[output.reactions]]", "[stop]", "[[stages]]", "[[ties]]", "[[ties]] to"}));
 }
 
 TEST(KeyList, HasNoKeyThatIsNotDocumented) {
@@ -97,6 +97,7 @@ TEST(KeyList, HasEveryKeyOfTheTablesOfTheDocumentation) {
       listed.insert(
           {"work_of_adhesion", "tensile_strength", "shear_strength", "rupture_distance", "bonds"});
     if (group.table == "[[membranes]]" || group.table == "[[rigid_bodies]]") listed.insert("shape");
+    if (group.table == "[[ties]]") listed.insert("to");
     const std::string text = section_of(group.table);
     std::istringstream lines(text.substr(0, text.find("\n### ")));
     for (std::string line; std::getline(lines, line);) {

@@ -15,12 +15,12 @@ constexpr double kMesh = 0.05;           // m
 constexpr double kWireRadius = 1.35e-3;  // m
 constexpr double kWireModulus = 1e10;    // Pa
 constexpr double kWireDensity = 7850.0;  // kg/m³
-constexpr double kContactModulus = 1e9;  // Pa; at 1e8 wires are pressed by more than their radius
+constexpr double kContactModulus = 1e8;  // Pa
 constexpr double kBoulderRadius = 0.5;   // m
 constexpr double kBoulderMass = 500.0;   // kg
 constexpr double kBoulderSpeed = 5.0;    // m/s
 constexpr double kGap = 5e-3;            // m
-constexpr double kBoulderDamping = 0.3;
+constexpr double kBoulderDamping = 0.1;
 
 /// Around the origin, held at its rim.
 void add_net(dynamics::Scene& scene) {
