@@ -58,8 +58,10 @@ double StepChooser::choose(double dt, const Pace& pace) {
   const double usual = steps * step * (pace.speed + steps * step * pace.gravity);
   look_ = {of_.contacts.list_count(), 0.0,
            std::max(std::min(usual, kLongestWay * pace_radius_), pace.speed * step)};
-  const double stable = std::min(stable_near(2.0 * look_.longest_way, dt),
-                                 springs_.collision_step(of_.scene.state, of_.scene.properties));
+  // First, as it collects the springs.
+  const double near = stable_near(2.0 * look_.longest_way, dt);
+  const double stable =
+      std::min(near, springs_.collision_step(of_.scene.state, of_.scene.properties));
   const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
   stable_step_ = std::min({stable, collision_step_, (may_grow ? kGrowth : 1.0) * stable_step_});
   double chosen = std::min(stable_step_, motion);
