@@ -21,15 +21,15 @@ bool nearer(const geometry::CriticalFeature* a, const geometry::CriticalFeature*
 }
 
 /// Of a minimum or a pass.
-PatchTerm term_of(const geometry::CriticalFeature& feature, double weight) noexcept {
-  return {feature.core, feature.direction,   feature.distance, weight, 0.0,
-          0.0,          feature.is_minimum()};
+PatchTerm term_of(const geometry::CriticalFeature& feature, double weight, double share) noexcept {
+  return {feature.core, feature.direction,   feature.distance, weight, 0.0, 0.0,
+          share,        feature.is_minimum()};
 }
 
 /// A force on one node and none on anything else but the sphere.
 PatchTerm inner_term(geometry::NodeId node, const Vec3& force) noexcept {
   const double size = force.norm();
-  return {geometry::core_point(node), Vec3(force / size), 0.0, 0.0, size, 0.0, false, true};
+  return {geometry::core_point(node), Vec3(force / size), 0.0, 0.0, size, 0.0, 0.0, false, true};
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ void PatchFinder::keep_alone(std::span<const Critical> critical) {
   for (const Critical& feature : critical) {
     if (!feature.is_minimum()) continue;
     patches_.push_back({feature.core.feature, 0, 1});
-    terms_.push_back(term_of(feature, 1.0));
+    terms_.push_back(term_of(feature, 1.0, 1.0));
   }
 }
 
@@ -178,16 +178,27 @@ void PatchFinder::join_parts() {
   std::iota(root_.begin(), root_.end(), 0U);
   has_rings_ = false;
   weights_.assign(vertex_count(), 0.0);
-  for (std::uint32_t minimum = 0; minimum < minima_.size(); ++minimum) weights_[minimum] = 1.0;
+  distances_.clear();
+  for (std::uint32_t minimum = 0; minimum < minima_.size(); ++minimum) {
+    weights_[minimum] = 1.0;
+    distances_.push_back(minima_[minimum]->distance);
+  }
+  merging_.begin(distances_);
+  part_ = root_;
   for (const PassLinks& pass : pass_links_) {
     weights_[pass.pass] = 1.0 - critical_of(pass.pass).branches;
-    for (std::uint32_t i = 0; i < pass.link_count; ++i) {
-      const Link& link = links_[pass.first_link + i];
-      const auto [low, high] = std::minmax({root_of(link.a), root_of(link.b)});
-      has_rings_ = has_rings_ || low == high;
-      root_[high] = low;
-    }
+    for (std::uint32_t i = 0; i < pass.link_count; ++i) join(links_[pass.first_link + i]);
   }
+  shares_ = merging_.shares();
+}
+
+void PatchFinder::join(const Link& link) {
+  const auto [low, high] = std::minmax({root_of(link.a), root_of(link.b)});
+  has_rings_ = has_rings_ || low == high;
+  root_[high] = low;
+  // The pass itself is no part; the way to it from any other is that of the first minimum below.
+  if (low == high || high >= minima_.size()) return;
+  part_[low] = merging_.join(part_[low], part_[high], critical_of(link.b).distance);
 }
 
 void PatchFinder::add_terms_of_rings(const Vec3& centre, double range,
@@ -208,7 +219,7 @@ void PatchFinder::add_terms_of_rings(const Vec3& centre, double range,
     if (below == kOutOfRange) continue;
     const std::uint32_t own = vertex_of(foot.core.feature);
     add_term(root_of(below), {foot.core, foot.normal, foot.distance, share.weight, share.slope, 0.0,
-                              own < minima_.size()});
+                              share_of(own), own < minima_.size()});
   }
 }
 
@@ -258,7 +269,7 @@ void PatchFinder::find_wrap(geometry::NodeId node, const Vec3& centre, double ra
   const Vec3 aside = beside - slope * normal;
   if (!aside.isZero(0.0)) wrap_terms_.push_back(inner_term(node, aside));
   wrap_terms_.push_back(
-      {geometry::core_point(node), normal, distance, wrap.contacts, slope, 0.0, false});
+      {geometry::core_point(node), normal, distance, wrap.contacts, slope, 0.0, 0.0, false});
 }
 
 void PatchFinder::add_terms_of_wraps(const Vec3& centre, Positions x) {
@@ -272,7 +283,7 @@ void PatchFinder::add_terms_of_wraps(const Vec3& centre, Positions x) {
 void PatchFinder::add_terms() {
   for (std::uint32_t vertex = 0; vertex < vertex_count(); ++vertex) {
     if (weights_[vertex] != 0.0)
-      add_term(root_of(vertex), term_of(critical_of(vertex), weights_[vertex]));
+      add_term(root_of(vertex), term_of(critical_of(vertex), weights_[vertex], share_of(vertex)));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "contact/base/motion.hpp"
 #include "contact/sphere_surface/link.hpp"
+#include "contact/sphere_surface/merge_shares.hpp"
 #include "contact/sphere_surface/normal_law.hpp"
 #include "contact/sphere_surface/wrap.hpp"
 #include "geometry/critical/critical_features.hpp"
@@ -45,6 +46,8 @@ struct PatchTerm {
   double slope;              ///< N, what the force has beside weight * force of one contact: on
                              ///< rings and wraps, where weights change with the distances
   double energy;             ///< J, what the energy has beside weight * energy of one contact
+  double share;              ///< of what the patch holds beside its elastic force: all of it, in
+                             ///< sum, is held by minima (merge_shares.hpp)
   bool is_minimum;
   bool is_inner = false;  ///< a force between nodes of the surface, along any direction: those of a
                           ///< patch cancel on the sphere or go with the push of a node, and hold
@@ -104,6 +107,10 @@ class PatchFinder {
   }
   std::uint32_t root_of(std::uint32_t vertex) const noexcept;
   void join_parts();
+  void join(const Link& link);
+  double share_of(std::uint32_t vertex) const noexcept {
+    return vertex < minima_.size() ? shares_[vertex] : 0.0;
+  }
   void add_terms_of_rings(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
                           Positions x, const NormalLaw& law);
   void find_wraps(const Vec3& centre, double range, std::span<const geometry::CellId> cells,
@@ -150,6 +157,10 @@ class PatchFinder {
   std::vector<std::uint32_t> root_;  ///< by vertex: the lowest of those that hang together, or one
                                      ///< on the way to it
   std::vector<double> weights_;      ///< by vertex
+  MergeShares merging_;
+  std::vector<std::uint32_t> part_;  ///< in merging_, by root
+  std::vector<double> distances_;    ///< m, of minima_
+  std::span<const double> shares_;   ///< by minimum
   bool has_rings_ = false;
   struct RootedTerm {
     std::uint32_t root;

@@ -17,8 +17,8 @@ struct PatchState {
   double elastic_force = 0.0;   ///< N, the terms' elastic forces added as vectors
   double elastic_energy = 0.0;  ///< J, of these
   Vec3 foot = Vec3::Zero();     ///< m, from the sphere's centre to the representative point:
-                                ///< force-weighted mean of the feet
-  Vec3 lever_a = Vec3::Zero();  ///< m, from the sphere's centre to the contact point
+                                ///< mean of the feet by shares
+  Vec3 lever_a = Vec3::Zero();  ///< m, from the sphere's centre to the contact points, by shares
   Vec3 relative_velocity = Vec3::Zero();  ///< m/s, of b relative to a at the contact point
   Vec3 relative_spin = Vec3::Zero();      ///< rad/s, of b relative to a
   double twist_rate = 0.0;  ///< rad/s, mean angular velocity of both bodies about the normal
@@ -34,8 +34,8 @@ struct PatchTermForce {
 /// centre.
 /// @param elastic_force   gap -> N, of one feature
 /// @param elastic_energy  gap -> J
-/// @param hold            (term, elastic force) -> how much of all that is not elastic goes to a
-///                        term, in any unit: its elastic force, if only what pushes is in contact
+/// @param hold            (term, elastic force) -> how much a term counts in the normal, in any
+///                        unit: its elastic force, if only what pushes is in contact
 /// @param term_forces     of the same length as terms
 template <class Force, class Energy, class Hold>
 PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, double range,
@@ -44,52 +44,59 @@ PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, dou
   PatchState state;
   state.root = patch.root;
   state.gap = terms[0].distance - range;
-  double total = 0.0, total_elastic = 0.0;
+  double total_elastic = 0.0, shares = 0.0;
   Vec3 force = Vec3::Zero(), holding = Vec3::Zero();
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const PatchTerm& term = terms[i];
     const double gap = term.distance - range;
     const double elastic = term.weight * elastic_force(gap) + term.slope;
-    const double share = term.is_inner ? 0.0 : hold(term, elastic);
-    term_forces[i] = {elastic, share};
-    total += share;
+    term_forces[i] = {elastic, term.share};
+    shares += term.share;
     total_elastic += elastic;
     force += elastic * term.normal;
-    holding += share * term.normal;
-    state.foot += share * term.distance * term.normal;
+    if (!term.is_inner) holding += hold(term, elastic) * term.normal;
+    state.foot += term.share * term.distance * term.normal;
     state.elastic_energy += term.weight * elastic_energy(gap) + term.energy;
   }
-  if (terms.size() == 1 || !(total > 0.0)) {
-    // One term, or no force yet: the deepest minimum stands for all.
-    state.normal = terms[0].normal;
-    state.elastic_force = total_elastic;
-    state.foot = terms[0].distance * terms[0].normal;
-    for (std::size_t i = 0; i < terms.size(); ++i) term_forces[i].share = i == 0 ? 1.0 : 0.0;
-    return state;
-  }
-  state.elastic_force = force.norm();
   const double length = holding.norm();
-  state.normal = length > 0.0 ? Vec3(holding / length) : terms[0].normal;
-  state.foot /= total;
-  for (PatchTermForce& term_force : term_forces) term_force.share /= total;
+  state.normal = length > 0.0 && terms.size() > 1 ? Vec3(holding / length) : terms[0].normal;
+  state.elastic_force = terms.size() > 1 ? force.norm() : total_elastic;
+  if (!(shares > 0.0)) {
+    // A piece that has lost its minima to rounding: its first term stands for all.
+    term_forces[0].share = shares = 1.0;
+    state.foot = terms[0].distance * terms[0].normal;
+  }
+  state.foot /= shares;
+  for (PatchTermForce& term_force : term_forces) term_force.share /= shares;
   return state;
 }
 
-/// Places the contact point and finds the relative motion there. Any point would balance the
-/// momenta, as long as both sides use the same; this one is half the gap away from either surface,
-/// on the line to the representative point.
+/// From the sphere's centre to the contact point of a term (m): half the gap away from either
+/// surface, on the line to the foot. Any point would balance the momenta, as long as both sides use
+/// the same; but a node takes no more turning than a force near it makes, so that each term of a
+/// patch has its own, however far around the sphere the patch reaches.
+inline Vec3 contact_lever(const PatchTerm& term, double radius, double range) {
+  const double gap = term.distance - range;
+  const double distance = range + gap;
+  if (!(distance > 0.0)) return Vec3::Zero();
+  const Vec3 foot = term.distance * term.normal;
+  return (radius + 0.5 * gap) / distance * foot;
+}
+
+/// Finds the relative motion at the contact points, in the mean by the shares of the terms: so the
+/// forces that are shared out do the work that the law reckons with.
 inline void set_kinematics(PatchState& state, NodeId sphere, double radius, double range,
                            std::span<const PatchTerm> terms,
                            std::span<const PatchTermForce> term_forces, const Motion& motion) {
-  const double distance = range + state.gap;
-  state.lever_a = distance > 0.0 ? Vec3((radius + 0.5 * state.gap) / distance * state.foot)
-                                 : Vec3(Vec3::Zero());
   Vec3 velocity = Vec3::Zero();
   Vec3 spin = Vec3::Zero();
   for (std::size_t i = 0; i < terms.size(); ++i) {
-    const Vec3 lever = state.lever_a - terms[i].distance * terms[i].normal;
-    velocity += term_forces[i].share * velocity_at(terms[i].core, lever, motion);
-    spin += term_forces[i].share * angular_velocity_at(terms[i].core, motion);
+    const double share = term_forces[i].share;
+    const Vec3 lever_a = contact_lever(terms[i], radius, range);
+    const Vec3 lever_b = lever_a - terms[i].distance * terms[i].normal;
+    state.lever_a += share * lever_a;
+    velocity += share * velocity_at(terms[i].core, lever_b, motion);
+    spin += share * angular_velocity_at(terms[i].core, motion);
   }
   const Vec3& spin_a = motion.angular_velocity[index_of(sphere)];
   state.relative_velocity =

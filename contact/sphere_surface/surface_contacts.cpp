@@ -273,6 +273,7 @@ double SurfaceContacts::keep_single_feature(Pair& pair, std::size_t lane, int wo
   // Member by member: what is copied as a whole right after it was written has to wait for that.
   SurfaceForce& record = records_.of_worker(worker_index).add(-gap / pair.radius);
   record.a = pair.node;
+  record.share = 1.0F;
   record.core.nodes = surface_->nodes_of(face);
   record.core.weights = answer.weights();
   record.core.feature = Feature(face);
@@ -336,7 +337,8 @@ void SurfaceContacts::add_elastic_forces(std::span<const geometry::CellId> cells
       for (const PatchTerm& term : finder.terms(patch)) {
         const double force = term.weight * one.force(term.distance) + term.slope;
         const SurfaceForce record{
-            pair.node, term.core, force * term.normal, Vec3::Zero(), Vec3::Zero(), force, 0, 0};
+            pair.node, 0.0F, term.core, force * term.normal, Vec3::Zero(), Vec3::Zero(),
+            force,     0,    0};
         record.add_to(forces, [](NodeId) { return true; });
       }
     }
@@ -569,10 +571,12 @@ void SurfaceContacts::write_forces(const Pair& pair, std::span<const PatchTerm> 
   const Vec3 other_force = answer.force - state.elastic_force * state.normal;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Vec3 other = term_forces[i].share * other_force;
-    const Vec3 lever_b = state.lever_a - terms[i].distance * terms[i].normal;
+    const Vec3 lever_a = contact_lever(terms[i], pair.radius, pair.range);
+    const Vec3 lever_b = lever_a - terms[i].distance * terms[i].normal;
     records.add(
-        {pair.node, terms[i].core, term_forces[i].elastic * terms[i].normal + other,
-         -state.lever_a.cross(other) - term_forces[i].share * answer.moment,
+        {pair.node, static_cast<float>(term_forces[i].share), terms[i].core,
+         term_forces[i].elastic * terms[i].normal + other,
+         -lever_a.cross(other) - term_forces[i].share * answer.moment,
          lever_b.cross(other) + term_forces[i].share * answer.moment, term_forces[i].elastic,
          static_cast<std::uint32_t>(&pair - pairs_.data()), contact},
         -state.gap / pair.radius);
@@ -667,6 +671,9 @@ void SurfaceContacts::exchange(const geometry::StateArchive& archive,
     row("torque_a", record.torque_a);
     row("torque_b", record.torque_b);
     row("elastic", record.elastic);
+    double share = record.share;
+    row("share", share);
+    record.share = static_cast<float>(share);
     if (!row.is_reading()) return;
     record.pair = pairs[kept.contact];
     record.contact = kept.contact;

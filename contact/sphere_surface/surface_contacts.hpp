@@ -85,18 +85,10 @@ class SurfaceContacts {
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
     records_.for_each_contact([&](std::span<const SurfaceForce> terms) {
-      double sum = 0.0, magnitudes = 0.0;
-      for (const SurfaceForce& term : terms) {
-        sum += term.elastic;
-        magnitudes += std::abs(term.elastic);
-      }
-      // With shares s_i and the ways u_i of the terms, (sum s_i u_i)² <= sum |s_i| sum |s_i| u_i².
-      const double per_force = sum > 0.0 ? magnitudes / (sum * sum) : 0.0;
       const Pair& pair = pairs_[terms[0].pair];
-      for (const SurfaceForce& term : terms) {
-        const double dashpot = sum > 0.0 ? per_force * std::abs(term.elastic) : 1.0;
-        visit(term.a, term.core, pair.parameters, pair.range, TermPart{term.elastic, dashpot});
-      }
+      // With shares s_i and the ways u_i of the terms, (sum s_i u_i)² <= sum s_i u_i².
+      for (const SurfaceForce& term : terms)
+        visit(term.a, term.core, pair.parameters, pair.range, TermPart{term.elastic, term.share});
     });
   }
 

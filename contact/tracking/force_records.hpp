@@ -16,6 +16,7 @@ namespace plekton::contact {
 /// Force of one term of a patch: on a sphere (a) and at a core point of a surface (b).
 struct SurfaceForce {
   NodeId a;
+  float share;  ///< of what the contact holds beside its elastic force
   geometry::CorePoint core;
   Vec3 force;             ///< N, on b
   Vec3 torque_a;          ///< N m, on a

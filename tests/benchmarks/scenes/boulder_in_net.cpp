@@ -25,8 +25,7 @@ constexpr double kBoulderDamping = 0.1;
 /// Around the origin, held at its rim.
 void add_net(dynamics::Scene& scene) {
   constexpr double kHalfSide = 0.5 * kMeshes * kMesh;
-  auto net = geometry::biaxial_geogrid({kMesh, kMesh, kMeshes, kMeshes});
-  for (Vec3& point : net.points) point -= Vec3(kHalfSide, kHalfSide, 0.0);
+  const auto net = geometry::biaxial_geogrid({kMesh, kMesh, kMeshes, kMeshes});
   const std::size_t first = add_lattice(
       net, kWireRadius, dynamics::circular_section(kWireRadius, kWireModulus, kBeamPoissonRatio),
       kWireDensity, scene);
