@@ -54,7 +54,7 @@ constexpr std::array<SceneEntry, 11> kScenes = {{
     {"s3",     "a geogrid pulled through spheres",                  "spheres + cylinders", BedKind::cube, 10000, 5000, 600,  of_bed_and_grid},
     {"s4a",    "a hollow sphere hits a floor",                      "facets",              {},            0,     700,  1200, of_hollow_sphere},
     {"s4b",    "20 hollow spheres collide",                         "facets",              {},            0,     300,  300,  of_hollow_spheres},
-    {"s5",     "a boulder caught by a net of 60 x 60 meshes",       "cylinders",           {},            0,     20000, 100,  of_boulder},
+    {"s5",     "a boulder caught by a net of 60 x 60 meshes",       "cylinders",           {},            0,     30000, 100,  of_boulder},
     {"layer_sheet",          "spheres beside each other on a sheet",             "spheres + facets", {}, 0, 200, 600, of_layer<Ground::sheet>},
     {"layer_sheet_lifted",   "the same, lifted so far that nothing touches",     "spheres + facets", {}, 0, 200, 600, of_lifted_layer<Ground::sheet>},
     {"layer_spheres",        "spheres beside each other, each on another one",   "spheres",          {}, 0, 200, 600, of_layer<Ground::spheres>},

@@ -81,9 +81,9 @@ TEST(NormalOnTheLastSide, IsTheFeaturesOwnWhereTheLastOneLiesInIt) {
       {NodeId{0}, NodeId{1}, NodeId{1}}, Vec3(0.5, 0.5, 0.0), Feature(geometry::EdgeId{0})};
 
   const Vec3 of_face = contact::normal_on_last_side(
-      {on_face, Vec3::UnitZ(), 0.0, 1.0, 0.0, 0.0, true}, Vec3::UnitX(), x);
+      {on_face, Vec3::UnitZ(), 0.0, 1.0, 0.0, 0.0, 1.0, true}, Vec3::UnitX(), x);
   const Vec3 of_edge = contact::normal_on_last_side(
-      {on_edge, Vec3::UnitY(), 0.0, 1.0, 0.0, 0.0, true}, Vec3::UnitX(), x);
+      {on_edge, Vec3::UnitY(), 0.0, 1.0, 0.0, 0.0, 1.0, true}, Vec3::UnitX(), x);
 
   EXPECT_EQ(of_face, Vec3::UnitZ());
   EXPECT_EQ(of_edge, Vec3::UnitY());
