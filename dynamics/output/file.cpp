@@ -70,13 +70,32 @@ void create_folder(const std::filesystem::path& folder) {
   throw OutputError(folder, "create the folder", error.value());
 }
 
+constexpr std::string_view kProbe = "Plekton was here to see if it can write.\n";
+
+/// Into a file without a name, which is gone however the program ends. @returns whether the file
+/// system knows such files
+bool write_nameless_probe(const std::filesystem::path& folder) {
+  const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (file < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) return false;
+  int reason = file < 0 ? errno : 0;
+  if (file >= 0) {
+    const ssize_t written = ::write(file, kProbe.data(), kProbe.size());
+    if (written < 0) reason = errno;
+    if (written >= 0 && written < static_cast<ssize_t>(kProbe.size())) reason = ENOSPC;
+    ::close(file);
+  }
+  if (reason != 0) throw OutputError(folder, "write into the folder", reason);
+  return true;
+}
+
 void write_probe(const std::filesystem::path& folder) {
+  if (write_nameless_probe(folder)) return;
   // The process id keeps runs apart that start into the same folder at the same time.
   const std::filesystem::path probe =
       folder / (".plekton-write-test-" + std::to_string(::getpid()));
   try {
     OutputFile file(probe);
-    file.write("Plekton was here to see if it can write.\n");
+    file.write(kProbe);
     file.commit();
   } catch (const OutputError& error) {
     throw OutputError(folder, "write into the folder", error.reason());
