@@ -271,7 +271,7 @@ double SurfaceContacts::keep_single_feature(Pair& pair, std::size_t lane, int wo
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   pair.contacts = {worker_index, static_cast<std::uint32_t>(lists.contacts.size()), 1};
   // Member by member: what is copied as a whole right after it was written has to wait for that.
-  SurfaceForce& record = records_.of_worker(worker_index).add(pair.overlap_ratio(gap));
+  SurfaceForce& record = records_.of_worker(worker_index).add(-gap / pair.radius);
   record.a = pair.node;
   record.share = 1.0F;
   record.core.nodes = surface_->nodes_of(face);
@@ -579,7 +579,7 @@ void SurfaceContacts::write_forces(const Pair& pair, std::span<const PatchTerm> 
          -lever_a.cross(other) - term_forces[i].share * answer.moment,
          lever_b.cross(other) + term_forces[i].share * answer.moment, term_forces[i].elastic,
          static_cast<std::uint32_t>(&pair - pairs_.data()), contact},
-        pair.overlap_ratio(state.gap));
+        -state.gap / pair.radius);
   }
 }
 

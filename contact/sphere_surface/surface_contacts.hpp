@@ -67,7 +67,7 @@ class SurfaceContacts {
     records_.add_to(forces, pool);
   }
 
-  /// Largest overlap of the last step over the smaller radius, of the sphere or the surface.
+  /// Largest overlap of the last step over the radius of the sphere.
   double largest_overlap_ratio() const noexcept { return records_.deepest(); }
 
   /// How many spheres had their centre on the other side of a surface than in the step before: they
@@ -159,11 +159,6 @@ class SurfaceContacts {
     Range contacts;
     geometry::FaceId single_face;  ///< whose inside was the only contact in the last step; or none
     DeferredPairs::NextCheck next_check;
-
-    /// Over the smaller of both radii: a thin wire is soft beside any boulder.
-    double overlap_ratio(double gap) const noexcept {
-      return -gap / std::min(radius, range - radius);
-    }
   };
   static constexpr geometry::FaceId kNoFace{-1};
   /// A pair that is due, with the cells that may be in range.

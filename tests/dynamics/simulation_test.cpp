@@ -49,21 +49,6 @@ TEST(Simulation, ChoosesAStepThatStaysSafeWhenAStiffSphereLandsOnALightSheet) {
   EXPECT_LT(simulation.energy().closure(), 5e-3);
 }
 
-TEST(Simulation, SeesOverlapsBesideTheSmallerRadius) {
-  constexpr contact::MaterialId kMaterial{0};
-  constexpr double kBall = 0.5, kWire = 1e-3, kOverlap = 0.25 * kWire;
-  Scene scene;
-  scene.materials = {{1e8, 0.3, 0.5}};
-  const NodeId a = scene.add_node(Vec3(-1, 0, 0));
-  const NodeId b = scene.add_node(Vec3(1, 0, 0));
-  scene.add_cylinder(a, b, kWire, kMaterial);
-  scene.add_beam(a, b, circular_section(kWire, 1e10, 0.3), 7850.0);
-  scene.add_sphere(Vec3(0, 0, kBall + kWire - kOverlap), kBall, 1000.0, kMaterial);
-  Simulation simulation(scene, {});
-  // Coordinates of the size of the ball, of which the overlap is a difference.
-  EXPECT_NEAR(simulation.contacts().largest_overlap_ratio(), 0.25, 4e-16 * kBall / kWire);
-}
-
 TEST(Simulation, EndsAtTheTimeThatItIsAskedForAndGoesOnWithItsOwnStep) {
   Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {.motion = {.gravity = kGravity}});
   const double step = simulation.time_step();
