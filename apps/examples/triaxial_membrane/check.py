@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Says how strong samples were in triaxial tests, and whether that can be: python3 check.py RUN [RUN ...]
+
+RUN is the folder of a run of triaxial_membrane.toml. Of several runs the densest has to dilate more, and to bear more, than the loosest.
+Writes triaxial.csv into each folder: axial strain, deviator stress, volume strain. Ends 1 where something is out of its bounds.
+"""
+import csv
+import json
+import math
+import re
+import struct
+import sys
+import zlib
+from pathlib import Path
+
+CELL = 25e3  # Pa, that the scenario says
+AROUND, ALONG = 24, 17  # nodes of the membrane
+HALF_THICKNESS = 1e-3  # m
+SHEET = 300.0  # N/m
+POISSON = 0.45
+
+
+def columns(path):
+    """A history as {head without unit: values}."""
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    return {head.split(" (")[0]: [float(row[i]) for row in rows[1:]] for i, head in enumerate(rows[0])}
+
+
+def membrane_points(path):
+    """Positions (m) of the nodes of the membrane in a frame; it comes first in the file."""
+    data = path.read_bytes()
+    offset = int(re.search(rb'Name="Points"[^>]*offset="(\d+)"', data).group(1))
+    begin = data.index(b"_", data.index(b'<AppendedData encoding="raw"')) + 1 + offset
+    blocks, _, _ = struct.unpack_from("<3Q", data, begin)
+    sizes = struct.unpack_from(f"<{blocks}Q", data, begin + 24)
+    begin += 24 + 8 * blocks
+    raw = b""
+    for size in sizes:
+        raw += zlib.decompress(data[begin : begin + size])
+        begin += size
+    numbers = struct.unpack(f"<{len(raw) // 8}d", raw)
+    return [numbers[i : i + 3] for i in range(0, len(numbers), 3)]
+
+
+def rings(points):
+    """(height, area inside of the membrane) of each ring of nodes, m and m2."""
+    result = []
+    for k in range(ALONG):
+        ring = points[k * AROUND : (k + 1) * AROUND]
+        double = sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1]))
+        around = sum(math.dist(a, b) for a, b in zip(ring, ring[1:] + ring[:1]))
+        result.append((sum(p[2] for p in ring) / AROUND, 0.5 * double - HALF_THICKNESS * around))
+    return result
+
+
+def frames(run):
+    """Times and files of the frames of the membrane."""
+    text = (run / "membranes.pvd").read_text()
+    return [(float(t), run / file) for t, file in re.findall(r'timestep="([^"]+)"[^>]*file="([^"]+)"', text)]
+
+
+def mean(values):
+    return sum(values) / len(values)
+
+
+class Test:
+    """The shear stage of a run, at the times of its frames."""
+
+    def __init__(self, run):
+        self.report = json.loads((run / "run.json").read_text())
+        begin = self.report["stages"][0]["end_s"]
+        force, core = columns(run / "reactions.csv"), columns(run / "measures" / "core.csv")
+        times = force["time"]
+        self.strain, self.volume, self.axial, self.radial, self.bulge, self.balance, self.inside = ([] for _ in range(7))
+        first = None
+        for moment, file in frames(run):
+            rows = [i for i, t in enumerate(times) if abs(t - moment) < 2.5e-3]
+            if moment < begin or not rows:
+                continue
+            of = lambda history, name: mean([history[name][i] for i in rows])
+            section = rings(membrane_points(file))
+            height = section[-1][0] - section[0][0]
+            volume = sum(0.5 * (a[1] + b[1]) * (b[0] - a[0]) for a, b in zip(section, section[1:]))
+            share = [(z - section[0][0]) / height for z, _ in section]
+            middle = mean([area for s, (_, area) in zip(share, section) if 0.3 < s < 0.7])
+            near_ends = mean([area for s, (_, area) in zip(share, section) if 0.04 < min(s, 1 - s) < 0.15])
+            first = first or (volume, height, middle, of(core, "porosity"), middle / near_ends)
+            above = of(force, "upper platen.force_z") + of(force, "upper end.force_z")
+            below = of(force, "lower platen.force_z") + of(force, "lower end.force_z")
+            # The membrane bears some of it: a hoop of the sheet, whose radius grows.
+            radius = math.sqrt(middle / math.pi)
+            hoop = math.sqrt(middle / first[2]) - 1
+            shortening = height / first[1] - 1
+            tension = SHEET / (1 - POISSON**2) * (hoop + POISSON * shortening)
+            self.strain.append(-shortening)
+            self.volume.append(volume / first[0] - 1)
+            self.axial.append(0.5 * (above - below) / middle)
+            self.radial.append(CELL + max(0.0, tension) / radius)
+            self.bulge.append(math.sqrt(middle / near_ends / first[4]))
+            self.balance.append((above + below) / (0.5 * (above - below)))
+            self.inside.append((-of(core, "stress_zz"), -0.5 * (of(core, "stress_xx") + of(core, "stress_yy"))))
+        self.porosity = first[3]
+        with open(run / "triaxial.csv", "w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(["axial strain (%)", "deviator stress (kPa)", "volume strain (%)"])
+            for e, a, r, v in zip(self.strain, self.axial, self.radial, self.volume):
+                writer.writerow([f"{100 * e:.4g}", f"{1e-3 * (a - r):.4g}", f"{100 * v:.4g}"])
+
+    def smooth(self, i):
+        """Ratio of stresses, over five frames."""
+        rows = range(i - 2, i + 3)
+        return sum(self.axial[k] for k in rows) / sum(self.radial[k] for k in rows)
+
+    def dilation(self, i):
+        """Slope of the volume over the strain, over 2 % of strain."""
+        rows = [k for k, e in enumerate(self.strain) if abs(e - self.strain[i]) < 0.01]
+        return (self.volume[rows[-1]] - self.volume[rows[0]]) / (self.strain[rows[-1]] - self.strain[rows[0]])
+
+
+def friction_angle(ratio):
+    """In degrees, of a ratio of principal stresses."""
+    return math.degrees(math.asin((ratio - 1) / (ratio + 1)))
+
+
+class Bounds:
+    def __init__(self):
+        self.hold = True
+
+    def expect(self, what, value, low, high, source):
+        holds = low <= value <= high
+        self.hold &= holds
+        print(f"  {what:<52} {value:10.4g}  {low:.4g} to {high:.4g} ({source}){'' if holds else '  OUT OF BOUNDS'}")
+
+
+def check(test, bounds):
+    inner = range(2, len(test.strain) - 2)
+    peak = max(inner, key=test.smooth)
+    test.peak = friction_angle(test.smooth(peak))
+    late = [k for k in inner if test.strain[k] > 0.03]
+    print(f"  porosity of the core {test.porosity:.3f}; largest deviator stress {1e-3 * max(a - r for a, r in zip(test.axial, test.radial)):.1f} kPa,"
+          f" largest ratio at {100 * test.strain[peak]:.1f} % of strain; volume {100 * min(test.volume):.2f} %, at the end {100 * test.volume[-1]:+.2f} %")
+    bounds.expect("peak friction angle (deg)", test.peak, 20, 45, "grains of tan 0.5")
+    if test.dilation(peak) > 0:
+        # Rowe (1962): the part of the strength that dilation does not explain. A loose sample collapses besides.
+        without = friction_angle(test.smooth(peak) / (1 + test.dilation(peak)))
+        bounds.expect("friction angle without dilation at the peak (deg)", without, 20, 30, "Rowe: near that of the grains, 26.6")
+    bounds.expect("axial force below over above, beyond 1", mean([test.balance[k] for k in late]), -0.02, 0.02, "balance")
+    bounds.expect("axial stress in the core over that of platens", mean([test.inside[k][0] / test.axial[k] for k in late]), 0.85, 1.15, "Love and Weber")
+    bounds.expect("radial stress in the core over cell and membrane", mean([test.inside[k][1] / test.radial[k] for k in late]), 0.85, 1.15, "Love and Weber")
+    bounds.expect("radius at half height over that near the ends", test.bulge[-1], 1.01, 1.15, "rough platens: it bulges")
+    bounds.expect("grains through the membrane", test.report["pass_throughs"] + test.report["counts"].get("lost_grains", 0), 0, 0, "it holds")
+    bounds.expect("energy closure", test.report["energy_closure"], 0, 0.01, "energy is kept")
+    red = [entry["name"] for entry in test.report["certificate"] if entry["verdict"] != "green"]
+    bounds.expect("red rows of the certificate", len(red), 0, 0, ", ".join(red) or "all green")
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    bounds, tests = Bounds(), []
+    for run in map(Path, sys.argv[1:]):
+        print(run)
+        tests.append(Test(run))
+        check(tests[-1], bounds)
+    tests.sort(key=lambda test: test.porosity)
+    if len(tests) > 1:
+        dense, loose = tests[0], tests[-1]
+        print("densest and loosest")
+        bounds.expect("porosity of the loose over that of the dense", loose.porosity / dense.porosity, 1.05, 1.4, "they differ")
+        bounds.expect("volume of the dense at the end", dense.volume[-1], 0.01, 0.1, "it dilates")
+        bounds.expect("volume of the loose at the end", loose.volume[-1], -0.1, 0.0, "it contracts")
+        bounds.expect("peak of the dense beyond that of the loose (deg)", dense.peak - loose.peak, 1, 25, "density makes strength")
+    sys.exit(0 if bounds.hold else 1)
+
+
+main()
