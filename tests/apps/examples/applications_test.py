@@ -56,6 +56,29 @@ APPLICATIONS = {
             ),
         },
     },
+    "triaxial_membrane": {
+        "right": {
+            "dense": ("triaxial_membrane", []),
+            "loose": (
+                "triaxial_membrane",
+                ["grains.sand.porosity=0.52", "stages.confine.materials.sand.friction_angle=26.565 deg"],
+            ),
+        },
+        "wrong": {
+            "grains that slip": (
+                "triaxial_membrane",
+                ["stages.shear.materials.sand.friction_angle=5 deg", "stages.shear.end.displacement.distance=4 mm"],
+            ),
+            "more pressure than was said": (
+                "triaxial_membrane",
+                ["stages.confine.loads.cell.pressure=-32 kPa", "stages.shear.end.displacement.distance=4 mm"],
+            ),
+        },
+    },
+    "tyre": {
+        "right": {"tyre": ("tyre", [])},
+        "wrong": {"a floor without friction": ("tyre", ["materials.rubber.friction_angle=0", "stages.roll.end.duration=0.3 s"])},
+    },
     "bouncing_sphere": {
         "right": {
             "wall": ("bouncing_sphere", []),

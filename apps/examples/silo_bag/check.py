@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Says what a bag bears and how it empties, and whether that can be: python3 check.py RUN [RUN ...]
+
+RUN is the folder of a run of silo_bag.toml. Ends 1 where something is out of its bounds.
+"""
+import csv
+import json
+import math
+import re
+import struct
+import sys
+import zlib
+from pathlib import Path
+
+RADIUS, HALF_THICKNESS = 0.15, 4e-3  # m, of the bag
+AROUND, ALONG = 24, 20  # cells of the bag
+BAG = 2 * math.pi * RADIUS * 0.8 * 4.0  # kg
+OUTLET, DIAMETER = 0.22, 0.041  # m; of the grains the mean
+DENSITY, GRAVITY = 2650.0, 9.81
+GRAINS, WALL = math.tan(math.radians(30)), math.tan(math.radians(20))  # friction
+SHEET = 20e3  # N/m
+
+
+def columns(path):
+    """A history as {head without unit: values}."""
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    return {head.split(" (")[0]: [float(row[i]) for row in rows[1:]] for i, head in enumerate(rows[0])}
+
+
+def mean(values):
+    return sum(values) / len(values)
+
+
+class Frame:
+    """Arrays of a frame (VTK XML, raw blocks of zlib)."""
+
+    def __init__(self, path):
+        self.data = path.read_bytes()
+        self.begin = self.data.index(b"_", self.data.index(b'<AppendedData encoding="raw"')) + 1
+
+    def array(self, section, name):
+        pattern = rb"<" + section + rb">.*?type=\"(\w+)\" Name=\"" + name + rb"\"[^>]*offset=\"(\d+)\""
+        found = re.search(pattern, self.data, re.S)
+        begin = self.begin + int(found.group(2))
+        blocks = struct.unpack_from("<Q", self.data, begin)[0]
+        sizes = struct.unpack_from(f"<{blocks}Q", self.data, begin + 24)
+        begin, raw = begin + 24 + 8 * blocks, b""
+        for size in sizes:
+            raw += zlib.decompress(self.data[begin : begin + size])
+            begin += size
+        code = {b"Float32": "f", b"Float64": "d", b"Int32": "i"}[found.group(1)]
+        return struct.unpack(f"<{len(raw) // struct.calcsize(code)}{code}", raw)
+
+    def points(self):
+        numbers = self.array(b"Points", b"Points")
+        return [numbers[i : i + 3] for i in range(0, len(numbers), 3)]
+
+
+def frames(run, kind):
+    text = (run / f"{kind}.pvd").read_text()
+    return [(float(t), run / file) for t, file in re.findall(r'timestep="([^"]+)"[^>]*file="([^"]+)"', text)]
+
+
+def grains_of(path):
+    """(height, mass) of each grain."""
+    frame = Frame(path)
+    radii = frame.array(b"PointData", b"radius")
+    return [(p[2], DENSITY * 4 / 3 * math.pi * r**3) for p, r in zip(frame.points(), radii)]
+
+
+def wall_of(path):
+    """(height, area, normal traction of contacts) of each facet of the bag, and the positions of all nodes."""
+    frame = Frame(path)
+    points, corners = frame.points(), frame.array(b"Polys", b"connectivity")
+    pressure, owner = frame.array(b"CellData", b"contact_pressure"), frame.array(b"CellData", b"membrane")
+    others = len(pressure) - len(corners) // 3  # bars come before facets
+    rows = []
+    for k in range(len(corners) // 3):
+        if owner[others + k] != 0:
+            continue
+        a, b, c = (points[i] for i in corners[3 * k : 3 * k + 3])
+        u, v = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)]
+        normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        rows.append((mean([a[2], b[2], c[2]]), 0.5 * math.hypot(*normal), pressure[others + k]))
+    return rows, points
+
+
+class Bounds:
+    def __init__(self):
+        self.hold = True
+
+    def expect(self, what, value, low, high, source):
+        holds = low <= value <= high
+        self.hold &= holds
+        print(f"  {what:<50} {value:10.4g}  {low:.4g} to {high:.4g} ({source}){'' if holds else '  OUT OF BOUNDS'}")
+
+
+def check(run, bounds):
+    report = json.loads((run / "run.json").read_text())
+    opened = report["stages"][1]["end_s"]
+    history = columns(run / "reactions.csv")
+    grains, walls = frames(run, "grains"), frames(run, "membranes")
+    full = max(entry for entry in grains if entry[0] < opened - 1e-9)
+    contents = grains_of(full[1])
+    facets, points = wall_of(max(entry for entry in walls if entry[0] <= full[0] + 1e-9)[1])
+    inner, top = RADIUS - HALF_THICKNESS, mean(sorted(z for z, _ in contents)[-20:])
+    section = math.pi * inner**2
+    mass = sum(m for _, m in contents)
+    weight = mass * GRAVITY
+
+    # What stands on the floor and what hangs in the hoops is all there is.
+    rows = [i for i, t in enumerate(history["time"]) if opened - 0.05 < t < opened]
+    of = lambda name: -mean([history[f"{name}.force_z"][i] for i in rows])
+    below, hung = of("floor") + of("gate"), of("hoops")
+    bounds.expect("floor, gate and hoops over all weight", (below + hung) / (weight + BAG * GRAVITY), 0.98, 1.02, "balance")
+
+    # Janssen: walls bear a part, with friction of all that presses on them at most.
+    bulk = mass / (section * top)
+    active = (math.sqrt(1 + GRAINS**2) - GRAINS) ** 2  # tan^2 (45 deg - phi/2)
+    least = lambda depth, k: bulk * GRAVITY * inner / (2 * WALL * k) * (1 - math.exp(-2 * WALL * k * depth / inner))
+    bounds.expect("stress on the floor (kPa)", 1e-3 * below / section, 1e-3 * least(top, 1.0), 1e-3 * bulk * GRAVITY * top, "Janssen with K = 1, and all weight")
+    for low, high in ((0.1, 0.2), (0.2, 0.3)):
+        band = [(a, -p) for z, a, p in facets if low < z < high]
+        pressure = sum(a * p for a, p in band) / sum(a for a, _ in band)
+        depth = top - 0.5 * (low + high)
+        stress = least(depth, active)
+        bounds.expect(f"pressure on the bag from {low:g} to {high:g} m (kPa)", 1e-3 * pressure, 1e-3 * active * least(depth, 1.0), 1e-3 * bulk * GRAVITY * depth,
+                      "active and with friction, and of a fluid")
+        # Rings of nodes of the sheet, by how much they are longer: by p r / J.
+        rings = [points[k * AROUND : (k + 1) * AROUND] for k in range(ALONG + 1)]
+        rings = [ring for ring in rings if low < mean([p[2] for p in ring]) < high]
+        around = mean([sum(math.dist(a, b) for a, b in zip(ring, ring[1:] + ring[:1])) for ring in rings])
+        tension = SHEET * (around / (2 * AROUND * RADIUS * math.sin(math.pi / AROUND)) - 1)
+        bounds.expect(f"tension around over p r, from {low:g} to {high:g} m", tension / (pressure * around / (2 * math.pi)), 0.8, 1.2, "a thin tube")
+        print(f"    Janssen with active pressure: {1e-3 * active * stress:.2f} kPa; tension {tension:.0f} N/m")
+
+    # How it runs out.
+    out = [(t, sum(m for z, m in grains_of(file) if z < -0.03)) for t, file in grains if t > opened]
+    flowing = [(t, m) for t, m in out if 0.1 * mass < m < 0.6 * mass]
+    (t0, m0), (t1, m1) = flowing[0], flowing[-1]
+    beverloo = 0.58 * bulk * math.sqrt(GRAVITY) * (OUTLET - 1.4 * DIAMETER) ** 2.5
+    bounds.expect("kg/s through the outlet, over Beverloo", (m1 - m0) / (t1 - t0) / beverloo, 0.7, 1.3, "C = 0.58, k = 1.4")
+    print(f"  {(m1 - m0) / (t1 - t0):.1f} kg/s; {out[-1][1]:.1f} of {mass:.1f} kg have left the bag")
+    bounds.expect("grains at the end over those put in", len(grains_of(grains[-1][1])) / len(contents), 1, 1, "none is lost")
+    bounds.expect("what has left the bag, over all", out[-1][1] / mass, 0.75, 1, "but for what stays on the floor")
+    gate = -mean(history["gate.force_z"][-40:]) / GRAVITY
+    bounds.expect("the tray weighs, over what has left (end)", gate / out[-1][1], 0.85, 1.15, "balance, with blows of what falls")
+    bounds.expect("energy closure", report["energy_closure"], 0, 0.01, "energy is kept")
+    red = [entry["name"] for entry in report["certificate"] if entry["verdict"] != "green"]
+    bounds.expect("red rows of the certificate", len(red), 0, 0, ", ".join(red) or "all green")
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    bounds = Bounds()
+    for run in map(Path, sys.argv[1:]):
+        print(run)
+        check(run, bounds)
+    sys.exit(0 if bounds.hold else 1)
+
+
+main()
