@@ -3,7 +3,7 @@
 import math
 from pathlib import Path
 
-SIDES, INNER, OUTER = 36, 115.0, 140.0  # mm; half its thickness comes on top
+SIDES, INNER, OUTER = 36, 115.0, 130.0  # mm; half its thickness comes on top
 
 points = [(r * math.cos(2 * math.pi * i / SIDES), r * math.sin(2 * math.pi * i / SIDES), 0.0) for r in (INNER, OUTER) for i in range(SIDES)]
 facets = []

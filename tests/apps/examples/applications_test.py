@@ -79,6 +79,12 @@ APPLICATIONS = {
         "right": {"tyre": ("tyre", [])},
         "wrong": {"a floor without friction": ("tyre", ["materials.rubber.friction_angle=0", "stages.roll.end.duration=0.3 s"])},
     },
+    "silo_bag": {
+        "right": {"bag": ("silo_bag", [])},
+        "wrong": {
+            "damping that bears weight": ("silo_bag", ["simulation.damp_gravity=false", "stages.empty.end.duration=0.1 s"]),
+        },
+    },
     "bouncing_sphere": {
         "right": {
             "wall": ("bouncing_sphere", []),
