@@ -82,7 +82,8 @@ APPLICATIONS = {
     "silo_bag": {
         "right": {"bag": ("silo_bag", [])},
         "wrong": {
-            "damping that bears weight": ("silo_bag", ["simulation.damp_gravity=false", "stages.empty.end.duration=0.1 s"]),
+            "gravel that is lighter than said": ("silo_bag", ["materials.gravel.density=2300 kg/m3"]),
+            "damping that bears weight": ("silo_bag", ["simulation.damp_gravity=false", "simulation.damping=0.5"]),
         },
     },
     "bouncing_sphere": {
