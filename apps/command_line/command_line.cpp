@@ -3,6 +3,7 @@
 
 #include "apps/command_line/check_report.hpp"
 #include "apps/command_line/examples_command.hpp"
+#include "apps/command_line/export_ondem_command.hpp"
 #include "apps/command_line/generate_command.hpp"
 #include "apps/command_line/import_command.hpp"
 #include "apps/command_line/import_yade_command.hpp"
@@ -481,6 +482,12 @@ int render_command(const CommandLine& line) {
   return kDone;
 }
 
+int export_ondem_command(const CommandLine& line) {
+  export_ondem({line.run, line.at, line.out}, std::cout);
+  flush_output();
+  return kDone;
+}
+
 int import_yade_command(const CommandLine& line) {
   import_yade(line.yade, std::cout);
   flush_output();
@@ -606,6 +613,19 @@ CLI::App* add_import_yade(CLI::App& app, CommandLine& line) {
   import->add_flag("--overwrite", line.yade.overwrite,
                    "Replace the files of an earlier import in that folder");
   return import;
+}
+
+CLI::App* add_export_ondem(CLI::App& app, CommandLine& line) {
+  CLI::App* command = app.add_subcommand(
+      "export-ondem",
+      "Write what a checkpoint of a run holds as an ON-DEM file (VTKHDF), for other codes");
+  command->add_option("run", line.run, "Folder that plekton run wrote to")->required();
+  command->add_option("--at", line.at,
+                      "Time, as in \"20 ms\", of the last checkpoint not after it; the last one "
+                      "if not given");
+  command->add_option("--out", line.out,
+                      "File to write, .vtkhdf; ondem.vtkhdf in that folder if not given");
+  return command;
 }
 
 CLI::App* add_inspect(CLI::App& app, CommandLine& line) {
@@ -755,6 +775,7 @@ int dispatch(int argc, const char* const* argv) {
   const CLI::App* const check = add_check(app, line);
   const CLI::App* const import = add_import(app, line);
   const CLI::App* const import_yade_of = add_import_yade(app, line);
+  const CLI::App* const export_ondem_of = add_export_ondem(app, line);
   const CLI::App* const inspect = add_inspect(app, line);
   const CLI::App* const verify = add_verify(app, line);
   const CLI::App* const list =
@@ -780,6 +801,7 @@ int dispatch(int argc, const char* const* argv) {
   if (check->parsed()) return check_command(line);
   if (import->parsed()) return import_command(line);
   if (import_yade_of->parsed()) return import_yade_command(line);
+  if (export_ondem_of->parsed()) return export_ondem_command(line);
   if (inspect->parsed()) return inspect_command(line);
   if (verify->parsed()) return verify_command(line);
   if (study->parsed()) return study_command(line);

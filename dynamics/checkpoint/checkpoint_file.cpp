@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 
+#include "dynamics/hdf5/handle.hpp"
 #include "dynamics/output/file.hpp"
 #include "geometry/base/bit_hash.hpp"
 #include "geometry/base/printable.hpp"
 #include "geometry/base/regular_file.hpp"
 #include "geometry/version.hpp"
-
-#include <hdf5.h>
 
 #include <algorithm>
 #include <array>
@@ -24,43 +23,11 @@ namespace {
 
 using geometry::StateArray;
 using geometry::StateTree;
+using hdf5::Handle;
+using hdf5::QuietErrors;
 
 constexpr const char* kFormat = "plekton checkpoint";
 constexpr std::size_t kHeadSize = 512;  // bytes
-
-/// A handle of the HDF5 library, closed at its end.
-class Handle {
- public:
-  using Close = herr_t (*)(hid_t);
-  Handle(hid_t id, Close close) : id_(id), close_(close) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  hid_t get() const noexcept { return id_; }
-  explicit operator bool() const noexcept { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  Close close_;
-};
-
-/// The library prints no errors of its own meanwhile.
-class QuietErrors {
- public:
-  QuietErrors() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  QuietErrors(const QuietErrors&) = delete;
-  QuietErrors& operator=(const QuietErrors&) = delete;
-  ~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-
- private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
 
 /// How numbers lie in a file and in memory.
 struct NumberType {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/export_ondem_command.hpp"
+
+#include "apps/command_line/resume_command.hpp"
+#include "apps/run/stage_change.hpp"
+#include "apps/takeover/ondem_export.hpp"
+#include "dynamics/ondem/write_ondem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace plekton::apps {
+namespace {
+
+dynamics::OndemScene scene_in(const FoundCheckpoint& checkpoint) {
+  const ResumedRun run = resumed_from(checkpoint, {});
+  const geometry::StateTree& state = checkpoint.state;
+  const Scenario& scenario =
+      run.scenario.stage ? run.scenario.stages.at(stage_of(state).bodies.stage) : run.scenario;
+  PreparedRun prepared = scenario.stage ? prepare_stage(scenario, state) : prepare_run(scenario);
+  prepared.simulation->restore(state);
+  return ondem_scene_of(scenario, prepared, state);
+}
+
+std::string summary_of(const dynamics::OndemScene& scene) {
+  const auto clumps =
+      std::ranges::count(scene.bodies, dynamics::OndemShape::clump, &dynamics::OndemBody::shape);
+  std::string text =
+      fmt::format("{} spheres", static_cast<std::ptrdiff_t>(scene.bodies.size()) - clumps);
+  const auto add = [&](auto count, const char* what) {
+    if (count > 0) text += fmt::format(", {} {}", count, what);
+  };
+  add(clumps, "clumps");
+  add(scene.membranes.size(), "membranes and surfaces of rigid bodies");
+  add(scene.planes.size(), "planes");
+  add(scene.contact_lines.size(), "contacts");
+  return text + fmt::format(" at {:.6g} s, step {}", scene.time, scene.iteration);
+}
+
+}  // namespace
+
+void export_ondem(const ExportOndemArguments& arguments, std::ostream& out) {
+  const std::filesystem::path file =
+      arguments.out.empty() ? arguments.run / "ondem.vtkhdf" : arguments.out;
+  if (file.extension() != ".vtkhdf")
+    throw InputError(fmt::format(
+        "--out: got \"{}\"; expected a file that ends in .vtkhdf, by which ParaView knows it",
+        file.string()));
+  const FoundCheckpoint checkpoint =
+      last_checkpoint(arguments.run, time_option("--at", arguments.at));
+  const dynamics::OndemScene scene = scene_in(checkpoint);
+  dynamics::write_ondem(file, scene);
+  out << fmt::format("wrote {}: {}\n", file.string(), summary_of(scene));
+}
+
+}  // namespace plekton::apps
