@@ -38,6 +38,8 @@ constexpr std::array kOfMaterials = std::to_array<KeyMeaning>({
 constexpr std::array kOfMembranes = std::to_array<KeyMeaning>({
     {"membranes[].name", "what loads and outputs call it"},
     {"membranes[].mesh", "file of triangles (.off .obj .stl .ply .msh .vtp), or give a shape"},
+    {"membranes[].ondem", "ON-DEM file of plekton export-ondem, instead of a mesh or shape"},
+    {"membranes[].ondem_membrane", "which membrane of it; the only one if not given"},
     {"membranes[].weld", "points this near become one"},
     {"membranes[].fill_holes", "holes are filled over the nodes of their rims"},
     {"membranes[].longest_hole", "largest perimeter of a hole that is filled"},
@@ -121,6 +123,9 @@ constexpr std::array kOfGrains = std::to_array<KeyMeaning>({
     {"grains[].porosity", "of the space, instead of count, mass or volume"},
     {"grains[].stress", "mean pressure up to which packed grains grow"},
     {"grains[].table", "file of a grain in each row, x,y,z,r (CSV), instead of all of these"},
+    {"grains[].ondem", "ON-DEM file (VTKHDF) with places, radii and motions of spheres, likewise"},
+    {"grains[].ondem_block", "only those of this block (display group) of it"},
+    {"grains[].ondem_material", "only those of this material of it, by its label or number"},
     {"grains[].velocity", "at the start"},
     {"grains[].angular_velocity", "at the start"},
     {"grains[].velocities", "instead of velocity, one for each of the centres"},

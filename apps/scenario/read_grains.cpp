@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/grain_table.hpp"
 #include "apps/scenario/read_measure.hpp"
+#include "apps/scenario/read_ondem_source.hpp"
 #include "apps/scenario/read_sections.hpp"
 
 #include <fmt/format.h>
@@ -222,15 +223,35 @@ void refuse_equal(Section& section, std::string_view says, const std::vector<Vec
                                        (*twice)[0], (*twice)[1], (*twice)[2]));
 }
 
+/// Complains about what says where grains are and how large, beside a file that does.
+/// @param file  the key that names it
+void refuse_beside_file(Section& section, std::string_view file) {
+  for (const std::string_view key : {"table", "centres", "radius", "radii"}) {
+    if (key != file && section.has(key))
+      section.complain(key, fmt::format("the file of {} has the places and radii of all grains; "
+                                        "leave one of them out",
+                                        file));
+  }
+  refuse_placement(section, file);
+}
+
+/// Places, radii and motions from an ON-DEM file.
+void read_ondem(Section& section, const Known& known, GrainSettings& grains) {
+  refuse_beside_file(section, "ondem");
+  read_ondem_grains(section, known, grains);
+  refuse_equal(section, "ondem", grains.centres);
+  for (const auto& [key, of_each] : {std::pair{"velocity", &grains.velocities},
+                                     std::pair{"angular_velocity", &grains.angular_velocities}})
+    if (section.has(key)) of_each->clear();
+  for (const std::string_view key : {"velocities", "angular_velocities"}) {
+    if (section.has(key))
+      section.complain(key, "ondem says that of each grain; leave one of them out");
+  }
+}
+
 /// Places and radii from a file.
 void read_table(Section& section, const Known& known, GrainSettings& grains) {
-  for (const std::string_view key : {"centres", "radius", "radii"}) {
-    if (section.has(key))
-      section.complain(key,
-                       "the table has the places and radii of all grains; leave one of them "
-                       "out");
-  }
-  refuse_placement(section, "table");
+  refuse_beside_file(section, "table");
   const std::string name = section.text("table");
   if (name.empty()) return;
   try {
@@ -274,18 +295,21 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
                                                known.materials[*material].name));
     }
   }
-  if (section.has("table")) {
+  const bool has_ondem = section.has("ondem");
+  const bool has_file = has_ondem || section.has("table");
+  if (has_ondem)
+    read_ondem(section, known, grains);
+  else if (has_file)
     read_table(section, known, grains);
-  } else {
+  else
     grains.sizes = read_sizes(section);
-  }
-  if (section.has("centres") && !section.has("table")) {
+  if (section.has("centres") && !has_file) {
     refuse_placement(section, "centres");
     grains.centres = section.vectors("centres", {kLength}, 1);
     refuse_equal(section, "centres", grains.centres);
     if (section.has("radii"))
       grains.radii = section.quantities("radii", {kLength, kPositive}, grains.centres.size());
-  } else if (!section.has("table")) {
+  } else if (!has_file) {
     grains.placement = read_placement(section);
     grains.amount = read_amount(section, density, grains.sizes);
     read_space(section, grains);
@@ -296,10 +320,12 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
   grains.velocity = section.vector("velocity", {kVelocity}, grains.velocity);
   grains.angular_velocity =
       section.vector("angular_velocity", {kAngularVelocity}, grains.angular_velocity);
-  grains.velocities =
-      read_of_each(section, "velocities", "velocity", {kVelocity}, grains.centres.size());
-  grains.angular_velocities = read_of_each(section, "angular_velocities", "angular_velocity",
-                                           {kAngularVelocity}, grains.centres.size());
+  if (!has_ondem) {
+    grains.velocities =
+        read_of_each(section, "velocities", "velocity", {kVelocity}, grains.centres.size());
+    grains.angular_velocities = read_of_each(section, "angular_velocities", "angular_velocity",
+                                             {kAngularVelocity}, grains.centres.size());
+  }
   section.finish();
   return grains;
 }

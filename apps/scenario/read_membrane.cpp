@@ -65,6 +65,8 @@ void require_mode(Section& section, const MembraneSettings& membrane) {
 
 /// A velocity for each point of a shape that tells its points.
 void read_initial_velocities(Section& section, MembraneSettings& membrane) {
+  // Instead of those of an ON-DEM file.
+  if (section.has("initial_velocity")) membrane.initial_velocities.clear();
   if (!section.has("initial_velocities")) return;
   if (section.has("initial_velocity"))
     section.complain("initial_velocity",

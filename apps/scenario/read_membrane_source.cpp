@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/read_membrane_source.hpp"
 
+#include "apps/scenario/read_ondem_source.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -83,21 +85,26 @@ void refuse_repair(Section& section) {
 void read_membrane_source(Section& section, const Known& known, MembraneSettings& membrane) {
   const bool has_mesh = section.has("mesh");
   const bool has_shape = section.has("shape");
-  membrane.source_place = section.place_of(has_shape ? "shape" : "mesh");
-  if (has_mesh == has_shape) {
+  const bool has_ondem = section.has("ondem");
+  membrane.source_place = section.place_of(has_ondem ? "ondem" : has_shape ? "shape" : "mesh");
+  if (has_ondem && (has_mesh || has_shape)) {
+    section.complain("ondem", "has the shape already; leave it, or mesh and shape, out");
+  } else if (has_mesh == has_shape && !has_ondem) {
     section.complain(has_mesh ? "shape" : "mesh",
                      fmt::format("got {} of mesh and shape; expected exactly one of them: a mesh "
                                  "file, or shape = {{ kind = \"sheet\", ... }}",
                                  has_mesh ? "both" : "none"));
   }
   if (has_mesh) membrane.mesh = read_mesh_path(section, known);
-  if (has_shape && !has_mesh) {
+  if ((has_shape || has_ondem) && !has_mesh) {
     refuse_repair(section);
   } else {
     membrane.repair = read_repair(section);
     membrane.repair_keys = repair_keys(section);
   }
-  if (const auto shape = section.table("shape")) membrane.shape = read_shape(*shape);
+  if (has_shape || !has_ondem)
+    if (const auto shape = section.table("shape")) membrane.shape = read_shape(*shape);
+  if (has_ondem) read_ondem_membrane(section, known, membrane);
 }
 
 }  // namespace plekton::apps

@@ -147,10 +147,11 @@ struct GrainSettings {
   std::optional<geometry::CylinderRegion> cylinder;  ///< instead of the box
   std::string inside;                                ///< a closed membrane, instead of the box
   GrainPlacement placement = GrainPlacement::random;
-  Vec3 velocity = Vec3::Zero();          ///< m/s
-  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
-  std::vector<Vec3> velocities;          ///< m/s, instead, by centre; or empty
-  std::vector<Vec3> angular_velocities;  ///< rad/s, instead, by centre; or empty
+  Vec3 velocity = Vec3::Zero();              ///< m/s
+  Vec3 angular_velocity = Vec3::Zero();      ///< rad/s
+  std::vector<Vec3> velocities;              ///< m/s, instead, by centre; or empty
+  std::vector<Vec3> angular_velocities;      ///< rad/s, instead, by centre; or empty
+  std::vector<geometry::Quat> orientations;  ///< unit, by centre; or empty: not turned
   std::uint64_t seed = 0;
 };
 

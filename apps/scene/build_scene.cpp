@@ -225,6 +225,8 @@ BuiltGrains add_grains(const GrainSettings& settings, const std::vector<PlacedGr
     scene.state.angular_velocity[index_of(sphere.nodes[0])] = i < settings.angular_velocities.size()
                                                                   ? settings.angular_velocities[i]
                                                                   : settings.angular_velocity;
+    if (i < settings.orientations.size())
+      scene.state.orientation[index_of(sphere.nodes[0])] = settings.orientations[i];
     result.mass += density * geometry::volume(sphere);
     result.smallest = std::min(result.smallest, grain.radius);
     result.largest = std::max(result.largest, grain.radius);
