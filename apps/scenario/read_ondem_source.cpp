@@ -58,7 +58,8 @@ std::vector<std::string> material_names(const OndemScene& scene) {
 /// Of a unit quaternion as another program has it, which drifts off one by rounding.
 geometry::Quat unit(const geometry::Quat& q) {
   constexpr double kRounding = 1e-12;
-  return std::abs(q.norm() - 1.0) <= kRounding ? q : q.normalized();
+  if (std::abs(q.norm() - 1.0) <= kRounding) return q;
+  return q.normalized();
 }
 
 void add(const OndemBody& body, GrainSettings& grains) {
