@@ -3,6 +3,7 @@
 
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "dynamics/hdf5/hdf5_reader.hpp"
+#include "dynamics/hdf5/trial.hpp"
 #include "geometry/base/printable.hpp"
 #include "geometry/base/regular_file.hpp"
 
@@ -423,6 +424,17 @@ OndemScene read_ondem(const std::filesystem::path& file) {
 }
 
 OndemScene parse_ondem(std::string bytes, const std::filesystem::path& name) {
+  constexpr unsigned kLongest = 600;  // s, for a file as large as a disk has them
+  const auto read = [&] {
+    const Hdf5Reader file(bytes, name);
+    Reader(file).read();
+  };
+  const hdf5::Trial trial = hdf5::try_out(read, kLongest);
+  if (trial.error) throw OndemError(*trial.error);
+  if (trial.was_killed)
+    throw OndemError(geometry::printable(name.string()) +
+                     ": is damaged, the HDF5 library fails on it; take another copy of it, or "
+                     "write it again");
   try {
     const Hdf5Reader file(std::move(bytes), name);
     return Reader(file).read();

@@ -4,13 +4,14 @@
 #include "dynamics/hdf5/hdf5_writer.hpp"
 #include "dynamics/ondem/write_ondem.hpp"
 #include "tests/support/ondem_scene.hpp"
-#include "tests/support/seeded_random.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 
 namespace plekton::dynamics {
@@ -257,6 +258,62 @@ TEST(ReadOndem, TakesNoMemoryForSizesThatAreOnlySaid) {
 
   EXPECT_THAT([&] { read_ondem(path); },
               ThrowsMessage<OndemError>(HasSubstr("more than the file holds of it")));
+}
+
+// As h5py writes them: texts each of its own length, numbers in packed pieces.
+TEST(ReadOndem, ReadsTextsAndPackedNumbersOfOtherPrograms) {
+  test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "a.vtkhdf";
+  write_ondem(path, test::ondem_scene());
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  const char* const names[3] = {"sphere", "clump", "polyhedron of many corners"};
+  const hsize_t three = 3;
+  const hid_t space = H5Screate_simple(1, &three, nullptr);
+  H5Ldelete(file, "/ONDEM/Scene/shape_names", H5P_DEFAULT);
+  const hid_t texts = H5Dcreate2(file, "/ONDEM/Scene/shape_names", type, space, H5P_DEFAULT,
+                                 H5P_DEFAULT, H5P_DEFAULT);
+  ASSERT_GE(H5Dwrite(texts, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, names), 0);
+  H5Dclose(texts);
+  H5Sclose(space);
+  H5Tclose(type);
+  const hsize_t size[2] = {2, 3};
+  const hid_t points_space = H5Screate_simple(2, size, nullptr);
+  const hid_t packed = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_chunk(packed, 2, size);
+  H5Pset_deflate(packed, 6);
+  H5Ldelete(file, "/VTKHDF/pairs/Points", H5P_DEFAULT);
+  const hid_t points = H5Dcreate2(file, "/VTKHDF/pairs/Points", H5T_IEEE_F32BE, points_space,
+                                  H5P_DEFAULT, packed, H5P_DEFAULT);
+  const std::array<double, 6> places{1.0, 2.0, 3.0, 4.0, 5.0, 0.5};
+  ASSERT_GE(H5Dwrite(points, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, places.data()), 0);
+  H5Dclose(points);
+  H5Pclose(packed);
+  H5Sclose(points_space);
+  H5Fclose(file);
+
+  const OndemScene read = read_ondem(path);
+
+  EXPECT_EQ(read.bodies[1].shape, OndemShape::sphere);
+  EXPECT_EQ(read.bodies[2].position, geometry::Vec3(4.0, 5.0, 0.5));
+}
+
+// Whatever bytes there are: read, or refused.
+TEST(ReadOndem, EndsWellWhateverBytesAreChanged) {
+  const std::string whole = ondem_file_of(test::ondem_scene());
+  std::uint32_t random = 12345;
+  const auto next = [&] { return (random = random * 1664525U + 1013904223U) >> 8U; };
+  for (int trial = 0; trial < 60; ++trial) {
+    std::string changed = whole;
+    for (int k = 0; k < 3; ++k) changed[next() % changed.size()] = static_cast<char>(next());
+    try {
+      parse_ondem(changed, "a.vtkhdf");
+    } catch (const OndemError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("a.vtkhdf: "));
+    }
+  }
 }
 
 // What leads out of the file is as if it were not there.
