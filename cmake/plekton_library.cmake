@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # plekton_options(target): how every target of the project is compiled.
-# plekton_library(name PUBLIC libraries... PRIVATE libraries...): the library plekton::<name> from the sources of the
-#   current folder, static or shared as BUILD_SHARED_LIBS says.
+# plekton_library(name EXCEPT folder PUBLIC libraries... PRIVATE libraries...): the library plekton::<name> from the sources of
+#   the current folder, without those of a folder in it, static or shared as BUILD_SHARED_LIBS says.
 
 # GCC 12 makes fused operations of sums and differences side by side (vfmaddsub) where the processor has them, -ffp-contract=off
 # or not: its vectoriser of straight code does not ask.
@@ -34,8 +34,11 @@ function(plekton_options target)
 endfunction()
 
 function(plekton_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "EXCEPT" "PUBLIC;PRIVATE")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(arg_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${arg_EXCEPT}/")
+  endif()
   add_library(plekton_${name} ${sources})
   add_library(plekton::${name} ALIAS plekton_${name})
   set_target_properties(plekton_${name} PROPERTIES

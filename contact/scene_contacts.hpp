@@ -28,6 +28,9 @@ class SceneContacts final : public Contacts {
                 ContactMaterials materials, double skin, const std::vector<bool>& meets_planes = {},
                 Positions rest = {}, const geometry::ExclusionGroups& groups = {});
 
+  /// From here on ranks share the work; to be called before the first step.
+  void share_among(geometry::Ranks& ranks) { with_spheres_.share_among(ranks); }
+
   void tune_skin(double radius) noexcept override { neighbours_.tune_skin(radius); }
   void choose_skin_of_structures() override { cell_neighbours_.choose_skin(); }
 

@@ -12,6 +12,7 @@
 #include "apps/command_line/list_command.hpp"
 #include "apps/command_line/new_command.hpp"
 #include "apps/command_line/plot_command.hpp"
+#include "apps/command_line/rank_job.hpp"
 #include "apps/command_line/render_command.hpp"
 #include "apps/command_line/resume_command.hpp"
 #include "apps/command_line/run_estimate.hpp"
@@ -24,6 +25,7 @@
 #include "apps/command_line/verify_command.hpp"
 #include "apps/command_line/view_command.hpp"
 #include "apps/programs/shell_word.hpp"
+#include "apps/run/first_rank.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_warnings.hpp"
@@ -100,6 +102,7 @@ struct CommandLine {
   std::string example;
   fs::path new_file;
   GenerateArguments generated;
+  geometry::Ranks* ranks = nullptr;  ///< that compute a run together; nothing: this process
 };
 
 /// With the threads that are asked for.
@@ -174,6 +177,11 @@ void print_error(const std::string& text) {
   std::cerr << "plekton: " << (problems > 1 ? fmt::format("{} problems\n", problems) : "") << shown;
 }
 
+void print_failure(const std::exception& error) {
+  const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  print_error(is_memory ? "out of memory; ask for fewer grains or a coarser mesh" : error.what());
+}
+
 /// Says how a run has ended. @returns the exit code
 int conclude(const CommandLine& line, const fs::path& out, const RunReport& report) {
   if (line.quiet) {
@@ -192,10 +200,10 @@ int conclude(const CommandLine& line, const fs::path& out, const RunReport& repo
 
 RunSettings settings_of(const CommandLine& line, const fs::path& out, const InterruptGuard& guard,
                         Progress::Clock::time_point began) {
-  return {out,
+  return {folder_of_rank(line.ranks, out),
           std::cout,
           style_on(STDOUT_FILENO, line.quiet),
-          [&] { return guard.interrupted(); },
+          asked_now_and_then(line.ranks, [&] { return guard.interrupted(); }),
           began,
           line.overwrite};
 }
@@ -228,8 +236,9 @@ int resume_command(const CommandLine& line) {
     throw InputError(
         "--from: with --resume expected one time; a stage and a folder go with a "
         "scenario file");
-  const ResumedRun resumed = find_resumed_run(line.resume, overrides_of(line),
-                                              line.from.empty() ? "" : line.from[0], line.to);
+  ResumedRun resumed = find_resumed_run(line.resume, overrides_of(line),
+                                        line.from.empty() ? "" : line.from[0], line.to);
+  share_among(line.ranks, resumed.scenario);
   const bool same_folder = line.out.empty();
   const bool has_stages = resumed.scenario.stage.has_value();
   if (has_stages && !same_folder)
@@ -240,7 +249,8 @@ int resume_command(const CommandLine& line) {
     throw InputError(
         "--from and --to compute a part of a run again, with results of its own; give a folder for "
         "them with --out");
-  if (!same_folder) check_output_folder(line.out, line.overwrite);
+  if (!same_folder)
+    by_first_rank(line.ranks, [&] { check_output_folder(line.out, line.overwrite); });
   for (const std::string& damaged : resumed.checkpoint.damaged)
     std::cerr << "plekton: warning: " << damaged << '\n';
   const double time = time_of(resumed.checkpoint.state);
@@ -286,13 +296,30 @@ int run_command(const CommandLine& line) {
     return kUsage;
   }
   const auto began = Progress::Clock::now();
-  const Scenario scenario = scenario_of(line);
+  Scenario scenario = scenario_of(line);
+  share_among(line.ranks, scenario);
   const fs::path out = line.out.empty() ? default_folder(scenario) : line.out;
   require_stages(line, scenario, out);
   // Before the scene is built, which may take long.
-  check_output_folder(out, line.overwrite);
+  by_first_rank(line.ranks, [&] { check_output_folder(out, line.overwrite); });
   if (scenario.stage) return run_stages_aloud(line, scenario, out, nullptr, began);
   return run_aloud(line, scenario, out, nullptr, began);
+}
+
+/// The same on all ranks that were started together.
+int run_on_ranks(CommandLine& line) {
+  RankJob job;
+  line.ranks = job.ranks();
+  if (line.ranks == nullptr) return run_command(line);
+  try {
+    if (line.scenario == "-")
+      throw InputError("run: standard input comes to the first rank alone; name a scenario file");
+    return run_command(line);
+  } catch (const std::exception& error) {
+    print_failure(error);
+    job.end_failed(kFailed, error.what());
+  }
+  return kFailed;
 }
 
 /// Prints one JSON object, also of a scenario with problems, before these go the way of all errors.
@@ -797,7 +824,7 @@ int dispatch(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kUsage;
   }
-  if (run->parsed()) return run_command(line);
+  if (run->parsed()) return run_on_ranks(line);
   if (check->parsed()) return check_command(line);
   if (import->parsed()) return import_command(line);
   if (import_yade_of->parsed()) return import_yade_command(line);
@@ -823,10 +850,8 @@ int run_program(int argc, const char* const* argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return dispatch(argc, argv);
-  } catch (const std::bad_alloc&) {
-    std::cerr << "plekton: out of memory; ask for fewer grains or a coarser mesh\n";
   } catch (const std::exception& error) {
-    print_error(error.what());
+    print_failure(error);
   }
   return kFailed;
 }

@@ -3,6 +3,7 @@
 
 #include "apps/run/checkpoints.hpp"
 #include "apps/run/clock_checkpoints.hpp"
+#include "apps/run/first_rank.hpp"
 #include "apps/run/history.hpp"
 #include "apps/run/lost_grains.hpp"
 #include "apps/run/measures.hpp"
@@ -21,6 +22,7 @@
 #include "apps/run/tie_histories.hpp"
 #include "apps/run/written_files.hpp"
 #include "apps/scene/build_stage.hpp"
+#include "contact/among_ranks.hpp"
 #include "dynamics/output/file.hpp"
 #include "geometry/base/sign_totals.hpp"
 #include "geometry/base/state_archive.hpp"
@@ -81,6 +83,7 @@ RunReport begun_report(const Scenario& scenario, const PreparedRun& prepared) {
   report.overrides = scenario.overrides;
   report.duration = scenario.simulation.duration;
   report.threads = scenario.simulation.threads;
+  if (scenario.simulation.ranks != nullptr) report.ranks = scenario.simulation.ranks->count();
   report.seed = scenario.simulation.seed;
   report.damping = scenario.simulation.damping;
   const geometry::Elements& elements = simulation.elements();
@@ -212,13 +215,18 @@ class Run {
       write_due(simulation_.time());
       report_.states.look(simulation_);
       if (simulation_.time() >= next_checkpoint_) write_checkpoint();
-      if (looks && clock_checkpoints_.is_due()) write_checkpoint_by_clock();
+      if (looks && clock_says_checkpoint()) write_checkpoint_by_clock();
       if (looks) progress_.update(simulation_.time(), simulation_.steps());
       if (settings_.is_interrupted()) return RunStatus::interrupted;
       if (looks && is_at_rest()) return RunStatus::at_rest;
       if (looks && stage_ends()) return RunStatus::finished;
     }
     return RunStatus::finished;
+  }
+
+  bool clock_says_checkpoint() const {
+    return scenario_.output.checkpoint_wall_interval &&
+           on_any_rank(scenario_.simulation.ranks, clock_checkpoints_.is_due());
   }
 
   void write_whole_report() {
@@ -230,6 +238,7 @@ class Run {
   /// What the files of a run were that goes on in its folder.
   static std::optional<WrittenFiles> files_before(const RunSettings& settings) {
     if (settings.resume == nullptr || !settings.resume->same_folder) return std::nullopt;
+    if (settings.out == dynamics::kNowhere) return std::nullopt;
     WrittenFiles files;
     exchange_files(geometry::StateArchive::reader(settings.resume->state).group(kRunGroup), files);
     return files;
@@ -570,14 +579,15 @@ void require_sound_time_step(const SimulationSettings& settings, double critical
   problems.throw_if_any();
 }
 
-contact::ContactModel model_of(const std::vector<PairSettings>& pairs) {
+contact::ContactModel model_of(const std::vector<PairSettings>& pairs, geometry::Ranks* ranks) {
   contact::PairProperties<contact::AnyLaw> properties;
   for (const PairSettings& pair : pairs) {
     properties[{geometry::id_at<contact::MaterialId>(pair.first),
                 geometry::id_at<contact::MaterialId>(pair.second)}] =
         contact::properties_of(pair.contact);
   }
-  return contact::any_law(properties);
+  const contact::ContactModel model = contact::any_law(properties);
+  return ranks == nullptr ? model : contact::among_ranks(model, *ranks);
 }
 
 }  // namespace
@@ -612,8 +622,8 @@ std::unique_ptr<dynamics::Simulation> simulation_of(const Scenario& scenario, Bu
   options.self_contact = scenario.simulation.self_contact;
   options.threads = scenario.simulation.threads;
   try {
-    return std::make_unique<dynamics::Simulation>(std::move(built.scene), options,
-                                                  model_of(scenario.contacts));
+    return std::make_unique<dynamics::Simulation>(
+        std::move(built.scene), options, model_of(scenario.contacts, scenario.simulation.ranks));
   } catch (const std::length_error& error) {
     throw refused_self_contact(scenario, built.membranes, error.what());
   }
@@ -641,15 +651,18 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
   // Before any file is touched: it may be the state of another scene.
   if (settings.resume != nullptr && !settings.resume->is_there)
     prepared.simulation->restore(settings.resume->state);
-  make_output_folder(settings.out);
-  const OutputFolderLock lock(settings.out);
-  const bool goes_on = settings.resume != nullptr && settings.resume->same_folder;
-  if (!settings.overwrite && !goes_on) refuse_results(settings.out, "run", kResultFiles);
-  remove_parts(settings.out);
-  if (!goes_on) remove_checkpoints(settings.out);
-  std::error_code ignored;
-  std::filesystem::remove(settings.out / "run.json", ignored);
-  if (!goes_on) write_scenario_copy(settings.out, scenario);
+  std::optional<OutputFolderLock> lock;
+  by_first_rank(scenario.simulation.ranks, [&] {
+    make_output_folder(settings.out);
+    lock.emplace(settings.out);
+    const bool goes_on = settings.resume != nullptr && settings.resume->same_folder;
+    if (!settings.overwrite && !goes_on) refuse_results(settings.out, "run", kResultFiles);
+    remove_parts(settings.out);
+    if (!goes_on) remove_checkpoints(settings.out);
+    std::error_code ignored;
+    std::filesystem::remove(settings.out / "run.json", ignored);
+    if (!goes_on) write_scenario_copy(settings.out, scenario);
+  });
   return Run(scenario, prepared, settings, start).execute();
 }
 

@@ -19,7 +19,8 @@ using Json = nlohmann::ordered_json;
 
 Json options_of(const RunReport& report) {
   return {{"scenario", report.scenario}, {"set", report.overrides}, {"duration_s", report.duration},
-          {"threads", report.threads},   {"seed", report.seed},     {"damping", report.damping}};
+          {"threads", report.threads},   {"ranks", report.ranks},   {"seed", report.seed},
+          {"damping", report.damping}};
 }
 
 Json names_of(const TableNames& names) {

@@ -57,7 +57,8 @@ struct RunReport {
   std::string scenario;
   std::vector<std::string> overrides;
   double duration = 0.0;  ///< s, asked for
-  int threads = 1;
+  int threads = 1;        ///< of each rank
+  int ranks = 1;          ///< processes that computed it together
   std::uint64_t seed = 0;
   double damping = 0.0;
 

@@ -12,6 +12,7 @@
 #include "dynamics/structure/bond_strength.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
 #include "dynamics/structure/wire_curve.hpp"
+#include "geometry/base/ranks.hpp"
 #include "geometry/base/types.hpp"
 #include "geometry/mesh/repair/repair.hpp"
 #include "geometry/primitives/box.hpp"
@@ -43,6 +44,7 @@ struct SimulationSettings {
   double skin = 0.0;         ///< m; 0: chosen
   std::uint64_t seed = 1;
   int threads = 1;
+  geometry::Ranks* ranks = nullptr;  ///< not of the file: who computes it; nothing: this process
 };
 
 struct MaterialSettings {

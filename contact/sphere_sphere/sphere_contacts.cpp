@@ -70,6 +70,7 @@ void SphereContacts::Table::resize(std::size_t rows) {
 double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
                                std::span<const SphereBody> spheres, const MaterialPairs& materials,
                                geometry::ThreadPool& pool, Positions x) {
+  complete();
   spheres_ = spheres;
   make_room(old_slots_, keys.size());
   old_slots_.assign(keys.size(), kNoSlot);
@@ -89,6 +90,7 @@ double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
   keys_.assign(keys.begin(), keys.end());
   find_kinds(spheres, materials, last_table_.kinds);
   blocks_.assign(keys, spheres, kinds_, pool, x);
+  if (shared_) shared_->assign(blocks_);
   if (table_.kinds.size() == 1 && table_.kinds == last_table_.kinds)
     move_memories_in_place();
   else
@@ -212,18 +214,75 @@ double SphereContacts::advance(const Motion& motion, double dt, geometry::Thread
     work.sums.resize(blocks_.largest_member_count());
     work.dt = dt;
   }
-  pool.for_each_shared(blocks.size(), [&](std::size_t k, int worker) {
-    SphereWork& work = work_[static_cast<std::size_t>(worker)];
-    work.outcome = {};
-    advance_block(blocks[k], motion, work);
-    outcomes_[k] = work.outcome;
-    hand_over(blocks[k], work, forces);
-  });
+  if (shared_) {
+    share_blocks(motion, pool, forces);
+  } else {
+    pool.for_each_shared(blocks.size(), [&](std::size_t k, int worker) {
+      compute_block(k, motion, work_[static_cast<std::size_t>(worker)], forces);
+    });
+    add_ghost_sums(forces, pool);
+  }
   set_others_zero(forces, pool);
-  add_ghost_sums(forces, pool);
   double dissipated = 0.0;
   for (const Outcome& outcome : outcomes_) dissipated += outcome.total_dissipated();
   return dissipated;
+}
+
+void SphereContacts::compute_block(std::size_t k, const Motion& motion, SphereWork& work,
+                                   NodeForces& forces) {
+  const SphereBlocks::Block& block = blocks_.blocks()[k];
+  work.outcome = {};
+  advance_block(block, motion, work);
+  outcomes_[k] = work.outcome;
+  hand_over(block, work, forces);
+}
+
+/// Ghosts' sums go where their spheres are added up; then all have all forces.
+void SphereContacts::share_blocks(const Motion& motion, geometry::ThreadPool& pool,
+                                  NodeForces& forces) {
+  const std::span<const std::uint32_t> own = shared_->own();
+  pool.for_each_shared(own.size(), [&](std::size_t i, int worker) {
+    compute_block(own[i], motion, work_[static_cast<std::size_t>(worker)], forces);
+  });
+  shared_->exchange_ghosts(ghost_sums_);
+  pool.for_each_range(own.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) add_ghost_sums(own[i], forces);
+  });
+  shared_->gather(blocks_, forces, std::span(outcomes_));
+  is_complete_ = false;
+}
+
+/// Calls visit(owner, first row, end) for the rows of all blocks.
+template <class Visit>
+void SphereContacts::for_each_shared_block(Visit&& visit) const {
+  for (std::size_t k = 0; k < blocks_.blocks().size(); ++k) {
+    const auto ranges = blocks_.ranges(blocks_.blocks()[k]);
+    if (ranges.empty()) continue;
+    visit(shared_->owner(k), std::size_t{ranges.front().first_row},
+          std::size_t{ranges.back().first_row + ranges.back().row_count});
+  }
+}
+
+/// First which pairs touch, then the rows of those: nobody reads numbers of others.
+void SphereContacts::complete() const {
+  if (is_complete_) return;
+  is_complete_ = true;
+  geometry::share(shared_->ranks(), room_, [&](const auto& visit) {
+    for_each_shared_block([&](int owner, std::size_t begin, std::size_t end) {
+      visit(owner, std::as_writable_bytes(std::span(table_.touched).subspan(begin, end - begin)));
+    });
+  });
+  geometry::share(shared_->ranks(), room_, [&](const auto& visit) {
+    for_each_shared_block([&](int owner, std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) {
+        if (!table_.touched[row].any()) continue;
+        const std::size_t slot = row * kLanes;
+        visit(owner, std::as_writable_bytes(
+                         std::span(table_.numbers)
+                             .subspan(table_.first_number(slot), table_.kind(slot).row_size)));
+      }
+    });
+  });
 }
 
 void SphereContacts::advance_block(const SphereBlocks::Block& block, const Motion& motion,
@@ -270,6 +329,7 @@ double SphereContacts::elastic_energy() const {
 }
 
 void SphereContacts::assign_ids(std::int64_t& last) {
+  complete();
   PairNumbers::Reader known(numbers_);
   PairNumbers numbers;
   for_each_lane([&](const Touching& pair) {
@@ -422,6 +482,12 @@ void SphereContacts::set_others_zero(NodeForces& forces, geometry::ThreadPool& p
 }
 
 void SphereContacts::add_ghost_sums(NodeForces& forces, geometry::ThreadPool& pool) const {
+  pool.for_each_range(blocks_.blocks().size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t k = begin; k < end; ++k) add_ghost_sums(k, forces);
+  });
+}
+
+void SphereContacts::add_ghost_sums(std::size_t block, NodeForces& forces) const {
   const auto add = [&](NodeId node, std::size_t ghost) {
     forces.force[index_of(node)] += ghost_sums_[ghost].force;
     forces.torque[index_of(node)] += ghost_sums_[ghost].torque;
@@ -431,9 +497,7 @@ void SphereContacts::add_ghost_sums(NodeForces& forces, geometry::ThreadPool& po
     __builtin_prefetch(&forces.force[index_of(node)]);
     __builtin_prefetch(&forces.torque[index_of(node)]);
   };
-  pool.for_each_range(blocks_.blocks().size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t k = begin; k < end; ++k) blocks_.for_each_ghost(k, add, ask);
-  });
+  blocks_.for_each_ghost(block, add, ask);
 }
 
 }  // namespace plekton::contact

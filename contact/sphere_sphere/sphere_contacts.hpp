@@ -3,6 +3,7 @@
 
 #include "contact/law/material_pairs.hpp"
 #include "contact/sphere_sphere/pair_numbers.hpp"
+#include "contact/sphere_sphere/shared_blocks.hpp"
 #include "contact/sphere_sphere/sphere_blocks.hpp"
 #include "contact/sphere_sphere/sphere_range.hpp"
 #include "contact/sphere_sphere/sphere_sums.hpp"
@@ -25,6 +26,11 @@ namespace plekton::contact {
 class SphereContacts {
  public:
   using Parameters = AnyLaw::Parameters;
+
+  /// From here on ranks share the blocks; to be called before the first list. All of them have all
+  /// lists, and the forces of all contacts; what a contact remembers has the rank that computes it,
+  /// until somebody asks.
+  void share_among(geometry::Ranks& ranks) { shared_.emplace(ranks); }
 
   /// Takes a new list of pairs of spheres (a < b, sorted); pairs in both lists keep their memory.
   /// @param spheres  must not change until the next list
@@ -174,10 +180,21 @@ class SphereContacts {
   void set_others_zero(NodeForces& forces, geometry::ThreadPool& pool) const;
   /// Adds to all nodes what other blocks than their own have of them.
   void add_ghost_sums(NodeForces& forces, geometry::ThreadPool& pool) const;
+  /// The same to the nodes of one block.
+  void add_ghost_sums(std::size_t block, NodeForces& forces) const;
+
+  /// Gives all ranks what each has computed of the rows of the last step. What is read of rows needs
+  /// it first.
+  void complete() const;
+  void share_blocks(const Motion& motion, geometry::ThreadPool& pool, NodeForces& forces);
+  template <class Visit>
+  void for_each_shared_block(Visit&& visit) const;
+  void compute_block(std::size_t block, const Motion& motion, SphereWork& work, NodeForces& forces);
 
   /// Calls visit(touching pair), in the order of the list.
   template <class Visit>
   void for_each_lane(Visit&& visit) const {
+    complete();
     for (std::size_t i = 0; i < keys_.size(); ++i) {
       const std::uint32_t slot = blocks_.slot(i);
       if (!table_.has_touched(slot)) continue;
@@ -196,12 +213,16 @@ class SphereContacts {
   };
   std::optional<Common> common_;
   SphereBlocks blocks_;
-  Table table_;
-  Table last_table_;                   ///< its room, and the kinds of the list to come
-  PairNumbers numbers_;                ///< of the pairs that touched when they were numbered last
-  std::vector<SphereSum> ghost_sums_;  ///< of ghosts
-  std::vector<Outcome> outcomes_;      ///< by block
-  std::vector<SphereWork> work_;       ///< by thread
+  std::optional<SharedBlocks> shared_;  ///< nothing: this process computes all
+  /// Of several ranks each has its own rows as of now, and those of others once they are complete.
+  mutable Table table_;
+  mutable bool is_complete_ = true;
+  mutable std::vector<std::byte> room_;  ///< for messages
+  Table last_table_;                     ///< its room, and the kinds of the list to come
+  PairNumbers numbers_;                  ///< of the pairs that touched when they were numbered last
+  std::vector<SphereSum> ghost_sums_;    ///< of ghosts
+  std::vector<Outcome> outcomes_;        ///< by block
+  std::vector<SphereWork> work_;         ///< by thread
   std::vector<std::uint32_t> old_slots_;  ///< by pair of a new list
   std::vector<std::uint32_t> sources_;    ///< by slot of a new list
   std::vector<bool> is_source_;

@@ -104,7 +104,8 @@ void write_probe(const std::filesystem::path& folder) {
   std::filesystem::remove(probe, ignored);
 }
 
-int opened(const std::filesystem::path& path, CheckedFile::Mode mode) noexcept {
+int opened(const std::filesystem::path& path, CheckedFile::Mode mode) {
+  if (goes_nowhere(path)) return ::open(kNowhere.data(), O_WRONLY | O_CLOEXEC);
   if (mode == CheckedFile::Mode::create) return geometry::create_new_file(path);
   // Where bytes go is said by each write_at(), but not heeded in a file that is appended to.
   const int at_the_end = mode == CheckedFile::Mode::append ? O_APPEND : 0;
@@ -112,6 +113,12 @@ int opened(const std::filesystem::path& path, CheckedFile::Mode mode) noexcept {
 }
 
 }  // namespace
+
+bool goes_nowhere(const std::filesystem::path& file) {
+  const std::string_view path = file.native();
+  return path.starts_with(kNowhere) &&
+         (path.size() == kNowhere.size() || path[kNowhere.size()] == '/');
+}
 
 OutputError::OutputError(const std::filesystem::path& file, std::string_view action, int reason)
     : std::runtime_error(system_message(file, action, reason)), reason_(reason) {}
@@ -179,6 +186,8 @@ OutputFile::~OutputFile() {
 
 void OutputFile::commit() {
   file_.close();
+  committed_ = goes_nowhere(path_);
+  if (committed_) return;
   std::error_code error;
   std::filesystem::rename(part_, path_, error);
   if (error) throw OutputError(path_, "give the finished file its name", error.value());
@@ -192,6 +201,7 @@ void overwrite(const std::filesystem::path& path, std::span<const PlacedBytes> w
 }
 
 void ensure_output_folder(const std::filesystem::path& folder) {
+  if (goes_nowhere(folder)) return;
   if (folder.empty()) throw OutputError(folder, "the output folder has no name; choose one");
   // "out/" names the same folder as "out", but its parent path would be "out".
   const std::filesystem::path path = folder.has_filename() ? folder : folder.parent_path();

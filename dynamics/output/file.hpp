@@ -10,6 +10,13 @@
 
 namespace plekton::dynamics {
 
+/// A folder whose files go nowhere: of processes that compute with others, and leave it to one of
+/// them to write.
+inline constexpr std::string_view kNowhere = "/dev/null";
+
+/// Whether a file is in that folder, or below it.
+bool goes_nowhere(const std::filesystem::path& file);
+
 /// A result could not be written. The message names the file, the reason of the operating system,
 /// and what to do.
 class OutputError : public std::runtime_error {

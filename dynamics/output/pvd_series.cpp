@@ -53,7 +53,8 @@ void PvdSeries::go_on(const std::vector<SeriesEntry>& entries) {
 }
 
 std::string PvdSeries::line(const SeriesEntry& entry) {
-  if (std::error_code ignored; !std::filesystem::is_regular_file(entry.file, ignored)) {
+  std::error_code ignored;
+  if (!goes_nowhere(file_) && !std::filesystem::is_regular_file(entry.file, ignored)) {
     throw OutputError(
         file_,
         "cannot list " + entry.file.string() +

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/contact_model.hpp"
+#include "geometry/base/ranks.hpp"
+
+namespace plekton::contact {
+
+/// The same contacts, computed by several processes: each has the whole scene, makes the same calls
+/// and gets the same answers, to the bit; contacts between spheres are shared out by blocks.
+/// @param model  as contact/models.hpp makes it
+/// @param ranks  must outlive the contacts
+ContactModel among_ranks(ContactModel model, geometry::Ranks& ranks);
+
+}  // namespace plekton::contact

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/sphere_sphere/shared_blocks.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace plekton::contact {
+namespace {
+
+/// What a block costs, in pairs: to move a sphere takes about as long as two of them.
+std::uint64_t work_of(const SphereBlocks& blocks, const SphereBlocks::Block& block) {
+  std::uint64_t pairs = 0;
+  for (const SphereBlocks::Range& range : blocks.ranges(block)) pairs += range.pair_count;
+  return pairs + 2 * std::uint64_t{block.owned};
+}
+
+}  // namespace
+
+void SharedBlocks::assign(const SphereBlocks& blocks) {
+  std::vector<std::uint64_t> work;
+  for (const SphereBlocks::Block& block : blocks.blocks()) work.push_back(work_of(blocks, block));
+  owners_ = ranks_->owners(work);
+  const auto count = static_cast<std::size_t>(ranks_->count());
+  blocks_of_.assign(count, {});
+  sphere_counts_.assign(count, 0);
+  for (std::size_t k = 0; k < owners_.size(); ++k) {
+    const auto owner = static_cast<std::size_t>(owners_[k]);
+    blocks_of_[owner].push_back(static_cast<std::uint32_t>(k));
+    sphere_counts_[owner] += blocks.blocks()[k].owned;
+  }
+  own_ = blocks_of_[static_cast<std::size_t>(ranks_->rank())];
+  find_messages(blocks);
+}
+
+/// Both sides go through the ghosts in the same order: by block of the owner, then by ghost.
+void SharedBlocks::find_messages(const SphereBlocks& blocks) {
+  const auto count = static_cast<std::size_t>(ranks_->count());
+  const int self = ranks_->rank();
+  std::vector<std::vector<std::uint32_t>> to(count), from(count);
+  std::vector<int> computes(blocks.ghost_count());  // by ghost
+  for (std::size_t k = 0; k < owners_.size(); ++k) {
+    const SphereBlocks::Block& block = blocks.blocks()[k];
+    std::fill_n(computes.begin() + block.first_ghost, block.ghosts(), owners_[k]);
+  }
+  for (std::size_t k = 0; k < owners_.size(); ++k) {
+    const int owner = owners_[k];
+    const auto add = [&](NodeId, std::uint32_t ghost) {
+      const int computing = computes[ghost];
+      if (computing == owner) return;
+      if (computing == self) to[static_cast<std::size_t>(owner)].push_back(ghost);
+      if (owner == self) from[static_cast<std::size_t>(computing)].push_back(ghost);
+    };
+    blocks.for_each_ghost(k, add, [](NodeId, std::uint32_t) {});
+  }
+  const auto set = [](Messages& messages, const std::vector<std::vector<std::uint32_t>>& ghosts) {
+    messages.ghosts.clear();
+    messages.sizes.clear();
+    for (const auto& of_rank : ghosts) {
+      messages.ghosts.insert(messages.ghosts.end(), of_rank.begin(), of_rank.end());
+      messages.sizes.push_back(of_rank.size() * kSphereBytes);
+    }
+    messages.bytes.resize(messages.ghosts.size() * kSphereBytes);
+  };
+  set(sent_, to);
+  set(received_, from);
+}
+
+void SharedBlocks::exchange_ghosts(std::span<SphereSum> sums) {
+  static_assert(offsetof(SphereSum, torque) == 3 * sizeof(double));
+  std::byte* to = sent_.bytes.data();
+  for (const std::uint32_t ghost : sent_.ghosts) {
+    std::memcpy(to, sums[ghost].force.data(), sizeof(Vec3));
+    std::memcpy(to + sizeof(Vec3), sums[ghost].torque.data(), sizeof(Vec3));
+    to += kSphereBytes;
+  }
+  ranks_->exchange(sent_.bytes, sent_.sizes, received_.bytes, received_.sizes);
+  const std::byte* from = received_.bytes.data();
+  for (const std::uint32_t ghost : received_.ghosts) {
+    std::memcpy(sums[ghost].force.data(), from, sizeof(Vec3));
+    std::memcpy(sums[ghost].torque.data(), from + sizeof(Vec3), sizeof(Vec3));
+    from += kSphereBytes;
+  }
+}
+
+std::span<std::byte> SharedBlocks::begin_gather(std::size_t outcome_bytes) {
+  sizes_.resize(sphere_counts_.size());
+  std::size_t total = 0;
+  for (std::size_t rank = 0; rank < sizes_.size(); ++rank) {
+    sizes_[rank] = sphere_counts_[rank] * kSphereBytes + blocks_of_[rank].size() * outcome_bytes;
+    total += sizes_[rank];
+  }
+  parts_.resize(total);
+  return parts_;
+}
+
+std::size_t SharedBlocks::first_of(int rank) const noexcept {
+  std::size_t first = 0;
+  for (int before = 0; before < rank; ++before) first += sizes_[static_cast<std::size_t>(before)];
+  return first;
+}
+
+std::size_t SharedBlocks::pack_forces(std::span<const SphereBlocks::Member> spheres,
+                                      const NodeForces& forces, std::size_t at) {
+  std::byte* to = parts_.data() + at;
+  for (const SphereBlocks::Member& sphere : spheres) {
+    std::memcpy(to, forces.force[index_of(sphere.node)].data(), sizeof(Vec3));
+    std::memcpy(to + sizeof(Vec3), forces.torque[index_of(sphere.node)].data(), sizeof(Vec3));
+    to += kSphereBytes;
+  }
+  return at + spheres.size() * kSphereBytes;
+}
+
+std::size_t SharedBlocks::unpack_forces(std::span<const SphereBlocks::Member> spheres,
+                                        NodeForces& forces, std::size_t at) const {
+  const std::byte* from = parts_.data() + at;
+  for (const SphereBlocks::Member& sphere : spheres) {
+    std::memcpy(forces.force[index_of(sphere.node)].data(), from, sizeof(Vec3));
+    std::memcpy(forces.torque[index_of(sphere.node)].data(), from + sizeof(Vec3), sizeof(Vec3));
+    from += kSphereBytes;
+  }
+  return at + spheres.size() * kSphereBytes;
+}
+
+}  // namespace plekton::contact

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/motion.hpp"
+#include "contact/sphere_sphere/sphere_blocks.hpp"
+#include "contact/sphere_sphere/sphere_sums.hpp"
+#include "geometry/base/ranks.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace plekton::contact {
+
+/// Which rank computes which blocks of spheres, and what ranks tell each other of them.
+///
+/// A rank has whole blocks, so no sum is taken in another order than by one process: what a block
+/// adds to spheres of another block goes to the rank that has that one, which adds it in the order
+/// of the blocks as ever. Then all ranks are given the forces on all spheres.
+class SharedBlocks {
+ public:
+  explicit SharedBlocks(geometry::Ranks& ranks) : ranks_(&ranks) {}
+
+  /// Takes the blocks of a new list.
+  void assign(const SphereBlocks& blocks);
+
+  geometry::Ranks& ranks() const noexcept { return *ranks_; }
+  /// By block.
+  int owner(std::size_t block) const noexcept { return owners_[block]; }
+  /// Those of this rank, ascending.
+  std::span<const std::uint32_t> own() const noexcept { return own_; }
+
+  /// Sends the sums of ghosts to the ranks that have their spheres.
+  /// @param sums  by ghost; of blocks of this rank given, of its spheres in other blocks taken
+  void exchange_ghosts(std::span<SphereSum> sums);
+
+  /// Gives all ranks the forces on the spheres of all blocks, and what the blocks came to.
+  /// @param outcomes  by block
+  template <class Outcome>
+  void gather(const SphereBlocks& blocks, NodeForces& forces, std::span<Outcome> outcomes) {
+    const std::size_t outcome_bytes = sizeof(Outcome);
+    static_assert(sizeof(Outcome) % geometry::Ranks::kUnit == 0);
+    const std::span<std::byte> parts = begin_gather(outcome_bytes);
+    std::size_t at = first_of(ranks_->rank());
+    for (const std::uint32_t k : own_) {
+      std::memcpy(&parts[at], &outcomes[k], outcome_bytes);
+      at = pack_forces(blocks.owned(blocks.blocks()[k]), forces, at + outcome_bytes);
+    }
+    ranks_->gather(parts, sizes_);
+    for (int rank = 0; rank < ranks_->count(); ++rank) {
+      if (rank == ranks_->rank()) continue;
+      at = first_of(rank);
+      for (const std::uint32_t k : blocks_of_[static_cast<std::size_t>(rank)]) {
+        std::memcpy(&outcomes[k], &parts[at], outcome_bytes);
+        at = unpack_forces(blocks.owned(blocks.blocks()[k]), forces, at + outcome_bytes);
+      }
+    }
+  }
+
+ private:
+  /// What is told of a sphere: force and torque.
+  static constexpr std::size_t kSphereBytes = 6 * sizeof(double);
+
+  void find_messages(const SphereBlocks& blocks);
+  std::span<std::byte> begin_gather(std::size_t outcome_bytes);
+  std::size_t first_of(int rank) const noexcept;
+  std::size_t pack_forces(std::span<const SphereBlocks::Member> spheres, const NodeForces& forces,
+                          std::size_t at);
+  std::size_t unpack_forces(std::span<const SphereBlocks::Member> spheres, NodeForces& forces,
+                            std::size_t at) const;
+
+  /// Ghosts whose sums go to a rank or come from one, in the order of ranks.
+  struct Messages {
+    std::vector<std::uint32_t> ghosts;
+    std::vector<std::size_t> sizes;  ///< bytes, by rank
+    std::vector<std::byte> bytes;
+  };
+
+  geometry::Ranks* ranks_;
+  std::vector<int> owners_;                            ///< by block
+  std::vector<std::uint32_t> own_;                     ///< blocks of this rank
+  std::vector<std::vector<std::uint32_t>> blocks_of_;  ///< by rank
+  std::vector<std::size_t> sphere_counts_;             ///< by rank
+  Messages sent_;
+  Messages received_;
+  std::vector<std::size_t> sizes_;  ///< bytes, by rank
+  std::vector<std::byte> parts_;
+};
+
+}  // namespace plekton::contact

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contacts that several ranks compute have the bits of those of one process: forces, energies,
+// records with their numbers.
+#include "contact/among_ranks.hpp"
+
+#include "contact/models.hpp"
+#include "tests/support/seeded_random.hpp"
+#include "tests/support/thread_ranks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <mutex>
+#include <vector>
+
+namespace plekton::contact {
+namespace {
+
+/// Spheres in a dense cube that shake on the spot and turn; two sizes and two materials.
+class ShakenSpheres {
+ public:
+  ShakenSpheres(int per_side, const ContactModel& model, int threads) : pool_(threads) {
+    test::Random random(5);
+    for (int i = 0; i < per_side; ++i)
+      for (int j = 0; j < per_side; ++j)
+        for (int k = 0; k < per_side; ++k) {
+          spheres_.push_back(
+              {{geometry::id_at<NodeId>(at_rest_.size())}, random.uniform(0.48, 0.56)});
+          at_rest_.push_back(Vec3(i, j, k) + random.in_cube(0.03));
+          way_.push_back(random.in_cube(0.12));
+          spin_.push_back(random.in_cube(2.0));
+          materials_.push_back(MaterialId{random.uniform(0.0, 1.0) < 0.3 ? 1 : 0});
+        }
+    contacts_ = model({.spheres = spheres_,
+                       .surface = surface_,
+                       .materials = {Material{1e6, 0.5, 0.4}, Material{3e6, 0.3, 0.2}},
+                       .of_spheres = materials_,
+                       .of_structures = {},
+                       .masses = {},
+                       .skin = 0.05,
+                       .meets_planes = {},
+                       .rest = {}});
+    forces_ = NodeForces(at_rest_.size());
+    planes_.push_back({Vec3(0, 0, -0.48), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}});
+  }
+
+  /// @returns a hash of all that can be seen of a step
+  std::uint64_t step(int number, bool looks) {
+    const double dt = 1e-3;
+    const double phase = 0.05 * number;
+    x_ = at_rest_;
+    std::vector<Vec3> v = way_;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      x_[i] += (phase - phase * phase) * way_[i];
+      v[i] = 50.0 * (1.0 - 2.0 * phase) * way_[i];
+    }
+    contacts_->advance({x_, v, spin_}, planes_, dt, pool_, forces_);
+    std::uint64_t hash = 1469598103934665603ULL;
+    const auto add = [&](double number_of) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(number_of)) * 1099511628211ULL;
+    };
+    const auto add_vector = [&](const Vec3& vector) {
+      for (int axis = 0; axis < 3; ++axis) add(vector[axis]);
+    };
+    for (const Vec3& force : forces_.force) add_vector(force);
+    for (const Vec3& torque : forces_.torque) add_vector(torque);
+    add(contacts_->dissipated());
+    add(contacts_->tracking_loss());
+    add(contacts_->largest_overlap_ratio());
+    add(static_cast<double>(contacts_->counts().sphere_sphere));
+    if (!looks) return hash;
+    add(contacts_->elastic_energy());
+    contacts_->assign_ids();
+    contacts_->for_each_record(x_, [&](const ContactRecord& row) {
+      add(static_cast<double>(row.id));
+      add_vector(row.point);
+      add_vector(row.force());
+    });
+    return hash;
+  }
+
+  std::int64_t list_count() const { return contacts_->list_count(); }
+
+ private:
+  std::vector<geometry::Sphere> spheres_;
+  geometry::Surface surface_;
+  std::vector<Vec3> at_rest_, x_, way_, spin_;
+  std::vector<MaterialId> materials_;
+  std::vector<Plane> planes_;
+  std::unique_ptr<Contacts> contacts_;
+  NodeForces forces_;
+  geometry::ThreadPool pool_;
+};
+
+constexpr int kPerSide = 12;  // 1728 spheres: eight blocks
+constexpr int kSteps = 40;
+
+bool looks_after(int step) {
+  return step % 7 == 3;
+}
+
+std::vector<std::uint64_t> hashes(const ContactModel& model, int threads = 1) {
+  ShakenSpheres spheres(kPerSide, model, threads);
+  std::vector<std::uint64_t> all;
+  for (int step = 0; step < kSteps; ++step) all.push_back(spheres.step(step, looks_after(step)));
+  EXPECT_GT(spheres.list_count(), 3);
+  return all;
+}
+
+/// With one law, and with pairs of materials of different ones.
+std::vector<ContactModel> models() {
+  PairProperties<AnyLaw> mixed;
+  mixed[{MaterialId{0}, MaterialId{1}}] = AnyLaw::of<LinearFrictional>();
+  return {linear_frictional(), any_law(mixed, AnyLaw::of<LinearFrictional>())};
+}
+
+void expect_same_bits(int count, bool by_chance, int threads = 1) {
+  for (const ContactModel& model : models()) {
+    const std::vector<std::uint64_t> alone = hashes(model);
+    std::mutex mutex;
+    test::ThreadRanks(count, by_chance).run([&](geometry::Ranks& ranks) {
+      const std::vector<std::uint64_t> together = hashes(among_ranks(model, ranks), threads);
+      const std::lock_guard lock(mutex);
+      EXPECT_EQ(together, alone) << "rank " << ranks.rank() << " of " << count;
+    });
+  }
+}
+
+TEST(AmongRanks, HaveTheBitsOfOneProcessOnAnyNumberOfRanks) {
+  for (const int count : {1, 2, 3, 5}) expect_same_bits(count, false);
+}
+
+TEST(AmongRanks, HaveThemWithOwnersByChanceAtEveryList) {
+  for (const int count : {2, 5}) expect_same_bits(count, true);
+}
+
+TEST(AmongRanks, HaveThemWithThreadsInRanks) {
+  expect_same_bits(2, false, 2);
+}
+
+TEST(AmongRanks, HaveThemWithMoreRanksThanBlocks) {
+  expect_same_bits(11, false);
+}
+
+}  // namespace
+}  // namespace plekton::contact
