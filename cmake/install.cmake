@@ -7,6 +7,7 @@ include(cmake/public_headers.cmake)
 
 # What users include; what these need comes along.
 plekton_public_headers(public_headers
+  contact/among_ranks.hpp
   contact/law/cohesive_frictional.hpp
   contact/law/dmt_adhesion.hpp
   contact/law/hertz_mindlin.hpp
@@ -38,7 +39,13 @@ foreach(header IN LISTS public_headers)
 endforeach()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/plekton)
-foreach(name IN ITEMS geometry contact dynamics)
+set(libraries geometry contact dynamics)
+if(TARGET plekton_distributed)
+  list(APPEND libraries distributed)
+  install(FILES ${PROJECT_SOURCE_DIR}/dynamics/distributed/mpi_job.hpp
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plekton/dynamics/distributed COMPONENT development)
+endif()
+foreach(name IN LISTS libraries)
   install(TARGETS plekton_${name} EXPORT plekton-${name}-targets
     LIBRARY COMPONENT library NAMELINK_COMPONENT development ARCHIVE COMPONENT development)
   install(EXPORT plekton-${name}-targets NAMESPACE plekton:: DESTINATION ${package_folder} COMPONENT development)

@@ -17,6 +17,7 @@ namespace plekton::apps {
 namespace fs = std::filesystem;
 
 void make_output_folder(const fs::path& folder) {
+  if (dynamics::goes_nowhere(folder)) return;
   const fs::path parent = (folder.has_filename() ? folder : folder.parent_path()).parent_path();
   if (!parent.empty()) {
     std::error_code error;
