@@ -27,6 +27,9 @@ class SharedBlocks {
   void assign(const SphereBlocks& blocks);
 
   geometry::Ranks& ranks() const noexcept { return *ranks_; }
+  /// Whether there is anything to share: one block, or one rank, needs no message. Each rank then
+  /// computes all.
+  bool is_worth_it() const noexcept { return ranks_->count() > 1 && owners_.size() > 1; }
   /// By block.
   int owner(std::size_t block) const noexcept { return owners_[block]; }
   /// Those of this rank, ascending.

@@ -214,7 +214,7 @@ double SphereContacts::advance(const Motion& motion, double dt, geometry::Thread
     work.sums.resize(blocks_.largest_member_count());
     work.dt = dt;
   }
-  if (shared_) {
+  if (shared_ && shared_->is_worth_it()) {
     share_blocks(motion, pool, forces);
   } else {
     pool.for_each_shared(blocks.size(), [&](std::size_t k, int worker) {

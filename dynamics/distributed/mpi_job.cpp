@@ -62,10 +62,15 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &count_);
     waits_.seed(static_cast<unsigned>(rank_));
+    MPI_Comm_dup(MPI_COMM_WORLD, &ending_);
   }
+  ~MpiRanks() override { MPI_Comm_free(&ending_); }
 
   int rank() const noexcept override { return rank_; }
   int count() const noexcept override { return count_; }
+
+  /// Of its own, so that a rank that has failed is not taken to answer what others still ask.
+  MPI_Comm ending() const noexcept { return ending_; }
 
   std::vector<int> owners(std::span<const std::uint64_t> work) override {
     if (!owners_by_chance_) return Ranks::owners(work);
@@ -78,9 +83,11 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
   void gather(std::span<std::byte> parts, std::span<const std::size_t> sizes) override {
     wait_by_chance();
     set(sizes, counts_, places_);
-    require(MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, parts.data(), counts_.data(),
-                           places_.data(), MPI_UINT64_T, MPI_COMM_WORLD),
+    requests_.resize(1);
+    require(MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, parts.data(), counts_.data(),
+                            places_.data(), MPI_UINT64_T, MPI_COMM_WORLD, requests_.data()),
             "to gather what ranks have computed");
+    wait_for_all();
   }
 
   void exchange(std::span<const std::byte> sent, std::span<const std::size_t> sent_sizes,
@@ -109,11 +116,25 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
       }
       at += size;
     }
-    require(MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE),
-            "to wait for another rank");
+    wait_for_all();
   }
 
  private:
+  /// MPI would look all the time, and take the core that another rank waits for where there are
+  /// fewer cores than there is work: after a while this sleeps between its looks.
+  void wait_for_all() {
+    constexpr double kLooking = 100e-6;  // s, some times what a message takes
+    constexpr std::chrono::microseconds kSleep{20};
+    const double begin = MPI_Wtime();
+    for (int is_done = 0;;) {
+      require(MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &is_done,
+                          MPI_STATUSES_IGNORE),
+              "to wait for another rank");
+      if (is_done != 0) return;
+      if (MPI_Wtime() - begin > kLooking) std::this_thread::sleep_for(kSleep);
+    }
+  }
+
   static void set(std::span<const std::size_t> sizes, std::vector<int>& counts,
                   std::vector<int>& places) {
     counts.clear();
@@ -134,6 +155,7 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
 
   int rank_ = 0;
   int count_ = 1;
+  MPI_Comm ending_ = MPI_COMM_NULL;
   bool owners_by_chance_;
   bool delays_;
   std::mt19937 choices_;  // the same on all ranks
@@ -160,7 +182,7 @@ geometry::Ranks& MpiJob::ranks() noexcept {
 
 void MpiJob::end_failed(int exit_code, const std::string& message, bool is_told) {
   MPI_Request all_failed;
-  MPI_Ibarrier(MPI_COMM_WORLD, &all_failed);
+  MPI_Ibarrier(ranks_->ending(), &all_failed);
   const double begin = MPI_Wtime();
   for (int is_over = 0; is_over == 0;) {
     MPI_Test(&all_failed, &is_over, MPI_STATUS_IGNORE);
