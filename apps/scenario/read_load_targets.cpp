@@ -215,6 +215,7 @@ NodeSetSettings read_tied_body(Section& section, const Scenario& scenario) {
     set.rigid_body = read_rigid_body_name(section, scenario).value_or(0);
     return set;
   }
+  section.tell_default("membrane", "required without rigid_body");
   set.body = read_membrane_name(section, scenario).value_or(0);
   return set;
 }

@@ -65,6 +65,17 @@ TEST(ScenarioSchema, AsksForKeysOfAnOptionalTableOnlyInIt) {
   EXPECT_THAT(membrane.at("required"), testing::Not(testing::Contains("rotate")));
 }
 
+TEST(ScenarioSchema, AsksForNoMembraneWhereATieMayHoldARigidBody) {
+  const Json ties = property(scenario_schema(), "ties").at("items");
+
+  for (const Json& to : property(ties, "to").at("oneOf")) {
+    if (to.at("properties").contains("rigid_body")) {
+      EXPECT_EQ(to.at("required"), Json::parse(R"(["kind"])"));
+    }
+  }
+  EXPECT_FALSE(property(ties, "from").contains("required"));
+}
+
 TEST(ScenarioSchema, SaysWhatEveryKeyMeans) {
   const Json grains = property(scenario_schema(), "grains").at("items");
 
