@@ -8,6 +8,8 @@
 #include "geometry/base/regular_file.hpp"
 #include "geometry/version.hpp"
 
+#include <hdf5.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>

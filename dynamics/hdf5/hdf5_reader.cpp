@@ -4,6 +4,8 @@
 #include "dynamics/hdf5/handle.hpp"
 #include "geometry/base/printable.hpp"
 
+#include <hdf5.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>

@@ -3,6 +3,8 @@
 
 #include "dynamics/hdf5/handle.hpp"
 
+#include <hdf5.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>

@@ -153,7 +153,8 @@ class Speech(Ranks):
 
     def test_ends_complete_where_the_job_is_interrupted(self):
         out = self.folder / "out"
-        command = [*mpirun(2), program, "run", str(SCENES / "spheres.toml"), "--out", str(out), "--quiet"]
+        command = [*mpirun(2), program, "run", str(SCENES / "spheres.toml"), "--set", "simulation.duration=10 s", "--out", str(out),
+                   "--quiet"]
         with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as job:
             while not list(out.glob("checkpoints/*.h5")) and job.poll() is None:
                 time.sleep(0.01)
