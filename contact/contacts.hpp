@@ -24,6 +24,7 @@ class StateArchive;
 namespace plekton::contact {
 
 class PatchFinder;
+class SharedMotion;
 
 /// How many contacts of each kind there are.
 struct ContactCounts {
@@ -69,6 +70,12 @@ class Contacts {
   /// all nodes to those of contacts.
   virtual void advance(const Motion& motion, std::span<const Plane> planes, double dt,
                        geometry::ThreadPool& pool, NodeForces& forces) = 0;
+
+  /// Which of several processes moves which nodes (sphere_sphere/shared_motion.hpp); null: each
+  /// that there is moves all of them.
+  virtual SharedMotion* shared_motion() noexcept { return nullptr; }
+  /// Whether advance() would look at all nodes, not only at those that are near others.
+  virtual bool may_make_lists(const Motion& motion, std::span<const Plane> planes) const noexcept = 0;
 
   /// Goes on with what is left of the surface after some of its elements have broken away
   /// (geometry::Surface::left_with). Contacts go on where a feature they touch is left, those far

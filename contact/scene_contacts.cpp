@@ -92,6 +92,7 @@ void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes,
                                             pool, motion.position);
     tracking_loss_ += list_on_surfaces();
     plane_neighbours_.expire(neighbours_.skin());
+    is_shared_out_ = false;
     ++list_count_;
   }
   if (cell_neighbours_.update(motion.position, pool, motion.max_displacement)) {
@@ -101,8 +102,10 @@ void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes,
   if (plane_neighbours_.update(spheres_, planes, motion.position)) {
     tracking_loss_ +=
         with_planes_.rebuild(plane_neighbours_.pairs(), spheres_, planes, materials_.pairs);
+    is_shared_out_ = false;
     ++list_count_;
   }
+  if (!is_shared_out_) share_out();
   dissipated_ += with_spheres_.advance(motion, dt, pool, forces);
   add(with_surfaces_.advance(motion, dt, pool));
   add(between_structures_.advance(motion, dt, pool));
@@ -111,10 +114,28 @@ void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes,
   dissipated_ += with_planes_.advance(motion, planes, dt, pool, forces);
 }
 
+bool SceneContacts::may_make_lists(const Motion& motion,
+                                   std::span<const Plane> planes) const noexcept {
+  return start_ != Start::over || neighbours_.may_be_due(motion.max_displacement) ||
+         plane_neighbours_.is_due(planes);
+}
+
+/// What meets planes and surfaces is computed by all ranks.
+void SceneContacts::share_out() {
+  is_shared_out_ = true;
+  if (shared_motion() == nullptr) return;
+  std::vector<NodeId> met;
+  for (const auto pairs : {plane_neighbours_.pairs(), neighbours_.sphere_structures()})
+    for (const geometry::IndexPair& pair : pairs)
+      met.push_back(spheres_[static_cast<std::size_t>(pair.a)].node);
+  with_spheres_.share_out(met);
+}
+
 /// The first step is over: the contacts listed go on with the parameters of later ones.
 void SceneContacts::end_start(std::span<const Plane> planes, geometry::ThreadPool& pool) {
   start_ = Start::over;
   if (!materials_.pairs.end_start()) return;
+  is_shared_out_ = false;
   ++list_count_;
   with_spheres_.rebuild(neighbours_.sphere_pairs(), spheres_, materials_.pairs, pool,
                         neighbours_.list_positions());
@@ -132,6 +153,7 @@ double SceneContacts::list_on_surfaces() {
 
 void SceneContacts::follow(const geometry::SurfaceChange& change, const Motion& motion,
                            Positions at, geometry::ThreadPool& pool) {
+  is_shared_out_ = false;
   ++list_count_;
   tracking_loss_ += with_surfaces_.follow(change, neighbours_.cells(), at);
   neighbours_.follow(change);
@@ -158,6 +180,7 @@ void SceneContacts::exchange_sums(const geometry::StateArchive& archive) {
   archive("tracking_loss", tracking_loss_);
   archive("last_number", last_number_);
   archive("list_count", list_count_);
+  if (archive.is_reading()) is_shared_out_ = false;
 }
 
 void SceneContacts::exchange_of_spheres(const geometry::StateArchive& archive,

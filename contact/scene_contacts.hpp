@@ -30,6 +30,8 @@ class SceneContacts final : public Contacts {
 
   /// From here on ranks share the work; to be called before the first step.
   void share_among(geometry::Ranks& ranks) { with_spheres_.share_among(ranks); }
+  SharedMotion* shared_motion() noexcept override { return with_spheres_.shared_motion(); }
+  bool may_make_lists(const Motion& motion, std::span<const Plane> planes) const noexcept override;
 
   void tune_skin(double radius) noexcept override { neighbours_.tune_skin(radius); }
   void choose_skin_of_structures() override { cell_neighbours_.choose_skin(); }
@@ -153,6 +155,7 @@ class SceneContacts final : public Contacts {
 
  private:
   double list_on_surfaces();
+  void share_out();
   void add(const EnergyLoss& loss) noexcept {
     dissipated_ += loss.dissipated;
     tracking_loss_ += loss.tracking;
@@ -186,6 +189,7 @@ class SceneContacts final : public Contacts {
   std::int64_t last_number_ = 0;
   std::int64_t list_count_ = 0;
   enum class Start { ahead, now, over } start_ = Start::ahead;
+  bool is_shared_out_ = false;  ///< what is on the lists of spheres now
 };
 
 }  // namespace plekton::contact

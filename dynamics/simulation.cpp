@@ -5,6 +5,7 @@
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "dynamics/measures/fault_finder.hpp"
 #include "dynamics/measures/unbalanced_force.hpp"
+#include "dynamics/model/acted_on.hpp"
 #include "dynamics/model/require_index.hpp"
 #include "dynamics/model/scene_figures.hpp"
 #include "dynamics/model/scene_hash.hpp"
@@ -109,10 +110,12 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       driven_bodies_(scene_.loads),
       plane_reactions_(driven_planes_.empty() ? 0 : scene_.planes.size()),
       forces_(scene_.state.size()),
+      nodes_(scene_.state, forces_),
       furthest_(furthest_in_a_step(scene_)),
       pace_radius_(pace_radius(scene_.elements)),
       full_gravity_(options.motion.gravity),
       momentum_(scene_.state.position) {
+  nodes_.share(contacts_->shared_motion(), acted_on(scene_));
   motion_.gravity = scene_.loads.gravity_factor.at(0.0) * full_gravity_;
   leave_out_absent();
   loads_.start(scene_.state);
@@ -196,7 +199,8 @@ void Simulation::set_velocity(NodeId node, const Vec3& velocity, const Vec3& ang
   dt_ = std::min(dt_, longest_step(velocity.norm(), largest_gravity(), pace_radius_));
 }
 
-double Simulation::motion_ratio() const noexcept {
+double Simulation::motion_ratio() const {
+  nodes_.know_all();
   return largest_speed(scene_.state) * dt_ / pace_radius_;
 }
 
@@ -251,6 +255,7 @@ void Simulation::move_planes() {
 }
 
 Energy Simulation::energy() const {
+  nodes_.know_all();
   Energy energy;
   energy.kinetic = work_.kinetic;
   energy.contact_elastic = contacts_->elastic_energy();
@@ -312,6 +317,17 @@ ExactStep Simulation::exact_critical_step() const {
   return limits_->exact(force_positions(), time_);
 }
 
+void Simulation::find_contacts() {
+  if (contacts_->may_make_lists(motion(), scene_.planes)) nodes_.know_all();
+  contacts_->advance(motion(), scene_.planes, last_drift_, pool_, forces_);
+  nodes_.found_forces();
+}
+
+void Simulation::choose_step() {
+  nodes_.know_all();
+  dt_ = chooser_->choose(dt_, pace());
+}
+
 /// @param longest  s, the step is not longer
 void Simulation::advance(double longest) {
   require_time_step();
@@ -319,9 +335,8 @@ void Simulation::advance(double longest) {
   sheet_facets_.advance(scene_.state, pool_);
   sheet_facets_.tear(scene_.state.position, pool_);
   follow_breaks();
-  contacts_->advance(motion(), scene_.planes, last_drift_, pool_, forces_);
-  if (chooser_ != nullptr && chooser_->is_due(steps_, dt_, fastest_spin_))
-    dt_ = chooser_->choose(dt_, pace());
+  find_contacts();
+  if (chooser_ != nullptr && chooser_->is_due(steps_, dt_, fastest_spin_)) choose_step();
   drift_ = std::min(dt_, longest);
   bonds_.advance(scene_.state, pool_);
   bonds_.add_forces(forces_, pool_);
@@ -333,7 +348,7 @@ void Simulation::advance(double longest) {
   const StepLengths lengths{0.5 * (last_drift_ + drift_), drift_};
   StepWork work =
       rigid_bodies_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_);
-  work += leapfrog_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_);
+  work += nodes_.step(scene_.properties, motion_, lengths, pool_);
   account(work, lengths);
   move_planes();
   check_motion();
@@ -358,6 +373,7 @@ void Simulation::check_motion() {
   const bool is_slow =
       fastest_ * drift_ <= least_furthest_ && fastest_spin_ * drift_ < std::numbers::pi;
   if (is_slow) return;
+  nodes_.know_all();
   if (const auto runaway = find_runaway(scene_.state, furthest_, drift_))
     throw Diverged(*runaway, steps_, time_, scene_.state,
                    fault_finder().fault(*runaway, {last_drift_, drift_}, suspect_));
@@ -413,11 +429,13 @@ void Simulation::watch_momentum() {
     carried = kLooks * std::sqrt(2.0 * initial_stiffness_.translation * elastic);
   }
   momentum_.look(
-      {scene_.state.position, forces_, *contacts_, ties_, carried, 0.5 * (last_drift_ + drift_)},
+      {scene_.state.position, forces_, *contacts_, ties_, carried, 0.5 * (last_drift_ + drift_),
+       nodes_.shared()},
       pool_);
 }
 
-FaultFinder Simulation::fault_finder() noexcept {
+FaultFinder Simulation::fault_finder() {
+  nodes_.know_all();
   return {resistance(), *limits_, scene_.state, forces_, furthest_, pool_};
 }
 
@@ -442,6 +460,7 @@ void Simulation::apply_loads() {
 }
 
 void Simulation::drive_bodies(const LoadStep& step) {
+  nodes_.know_all();  // also those that are near the bodies
   const auto felt = [this](std::size_t body) { return rigid_bodies_.gathered_force(body); };
   const auto look_at = [this](const BodyServo& servo, double longest) -> const BodyPress& {
     body_press_.look(
@@ -482,6 +501,7 @@ PlanePress Simulation::plane_press(std::size_t plane, double way) const {
 void Simulation::follow_gravity() {
   const Vec3 gravity = scene_.loads.gravity_factor.at(time_) * full_gravity_;
   if (gravity == motion_.gravity) return;
+  nodes_.know_all();
   const Vec3 mean = 0.5 * (free_moment(last_drift_) + free_moment(0.0)) - initial_moment_;
   work_.external -= (gravity - motion_.gravity).dot(mean);
   motion_.gravity = gravity;
@@ -584,6 +604,7 @@ void Simulation::follow_surface() {
 /// Contacts go on where their features are there still.
 /// @returns the surface of before
 geometry::Surface Simulation::change_surface(geometry::Surface next) {
+  nodes_.know_all();
   std::swap(next, surface_);
   std::vector<Vec3> at = scene_.state.position;
   for (std::size_t i = 0; i < at.size(); ++i) at[i] -= 0.5 * last_drift_ * scene_.state.velocity[i];
@@ -594,6 +615,7 @@ geometry::Surface Simulation::change_surface(geometry::Surface next) {
 // What can be read out between steps.
 
 std::vector<Vec3> Simulation::force_positions() const {
+  nodes_.know_all();
   return positions_before(scene_.state, last_drift_);
 }
 
@@ -717,6 +739,7 @@ void Simulation::exchange_kept(const geometry::StateArchive& archive) {
 }
 
 void Simulation::exchange_motion(const geometry::StateArchive& archive) {
+  nodes_.know_all();
   archive("time", time_);
   archive("steps", steps_);
   const geometry::StateArchive nodes = archive.group("nodes");

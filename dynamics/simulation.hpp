@@ -3,7 +3,6 @@
 
 #include "contact/models.hpp"
 #include "dynamics/broken_elements.hpp"
-#include "dynamics/integrators/leapfrog.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/loads/plane_servo.hpp"
 #include "dynamics/loads/rigid_servo.hpp"
@@ -17,6 +16,7 @@
 #include "dynamics/rigid/rigid_bodies.hpp"
 #include "dynamics/scene_change.hpp"
 #include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/state/nodes_of_ranks.hpp"
 #include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
@@ -59,6 +59,9 @@ struct Pace;
 struct Resistance;
 
 /// A scene in motion. The state belongs to the simulation; what is given out are views of it.
+///
+/// Several processes may compute one scene (contact::among_ranks): all make the same calls in the
+/// same order and get the same answers. A view is of now; after a step it has to be asked for anew.
 ///
 /// Every call that takes a node, bond or plane checks its id before anything else, and throws
 /// std::out_of_range with the call, the id and how many there are.
@@ -110,8 +113,11 @@ class Simulation {
   void set_time_step(double dt);
 
   /// What it is made of, in its present state.
-  const Scene& scene() const noexcept { return scene_; }
-  const NodeState& state() const noexcept { return scene_.state; }
+  const Scene& scene() const {
+    nodes_.know_all();
+    return scene_;
+  }
+  const NodeState& state() const { return scene().state; }
   /// The velocities of held nodes may be set between steps, unless a motion is prescribed for them
   /// (Scene::loads), and those of the reference nodes of rigid bodies, which take their nodes along.
   /// @throws std::invalid_argument for a node that follows a rigid body
@@ -134,7 +140,10 @@ class Simulation {
   const AppliedLoads& loads() const noexcept { return loads_; }
   const contact::Contacts& contacts() const noexcept { return *contacts_; }
   /// Forces of contacts, bonds, sheets and loads in the last step, gravity not included.
-  const NodeForces& forces() const noexcept { return forces_; }
+  const NodeForces& forces() const {
+    nodes_.know_all();
+    return forces_;
+  }
 
   /// m/s², in the last step.
   const Vec3& gravity() const noexcept { return motion_.gravity; }
@@ -204,7 +213,7 @@ class Simulation {
   /// How far the fastest node moves in a step over the smallest radius: of the spheres, or of the
   /// structures if there are none. Above kLargestMotion (dynamics/time_step/motion_step.hpp)
   /// contacts are seen late; a chosen step keeps below that, a given one may not.
-  double motion_ratio() const noexcept;
+  double motion_ratio() const;
 
   // The state, to go on from later or elsewhere.
 
@@ -237,6 +246,8 @@ class Simulation {
 
  private:
   void advance(double longest);
+  void find_contacts();
+  void choose_step();
   contact::Motion motion() const noexcept;
   void follow_breaks();
   void break_asked();
@@ -253,7 +264,7 @@ class Simulation {
   void check_motion();
   void watch_energy();
   void watch_momentum();
-  FaultFinder fault_finder() noexcept;
+  FaultFinder fault_finder();
   void set_first_step(double asked);
   void require_time_step() const;
   Resistance resistance() const noexcept;
@@ -298,7 +309,7 @@ class Simulation {
   double broken_energy_ = 0.0;         ///< J, of bonds that were asked for
   double taken_out_ = 0.0;             ///< J, that contacts had stored on what was taken out
   NodeForces forces_;
-  Leapfrog leapfrog_;
+  NodesOfRanks nodes_;
   std::unique_ptr<StepLimits> limits_;
   std::unique_ptr<StepChooser> chooser_;  ///< none if the step was given
   double dt_ = 0.0;

@@ -5,17 +5,19 @@
 
 namespace plekton::contact {
 
-bool PlaneNeighbours::update(std::span<const SphereBody> spheres, std::span<const Plane> planes,
-                             Positions x) {
+bool PlaneNeighbours::is_due(std::span<const Plane> planes) const noexcept {
   const auto has_moved = [this](const Plane& now, const Plane& then) {
     return now.normal != then.normal ||
            2.0 * std::abs((now.point - then.point).dot(then.normal)) >= skin_;
   };
-  const bool planes_moved =
-      !std::equal(planes.begin(), planes.end(), built_for_.begin(), built_for_.end(),
-                  [&](const Plane& now, const Plane& then) { return !has_moved(now, then); });
-  if (!expired_ && !planes_moved) return false;
+  return expired_ ||
+         !std::equal(planes.begin(), planes.end(), built_for_.begin(), built_for_.end(),
+                     [&](const Plane& now, const Plane& then) { return !has_moved(now, then); });
+}
 
+bool PlaneNeighbours::update(std::span<const SphereBody> spheres, std::span<const Plane> planes,
+                             Positions x) {
+  if (!is_due(planes)) return false;
   pairs_.clear();
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     for (std::size_t p = 0; p < planes.size(); ++p) {

@@ -30,8 +30,9 @@ class PlaneNeighbours {
     expired_ = true;
   }
 
-  /// Makes the list anew if it has expired or a plane has moved by more than half the skin.
-  /// @returns whether it did
+  /// Whether it has expired or a plane has moved by more than half the skin.
+  bool is_due(std::span<const Plane> planes) const noexcept;
+  /// Makes the list anew if it is due. @returns whether it was
   bool update(std::span<const SphereBody> spheres, std::span<const Plane> planes, Positions x);
 
   /// @throws geometry::StateMismatch if the state has a pair of a sphere or plane that is none here

@@ -16,20 +16,22 @@ std::uint64_t work_of(const SphereBlocks& blocks, const SphereBlocks::Block& blo
 
 }  // namespace
 
-void SharedBlocks::assign(const SphereBlocks& blocks) {
+void SharedBlocks::assign(const SphereBlocks& blocks, std::span<const NodeId> met) {
   std::vector<std::uint64_t> work;
   for (const SphereBlocks::Block& block : blocks.blocks()) work.push_back(work_of(blocks, block));
   owners_ = ranks_->owners(work);
   const auto count = static_cast<std::size_t>(ranks_->count());
   blocks_of_.assign(count, {});
-  sphere_counts_.assign(count, 0);
   for (std::size_t k = 0; k < owners_.size(); ++k) {
     const auto owner = static_cast<std::size_t>(owners_[k]);
     blocks_of_[owner].push_back(static_cast<std::uint32_t>(k));
-    sphere_counts_[owner] += blocks.blocks()[k].owned;
   }
   own_ = blocks_of_[static_cast<std::size_t>(ranks_->rank())];
   find_messages(blocks);
+  if (is_worth_it())
+    motion_.assign(blocks, owners_, met);
+  else
+    motion_.assign_nothing();
 }
 
 /// Both sides go through the ghosts in the same order: by block of the owner, then by ghost.
@@ -83,10 +85,11 @@ void SharedBlocks::exchange_ghosts(std::span<SphereSum> sums) {
 }
 
 std::span<std::byte> SharedBlocks::begin_gather(std::size_t outcome_bytes) {
-  sizes_.resize(sphere_counts_.size());
+  sizes_.resize(blocks_of_.size());
   std::size_t total = 0;
   for (std::size_t rank = 0; rank < sizes_.size(); ++rank) {
-    sizes_[rank] = sphere_counts_[rank] * kSphereBytes + blocks_of_[rank].size() * outcome_bytes;
+    const std::size_t nodes = motion_.common_in_blocks(static_cast<int>(rank)).size();
+    sizes_[rank] = nodes * kSphereBytes + blocks_of_[rank].size() * outcome_bytes;
     total += sizes_[rank];
   }
   parts_.resize(total);
@@ -99,26 +102,24 @@ std::size_t SharedBlocks::first_of(int rank) const noexcept {
   return first;
 }
 
-std::size_t SharedBlocks::pack_forces(std::span<const SphereBlocks::Member> spheres,
-                                      const NodeForces& forces, std::size_t at) {
+void SharedBlocks::pack_forces(std::span<const NodeId> nodes, const NodeForces& forces,
+                               std::size_t at) {
   std::byte* to = parts_.data() + at;
-  for (const SphereBlocks::Member& sphere : spheres) {
-    std::memcpy(to, forces.force[index_of(sphere.node)].data(), sizeof(Vec3));
-    std::memcpy(to + sizeof(Vec3), forces.torque[index_of(sphere.node)].data(), sizeof(Vec3));
+  for (const NodeId node : nodes) {
+    std::memcpy(to, forces.force[index_of(node)].data(), sizeof(Vec3));
+    std::memcpy(to + sizeof(Vec3), forces.torque[index_of(node)].data(), sizeof(Vec3));
     to += kSphereBytes;
   }
-  return at + spheres.size() * kSphereBytes;
 }
 
-std::size_t SharedBlocks::unpack_forces(std::span<const SphereBlocks::Member> spheres,
-                                        NodeForces& forces, std::size_t at) const {
+void SharedBlocks::unpack_forces(std::span<const NodeId> nodes, NodeForces& forces,
+                                 std::size_t at) const {
   const std::byte* from = parts_.data() + at;
-  for (const SphereBlocks::Member& sphere : spheres) {
-    std::memcpy(forces.force[index_of(sphere.node)].data(), from, sizeof(Vec3));
-    std::memcpy(forces.torque[index_of(sphere.node)].data(), from + sizeof(Vec3), sizeof(Vec3));
+  for (const NodeId node : nodes) {
+    std::memcpy(forces.force[index_of(node)].data(), from, sizeof(Vec3));
+    std::memcpy(forces.torque[index_of(node)].data(), from + sizeof(Vec3), sizeof(Vec3));
     from += kSphereBytes;
   }
-  return at + spheres.size() * kSphereBytes;
 }
 
 }  // namespace plekton::contact

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/base/motion.hpp"
+#include "contact/sphere_sphere/shared_motion.hpp"
 #include "contact/sphere_sphere/sphere_blocks.hpp"
 #include "contact/sphere_sphere/sphere_sums.hpp"
 #include "geometry/base/ranks.hpp"
@@ -18,15 +19,18 @@ namespace plekton::contact {
 ///
 /// A rank has whole blocks, so no sum is taken in another order than by one process: what a block
 /// adds to spheres of another block goes to the rank that has that one, which adds it in the order
-/// of the blocks as ever. Then all ranks are given the forces on all spheres.
+/// of the blocks as ever. Then all ranks are given the forces on all common spheres
+/// (shared_motion.hpp).
 class SharedBlocks {
  public:
-  explicit SharedBlocks(geometry::Ranks& ranks) : ranks_(&ranks) {}
+  explicit SharedBlocks(geometry::Ranks& ranks) : ranks_(&ranks), motion_(ranks) {}
 
   /// Takes the blocks of a new list.
-  void assign(const SphereBlocks& blocks);
+  /// @param met  as SharedMotion::assign() has it
+  void assign(const SphereBlocks& blocks, std::span<const NodeId> met);
 
   geometry::Ranks& ranks() const noexcept { return *ranks_; }
+  SharedMotion& motion() noexcept { return motion_; }
   /// Whether there is anything to share: one block, or one rank, needs no message. Each rank then
   /// computes all.
   bool is_worth_it() const noexcept { return ranks_->count() > 1 && owners_.size() > 1; }
@@ -39,26 +43,28 @@ class SharedBlocks {
   /// @param sums  by ghost; of blocks of this rank given, of its spheres in other blocks taken
   void exchange_ghosts(std::span<SphereSum> sums);
 
-  /// Gives all ranks the forces on the spheres of all blocks, and what the blocks came to.
+  /// Gives all ranks the forces on the common spheres of all blocks, and what the blocks came to.
   /// @param outcomes  by block
   template <class Outcome>
-  void gather(const SphereBlocks& blocks, NodeForces& forces, std::span<Outcome> outcomes) {
+  void gather(NodeForces& forces, std::span<Outcome> outcomes) {
     const std::size_t outcome_bytes = sizeof(Outcome);
     static_assert(sizeof(Outcome) % geometry::Ranks::kUnit == 0);
     const std::span<std::byte> parts = begin_gather(outcome_bytes);
     std::size_t at = first_of(ranks_->rank());
     for (const std::uint32_t k : own_) {
       std::memcpy(&parts[at], &outcomes[k], outcome_bytes);
-      at = pack_forces(blocks.owned(blocks.blocks()[k]), forces, at + outcome_bytes);
+      at += outcome_bytes;
     }
+    pack_forces(motion_.common_in_blocks(ranks_->rank()), forces, at);
     ranks_->gather(parts, sizes_);
     for (int rank = 0; rank < ranks_->count(); ++rank) {
       if (rank == ranks_->rank()) continue;
       at = first_of(rank);
       for (const std::uint32_t k : blocks_of_[static_cast<std::size_t>(rank)]) {
         std::memcpy(&outcomes[k], &parts[at], outcome_bytes);
-        at = unpack_forces(blocks.owned(blocks.blocks()[k]), forces, at + outcome_bytes);
+        at += outcome_bytes;
       }
+      unpack_forces(motion_.common_in_blocks(rank), forces, at);
     }
   }
 
@@ -69,10 +75,8 @@ class SharedBlocks {
   void find_messages(const SphereBlocks& blocks);
   std::span<std::byte> begin_gather(std::size_t outcome_bytes);
   std::size_t first_of(int rank) const noexcept;
-  std::size_t pack_forces(std::span<const SphereBlocks::Member> spheres, const NodeForces& forces,
-                          std::size_t at);
-  std::size_t unpack_forces(std::span<const SphereBlocks::Member> spheres, NodeForces& forces,
-                            std::size_t at) const;
+  void pack_forces(std::span<const NodeId> nodes, const NodeForces& forces, std::size_t at);
+  void unpack_forces(std::span<const NodeId> nodes, NodeForces& forces, std::size_t at) const;
 
   /// Ghosts whose sums go to a rank or come from one, in the order of ranks.
   struct Messages {
@@ -82,10 +86,10 @@ class SharedBlocks {
   };
 
   geometry::Ranks* ranks_;
+  SharedMotion motion_;
   std::vector<int> owners_;                            ///< by block
   std::vector<std::uint32_t> own_;                     ///< blocks of this rank
   std::vector<std::vector<std::uint32_t>> blocks_of_;  ///< by rank
-  std::vector<std::size_t> sphere_counts_;             ///< by rank
   Messages sent_;
   Messages received_;
   std::vector<std::size_t> sizes_;  ///< bytes, by rank

@@ -90,6 +90,8 @@ class SphereBlocks {
   std::size_t member_count() const noexcept { return members_.size(); }
   /// The nodes, in order, that no block owns.
   std::span<const NodeRange> other_nodes() const noexcept { return other_nodes_; }
+  /// Of all nodes there are.
+  std::size_t node_count() const noexcept { return is_owned_.size(); }
   /// Ghosts, over all blocks.
   std::size_t ghost_count() const noexcept { return ghosts_.size(); }
   std::size_t row_count() const noexcept { return pairs_.size() / kLanes; }
@@ -104,6 +106,9 @@ class SphereBlocks {
   }
   std::span<const Member> owned(const Block& block) const noexcept {
     return members(block).first(block.owned);
+  }
+  std::span<const Member> ghosts(const Block& block) const noexcept {
+    return members(block).subspan(block.owned, block.ghosts());
   }
   /// The pairs of a row; lanes without a pair join the sphere of no size to itself.
   const Pair* row(std::size_t row) const noexcept { return &pairs_[row * kLanes]; }

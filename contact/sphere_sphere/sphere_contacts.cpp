@@ -90,13 +90,18 @@ double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
   keys_.assign(keys.begin(), keys.end());
   find_kinds(spheres, materials, last_table_.kinds);
   blocks_.assign(keys, spheres, kinds_, pool, x);
-  if (shared_) shared_->assign(blocks_);
   if (table_.kinds.size() == 1 && table_.kinds == last_table_.kinds)
     move_memories_in_place();
   else
     move_memories();
   set_parameters(materials);
   return lost;
+}
+
+void SphereContacts::share_out(std::span<const NodeId> met) {
+  if (!shared_) return;
+  complete();
+  shared_->assign(blocks_, met);
 }
 
 /// If all spheres are of one material, with nothing said of it as a pair, and the law asks for no
@@ -237,7 +242,7 @@ void SphereContacts::compute_block(std::size_t k, const Motion& motion, SphereWo
   hand_over(block, work, forces);
 }
 
-/// Ghosts' sums go where their spheres are added up; then all have all forces.
+/// Ghosts' sums go where their spheres are added up; then all have all forces on common nodes.
 void SphereContacts::share_blocks(const Motion& motion, geometry::ThreadPool& pool,
                                   NodeForces& forces) {
   const std::span<const std::uint32_t> own = shared_->own();
@@ -248,7 +253,7 @@ void SphereContacts::share_blocks(const Motion& motion, geometry::ThreadPool& po
   pool.for_each_range(own.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) add_ghost_sums(own[i], forces);
   });
-  shared_->gather(blocks_, forces, std::span(outcomes_));
+  shared_->gather(forces, std::span(outcomes_));
   is_complete_ = false;
 }
 

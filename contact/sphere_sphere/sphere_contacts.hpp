@@ -28,9 +28,14 @@ class SphereContacts {
   using Parameters = AnyLaw::Parameters;
 
   /// From here on ranks share the blocks; to be called before the first list. All of them have all
-  /// lists, and the forces of all contacts; what a contact remembers has the rank that computes it,
-  /// until somebody asks.
+  /// lists, and the forces on all common nodes; what a contact remembers has the rank that computes
+  /// it, until somebody asks.
   void share_among(geometry::Ranks& ranks) { shared_.emplace(ranks); }
+  /// Shares out what there is on the lists: before the first step with them.
+  /// @param met  nodes of spheres that something else than spheres is near to
+  void share_out(std::span<const NodeId> met);
+  /// Which rank moves which nodes; nothing where this process computes all.
+  SharedMotion* shared_motion() noexcept { return shared_ ? &shared_->motion() : nullptr; }
 
   /// Takes a new list of pairs of spheres (a < b, sorted); pairs in both lists keep their memory.
   /// @param spheres  must not change until the next list

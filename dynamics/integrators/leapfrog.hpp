@@ -2,9 +2,12 @@
 #pragma once
 
 #include "dynamics/state/node_state.hpp"
+#include "geometry/base/orderless_sum.hpp"
 #include "geometry/base/parallel_sum.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
 
 namespace plekton::dynamics {
 
@@ -41,6 +44,26 @@ struct StepWork {
   }
 };
 
+/// The same of some nodes, to be put together in any order.
+struct StepSums {
+  geometry::OrderlessSum kinetic, damped, external;  ///< J
+  double fastest_squared = 0.0;                      ///< m²/s²
+  double fastest_spin_squared = 0.0;                 ///< rad²/s²
+
+  StepSums& operator+=(const StepSums& other) noexcept {
+    kinetic += other.kinetic;
+    damped += other.damped;
+    external += other.external;
+    fastest_squared = std::max(fastest_squared, other.fastest_squared);
+    fastest_spin_squared = std::max(fastest_spin_squared, other.fastest_spin_squared);
+    return *this;
+  }
+  StepWork total() const noexcept {
+    return {kinetic.value(), damped.value(), external.value(), fastest_squared,
+            fastest_spin_squared};
+  }
+};
+
 /// Leapfrog: v(t + dt/2) = v(t - dt/2) + a(t) dt, x(t + dt) = x(t) + v(t + dt/2) dt; rotations
 /// likewise, each step an exact rotation. Second order and symplectic. The first kick is half a
 /// drift long, since the velocities are given at the start itself, and a kick between drifts of
@@ -57,12 +80,17 @@ struct StepWork {
 /// Potyondy & Cundall, Int. J. Rock Mech. Min. Sci. 41 (2004) 1329-1364, 2.
 class Leapfrog {
  public:
-  StepWork step(NodeState& state, const NodeForces& forces, const NodeProperties& properties,
+  /// One step of all nodes.
+  StepSums step(NodeState& state, const NodeForces& forces, const NodeProperties& properties,
                 const MotionOptions& options, const StepLengths& lengths,
                 geometry::ThreadPool& pool);
+  /// One step of some nodes. @param nodes  ascending, each once
+  StepSums step_some(std::span<const NodeId> nodes, NodeState& state, const NodeForces& forces,
+                     const NodeProperties& properties, const MotionOptions& options,
+                     const StepLengths& lengths, geometry::ThreadPool& pool);
 
  private:
-  geometry::ParallelSum<StepWork> sum_;
+  geometry::ParallelSum<StepSums> sum_;
 };
 
 }  // namespace plekton::dynamics

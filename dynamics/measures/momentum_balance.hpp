@@ -5,8 +5,11 @@
 #include "dynamics/measures/force_and_moment.hpp"
 #include "dynamics/state/node_state.hpp"
 #include "dynamics/ties/ties.hpp"
+#include "geometry/base/orderless_sum.hpp"
 #include "geometry/base/parallel_sum.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace plekton::geometry {
@@ -23,6 +26,7 @@ struct InnerForces {
   const Ties& ties;
   double carried = 0.0;  ///< N, how much bodies carry, also where it cancels at each node
   double kick = 0.0;     ///< s, for how long the forces act
+  contact::SharedMotion* shared = nullptr;  ///< of ranks that each know some of the nodes
 };
 
 /// Momentum that the forces between bodies make from nothing, over what they carry.
@@ -40,7 +44,8 @@ struct MomentumDrift {
 /// is added up over the steps that are looked at, with the angular one about the middle of the
 /// scene; so is what they carry, the sum of magnitudes.
 ///
-/// Linear in the nodes and the contacts with planes. The same bits for any number of threads.
+/// Linear in the nodes and the contacts with planes. The same bits for any number of threads and
+/// ranks.
 class MomentumBalance {
  public:
   /// So seldom that it costs nothing that could be measured.
@@ -60,14 +65,15 @@ class MomentumBalance {
   void exchange(const geometry::StateArchive& archive);
 
  private:
-  /// Of all nodes.
+  /// Of some nodes, to be put together in any order.
   struct NodeSums {
-    ForceAndMoment made;
-    double force = 0.0;   ///< N, of magnitudes
-    double moment = 0.0;  ///< N m, likewise
-    double reach = 0.0;   ///< m, from the middle to the furthest node that a force acts on
+    enum Part { force = 0, moment = 3, of_forces = 6, of_moments = 7 };  ///< the last of magnitudes
+
+    std::array<geometry::OrderlessSum, 8> parts;  ///< N and N m
+    double reach = 0.0;  ///< m, from the middle to the furthest node that a force acts on
 
     NodeSums& operator+=(const NodeSums& other) noexcept;
+    geometry::Vec3 vector(Part first) const noexcept;
   };
 
   /// Of all looks.
@@ -81,6 +87,8 @@ class MomentumBalance {
     double carried_angular = 0.0;                     ///< N m s, likewise
   };
 
+  template <class NodeAt>
+  NodeSums sum_of(const InnerForces& inner, const NodeAt& node_at, std::size_t count) const;
   NodeSums node_sums(const InnerForces& inner, geometry::ThreadPool& pool);
 
   Sums sums_;

@@ -48,6 +48,9 @@ class Neighbours {
   /// @param way  m, see Skin::may_need_rebuild
   bool update(Positions x, ThreadPool& pool, double way = std::numeric_limits<double>::infinity());
 
+  /// Whether update() would look at all nodes.
+  bool may_be_due(double way) const noexcept { return skin_.would_need_rebuild(way); }
+
   /// Goes on with what is left of the surface: the lists stay as they are but for the cells that
   /// are gone; the sides that a torn facet has left take its place. So pairs of spheres keep their
   /// order, and the lists last as long as they would have. Linear in the length of the lists, times

@@ -88,10 +88,14 @@ bool Skin::needs_rebuild(Positions x, ThreadPool& pool) {
 /// Rounding: a step x += v dt is rounded twice, by at most eps / 2 of the way and of the coordinate
 /// in each of three components; the sum and the speed by a few eps of it. Four eps of each pay for
 /// all of it, and the last factor for the sums of a list that lasts a million steps.
-bool Skin::may_need_rebuild(double way) noexcept {
+double Skin::way_after(double way) const noexcept {
   constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
-  way_ += (1.0 + kRounding) * way + (way > 0.0 ? kRounding * (furthest_ + skin_) : 0.0);
-  return !(built_ && 2.0 * way_ <= skin_ * (1.0 - 1e-9));
+  return way_ + ((1.0 + kRounding) * way + (way > 0.0 ? kRounding * (furthest_ + skin_) : 0.0));
+}
+
+bool Skin::may_need_rebuild(double way) noexcept {
+  way_ = way_after(way);
+  return may_be_over(way_);
 }
 
 }  // namespace plekton::geometry

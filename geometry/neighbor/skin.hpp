@@ -56,6 +56,8 @@ class Skin {
   /// @param way  m, how far any node has moved at most since the last call, but for the rounding of
   ///             x += v dt; infinite if that is not known
   bool may_need_rebuild(double way) noexcept;
+  /// Whether it would answer yes.
+  bool would_need_rebuild(double way) const noexcept { return may_be_over(way_after(way)); }
 
   /// m, from which the list was built; empty if nothing has been built yet.
   Positions built_positions() const noexcept {
@@ -65,6 +67,11 @@ class Skin {
   void exchange(const StateArchive& archive);
 
  private:
+  double way_after(double way) const noexcept;
+  bool may_be_over(double way) const noexcept {
+    return !(built_ && 2.0 * way <= skin_ * (1.0 - 1e-9));
+  }
+
   double skin_;
   bool built_ = false;
   std::vector<Vec3> built_positions_;

@@ -4,6 +4,7 @@
 #include "contact/among_ranks.hpp"
 
 #include "contact/models.hpp"
+#include "contact/sphere_sphere/shared_motion.hpp"
 #include "tests/support/seeded_random.hpp"
 #include "tests/support/thread_ranks.hpp"
 
@@ -41,6 +42,7 @@ class ShakenSpheres {
                        .meets_planes = {},
                        .rest = {}});
     forces_ = NodeForces(at_rest_.size());
+    orientation_.assign(at_rest_.size(), geometry::Quat::Identity());
     planes_.push_back({Vec3(0, 0, -0.48), Vec3::UnitZ(), Vec3::Zero(), MaterialId{0}});
   }
 
@@ -55,6 +57,8 @@ class ShakenSpheres {
       v[i] = 50.0 * (1.0 - 2.0 * phase) * way_[i];
     }
     contacts_->advance({x_, v, spin_}, planes_, dt, pool_, forces_);
+    if (SharedMotion* const shared = contacts_->shared_motion())
+      shared->tell_all({x_, v, spin_, orientation_, forces_.force, forces_.torque});
     std::uint64_t hash = 1469598103934665603ULL;
     const auto add = [&](double number_of) {
       hash = (hash ^ std::bit_cast<std::uint64_t>(number_of)) * 1099511628211ULL;
@@ -85,6 +89,7 @@ class ShakenSpheres {
   std::vector<geometry::Sphere> spheres_;
   geometry::Surface surface_;
   std::vector<Vec3> at_rest_, x_, way_, spin_;
+  std::vector<geometry::Quat> orientation_;
   std::vector<MaterialId> materials_;
   std::vector<Plane> planes_;
   std::unique_ptr<Contacts> contacts_;

@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace plekton::dynamics {
@@ -29,7 +31,11 @@ struct Nodes {
   }
 
   StepWork step(double kick, double drift, const MotionOptions& options = {}) {
-    return leapfrog.step(state, forces, properties, options, {kick, drift}, pool);
+    return leapfrog.step(state, forces, properties, options, {kick, drift}, pool).total();
+  }
+  StepSums step_some(std::span<const NodeId> nodes, double kick, double drift,
+                     const MotionOptions& options) {
+    return leapfrog.step_some(nodes, state, forces, properties, options, {kick, drift}, pool);
   }
 
   NodeState state;
@@ -195,17 +201,68 @@ TEST(Leapfrog, TurnsByAConstantSpinExactly) {
   }
 }
 
-TEST(Leapfrog, StepsManyNodesToTheBitAsEachAlone) {
-  constexpr std::size_t kCount = 600;  // several chunks, blocks and a rest
+/// Has nodes move and spin at random, some so fast that they are turned one by one, some held.
+void make_all_kinds(Nodes& all) {
   test::Random random(4);
-  Nodes all(kCount);
-  for (std::size_t i = 0; i < kCount; ++i) {
+  for (std::size_t i = 0; i < all.state.size(); ++i) {
     all.state.velocity[i] = random.in_cube(1.0);
     all.state.angular_velocity[i] = random.in_cube(i % 7 == 0 && i < 300 ? 100.0 : 1.0);
     all.forces.force[i] = random.in_cube(10.0);
     all.forces.torque[i] = random.in_cube(10.0);
     if (i > 100 && i < 400) all.properties.held[i] = static_cast<Held>(i % 64);
   }
+}
+
+void expect_same_motion(const Nodes& a, const Nodes& b) {
+  for (std::size_t i = 0; i < a.state.size(); ++i) {
+    ASSERT_EQ(a.state.position[i], b.state.position[i]) << i;
+    ASSERT_EQ(a.state.velocity[i], b.state.velocity[i]) << i;
+    ASSERT_EQ(a.state.angular_velocity[i], b.state.angular_velocity[i]) << i;
+    ASSERT_EQ(a.state.orientation[i].coeffs(), b.state.orientation[i].coeffs()) << i;
+  }
+}
+
+TEST(Leapfrog, StepsSomeNodesAndThenTheOthersToTheBitAsAllAtOnce) {
+  constexpr std::size_t kCount = 900;
+  const MotionOptions options{Vec3(0, 0, -9.81), 0.3, true};
+  Nodes all(kCount), in_parts(kCount);
+  make_all_kinds(all);
+  make_all_kinds(in_parts);
+  test::Random random(8);
+  std::array<std::vector<NodeId>, 3> parts;  // mixed at first, then in a row
+  for (std::size_t i = 0; i < kCount; ++i)
+    parts[i < 600 ? random.index(3) : 1].push_back(geometry::id_at<NodeId>(i));
+
+  const StepWork expected = all.step(0.1, 0.1, options);
+  StepSums sums;
+  for (const std::size_t part : {2U, 0U, 1U})
+    sums += in_parts.step_some(parts[part], 0.1, 0.1, options);
+
+  expect_same_motion(in_parts, all);
+  const StepWork work = sums.total();
+  EXPECT_EQ(work.kinetic, expected.kinetic);
+  EXPECT_EQ(work.damped, expected.damped);
+  EXPECT_EQ(work.external, expected.external);
+  EXPECT_EQ(work.fastest_squared, expected.fastest_squared);
+  EXPECT_EQ(work.fastest_spin_squared, expected.fastest_spin_squared);
+}
+
+TEST(Leapfrog, LeavesAloneNodesThatItIsNotAskedToStep) {
+  Nodes nodes(20), before(20);
+  make_all_kinds(nodes);
+  make_all_kinds(before);
+  const std::vector<NodeId> some{NodeId{3}, NodeId{4}, NodeId{19}};
+  nodes.step_some(some, 0.1, 0.1, {});
+  for (std::size_t i = 0; i < 20; ++i) {
+    const bool is_asked = i == 3 || i == 4 || i == 19;
+    EXPECT_EQ(nodes.state.position[i] != before.state.position[i], is_asked) << i;
+  }
+}
+
+TEST(Leapfrog, StepsManyNodesToTheBitAsEachAlone) {
+  constexpr std::size_t kCount = 600;  // several chunks, blocks and a rest
+  Nodes all(kCount);
+  make_all_kinds(all);
   std::vector<NodeState> alone;
   for (std::size_t i = 0; i < kCount; ++i) {
     Nodes one(1, all.properties.held[i]);

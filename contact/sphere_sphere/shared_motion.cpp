@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/sphere_sphere/shared_motion.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace plekton::contact {
+namespace {
+
+/// Calls visit(numbers, how many) for what a neighbour has to know of a node: position, velocity,
+/// angular velocity.
+template <class Visit>
+void for_each_part_of_ghost(const NodesInMotion& nodes, NodeId node, Visit&& visit) {
+  const std::size_t i = index_of(node);
+  for (const std::span<Vec3>* const vectors :
+       {&nodes.position, &nodes.velocity, &nodes.angular_velocity})
+    visit((*vectors)[i].data(), 3);
+}
+constexpr std::size_t kGhostBytes = 9 * sizeof(double);
+
+/// The same for all that there is of a node.
+template <class Visit>
+void for_each_part(const NodesInMotion& nodes, NodeId node, Visit&& visit) {
+  const std::size_t i = index_of(node);
+  for_each_part_of_ghost(nodes, node, visit);
+  visit(nodes.orientation[i].coeffs().data(), 4);
+  visit(nodes.force[i].data(), 3);
+  visit(nodes.torque[i].data(), 3);
+}
+constexpr std::size_t kNodeBytes = 19 * sizeof(double);
+
+/// Appends numbers to a message.
+struct Write {
+  std::byte* to;
+  void operator()(const double* numbers, std::size_t count) noexcept {
+    std::memcpy(to, numbers, count * sizeof(double));
+    to += count * sizeof(double);
+  }
+};
+
+/// Takes the next numbers of a message.
+struct Read {
+  const std::byte* from;
+  void operator()(double* numbers, std::size_t count) noexcept {
+    std::memcpy(numbers, from, count * sizeof(double));
+    from += count * sizeof(double);
+  }
+};
+
+void sort_and_unite(std::vector<NodeId>& nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
+}  // namespace
+
+void SharedMotion::assign_nothing() noexcept {
+  owners_.clear();
+  common_.clear();
+  own_.clear();
+}
+
+void SharedMotion::assign(const SphereBlocks& blocks, std::span<const int> owners,
+                          std::span<const NodeId> met) {
+  find_owners(blocks, owners, met);
+  common_.clear();
+  own_.clear();
+  for (std::size_t i = 0; i < owners_.size(); ++i) {
+    const auto node = geometry::id_at<NodeId>(i);
+    if (owners_[i] == kCommon) common_.push_back(node);
+    if (owners_[i] == ranks_->rank()) own_.push_back(node);
+  }
+  find_ghosts(blocks, owners);
+}
+
+void SharedMotion::find_owners(const SphereBlocks& blocks, std::span<const int> owners,
+                               std::span<const NodeId> met) {
+  const auto count = static_cast<std::size_t>(ranks_->count());
+  std::vector<std::uint8_t> is_common = kept_;
+  is_common.resize(blocks.node_count());
+  for (const NodeId node : met) is_common[index_of(node)] = 1;
+  owners_.assign(blocks.node_count(), kCommon);
+  common_in_blocks_.assign(count, {});
+  private_to_.assign(count, {});
+  for (std::size_t k = 0; k < owners.size(); ++k) {
+    const auto rank = static_cast<std::size_t>(owners[k]);
+    for (const SphereBlocks::Member& sphere : blocks.owned(blocks.blocks()[k])) {
+      if (is_common[index_of(sphere.node)] != 0) {
+        common_in_blocks_[rank].push_back(sphere.node);
+      } else {
+        private_to_[rank].push_back(sphere.node);
+        owners_[index_of(sphere.node)] = owners[k];
+      }
+    }
+  }
+  for (auto& nodes : common_in_blocks_) std::sort(nodes.begin(), nodes.end());
+  for (auto& nodes : private_to_) std::sort(nodes.begin(), nodes.end());
+}
+
+void SharedMotion::find_ghosts(const SphereBlocks& blocks, std::span<const int> owners) {
+  const auto count = static_cast<std::size_t>(ranks_->count());
+  const int self = ranks_->rank();
+  std::vector<std::vector<NodeId>> to(count), from(count);
+  for (std::size_t k = 0; k < owners.size(); ++k) {
+    const SphereBlocks::Block& block = blocks.blocks()[k];
+    for (const SphereBlocks::Member& ghost : blocks.ghosts(block)) {
+      const std::int32_t owner = owners_[index_of(ghost.node)];
+      if (owner == kCommon || owner == owners[k]) continue;
+      if (owner == self) to[static_cast<std::size_t>(owners[k])].push_back(ghost.node);
+      if (owners[k] == self) from[static_cast<std::size_t>(owner)].push_back(ghost.node);
+    }
+  }
+  const auto set = [](Messages& messages, std::vector<std::vector<NodeId>>& of_ranks) {
+    messages.nodes.clear();
+    messages.sizes.clear();
+    for (std::vector<NodeId>& nodes : of_ranks) {
+      sort_and_unite(nodes);
+      messages.nodes.insert(messages.nodes.end(), nodes.begin(), nodes.end());
+      messages.sizes.push_back(nodes.size() * kGhostBytes);
+    }
+    messages.bytes.resize(messages.nodes.size() * kGhostBytes);
+  };
+  set(sent_, to);
+  set(received_, from);
+}
+
+void SharedMotion::tell_neighbours(const NodesInMotion& nodes) {
+  Write write{sent_.bytes.data()};
+  for (const NodeId node : sent_.nodes) for_each_part_of_ghost(nodes, node, write);
+  ranks_->exchange(sent_.bytes, sent_.sizes, received_.bytes, received_.sizes);
+  Read read{received_.bytes.data()};
+  for (const NodeId node : received_.nodes) for_each_part_of_ghost(nodes, node, read);
+}
+
+void SharedMotion::tell_all(const NodesInMotion& nodes) {
+  if (!is_of_use()) return;
+  std::vector<std::size_t> sizes;
+  std::size_t total = 0, first = 0;
+  for (int rank = 0; rank < ranks_->count(); ++rank) {
+    if (rank == ranks_->rank()) first = total;
+    sizes.push_back(private_to_[static_cast<std::size_t>(rank)].size() * kNodeBytes);
+    total += sizes.back();
+  }
+  room_.resize(total);
+  Write write{room_.data() + first};
+  for (const NodeId node : own_) for_each_part(nodes, node, write);
+  ranks_->gather(room_, sizes);
+  Read read{room_.data()};
+  for (int rank = 0; rank < ranks_->count(); ++rank) {
+    if (rank == ranks_->rank()) {
+      read.from += sizes[static_cast<std::size_t>(rank)];
+      continue;
+    }
+    for (const NodeId node : private_to_[static_cast<std::size_t>(rank)])
+      for_each_part(nodes, node, read);
+  }
+}
+
+}  // namespace plekton::contact

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/motion.hpp"
+#include "contact/sphere_sphere/sphere_blocks.hpp"
+#include "geometry/base/ranks.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace plekton::contact {
+
+/// The motion of all nodes, and the forces on them, for ranks to tell each other of.
+struct NodesInMotion {
+  std::span<Vec3> position;          ///< m
+  std::span<Vec3> velocity;          ///< m/s
+  std::span<Vec3> angular_velocity;  ///< rad/s
+  std::span<geometry::Quat> orientation;
+  std::span<Vec3> force;   ///< N
+  std::span<Vec3> torque;  ///< N m
+};
+
+/// Which rank moves which nodes.
+///
+/// A sphere with nothing but other spheres near it concerns few: it is *private* to the rank that
+/// has its block, which moves it, and tells those that have it as a ghost. All other nodes are
+/// *common*: all ranks find the forces on them and move them, as one process would. So whatever
+/// works on common nodes knows nothing of ranks; only what looks at all nodes has to ask for the
+/// private ones of others first (tell_all()).
+class SharedMotion {
+ public:
+  explicit SharedMotion(geometry::Ranks& ranks) : ranks_(&ranks) {}
+
+  /// Nodes that are common whatever is near them. @param nodes  by NodeId, 1 or 0
+  void keep_common(std::vector<std::uint8_t> nodes) { kept_ = std::move(nodes); }
+
+  /// Takes the blocks of a new list. All ranks have to know all nodes.
+  /// @param owners  by block
+  /// @param met     nodes of spheres that something else than spheres is near to; may be there
+  ///                several times
+  void assign(const SphereBlocks& blocks, std::span<const int> owners, std::span<const NodeId> met);
+  /// All nodes are common.
+  void assign_nothing() noexcept;
+
+  /// Whether any node is private.
+  bool is_of_use() const noexcept { return !owners_.empty(); }
+
+  // Ascending.
+  std::span<const NodeId> common() const noexcept { return common_; }
+  /// Private to this rank.
+  std::span<const NodeId> own() const noexcept { return own_; }
+  /// Common nodes of spheres in the blocks of a rank.
+  std::span<const NodeId> common_in_blocks(int rank) const noexcept {
+    return common_in_blocks_[static_cast<std::size_t>(rank)];
+  }
+
+  /// Tells those who have a private sphere as a ghost where it is and how it moves.
+  void tell_neighbours(const NodesInMotion& nodes);
+  /// Tells all ranks all of all private nodes.
+  void tell_all(const NodesInMotion& nodes);
+
+  /// Adds to sums over common nodes those that each rank made over its own. Sums may not depend on
+  /// the order in which they are added.
+  template <class Sums>
+  void add_up(const Sums& of_own, Sums& sums) {
+    static_assert(std::is_trivially_copyable_v<Sums> &&
+                  sizeof(Sums) % geometry::Ranks::kUnit == 0);
+    const auto count = static_cast<std::size_t>(ranks_->count());
+    const std::vector<std::size_t> sizes(count, sizeof(Sums));
+    std::vector<Sums> of_ranks(count);
+    of_ranks[static_cast<std::size_t>(ranks_->rank())] = of_own;
+    ranks_->gather(std::as_writable_bytes(std::span(of_ranks)), sizes);
+    for (const Sums& of_rank : of_ranks) sums += of_rank;
+  }
+
+ private:
+  static constexpr std::int32_t kCommon = -1;
+
+  void find_owners(const SphereBlocks& blocks, std::span<const int> owners,
+                   std::span<const NodeId> met);
+  void find_ghosts(const SphereBlocks& blocks, std::span<const int> owners);
+
+  /// Private nodes that are ghosts of other ranks.
+  struct Messages {
+    std::vector<NodeId> nodes;  ///< rank by rank
+    std::vector<std::size_t> sizes;
+    std::vector<std::byte> bytes;
+  };
+
+  geometry::Ranks* ranks_;
+  std::vector<std::uint8_t> kept_;
+  std::vector<std::int32_t> owners_;  ///< rank by node, or kCommon; empty: all are common
+  std::vector<NodeId> common_;
+  std::vector<NodeId> own_;
+  std::vector<std::vector<NodeId>> common_in_blocks_;  ///< by rank
+  std::vector<std::vector<NodeId>> private_to_;        ///< by rank
+  Messages sent_;
+  Messages received_;
+  std::vector<std::byte> room_;
+};
+
+}  // namespace plekton::contact
