@@ -3,11 +3,15 @@
 
 Usage: python3 ranks_test.py PROGRAM [CASE]
 
+With PLEKTON_RANKS=all in the environment also the scenes of scenes/named, on up to 8 ranks, and 50 runs that are killed (some 15 minutes
+on two cores).
+
 Ends 77 where there is no mpirun, or the program has no MPI: ctest shows that as skipped.
 """
 
 import json
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -23,6 +27,10 @@ NOT_COMPARED = {"run.json"}
 """Times and names of machines; of it the states alone are."""
 
 program = ""
+
+
+def asks_for_all():
+    return os.environ.get("PLEKTON_RANKS") == "all"
 
 
 def mpirun(ranks):
@@ -89,11 +97,38 @@ class SameBytes(Ranks):
         self.assert_same(self.folder / "0", self.folder / "2", "two threads in each of two ranks")
 
 
+@unittest.skipUnless(asks_for_all(), "long: set PLEKTON_RANKS=all")
+class NamedScenes(Ranks):
+    def test_on_up_to_8_ranks_and_with_owners_by_chance(self):
+        for scene in sorted((SCENES / "named").glob("*.toml")):
+            with self.subTest(scene.stem):
+                alone = self.folder / scene.stem
+                self.run_well(0, scene, "--out", alone, "--quiet")
+                self.assertGreater(len(states_of(alone)), 3)
+                for ranks, by_chance in ((1, ""), (2, ""), (3, ""), (5, ""), (8, ""), (3, "owners"), (5, "delays,owners")):
+                    out = self.folder / "out"
+                    self.run_well(ranks, scene, "--out", out, "--quiet", by_chance=by_chance, seconds=900)
+                    self.assert_same(alone, out, f"{scene.stem} on {ranks} ranks {by_chance}")
+                    shutil.rmtree(out)
+                print(f"{scene.stem}: {len(states_of(alone))} states", flush=True)
+
+
 class Resume(Ranks):
     def test_after_a_killed_rank_on_another_number_of_ranks(self):
+        self.assert_resumes((2, 3), (3, 0), (0, 2))
+
+    @unittest.skipUnless(asks_for_all(), "long: set PLEKTON_RANKS=all")
+    def test_50_times(self):
+        counts = random.Random(1)
+        pairs = [counts.sample((0, 1, 2, 3, 5), 2) for _ in range(50)]
+        self.assert_resumes(*pairs)
+        print(f"killed and resumed on another number of ranks: {len(pairs)} of {len(pairs)} the same")
+
+    def assert_resumes(self, *pairs):
+        """Runs that are killed on so many ranks go on on so many others."""
         alone, out = self.folder / "alone", self.folder / "out"
         self.run_well(0, SCENES / "spheres.toml", "--out", alone, "--quiet")
-        for before, after in ((2, 3), (3, 0), (0, 2)):
+        for before, after in pairs:
             shutil.rmtree(out, ignore_errors=True)
             self.kill_when_there_is_a_checkpoint(before, out)
             self.run_well(after, "--resume", out, "--quiet")
