@@ -75,7 +75,8 @@ class Contacts {
   /// that there is moves all of them.
   virtual SharedMotion* shared_motion() noexcept { return nullptr; }
   /// Whether advance() would look at all nodes, not only at those that are near others.
-  virtual bool may_make_lists(const Motion& motion, std::span<const Plane> planes) const noexcept = 0;
+  virtual bool may_make_lists(const Motion& motion,
+                              std::span<const Plane> planes) const noexcept = 0;
 
   /// Goes on with what is left of the surface after some of its elements have broken away
   /// (geometry::Surface::left_with). Contacts go on where a feature they touch is left, those far

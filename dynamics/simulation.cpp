@@ -428,10 +428,9 @@ void Simulation::watch_momentum() {
                            sheet_facets_.elastic_energy() + ties_.elastic_energy();
     carried = kLooks * std::sqrt(2.0 * initial_stiffness_.translation * elastic);
   }
-  momentum_.look(
-      {scene_.state.position, forces_, *contacts_, ties_, carried, 0.5 * (last_drift_ + drift_),
-       nodes_.shared()},
-      pool_);
+  momentum_.look({scene_.state.position, forces_, *contacts_, ties_, carried,
+                  0.5 * (last_drift_ + drift_), nodes_.shared()},
+                 pool_);
 }
 
 FaultFinder Simulation::fault_finder() {

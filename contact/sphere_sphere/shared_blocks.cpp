@@ -5,16 +5,12 @@
 #include <cstring>
 
 namespace plekton::contact {
-namespace {
 
-/// What a block costs, in pairs: to move a sphere takes about as long as two of them.
-std::uint64_t work_of(const SphereBlocks& blocks, const SphereBlocks::Block& block) {
+std::uint64_t SharedBlocks::work_of(const SphereBlocks& blocks, const SphereBlocks::Block& block) {
   std::uint64_t pairs = 0;
   for (const SphereBlocks::Range& range : blocks.ranges(block)) pairs += range.pair_count;
   return pairs + 2 * std::uint64_t{block.owned};
 }
-
-}  // namespace
 
 void SharedBlocks::assign(const SphereBlocks& blocks, std::span<const NodeId> met) {
   std::vector<std::uint64_t> work;
@@ -39,21 +35,27 @@ void SharedBlocks::find_messages(const SphereBlocks& blocks) {
   const auto count = static_cast<std::size_t>(ranks_->count());
   const int self = ranks_->rank();
   std::vector<std::vector<std::uint32_t>> to(count), from(count);
-  std::vector<int> computes(blocks.ghost_count());  // by ghost
+  std::vector<std::uint32_t> computes(blocks.ghost_count());  // block by ghost
+  std::vector<std::uint8_t> is_at_border(owners_.size(), 0);
   for (std::size_t k = 0; k < owners_.size(); ++k) {
     const SphereBlocks::Block& block = blocks.blocks()[k];
-    std::fill_n(computes.begin() + block.first_ghost, block.ghosts(), owners_[k]);
+    std::fill_n(computes.begin() + block.first_ghost, block.ghosts(),
+                static_cast<std::uint32_t>(k));
   }
   for (std::size_t k = 0; k < owners_.size(); ++k) {
     const int owner = owners_[k];
     const auto add = [&](NodeId, std::uint32_t ghost) {
-      const int computing = computes[ghost];
+      const int computing = owners_[computes[ghost]];
       if (computing == owner) return;
+      is_at_border[computes[ghost]] = 1;
       if (computing == self) to[static_cast<std::size_t>(owner)].push_back(ghost);
       if (owner == self) from[static_cast<std::size_t>(computing)].push_back(ghost);
     };
     blocks.for_each_ghost(k, add, [](NodeId, std::uint32_t) {});
   }
+  border_.clear();
+  inner_.clear();
+  for (const std::uint32_t k : own_) (is_at_border[k] != 0 ? border_ : inner_).push_back(k);
   const auto set = [](Messages& messages, const std::vector<std::vector<std::uint32_t>>& ghosts) {
     messages.ghosts.clear();
     messages.sizes.clear();
@@ -67,7 +69,7 @@ void SharedBlocks::find_messages(const SphereBlocks& blocks) {
   set(received_, from);
 }
 
-void SharedBlocks::exchange_ghosts(std::span<SphereSum> sums) {
+void SharedBlocks::begin_ghosts(std::span<const SphereSum> sums) {
   static_assert(offsetof(SphereSum, torque) == 3 * sizeof(double));
   std::byte* to = sent_.bytes.data();
   for (const std::uint32_t ghost : sent_.ghosts) {
@@ -75,7 +77,11 @@ void SharedBlocks::exchange_ghosts(std::span<SphereSum> sums) {
     std::memcpy(to + sizeof(Vec3), sums[ghost].torque.data(), sizeof(Vec3));
     to += kSphereBytes;
   }
-  ranks_->exchange(sent_.bytes, sent_.sizes, received_.bytes, received_.sizes);
+  ranks_->begin_exchange(sent_.bytes, sent_.sizes, received_.bytes, received_.sizes);
+}
+
+void SharedBlocks::end_ghosts(std::span<SphereSum> sums) {
+  ranks_->end_exchange();
   const std::byte* from = received_.bytes.data();
   for (const std::uint32_t ghost : received_.ghosts) {
     std::memcpy(sums[ghost].force.data(), from, sizeof(Vec3));

@@ -25,6 +25,9 @@ class SharedBlocks {
  public:
   explicit SharedBlocks(geometry::Ranks& ranks) : ranks_(&ranks), motion_(ranks) {}
 
+  /// What a block costs, in pairs: to move a sphere takes about as long as two of them.
+  static std::uint64_t work_of(const SphereBlocks& blocks, const SphereBlocks::Block& block);
+
   /// Takes the blocks of a new list.
   /// @param met  as SharedMotion::assign() has it
   void assign(const SphereBlocks& blocks, std::span<const NodeId> met);
@@ -36,12 +39,18 @@ class SharedBlocks {
   bool is_worth_it() const noexcept { return ranks_->count() > 1 && owners_.size() > 1; }
   /// By block.
   int owner(std::size_t block) const noexcept { return owners_[block]; }
-  /// Those of this rank, ascending.
+  // Those of this rank, ascending.
   std::span<const std::uint32_t> own() const noexcept { return own_; }
+  /// With ghosts of other ranks.
+  std::span<const std::uint32_t> border() const noexcept { return border_; }
+  /// Without.
+  std::span<const std::uint32_t> inner() const noexcept { return inner_; }
 
-  /// Sends the sums of ghosts to the ranks that have their spheres.
-  /// @param sums  by ghost; of blocks of this rank given, of its spheres in other blocks taken
-  void exchange_ghosts(std::span<SphereSum> sums);
+  /// Begins to send the sums of ghosts of border blocks to the ranks that have their spheres.
+  /// @param sums  by ghost
+  void begin_ghosts(std::span<const SphereSum> sums);
+  /// Takes the sums of this rank's spheres in blocks of others.
+  void end_ghosts(std::span<SphereSum> sums);
 
   /// Gives all ranks the forces on the common spheres of all blocks, and what the blocks came to.
   /// @param outcomes  by block
@@ -88,7 +97,7 @@ class SharedBlocks {
   geometry::Ranks* ranks_;
   SharedMotion motion_;
   std::vector<int> owners_;                            ///< by block
-  std::vector<std::uint32_t> own_;                     ///< blocks of this rank
+  std::vector<std::uint32_t> own_, border_, inner_;    ///< blocks of this rank
   std::vector<std::vector<std::uint32_t>> blocks_of_;  ///< by rank
   Messages sent_;
   Messages received_;

@@ -127,7 +127,8 @@ void SharedMotion::find_ghosts(const SphereBlocks& blocks, std::span<const int> 
 void SharedMotion::tell_neighbours(const NodesInMotion& nodes) {
   Write write{sent_.bytes.data()};
   for (const NodeId node : sent_.nodes) for_each_part_of_ghost(nodes, node, write);
-  ranks_->exchange(sent_.bytes, sent_.sizes, received_.bytes, received_.sizes);
+  ranks_->begin_exchange(sent_.bytes, sent_.sizes, received_.bytes, received_.sizes);
+  ranks_->end_exchange();
   Read read{received_.bytes.data()};
   for (const NodeId node : received_.nodes) for_each_part_of_ghost(nodes, node, read);
 }

@@ -66,8 +66,7 @@ class SharedMotion {
   /// the order in which they are added.
   template <class Sums>
   void add_up(const Sums& of_own, Sums& sums) {
-    static_assert(std::is_trivially_copyable_v<Sums> &&
-                  sizeof(Sums) % geometry::Ranks::kUnit == 0);
+    static_assert(std::is_trivially_copyable_v<Sums> && sizeof(Sums) % geometry::Ranks::kUnit == 0);
     const auto count = static_cast<std::size_t>(ranks_->count());
     const std::vector<std::size_t> sizes(count, sizeof(Sums));
     std::vector<Sums> of_ranks(count);

@@ -242,14 +242,20 @@ void SphereContacts::compute_block(std::size_t k, const Motion& motion, SphereWo
   hand_over(block, work, forces);
 }
 
-/// Ghosts' sums go where their spheres are added up; then all have all forces on common nodes.
+/// Ghosts' sums go where their spheres are added up, while blocks without such are computed; then
+/// all have all forces on common nodes.
 void SphereContacts::share_blocks(const Motion& motion, geometry::ThreadPool& pool,
                                   NodeForces& forces) {
+  const auto compute = [&](std::span<const std::uint32_t> blocks) {
+    pool.for_each_shared(blocks.size(), [&](std::size_t i, int worker) {
+      compute_block(blocks[i], motion, work_[static_cast<std::size_t>(worker)], forces);
+    });
+  };
+  compute(shared_->border());
+  shared_->begin_ghosts(ghost_sums_);
+  compute(shared_->inner());
+  shared_->end_ghosts(ghost_sums_);
   const std::span<const std::uint32_t> own = shared_->own();
-  pool.for_each_shared(own.size(), [&](std::size_t i, int worker) {
-    compute_block(own[i], motion, work_[static_cast<std::size_t>(worker)], forces);
-  });
-  shared_->exchange_ghosts(ghost_sums_);
   pool.for_each_range(own.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) add_ghost_sums(own[i], forces);
   });

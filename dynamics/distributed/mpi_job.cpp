@@ -90,9 +90,9 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
     wait_for_all();
   }
 
-  void exchange(std::span<const std::byte> sent, std::span<const std::size_t> sent_sizes,
-                std::span<std::byte> received,
-                std::span<const std::size_t> received_sizes) override {
+  void begin_exchange(std::span<const std::byte> sent, std::span<const std::size_t> sent_sizes,
+                      std::span<std::byte> received,
+                      std::span<const std::size_t> received_sizes) override {
     wait_by_chance();
     constexpr int kTag = 1;
     requests_.clear();
@@ -116,8 +116,8 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
       }
       at += size;
     }
-    wait_for_all();
   }
+  void end_exchange() override { wait_for_all(); }
 
  private:
   /// MPI would look all the time, and take the core that another rank waits for where there are

@@ -55,7 +55,8 @@ struct Fastest {
   PLEKTON_INLINE void add_to(StepSums& sums) const noexcept {
     for (std::size_t lane = 0; lane < std::size_t{W}; ++lane) {
       sums.fastest_squared = std::max<double>(sums.fastest_squared, squared.lanes[lane]);
-      sums.fastest_spin_squared = std::max<double>(sums.fastest_spin_squared, spin_squared.lanes[lane]);
+      sums.fastest_spin_squared =
+          std::max<double>(sums.fastest_spin_squared, spin_squared.lanes[lane]);
     }
   }
 };
@@ -80,9 +81,9 @@ class Gathered {
     }
   }
   PLEKTON_INLINE NodeArrays arrays() noexcept {
-    return {position_.data(), velocity_.data(), angular_velocity_.data(),
-            orientation_.data(), force_.data(), torque_.data(),
-            mass_.data(), inertia_.data(), held_.data()};
+    return {position_.data(),    velocity_.data(), angular_velocity_.data(),
+            orientation_.data(), force_.data(),    torque_.data(),
+            mass_.data(),        inertia_.data(),  held_.data()};
   }
   PLEKTON_INLINE void put_back() const noexcept {
     for (std::size_t i = 0; i < kCount; ++i) {

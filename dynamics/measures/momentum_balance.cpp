@@ -75,7 +75,8 @@ MomentumBalance::NodeSums MomentumBalance::node_sums(const InnerForces& inner,
                                                      geometry::ThreadPool& pool) {
   if (inner.shared == nullptr) {
     return sum_(inner.position.size(), pool, [&](std::size_t begin, std::size_t end, int) {
-      return sum_of(inner, [begin](std::size_t i) { return begin + i; }, end - begin);
+      return sum_of(
+          inner, [begin](std::size_t i) { return begin + i; }, end - begin);
     });
   }
   const auto sum_over = [&](std::span<const geometry::NodeId> nodes) {

@@ -39,11 +39,16 @@ class Ranks {
   /// @param sizes  by rank
   virtual void gather(std::span<std::byte> parts, std::span<const std::size_t> sizes) = 0;
 
-  /// Sends a part to each rank and takes one from each.
-  /// @param sent, received  parts one after the other, with their sizes by rank
-  virtual void exchange(std::span<const std::byte> sent, std::span<const std::size_t> sent_sizes,
-                        std::span<std::byte> received,
-                        std::span<const std::size_t> received_sizes) = 0;
+  /// Begins to send a part to each rank and to take one from each. Until end_exchange() this rank
+  /// may compute, but calls no other function of this class.
+  /// @param sent, received  parts one after the other, with their sizes by rank; they stay where
+  ///                        they are until the end
+  virtual void begin_exchange(std::span<const std::byte> sent,
+                              std::span<const std::size_t> sent_sizes,
+                              std::span<std::byte> received,
+                              std::span<const std::size_t> received_sizes) = 0;
+  /// From here on all that was to be received is there.
+  virtual void end_exchange() = 0;
 
   /// Ranges of pieces, in the order of the ranks: a piece goes to the rank in whose share of the
   /// work its middle lies.

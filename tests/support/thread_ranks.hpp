@@ -64,18 +64,23 @@ class ThreadRanks {
       all_.barrier_.arrive_and_wait();
     }
 
-    void exchange(std::span<const std::byte> sent, std::span<const std::size_t> sent_sizes,
-                  std::span<std::byte> received,
-                  std::span<const std::size_t> received_sizes) override {
-      const auto self = static_cast<std::size_t>(rank_);
-      all_.views_[self] = {sent.data(), starts_of(sent_sizes)};
+    void begin_exchange(std::span<const std::byte> sent, std::span<const std::size_t> sent_sizes,
+                        std::span<std::byte> received,
+                        std::span<const std::size_t> received_sizes) override {
+      all_.views_[static_cast<std::size_t>(rank_)] = {sent.data(), starts_of(sent_sizes)};
+      received_ = received;
+      received_sizes_.assign(received_sizes.begin(), received_sizes.end());
+    }
+
+    void end_exchange() override {
       all_.barrier_.arrive_and_wait();
-      const std::vector<std::size_t> starts = starts_of(received_sizes);
-      for (std::size_t rank = 0; rank < received_sizes.size(); ++rank) {
-        if (received_sizes[rank] == 0) continue;
+      const std::vector<std::size_t> starts = starts_of(received_sizes_);
+      for (std::size_t rank = 0; rank < received_sizes_.size(); ++rank) {
+        if (received_sizes_[rank] == 0) continue;
         const View& view = all_.views_[rank];
-        std::memcpy(received.data() + starts[rank], view.bytes + view.starts[self],
-                    received_sizes[rank]);
+        std::memcpy(received_.data() + starts[rank],
+                    view.bytes + view.starts[static_cast<std::size_t>(rank_)],
+                    received_sizes_[rank]);
       }
       all_.barrier_.arrive_and_wait();
     }
@@ -95,6 +100,8 @@ class ThreadRanks {
     int rank_;
     bool by_chance_;
     std::mt19937 random_;  // the same on all ranks
+    std::span<std::byte> received_;
+    std::vector<std::size_t> received_sizes_;
   };
 
   std::barrier<> barrier_;

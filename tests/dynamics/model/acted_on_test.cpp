@@ -36,7 +36,9 @@ TEST(ActedOn, AreNodesUnderLoadsAndTies) {
   scene.cables.emplace_back().nodes = {NodeId{13}, NodeId{14}};
 
   std::vector<std::uint8_t> expected(scene.state.size(), 0);
-  for (const std::size_t node : std::initializer_list<std::size_t> {1, 3, 4, 6, 8, 10, 11, 13, 14, 20, 21, 22}) expected[node] = 1;
+  for (const std::size_t node :
+       std::initializer_list<std::size_t>{1, 3, 4, 6, 8, 10, 11, 13, 14, 20, 21, 22})
+    expected[node] = 1;
   EXPECT_EQ(acted_on(scene), expected);
 }
 
@@ -44,10 +46,12 @@ TEST(ActedOn, AreNodesOfBondsSheetsAndRigidBodies) {
   Scene scene = row_of_spheres();
   scene.bonds.emplace_back().nodes = {NodeId{0}, NodeId{2}};
   scene.sheet_facets.emplace_back().nodes = {NodeId{20}, NodeId{21}, NodeId{22}};
-  scene.rigid_bodies.push_back({.node = NodeId{5}, .nodes = {NodeId{7}, NodeId{9}}, .moments = Vec3::Zero()});
+  scene.rigid_bodies.push_back(
+      {.node = NodeId{5}, .nodes = {NodeId{7}, NodeId{9}}, .moments = Vec3::Zero()});
 
   std::vector<std::uint8_t> expected(scene.state.size(), 0);
-  for (const std::size_t node : std::initializer_list<std::size_t> {0, 2, 5, 7, 9, 20, 21, 22}) expected[node] = 1;
+  for (const std::size_t node : std::initializer_list<std::size_t>{0, 2, 5, 7, 9, 20, 21, 22})
+    expected[node] = 1;
   EXPECT_EQ(acted_on(scene), expected);
 }
 

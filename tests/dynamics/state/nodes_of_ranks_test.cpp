@@ -122,8 +122,7 @@ TEST(NodesOfRanks, MoveOnlySomeOfTheSpheresEach) {
   test::ThreadRanks(3).run([&](geometry::Ranks& ranks) {
     contact::SharedMotion* shared = nullptr;
     const auto watched = [&](contact::ContactScene scene) {
-      auto contacts =
-          contact::among_ranks(contact::linear_frictional(), ranks)(std::move(scene));
+      auto contacts = contact::among_ranks(contact::linear_frictional(), ranks)(std::move(scene));
       shared = contacts->shared_motion();
       return contacts;
     };

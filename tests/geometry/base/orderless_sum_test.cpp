@@ -73,14 +73,16 @@ TEST(OrderlessSum, IsAsNearToTheExactSumAsItSays) {
     double largest = 0.0;
     for (const double number : numbers) {
       int exponent = 0;
-      const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(number, &exponent), 53));
+      const auto mantissa =
+          static_cast<std::int64_t>(std::ldexp(std::frexp(number, &exponent), 53));
       exact += static_cast<Int128>(mantissa) << (exponent - 53 + 83);
       largest = std::max(largest, std::abs(number));
     }
     const double sum = sum_of<8>(numbers).value();
     // What rounds the exact one here, and three terms of the sum, each below n times the largest.
     const double expected = std::ldexp(static_cast<double>(exact), -83);
-    const double rounding = 4.0 * 0x1p-53 * std::abs(expected) + 1000.0 * 0x1p-52 * 0x1p-32 * largest;
+    const double rounding =
+        4.0 * 0x1p-53 * std::abs(expected) + 1000.0 * 0x1p-52 * 0x1p-32 * largest;
     EXPECT_NEAR(sum, expected, 1000.0 * 0x1p-64 * largest + rounding) << seed;
   }
 }
