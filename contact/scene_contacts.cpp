@@ -105,7 +105,7 @@ void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes,
     is_shared_out_ = false;
     ++list_count_;
   }
-  if (!is_shared_out_) share_out();
+  if (!is_shared_out_ || (shared_motion() != nullptr && shared_motion()->is_due())) share_out();
   dissipated_ += with_spheres_.advance(motion, dt, pool, forces);
   add(with_surfaces_.advance(motion, dt, pool));
   add(between_structures_.advance(motion, dt, pool));

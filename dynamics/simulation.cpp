@@ -199,6 +199,36 @@ void Simulation::set_velocity(NodeId node, const Vec3& velocity, const Vec3& ang
   dt_ = std::min(dt_, longest_step(velocity.norm(), largest_gravity(), pace_radius_));
 }
 
+void Simulation::add_force(std::vector<NodeId> nodes, OwnForce force) {
+  for (const NodeId node : nodes) {
+    require_node("add_force", node, scene_.state.size());
+    if (rigid_nodes_.body_followed_by(node) >= 0)
+      throw std::invalid_argument("add_force: node " + std::to_string(index_of(node)) +
+                                  " follows a rigid body; load its reference node");
+  }
+  std::vector<NodeId> sorted = nodes;
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end())
+    throw std::invalid_argument("add_force: node " + std::to_string(index_of(*twice)) +
+                                " is there twice; name each once");
+  nodes_.act_on(nodes);
+  loads_.add(std::move(nodes), std::move(force));
+}
+
+void Simulation::set_force(std::size_t load, const Vec3& force, const Vec3& torque) {
+  require_index("set_force", "force", load, loads_.force_count());
+  loads_.set_force(load, force, torque);
+}
+
+void Simulation::set_pressure(std::size_t load, double pressure) {
+  require_index("set_pressure", "pressure", load, loads_.pressed_surfaces().size());
+  if (scene_.loads.pressures[load].by_volume)
+    throw std::invalid_argument("set_pressure: pressure " + std::to_string(load) +
+                                " follows the volume by a table");
+  loads_.set_pressure(load, pressure);
+}
+
 double Simulation::motion_ratio() const {
   nodes_.know_all();
   return largest_speed(scene_.state) * dt_ / pace_radius_;
@@ -566,7 +596,7 @@ void Simulation::follow_breaks() {
   const std::span<const std::size_t> yielded = yielding_bonds_.broken();
   if (broken_.empty() && yielded.empty() && sheet_facets_.broken().empty()) return;
   break_asked();
-  loads_.follow(bonds_);
+  loads_.follow(bonds_, sheet_facets_);
   if (surface_.cell_count() > 0) {
     broken_.bonds.insert(broken_.bonds.end(), yielded.begin(), yielded.end());
     for (const std::size_t facet : sheet_facets_.broken())
@@ -727,9 +757,9 @@ void Simulation::exchange(const geometry::StateArchive& archive) {
 void Simulation::exchange_kept(const geometry::StateArchive& archive) {
   exchange_motion(archive);
   bonds_.exchange(archive.group("bonds"));
-  if (archive.is_reading()) loads_.follow(bonds_);
   yielding_bonds_.exchange(archive.group("yield"));
   sheet_facets_.exchange(archive.group("sheets"));
+  if (archive.is_reading()) loads_.follow(bonds_, sheet_facets_);
   if (!ties_.empty()) ties_.exchange(archive.group("ties"));
   if (!rigid_bodies_.empty()) rigid_bodies_.exchange(archive.group("rigid_bodies"));
   exchange_asked_breaks(archive.group("asked_breaks"));

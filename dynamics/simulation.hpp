@@ -122,6 +122,19 @@ class Simulation {
   /// (Scene::loads), and those of the reference nodes of rigid bodies, which take their nodes along.
   /// @throws std::invalid_argument for a node that follows a rigid body
   void set_velocity(NodeId node, const Vec3& velocity, const Vec3& angular_velocity = Vec3::Zero());
+  /// Adds a force of one's own to the loads, asked for in every step from the next one on
+  /// (loads/own_force.hpp); its work is external. The time step knows nothing of it: one that grows
+  /// stiffly with places or velocities needs a step that follows it. It is no part of the state: add
+  /// it again after restore().
+  /// @param nodes  each once; none that follows a rigid body
+  /// @throws std::invalid_argument for a node twice, or of a rigid body
+  void add_force(std::vector<NodeId> nodes, OwnForce force);
+  /// Changes a load, from the next step on, by its place in Loads::forces; its factor goes on.
+  /// Neither is part of the state.
+  void set_force(std::size_t load, const Vec3& force, const Vec3& torque = Vec3::Zero());
+  /// The same by its place in Loads::pressures. @param pressure  Pa
+  /// @throws std::invalid_argument for one by volume
+  void set_pressure(std::size_t load, double pressure);
   const NodeProperties& properties() const noexcept { return scene_.properties; }
   /// Those that are left; nodes keep their ids.
   const geometry::Elements& elements() const noexcept { return scene_.elements; }

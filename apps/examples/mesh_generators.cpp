@@ -41,6 +41,7 @@ void write_all(const std::filesystem::path& folder) {
   write_net("biaxial_geogrid", biaxial_geogrid({0.04, 0.04, 9, 9, 2}));
   write_net("uniaxial_geogrid", uniaxial_geogrid({0.025, 0.22, 15, 2, 4}));
   write_net("hexagonal_net", hexagonal_net({0.08, 0.04, 0.04, 7, 8}));
+  write_net("ring_net", ring_net({0.3, 4, 3, 4}));
 }
 
 }  // namespace

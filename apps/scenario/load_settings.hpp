@@ -56,6 +56,10 @@ struct BeamDampingSettings {
   std::size_t membrane = 0;
   dynamics::BeamDamping damping;
 };
+struct SheetDampingSettings {
+  std::size_t membrane = 0;
+  dynamics::SheetDamping damping;
+};
 struct BodyServoSettings {
   std::size_t rigid_body = 0;  ///< among [[rigid_bodies]]
   Place place;                 ///< of the key rigid_body
@@ -71,8 +75,8 @@ struct LoadSettings {
   std::string path;  ///< what messages call it, as in "loads.pull"
   Place place;
   std::variant<GravitySettings, MotionSettings, ForceSettings, GroundSpringSettings,
-               MassDampingSettings, PressureSettings, BeamDampingSettings, dynamics::PlaneMotion,
-               dynamics::PlaneServo, BodyServoSettings>
+               MassDampingSettings, PressureSettings, BeamDampingSettings, SheetDampingSettings,
+               dynamics::PlaneMotion, dynamics::PlaneServo, BodyServoSettings>
       load;
 };
 

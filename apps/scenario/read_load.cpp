@@ -151,6 +151,11 @@ BeamDampingSettings read_beam_damping(Section& section, const Scenario& scenario
           {{}, section.quantity("ratio", {kNumber, kNotNegative})}};
 }
 
+SheetDampingSettings read_sheet_damping(Section& section, const Scenario& scenario) {
+  return {read_membrane_name(section, scenario).value_or(0),
+          {{}, section.quantity("ratio", {kNumber, kNotNegative})}};
+}
+
 PressureSettings read_pressure(Section& section, const Scenario& scenario) {
   PressureSettings settings;
   settings.membrane = read_membrane_name(section, scenario).value_or(0);
@@ -219,9 +224,9 @@ BodyServoSettings read_body_servo(Section& section, const Scenario& scenario) {
 }  // namespace
 
 LoadSettings read_load(Section section, const Scenario& scenario, std::size_t number) {
-  constexpr std::array<std::string_view, 8> kKinds = {
-      "motion",  "force",          "pressure",     "servo",
-      "gravity", "ground_springs", "beam_damping", "mass_damping"};
+  constexpr std::array<std::string_view, 9> kKinds = {
+      "motion",         "force",        "pressure",      "servo",       "gravity",
+      "ground_springs", "beam_damping", "sheet_damping", "mass_damping"};
   LoadSettings settings;
   section.tell_default("name", "loads N");
   settings.name = section.name("name", fmt::format("loads {}", number));
@@ -262,6 +267,9 @@ LoadSettings read_load(Section section, const Scenario& scenario, std::size_t nu
       break;
     case 6:
       settings.load = read_beam_damping(section, scenario);
+      break;
+    case 7:
+      settings.load = read_sheet_damping(section, scenario);
       break;
     default:
       settings.load = read_mass_damping(section, scenario);

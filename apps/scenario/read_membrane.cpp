@@ -10,6 +10,7 @@
 namespace plekton::apps {
 namespace {
 
+constexpr Range kPrestrain{-0.5, 0.5, true, true, " from -0.5 to 0.5"};
 constexpr Range kPoisson{-1.0, 0.5, false, true, " above -1 and at most 0.5"};
 
 HoldSettings read_hold(Section& section) {
@@ -50,6 +51,7 @@ std::optional<double> read_either(Section& section, std::pair<std::string_view, 
 /// Keys that do not go with the mode.
 void require_mode(Section& section, const MembraneSettings& membrane) {
   if (membrane.mode != MembraneMode::continuum) {
+    membrane.prestrain = section.quantity("prestrain", {kStrain, kPrestrain}, membrane.prestrain);
     if (section.has("bending_stiffness"))
       section.complain("bending_stiffness",
                        "goes with mode = \"continuum\"; in a lattice it follows from the beams, "

@@ -131,6 +131,18 @@ ShapeSettings read_hexagonal(Section& section) {
   return net;
 }
 
+ShapeSettings read_ring_net(Section& section) {
+  geometry::RingNet net{};
+  net.ring_diameter = section.quantity("ring_diameter", kPositiveLength);
+  const auto rings = section.integers("rings", {1, 1}, kMostCells);
+  net.rings_x = rings[0];
+  net.rings_y = rings[1];
+  net.arc_divisions =
+      static_cast<int>(section.integer("divisions", 1, kMostCells, net.arc_divisions));
+  require_few(section, "rings", 4.0 * rings[0] * rings[1] * net.arc_divisions);
+  return net;
+}
+
 ShapeSettings read_chain(Section& section) {
   geometry::Chain chain;
   chain.points = section.vectors("points", {kLength}, 2);
@@ -195,12 +207,12 @@ ShapeSettings read_bars(Section& section) {
   return lattice;
 }
 
-constexpr std::array<std::string_view, 10> kKinds = {
-    "sheet",         "tube",  "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid",
-    "hexagonal_net", "chain", "facets", "bars"};
-constexpr std::array<ShapeSettings (*)(Section&), 10> kReaders = {
-    read_sheet,    read_tube,      read_sphere, read_box_shell, read_biaxial,
-    read_uniaxial, read_hexagonal, read_chain,  read_facets,    read_bars};
+constexpr std::array<std::string_view, 11> kKinds = {
+    "sheet",    "tube",  "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid", "hexagonal_net",
+    "ring_net", "chain", "facets", "bars"};
+constexpr std::array<ShapeSettings (*)(Section&), 11> kReaders = {
+    read_sheet,     read_tube,     read_sphere, read_box_shell, read_biaxial, read_uniaxial,
+    read_hexagonal, read_ring_net, read_chain,  read_facets,    read_bars};
 
 }  // namespace
 

@@ -34,7 +34,7 @@ struct FacetShape {
 using ShapeSettings =
     std::variant<geometry::PlaneSheet, geometry::Tube, SphereShape, BoxShape,
                  geometry::BiaxialGeogrid, geometry::UniaxialGeogrid, geometry::HexagonalNet,
-                 geometry::Chain, FacetShape, geometry::Lattice>;
+                 geometry::RingNet, geometry::Chain, FacetShape, geometry::Lattice>;
 
 /// Whether a shape is of bars anywhere in space: it has ends for a rim, and no area.
 inline bool is_chain(const ShapeSettings& shape) noexcept {
@@ -46,7 +46,8 @@ inline bool is_chain(const ShapeSettings& shape) noexcept {
 inline bool is_net(const ShapeSettings& shape) noexcept {
   return std::holds_alternative<geometry::BiaxialGeogrid>(shape) ||
          std::holds_alternative<geometry::UniaxialGeogrid>(shape) ||
-         std::holds_alternative<geometry::HexagonalNet>(shape) || is_chain(shape);
+         std::holds_alternative<geometry::HexagonalNet>(shape) ||
+         std::holds_alternative<geometry::RingNet>(shape) || is_chain(shape);
 }
 
 /// Whether a shape of facets has bars beside them.

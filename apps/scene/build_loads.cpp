@@ -92,6 +92,18 @@ class LoadBuilder {
     loads_.beam_damping.push_back(std::move(damping));
   }
 
+  void add(const SheetDampingSettings& settings) {
+    dynamics::SheetDamping damping = settings.damping;
+    const auto [first, count] = range_of(settings.membrane, &BuiltMembrane::sheet_facets);
+    if (count == 0)
+      complain(current_->place, "membrane",
+               fmt::format("\"{}\" is no sheet; expected a membrane in mode continuum, or kind = "
+                           "\"beam_damping\" for one of beams or bars",
+                           built_.membranes[settings.membrane].name));
+    for (std::size_t i = 0; i < count; ++i) damping.facets.push_back(first + i);
+    loads_.sheet_damping.push_back(std::move(damping));
+  }
+
   void add(const PressureSettings& settings) {
     dynamics::SurfacePressure load = settings.load;
     const auto [first, count] = range_of(settings.membrane, &BuiltMembrane::facets);

@@ -175,6 +175,9 @@ Lattice make(const geometry::UniaxialGeogrid& grid) {
 Lattice make(const geometry::HexagonalNet& net) {
   return geometry::hexagonal_net(net);
 }
+Lattice make(const geometry::RingNet& net) {
+  return geometry::ring_net(net);
+}
 Lattice make(const geometry::Chain& chain) {
   return geometry::chain(chain);
 }

@@ -146,6 +146,7 @@ void add_edges(const MembraneSettings& settings, const MembraneBody& body,
     const std::size_t bond = scene.add_beam(
         a, b, is_twist ? dynamics::wire_section(radius, *settings.twist_wire) : section, density,
         settings.nodal_inertia);
+    scene.bonds[bond].length /= 1.0 + settings.prestrain;
     (is_twist ? twists : plain).push_back(bond);
   }
   if (settings.strength) scene.bond_laws.push_back({*settings.strength, plain});
@@ -160,8 +161,11 @@ void add_sheet(const MembraneSettings& settings, const Membrane& membrane,
       dynamics::solid_sheet(settings.thickness, built.young_modulus, settings.poisson_ratio);
   section.bending_stiffness = settings.bending_stiffness.value_or(section.bending_stiffness);
   section.strength = settings.tear_strength.value_or(section.strength);
-  for (const geometry::Facet& facet : membrane.facets)
-    scene.add_sheet_facet(facet.nodes, section, 0.0);
+  for (const geometry::Facet& facet : membrane.facets) {
+    const std::size_t sheet = scene.add_sheet_facet(facet.nodes, section, 0.0);
+    for (dynamics::Vec2& corner : scene.sheet_facets[sheet].corners)
+      corner /= 1.0 + settings.prestrain;
+  }
   for (const auto& edge : membrane.edges) {
     dynamics::add_edge_mass(scene.properties, edge, scene.state.position, 0.5 * settings.thickness,
                             density, settings.nodal_inertia);
@@ -219,8 +223,11 @@ BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) 
   result.beams = settings.mode == MembraneMode::continuum ? 0 : body.membrane.edges.size();
   result.on_rim = body.on_rim;
   result.area = body.area;
+  result.extent = geometry::bounding_box(body.membrane.nodes, 0.0);
   result.held_nodes = add_nodes(settings, body, built);
+  const std::size_t sheet_facets = built.scene.sheet_facets.size();
   add_elements(settings, body, built.scene, result);
+  result.sheet_facets = built.scene.sheet_facets.size() - sheet_facets;
   return result;
 }
 

@@ -54,7 +54,13 @@ void sort_and_unite(std::vector<NodeId>& nodes) {
 
 }  // namespace
 
+void SharedMotion::keep_common(std::span<const NodeId> nodes) {
+  for (const NodeId node : nodes) kept_[index_of(node)] = 1;
+  is_due_ = true;
+}
+
 void SharedMotion::assign_nothing() noexcept {
+  is_due_ = false;
   owners_.clear();
   common_.clear();
   own_.clear();
@@ -62,6 +68,7 @@ void SharedMotion::assign_nothing() noexcept {
 
 void SharedMotion::assign(const SphereBlocks& blocks, std::span<const int> owners,
                           std::span<const NodeId> met) {
+  is_due_ = false;
   find_owners(blocks, owners, met);
   common_.clear();
   own_.clear();

@@ -36,6 +36,10 @@ class SharedMotion {
 
   /// Nodes that are common whatever is near them. @param nodes  by NodeId, 1 or 0
   void keep_common(std::vector<std::uint8_t> nodes) { kept_ = std::move(nodes); }
+  /// These too, from the next assign() on, which is due then.
+  void keep_common(std::span<const NodeId> nodes);
+  /// Whether other nodes are kept than those that assign() knew of.
+  bool is_due() const noexcept { return is_due_; }
 
   /// Takes the blocks of a new list. All ranks have to know all nodes.
   /// @param owners  by block
@@ -91,6 +95,7 @@ class SharedMotion {
 
   geometry::Ranks* ranks_;
   std::vector<std::uint8_t> kept_;
+  bool is_due_ = false;
   std::vector<std::int32_t> owners_;  ///< rank by node, or kCommon; empty: all are common
   std::vector<NodeId> common_;
   std::vector<NodeId> own_;

@@ -19,6 +19,8 @@ AppliedLoads::AppliedLoads(const Scene& scene) {
     pressures_.emplace_back(load, scene.elements.facets, scene.state);
   for (const BeamDamping& damping : loads.beam_damping)
     beams_.emplace_back(damping, scene.bonds, scene.properties);
+  for (const SheetDamping& damping : loads.sheet_damping)
+    sheets_.emplace_back(damping, scene.sheet_facets, scene.properties);
   for (const MassDamping& damping : loads.mass_damping)
     dragged_.emplace_back(damping, scene.properties);
 }
@@ -31,9 +33,11 @@ template <class Visit>
 LoadWork AppliedLoads::sum_over_forces(Visit&& visit) {
   LoadWork work;
   for (ForcedNodes& load : forces_) work.external += visit(load);
+  for (OwnForcedNodes& load : own_) work.external += visit(load);
   for (SprungNodes& load : springs_) work.external += visit(load);
   for (PressedSurface& load : pressures_) work.external += visit(load);
   for (DampedBeams& load : beams_) work.damped -= visit(load);
+  for (DampedSheets& load : sheets_) work.damped -= visit(load);
   for (DraggedNodes& load : dragged_) work.damped -= visit(load);
   return work;
 }
@@ -62,8 +66,9 @@ void AppliedLoads::look_at(const YieldingBonds& bonds) noexcept {
   for (DampedBeams& beams : beams_) beams.look_at(bonds);
 }
 
-void AppliedLoads::follow(const BeamBonds& bonds) {
+void AppliedLoads::follow(const BeamBonds& bonds, const SheetFacets& sheets) {
   for (DampedBeams& beams : beams_) beams.follow(bonds);
+  for (DampedSheets& damped : sheets_) damped.follow(sheets);
 }
 
 void AppliedLoads::follow(const geometry::SurfaceChange& change) {
@@ -98,6 +103,7 @@ double AppliedLoads::damped_step(double undamped) const noexcept {
   double relaxation_time = 0.0;
   double rate = 0.0;
   for (const DampedBeams& beams : beams_) relaxation_time += beams.relaxation_time();
+  for (const DampedSheets& sheets : sheets_) relaxation_time += sheets.relaxation_time();
   for (const DraggedNodes& nodes : dragged_) rate += nodes.rate();
   if (relaxation_time == 0.0 && rate == 0.0) return undamped;
   return dynamics::damped_step(undamped, relaxation_time, rate);

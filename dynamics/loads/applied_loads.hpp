@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dynamics/loads/damped_sheets.hpp"
 #include "dynamics/loads/ground_springs.hpp"
 #include "dynamics/loads/nodal_force.hpp"
+#include "dynamics/loads/own_force.hpp"
 #include "dynamics/loads/prescribed_motion.hpp"
 #include "dynamics/loads/surface_pressure.hpp"
 #include "dynamics/loads/viscous_damping.hpp"
@@ -16,6 +18,17 @@ class AppliedLoads {
  public:
   /// @param scene  checked
   explicit AppliedLoads(const Scene& scene);
+
+  /// Takes a force of one's own. @param nodes  each once
+  void add(std::vector<NodeId> nodes, OwnForce force) {
+    own_.emplace_back(std::move(nodes), std::move(force));
+  }
+  /// By place in Loads::forces and Loads::pressures, from the next step on.
+  void set_force(std::size_t load, const Vec3& force, const Vec3& torque) {
+    forces_[load].set(force, torque);
+  }
+  void set_pressure(std::size_t load, double pressure) { pressures_[load].set(pressure); }
+  std::size_t force_count() const noexcept { return forces_.size(); }
 
   /// Sets the velocities of prescribed motions at the start.
   void start(NodeState& state) const;
@@ -38,8 +51,8 @@ class AppliedLoads {
   /// @param state  with the velocities of that drift
   LoadWork work_after(const LoadStep& step, const NodeState& state, geometry::ThreadPool& pool);
 
-  /// Goes on without the dashpots of broken bonds.
-  void follow(const BeamBonds& bonds);
+  /// Goes on without the dashpots of broken bonds, and of torn sheets.
+  void follow(const BeamBonds& bonds, const SheetFacets& sheets);
   /// Goes on without pressure on facets that are gone.
   void follow(const geometry::SurfaceChange& change);
 
@@ -77,9 +90,11 @@ class AppliedLoads {
 
   std::vector<MovedNodes> motions_;
   std::vector<ForcedNodes> forces_;
+  std::vector<OwnForcedNodes> own_;
   std::vector<SprungNodes> springs_;
   std::vector<PressedSurface> pressures_;
   std::vector<DampedBeams> beams_;
+  std::vector<DampedSheets> sheets_;
   std::vector<DraggedNodes> dragged_;
 };
 

@@ -55,6 +55,8 @@ class LoadProblems {
       list_problems(loads.pressures[i], scene_, "surface pressure " + std::to_string(i), text_);
     for (std::size_t i = 0; i < loads.beam_damping.size(); ++i)
       list("beam damping " + std::to_string(i), loads.beam_damping[i]);
+    for (std::size_t i = 0; i < loads.sheet_damping.size(); ++i)
+      list("sheet damping " + std::to_string(i), loads.sheet_damping[i]);
     for (std::size_t i = 0; i < loads.mass_damping.size(); ++i)
       list("mass damping " + std::to_string(i), loads.mass_damping[i]);
   }
@@ -129,6 +131,16 @@ class LoadProblems {
       if (bond < scene_.bonds.size()) continue;
       text_ << name << ": there is no bond " << bond << ", only " << scene_.bonds.size()
             << " bonds\n";
+    }
+  }
+
+  void list(const std::string& name, const SheetDamping& damping) {
+    expect(std::isfinite(damping.ratio) && damping.ratio >= 0.0, name,
+           "its ratio must be finite and not negative");
+    for (const std::size_t facet : damping.facets) {
+      if (facet < scene_.sheet_facets.size()) continue;
+      text_ << name << ": there is no facet " << facet << " of a sheet, only "
+            << scene_.sheet_facets.size() << '\n';
     }
   }
 

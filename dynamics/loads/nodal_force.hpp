@@ -20,6 +20,12 @@ class ForcedNodes {
   }
   LoadedNodes& nodes() noexcept { return nodes_; }
 
+  /// From the next step on. @param force, torque  N and N m, times the factor
+  void set(const Vec3& force, const Vec3& torque) noexcept {
+    load_.force = force;
+    load_.torque = torque;
+  }
+
  private:
   NodalForce load_;
   LoadedNodes nodes_;

@@ -43,6 +43,10 @@ class PressedSurface {
   /// What the last act found.
   void exchange(const geometry::StateArchive& archive);
 
+  /// From the next step on. @param pressure  Pa, times the factor; over the outside of a gas at the
+  ///                                         volume of the start
+  void set(double pressure) noexcept { load_.pressure = pressure; }
+
   /// m³, at the last act; only where the pressure follows it.
   double volume() const noexcept { return volume_; }
   /// Pa, at the last act.

@@ -101,6 +101,14 @@ struct BeamDamping {
   double ratio = 0.0;  ///< >= 0
 };
 
+/// Dashpots in the facets of sheets against being stretched, in proportion to their stiffness
+/// (loads/damped_sheets.hpp). At 1 the fastest stretching of a facet alone between its nodes is
+/// critically damped.
+struct SheetDamping {
+  std::vector<std::size_t> facets;  ///< by place in Scene::sheet_facets
+  double ratio = 0.0;               ///< >= 0
+};
+
 /// Forces -rate m v and torques -rate I w: drag in a medium at rest.
 struct MassDamping {
   std::vector<NodeId> nodes;
@@ -147,6 +155,7 @@ struct Loads {
   std::vector<GroundSprings> ground_springs;
   std::vector<SurfacePressure> pressures;
   std::vector<BeamDamping> beam_damping;
+  std::vector<SheetDamping> sheet_damping;
   std::vector<MassDamping> mass_damping;
   TimeTable gravity_factor;  ///< of the gravity in MotionOptions
 };

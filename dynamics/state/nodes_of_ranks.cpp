@@ -12,6 +12,13 @@ void NodesOfRanks::share(contact::SharedMotion* shared, std::vector<std::uint8_t
   if (shared_ != nullptr) shared_->keep_common(std::move(acted_on));
 }
 
+/// They are common from the next list on; that is made at once.
+void NodesOfRanks::act_on(std::span<const NodeId> nodes) {
+  if (shared_ == nullptr) return;
+  know_all();
+  shared_->keep_common(nodes);
+}
+
 bool NodesOfRanks::are_shared() const noexcept {
   return shared_ != nullptr && shared_->is_of_use();
 }

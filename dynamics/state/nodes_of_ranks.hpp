@@ -5,6 +5,7 @@
 #include "dynamics/state/node_state.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace plekton::contact {
@@ -25,6 +26,9 @@ class NodesOfRanks {
   /// @param shared    null: one process
   /// @param acted_on  by NodeId, 1: something besides contacts and weight acts on it
   void share(contact::SharedMotion* shared, std::vector<std::uint8_t> acted_on);
+
+  /// Something more acts on these nodes from now on.
+  void act_on(std::span<const NodeId> nodes);
 
   /// To be called by all ranks, before anything looks at nodes that no structure, plane or load is
   /// near to. It costs nothing if they are known.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/generate/lattice.hpp"
 
+#include "geometry/base/elementary.hpp"
 #include "geometry/mesh/generate/generator_checks.hpp"
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 namespace plekton::geometry {
 namespace {
@@ -109,6 +111,25 @@ void add_wires(Lattice& lattice, const NetRow& lower, const NetRow& upper) {
   }
 }
 
+/// The four arcs of a ring between its joints, counterclockwise from the one along x.
+void add_ring(Lattice& lattice, const Vec3& centre, const std::array<NodeId, 4>& joints,
+              int divisions) {
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    const NodeId end = joints[(quarter + 1) % 4];
+    const Vec3 from = lattice.points[index_of(joints[quarter])] - centre;
+    const Vec3 to = lattice.points[index_of(end)] - centre;
+    NodeId last = joints[quarter];
+    for (int k = 1; k < divisions; ++k) {
+      const double angle = k * (std::numbers::pi / 2.0) / divisions;
+      const NodeId next =
+          add_point(lattice, centre + elementary::cos(angle) * from + elementary::sin(angle) * to);
+      add_edge(lattice, last, next, LatticePart::ring);
+      last = next;
+    }
+    add_edge(lattice, last, end, LatticePart::ring);
+  }
+}
+
 }  // namespace
 
 Lattice biaxial_geogrid(const BiaxialGeogrid& grid) {
@@ -152,6 +173,36 @@ Lattice hexagonal_net(const HexagonalNet& net) {
   // Between the twists of the last row.
   const int count = static_cast<int>(below.nodes.size()) - 1;
   add_wires(lattice, below, add_net_row(lattice, net, below.first + 1, count, y));
+  return finished(std::move(lattice));
+}
+
+Lattice ring_net(const RingNet& net) {
+  require_length(net.ring_diameter, "a diameter of rings");
+  require_at_least(1, net.rings_x, "rings of a net along x");
+  require_at_least(1, net.rings_y, "rings of a net along y");
+  require_at_least(1, net.arc_divisions, "elements of a quarter of a ring");
+  require_numbers_for(4.0 * net.arc_divisions * net.rings_x * net.rings_y +
+                          static_cast<double>(net.rings_x) + net.rings_y,
+                      "a ring net");
+  Lattice lattice;
+  const double radius = 0.5 * net.ring_diameter;
+  const auto columns = static_cast<std::size_t>(net.rings_x);
+  const auto add_joint = [&](int x, int y) {  // in radii
+    return add_point(lattice, {x * radius, y * radius, 0.0});
+  };
+  std::vector<NodeId> below;  // joints with the row below, by column
+  for (int i = 0; i < net.rings_x; ++i) below.push_back(add_joint(2 * i + 1, 0));
+  for (int j = 0; j < net.rings_y; ++j) {
+    NodeId left = add_joint(0, 2 * j + 1);
+    for (std::size_t i = 0; i < columns; ++i) {
+      const int x = 2 * static_cast<int>(i) + 1, y = 2 * j + 1;
+      const NodeId right = add_joint(x + 1, y), above = add_joint(x, y + 1);
+      const Vec3 centre(x * radius, y * radius, 0.0);
+      add_ring(lattice, centre, {right, above, left, below[i]}, net.arc_divisions);
+      left = right;
+      below[i] = above;
+    }
+  }
   return finished(std::move(lattice));
 }
 

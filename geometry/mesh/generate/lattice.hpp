@@ -21,6 +21,7 @@ enum class LatticePart : std::uint8_t {
   bar,    ///< of a geogrid, along x (cross-machine direction)
   wire,   ///< of a net: a single wire
   twist,  ///< of a net: two wires wound around each other
+  ring,   ///< of a ring net
   link    ///< of a chain
 };
 
@@ -77,6 +78,20 @@ struct HexagonalNet {
 /// (DEM) numerical modeling of double-twisted hexagonal mesh, Canadian Geotechnical Journal (2008),
 /// and in Thoeni et al. (2013).
 Lattice hexagonal_net(const HexagonalNet& net);
+
+struct RingNet {
+  double ring_diameter;   ///< m, between the axes of the wire
+  int rings_x;            ///< at least 1
+  int rings_y;            ///< at least 1
+  int arc_divisions = 3;  ///< straight elements of a quarter of a ring, at least 1
+};
+
+/// Net of rings, each of which hangs together with the four next to it in one point each: rings in
+/// rows and columns that share their nodes there, cut into polygons with corners on the circle.
+/// Real rings are wound of several wires and may slide through each other; here they do not.
+/// Source: Nicot, Cambou & Mazzoleni, Design of rockfall restraining nets from a discrete element
+/// modelling, Rock Mech. Rock Eng. 34 (2001) 99-118: rings with four neighbours.
+Lattice ring_net(const RingNet& net);
 
 struct Chain {
   std::vector<Vec3> points;  ///< m, at least 2; one that is equal to the first at the end closes it

@@ -3,8 +3,11 @@
 #include "tests/apps/command_line/command_fixture.hpp"
 #include "tests/apps/command_line/sheet_and_ball.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <sstream>
 #include <string>
 
 namespace plekton::apps {
@@ -144,6 +147,86 @@ TEST_F(Loads, RunAndKeepTheBooks) {
   EXPECT_LT(report()["energy_closure"], 0.01);
   EXPECT_NE(report()["energy"]["external_work_J"], 0.0);
   EXPECT_GT(report()["energy"]["damping_J"], 0.0);
+}
+
+TEST_F(Loads, DampSheetsInProportionToTheirStiffness) {
+  const std::string shell = R"([simulation]
+gravity = [0, 0, 0]
+duration = "20 ms"
+[materials.rubber]
+young_modulus = "1 MPa"
+[[membranes]]
+name = "shell"
+shape = { kind = "sphere", radius = "5 cm", subdivisions = 1 }
+mode = "continuum"
+thickness = "1 mm"
+young_modulus = "2 MPa"
+density = "1000 kg/m3"
+material = "rubber"
+prestrain = "2 %"
+)";
+  // What the strained shell has, moving and stretched, after it was let go.
+  const auto left_with = [&](const std::string& more) {
+    test::write_bytes(folder_ / "shell.toml", shell + more);
+    const Outcome outcome =
+        outcome_of({"run", (folder_ / "shell.toml").string(), "--out", out(), "--overwrite"});
+    EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+    EXPECT_LT(report()["energy_closure"], 0.01);
+    return report()["energy"]["kinetic_J"].get<double>() +
+           report()["energy"]["sheet_elastic_J"].get<double>();
+  };
+  const double breathing = left_with("");
+  const double damped =
+      left_with("[[loads]]\nkind = \"sheet_damping\"\nmembrane = \"shell\"\nratio = 0.5\n");
+  EXPECT_LT(damped, 0.1 * breathing);
+  EXPECT_GT(report()["energy"]["damping_J"], 0.8 * breathing);
+  expect_problem("kind = \"sheet_damping\"\nmembrane = \"net\"\nratio = 0.1\n",
+                 "\"net\" is no sheet; expected a membrane in mode continuum");
+  expect_problem("kind = \"sheet_damping\"\nmembrane = \"ball\"\nratio = -1\n",
+                 "loads.a.ratio: got -1");
+}
+
+/// A sphere that holds p over the outside carries N = p R / 2 in all directions, with a strain of
+/// N (1 - nu) / (E t): a shell that is strained so at the start stays as it is.
+TEST_F(Loads, FindAPrestrainedShellAtRestUnderItsPressure) {
+  const auto most_kinetic = [&](double prestrain) {
+    test::write_bytes(folder_ / "ball.toml", fmt::format(R"([simulation]
+gravity = [0, 0, 0]
+duration = "10 ms"
+[materials.rubber]
+young_modulus = "1 MPa"
+[[membranes]]
+name = "ball"
+shape = {{ kind = "sphere", radius = "5 cm", subdivisions = 3 }}
+mode = "continuum"
+thickness = "1 mm"
+young_modulus = "2 MPa"
+poisson_ratio = 0.4
+density = "1000 kg/m3"
+material = "rubber"
+prestrain = {}
+[[loads]]
+kind = "pressure"
+membrane = "ball"
+pressure = "2 kPa"
+gas = {{}}
+[output]
+history_interval = "0.1 ms"
+)",
+                                                         prestrain));
+    const Outcome outcome =
+        outcome_of({"run", (folder_ / "ball.toml").string(), "--out", out(), "--overwrite"});
+    EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+    std::istringstream rows(test::bytes_of(folder_ / "out/energy.csv"));
+    std::string row;
+    std::getline(rows, row);
+    EXPECT_THAT(row, testing::StartsWith("time (s),kinetic (J)"));
+    double most = 0.0;
+    while (std::getline(rows, row)) most = std::max(most, std::stod(row.substr(row.find(',') + 1)));
+    return most;
+  };
+  const double strain = 2e3 * 0.05 / 2.0 * (1.0 - 0.4) / (2e6 * 1e-3);
+  EXPECT_LT(most_kinetic(strain), 0.01 * most_kinetic(0.0));
 }
 
 TEST_F(Loads, AreRefusedWithTheNameOfWhatIsNotThere) {

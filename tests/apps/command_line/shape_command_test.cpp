@@ -101,7 +101,7 @@ TEST_F(ShapeCommand, CheckCountsWhatEachKindOfNetHas) {
   const auto divided = [](std::string_view shape, int n) {
     return fmt::format("{}, divisions = {}", shape, n);
   };
-  const std::array<std::pair<std::string, std::string>, 4> cases = {{
+  const std::array<std::pair<std::string, std::string>, 5> cases = {{
       // 6 ribs of 4 and 5 bars of 5 elements; on the rim all but the 4 x 3 junctions inside
       {std::string(kBiaxial), "30 nodes (18 held), 49 beams, 0 facets, area 0.04 m2"},
       // each element becomes 3, and 2 of the nodes between are on the rim with it
@@ -110,6 +110,9 @@ TEST_F(ShapeCommand, CheckCountsWhatEachKindOfNetHas) {
       {std::string(kUniaxial), "143 nodes (44 held), 172 beams, 0 facets, area 0.06 m2"},
       // twists 7 + 6 + 7 + 6 + 7; a row of wires is 2 for each of its meshes
       {std::string(kHexagonal), "78 nodes (24 held), 105 beams, 0 facets, area 0.1824 m2"},
+      // 12 rings of 16 elements, which share 3 x 3 + 4 x 2 nodes; 14 are where the frame touches
+      {R"(kind = "ring_net", ring_diameter = "30 cm", rings = [4, 3], divisions = 4)",
+       "175 nodes (14 held), 192 beams, 0 facets, area 1.08 m2"},
   }};
   for (const auto& [shape, counts] : cases) {
     const Outcome outcome = checked(shape, "hold = \"rim\"");
@@ -117,6 +120,16 @@ TEST_F(ShapeCommand, CheckCountsWhatEachKindOfNetHas) {
     EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("membrane m: " + counts)) << shape;
   }
+}
+
+TEST_F(ShapeCommand, CheckTellsFromWhereToWhereAShapeIs) {
+  EXPECT_THAT(checked(kSheet).out, HasSubstr("from (-0.5, -1, 0) to (0.5, 1, 0) m; generated"));
+  EXPECT_THAT(checked(R"(kind = "tube", radius = "10 cm", length = "40 cm", cells = [24, 10])",
+                      "translate = [0, 0, \"1 m\"]")
+                  .out,
+              HasSubstr("from (-0.1, -0.1, 1) to (0.1, 0.1, 1.4) m"));
+  EXPECT_THAT(checked(R"(kind = "box", size = ["1 m", "2 m", "30 cm"])").out,
+              HasSubstr("from (0, 0, 0) to (1, 2, 0.3) m"));
 }
 
 TEST_F(ShapeCommand, PutsAShapeInItsPlaceAsAMesh) {
@@ -147,11 +160,12 @@ TEST_F(ShapeCommand, NamesAKindThatDoesNotExistWithASuggestion) {
   EXPECT_THAT(error_of("kind = \"biaxial_geogrd\""),
               HasSubstr("did you mean \"biaxial_geogrid\"?"));
   EXPECT_THAT(error_of("width = 1"), HasSubstr("membranes.m.shape.kind: missing"));
-  EXPECT_THAT(error_of(""),
-              HasSubstr("case.toml:10:9: membranes.m.shape.kind: missing; expected one of "
-                        "\"sheet\", \"tube\", \"sphere\", \"box\", \"biaxial_geogrid\", "
-                        "\"uniaxial_geogrid\", \"hexagonal_net\", \"chain\", \"facets\", "
-                        "\"bars\"\n"));
+  EXPECT_THAT(
+      error_of(""),
+      HasSubstr("case.toml:10:9: membranes.m.shape.kind: missing; expected one of "
+                "\"sheet\", \"tube\", \"sphere\", \"box\", \"biaxial_geogrid\", "
+                "\"uniaxial_geogrid\", \"hexagonal_net\", \"ring_net\", \"chain\", \"facets\", "
+                "\"bars\"\n"));
 }
 
 TEST_F(ShapeCommand, ReportsEveryWrongSizeWithItsPlace) {
@@ -170,7 +184,7 @@ TEST_F(ShapeCommand, ReportsEveryWrongSizeWithItsPlace) {
 
 TEST_F(ShapeCommand, RefusesSizesThatGiveNoShape) {
   const std::string_view sheet = R"(kind = "sheet", width = "1 m", length = "1 m", cells = )";
-  const std::array<std::pair<std::string, std::string_view>, 12> cases = {{
+  const std::array<std::pair<std::string, std::string_view>, 13> cases = {{
       {std::string(sheet) + "20", "cells: got 20; expected a list of 2 whole numbers"},
       {std::string(sheet) + "[1, 2, 3]", "expected a list of 2 whole numbers"},
       {std::string(sheet) + "[20000, 20000]",
@@ -193,6 +207,8 @@ TEST_F(ShapeCommand, RefusesSizesThatGiveNoShape) {
        "meshes[0]: got 1; expected a whole number from 2"},
       {R"(kind = "hexagonal_net", mesh_size = "8 cm", twist_length = "1e-30 m", wire_height = "3 cm", meshes = [2, 1])",
        "case.toml:10:9: membranes.m: \"m\": length of its shortest edge is 0 m"},
+      {R"(kind = "ring_net", ring_diameter = "30 cm", rings = [0, 3])",
+       "rings[0]: got 0; expected a whole number from 1"},
       {R"(kind = "biaxial_geogrid", rib_pitch = "4 cm", bar_pitch = "4 cm")",
        "apertures: missing; this key is required"},
   }};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/generate/lattice.hpp"
+
 #include "geometry/primitives/elements.hpp"
 
 #include <gmock/gmock.h>
@@ -123,6 +124,52 @@ TEST(UniaxialGeogrid, HasLongDividedRibsBetweenUndividedBars) {
   EXPECT_EQ(count_of_parts(grid)[LatticePart::bar], 3 * 3);
   for (const LatticeEdge& edge : grid.edges)
     EXPECT_NEAR(length(grid, edge), edge.part == LatticePart::rib ? 0.0625 : 0.02, 2e-16);
+}
+
+constexpr RingNet kRings = {.ring_diameter = 0.3, .rings_x = 4, .rings_y = 3, .arc_divisions = 4};
+
+TEST(RingNet, HasPolygonsWithTheirCornersOnCirclesSideBySide) {
+  const Lattice net = ring_net(kRings);
+
+  EXPECT_EQ(net.edges.size(), 12u * 16u);
+  EXPECT_EQ(count_of_parts(net)[LatticePart::ring], 12 * 16);
+  EXPECT_EQ(net.points.size(), 12u * 16u - (3u * 3u + 4u * 2u));
+  // The rings, and what four of them enclose.
+  EXPECT_EQ(meshes_of(net), 12u + 6u);
+  EXPECT_NEAR(half_size(net, 0), 0.6, 1e-15);
+  EXPECT_NEAR(half_size(net, 1), 0.45, 1e-15);
+  const double side = 0.3 * std::sin(std::acos(-1.0) / 16.0);
+  for (const LatticeEdge& edge : net.edges) EXPECT_NEAR(length(net, edge), side, 1e-15);
+  for (const Vec3& x : net.points) {
+    double nearest = 1.0;  // m, from a circle
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const Vec3 centre(0.3 * (i - 1.5), 0.3 * (j - 1.0), 0.0);
+        nearest = std::min(nearest, std::abs((x - centre).norm() - 0.15));
+      }
+    EXPECT_LT(nearest, 1e-15);
+  }
+}
+
+TEST(RingNet, HasFourBarsWhereRingsMeetAndTwoElsewhere) {
+  const std::vector<int> degree = degrees(ring_net(kRings));
+  EXPECT_EQ(std::count(degree.begin(), degree.end(), 4), 3 * 3 + 4 * 2);
+  EXPECT_EQ(std::count(degree.begin(), degree.end(), 2),
+            static_cast<std::ptrdiff_t>(degree.size()) - 17);
+}
+
+TEST(RingNet, IsASquareOfFourNodesAtTheLeast) {
+  const Lattice net = ring_net({0.2, 1, 1, 1});
+  EXPECT_EQ(net.points.size(), 4u);
+  EXPECT_EQ(net.edges.size(), 4u);
+}
+
+TEST(RingNet, RefusesWhatIsNoNet) {
+  EXPECT_THROW(ring_net({0.0, 1, 1, 1}), MeshError);
+  EXPECT_THROW(ring_net({0.3, 0, 1, 1}), MeshError);
+  EXPECT_THROW(ring_net({0.3, 1, 0, 1}), MeshError);
+  EXPECT_THROW(ring_net({0.3, 1, 1, 0}), MeshError);
+  EXPECT_THROW(ring_net({0.3, 100000, 100000, 3}), MeshError);
 }
 
 TEST(HexagonalNet, HasRowsOfMeshesOffsetByHalfAMesh) {

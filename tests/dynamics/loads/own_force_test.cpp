@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/loads/own_force.hpp"
+
+#include "dynamics/simulation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace plekton::dynamics {
+namespace {
+
+/// Balls of 4 kg and radius 0.1 m in a row, 1 m apart.
+Scene row_of_balls(int count) {
+  Scene scene;
+  scene.materials.emplace_back();
+  for (int i = 0; i < count; ++i) {
+    const double density = 4.0 / (4.0 / 3.0 * 3.14159265358979324 * 1e-3);
+    scene.add_sphere(Vec3(i, 0, 0), 0.1, density, contact::MaterialId{0});
+  }
+  return scene;
+}
+
+SimulationOptions steps_of(double time_step) {
+  SimulationOptions options;
+  options.time_step = time_step;
+  return options;
+}
+
+TEST(OwnForce, MovesItsNodesAndNoOthers) {
+  Simulation simulation(row_of_balls(3), steps_of(1e-3));
+  simulation.add_force({NodeId{2}, NodeId{0}}, [](double, const NodeState&, auto forces) {
+    forces[0] = {Vec3(8, 0, 0)};           // on node 2
+    forces[1].torque = Vec3(0, 0, 0.016);  // on node 0, of moment of inertia 0.016 kg m²
+  });
+  for (int i = 0; i < 1000; ++i) simulation.step();
+  // From rest by 2 m/s² for 1 s; the leapfrog is exact for it.
+  EXPECT_NEAR(simulation.state().position[2][0], 2.0 + 1.0, 1e-12);
+  EXPECT_NEAR(simulation.state().angular_velocity[0][2], 1.0, 2e-3);
+  EXPECT_EQ(simulation.state().position[1], Vec3(1, 0, 0));
+  EXPECT_NEAR(simulation.energy().external_work, simulation.energy().kinetic, 1e-9);
+}
+
+/// A spring of 100 N/m to the origin: the ball of 4 kg swings with 5 rad/s.
+TEST(OwnForce, OfASpringSwingsAndClosesTheBooks) {
+  Scene scene = row_of_balls(2);
+  scene.state.position[1] = Vec3(0, 0.7, 0);
+  Simulation simulation(std::move(scene), steps_of(1e-3));
+  double last_time = -1.0;
+  simulation.add_force({NodeId{1}}, [&](double time, const NodeState& state, auto forces) {
+    EXPECT_GT(time, last_time);  // once a step
+    last_time = time;
+    forces[0].force = -100.0 * state.position[1];
+  });
+  const double swing = 2.0 * 3.14159265358979324 / 5.0;
+  while (simulation.step_until(10.0 * swing)) {
+  }
+  EXPECT_NEAR(simulation.state().position[1][1], 0.7, 1e-4);
+  const Energy energy = simulation.energy();
+  EXPECT_NEAR(energy.external_work, energy.kinetic, 1e-4 * 0.5 * 100.0 * 0.7 * 0.7);
+}
+
+TEST(OwnForce, RefusesNodesThatAreNotThereTwiceOrOfARigidBody) {
+  Scene scene = row_of_balls(3);
+  MassProperties mass;
+  mass.mass = 1.0;
+  mass.centre = Vec3(2, 0, 0);
+  mass.inertia = Mat3::Identity();
+  scene.add_rigid_body(std::array{NodeId{2}}, mass);
+  Simulation simulation(std::move(scene), steps_of(1e-3));
+  const OwnForce nothing = [](double, const NodeState&, auto) {};
+  EXPECT_THROW(simulation.add_force({NodeId{7}}, nothing), std::out_of_range);
+  EXPECT_THROW(simulation.add_force({NodeId{0}, NodeId{0}}, nothing), std::invalid_argument);
+  EXPECT_THROW(simulation.add_force({NodeId{2}}, nothing), std::invalid_argument);
+}
+
+TEST(Loads, AreChangedWhileItRuns) {
+  Scene scene = row_of_balls(2);
+  scene.loads.forces.emplace_back().nodes = {NodeId{1}};
+  scene.loads.forces[0].force = Vec3(4, 0, 0);
+  Simulation simulation(std::move(scene), steps_of(1e-3));
+  for (int i = 0; i < 500; ++i) simulation.step();
+  simulation.set_force(0, Vec3(-4, 0, 0));
+  for (int i = 0; i < 500; ++i) simulation.step();
+  // Velocities are half a step ahead.
+  EXPECT_NEAR(simulation.state().velocity[1][0], -0.0005, 1e-12);
+  EXPECT_THROW(simulation.set_force(1, Vec3::Zero()), std::out_of_range);
+  EXPECT_THROW(simulation.set_pressure(0, 1.0), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace plekton::dynamics
