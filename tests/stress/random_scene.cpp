@@ -244,6 +244,18 @@ class Maker {
     shape.is_net = shape.is_hexagonal = true;
     return shape;
   }
+  Shape rings() {
+    Shape shape;
+    const double diameter = random_.uniform(0.03, 0.06);
+    const int across = random_.integer(1, 3);
+    const int along = random_.integer(1, 3);
+    shape.text =
+        fmt::format("kind = \"ring_net\", ring_diameter = {:.4g}, rings = [{}, {}], divisions = {}",
+                    diameter, across, along, random_.integer(1, 3));
+    shape.radius = 0.5 * diameter * std::hypot(across, along);
+    shape.is_net = true;
+    return shape;
+  }
   Shape chain() {
     Shape shape;
     const int count = random_.integer(2, 4);
@@ -261,7 +273,7 @@ class Maker {
     return shape;
   }
   Shape any_shape() {
-    switch (random_.integer(0, 8)) {
+    switch (random_.integer(0, 9)) {
       case 0:
       case 1:
         return sheet();
@@ -277,6 +289,8 @@ class Maker {
         return geogrid(false);
       case 7:
         return hexagonal();
+      case 8:
+        return rings();
       default:
         return chain();
     }
@@ -342,6 +356,7 @@ class Maker {
     else
       set(t, "young_modulus", num(modulus));
     if (chance(0.4)) set(t, "poisson_ratio", num(random_.uniform(0.0, 0.49)));
+    if (chance(0.1)) set(t, "prestrain", num(random_.uniform(-0.02, 0.02)));
     if (mode == "continuum") {
       if (chance(0.15)) set(t, "bending_stiffness", "0");
       if (chance(0.35)) set(t, "strength", num(modulus * power(-3.0, -0.7)));
@@ -474,8 +489,8 @@ class Maker {
   void add_loads() {
     for (const Membrane& membrane : membranes_) {
       if (membrane.is_closed && chance(0.5)) add_pressure(membrane);
-      if (membrane.has_bonds && chance(0.15)) {
-        TextTable& t = load("beam_damping");
+      if (chance(0.15)) {
+        TextTable& t = load(membrane.has_bonds ? "beam_damping" : "sheet_damping");
         set(t, "membrane", word(membrane.name));
         set(t, "ratio", num(random_.uniform(0.0, 0.5)));
       }

@@ -20,7 +20,9 @@ bool holds_some(const apps::Scenario& scenario) {
 /// Forces in fixed directions, supports, and whatever else is not between bodies. Of pressures those
 /// on closed surfaces are: they add up to nothing.
 bool acts_from_outside(const apps::LoadSettings& load) {
-  if (std::holds_alternative<apps::BeamDampingSettings>(load.load)) return false;
+  if (std::holds_alternative<apps::BeamDampingSettings>(load.load) ||
+      std::holds_alternative<apps::SheetDampingSettings>(load.load))
+    return false;
   const auto* const pressure = std::get_if<apps::PressureSettings>(&load.load);
   return pressure == nullptr || !(pressure->load.gas || pressure->load.by_volume);
 }
