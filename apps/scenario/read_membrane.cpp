@@ -51,7 +51,6 @@ std::optional<double> read_either(Section& section, std::pair<std::string_view, 
 /// Keys that do not go with the mode.
 void require_mode(Section& section, const MembraneSettings& membrane) {
   if (membrane.mode != MembraneMode::continuum) {
-    membrane.prestrain = section.quantity("prestrain", {kStrain, kPrestrain}, membrane.prestrain);
     if (section.has("bending_stiffness"))
       section.complain("bending_stiffness",
                        "goes with mode = \"continuum\"; in a lattice it follows from the beams, "
@@ -131,6 +130,7 @@ MembraneSettings read_membrane(Section section, const Known& known) {
   }
   membrane.poisson_ratio =
       section.quantity("poisson_ratio", {kNumber, kPoisson}, membrane.poisson_ratio);
+  membrane.prestrain = section.quantity("prestrain", {kStrain, kPrestrain}, membrane.prestrain);
   if (section.has("bending_stiffness"))
     membrane.bending_stiffness =
         section.quantity("bending_stiffness", {kBendingStiffness, kNotNegative});

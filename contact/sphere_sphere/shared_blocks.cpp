@@ -12,7 +12,7 @@ std::uint64_t SharedBlocks::work_of(const SphereBlocks& blocks, const SphereBloc
   return pairs + 2 * std::uint64_t{block.owned};
 }
 
-void SharedBlocks::assign(const SphereBlocks& blocks, std::span<const NodeId> met) {
+void SharedBlocks::assign(const SphereBlocks& blocks) {
   std::vector<std::uint64_t> work;
   for (const SphereBlocks::Block& block : blocks.blocks()) work.push_back(work_of(blocks, block));
   owners_ = ranks_->owners(work);
@@ -24,6 +24,9 @@ void SharedBlocks::assign(const SphereBlocks& blocks, std::span<const NodeId> me
   }
   own_ = blocks_of_[static_cast<std::size_t>(ranks_->rank())];
   find_messages(blocks);
+}
+
+void SharedBlocks::share_motion(const SphereBlocks& blocks, std::span<const NodeId> met) {
   if (is_worth_it())
     motion_.assign(blocks, owners_, met);
   else

@@ -28,9 +28,12 @@ class SharedBlocks {
   /// What a block costs, in pairs: to move a sphere takes about as long as two of them.
   static std::uint64_t work_of(const SphereBlocks& blocks, const SphereBlocks::Block& block);
 
-  /// Takes the blocks of a new list.
-  /// @param met  as SharedMotion::assign() has it
-  void assign(const SphereBlocks& blocks, std::span<const NodeId> met);
+  /// Takes the blocks of a new list. Owners stay with them until the next one, as nobody else has
+  /// the rows of pairs that are apart; share_motion() has to follow.
+  void assign(const SphereBlocks& blocks);
+  /// @param blocks  the same
+  /// @param met     as SharedMotion::assign() has it
+  void share_motion(const SphereBlocks& blocks, std::span<const NodeId> met);
 
   geometry::Ranks& ranks() const noexcept { return *ranks_; }
   SharedMotion& motion() noexcept { return motion_; }

@@ -90,6 +90,7 @@ double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
   keys_.assign(keys.begin(), keys.end());
   find_kinds(spheres, materials, last_table_.kinds);
   blocks_.assign(keys, spheres, kinds_, pool, x);
+  has_owners_ = false;
   if (table_.kinds.size() == 1 && table_.kinds == last_table_.kinds)
     move_memories_in_place();
   else
@@ -100,8 +101,9 @@ double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
 
 void SphereContacts::share_out(std::span<const NodeId> met) {
   if (!shared_) return;
-  complete();
-  shared_->assign(blocks_, met);
+  if (!has_owners_) shared_->assign(blocks_);
+  has_owners_ = true;
+  shared_->share_motion(blocks_, met);
 }
 
 /// If all spheres are of one material, with nothing said of it as a pair, and the law asks for no

@@ -219,6 +219,7 @@ class SphereContacts {
   std::optional<Common> common_;
   SphereBlocks blocks_;
   std::optional<SharedBlocks> shared_;  ///< nothing: this process computes all
+  bool has_owners_ = false;             ///< each of the blocks of the last list
   /// Of several ranks each has its own rows as of now, and those of others once they are complete.
   mutable Table table_;
   mutable bool is_complete_ = true;

@@ -23,7 +23,7 @@ namespace {
 constexpr double kRadius = 5e-3;  // m
 
 /// A cube of spheres that shake, on a floor, beside a held sheet; one of them is dragged, one
-/// pushed. Nodes are in no order in space.
+/// pushed, and a plane comes. Nodes are in no order in space.
 Scene shaking_cube() {
   constexpr int kSide = 13;
   constexpr double kSpacing = 2.0 * kRadius;
@@ -49,6 +49,9 @@ Scene shaking_cube() {
     scene.state.angular_velocity.back() = random.in_cube(3.0);
   }
   scene.planes.push_back({Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), contact::MaterialId{0}});
+  // Far away, and so fast that what is near planes is listed anew between the lists of spheres.
+  scene.planes.push_back(
+      {Vec3(0, 0, 10), -Vec3::UnitZ(), Vec3(0, 0, -20), contact::MaterialId{0}});
   scene.loads.mass_damping.push_back({{NodeId{500}}, 10.0});
   scene.loads.forces.push_back({{NodeId{900}}, Vec3(0.1, 0, 0), Vec3::Zero(), {}});
   return scene;
