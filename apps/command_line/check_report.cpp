@@ -31,8 +31,6 @@ Json membranes_of(const BuiltScene& built) {
                     {"facets", membrane.facets},
                     {"area_m2", membrane.area},
                     {"mass_kg", membrane.mass},
-                    {"from_m", list_of(membrane.extent.lower)},
-                    {"to_m", list_of(membrane.extent.upper)},
                     {"young_modulus_Pa", membrane.young_modulus},
                     {"mesh", membrane.report ? geometry::name_of(membrane.report->verdict)
                                              : std::string_view("generated")}});
@@ -48,9 +46,7 @@ Json grains_of(const BuiltScene& built) {
                     {"count", grains.count},
                     {"smallest_radius_m", grains.smallest},
                     {"largest_radius_m", grains.largest},
-                    {"mass_kg", grains.mass},
-                    {"from_m", list_of(grains.extent.lower)},
-                    {"to_m", list_of(grains.extent.upper)}});
+                    {"mass_kg", grains.mass}});
   }
   return list;
 }

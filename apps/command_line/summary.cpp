@@ -12,26 +12,19 @@
 namespace plekton::apps {
 namespace {
 
-std::string text_of(const geometry::Box& extent) {
-  const Vec3 &lower = extent.lower, &upper = extent.upper;
-  return fmt::format("from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m", lower[0],
-                     lower[1], lower[2], upper[0], upper[1], upper[2]);
-}
-
 std::string line_of(const BuiltMembrane& m) {
   return fmt::format(
       "membrane {}: {} nodes ({} held), {} beams, {} facets, {}mass {:.4g} kg, {} "
-      "of E = {:.4g} Pa, {}; {}\n",
+      "of E = {:.4g} Pa; {}\n",
       m.name, m.nodes, m.held_nodes, m.beams, m.facets,
       m.area > 0.0 ? fmt::format("area {:.4g} m2, ", m.area) : "", m.mass,
-      m.beams > 0 ? "beams" : "sheet", m.young_modulus, text_of(m.extent),
+      m.beams > 0 ? "beams" : "sheet", m.young_modulus,
       m.report ? fmt::format("mesh {}", geometry::name_of(m.report->verdict)) : "generated");
 }
 
 std::string line_of(const BuiltGrains& g) {
-  return fmt::format("grains {}: {} of {:.4g} to {:.4g} m radius, mass {:.4g} kg{}\n", g.name,
-                     g.count, g.smallest, g.largest, g.mass,
-                     g.count > 0 ? ", " + text_of(g.extent) : "");
+  return fmt::format("grains {}: {} of {:.4g} to {:.4g} m radius, mass {:.4g} kg\n", g.name,
+                     g.count, g.smallest, g.largest, g.mass);
 }
 
 /// "x, y" of the axes along or about which something is free.

@@ -205,13 +205,8 @@ std::vector<PlacedGrain> placed_grains(const GrainSettings& settings, double you
 BuiltGrains add_grains(const GrainSettings& settings, const std::vector<PlacedGrain>& grains,
                        double density, BuiltScene& built) {
   dynamics::Scene& scene = built.scene;
-  BuiltGrains result;
-  result.name = settings.name;
-  result.count = grains.size();
-  if (!grains.empty()) {
-    result.smallest = result.largest = grains.front().radius;
-    result.extent = {grains.front().centre, grains.front().centre};
-  }
+  BuiltGrains result{settings.name, grains.size(), 0.0, 0.0, 0.0};
+  if (!grains.empty()) result.smallest = result.largest = grains.front().radius;
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const PlacedGrain& grain = grains[i];
     const auto id = scene.add_sphere(grain.centre, grain.radius, density,
@@ -235,9 +230,6 @@ BuiltGrains add_grains(const GrainSettings& settings, const std::vector<PlacedGr
     result.mass += density * geometry::volume(sphere);
     result.smallest = std::min(result.smallest, grain.radius);
     result.largest = std::max(result.largest, grain.radius);
-    const Vec3 radii = Vec3::Constant(grain.radius);
-    result.extent.lower = result.extent.lower.cwiseMin(grain.centre - radii);
-    result.extent.upper = result.extent.upper.cwiseMax(grain.centre + radii);
   }
   return result;
 }

@@ -25,9 +25,8 @@ struct BuiltMembrane {
   std::size_t beams = 0;   ///< or bars: one for each edge of the mesh, with a cylinder of the same
                            ///< nodes; none in a sheet
   std::size_t sheet_facets = 0;  ///< facets that resist; none but in a sheet
-  std::vector<bool> on_rim;      ///< by node of the membrane, as in MembraneBody
+  std::vector<bool> on_rim;  ///< by node of the membrane, as in MembraneBody
   std::size_t held_nodes = 0;
-  geometry::Box extent{};      ///< m, of the nodes, without half the thickness
   double area = 0.0;           ///< m², of the facets, or of the rectangle around a net
   double mass = 0.0;           ///< kg
   double mean_edge = 0.0;      ///< m, length
@@ -39,11 +38,10 @@ struct BuiltMembrane {
 struct BuiltGrains {
   std::string name;
   std::size_t count = 0;
-  double mass = 0.0;       ///< kg
-  double smallest = 0.0;   ///< m, radius
-  double largest = 0.0;    ///< m, radius
-  geometry::Box extent{};  ///< m, of the grains as they are; of no meaning without any
-  bool is_rigid = false;   ///< the spheres of a rigid body
+  double mass = 0.0;      ///< kg
+  double smallest = 0.0;  ///< m, radius
+  double largest = 0.0;   ///< m, radius
+  bool is_rigid = false;  ///< the spheres of a rigid body
 };
 
 /// A rigid body in the scene.

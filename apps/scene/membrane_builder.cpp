@@ -223,7 +223,6 @@ BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) 
   result.beams = settings.mode == MembraneMode::continuum ? 0 : body.membrane.edges.size();
   result.on_rim = body.on_rim;
   result.area = body.area;
-  result.extent = geometry::bounding_box(body.membrane.nodes, 0.0);
   result.held_nodes = add_nodes(settings, body, built);
   const std::size_t sheet_facets = built.scene.sheet_facets.size();
   add_elements(settings, body, built.scene, result);

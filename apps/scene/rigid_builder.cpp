@@ -167,13 +167,8 @@ void add_rigid_spheres(const RigidBodySettings& body, const GrainSettings& spher
   add_body(body, spheres.rigid_body.value(), nodes, volume, built);
   const auto [smallest, largest] = std::minmax_element(spheres.radii.begin(), spheres.radii.end());
   const std::size_t count = spheres.is_absent ? 0 : spheres.radii.size();
-  built.grains.push_back({.name = spheres.name,
-                          .count = count,
-                          .mass = built.rigid_bodies.back().mass.mass,
-                          .smallest = *smallest,
-                          .largest = *largest,
-                          .extent = {},
-                          .is_rigid = true});
+  built.grains.push_back(
+      {spheres.name, count, built.rigid_bodies.back().mass.mass, *smallest, *largest, true});
 }
 
 void hold_as_loaded(const Scenario& scenario, BuiltScene& built) {

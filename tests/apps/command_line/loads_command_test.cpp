@@ -153,8 +153,10 @@ TEST_F(Loads, DampSheetsInProportionToTheirStiffness) {
   const std::string shell = R"([simulation]
 gravity = [0, 0, 0]
 duration = "20 ms"
+time_step = "2 us"
 [materials.rubber]
 young_modulus = "1 MPa"
+friction_angle = 0
 [[membranes]]
 name = "shell"
 shape = { kind = "sphere", radius = "5 cm", subdivisions = 1 }
@@ -195,6 +197,7 @@ gravity = [0, 0, 0]
 duration = "10 ms"
 [materials.rubber]
 young_modulus = "1 MPa"
+friction_angle = 0
 [[membranes]]
 name = "ball"
 shape = {{ kind = "sphere", radius = "5 cm", subdivisions = 3 }}

@@ -122,16 +122,6 @@ TEST_F(ShapeCommand, CheckCountsWhatEachKindOfNetHas) {
   }
 }
 
-TEST_F(ShapeCommand, CheckTellsFromWhereToWhereAShapeIs) {
-  EXPECT_THAT(checked(kSheet).out, HasSubstr("from (-0.5, -1, 0) to (0.5, 1, 0) m; generated"));
-  EXPECT_THAT(checked(R"(kind = "tube", radius = "10 cm", length = "40 cm", cells = [24, 10])",
-                      "translate = [0, 0, \"1 m\"]")
-                  .out,
-              HasSubstr("from (-0.1, -0.1, 1) to (0.1, 0.1, 1.4) m"));
-  EXPECT_THAT(checked(R"(kind = "box", size = ["1 m", "2 m", "30 cm"])").out,
-              HasSubstr("from (0, 0, 0) to (1, 2, 0.3) m"));
-}
-
 TEST_F(ShapeCommand, PutsAShapeInItsPlaceAsAMesh) {
   const BuiltScene scene = built(kBiaxial, R"(scale = 2
 rotate = { axis = [1, 0, 0], angle = "90 deg" }

@@ -44,7 +44,7 @@ TEST(ScenarioSchema, TakesAnyPartOfATableInAStage) {
 TEST(ScenarioSchema, HasOneAlternativeForEachKindOfATable) {
   const Json loads = property(scenario_schema(), "loads").at("items").at("oneOf");
 
-  ASSERT_EQ(loads.size(), 8U);
+  ASSERT_EQ(loads.size(), 9U);
   for (const Json& load : loads) {
     EXPECT_TRUE(property(load, "kind").contains("const"));
     EXPECT_THAT(load.at("required"), testing::Contains("kind"));
