@@ -3,6 +3,7 @@
 
 #include "contact/models.hpp"
 #include "dynamics/broken_elements.hpp"
+#include "dynamics/integrators/nodes_of_ranks.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/loads/plane_servo.hpp"
 #include "dynamics/loads/rigid_servo.hpp"
@@ -16,7 +17,6 @@
 #include "dynamics/rigid/rigid_bodies.hpp"
 #include "dynamics/scene_change.hpp"
 #include "dynamics/state/nodal_stiffness.hpp"
-#include "dynamics/state/nodes_of_ranks.hpp"
 #include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"

@@ -25,7 +25,7 @@ struct BuiltMembrane {
   std::size_t beams = 0;   ///< or bars: one for each edge of the mesh, with a cylinder of the same
                            ///< nodes; none in a sheet
   std::size_t sheet_facets = 0;  ///< facets that resist; none but in a sheet
-  std::vector<bool> on_rim;  ///< by node of the membrane, as in MembraneBody
+  std::vector<bool> on_rim;      ///< by node of the membrane, as in MembraneBody
   std::size_t held_nodes = 0;
   double area = 0.0;           ///< m², of the facets, or of the rectangle around a net
   double mass = 0.0;           ///< kg

@@ -25,12 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Bytes of this process that are in memory.
+/// Bytes of this process that are in memory, without pages of files (programs, libraries), which
+/// come and go as the system likes.
 std::int64_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
-  std::int64_t all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * ::sysconf(_SC_PAGESIZE);
+  std::int64_t all = 0, resident = 0, of_files = 0;
+  file >> all >> resident >> of_files;
+  return (resident - of_files) * ::sysconf(_SC_PAGESIZE);
 }
 
 std::int64_t steps_asked_for() {

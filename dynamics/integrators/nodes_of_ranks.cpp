@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/state/nodes_of_ranks.hpp"
+#include "dynamics/integrators/nodes_of_ranks.hpp"
 
 #include "contact/sphere_sphere/shared_motion.hpp"
 

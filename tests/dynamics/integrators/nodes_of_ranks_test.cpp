@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A simulation whose spheres are moved by several ranks has the bits of one process.
-#include "dynamics/state/nodes_of_ranks.hpp"
+#include "dynamics/integrators/nodes_of_ranks.hpp"
 
 #include "contact/among_ranks.hpp"
 #include "contact/sphere_sphere/shared_motion.hpp"
@@ -50,8 +50,7 @@ Scene shaking_cube() {
   }
   scene.planes.push_back({Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), contact::MaterialId{0}});
   // Far away, and so fast that what is near planes is listed anew between the lists of spheres.
-  scene.planes.push_back(
-      {Vec3(0, 0, 10), -Vec3::UnitZ(), Vec3(0, 0, -20), contact::MaterialId{0}});
+  scene.planes.push_back({Vec3(0, 0, 10), -Vec3::UnitZ(), Vec3(0, 0, -20), contact::MaterialId{0}});
   scene.loads.mass_damping.push_back({{NodeId{500}}, 10.0});
   scene.loads.forces.push_back({{NodeId{900}}, Vec3(0.1, 0, 0), Vec3::Zero(), {}});
   return scene;
