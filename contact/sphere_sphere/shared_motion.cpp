@@ -63,7 +63,6 @@ void SharedMotion::assign_nothing() noexcept {
   is_due_ = false;
   owners_.clear();
   common_.clear();
-  own_.clear();
 }
 
 void SharedMotion::assign(const SphereBlocks& blocks, std::span<const int> owners,
@@ -71,11 +70,8 @@ void SharedMotion::assign(const SphereBlocks& blocks, std::span<const int> owner
   is_due_ = false;
   find_owners(blocks, owners, met);
   common_.clear();
-  own_.clear();
   for (std::size_t i = 0; i < owners_.size(); ++i) {
-    const auto node = geometry::id_at<NodeId>(i);
-    if (owners_[i] == kCommon) common_.push_back(node);
-    if (owners_[i] == ranks_->rank()) own_.push_back(node);
+    if (owners_[i] == kCommon) common_.push_back(geometry::id_at<NodeId>(i));
   }
   find_ghosts(blocks, owners);
 }
@@ -151,7 +147,7 @@ void SharedMotion::tell_all(const NodesInMotion& nodes) {
   }
   room_.resize(total);
   Write write{room_.data() + first};
-  for (const NodeId node : own_) for_each_part(nodes, node, write);
+  for (const NodeId node : own()) for_each_part(nodes, node, write);
   ranks_->gather(room_, sizes);
   Read read{room_.data()};
   for (int rank = 0; rank < ranks_->count(); ++rank) {

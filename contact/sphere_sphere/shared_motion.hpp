@@ -54,8 +54,10 @@ class SharedMotion {
 
   // Ascending.
   std::span<const NodeId> common() const noexcept { return common_; }
-  /// Private to this rank.
-  std::span<const NodeId> own() const noexcept { return own_; }
+  /// Private to this rank; asked for after assign().
+  std::span<const NodeId> own() const noexcept {
+    return private_to_[static_cast<std::size_t>(ranks_->rank())];
+  }
   /// Common nodes of spheres in the blocks of a rank.
   std::span<const NodeId> common_in_blocks(int rank) const noexcept {
     return common_in_blocks_[static_cast<std::size_t>(rank)];
@@ -98,7 +100,6 @@ class SharedMotion {
   bool is_due_ = false;
   std::vector<std::int32_t> owners_;  ///< rank by node, or kCommon; empty: all are common
   std::vector<NodeId> common_;
-  std::vector<NodeId> own_;
   std::vector<std::vector<NodeId>> common_in_blocks_;  ///< by rank
   std::vector<std::vector<NodeId>> private_to_;        ///< by rank
   Messages sent_;
