@@ -200,6 +200,7 @@ void Simulation::set_velocity(NodeId node, const Vec3& velocity, const Vec3& ang
 }
 
 void Simulation::add_force(std::vector<NodeId> nodes, OwnForce force) {
+  if (!force) throw std::invalid_argument("add_force: got no function to ask for the forces");
   for (const NodeId node : nodes) {
     require_node("add_force", node, scene_.state.size());
     if (rigid_nodes_.body_followed_by(node) >= 0)
@@ -218,6 +219,8 @@ void Simulation::add_force(std::vector<NodeId> nodes, OwnForce force) {
 
 void Simulation::set_force(std::size_t load, const Vec3& force, const Vec3& torque) {
   require_index("set_force", "force", load, loads_.force_count());
+  if (!force.allFinite() || !torque.allFinite())
+    throw std::invalid_argument("set_force: force and torque must be finite");
   loads_.set_force(load, force, torque);
 }
 
@@ -226,7 +229,10 @@ void Simulation::set_pressure(std::size_t load, double pressure) {
   if (scene_.loads.pressures[load].by_volume)
     throw std::invalid_argument("set_pressure: pressure " + std::to_string(load) +
                                 " follows the volume by a table");
+  if (!std::isfinite(pressure))
+    throw std::invalid_argument("set_pressure: the pressure must be finite");
   loads_.set_pressure(load, pressure);
+  if (chooser_ != nullptr) chooser_->look_again();
 }
 
 double Simulation::motion_ratio() const {
@@ -478,6 +484,7 @@ double Simulation::largest_gravity() const noexcept {
 void Simulation::apply_loads() {
   follow_gravity();
   loads_.look_at(yielding_bonds_);
+  if (loads_.may_look_at_all()) nodes_.know_all();
   const LoadStep step{time_, last_drift_, drift_};
   LoadWork work = loads_.add_forces(step, scene_.state, forces_, pool_);
   rigid_bodies_.gather(scene_.state, forces_, scene_.properties, pool_);
@@ -709,6 +716,11 @@ std::vector<FacetTraction> Simulation::facet_tractions() {
   NodeForces forces(scene_.state.size());
   contacts_->add_surface_forces(forces, pool_);
   return dynamics::facet_tractions(scene_.elements.facets, forces.force, force_positions());
+}
+
+const Vec3& Simulation::gathered_force(std::size_t body) const {
+  require_index("gathered_force", "rigid body", body, scene_.rigid_bodies.size());
+  return rigid_bodies_.gathered_force(body);
 }
 
 BondForces Simulation::bond_forces(std::size_t bond) const {

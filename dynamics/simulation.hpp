@@ -127,13 +127,15 @@ class Simulation {
   /// stiffly with places or velocities needs a step that follows it. It is no part of the state: add
   /// it again after restore().
   /// @param nodes  each once; none that follows a rigid body
-  /// @throws std::invalid_argument for a node twice, or of a rigid body
+  /// @throws std::invalid_argument for a node twice, or of a rigid body, and without a function
   void add_force(std::vector<NodeId> nodes, OwnForce force);
   /// Changes a load, from the next step on, by its place in Loads::forces; its factor goes on.
-  /// Neither is part of the state.
+  /// It is no part of the state, and forgotten by go_on_from().
+  /// @throws std::invalid_argument for a force or torque that is not finite
   void set_force(std::size_t load, const Vec3& force, const Vec3& torque = Vec3::Zero());
-  /// The same by its place in Loads::pressures. @param pressure  Pa
-  /// @throws std::invalid_argument for one by volume
+  /// The same by its place in Loads::pressures. A step that was chosen follows; one that was given
+  /// does not. @param pressure  Pa
+  /// @throws std::invalid_argument for one by volume, or a pressure that is not finite
   void set_pressure(std::size_t load, double pressure);
   const NodeProperties& properties() const noexcept { return scene_.properties; }
   /// Those that are left; nodes keep their ids.
@@ -178,9 +180,7 @@ class Simulation {
   ForceAndMoment support_reaction(std::span<const NodeId> nodes, const Vec3& about) const;
   /// N, of all contacts on the nodes of a rigid body in the last step, by place in
   /// Scene::rigid_bodies.
-  const Vec3& gathered_force(std::size_t body) const noexcept {
-    return rigid_bodies_.gathered_force(body);
-  }
+  const Vec3& gathered_force(std::size_t body) const;
   /// How far from balance the last step was: measures/unbalanced_force.hpp. Like all reading out it
   /// costs nothing until it is asked for; then time linear in the number of nodes and contacts.
   double unbalanced_force_ratio() const;

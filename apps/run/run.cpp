@@ -146,7 +146,10 @@ class Run {
       report_.status = RunStatus::failed;
       report_.message = error.what();
       progress_.finish();
-      write_report_if_possible();
+      // All ranks diverge in the same step. What fails on one alone is not answered by the others.
+      const bool is_alone = scenario_.simulation.ranks != nullptr &&
+                            dynamic_cast<const dynamics::Diverged*>(&error) == nullptr;
+      write_report_if_possible(!is_alone);
       throw;
     }
     progress_.finish();
@@ -510,9 +513,10 @@ class Run {
   }
 
   /// After an error: its message matters more than that the report cannot be written either.
-  void write_report_if_possible() noexcept {
+  /// @param with_figures  those of the simulation, which all ranks have to ask for
+  void write_report_if_possible(bool with_figures) noexcept {
     try {
-      complete_report();
+      if (with_figures) complete_report();
       write_run_report(settings_.out, report_);
     } catch (const std::exception&) {
     }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/base/motion.hpp"
 #include "geometry/base/state_archive.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -25,11 +23,11 @@ namespace plekton::contact::structure {
 class Clearances {
  public:
   /// Of as many new pairs, that all need a look.
-  void reset(std::size_t count, Positions x) {
+  /// @param furthest  m, largest coordinate of a node of the cores
+  void reset(std::size_t count, double furthest) {
     due_.assign(count, 0.0);
     gone_ = 0.0;
-    furthest_ = 0.0;
-    for (const Vec3& position : x) furthest_ = std::max(furthest_, position.cwiseAbs().maxCoeff());
+    furthest_ = furthest;
   }
 
   /// Of no pairs: those of another list are to come.
@@ -42,11 +40,8 @@ class Clearances {
     archive("furthest", furthest_);
   }
 
-  /// @param way  m, how far any node has moved at most since the last call, but for rounding; all
-  ///             pairs need a look if it is infinite or NaN
-  /// @param x    m, where the nodes are now
-  void move(double way, Positions x) {
-    if (!(way < std::numeric_limits<double>::infinity())) return reset(due_.size(), x);
+  /// @param way  m, how far any node has moved at most since the last call, but for rounding; finite
+  void move(double way) {
     gone_ += (1.0 + kRounding) * way + kRounding * (furthest_ + gone_);
   }
 

@@ -144,12 +144,23 @@ void PairTerms::prepare_attractions(std::span<const NormalSpring> springs) {
   attractions_.resize(terms_.size());
 }
 
+/// m, largest coordinate of a node of a structure: where grains are not every rank knows.
+double PairTerms::furthest(Positions x) const {
+  double largest = 0.0;
+  for (std::size_t n = 0; n < surface_->node_count(); ++n) {
+    if (surface_->structure_of(geometry::id_at<NodeId>(n)) != geometry::StructureId{-1})
+      largest = std::max(largest, x[n].cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
 void PairTerms::find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
                                 geometry::ThreadPool& pool) {
-  if (clearances_.size() != term_of_pair_.size()) {
-    clearances_.reset(term_of_pair_.size(), motion.position);
+  const bool is_way_known = motion.max_displacement < std::numeric_limits<double>::infinity();
+  if (clearances_.size() == term_of_pair_.size() && is_way_known) {
+    clearances_.move(motion.max_displacement);
   } else {
-    clearances_.move(motion.max_displacement, motion.position);
+    clearances_.reset(term_of_pair_.size(), furthest(motion.position));
   }
   due_.clear();
   clearances_.for_each_due([&](std::size_t i) { due_.push_back(static_cast<std::uint32_t>(i)); });
@@ -374,7 +385,7 @@ void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x) {
 }
 
 void PairTerms::exchange(const geometry::StateArchive& archive) {
-  if (archive.is_reading()) clearances_.reset(term_of_pair_.size(), {});
+  if (archive.is_reading()) clearances_.reset(term_of_pair_.size(), 0.0);
   if (clearances_.size() != term_of_pair_.size()) return;  // no step with this list yet
   clearances_.exchange(archive);
   archive.fixed("is_near", is_near_, "pairs of cells");

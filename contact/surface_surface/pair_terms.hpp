@@ -120,6 +120,7 @@ class PairTerms {
     std::uint32_t term;
     friend constexpr auto operator<=>(const RingTerm&, const RingTerm&) = default;
   };
+  double furthest(Positions x) const;
   void find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
                        geometry::ThreadPool& pool);
   void list_candidates();

@@ -29,6 +29,8 @@ class AppliedLoads {
   }
   void set_pressure(std::size_t load, double pressure) { pressures_[load].set(pressure); }
   std::size_t force_count() const noexcept { return forces_.size(); }
+  /// Whether there is a force of one's own, which may look at any node.
+  bool may_look_at_all() const noexcept { return !own_.empty(); }
 
   /// Sets the velocities of prescribed motions at the start.
   void start(NodeState& state) const;

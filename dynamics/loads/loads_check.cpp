@@ -127,21 +127,13 @@ class LoadProblems {
   void list(const std::string& name, const BeamDamping& damping) {
     expect(std::isfinite(damping.ratio) && damping.ratio >= 0.0, name,
            "its ratio must be finite and not negative");
-    for (const std::size_t bond : damping.bonds) {
-      if (bond < scene_.bonds.size()) continue;
-      text_ << name << ": there is no bond " << bond << ", only " << scene_.bonds.size()
-            << " bonds\n";
-    }
+    expect_each_once(name, damping.bonds, scene_.bonds.size(), "bond");
   }
 
   void list(const std::string& name, const SheetDamping& damping) {
     expect(std::isfinite(damping.ratio) && damping.ratio >= 0.0, name,
            "its ratio must be finite and not negative");
-    for (const std::size_t facet : damping.facets) {
-      if (facet < scene_.sheet_facets.size()) continue;
-      text_ << name << ": there is no facet " << facet << " of a sheet, only "
-            << scene_.sheet_facets.size() << '\n';
-    }
+    expect_each_once(name, damping.facets, scene_.sheet_facets.size(), "sheet facet");
   }
 
   void list(const std::string& name, const MassDamping& damping) {
@@ -210,6 +202,23 @@ class LoadProblems {
   void expect_finite(const std::string& name, const char* what, const Vec3& value) {
     if (!value.allFinite())
       text_ << name << ": its " << what << " (" << value.transpose() << ") is not finite\n";
+  }
+
+  /// Of what a load names by place: something, each there and once. @param what  "bond"
+  void expect_each_once(const std::string& name, const std::vector<std::size_t>& places,
+                        std::size_t count, const std::string& what) {
+    if (places.empty()) text_ << name << ": has no " << what << "s; give at least one\n";
+    named_.assign(count, false);
+    for (const std::size_t place : places) {
+      if (place >= count) {
+        text_ << name << ": there is no " << what << " " << place << ", only " << count << " "
+              << what << "s\n";
+      } else if (named_[place]) {
+        text_ << name << ": names " << what << " " << place << " twice; name it once\n";
+      } else {
+        named_[place] = true;
+      }
+    }
   }
 
   void expect_plane(const std::string& name, std::size_t plane) {

@@ -11,7 +11,8 @@ namespace {
 /// @param shown  the index as it was given
 [[noreturn]] void refuse(std::string_view call, std::string_view what, const std::string& shown,
                          std::size_t count) {
-  const std::string whats = std::string(what) + "s";
+  std::string whats = std::string(what) + "s";
+  if (what.ends_with('y')) whats.replace(whats.size() - 2, 2, "ies");
   throw std::out_of_range("Simulation::" + std::string(call) + ": there is no " +
                           std::string(what) + " " + shown +
                           (count == 0 ? "; this scene has no " + whats

@@ -56,6 +56,9 @@ void add_sheets(const std::vector<SheetFacet>& facets, BitHash& hash) {
     for (const double number : {section.tensile_stiffness, section.poisson_ratio,
                                 section.bending_stiffness, section.thickness, section.strength})
       hash.add(number);
+    for (const Vec2& corner : facet.corners) {
+      for (const double number : {corner.x(), corner.y()}) hash.add(number);
+    }
   }
 }
 

@@ -71,6 +71,9 @@ class StepChooser {
   /// @param way  m, of any node or plane in a step
   void moved(double way) noexcept;
 
+  /// Something has become stiffer without moving: the next step is looked at.
+  void look_again() noexcept { look_.longest_way = -1.0; }
+
   /// What is known from the last look.
   void exchange(const geometry::StateArchive& archive);
 

@@ -90,8 +90,22 @@ std::vector<double> seen_of(Simulation& simulation) {
   return seen;
 }
 
-void expect_same_bits(int count, bool by_chance, int threads = 1, double time_step = 0.0) {
+void leave_alone(Simulation& /*simulation*/) {}
+
+/// A force of one's own on a sphere, towards the middle of all.
+void pull_to_middle(Simulation& simulation) {
+  simulation.add_force({NodeId{700}}, [](double, const NodeState& state, auto forces) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& place : state.position) sum += place;
+    const auto count = static_cast<double>(state.size());
+    forces[0].force = 10.0 * (sum / count - state.position[700]);
+  });
+}
+
+void expect_same_bits(int count, bool by_chance, int threads = 1, double time_step = 0.0,
+                      void (*prepare)(Simulation&) = leave_alone) {
   Simulation alone(shaking_cube(), options(1, time_step));
+  prepare(alone);
   const std::vector<double> expected = seen_of(alone);
   ASSERT_GT(alone.contacts().list_count(), 3);
   ASSERT_GT(alone.contacts().counts().with_planes, 0U);
@@ -100,6 +114,7 @@ void expect_same_bits(int count, bool by_chance, int threads = 1, double time_st
   test::ThreadRanks(count, by_chance).run([&](geometry::Ranks& ranks) {
     Simulation together(shaking_cube(), options(threads, time_step),
                         contact::among_ranks(contact::linear_frictional(), ranks));
+    prepare(together);
     const std::vector<double> seen = seen_of(together);
     const std::lock_guard lock(mutex);
     EXPECT_EQ(seen, expected) << "rank " << ranks.rank() << " of " << count;
@@ -116,6 +131,10 @@ TEST(NodesOfRanks, HaveThemWithOwnersByChanceAtEveryList) {
 
 TEST(NodesOfRanks, HaveThemWithAGivenStepAndThreadsInRanks) {
   expect_same_bits(2, false, 2, 1e-5);
+}
+
+TEST(NodesOfRanks, HaveThemWithAForceThatLooksAtAllNodes) {
+  expect_same_bits(3, false, 1, 1e-5, pull_to_middle);
 }
 
 TEST(NodesOfRanks, MoveOnlySomeOfTheSpheresEach) {

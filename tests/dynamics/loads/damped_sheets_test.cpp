@@ -179,12 +179,15 @@ TEST(DampedSheets, EndWhereAFacetIsTorn) {
 
 TEST(DampedSheets, AreRefusedWithAFacetThatIsNotThereOrANegativeRatio) {
   Scene scene = pair_of_facets();
-  scene.loads.sheet_damping.push_back({{0, 2}, -0.1});
+  scene.loads.sheet_damping.push_back({{0, 2, 0}, -0.1});
+  scene.loads.sheet_damping.push_back({{}, 0.1});
   try {
     scene.check();
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("there is no facet 2 of a sheet, only 2"));
+    EXPECT_THAT(error.what(), HasSubstr("there is no sheet facet 2, only 2 sheet facets"));
+    EXPECT_THAT(error.what(), HasSubstr("sheet damping 0: names sheet facet 0 twice"));
+    EXPECT_THAT(error.what(), HasSubstr("sheet damping 1: has no sheet facets"));
     EXPECT_THAT(error.what(), HasSubstr("its ratio must be finite and not negative"));
   }
 }

@@ -79,6 +79,7 @@ TEST(OwnForce, RefusesNodesThatAreNotThereTwiceOrOfARigidBody) {
   EXPECT_THROW(simulation.add_force({NodeId{7}}, nothing), std::out_of_range);
   EXPECT_THROW(simulation.add_force({NodeId{0}, NodeId{0}}, nothing), std::invalid_argument);
   EXPECT_THROW(simulation.add_force({NodeId{2}}, nothing), std::invalid_argument);
+  EXPECT_THROW(simulation.add_force({NodeId{0}}, {}), std::invalid_argument);
 }
 
 TEST(Loads, AreChangedWhileItRuns) {
@@ -93,6 +94,48 @@ TEST(Loads, AreChangedWhileItRuns) {
   EXPECT_NEAR(simulation.state().velocity[1][0], -0.0005, 1e-12);
   EXPECT_THROW(simulation.set_force(1, Vec3::Zero()), std::out_of_range);
   EXPECT_THROW(simulation.set_pressure(0, 1.0), std::out_of_range);
+  EXPECT_THROW(simulation.set_force(0, Vec3(0, std::nan(""), 0)), std::invalid_argument);
+}
+
+/// A facet of sides of 1 m, alike at its nodes, under a pressure along z.
+/// @param held  of its nodes
+Scene pressed_facet(double pressure, Held held = Held::nothing) {
+  Scene scene;
+  scene.materials = {{1e6, 0.3, 0.5}};
+  for (const double angle : {0.0, 2.0, 4.0}) {
+    const double turn = angle * 3.14159265358979324 / 3.0;
+    scene.add_node(Vec3(std::cos(turn), std::sin(turn), 0.0) / std::sqrt(3.0), held);
+  }
+  scene.add_facet(NodeId{0}, NodeId{1}, NodeId{2}, 0.01, contact::MaterialId{0});
+  for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)})
+    scene.add_beam(NodeId{a}, NodeId{b}, circular_section(0.01, 1e9, 0.3), 1000.0);
+  scene.loads.pressures.emplace_back().facets = {geometry::FaceId{0}};
+  scene.loads.pressures[0].pressure = pressure;
+  return scene;
+}
+
+TEST(Loads, ArePressuresThatAreTurnedRoundWhileItRuns) {
+  Simulation simulation(pressed_facet(2.0), steps_of(1e-5));
+  for (int i = 0; i < 500; ++i) simulation.step();
+  const double way = simulation.state().velocity[0].z();
+  // Half a step ahead: 499.5 steps of p A / m, A = sqrt(3) / 4 m², m that of three beams.
+  const double mass = 3.0 * 3.14159265358979324 * 1e-4 * 1000.0;
+  EXPECT_NEAR(way, 499.5e-5 * 2.0 * std::sqrt(3.0) / 4.0 / mass, 1e-9 * way);
+  simulation.set_pressure(0, -2.0);
+  for (int i = 0; i < 500; ++i) simulation.step();
+  EXPECT_NEAR(simulation.state().velocity[0].z(), -0.5 / 499.5 * way, 1e-9 * way);
+  EXPECT_THROW(simulation.set_pressure(0, std::nan("")), std::invalid_argument);
+}
+
+TEST(Loads, ShortenAChosenStepAsSoonAsAPressureNeedsIt) {
+  Simulation simulation(pressed_facet(1.0, Held::along_z), {});
+  for (int i = 0; i < 10; ++i) simulation.step();
+  const double before = simulation.time_step();
+  simulation.set_pressure(0, 1e9);
+  simulation.step();
+  EXPECT_LT(simulation.time_step(), 0.5 * before);
+  EXPECT_LE(simulation.time_step(),
+            0.8 * Simulation(pressed_facet(1e9, Held::along_z), {}).critical_step().dt);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 
 using geometry::NodeId;
 
-/// A beam, a cylinder and a facet on three nodes, and two planes.
+/// A beam, a cylinder and a facet on three nodes, two planes, a force and a pressure.
 Scene scene_of_three_nodes() {
   Scene scene;
   scene.materials = {{1e6, 0.3, 0.5}};
@@ -31,6 +31,8 @@ Scene scene_of_three_nodes() {
     scene.add_beam(NodeId{a}, NodeId{b}, circular_section(0.01, 1e7, 0.3), 1000.0);
   for (const double z : {-1.0, -2.0})
     scene.planes.push_back({Vec3(0, 0, z), Vec3::UnitZ(), Vec3::Zero(), material});
+  scene.loads.forces.emplace_back().nodes = {NodeId{2}};
+  scene.loads.pressures.emplace_back().facets = {geometry::FaceId{0}};
   return scene;
 }
 
@@ -60,7 +62,7 @@ std::size_t index(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// All of the simulation that take a node, a bond or a plane.
+/// All of the simulation that take a node, or what there is one of in the scene by its place.
 const std::vector<Call>& calls() {
   static const std::vector<Call> all = {
       {"set_velocity", "node", 3, [](auto& s, auto i) { s.set_velocity(node(i), Vec3::Zero()); }},
@@ -79,6 +81,12 @@ const std::vector<Call>& calls() {
       {"bond_stress", "bond", 3, [](auto& s, auto i) { s.bond_stress(index(i)); }},
       {"force_point", "plane", 2, [](auto& s, auto i) { s.force_point(index(i)); }},
       {"plane_reaction", "plane", 2, [](auto& s, auto i) { s.plane_reaction(index(i)); }},
+      {"add_force", "node", 3,
+       [](auto& s, auto i) {
+         s.add_force({node(0), node(i)}, [](double, const NodeState&, auto) {});
+       }},
+      {"set_force", "force", 1, [](auto& s, auto i) { s.set_force(index(i), Vec3::Zero()); }},
+      {"set_pressure", "pressure", 1, [](auto& s, auto i) { s.set_pressure(index(i), 1.0); }},
   };
   return all;
 }
@@ -109,6 +117,8 @@ TEST(IdsOfASimulation, AreRefusedWhereThereIsNothingOfTheKind) {
             "Simulation::bond_stress: there is no bond 0; this scene has no bonds");
   EXPECT_EQ(refusal_of([&] { simulation.force_point(0); }),
             "Simulation::force_point: there is no plane 0; this scene has no planes");
+  EXPECT_EQ(refusal_of([&] { simulation.gathered_force(0); }),
+            "Simulation::gathered_force: there is no rigid body 0; this scene has no rigid bodies");
   EXPECT_EQ(refusal_of([&] { simulation.set_velocity(NodeId{77}, Vec3::Zero()); }),
             "Simulation::set_velocity: there is no node 77; this scene has 1 nodes, from 0 to 0");
 }
