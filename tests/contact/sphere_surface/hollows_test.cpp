@@ -65,7 +65,7 @@ TEST(GrainThatCoversAClosedShell, FeelsAForceThatFollowsItsMotionAcrossTheCentre
     for (const Complex& shell : closed_shells()) {
       SCOPED_TRACE(::testing::Message() << "range " << range << ", nodes " << shell.x.size());
       for (const Vec3& way : {Vec3(0.2, 0.013, 0.007), Vec3(0.1, 0.0, 0.0), Vec3(0.1, 0.1, 0.1)}) {
-        expect_no_jump(shell, range, range, -way, way, kHandOverInside);
+        expect_no_jump(shell, range, range, -way, way, 200, kHandOverInside);
       }
     }
   }
@@ -163,7 +163,7 @@ TEST(GrainThatCoversTwoHollowsWithACommonWall, FeelsAForceThatFollowsItsMotion) 
   const Complex box = twin_box();
   for (const double range : {1.7, 1.8, 2.5}) {
     for (const Vec3& way : {Vec3(0.2, 0.013, 0.007), Vec3(0.2, 0.0, 0.0), Vec3(0.0, 0.1, 0.0)})
-      expect_no_jump(box, range, range, -way, way, kHandOverInside);
+      expect_no_jump(box, range, range, -way, way, 200, kHandOverInside);
   }
 }
 

@@ -104,6 +104,24 @@ TEST(StructureContacts, CountSquaresOnceWhoseMeshesFallTogether) {
   }
 }
 
+// All edges of two equal sheets lie on each other, those of the rims too. Turned by a small angle t
+// they have the part 1 - t / 2 of their area in common. Where rims cross, contacts of sum 0 are left
+// that are 0.1 of half a side apart at most (DoNotJumpToAnEndWhenTilted): a moment of one contact
+// there, whatever the size of the sheets.
+TEST(StructureContacts, PushEqualSheetsThatLieOnEachOtherNearTheirMiddle) {
+  const double side = 0.4;
+  const double contacts = side * side / (kRange * kRange);
+  for (const int cells : {1, 2, 4, 10}) {
+    const Body one = sheet(cells, cells, side, side);
+    for (const double turn : {0.0, 1e-14, 1e-10, 1e-8, 1e-6, 1e-5}) {
+      StructurePair structure_pair(one, one, kRange);
+      const Resultant found = at(structure_pair, one, {{0.0, 0.0, turn}, {0.0, 0.0, kHeight}});
+      EXPECT_NEAR(found.force.z() / kOverlap, contacts * (1.0 - 0.5 * turn), 1e-6) << turn;
+      EXPECT_LT(found.moment.norm(), 1.001 * kOverlap * 0.1 * 0.5 * side) << cells << ' ' << turn;
+    }
+  }
+}
+
 TEST(StructureContacts, PressInProportionToTheAreaOfContact) {
   const Body a = sheet(3, 3, 2.0, 2.0, Cut::alternating, 5);
   const auto extent = [&](double width) {
