@@ -122,6 +122,8 @@ std::string summary_of(const RunReport& report) {
   if (report.broken_ties > 0)
     text += fmt::format("broken ties: {} of {}\n", report.broken_ties, report.ties);
   if (report.torn_facets > 0) text += fmt::format("torn facets: {}\n", report.torn_facets);
+  text += fmt::format("state hashes {}, chain {:016x}\n", report.states.all().size(),
+                      report.states.chain());
   for (const std::string& warning : report.warnings) text += "warning: " + warning + '\n';
   return text + summary_of(certificate_of(report)) + '\n';
 }

@@ -81,11 +81,13 @@ Json exact_decisions_of(const RunReport& report) {
 
 Json json_of(const std::vector<Check>& certificate) {
   Json rows = Json::array();
-  for (const Check& check : certificate)
+  for (const Check& check : certificate) {
     rows.push_back({{"name", check.name},
                     {"value", check.value},
                     {"limit", check.limit},
                     {"verdict", check.is_red() ? "red" : "green"}});
+    if (check.is_red()) rows.back()["advice"] = check.advice;
+  }
   return rows;
 }
 

@@ -88,6 +88,16 @@ std::string advice_on_lost_grains(const RunReport& report) {
       report.lost_grains, report.lost_through_membranes, report.lost_out_of_bounds);
 }
 
+/// A run tells of it when it happens.
+constexpr std::string_view kStepCheck = "dt_over_critical";
+
+std::string advice_on_step(const RunReport& report) {
+  return fmt::format(
+      "the time step was {:.2f} of the critical one, above {:.1f}: run with a smaller one, or with "
+      "none, and it is chosen",
+      report.dt_over_critical, dynamics::kLargestStep);
+}
+
 using Advice = std::string (*)(const RunReport&);
 
 Check checked(const RunReport& report, Check check, Advice advice) {
@@ -115,9 +125,7 @@ std::vector<Check> certificate_of_motion(const RunReport& report) {
   add("momentum_drift", std::max(report.momentum.linear, report.momentum.angular), kMomentumDrift,
       false, advice_on_momentum);
   add("lost_grains", static_cast<double>(report.lost_grains), 0.0, false, advice_on_lost_grains);
-  // Told when it happens.
-  add("dt_over_critical", report.dt_over_critical, dynamics::kLargestStep, false,
-      [](const RunReport&) { return std::string(); });
+  add(kStepCheck, report.dt_over_critical, dynamics::kLargestStep, false, advice_on_step);
   return certificate;
 }
 
@@ -153,7 +161,7 @@ std::string summary_of(const std::vector<Check>& certificate) {
 std::vector<std::string> warnings_about(const RunReport& report) {
   std::vector<std::string> warnings;
   for (const Check& check : certificate_of(report))
-    if (!check.advice.empty()) warnings.push_back(check.advice);
+    if (check.is_red() && check.name != kStepCheck) warnings.push_back(check.advice);
   return warnings;
 }
 

@@ -15,7 +15,12 @@ TEST_F(CertificateCommand, EndsARunAndIsInItsReport) {
   EXPECT_EQ(outcome.exit_code, kDone) << outcome.out;
   EXPECT_THAT(outcome.out, HasSubstr("certificate: 10 of 10 green\n"));
   ASSERT_EQ(report()["certificate"].size(), 10U);
-  for (const auto& check : report()["certificate"]) EXPECT_EQ(check["verdict"], "green") << check;
+  for (const auto& check : report()["certificate"]) {
+    EXPECT_EQ(check["verdict"], "green") << check;
+    EXPECT_FALSE(check.contains("advice")) << check;
+  }
+  EXPECT_THAT(outcome.out,
+              HasSubstr(", chain " + report()["states"]["chain"].get<std::string>() + '\n'));
 }
 
 /// Two hollow balls that go deep into each other.
@@ -30,6 +35,10 @@ TEST_F(CertificateCommand, RefusesARedOneOnlyIfAsked) {
   EXPECT_THAT(outcome.out, HasSubstr("red: largest_overlap_ratio"));
   EXPECT_EQ(outcome_of(strict).exit_code, kRed);
   EXPECT_EQ(report()["status"], "finished");
+  const auto overlap = report()["certificate"][0];
+  EXPECT_EQ(overlap["name"], "largest_overlap_ratio");
+  EXPECT_EQ(overlap["verdict"], "red");
+  EXPECT_THAT(overlap["advice"].get<std::string>(), HasSubstr("raise young_modulus"));
 }
 
 }  // namespace
