@@ -46,8 +46,11 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 
 # Libraries of others that are needed, by dpkg-shlibdeps; ours are named, in the version that they are built with.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/geometry ${PROJECT_BINARY_DIR}/contact
-  ${PROJECT_BINARY_DIR}/dynamics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS)
+foreach(library IN LISTS libraries)
+  get_target_property(folder plekton_${library} BINARY_DIR)
+  list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${folder})
+endforeach()
 set(our_version "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 set(ours "libplekton${abi} ${our_version}")
 
@@ -70,7 +73,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 # CPack would write scripts that call ldconfig; a trigger does it once for all packages.
 set(control ${PROJECT_BINARY_DIR}/packages_control)
 set(shlibs)
-foreach(library IN ITEMS geometry contact dynamics)
+foreach(library IN LISTS libraries)
   string(APPEND shlibs "libplekton_${library} ${abi} ${ours}\n")
 endforeach()
 file(WRITE ${control}/shlibs "${shlibs}")
@@ -84,7 +87,7 @@ This package has the libraries for programs at run time.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libplekton-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${ours}, libeigen3-dev (>= 3.4)")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "plekton-doc")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "plekton-doc, libopenmpi-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${about}
 .
 This package has what programs are compiled with: headers, and files for CMake

@@ -15,7 +15,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from comparison import cases, codes, machine, outputs, report
+from comparison import cases, codes, compiling, machine, outputs, report
 from comparison.results import Results
 from comparison.running import last_lines, run
 
@@ -24,6 +24,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bench", help="path of plekton-bench")
     parser.add_argument("--search", help="path of plekton-bench-search, which is run beside the scenes (G12)")
+    parser.add_argument("--headers", help="folder that has plekton/...: the examples are compiled with it beside the scenes (G13)")
     parser.add_argument("--scenes", nargs="*", default=cases.SCENE_NAMES, choices=cases.SCENE_NAMES)
     parser.add_argument("--sizes", nargs="+", type=int, default=[5000, 20000, 100000], help="spheres of s1")
     parser.add_argument("--repetitions", type=int, default=5)
@@ -133,6 +134,12 @@ def search_runs(options):
         yield {**figures, "threads": 1, "rss_MiB": ended.rss, "share": ended.share}
 
 
+def compile_runs(options):
+    """The records of the examples, compiled."""
+    if options.headers:
+        yield from compiling.runs(options.headers, options.repetitions, options.timeout)
+
+
 def tell(record):
     what = f"{record['scene']} {record['size'] or ''} {record['code']} x{record['threads']} #{record['repetition']}"
     figure = "failed" if "failed" in record else f"{record['ms_per_step']:.4g} ms/step"
@@ -143,7 +150,7 @@ def collect(ready, found, options):
     """Runs all and writes each record as it comes; an interrupt keeps what there is."""
     records = []
     try:
-        for record in itertools.chain(all_runs(ready, found, options), search_runs(options)):
+        for record in itertools.chain(all_runs(ready, found, options), search_runs(options), compile_runs(options)):
             records.append(record)
             tell(record)
             if options.out:

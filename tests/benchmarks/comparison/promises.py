@@ -3,7 +3,7 @@
 
 from dataclasses import dataclass
 
-from comparison import costs
+from comparison import compiling, costs
 from comparison.cases import LAW_SCENES, LINEAR_LAW, OTHER_LAWS, SCENES, SHEET_CELLS, under
 from comparison.results import Results, Spread, combine
 
@@ -122,6 +122,27 @@ def two_threads(results, installed):
             yield Row("G8", f"{scene} {size}: two threads over one", measured, *bounds, missing=missing, flaw=flaw)
 
 
+def two_threads_on_structures(results, installed):
+    """What two threads bring where structures touch."""
+    for scene in ("s4a", "s4b"):
+        wall = Results(results.records, "wall")
+        size = SCENES[scene].size
+        one, two = (wall.times("plekton", scene, size, threads) for threads in (1, 2))
+        measured = combine(lambda single, double: single / double, one, two)
+        missing = "" if measured else f"needs {scene} on 1 and 2 threads"
+        yield Row("G8", f"{scene}: two threads over one", measured, 1.6, None, missing=missing)
+
+
+def compile_times(results, installed):
+    """G13."""
+    processor = Results(results.records, "cpu")
+    for scene, (example, most) in compiling.EXAMPLES.items():
+        times = processor.times("plekton", scene, 0)
+        measured = combine(lambda time: 1e-3 * time, times)
+        missing = "" if measured else "needs --headers"
+        yield Row("G13", f"s to compile {example}", measured, most, None, at_least=False, missing=missing)
+
+
 def memory(results, installed):
     """G9."""
     rows = (
@@ -178,5 +199,5 @@ def rows(results, installed):
     @param results    Results of plekton and of its peers.
     @param installed  Names of the peers found on this machine.
     """
-    for group in (sphere_beds, structures, contacts, two_threads, memory, growth, laws, searches):
+    for group in (sphere_beds, structures, contacts, two_threads, two_threads_on_structures, memory, growth, laws, searches, compile_times):
         yield from group(results, installed)
