@@ -3,8 +3,8 @@
 
 Usage: python3 ranks_test.py PROGRAM [CASE]
 
-With PLEKTON_RANKS=all in the environment also the scenes of scenes/named, on up to 8 ranks, and 50 runs that are killed (some 15 minutes
-on two cores).
+With PLEKTON_RANKS=all in the environment also the scenes of scenes/named and all_kinds, on up to 8 ranks, and 50 runs of which a rank is
+killed, whichever.
 
 Ends 77 where there is no mpirun, or the program has no MPI: ctest shows that as skipped.
 """
@@ -100,7 +100,7 @@ class SameBytes(Ranks):
 @unittest.skipUnless(asks_for_all(), "long: set PLEKTON_RANKS=all")
 class NamedScenes(Ranks):
     def test_on_up_to_8_ranks_and_with_owners_by_chance(self):
-        for scene in sorted((SCENES / "named").glob("*.toml")):
+        for scene in [*sorted((SCENES / "named").glob("*.toml")), SCENES / "all_kinds.toml"]:
             with self.subTest(scene.stem):
                 alone = self.folder / scene.stem
                 self.run_well(0, scene, "--out", alone, "--quiet")
@@ -115,36 +115,39 @@ class NamedScenes(Ranks):
 
 class Resume(Ranks):
     def test_after_a_killed_rank_on_another_number_of_ranks(self):
-        self.assert_resumes((2, 3), (3, 0), (0, 2))
+        self.assert_resumes("spheres.toml", random.Random(2), (2, 3), (3, 0), (0, 2))
 
     @unittest.skipUnless(asks_for_all(), "long: set PLEKTON_RANKS=all")
     def test_50_times(self):
-        counts = random.Random(1)
-        pairs = [counts.sample((0, 1, 2, 3, 5), 2) for _ in range(50)]
-        self.assert_resumes(*pairs)
-        print(f"killed and resumed on another number of ranks: {len(pairs)} of {len(pairs)} the same")
+        chance = random.Random(1)
+        for scene in ("spheres.toml", "all_kinds.toml"):
+            pairs = [chance.sample((0, 1, 2, 3, 5), 2) for _ in range(25)]
+            self.assert_resumes(scene, chance, *pairs)
+            print(f"{scene}: a rank killed and resumed on another number of ranks, {len(pairs)} of {len(pairs)} the same", flush=True)
 
-    def assert_resumes(self, *pairs):
-        """Runs that are killed on so many ranks go on on so many others."""
-        alone, out = self.folder / "alone", self.folder / "out"
-        self.run_well(0, SCENES / "spheres.toml", "--out", alone, "--quiet")
+    def assert_resumes(self, scene, chance, *pairs):
+        """Runs of which one is killed of so many ranks go on on so many others."""
+        alone, out = self.folder / scene, self.folder / "out"
+        self.run_well(0, SCENES / scene, "--out", alone, "--quiet")
         for before, after in pairs:
             shutil.rmtree(out, ignore_errors=True)
-            self.kill_when_there_is_a_checkpoint(before, out)
+            self.kill_when_there_is_a_checkpoint(scene, chance, before, out)
             self.run_well(after, "--resume", out, "--quiet")
-            self.assert_same(alone, out, f"{before} ranks, killed, then {after}")
+            self.assert_same(alone, out, f"{scene}: {before} ranks, killed, then {after}")
 
-    def kill_when_there_is_a_checkpoint(self, ranks, out):
-        arguments = [program, "run", str(SCENES / "spheres.toml"), "--out", str(out), "--quiet"]
+    def kill_when_there_is_a_checkpoint(self, scene, chance, ranks, out):
+        arguments = [program, "run", str(SCENES / scene), "--out", str(out), "--quiet"]
         with subprocess.Popen([*(mpirun(ranks) if ranks else []), *arguments], stdout=subprocess.DEVNULL,
-                              stderr=subprocess.DEVNULL) as job:
+                              stderr=subprocess.PIPE, text=True) as job:
             deadline = time.monotonic() + 120
             while not list(out.glob("checkpoints/*.h5")) and job.poll() is None and time.monotonic() < deadline:
                 time.sleep(0.01)
             self.assertIsNone(job.poll(), "the run was over before it could be killed")
-            # The last rank, whoever that is: mpirun has to end the others.
-            os.kill(self.processes_of(job)[-1], signal.SIGKILL)
-            job.wait(60)
+            # mpirun has to end the others, and says so once.
+            os.kill(chance.choice(self.processes_of(job)), signal.SIGKILL)
+            _, told = job.communicate(timeout=60)
+        if ranks:
+            self.assertEqual(told.count("signal 9"), 1, told)
         self.assertFalse((out / "run.json").exists())
 
     @staticmethod
