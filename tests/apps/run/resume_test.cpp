@@ -10,8 +10,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -242,6 +244,46 @@ TEST_F(ResumeErrors, GoBeyondTheDurationThatWasAskedForAtFirst) {
   const auto report = nlohmann::json::parse(file);
   EXPECT_EQ(report["timing"]["simulated_time_s"], 0.008);
   EXPECT_EQ(report["resumed_s"], 0.005);
+}
+
+/// Output that was not asked for at first: the rows at the same times have the same digits.
+TEST_F(ResumeErrors, ComputeAPartOfARunAgainWithOtherOutput) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const fs::path part = folder_ / "part";
+  const Outcome outcome =
+      resume({"--out", part.string(), "--from", "1.5 ms", "--to", "4 ms", "--set",
+              "output.history_interval=\"1e-4 s\""});
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+
+  const auto rows_of = [](const fs::path& file) {
+    std::istringstream text(test::bytes_of(file));
+    std::vector<std::string> rows;
+    for (std::string row; std::getline(text, row);) rows.push_back(row);
+    return rows;
+  };
+  const std::vector<std::string> whole = rows_of(folder_ / "out/energy.csv");
+  const std::vector<std::string> again = rows_of(part / "energy.csv");
+  EXPECT_GE(again.size(), 20U);
+  EXPECT_GE(std::stod(again[1]), 0.001);
+  EXPECT_NEAR(std::stod(again.back()), 0.004, 1e-4);
+  EXPECT_EQ(again.front(), whole.front());
+  EXPECT_GE(std::count_if(again.begin() + 1, again.end(),
+                          [&](const std::string& row) { return std::ranges::count(whole, row) == 1; }),
+            2);
+}
+
+TEST_F(ResumeErrors, InspectTellsWhatACheckpointHolds) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const fs::path last = checkpoints_of(out()).back();
+  const Outcome outcome = Program({"inspect", last.string()}).wait();
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  for (const char* told : {": checkpoint of version ", "time 0.005 s, step ", "a.toml", " 5 nodes",
+                           " 2 facets", "hash of the state ", "nodes/velocity "})
+    EXPECT_NE(outcome.out.find(told), std::string::npos) << told << " in\n" << outcome.out;
+  const Outcome other = Program({"inspect", (folder_ / "two.off").string()}).wait();
+  EXPECT_EQ(other.exit_code, kFailed);
+  EXPECT_NE(other.err.find("no checkpoint of Plekton"), std::string::npos) << other.err;
 }
 
 TEST_F(ResumeErrors, VerifyComputesARunAgainAndFindsEveryBit) {

@@ -20,6 +20,7 @@ namespace plekton::dynamics {
 namespace {
 
 using geometry::StateTree;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -83,6 +84,19 @@ TEST_F(CheckpointFile, RefusesWhatIsNoCheckpoint) {
 
   EXPECT_THAT([&] { read_checkpoint(file()); },
               ThrowsMessage<CheckpointError>(HasSubstr("no checkpoint of Plekton")));
+}
+
+TEST_F(CheckpointFile, RefusesAnotherVersionAndNamesBoth) {
+  write_checkpoint(file(), example());
+  std::string bytes = test::bytes_of(file());
+  const std::string version = "version " + std::to_string(kCheckpointVersion) + "\n";
+  bytes.replace(bytes.find(version), version.size(), "version 1\n");
+  write(bytes);
+
+  EXPECT_THAT([&] { read_checkpoint(file()); },
+              ThrowsMessage<CheckpointError>(
+                  AllOf(HasSubstr("is of version 1, written by Plekton"),
+                        HasSubstr("reads version " + std::to_string(kCheckpointVersion)))));
 }
 
 TEST_F(CheckpointFile, CannotBeWrittenWhereThereIsNoFolder) {
