@@ -30,7 +30,7 @@ def arguments():
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--threads", nargs="+", type=int, default=[1, 2], help="of Plekton")
     parser.add_argument("--peer-threads", nargs="+", type=int, default=[1], help="threads or ranks of the peers")
-    parser.add_argument("--peers", nargs="*", default=list(codes.MAKERS), choices=list(codes.MAKERS))
+    parser.add_argument("--peers", nargs="*", default=list(codes.NAMES), choices=list(codes.NAMES))
     parser.add_argument("--beds", default=str(default_beds()), help="folder of beds; those missing are made there")
     parser.add_argument("--out", help="file to which each run is added, a JSON line each")
     parser.add_argument("--read", action="store_true", help="runs nothing: prints the tables of what is in --out")

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plekton-bench: runs a scene and prints one JSON line about its cost, or makes a bed.
+// plekton-bench: runs a scene and prints one JSON line about its cost, or makes a bed. Started by mpirun its processes run the scene
+// together.
+#include "contact/among_ranks.hpp"
 #include "tests/benchmarks/measurement.hpp"
 #include "tests/benchmarks/scenes/laws.hpp"
 #include "tests/benchmarks/scenes/scene_table.hpp"
+
+#ifdef PLEKTON_HAS_DISTRIBUTED
+#include "dynamics/distributed/mpi_job.hpp"
+#endif
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -10,10 +16,13 @@
 
 #include <fstream>
 #include <iostream>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -76,10 +85,23 @@ nlohmann::ordered_json to_json(const plekton::contact::ContactCounts& counts) {
           {"with_planes", counts.with_planes}};
 }
 
-nlohmann::ordered_json run(const RunOptions& options) {
+/// s, of all ranks together.
+double processor_time_of_all(plekton::geometry::Ranks* ranks, double own) {
+  if (ranks == nullptr) return own;
+  const auto count = static_cast<std::size_t>(ranks->count());
+  std::vector<double> times(count, 0.0);
+  times[static_cast<std::size_t>(ranks->rank())] = own;
+  ranks->gather(std::as_writable_bytes(std::span(times)),
+                std::vector<std::size_t>(count, sizeof(double)));
+  return std::accumulate(times.begin(), times.end(), 0.0);
+}
+
+/// @param ranks  that run it together, or none
+nlohmann::ordered_json run(const RunOptions& options, plekton::geometry::Ranks* ranks) {
   const bench::SceneEntry& entry = bench::find_scene(options.scene);
   bench::BenchmarkScene scene = entry.make(input_of(entry, options));
   bench::set_law(options.law, scene);
+  if (ranks != nullptr) scene.model = plekton::contact::among_ranks(scene.model, *ranks);
   scene.options.threads = options.threads;
   scene.options.skin = options.skin;
   const bench::Window window{options.warm_up.value_or(entry.warm_up),
@@ -92,10 +114,12 @@ nlohmann::ordered_json run(const RunOptions& options) {
           {"law", options.law},
           {"N", result.elements},
           {"threads", options.threads},
+          {"ranks", ranks == nullptr ? 0 : ranks->count()},
           {"warm_up", window.warm_up},
           {"steps", window.steps},
           {"ms_per_step", 1e3 * result.wall / window.steps},
-          {"cpu_ms_per_step", 1e3 * result.processor_time / window.steps},
+          {"cpu_ms_per_step",
+           1e3 * processor_time_of_all(ranks, result.processor_time) / window.steps},
           {"element_steps_per_s", static_cast<double>(result.elements) * steps_per_second},
           {"contacts", contacts},
           {"contacts_by_kind", to_json(result.contacts)},
@@ -104,6 +128,19 @@ nlohmann::ordered_json run(const RunOptions& options) {
           {"skin_m", result.skin},
           {"rss_MiB", peak_memory_mib()},
           {"state", to_json(result.state)}};
+}
+
+/// Runs a scene, alone or as one of several processes, of which the first prints what came of it.
+void run_and_print(const RunOptions& options) {
+#ifdef PLEKTON_HAS_DISTRIBUTED
+  if (plekton::distributed::is_one_of_several()) {
+    plekton::distributed::MpiJob job;
+    const nlohmann::ordered_json figures = run(options, &job.ranks());
+    if (job.ranks().rank() == 0) std::cout << figures.dump() << '\n';
+    return;
+  }
+#endif
+  std::cout << run(options, nullptr).dump() << '\n';
 }
 
 void make_bed(const BedOptions& options) {
@@ -168,7 +205,7 @@ int main(int argc, char** argv) {
     } else if (run_options.scene.empty()) {
       throw std::invalid_argument("name a scene, or make-bed:\n" + bench::list_of_scenes());
     } else {
-      std::cout << run(run_options).dump() << '\n';
+      run_and_print(run_options);
     }
   } catch (const std::exception& error) {
     std::cerr << "plekton-bench: " << error.what() << '\n';

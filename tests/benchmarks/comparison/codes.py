@@ -14,6 +14,8 @@ from comparison.running import run
 
 PEERS = Path(__file__).resolve().parent.parent / "peers"
 BEDS_ONLY = ("s1", "s1flow")
+ON_RANKS = "plekton-ranks"
+"""Plekton by mpirun."""
 
 
 @dataclass(frozen=True)
@@ -77,12 +79,15 @@ def lammps_data(bed):
     return data, side * extent, side
 
 
-def mpi_ranks(count):
+def mpirun(count):
     """The words before a command that run it on so many ranks, of one thread each."""
-    if count == 1:
-        return []
     words = ["env", "OMP_NUM_THREADS=1", "mpirun", "--bind-to", "none", "-np", str(count)]
     return [*words, "--allow-run-as-root"] if os.geteuid() == 0 else words
+
+
+def mpi_ranks(count):
+    """The same; one rank is started by itself."""
+    return mpirun(count) if count > 1 else []
 
 
 def lammps_command(script, program, job):
@@ -110,6 +115,15 @@ def minimal_loop_command(program, job):
 
 def plekton(program):
     return Code("plekton", "", (), partial(plekton_command, program), outputs.read_json)
+
+
+def plekton_on_ranks(program):
+    """Ranks of one thread each, one of them as well."""
+
+    def command(job):
+        return [*mpirun(job.threads), *plekton_command(program, Job(job.case, job.bed, 1))]
+
+    return Code(ON_RANKS, "", BEDS_ONLY, command, outputs.read_json)
 
 
 def yade(program):
@@ -150,10 +164,17 @@ def first_line_with(word, command):
     return next((line.strip() for line in text.splitlines() if word in line), "")
 
 
-def find_codes(bench, names=tuple(MAKERS)):
+NAMES = (ON_RANKS, *MAKERS)
+"""All that plekton-bench may be compared with."""
+
+
+def find_codes(bench, names=NAMES):
     """plekton-bench, then the peers of these names that are on this machine."""
-    codes = [plekton(str(Path(bench).resolve()))]
-    for name in names:
+    program = str(Path(bench).resolve())
+    codes = [plekton(program)]
+    if ON_RANKS in names and shutil.which("mpirun"):
+        codes.append(plekton_on_ranks(program))
+    for name in [name for name in names if name in MAKERS]:
         variable, default, make = MAKERS[name]
         wanted = os.environ.get(variable) or default
         program = shutil.which(wanted) if wanted else None

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from comparison import compiling, costs
 from comparison.cases import LAW_SCENES, LINEAR_LAW, OTHER_LAWS, SCENES, SHEET_CELLS, under
+from comparison.codes import ON_RANKS
 from comparison.results import Results, Spread, combine
 
 NATIVE_SHARE = 0.85
@@ -133,6 +134,22 @@ def two_threads_on_structures(results, installed):
         yield Row("G8", f"{scene}: two threads over one", measured, 1.6, None, missing=missing)
 
 
+def ranks(results, installed):
+    """What ranks of one thread bring, and cost, by wall time."""
+    wall = Results(results.records, "wall")
+    for size in results.sizes("s1") or [SCENES["s1"].size]:
+        alone = wall.times("plekton", "s1", size)
+        on = {count: wall.times(ON_RANKS, "s1", size, count) for count in (1, 2)}
+        lammps = wall.times("lammps", "s1", size, 2)
+        missing = f"needs {ON_RANKS} with --peer-threads 1 2"
+        two = combine(lambda none, ranks: none / ranks, alone, on[2])
+        yield Row("ranks", f"s1 {size}: two over none", two, 1.6 if size > SMALL else None, None, missing=missing)
+        one = combine(lambda none, rank: rank / none, alone, on[1])
+        yield Row("ranks", f"s1 {size}: time on one over none", one, 1.03, None, at_least=False, missing=missing)
+        both = combine(lambda ours, theirs: theirs / ours, on[2], lammps)
+        yield Row("ranks", f"s1 {size}: times LAMMPS, two ranks each", both, 1.0, None, missing=missing + " and lammps")
+
+
 def compile_times(results, installed):
     """G13."""
     processor = Results(results.records, "cpu")
@@ -199,5 +216,5 @@ def rows(results, installed):
     @param results    Results of plekton and of its peers.
     @param installed  Names of the peers found on this machine.
     """
-    for group in (sphere_beds, structures, contacts, two_threads, two_threads_on_structures, memory, growth, laws, searches, compile_times):
+    for group in (sphere_beds, structures, contacts, two_threads, two_threads_on_structures, ranks, memory, growth, laws, searches, compile_times):
         yield from group(results, installed)
