@@ -26,7 +26,10 @@ ELSEWHERE = {
 WRITTEN = {"keys": "reference/keys.md", "laws": "reference/laws.md", "outputs": "reference/outputs.md", "commands": "reference/commands.md"}
 """What `plekton generate` writes, and where it goes."""
 
-PICTURES = ("apps/examples/catch/catch.png", "apps/examples/net/net.png", "apps/examples/import/generators.png", "apps/examples/import/repair.png")
+APPLICATION = re.compile(r"apps/examples/(\w+)/README\.md")
+"""Pages of applications, which go to applications/NAME.md, but for those that are named above."""
+
+PICTURE = re.compile(r"apps/examples/\w+/(\w+\.png)")
 
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)")
 
@@ -36,8 +39,10 @@ def place_of(path, root):
     relative = path.relative_to(root).as_posix()
     if relative in ELSEWHERE:
         return ELSEWHERE[relative]
-    if relative in PICTURES:
-        return "pictures/" + path.name
+    if application := APPLICATION.fullmatch(relative):
+        return f"applications/{application[1]}.md"
+    if picture := PICTURE.fullmatch(relative):
+        return "pictures/" + picture[1]
     return relative[len("docs/") :] if relative.startswith("docs/") and relative.endswith(".md") else None
 
 
@@ -61,29 +66,28 @@ def with_links_of_the_site(text, page, root, target):
     return LINK.sub(replaced, text)
 
 
+def pages_of_the_site(root):
+    """Pages of the tree, and where they go."""
+    for page in [*map(root.joinpath, ELSEWHERE), *root.glob("docs/**/*.md"), *root.glob("apps/examples/*/README.md")]:
+        if page.is_file():
+            yield page, place_of(page, root)
+
+
 def main():
     program, root, folder = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3])
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(root / "docs", folder, ignore=shutil.ignore_patterns("build.sh", "gather.py", "Doxyfile.in", "api.sh", "api.dox"))
-    for page, target in ELSEWHERE.items():
-        source = root / page
-        if not source.is_file():
-            continue
-        text = with_links_of_the_site(source.read_text(encoding="utf-8"), source, root, target)
-        (folder / target).write_text(text, encoding="utf-8")
-    for page in root.glob("docs/**/*.md"):
-        target = page.relative_to(root / "docs").as_posix()
-        if page.relative_to(root).as_posix() in ELSEWHERE:
-            (folder / target).unlink()
-            continue
+    for page, target in pages_of_the_site(root):
+        if page.is_relative_to(root / "docs") and (copy := folder / page.relative_to(root / "docs")) != folder / target:
+            copy.unlink(missing_ok=True)
         text = with_links_of_the_site(page.read_text(encoding="utf-8"), page, root, target)
         (folder / target).write_text(text, encoding="utf-8")
     for what, target in WRITTEN.items():
         text = subprocess.run([program, "generate", what], capture_output=True, text=True, check=True).stdout
         (folder / target).write_text(text, encoding="utf-8")
     (folder / "pictures").mkdir()
-    for picture in PICTURES:
-        shutil.copy(root / picture, folder / "pictures")
+    for picture in root.glob("apps/examples/*/*.png"):
+        shutil.copy(picture, folder / "pictures")
     if not KATEX.is_dir():
         sys.exit(f"{KATEX} is missing, which sets formulas; install libjs-katex")
     katex = folder / "_static" / "katex"

@@ -11,7 +11,7 @@ CDPATH='' cd -- "$(dirname -- "$0")/.."
 . cmake/debian.sh
 
 configure() {
-  need_packages build python test
+  need_packages build python test doc
   say "Configuring build/$1"
   cmake --preset "$1" -DPLEKTON_BUILD_TESTS=ON
 }

@@ -12,7 +12,7 @@ from pathlib import Path
 
 SKIPPED = 77
 PYTHON = "/usr/bin/python3"
-PARTS = ("start", "tutorials/index", "howto/errors", "reference/keys", "theory/contact_rule", "validation", "coming_from/yade", "project")
+PARTS = ("start", "tutorials/index", "applications/tyre", "howto/errors", "reference/keys", "theory/contact_rule", "validation", "coming_from/yade", "project")
 LINK = re.compile(r'(?:href|src)="([^"#:?]+)[^":]*"')
 
 
