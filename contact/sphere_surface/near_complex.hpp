@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/base/motion.hpp"
-#include "contact/sphere_surface/level_complex.hpp"
+#include "contact/counting/level_complex.hpp"
 #include "geometry/critical/critical_features.hpp"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_surface/patch.hpp"
 
+#include "contact/counting/ring_weights.hpp"
 #include "contact/sphere_surface/near_complex.hpp"
-#include "contact/sphere_surface/ring_weights.hpp"
 #include "geometry/critical/descent.hpp"
 
 #include <algorithm>

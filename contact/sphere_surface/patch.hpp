@@ -2,10 +2,10 @@
 #pragma once
 
 #include "contact/base/motion.hpp"
-#include "contact/sphere_surface/link.hpp"
+#include "contact/counting/link.hpp"
+#include "contact/counting/wrap.hpp"
 #include "contact/sphere_surface/merge_shares.hpp"
 #include "contact/sphere_surface/normal_law.hpp"
-#include "contact/sphere_surface/wrap.hpp"
 #include "geometry/critical/critical_features.hpp"
 
 #include <memory>

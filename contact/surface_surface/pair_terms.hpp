@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/sphere_surface/ring_weights.hpp"
+#include "contact/counting/ring_weights.hpp"
 #include "contact/surface_surface/clearances.hpp"
 #include "contact/surface_surface/pair_term.hpp"
 #include "contact/surface_surface/product_complex.hpp"

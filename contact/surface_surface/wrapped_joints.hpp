@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/sphere_surface/wrap.hpp"
+#include "contact/counting/wrap.hpp"
 #include "contact/surface_surface/pair_term.hpp"
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct Holder {
 };
 
 /// The joints of bars among the terms of a list of pairs, and what wraps give back at them
-/// (contact/sphere_surface/wrap.hpp): to the terms themselves, and to the other ends of the bars.
+/// (contact/counting/wrap.hpp): to the terms themselves, and to the other ends of the bars.
 ///
 /// A joint is a node of a term that only bars have, with all of them in all the pairs of cells that
 /// have the term. Where some of these pairs are not in the list, because the cells share a node

@@ -9,7 +9,7 @@
 #include "dynamics/loads/surface_pressure.hpp"
 #include "dynamics/loads/viscous_damping.hpp"
 #include "dynamics/model/scene.hpp"
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 
 namespace plekton::dynamics {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 #include "dynamics/structure/beam_bond.hpp"
-#include "dynamics/state/nodal_stiffness.hpp"
 
 namespace plekton::dynamics {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 #include "dynamics/structure/beam_blocks.hpp"
 #include "dynamics/structure/sheet_spring.hpp"
 #include "geometry/base/thread_pool.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dynamics/model/scene.hpp"
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 
 #include <cstdint>
 #include <vector>

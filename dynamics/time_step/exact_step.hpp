@@ -3,7 +3,7 @@
 
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/model/scene.hpp"
-#include "dynamics/state/contact_springs.hpp"
+#include "dynamics/stiffness/contact_springs.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/ties/ties.hpp"
 

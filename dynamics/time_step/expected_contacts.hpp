@@ -5,7 +5,7 @@
 #include "contact/surface_surface/mean_node_masses.hpp"
 #include "dynamics/model/scene.hpp"
 #include "dynamics/model/scene_figures.hpp"
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 #include "dynamics/time_step/coming_partner.hpp"
 #include "geometry/primitives/elements.hpp"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "contact/contacts.hpp"
-#include "dynamics/state/contact_springs.hpp"
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/stiffness/contact_springs.hpp"
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 #include "geometry/primitives/elements.hpp"
 
 #include <algorithm>

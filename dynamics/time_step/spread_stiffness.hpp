@@ -2,8 +2,8 @@
 #pragma once
 
 #include "contact/sphere_surface/patch.hpp"
-#include "dynamics/state/contact_springs.hpp"
 #include "dynamics/state/node_state.hpp"
+#include "dynamics/stiffness/contact_springs.hpp"
 
 #include <vector>
 

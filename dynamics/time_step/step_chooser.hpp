@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/state/contact_springs.hpp"
-#include "dynamics/state/spring_shares.hpp"
+#include "dynamics/stiffness/contact_springs.hpp"
+#include "dynamics/stiffness/spring_shares.hpp"
 #include "dynamics/time_step/spread_stiffness.hpp"
 #include "dynamics/time_step/step_limits.hpp"
 

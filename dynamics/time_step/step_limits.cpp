@@ -3,8 +3,8 @@
 
 #include "contact/sphere_surface/patch.hpp"
 #include "dynamics/model/scene_figures.hpp"
-#include "dynamics/state/contact_springs.hpp"
-#include "dynamics/state/spring_shares.hpp"
+#include "dynamics/stiffness/contact_springs.hpp"
+#include "dynamics/stiffness/spring_shares.hpp"
 #include "dynamics/structure/beam_stiffness.hpp"
 
 #include <algorithm>

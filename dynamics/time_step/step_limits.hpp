@@ -4,7 +4,7 @@
 #include "contact/contacts.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/model/scene.hpp"
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/ties/ties.hpp"

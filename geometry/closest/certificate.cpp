@@ -44,7 +44,7 @@ bool all_others(Corners x, unsigned feature, Holds holds) {
 Verdict corner_corner(Corners a, Corners b, WitnessFeatures witness_features) {
   const Vec3& p = a[first_of(witness_features.a)];
   const Vec3& q = b[first_of(witness_features.b)];
-  if (p == q) return Verdict::structure_pair;
+  if (p == q) return Verdict::touching;
   Conditions conditions;
   const bool holds =
       all_others(a, witness_features.a,
@@ -76,7 +76,7 @@ Verdict corner_side(Corners a, unsigned corner, Corners b, unsigned side) {
   if (!all_others(a, corner, stays_behind) || !all_others(b, side, stays_beyond))
     return Verdict::refuted;
   const bool may_meet = !conditions.is_strict() || a.size() + b.size() == 3;
-  if (may_meet && sign_of_crosses({c, d}, {c, p}, {c, p}) == 0) return Verdict::structure_pair;
+  if (may_meet && sign_of_crosses({c, d}, {c, p}, {c, p}) == 0) return Verdict::touching;
   return conditions.verdict();
 }
 
@@ -89,7 +89,7 @@ Verdict corner_face(Corners a, unsigned corner, Corners b) {
   const Arrow u{b[0], b[1]};
   const Arrow v{b[0], b[2]};
   const int above = sign_of_volume(u, v, {b[0], p});
-  if (above == 0) return Verdict::structure_pair;
+  if (above == 0) return Verdict::touching;
   Conditions conditions;
   const bool holds = all_others(a, corner, [&](const Vec3& x) {
     return conditions.add(-above * sign_of_volume(u, v, {p, x}));
@@ -112,7 +112,7 @@ Verdict side_side(Corners a, Corners b, WitnessFeatures witness_features) {
   const Arrow u{a0, a1};
   const Arrow v{b0, b1};
   const int above = sign_of_volume(u, v, {a0, b0});
-  if (above == 0) return Verdict::structure_pair;
+  if (above == 0) return Verdict::touching;
   Conditions conditions;
   const bool holds = all_others(a, witness_features.a,
                                 [&](const Vec3& x) {

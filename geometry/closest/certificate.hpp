@@ -22,10 +22,10 @@ struct WitnessFeatures {
 };
 
 enum class Verdict {
-  refuted,        ///< the features have no foot points inside, or there are nearer points
-  tied,           ///< they carry nearest points, and others may too
-  unique,         ///< they carry the nearest points, and nothing else does
-  structure_pair  ///< they have one point in common
+  refuted,  ///< the features have no foot points inside, or there are nearer points
+  tied,     ///< they carry nearest points, and others may too
+  unique,   ///< they carry the nearest points, and nothing else does
+  touching  ///< they have one point in common
 };
 
 /// Decided exactly, for corner and corner, corner and side, corner and face, and side and side.

@@ -36,9 +36,8 @@ std::optional<Decision> search(Corners a, std::size_t dimension_a, Corners b,
     for (const unsigned of_b : features(dimension_b, b)) {
       const Verdict verdict = certify(a, b, {of_a, of_b});
       if (verdict == Verdict::refuted) continue;
-      const bool is_structure_pair = verdict == Verdict::structure_pair;
-      return Decision{{of_a, of_b},
-                      is_structure_pair ? Relation::touching_or_crossing : Relation::apart};
+      const bool is_touching = verdict == Verdict::touching;
+      return Decision{{of_a, of_b}, is_touching ? Relation::touching_or_crossing : Relation::apart};
     }
   }
   return std::nullopt;
@@ -124,8 +123,8 @@ Decision decide_for_point(Corners a, Corners b, unsigned guess) noexcept {
     if (const auto found = search_beside(a, b, guess)) return *found;
   }
   if (verdict == Verdict::refuted || has_rivals(b, guess)) return enumerate(a, b);
-  const bool is_structure_pair = verdict == Verdict::structure_pair;
-  return {{1U, guess}, is_structure_pair ? Relation::touching_or_crossing : Relation::apart};
+  const bool is_touching = verdict == Verdict::touching;
+  return {{1U, guess}, is_touching ? Relation::touching_or_crossing : Relation::apart};
 }
 
 }  // namespace closest

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/geometry_check/spread_check.hpp"
 
-#include "contact/sphere_surface/wrap.hpp"
+#include "contact/counting/wrap.hpp"
 
 #include <algorithm>
 #include <limits>

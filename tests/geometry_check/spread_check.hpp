@@ -12,7 +12,7 @@ namespace plekton::geometry_check {
 bool has_gradient(const SpreadTouch& touch, test::Random& random);
 
 /// The energy is that of the deepest contact at least: of bars exactly, of facets but for 0.2 %
-/// (contact/sphere_surface/ring_weights.hpp).
+/// (contact/counting/ring_weights.hpp).
 bool counts_one(const SpreadTouch& touch);
 
 /// Where all that is in range lies before a plane through the ball's centre, the ball is pushed
@@ -21,7 +21,7 @@ bool is_pushed_away(const SpreadTouch& touch);
 
 /// Steps of 1e-3, 1e-4 and 1e-5 of the overlap change the force in proportion: by no more than as
 /// many contacts as terms may stand for (force_check.hpp), and as wires turn
-/// (contact/sphere_surface/wrap.hpp).
+/// (contact/counting/wrap.hpp).
 bool follows(const SpreadTouch& touch, test::Random& random);
 
 }  // namespace plekton::geometry_check

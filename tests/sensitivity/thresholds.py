@@ -38,21 +38,21 @@ class Threshold:
 
 
 THRESHOLDS = (
-    Threshold("contact/sphere_surface/wrap.hpp", "kTurn", 0.1, ("press", "drape")),
-    Threshold("contact/sphere_surface/ring_weights.cpp", "kSharpness", 12, ("press", "drape")),
+    Threshold("contact/counting/wrap.hpp", "kTurn", 0.1, ("press", "drape")),
+    Threshold("contact/counting/ring_weights.cpp", "kSharpness", 12, ("press", "drape")),
     Threshold("contact/surface_surface/tilt_share.hpp", "kLargestTilt", 3e-4, ("stack", "drape")),
     # A cosine: half and twice the angle.
     Threshold("contact/surface_surface/facing_facets.hpp", "kCosineOfCrossing", 0.9, ("stack", "drape"), "0.974679", "0.62"),
     Threshold("contact/surface_surface/pair_terms.hpp", "kMostRings", 64.0, ("stack", "drape")),
     # Twice is above what is stable.
-    Threshold("dynamics/state/nodal_stiffness.hpp", "kSafety", 0.65, ("catch", "stack"), doubled="0.79"),
+    Threshold("dynamics/stiffness/nodal_stiffness.hpp", "kSafety", 0.65, ("catch", "stack"), doubled="0.79"),
     # Growth in a look, 10 %.
     Threshold("dynamics/time_step/step_chooser.hpp", "kGrowth", 1.1, ("catch", "stack"), "1.05", "1.2"),
     Threshold("dynamics/time_step/step_chooser.hpp", "kLongestWay", 0.05, ("catch", "stack")),
     Threshold("dynamics/time_step/step_chooser.cpp", "kLargestTurn", 1.0, ("catch", "stack")),
     Threshold("dynamics/time_step/motion_step.hpp", "kLargestMotion", 0.1, ("catch", "stack")),
     Threshold("dynamics/time_step/expected_contacts.hpp", "kExpectedOverlap", 0.02, ("catch", "stack")),
-    Threshold("dynamics/state/spring_shares.cpp", "kLeast", 1e-3, ("catch", "press")),
+    Threshold("dynamics/stiffness/spring_shares.cpp", "kLeast", 1e-3, ("catch", "press")),
 )
 
 

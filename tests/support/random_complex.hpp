@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/sphere_surface/ring_basis.hpp"
+#include "contact/counting/ring_basis.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <Eigen/Dense>

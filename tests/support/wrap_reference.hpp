@@ -11,7 +11,7 @@
 #include <vector>
 
 /// Reference of what the nodes of bars give back where they wrap a ball
-/// (contact/sphere_surface/wrap.hpp), for springs of 1 N/m: by levels, with Simpson's rule, and
+/// (contact/counting/wrap.hpp), for springs of 1 N/m: by levels, with Simpson's rule, and
 /// with the bars' weights from as many normal equations.
 namespace plekton::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/ring_flows.hpp"
+#include "contact/counting/ring_flows.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/moving_scene.hpp"
 

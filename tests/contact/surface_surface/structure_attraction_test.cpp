@@ -66,7 +66,7 @@ TEST(StructureAttraction, PushesAgainstTheGradientOfItsEnergy) {
       structure_pair.place(shifted);
       return structure_pair.energy();
     };
-    // A straight chain is where a wrap sets in (contact/sphere_surface/wrap.hpp): with the square
+    // A straight chain is where a wrap sets in (contact/counting/wrap.hpp): with the square
     // of the bend on one side only, which differences see as a slope in proportion to the step.
     constexpr double kStep = 2e-9;
     const double change = (energy_at(kStep) - energy_at(-kStep)) / (2.0 * kStep);

@@ -2,7 +2,7 @@
 #include "dynamics/state/rigid_nodes.hpp"
 
 #include "dynamics/model/scene.hpp"
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 
 #include <gtest/gtest.h>
 

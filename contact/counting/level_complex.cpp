@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/level_complex.hpp"
+#include "contact/counting/level_complex.hpp"
 
 #include <algorithm>
 #include <numeric>

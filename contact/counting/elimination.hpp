@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/sphere_surface/link.hpp"
+#include "contact/counting/link.hpp"
 
 #include <cstddef>
 #include <cstdint>

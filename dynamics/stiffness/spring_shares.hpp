@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/state/contact_springs.hpp"
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/stiffness/contact_springs.hpp"
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 
 #include <span>
 #include <vector>

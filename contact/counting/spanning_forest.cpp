@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/spanning_forest.hpp"
+#include "contact/counting/spanning_forest.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/elimination.hpp"
+#include "contact/counting/elimination.hpp"
 
 #include "tests/support/seeded_random.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/sphere_surface/level_complex.hpp"
-#include "contact/sphere_surface/ring_flows.hpp"
+#include "contact/counting/level_complex.hpp"
+#include "contact/counting/ring_flows.hpp"
 
 #include <span>
 #include <vector>

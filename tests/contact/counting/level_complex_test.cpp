@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/level_complex.hpp"
+#include "contact/counting/level_complex.hpp"
 
+#include "contact/counting/ring_weights.hpp"
 #include "contact/sphere_surface/near_complex.hpp"
-#include "contact/sphere_surface/ring_weights.hpp"
 #include "tests/support/contact_surfaces.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/ring_weights.hpp"
+#include "contact/counting/ring_weights.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/ring_basis.hpp"
+#include "contact/counting/ring_basis.hpp"
 
 #include "tests/support/random_complex.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 
 #include "dynamics/structure/beam_stiffness.hpp"
 #include "tests/support/stiffness_reference.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/sphere_surface/link.hpp"
-#include "contact/sphere_surface/spanning_forest.hpp"
+#include "contact/counting/link.hpp"
+#include "contact/counting/spanning_forest.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/state/spring_shares.hpp"
+#include "dynamics/stiffness/spring_shares.hpp"
 
 #include "tests/support/stiffness_reference.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/state/contact_springs.hpp"
+#include "dynamics/stiffness/contact_springs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/state/nodal_stiffness.hpp"
+#include "dynamics/stiffness/nodal_stiffness.hpp"
 
-#include "dynamics/state/spring_shares.hpp"
+#include "dynamics/stiffness/spring_shares.hpp"
 #include "geometry/base/elementary.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/sphere_surface/wrap.hpp"
+#include "contact/counting/wrap.hpp"
 
 #include "geometry/base/elementary.hpp"
 

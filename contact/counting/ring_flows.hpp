@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/sphere_surface/elimination.hpp"
-#include "contact/sphere_surface/ring_basis.hpp"
+#include "contact/counting/elimination.hpp"
+#include "contact/counting/ring_basis.hpp"
 
 #include <cstddef>
 #include <cstdint>
