@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_surface/surface_contacts.hpp"
 
-#include "contact/tracking/contact_state.hpp"
-#include "contact/tracking/slip_state.hpp"
 #include "geometry/critical/descent.hpp"
 #include "geometry/primitives/cell_clearance.hpp"
-#include "geometry/primitives/surface_change.hpp"
-
-#include <optional>
 
 namespace plekton::contact {
 
@@ -94,78 +89,6 @@ double SurfaceContacts::elastic_energy() const {
     }
   }
   return energy;
-}
-
-// What becomes of the contacts of spheres with a surface that loses some of its elements.
-
-double SurfaceContacts::follow(const geometry::SurfaceChange& change,
-                               std::span<const geometry::CellId> cells, Positions at) {
-  double lost = released_by(change, cells, at);
-  for (Pair& pair : pairs_) {
-    pair.single_face = kNoFace;
-    if (pair.contacts.count > 0) lost += keep_minima(pair, change);
-  }
-  surface_ = &change.after();
-  watch_ = DeferredPairs(*surface_);
-  workers_.clear();
-  return lost;
-}
-
-/// Elastic energy (J) of normal forces before, minus what it is afterwards, where the nodes are at
-/// a moment. Only pairs with a cell that is gone have changed: a feature in range has all its cells
-/// in the list.
-double SurfaceContacts::released_by(const geometry::SurfaceChange& change,
-                                    std::span<const geometry::CellId> cells, Positions at) const {
-  PatchFinder before(change.before());
-  PatchFinder after(change.after());
-  double released = 0.0;
-  std::vector<geometry::CellId> left;
-  for (const Pair& pair : pairs_) {
-    const auto near = cells.subspan(pair.near.first, pair.near.count);
-    if (std::all_of(near.begin(), near.end(),
-                    [&](geometry::CellId cell) { return change.now(cell).has_value(); }))
-      continue;
-    left.clear();
-    for (const geometry::CellId cell : near) {
-      const auto of_cell = change.left_of(cell);
-      left.insert(left.end(), of_cell.begin(), of_cell.end());
-    }
-    std::sort(left.begin(), left.end());
-    left.erase(std::unique(left.begin(), left.end()), left.end());
-    released += normal_energy(pair, before, near, at) - normal_energy(pair, after, left, at);
-  }
-  return released;
-}
-
-double SurfaceContacts::normal_energy(const Pair& pair, PatchFinder& finder,
-                                      std::span<const geometry::CellId> cells, Positions x) {
-  if (cells.empty()) return 0.0;
-  const NormalPart one{&pair};
-  const Vec3& centre = x[index_of(pair.node)];
-  double energy = 0.0;
-  for (const Patch& patch : finder.find(centre, pair.reach, cells, x, NormalLaw(one))) {
-    for (const PatchTerm& term : finder.terms(patch))
-      energy += term.weight * one.energy(term.distance) + term.energy;
-  }
-  return energy;
-}
-
-/// A contact goes on from the minima that are left; without any nothing follows it. @returns the
-/// energy (J) of the histories that are lost
-double SurfaceContacts::keep_minima(const Pair& pair, const geometry::SurfaceChange& change) {
-  double lost = 0.0;
-  Lists& lists = current_[static_cast<std::size_t>(pair.contacts.worker)];
-  for (std::uint32_t i = 0; i < pair.contacts.count; ++i) {
-    Contact& contact = lists.contacts[pair.contacts.first + i];
-    Feature* const minima = lists.minima.data() + contact.first_minimum;
-    std::uint32_t left = 0;
-    for (std::uint32_t m = 0; m < contact.minimum_count; ++m) {
-      if (const auto minimum = change.now(minima[m])) minima[left++] = *minimum;
-    }
-    contact.minimum_count = left;
-    if (left == 0) lost += forget<AnyLaw>(pair.parameters, contact.memory, 0.0);
-  }
-  return lost;
 }
 
 // Most spheres in contact lie where they lay in the step before: on the inside of one facet, far
@@ -380,24 +303,6 @@ EnergyLoss SurfaceContacts::advance_pair(Pair& pair, std::span<const geometry::C
   return loss;
 }
 
-double SurfaceContacts::loss_at_end(const Pair& pair, const AnyLaw::History& history,
-                                    double parting) {
-  return AnyLaw::history_energy(pair.parameters, history) + AnyLaw::loss_after(history, parting);
-}
-
-double SurfaceContacts::loss_at_end(const Pair& pair, const Contact& old, const Motion& motion,
-                                    double dt) const {
-  if (old.minimum_count == 0) return loss_at_end(pair, old.memory.history, 0.0);
-  const Feature minimum =
-      previous_[static_cast<std::size_t>(pair.contacts.worker)].minima[old.first_minimum];
-  const std::size_t ball = index_of(pair.node);
-  const Positions x = motion.position;
-  const geometry::SurfaceFoot foot = geometry::foot_on(
-      *surface_, geometry::closest_feature(*surface_, minimum, x[ball], x), x[ball], x);
-  const Vec3 velocity = velocity_at(foot.core, Vec3::Zero(), motion) - motion.velocity[ball];
-  return loss_at_end(pair, old.memory.history, dt * velocity.dot(old.memory.normal));
-}
-
 /// Asks the law, and keeps the contact and its forces. @returns the energy (J) dissipated
 double SurfaceContacts::add_contact(const Pair& pair, std::span<const PatchTerm> terms,
                                     const PatchState& state,
@@ -461,28 +366,6 @@ EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
   return loss;
 }
 
-/// Where a sphere's centre lies on the surface itself, the contact of the last step says on which
-/// side it is.
-void SurfaceContacts::keep_sides(const Pair& pair, std::span<const Patch> patches, Positions x,
-                                 Worker& worker) {
-  for (std::size_t j = 0; j < patches.size(); ++j) {
-    const std::span<PatchTerm> terms = worker.patches.terms(patches[j]);
-    if (terms[0].distance > 0.0 || pair.contacts.count == 0) continue;  // the first is the nearest
-    const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
-    for (const Contact& old : contacts_of(pair, previous_)) {
-      const auto successors =
-          worker.successors.find({minima.data() + old.first_minimum, old.minimum_count},
-                                 x[index_of(pair.node)], x, patches, worker.patches);
-      if (std::find(successors.begin(), successors.end(), j) == successors.end()) continue;
-      for (PatchTerm& term : terms) {
-        const bool is_on_the_surface = term.distance == 0.0 && !term.is_inner;
-        if (is_on_the_surface) term.normal = normal_on_last_side(term, old.memory.normal, x);
-      }
-      break;
-    }
-  }
-}
-
 void SurfaceContacts::find_states(const Pair& pair, std::span<const Patch> patches,
                                   const Motion& motion, Worker& worker) {
   worker.states.clear();
@@ -506,62 +389,6 @@ void SurfaceContacts::find_states(const Pair& pair, std::span<const Patch> patch
   }
 }
 
-/// Hands the histories of the last step's contacts to this step's patches. A contact that splits
-/// shares its history in proportion to the elastic forces, and its number goes to the patch with
-/// the largest; of contacts that merge the one with the largest hands its number on. What a contact
-/// stored that nothing follows is dissipated.
-EnergyLoss SurfaceContacts::transfer(const Pair& pair, std::span<const Patch> patches,
-                                     const Motion& motion, double dt, Worker& worker) {
-  worker.transferred.assign(patches.size(), Transferred{});
-  EnergyLoss loss;
-  if (pair.contacts.count == 0) return loss;
-  const auto& minima = previous_[static_cast<std::size_t>(pair.contacts.worker)].minima;
-  for (const Contact& old : contacts_of(pair, previous_)) {
-    const auto successors = worker.successors.find(
-        {minima.data() + old.first_minimum, old.minimum_count},
-        motion.position[index_of(pair.node)], motion.position, patches, worker.patches);
-    if (successors.empty())
-      loss.dissipated += loss_at_end(pair, old, motion, dt);
-    else
-      loss.tracking += AnyLaw::history_energy(pair.parameters, old.memory.history);
-    double total = 0.0;
-    for (const std::uint32_t successor : successors)
-      total += worker.states[successor].elastic_force;
-    hand_on_number(old, successors, worker);
-    // A sphere rolls around an edge little by little: a normal that turns over in one step has gone
-    // through the surface.
-    worker.pass_throughs +=
-        !successors.empty() &&
-        std::all_of(successors.begin(), successors.end(), [&](std::uint32_t successor) {
-          return is_turned_over(old.memory.normal, worker.states[successor].normal);
-        });
-    for (const std::uint32_t successor : successors) {
-      const PatchState& state = worker.states[successor];
-      const double share =
-          total > 0.0 ? state.elastic_force / total : 1.0 / static_cast<double>(successors.size());
-      AnyLaw::accumulate_history(
-          worker.transferred[successor].history,
-          carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), share);
-    }
-  }
-  for (const Transferred& transferred : worker.transferred)
-    loss.tracking -= AnyLaw::history_energy(pair.parameters, transferred.history);
-  return loss;
-}
-
-void SurfaceContacts::hand_on_number(const Contact& old, std::span<const std::uint32_t> successors,
-                                     Worker& worker) {
-  if (successors.empty()) return;
-  const std::uint32_t largest = *std::max_element(
-      successors.begin(), successors.end(), [&](std::uint32_t p, std::uint32_t q) {
-        return worker.states[p].elastic_force < worker.states[q].elastic_force;
-      });
-  Transferred& transferred = worker.transferred[largest];
-  if (!(old.elastic_force > transferred.from)) return;
-  transferred.id = old.id;
-  transferred.from = old.elastic_force;
-}
-
 void SurfaceContacts::write_forces(const Pair& pair, std::span<const PatchTerm> terms,
                                    const PatchState& state, const ContactForce& answer,
                                    std::span<const PatchTermForce> term_forces, int worker) {
@@ -581,219 +408,6 @@ void SurfaceContacts::write_forces(const Pair& pair, std::span<const PatchTerm> 
          static_cast<std::uint32_t>(&pair - pairs_.data()), contact},
         -state.gap / pair.radius);
   }
-}
-
-// Contacts of spheres with surfaces as they are reported.
-
-void SurfaceContacts::assign_ids(std::int64_t& last) {
-  for (Lists& lists : current_) {
-    for (Contact& contact : lists.contacts) {
-      if (contact.id == 0) contact.id = ++last;
-    }
-  }
-}
-
-void SurfaceContacts::for_each_record(Positions x, VisitRecord visit) const {
-  for (std::size_t w = 0; w < records_.lists().size(); ++w) {
-    const auto& list = records_.lists()[w];
-    const std::span<const SurfaceForce> records{list.records.data(), list.count};
-    for (std::size_t begin = 0; begin < records.size();) {
-      const std::uint32_t contact = records[begin].contact;
-      std::size_t end = begin + 1;
-      while (end < records.size() && records[end].contact == contact) ++end;
-      visit(row_of(records.subspan(begin, end - begin), current_[w].contacts[contact], x));
-      begin = end;
-    }
-  }
-}
-
-/// The sum of what its terms do, so that all rows together do what has been done to the nodes.
-/// @param records  of the contact; the first is that of the deepest minimum
-ContactRecord SurfaceContacts::row_of(std::span<const SurfaceForce> records, const Contact& contact,
-                                      Positions x) const {
-  const SurfaceForce& deepest = records.front();
-  const Pair& pair = pairs_[deepest.pair];
-  const geometry::IndexPair& key = rekey_.key(deepest.pair);
-  Vec3 force = Vec3::Zero();
-  Vec3 torque = Vec3::Zero();  // on the sphere, about its centre
-  for (const SurfaceForce& record : records) {
-    force += record.force;
-    torque += record.torque_a;
-  }
-  const double distance = pair.range + contact.gap;
-  const Vec3 lever = distance > 0.0
-                         ? Vec3((pair.radius + 0.5 * contact.gap) / distance * contact.foot)
-                         : Vec3(Vec3::Zero());
-  const Vec3& centre = x[index_of(pair.node)];
-  ContactRecord row;
-  row.id = contact.id;
-  row.a = {BodyKind::sphere, key.a, Feature(pair.node)};
-  row.b = {BodyKind::structure, key.b, deepest.core.feature};
-  row.point_a = centre;
-  row.point_b = centre + contact.foot;
-  row.point = centre + lever;
-  row.normal = contact.memory.normal;
-  row.gap = contact.gap;
-  set_force(row, force);
-  row.moment = records.size() > 1 ? Vec3(-torque - lever.cross(force))
-                                  : AnyLaw::moment(contact.memory.history, row.normal);
-  set_state<AnyLaw>(row, pair.parameters, contact.memory.history, contact.elastic_force);
-  return row;
-}
-
-// The state: contacts in the order of their pairs, whichever thread had them.
-
-void SurfaceContacts::exchange(const geometry::StateArchive& archive,
-                               geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
-  double overlap_ratio = largest_overlap_ratio();
-  archive("largest_overlap_ratio", overlap_ratio);
-  std::vector<KeptContact> contacts;
-  std::vector<KeptForce> forces;
-  if (archive.is_reading()) {
-    begin_anew(list, pool);
-  } else {
-    contacts = kept_contacts();
-    forces = kept_forces();
-  }
-  std::size_t place = 0;
-  std::vector<std::uint32_t> pairs;  // by contact
-  archive.rows("contacts", contacts, [&](geometry::RowFields& row, KeptContact& kept) {
-    place = exchange_contact(row, kept, place);
-    if (row.is_reading()) keep(kept, place);
-    pairs.push_back(static_cast<std::uint32_t>(place));
-  });
-  archive.rows("forces", forces, [&](geometry::RowFields& row, KeptForce& kept) {
-    row("contact", kept.contact);
-    row.require(kept.contact < pairs.size(), "contact");
-    SurfaceForce& record = kept.record;
-    contact::exchange(row, "core", record.core, *surface_);
-    row("force", record.force);
-    row("torque_a", record.torque_a);
-    row("torque_b", record.torque_b);
-    row("elastic", record.elastic);
-    double share = record.share;
-    row("share", share);
-    record.share = static_cast<float>(share);
-    if (!row.is_reading()) return;
-    record.pair = pairs[kept.contact];
-    record.contact = kept.contact;
-    record.a = pairs_[record.pair].node;
-    records_.of_worker(0).add(record, overlap_ratio);
-  });
-  if (archive.is_reading()) find_single_faces();
-}
-
-/// Of pairs without contacts.
-void SurfaceContacts::begin_anew(geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
-  rekey_(
-      pairs_, {}, [](std::size_t, const Pair*) { return Pair{}; }, [](const Pair&) {});
-  list();
-  current_.assign(1, {});
-  records_.reset(pool.thread_count());
-}
-
-void SurfaceContacts::find_single_faces() {
-  for (Pair& pair : pairs_)
-    if (pair.contacts.count > 0) pair.single_face = single_face_of(pair, current_);
-}
-
-void SurfaceContacts::take_over(const SurfaceContacts& before, std::span<const std::int32_t> places,
-                                geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
-  begin_anew(list, pool);
-  struct Now {
-    std::size_t pair;
-    std::uint32_t contact;
-  };
-  std::vector<std::optional<Now>> now;  // by contact of before
-  std::size_t place = 0;
-  for (KeptContact& kept : before.kept_contacts()) {
-    now.emplace_back();
-    const geometry::IndexPair key{places[static_cast<std::size_t>(kept.pair[0])], kept.pair[1]};
-    if (key.a < 0) continue;
-    place = next_place(place, pairs_.size(), [&](std::size_t i) { return rekey_.key(i) < key; });
-    if (place == pairs_.size() || rekey_.key(place) != key) continue;
-    require_same_law(kept.contact.memory.history, pairs_[place].parameters.law);
-    now.back() = {place, static_cast<std::uint32_t>(current_[0].contacts.size())};
-    keep(kept, place);
-  }
-  for (KeptForce& kept : before.kept_forces()) {
-    const std::optional<Now>& of = now[kept.contact];
-    if (!of) continue;
-    kept.record.pair = static_cast<std::uint32_t>(of->pair);
-    kept.record.contact = of->contact;
-    kept.record.a = pairs_[of->pair].node;
-    records_.of_worker(0).add(kept.record, before.largest_overlap_ratio());
-  }
-  find_single_faces();
-}
-
-/// Among all, that of a worker.
-std::uint32_t SurfaceContacts::first_contact(std::size_t worker) const noexcept {
-  std::size_t count = 0;
-  for (std::size_t w = 0; w < worker; ++w) count += current_[w].contacts.size();
-  return static_cast<std::uint32_t>(count);
-}
-
-std::vector<SurfaceContacts::KeptContact> SurfaceContacts::kept_contacts() const {
-  std::vector<KeptContact> kept(touching());
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const Pair& pair = pairs_[i];
-    if (pair.contacts.count == 0) continue;
-    const auto worker = static_cast<std::size_t>(pair.contacts.worker);
-    const std::uint32_t first = first_contact(worker) + pair.contacts.first;
-    for (std::uint32_t k = 0; k < pair.contacts.count; ++k) {
-      const Contact& contact = current_[worker].contacts[pair.contacts.first + k];
-      const Feature* const minima = current_[worker].minima.data() + contact.first_minimum;
-      kept[first + k] = {
-          {rekey_.key(i).a, rekey_.key(i).b}, contact, {minima, minima + contact.minimum_count}};
-    }
-  }
-  return kept;
-}
-
-std::vector<SurfaceContacts::KeptForce> SurfaceContacts::kept_forces() const {
-  std::vector<KeptForce> kept;
-  for (std::size_t w = 0; w < records_.lists().size(); ++w) {
-    const auto& list = records_.lists()[w];
-    for (std::size_t i = 0; i < list.count; ++i)
-      kept.push_back({first_contact(w) + list.records[i].contact, list.records[i]});
-  }
-  return kept;
-}
-
-/// @param from  place in the list of the pair of the contact before
-/// @returns that of this one
-std::size_t SurfaceContacts::exchange_contact(geometry::RowFields& row, KeptContact& kept,
-                                              std::size_t from) const {
-  row("pair", kept.pair);
-  const geometry::IndexPair key{kept.pair[0], kept.pair[1]};
-  const std::size_t place =
-      next_place(from, pairs_.size(), [&](std::size_t i) { return rekey_.key(i) < key; });
-  if (place == pairs_.size() || rekey_.key(place) != key) throw_unlisted_contact();
-  Contact& contact = kept.contact;
-  contact::exchange(row, contact.memory, pairs_[place].parameters.law);
-  row("foot", contact.foot);
-  row("gap", contact.gap);
-  row("elastic_force", contact.elastic_force);
-  row("elastic_energy", contact.elastic_energy);
-  row("id", contact.id);
-  row("minima", kept.minima);
-  row.require(std::all_of(kept.minima.begin(), kept.minima.end(),
-                          [&](const Feature& minimum) { return has(*surface_, minimum); }),
-              "minima");
-  return place;
-}
-
-/// As the next contact of its pair.
-void SurfaceContacts::keep(const KeptContact& kept, std::size_t place) {
-  Lists& lists = current_[0];
-  Range& range = pairs_[place].contacts;
-  if (range.count == 0) range = {0, static_cast<std::uint32_t>(lists.contacts.size()), 0};
-  ++range.count;
-  lists.contacts.push_back(kept.contact);
-  lists.contacts.back().first_minimum = static_cast<std::uint32_t>(lists.minima.size());
-  lists.contacts.back().minimum_count = static_cast<std::uint32_t>(kept.minima.size());
-  lists.minima.insert(lists.minima.end(), kept.minima.begin(), kept.minima.end());
 }
 
 }  // namespace plekton::contact

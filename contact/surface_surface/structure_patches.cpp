@@ -272,9 +272,11 @@ void StructurePatches::hand_on_history(const Predecessor& old,
 
 std::span<const PatchSuccessor> StructurePatches::successors_of(
     std::uint32_t old_patch) const noexcept {
-  const auto range =
-      std::ranges::equal_range(successors_, old_patch, {}, &PatchSuccessor::old_patch);
-  return {range.begin(), range.end()};
+  const auto begin =
+      std::ranges::lower_bound(successors_, old_patch, {}, &PatchSuccessor::old_patch);
+  const auto end =
+      std::ranges::upper_bound(begin, successors_.end(), old_patch, {}, &PatchSuccessor::old_patch);
+  return {begin, end};
 }
 
 /// To the successor that pushes most; of patches that merge, the number of the one that pushed

@@ -8,18 +8,18 @@ namespace plekton::dynamics {
 
 void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid, const Way& way,
                      std::span<const contact::Plane> planes, geometry::Positions x) {
-  const auto& [body, direction, longest] = way;
   springs_.clear();
-  const auto is_own = [&, own = body](NodeId node) { return rigid.body_followed_by(node) == own; };
+  const auto is_own = [&](NodeId node) { return rigid.body_followed_by(node) == way.body; };
   // Of a law that gets stiffer with the overlap as stiff as it may get on the way.
   const auto add = [&](double slope, double gap, double weight, const contact::PairSprings& pair) {
-    const double stiffness = pair.stiffness(std::min(gap, 0.0) - std::abs(slope) * longest).normal;
+    const double stiffness =
+        pair.stiffness(std::min(gap, 0.0) - std::abs(slope) * way.longest).normal;
     springs_.push_back({slope, gap, weight * pair.normal_force(gap), weight * stiffness});
   };
   contacts.for_each_near_sphere_pair(
-      longest, x, [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
+      way.longest, x, [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
         if (is_own(a) == is_own(b)) return;
-        const double along = direction.dot(Vec3(x[index_of(b)] - x[index_of(a)]).normalized());
+        const double along = way.direction.dot(Vec3(x[index_of(b)] - x[index_of(a)]).normalized());
         add(is_own(a) ? along : -along, gap, 1.0, pair);
       });
   const auto add_on_surface = [&](NodeId ball, const geometry::CorePoint& core,
@@ -31,17 +31,17 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
     const double distance = to_core.norm();
     if (!(distance > 0.0)) return;
     const double gap = distance - range;
-    const double along = direction.dot(to_core) / distance;
+    const double along = way.direction.dot(to_core) / distance;
     const double of_one = pair.normal_force(gap);
     const double weight = of_one > 0.0 && part.elastic != 0.0 ? part.elastic / of_one : 1.0;
     add(is_ball ? along : -along, gap, weight, pair);
   };
   contacts.for_each_surface_term(add_on_surface);
-  contacts.for_each_coming_surface_term(longest, x, add_on_surface);
+  contacts.for_each_coming_surface_term(way.longest, x, add_on_surface);
   contacts.for_each_near_plane_pair(
-      longest, planes, x,
+      way.longest, planes, x,
       [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
-        if (is_own(ball)) add(-direction.dot(planes[plane].normal), gap, 1.0, pair);
+        if (is_own(ball)) add(-way.direction.dot(planes[plane].normal), gap, 1.0, pair);
       });
   contacts.for_each_structure_stiffness(
       [&](NodeId node, const contact::PairStiffness& stiffness, double) {

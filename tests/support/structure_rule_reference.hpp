@@ -112,7 +112,8 @@ inline bool bends_around(const Body& chain, int node, const Body& other, double 
     ++count;
   }
   const auto all = weighted_simplices(other);
-  for (const auto& [simplex, weight] : all) {
+  for (const auto& weighted : all) {
+    const auto& simplex = weighted.first;
     const ReferenceFoot foot = reference_separation(simplex, other.x, {node}, chain.x);
     if (count < 2 || !(foot.distance < range) || !(foot.separation.dot(arms) < 0.0)) continue;
     const bool is_beaten = std::any_of(all.begin(), all.end(), [&](const auto& larger) {

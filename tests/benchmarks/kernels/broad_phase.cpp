@@ -121,7 +121,7 @@ void add_broad_phase() {
                                      {"self_pairs", time_self_pairs},
                                      {"new_lists", time_lists}}) {
       add_benchmark("broad_phase/" + std::string(name) + "/" + std::to_string(count),
-                    [time, count](benchmark::State& state) { time(state, count); });
+                    [time = time, count](benchmark::State& state) { time(state, count); });
     }
   }
 }

@@ -48,8 +48,8 @@ void print_row(std::vector<Part>& parts, double bytes) {
   std::size_t most_neighbours = 0;
   for (Part& part : parts) {
     std::ranges::sort(part.neighbours);
-    const auto twice = std::ranges::unique(part.neighbours);
-    part.neighbours.erase(twice.begin(), twice.end());
+    const auto twice = std::unique(part.neighbours.begin(), part.neighbours.end());
+    part.neighbours.erase(twice, part.neighbours.end());
     things += static_cast<double>(part.things);
     ghosts += static_cast<double>(part.ghosts);
     work += static_cast<double>(part.work);

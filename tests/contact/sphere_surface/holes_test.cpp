@@ -249,8 +249,8 @@ TEST(GrainBesideAnOpenCube, FeelsNoJumpWhereARingIsBornAndFilledAtOnce) {
       const Surface surface = open.surface();
       PatchFinder finder(surface);
       const auto cells = all_cells(surface);
-      const auto force_at = [&](const Vec3& at) {
-        return total_contact(finder, at, range, cells, open.x).force;
+      const auto force_at = [&, reach = range](const Vec3& at) {
+        return total_contact(finder, at, reach, cells, open.x).force;
       };
       const Vec3 force = force_at(centre);
       for (const double step : {1e-9, 1e-7, 1e-5}) {
