@@ -24,6 +24,7 @@ class StateArchive;
 namespace plekton::contact {
 
 class PatchFinder;
+class StructureProbe;
 class SharedMotion;
 
 /// How many contacts of each kind there are.
@@ -185,6 +186,9 @@ class Contacts {
   /// nodes.
   virtual void for_each_structure_stiffness(
       Visit<NodeId, const PairStiffness&, double> visit) const = 0;
+  /// Lets a probe ask how structures push each other with nodes near where they were in the last
+  /// step.
+  virtual void probe_structures(StructureProbe& probe) const = 0;
   /// Calls visit(cells) for the listed pairs of cells of structures that do not touch, but may be
   /// as near as a margin (m).
   virtual void for_each_near_cell_pair(double margin,

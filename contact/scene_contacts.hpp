@@ -125,6 +125,7 @@ class SceneContacts final : public Contacts {
       Visit<NodeId, const PairStiffness&, double> visit) const override {
     between_structures_.for_each_stiffness(visit);
   }
+  void probe_structures(StructureProbe& probe) const override { between_structures_.probe(probe); }
   void for_each_near_cell_pair(double margin,
                                Visit<const geometry::CellPair&> visit) const override {
     between_structures_.for_each_near(margin, visit);

@@ -71,6 +71,9 @@ class StructureContacts {
   void for_each_stiffness(
       geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const;
 
+  /// Lets a probe ask how patches push with nodes near where they were in the last step.
+  void probe(StructureProbe& probe) const { patches_.probe(probe); }
+
   /// Calls visit(cells) for the listed pairs of cells that do not touch, but may be as near as a
   /// margin (m).
   template <class Visit>

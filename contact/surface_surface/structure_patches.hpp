@@ -5,6 +5,7 @@
 #include "contact/law/pair_springs.hpp"
 #include "contact/surface_surface/pair_terms.hpp"
 #include "contact/surface_surface/structure_patch.hpp"
+#include "contact/surface_surface/structure_probe.hpp"
 #include "contact/surface_surface/touching_patches.hpp"
 #include "contact/tracking/energy_loss.hpp"
 #include "geometry/base/function_ref.hpp"
@@ -89,6 +90,11 @@ class StructurePatches {
   double elastic_energy() const;
   void for_each_stiffness(
       geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const;
+
+  void probe(StructureProbe& probe) const {
+    if (patches_.empty()) return probe.clear();
+    probe.begin(terms_, springs_);
+  }
 
   /// Nothing is listed and nothing touches.
   bool empty() const noexcept { return terms_.empty() && patches_.empty(); }

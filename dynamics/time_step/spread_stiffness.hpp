@@ -4,6 +4,7 @@
 #include "contact/sphere_surface/patch.hpp"
 #include "dynamics/state/node_state.hpp"
 #include "dynamics/stiffness/contact_springs.hpp"
+#include "dynamics/time_step/stiffest_motion.hpp"
 
 #include <vector>
 
@@ -23,16 +24,11 @@ namespace plekton::dynamics {
 /// iteration on central differences of the forces, times the mass is added to each node that takes
 /// part (Weyl's inequality). It has all of the turning of bars and facets too, so that the springs
 /// for it are left out.
-///
-/// A rigid body takes part with its translation alone.
-///
-/// The iteration goes on with its last motion at the next look: few products are enough. It begins
-/// with more.
 class SpreadStiffness {
  public:
   /// @param rigid  rigid bodies among the nodes; must outlive this
   SpreadStiffness(const geometry::Surface& surface, const RigidNodes& rigid)
-      : rigid_(&rigid), finder_(surface) {}
+      : rigid_(&rigid), finder_(surface), motion_(rigid) {}
 
   /// Looks for balls that have a term which is not one contact.
   /// @returns whether there are any
@@ -43,51 +39,32 @@ class SpreadStiffness {
     return is_spread_[index_of(rigid_->mover_of(ball))] != 0;
   }
 
-  /// Where nodes are (m), and how far a difference goes (m).
-  struct Places {
-    geometry::Positions x;
-    double difference;
-  };
-
   /// @param forces_of  (places, forces, finder): adds the normal forces (N) of the balls that are
   ///                   spread, as a function of the places alone
   template <class Forces>
   void add_to(NodalStiffness& stiffness, const ContactSprings& springs,
-              const NodeProperties& properties, const Places& places, const Forces& forces_of) {
-    double rate = 0.0;  // 1/s²
-    for (int i = start(properties); i > 0; --i) {
-      const double step = displace(properties, places, 1.0);
-      if (step == 0.0) break;
-      forces_.set_zero();
-      forces_of(moved_, forces_, finder_);
-      take_forces(-0.5 / step);
-      displace(properties, places, -1.0);
-      forces_.set_zero();
-      forces_of(moved_, forces_, finder_);
-      take_forces(0.5 / step);
+              const NodeProperties& properties, const StiffestMotion::Places& places,
+              const Forces& forces_of) {
+    for (int i = motion_.start(properties); i > 0; --i) {
+      const bool moves =
+          motion_.multiply(properties, places, [&](geometry::Positions moved, NodeForces& forces) {
+            forces_of(moved, forces, finder_);
+          });
+      if (!moves) break;
       take_springs(springs, properties);
-      rate = follow(properties);
+      motion_.follow(properties);
     }
-    add_rate(rate, properties, stiffness);
+    add_rate(properties, stiffness);
   }
 
  private:
-  int start(const NodeProperties& properties);
-  double displace(const NodeProperties& properties, const Places& places, double sign);
-  void take_forces(double factor);
   void take_springs(const ContactSprings& springs, const NodeProperties& properties);
-  double follow(const NodeProperties& properties);
-  void add_rate(double rate, const NodeProperties& properties, NodalStiffness& stiffness) const;
+  void add_rate(const NodeProperties& properties, NodalStiffness& stiffness) const;
 
   const RigidNodes* rigid_;
   contact::PatchFinder finder_;
-  NodeForces forces_{0};
-  std::vector<char> is_spread_;   ///< by node
-  std::vector<char> takes_part_;  ///< by node
-  std::vector<Vec3> motion_;      ///< by node, per root of mass; of length 1
-  std::vector<Vec3> product_;     ///< N/m of a motion
-  std::vector<Vec3> moved_;       ///< m
-  bool is_new_ = true;            ///< the motion is that of no look before
+  StiffestMotion motion_;
+  std::vector<char> is_spread_;  ///< by node
 };
 
 }  // namespace plekton::dynamics

@@ -22,7 +22,8 @@ StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
       limits_(&limits),
       pace_radius_(pace_radius(of.scene.elements)),
       springs_(&of.rigid),
-      spread_(of.surface, of.rigid) {
+      spread_(of.surface, of.rigid),
+      structures_(of.rigid) {
   const ExpectedContacts expected(of.scene, of.surface, of.contacts);
   collision_step_ = expected.collision_step();
   if (of.surface.structure_count() == 0) return;
@@ -83,6 +84,7 @@ double StepChooser::stable_near(double margin, double last) {
   limits_->add_structures(space_);
   limits_->add_near_contacts(springs_, margin, rate);
   add_near_structures(margin, rate);
+  limits_->add_between_structures(springs_, structures_, of_.scene.state.position, 0.0);
   limits_->add_spread(space_, springs_, spread_, of_.scene.state.position);
   shares_.add(springs_, of_.scene.properties, space_);
   double stable = kSafety * space_.critical_step(of_.scene.properties).dt;
@@ -117,6 +119,7 @@ void StepChooser::exchange(const geometry::StateArchive& archive) {
   archive("way_in_a_step", way_in_a_step_);
   archive("stable_step", stable_step_);
   spread_.exchange(archive.group("spread"));
+  structures_.exchange(archive.group("structures"));
 }
 
 }  // namespace plekton::dynamics

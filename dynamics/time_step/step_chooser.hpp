@@ -83,11 +83,12 @@ class StepChooser {
 
   Resistance of_;
   const StepLimits* limits_;
-  double pace_radius_;       ///< m, against which the motion in a chosen step is measured
-  NodalStiffness space_{0};  ///< of all nodes, so that no look allocates
-  ContactSprings springs_;   ///< of the last look
-  SpringShares shares_;      ///< working space of a look
-  SpreadStiffness spread_;   ///< likewise; goes on from look to look
+  double pace_radius_;             ///< m, against which the motion in a chosen step is measured
+  NodalStiffness space_{0};        ///< of all nodes, so that no look allocates
+  ContactSprings springs_;         ///< of the last look
+  SpringShares shares_;            ///< working space of a look
+  SpreadStiffness spread_;         ///< likewise; goes on from look to look
+  StructureStiffness structures_;  ///< likewise
   std::vector<ExpectedOfNode> of_structures_;  ///< by node, of a contact with another structure
   std::vector<char> is_counted_;               ///< by node, working space of a look
   /// What is known from the last look to the next one.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plekton::dynamics {
 namespace {
@@ -60,6 +61,14 @@ void StepLimits::add_structures(NodalStiffness& stiffness) const {
 
 void StepLimits::add_near_contacts(ContactSprings& springs, double margin, double rate) const {
   contacts(rate).add_near_to(springs, margin, of_.scene.state.position);
+}
+
+void StepLimits::add_between_structures(ContactSprings& springs, StructureStiffness& structures,
+                                        geometry::Positions x, double moved) const {
+  constexpr double kDifference = 1e-3;  // of the smallest radius
+  if (of_.surface.structure_count() == 0) return;
+  structures.add_to(springs, of_.contacts, of_.scene.properties, {x, kDifference * pace_radius_},
+                    moved);
 }
 
 void StepLimits::add_spread(NodalStiffness& stiffness, ContactSprings& springs,
@@ -151,8 +160,10 @@ CriticalStep StepLimits::present(NodalStiffness& space, geometry::Positions x, d
   NodalStiffness whole(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
   ContactSprings springs(&of_.rigid);
   SpreadStiffness spread(of_.surface, of_.rigid);
+  StructureStiffness structures(of_.rigid);
   add_structures(whole);
   contacts(rate).add_to(springs, 0.0, x);
+  add_between_structures(springs, structures, x, std::numeric_limits<double>::infinity());
   add_spread(whole, springs, spread, x);
   SpringShares().add(springs, of_.scene.properties, whole);
   return whole.critical_step(of_.scene.properties);
@@ -185,6 +196,8 @@ ExactStep StepLimits::exact(geometry::Positions x, double time) const {
     ContactSprings springs(&of_.rigid);
     SlipOnSurfaces slip{springs};
     contacts(rate).add_to(slip, 0.0, x);
+    StructureStiffness structures(of_.rigid);
+    add_between_structures(springs, structures, x, std::numeric_limits<double>::infinity());
     return exact_critical_step(of_.scene, {of_.bonds, of_.sheet_facets, of_.ties}, of_.loads,
                                springs, time, normal);
   });

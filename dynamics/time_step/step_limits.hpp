@@ -13,6 +13,7 @@
 #include "dynamics/time_step/present_contacts.hpp"
 #include "dynamics/time_step/spread_stiffness.hpp"
 #include "dynamics/time_step/step_cause.hpp"
+#include "dynamics/time_step/structure_stiffness.hpp"
 
 #include <vector>
 
@@ -61,6 +62,11 @@ class StepLimits {
   /// Whether any contact that may come has a dashpot.
   bool is_damped() const noexcept { return is_damped_; }
   void add_structures(NodalStiffness& stiffness) const;
+  /// What contacts of structures with each other resist beside their springs
+  /// (structure_stiffness.hpp).
+  /// @param moved  m, how far nodes are at most from where they were in the last step
+  void add_between_structures(ContactSprings& springs, StructureStiffness& structures,
+                              geometry::Positions x, double moved) const;
   /// What contacts that are more or less than one resist beside their springs
   /// (spread_stiffness.hpp).
   void add_spread(NodalStiffness& stiffness, ContactSprings& springs, SpreadStiffness& spread,

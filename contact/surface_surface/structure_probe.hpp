@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/motion.hpp"
+#include "contact/surface_surface/pair_terms.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace plekton::contact {
+
+/// How structures push each other apart as a function of places alone, beside those of the last
+/// step: for differences of forces.
+class StructureProbe {
+ public:
+  /// @param terms, springs  of the last step; the springs must last as long as this is asked
+  void begin(const structure::PairTerms& terms, std::span<const structure::NormalSpring> springs) {
+    terms_ = terms;
+    springs_ = springs;
+  }
+  /// Nothing touches.
+  void clear() noexcept { terms_.reset(); }
+
+  /// Whether anything touched in the last step.
+  bool touches() const noexcept { return terms_ && !terms_->acting().empty(); }
+
+  /// Calls visit(nodes of one side, nodes of the other) for all that touch.
+  template <class Visit>
+  void for_each_pair(Visit&& visit) const {
+    for (const std::uint32_t acting : terms_->acting())
+      visit((*terms_)[acting].a, (*terms_)[acting].b);
+  }
+
+  /// Adds the elastic forces (N) with the nodes at x.
+  /// @param moved  m, no node is further from where it was at the last call, or in the last step
+  void add_forces(Positions x, double moved, NodeForces& forces);
+
+ private:
+  std::optional<structure::PairTerms> terms_;
+  std::span<const structure::NormalSpring> springs_;
+  geometry::ThreadPool pool_{1};
+};
+
+}  // namespace plekton::contact

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/contacts.hpp"
+#include "contact/surface_surface/structure_probe.hpp"
+#include "dynamics/stiffness/contact_springs.hpp"
+#include "dynamics/time_step/stiffest_motion.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace plekton::geometry {
+class StateArchive;
+}
+
+namespace plekton::dynamics {
+
+/// What contacts of structures with each other resist beside the springs of their patches.
+///
+/// A patch counts for as many springs as its forces add up to, shared out over its nodes. It does
+/// not know what forces resist that cancel, as those of a sleeve on a tube do, nor tilts that move
+/// the nearest points of what lies flat, nor wraps. So the forces themselves are asked, as a
+/// function of the places: with lambda the largest magnitude of an eigenvalue of
+/// M^(-1/2) H M^(-1/2), H their derivative, H is below lambda M. Structures that do not touch have
+/// one each. A node gets what lambda times its mass is above its springs.
+///
+/// Differences go as far as nodes move in some steps: where surfaces lie on each other exactly,
+/// forces jump, which makes them chatter and is no stiffness.
+class StructureStiffness {
+ public:
+  /// @param rigid  rigid bodies among the nodes; must outlive this
+  explicit StructureStiffness(const RigidNodes& rigid) : rigid_(&rigid), motion_(rigid) {}
+
+  /// @param places  those of the last step's contacts, or so much away from them
+  /// @param moved   m, how far nodes are at most from where they were in the last step
+  void add_to(ContactSprings& springs, const contact::Contacts& contacts,
+              const NodeProperties& properties, const StiffestMotion::Places& places, double moved);
+
+  /// The motion of the last look.
+  void exchange(const geometry::StateArchive& archive) { motion_.exchange(archive); }
+
+ private:
+  void find_parts(const NodeProperties& properties);
+  std::uint32_t root_of(std::uint32_t node) noexcept;
+  void find_springs(const contact::Contacts& contacts);
+
+  const RigidNodes* rigid_;
+  contact::StructureProbe probe_;
+  StiffestMotion motion_;
+  std::vector<std::uint32_t> linked_;  ///< by node: one of its part, the lowest of it itself
+  std::vector<double> springs_;        ///< N/m, by node that moves: of its patches
+};
+
+}  // namespace plekton::dynamics
