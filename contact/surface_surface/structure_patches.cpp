@@ -249,14 +249,21 @@ EnergyLoss StructurePatches::transfer(const Motion& motion, double dt) {
   return loss;
 }
 
-/// Each gets as much as it pushes.
+/// Each gets as much of the force as it pushes. With these forces F_i in all F, and contacts c_i,
+/// their springs store as much as one of F² / sum F_i² / c_i contacts: where that is what the old
+/// one was, as where it splits, both its force and its energy stay.
 void StructurePatches::hand_on_history(const Predecessor& old,
                                        std::span<const PatchSuccessor> successors,
                                        const Motion& motion, double dt) {
-  double total = 0.0;
-  for (const PatchSuccessor& successor : successors)
-    total += patches_[successor.patch].normal_force;
-  if (!(total > 0.0)) return;
+  double total = 0.0, squares = 0.0;
+  for (const PatchSuccessor& successor : successors) {
+    const StructurePatch& patch = patches_[successor.patch];
+    total += patch.normal_force;
+    if (patch.normal_force > 0.0 && patch.point_part > 0.0)
+      squares += patch.normal_force * patch.normal_force / patch.point_count();
+  }
+  if (!(squares > 0.0)) return;
+  const double contacts = std::min(old.count, total * total / squares);
   for (const PatchSuccessor& successor : successors) {
     StructurePatch& patch = patches_[successor.patch];
     if (!(patch.normal_force > 0.0) || !(patch.point_part > 0.0)) continue;
@@ -265,8 +272,8 @@ void StructurePatches::hand_on_history(const Predecessor& old,
     const Vec3 spin =
         0.5 * (patch.first.angular_velocity(motion) + patch.second.angular_velocity(motion));
     const auto carried = carried_history<AnyLaw>(old.memory, normal, dt * spin.dot(normal));
-    const double share = patch.normal_force / total * old.count / patch.point_count();
-    AnyLaw::accumulate_history(patch.memory.history, carried, sign * std::min(1.0, share));
+    const double share = patch.normal_force / total * contacts / patch.point_count();
+    AnyLaw::accumulate_history(patch.memory.history, carried, sign * share);
   }
 }
 

@@ -2,11 +2,15 @@
 #include "dynamics/loads/plane_servo.hpp"
 
 #include "tests/support/loaded_scene.hpp"
+#include "tests/support/named_laws.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace plekton::test {
 namespace {
@@ -130,6 +134,127 @@ TEST(PlaneServo, KeepsTheEnergyBalanceAtWhateverMomentOfAStepItArrives) {
     EXPECT_LT(closure_until(simulation, 0.05), 0.005) << "phase " << phase;
     EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 10.0, 0.01) << phase;
   }
+}
+
+/// A limp sheet on a floor, without friction, and a plate a little above it, which presses with 21
+/// N.
+Scene sheet_under_a_plate(const geometry::Mesh& mesh, double gap, double speed) {
+  constexpr double kHalf = 0.004;  // m
+  Scene scene;
+  scene.materials = {{9.856e6, 0.3, 0.0}};
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const Vec3& x : mesh.points) {
+    scene.add_node(x, dynamics::Held::rotation);
+    lowest = std::min(lowest, x.z());
+    highest = std::max(highest, x.z());
+  }
+  for (const auto& nodes : mesh.facets) {
+    scene.add_facet(nodes[0], nodes[1], nodes[2], kHalf, kMaterial);
+    scene.add_sheet_facet(nodes, {1574.0, 0.3, 0.0, 2.0 * kHalf}, 950.0);
+  }
+  scene.planes.push_back({{0, 0, lowest - kHalf}, Vec3::UnitZ(), Vec3::Zero(), kMaterial});
+  scene.planes.push_back({{0, 0, highest + kHalf + gap}, -Vec3::UnitZ(), Vec3::Zero(), kMaterial});
+  scene.loads.servos = {servo_of(21.0)};
+  scene.loads.servos[0].plane = 1;
+  scene.loads.servos[0].largest_speed = speed;
+  return scene;
+}
+
+/// Largest closure error, over the largest turnover, of any moment at which the plate arrives.
+/// @param part  of the step that is chosen
+double closure_of_sheet(const geometry::Mesh& mesh, double speed, double part = 1.0) {
+  constexpr int kPhases = 8;
+  constexpr double kGap = 5e-4;  // m
+  const double step = LoadedSimulation(sheet_under_a_plate(mesh, kGap, speed), {}).time_step();
+  double largest = 0.0;
+  for (int phase = 0; phase < kPhases; ++phase) {
+    auto simulation =
+        simulation_of(sheet_under_a_plate(mesh, kGap + step * speed * phase / kPhases, speed),
+                      part < 1.0 ? part * step : 0.0);
+    largest = std::max(largest, closure_until(simulation, 0.03));
+    // It has pressed, and nothing is made in contacts.
+    EXPECT_GT(simulation.energy().external_work, 0.0) << phase;
+    EXPECT_EQ(simulation.energy().friction, 0.0) << phase;
+    EXPECT_EQ(simulation.energy().tracking, 0.0) << phase;
+  }
+  return largest;
+}
+
+// A plate at 1 m/s strikes a tube that lies on its side with a step of 0.4 ms, in which it goes 0.4
+// mm, a twentieth of the thickness: 1.1 % of all energy is missing then, of others and of a plate
+// at 14.5 m/s, with steps as much shorter, less. A quarter of the step has a quarter of an error of
+// the first order.
+TEST(PlaneServo, KeepsTheEnergyBalanceOnMembranesAtWhateverMomentOfAStepItArrives) {
+  const geometry::Mesh flat = geometry::plane_sheet({0.2, 0.2, 4, 4});
+  const geometry::Mesh standing = geometry::tube({0.06, 0.24, 12, 3});
+  geometry::Mesh lying = standing;
+  for (Vec3& x : lying.points) x = Vec3(x.z(), x.y(), x.x());
+  for (const geometry::Mesh& mesh : {flat, standing, lying}) {
+    EXPECT_LT(closure_of_sheet(mesh, 1.0), 0.012);
+    EXPECT_LT(closure_of_sheet(mesh, 1.0, 0.25), 0.003);
+    EXPECT_LT(closure_of_sheet(mesh, 14.5), 0.001);
+    EXPECT_LT(closure_of_sheet(mesh, 14.5, 0.25), 0.00025);
+  }
+}
+
+/// One grain, or a small one on another and a larger one beside them, on a floor under a plate that
+/// presses with 1.1 N, with Hertz' contacts and dashpots.
+Scene damped_grains(bool many, double gap) {
+  constexpr double kRadius = 0.01;  // m
+  Scene scene;
+  scene.materials = {{5e6, 0.3, 0.5}};
+  scene.add_sphere(Vec3(0.0, 0.0, kRadius), kRadius, 900.0, kMaterial);
+  if (many) {
+    scene.add_sphere(Vec3(0.0015, 0.001, 3.0 * kRadius), kRadius, 900.0, kMaterial);
+    scene.add_sphere(Vec3(0.03, 0.001, 1.2 * kRadius), 1.2 * kRadius, 900.0, kMaterial);
+  }
+  const double top = (many ? 4.0 : 2.0) * kRadius;
+  scene.planes.push_back({Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), kMaterial});
+  scene.planes.push_back({Vec3(0.0, 0.0, top + gap), -Vec3::UnitZ(), Vec3::Zero(), kMaterial});
+  scene.loads.servos = {servo_of(1.1)};
+  scene.loads.servos[0].plane = 1;
+  scene.loads.servos[0].largest_speed = 1.0;
+  return scene;
+}
+
+/// @param part  of the step that is chosen
+void expect_balance_on_damped_grains(double restitution, double gain, double part,
+                                     double largest_closure) {
+  const auto model =
+      contact::any_law({}, with<contact::HertzMindlin>(
+                               {}, {0.8767, 0.01118, 0.01151, 0.2486},
+                               {contact::damping_ratio(contact::SpringKind::hertz, restitution)}));
+  constexpr int kPhases = 8;
+  constexpr double kGap = 5e-4;  // m
+  for (const bool many : {false, true}) {
+    for (int phase = 0; phase < kPhases; ++phase) {
+      Scene scene = damped_grains(many, kGap);
+      scene.loads.servos[0].gain = gain;
+      const double step = LoadedSimulation(scene, {}, model).time_step();
+      scene.planes[1].point.z() += step * phase / kPhases;
+      dynamics::SimulationOptions options;
+      if (part < 1.0) options.time_step = part * step;
+      LoadedSimulation simulation(scene, options, model);
+
+      const double closure = closure_until(simulation, 0.06);
+      EXPECT_LT(closure, largest_closure) << many << ' ' << phase;
+      EXPECT_GT(simulation.energy().friction, 0.0) << many << ' ' << phase;
+      EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 1.1, 0.02) << many << ' ' << phase;
+    }
+  }
+}
+
+TEST(PlaneServo, KeepsTheEnergyBalanceOnDampedGrainsAtWhateverMomentOfAStepItArrives) {
+  expect_balance_on_damped_grains(0.5, 0.1, 1.0, 0.015);
+  expect_balance_on_damped_grains(0.5, 0.1, 0.25, 0.005);
+}
+
+// What a plate feels has that of the dashpots in it, c times its speed, and its speed follows what
+// it feels by gain / (k dt): where gain * c / (k dt) is above 1 it swings from step to step.
+// Dashpots as of a restitution of 0.1 need a smaller gain than 0.1, with which the plate hammers
+// such a grain with up to 5 N, and energy is made in contacts.
+TEST(PlaneServo, KeepsTheEnergyBalanceOnStronglyDampedGrainsWithASmallGain) {
+  expect_balance_on_damped_grains(0.1, 0.02, 1.0, 0.005);
 }
 
 TEST(PlaneServo, KeepsItsVelocityAcrossTheNormal) {
