@@ -174,4 +174,5 @@ def main():
     sys.exit(0 if bounds.hold else 1)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -86,6 +86,13 @@ APPLICATIONS = {
             "damping that bears weight": ("silo_bag", ["simulation.damp_gravity=false", "simulation.damping=0.5"]),
         },
     },
+    "gas_sphere": {
+        "right": {"ball": ("gas_sphere", [])},
+        "wrong": {
+            "a ball that has to breathe": ("gas_sphere", ["stages.hang.membranes.ball.prestrain=0", "stages.press.end.duration=0.1 s"]),
+            "gas that grows warm": ("gas_sphere", ["stages.hang.loads.gas.gas.exponent=1.4", "stages.press.end.duration=0.1 s"]),
+        },
+    },
     "bouncing_sphere": {
         "right": {
             "wall": ("bouncing_sphere", []),
