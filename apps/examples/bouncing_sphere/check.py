@@ -121,6 +121,8 @@ def main():
             bounce = check_empty(run, bounds)
             empty.setdefault(round(bounce.v_in, 6), []).append(bounce.restitution)
         bounds.expect("energy closure", report["energy_closure"], 0, 0.01, "energy is kept")
+        red = [entry["name"] for entry in report["certificate"] if entry["verdict"] != "green"]
+        bounds.expect("red rows of the certificate", len(red), 0, 0, ", ".join(red) or "all green")
     for speed, values in empty.items():
         # Faster, the shell dimples: it snaps, and what it keeps of that depends on everything.
         if len(values) > 1 and speed < 1.25:

@@ -38,6 +38,8 @@ def sheet():
 
 def check(run):
     energy, history = columns(run / "energy.csv"), columns(run / "reactions.csv")
+    report = json.loads((run / "run.json").read_text())
+    red = [entry["name"] for entry in report["certificate"] if entry["verdict"] != "green"]
     is_sheet = max(energy["sheet_elastic"]) > 0
     stretching, bending = sheet() if is_sheet else lattice()
     load = 4 * math.pi * math.sqrt(stretching * bending)
@@ -52,7 +54,8 @@ def check(run):
         ("stiffness over that of theory", measured / stiffness, 1.00, 1.06, f"2 pi R C / H = {stiffness / 1e3:.1f} kN/m, A18"),
         ("force at the end over that of theory", push[-1] / load, 0.0, 0.7, "it has buckled"),
         ("largest difference of both rings, of that force", max(abs(a - b) for a, b in zip(push, below)) / load, 0.0, 0.05, "slow enough"),
-        ("energy closure", json.loads((run / "run.json").read_text())["energy_closure"], 0.0, 0.01, "energy is kept"),
+        ("energy closure", report["energy_closure"], 0.0, 0.01, "energy is kept"),
+        ("red rows of the certificate", len(red), 0, 0, ", ".join(red) or "all green"),
     ]
     print(f"{run}: {'sheet' if is_sheet else 'lattice'}")
     for what, value, low, high, source in values:

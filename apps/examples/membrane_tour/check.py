@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Compares the contact forces of the tour with the closed form: python3 check.py RUN, in the folder of the meshes.
 
-For every ball at every time the nearest points of all facets are found anew, one by one, from nothing but the meshes and where the ball
-is. Where one contact follows from them, the force has to be k_n times the overlap along its normal, and mu times that against the slip.
+For every ball at every time the nearest points of all facets and bars are found anew, one by one, from nothing but the meshes and where
+the ball is. Where one contact follows from them, the force has to be k_n times the overlap along its normal, and mu times that against the slip.
 Ends 1 where something is out of its bounds.
 """
 import csv
 import json
 import math
 import sys
+import tomllib
 from pathlib import Path
 
 BALL, SHEET, MODULUS = 0.02, 0.005, 1e6  # m, m, Pa
@@ -16,7 +17,7 @@ STIFFNESS = 2 * MODULUS * BALL * SHEET / (BALL + SHEET)  # N/m
 FRICTION = math.tan(math.radians(20))
 SPIN = {"slides": (0.0, 0.0, 0.0), "spins": (3.0, -2.0, 20.0)}  # 1/s
 SPEED = (0.1, 0.005)  # m/s
-SURFACES = ("random", "ripple", "fold", "saddle")
+SURFACES = ("random", "ripple", "fold", "saddle", "net", "partly closed")
 SHIFT = 0.15  # m, from surface to surface along y
 
 
@@ -40,8 +41,16 @@ def norm(a):
     return math.sqrt(dot(a, a))
 
 
+def on_segment(p, u, v):
+    """Nearest point of a segment, and whether it is between its ends."""
+    t = min(1.0, max(0.0, dot(sub(p, u), sub(v, u)) / dot(sub(v, u), sub(v, u))))
+    return add(u, sub(v, u), t), 0.0 < t < 1.0
+
+
 def nearest(p, corners):
-    """Nearest point of a triangle, and whether it is inside of it."""
+    """Nearest point of a triangle or a segment, and whether it is inside of it."""
+    if len(corners) == 2:
+        return on_segment(p, *corners)
     a, b, c = corners
     n = cross(sub(b, a), sub(c, a))
     foot = add(p, n, -dot(sub(p, a), n) / dot(n, n))
@@ -49,8 +58,7 @@ def nearest(p, corners):
         return foot, True
     best = None
     for u, v in ((a, b), (b, c), (c, a)):
-        t = min(1.0, max(0.0, dot(sub(p, u), sub(v, u)) / dot(sub(v, u), sub(v, u))))
-        q = add(u, sub(v, u), t)
+        q, _ = on_segment(p, u, v)
         if best is None or norm(sub(p, q)) < norm(sub(p, best)):
             best = q
     return best, False
@@ -61,6 +69,14 @@ def read_mesh(path, shift):
     count, facets = int(rows[0][0]), int(rows[0][1])
     points = [(float(x), float(y) + shift, float(z)) for x, y, z in rows[1 : count + 1]]
     return [tuple(points[int(i)] for i in row[1:]) for row in rows[count + 1 : count + facets + 1]]
+
+
+def read_shape(scenario, name):
+    """Facets and bars of a membrane whose points are in the scenario."""
+    entry = next(membrane for membrane in tomllib.loads(scenario.read_text())["membranes"] if membrane["name"] == name)
+    shift, shape = 1e-3 * float(entry["translate"][1].removesuffix(" mm")), entry["shape"]
+    points = [(x, y + shift, z) for x, y, z in shape["points"]]
+    return [tuple(points[i] for i in element) for element in shape.get("facets", []) + shape["bars"]]
 
 
 def contact_at(p, facets):
@@ -126,15 +142,19 @@ def main():
     rows = [dict(zip(heads, line)) for line in lines[1:]]
     weight = 2650 * 4 / 3 * math.pi * BALL**3 * 9.81
     print(f"{'':20} compared  several   normal  tangential  cone   (largest differences, over the weight of {weight:.3f} N)")
-    holds = report["energy_closure"] < 0.01
+    red = [entry["name"] for entry in report["certificate"] if entry["verdict"] != "green"]
+    holds = report["energy_closure"] < 0.01 and not red
     for number, surface in enumerate(SURFACES):
-        facets = read_mesh(folder / f"{surface}.off", SHIFT * number)
+        mesh = folder / f"{surface}.off"
+        facets = read_mesh(mesh, SHIFT * number) if mesh.exists() else read_shape(folder / "membrane_tour.toml", surface)
         for way in ("slides", "rolls", "spins"):
             worst = Worst()
             look(rows, f"{surface}: {way}", facets, worst, step)
             print(f"{surface + ': ' + way:20} {worst.compared:7} {worst.several:8} {worst.normal / weight:8.5f} {worst.tangential / weight:10.5f} {worst.cone:8.5f}")
-            holds &= worst.compared > 400 and worst.normal < 0.015 * weight and worst.cone < 1e-9 and worst.tangential < 0.05 * weight
-    print(f"energy closure {report['energy_closure']:.2g} (below 0.01){'' if holds else '  OUT OF BOUNDS'}")
+            # Over round bars the normal turns with the place, which is wrong by a step of a climb of up to 0.07 m/s where the ball has just hit one.
+            cone = 1e-9 if mesh.exists() else 0.07 * step / (BALL + SHEET) / FRICTION
+            holds &= worst.compared > 400 and worst.normal < 0.015 * weight and worst.cone < cone and worst.tangential < 0.05 * weight
+    print(f"energy closure {report['energy_closure']:.2g} (below 0.01), red rows of the certificate: {', '.join(red) or 'none'}{'' if holds else '  OUT OF BOUNDS'}")
     sys.exit(0 if holds else 1)
 
 

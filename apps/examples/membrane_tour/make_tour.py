@@ -37,6 +37,44 @@ def mesh(name, height, chance):
         file.write(f"OFF\n# SPDX-License-Identifier: GPL-3.0-or-later\n{len(points)} {len(facets)} 0\n")
         file.writelines("%.6g %.6g %.6g\n" % p for p in points)
         file.writelines("3 %d %d %d\n" % f for f in facets)
+    return points, facets
+
+
+def edges(facets):
+    return sorted({tuple(sorted(pair)) for a, b, c in facets for pair in ((a, b), (b, c), (c, a))})
+
+
+def is_closed(facet):
+    """Of the sheet that is partly a net: whether a facet is in one of the closed bands, four cells long with four open ones between."""
+    return min(node // (round(WIDTH / CELL) + 1) for node in facet) % 8 < 4
+
+
+def rows(key, numbers, form):
+    """A list of TOML on lines of some length."""
+    words, lines, line = [form % tuple(x) for x in numbers], [], "   "
+    for word in words:
+        if len(line) + len(word) > 130:
+            lines.append(line)
+            line = "   "
+        line += f" {word},"
+    return "\n".join([f"{key} = [", *lines, line, "]"]) + "\n"
+
+
+def above_bars(points, bars, x, y):
+    """Where the centre of a ball has 0.2 mm of room above bars."""
+    def room(z):
+        least = math.inf
+        for a, b in ((points[i], points[j]) for i, j in bars):
+            along, to = [v - u for u, v in zip(a, b)], [v - u for u, v in zip(a, (x, y, z))]
+            t = min(1.0, max(0.0, sum(u * v for u, v in zip(along, to)) / sum(u * u for u in along)))
+            least = min(least, math.dist((x, y, z), [u + t * v for u, v in zip(a, along)]))
+        return least - 0.0252
+
+    low, high = 0.0, 0.1
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if room(middle) > 0 else (middle, high)
+    return high
 
 
 def height_above(height, x, y):
@@ -46,7 +84,8 @@ def height_above(height, x, y):
 
 
 HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
-# Spheres slide, roll and spin over sheets: flat with irregular facets, rippled, folded, and a saddle; see README.md. Written by make_tour.py.
+# Spheres slide, roll and spin over sheets, flat with irregular facets, rippled, folded, and a saddle, over the ripple as a net of bars,
+# and over one that is partly closed; see README.md. Written by make_tour.py.
 # Run:   plekton run apps/examples/membrane_tour/membrane_tour.toml
 # Keys:  apps/scenario.md
 
@@ -78,6 +117,21 @@ density = "1000 kg/m3"
 material = "ball"
 hold = "all"
 '''
+
+BARS = '''
+[[membranes]]
+name = "{name}"
+translate = [0, "{y:g} mm", 0]
+mode = "truss"
+thickness = "10 mm"
+young_modulus = "1 MPa"
+density = "1000 kg/m3"
+material = "ball"
+hold = "all"
+
+[membranes.shape]   # points in m
+kind = "{kind}"
+{lists}'''
 
 BALL = '''
 [[grains]]
@@ -112,16 +166,35 @@ WAYS = {
 }
 
 
+def balls(name, shift, height_at):
+    """The text of the three balls of a surface."""
+    text = ""
+    for place, (way, (start, turn)) in zip((-0.05, -0.005, 0.04), WAYS.items()):
+        z = 1e3 * height_at(-0.16, place)
+        text += BALL.format(name=f"{name}: {way}", y=shift + 1e3 * place, z=z, start=start, turn=turn)
+    return text
+
+
 def main():
     chance = random.Random(1)
-    text = HEAD
+    text, meshes = HEAD, {}
     for number, (name, height) in enumerate(SURFACES.items()):
-        mesh(name, height, chance)
+        meshes[name] = mesh(name, height, chance)
         shift = 150.0 * number
         text += SHEET.format(name=name, y=shift)
-        for place, (way, (start, turn)) in zip((-0.05, -0.005, 0.04), WAYS.items()):
-            z = 1e3 * height_above(height, -0.16, place)
-            text += BALL.format(name=f"{name}: {way}", y=shift + 1e3 * place, z=z, start=start, turn=turn)
+        text += balls(name, shift, lambda x, y: height_above(height, x, y))
+
+    # The ripple again: as a net of bars along all of its edges, and as one of which bands are closed with facets.
+    points, facets = meshes["ripple"]
+    bars = edges(facets)
+    closed = [facet for facet in facets if is_closed(facet)]
+    open_bars = sorted(set(bars) - set(edges(closed)))
+    as_points, as_bars = rows("points", points, "[%.6g, %.6g, %.6g]"), rows("bars", bars, "[%d, %d]")
+    text += BARS.format(name="net", y=600.0, kind="bars", lists=as_points + as_bars)
+    text += balls("net", 600.0, lambda x, y: above_bars(points, bars, x, y))
+    lists = as_points + rows("facets", closed, "[%d, %d, %d]") + rows("bars", open_bars, "[%d, %d]")
+    text += BARS.format(name="partly closed", y=750.0, kind="facets", lists=lists)
+    text += balls("partly closed", 750.0, lambda x, y: height_above(SURFACES["ripple"], x, y))
     with open("membrane_tour.toml", "w") as file:
         file.write(text)
 

@@ -2,8 +2,14 @@
 """Runs an application of apps/examples and its check; then with wrong physics, which the check has to see.
 
 Usage: python3 applications_test.py PROGRAM ROOT NAME
+
+Some are also run for a short while with 1 and 2 threads, which have to write the same bytes. With PLEKTON_APPLICATIONS=threads in the
+environment that is all that is done, but with every scenario that the check is for, whole, with 1, 2 and 4 threads (no more are started
+than there are processors), and each has a row in a table. It takes up to some minutes each.
 """
 
+import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -35,7 +41,10 @@ APPLICATIONS = {
     },
     "membrane_tour": {
         "right": {"tour": ("membrane_tour", [])},
-        "wrong": {"a tenth more friction": ("membrane_tour", ["materials.ball.friction_angle=22 deg", "simulation.duration=2.5 s"])},
+        "wrong": {
+            "a tenth more friction": ("membrane_tour", ["materials.ball.friction_angle=22 deg", "simulation.duration=2.5 s"]),
+            "bars that are thinner than said": ("membrane_tour", ["membranes.net.thickness=9.9 mm", "simulation.duration=2.5 s"]),
+        },
     },
     "buckling_tube": {
         "right": {"lattice": ("buckling_tube", []), "sheet": ("continuum", [])},
@@ -76,7 +85,7 @@ APPLICATIONS = {
         },
     },
     "tyre": {
-        "right": {"tyre": ("tyre", [])},
+        "right": {"floor": ("tyre", []), "gravel": ("soil", [])},
         "wrong": {"a floor without friction": ("tyre", ["materials.rubber.friction_angle=0", "stages.roll.end.duration=0.3 s"])},
     },
     "silo_bag": {
@@ -110,8 +119,15 @@ APPLICATIONS = {
 """For each the runs, scenario and what is set, that its check passes, and those that it must not pass."""
 
 
-def run(program, folder, scenario, settings, out):
-    options = [word for setting in settings for word in ("--set", setting)]
+SHORT = {
+    "pullout_grid": ("pullout_grid", [], ["--until", "level"]),
+    "buckling_tube": ("continuum", ["simulation.duration=30 ms"], []),
+}
+"""What is run for a short while with 1 and 2 threads: scenario, what is set, options."""
+
+
+def run(program, folder, scenario, settings, out, options=()):
+    options = [*options, *(word for setting in settings for word in ("--set", setting))]
     command = [program, "run", folder / f"{scenario}.toml", "--out", out, "--quiet", *options]
     subprocess.run(command, check=True, stderr=subprocess.PIPE)
     return out
@@ -122,19 +138,74 @@ def check(folder, runs):
     return done.returncode, done.stdout + done.stderr
 
 
+def files_of(folder):
+    """Bytes of all files of a run that do not tell of its threads, by name, and the states in run.json."""
+    files = {str(path.relative_to(folder)): path for path in sorted(folder.rglob("*")) if path.is_file()}
+    report = json.loads(files.pop("run.json").read_text(encoding="utf-8"))
+    scenario = files.pop("scenario-as-run.toml").read_text(encoding="utf-8").splitlines()
+    contents = {name: path.read_bytes() for name, path in files.items()}
+    contents["scenario-as-run.toml"] = [line for line in scenario if not line.startswith("# --set simulation.threads")]
+    contents["run.json: states"] = report["states"]
+    contents["run.json: stages"] = report.get("stages")
+    return contents, report
+
+
+def compare_threads(label, make, counts, work):
+    """Makes a run with each number of threads; says how it went, and returns what differs from one thread."""
+    differ, first, report = [], None, None
+    for threads in counts:
+        contents, told = files_of(make(Path(work, f"{label} {threads}"), ["--threads", str(threads)]))
+        if first is None:
+            first, report = contents, told
+        names = [name for name in sorted(first.keys() | contents.keys()) if first.get(name) != contents.get(name)]
+        if names:
+            differ.append(f"{label}: {threads} threads differ from {counts[0]} in {len(names)} of {len(first)}: {', '.join(names[:5])}")
+    red = [entry["name"] for entry in report["certificate"] if entry["verdict"] != "green"]
+    print(
+        f"| {label} | {report['timing']['wall_time_s']:.1f} s | {report['energy_closure']:.1e} | {', '.join(red) or 'none'} "
+        f"| {'no' if differ else f'yes, {len(first)} files'}, {', '.join(map(str, counts))} threads |",
+        flush=True,
+    )
+    return differ
+
+
+def compare_all(program, folder, name, work):
+    print("| run | wall time, 1 thread | energy closure | red rows | same bits |\n|---|---|---|---|---|")
+    return [
+        difference
+        for label, what in APPLICATIONS[name]["right"].items()
+        for difference in compare_threads(f"{name}, {label}", lambda out, options: run(program, folder, *what, out, options), (1, 2, 4), work)
+    ]
+
+
+def compare_short(program, folder, name, work):
+    if name not in SHORT:
+        return []
+    scenario, settings, more = SHORT[name]
+    return compare_threads(f"{name}, for a short while", lambda out, options: run(program, folder, scenario, settings, out, [*more, *options]), (1, 2), work)
+
+
+def run_checks(program, folder, name, work):
+    failures = []
+    right = [run(program, folder, *what, Path(work, label)) for label, what in APPLICATIONS[name]["right"].items()]
+    code, said = check(folder, right)
+    print(said)
+    if code != 0:
+        failures.append(f"{name}: the check fails")
+    for label, what in APPLICATIONS[name]["wrong"].items():
+        code, said = check(folder, [run(program, folder, *what, Path(work, "wrong " + label))])
+        if code != 1 or "OUT OF BOUNDS" not in said:
+            failures.append(f"{name}: the check passes {label}\n{said}")
+    return failures
+
+
 def main():
     program, folder, name = sys.argv[1], Path(sys.argv[2], "apps/examples", sys.argv[3]), sys.argv[3]
-    failures = []
     with tempfile.TemporaryDirectory() as work:
-        right = [run(program, folder, *what, Path(work, label)) for label, what in APPLICATIONS[name]["right"].items()]
-        code, said = check(folder, right)
-        print(said)
-        if code != 0:
-            failures.append(f"{name}: the check fails")
-        for label, what in APPLICATIONS[name]["wrong"].items():
-            code, said = check(folder, [run(program, folder, *what, Path(work, "wrong " + label))])
-            if code != 1 or "OUT OF BOUNDS" not in said:
-                failures.append(f"{name}: the check passes {label}\n{said}")
+        if os.environ.get("PLEKTON_APPLICATIONS") == "threads":
+            failures = compare_all(program, folder, name, work)
+        else:
+            failures = run_checks(program, folder, name, work) + compare_short(program, folder, name, work)
     print("\n".join(failures))
     sys.exit(1 if failures else 0)
 
