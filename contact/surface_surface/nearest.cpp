@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/surface_surface/nearest.hpp"
 
+#include "contact/surface_surface/facing_facets.hpp"
 #include "contact/surface_surface/overlap.hpp"
 
 #include <optional>
@@ -90,7 +91,7 @@ bool is_bare(const Simplex& simplex, const EdgeOf& edge, const Vec3& normal) {
   return simplex.count == 2 || normal_of(simplex).cross(normal).norm() >= kParallelPlanes;
 }
 
-PairForces along_edges(const EdgeBesideEdge& edges, const NormalSpring& spring) {
+Real along_edges(const EdgeBesideEdge& edges, const NormalSpring& spring) {
   const Interval& part = edges.part;
   const auto energy_at = [&](const Real& t) { return spring.energy(edges.separation(t).norm()); };
   const Real at_start = share_rising(edges.slope(part.from));
@@ -101,8 +102,29 @@ PairForces along_edges(const EdgeBesideEdge& edges, const NormalSpring& spring) 
   const Real nearest = lowest <= part.from.value ? part.from
                        : lowest >= part.to.value ? part.to
                                                  : Real(lowest);
-  return forces_of(at_start * energy_at(part.from) + at_end * energy_at(part.to) +
-                   (Real(1.0) - at_start - at_end) * energy_at(nearest));
+  return at_start * energy_at(part.from) + at_end * energy_at(part.to) +
+         (Real(1.0) - at_start - at_end) * energy_at(nearest);
+}
+
+/// Only as far as edges are parallel: the part of one beside another that it crosses at a right
+/// angle ends nowhere that is certain, and moves with the angle as 1 / cosine.
+std::optional<PairForces> as_far_as_parallel(const std::array<Vector, 2>& a,
+                                             const std::array<Vector, 2>& b,
+                                             const CoreProximity& nearest,
+                                             const NormalSpring& spring) {
+  const Real cosine = unit(a[1] - a[0]).dot(unit(b[1] - b[0]));
+  const Real share = parallel_share(cosine.value < 0.0 ? -cosine : cosine);
+  if (share.value == 0.0) return {};
+  const auto edges = beside(a, b);
+  if (!edges) return {};
+  const PairForces at_point = at_nearest_points(nearest, spring);
+  PairForces pair = forces_of(share * (along_edges(*edges, spring) - Real(at_point.energy)));
+  pair.energy += at_point.energy;
+  for (std::size_t i = 0; i < 3; ++i) {
+    pair.on_a[i] += (1.0 - share.value) * at_point.on_a[i];
+    pair.on_b[i] += (1.0 - share.value) * at_point.on_b[i];
+  }
+  return pair;
 }
 
 std::optional<PairForces> edge_beside_edge(const Simplex& a, const Simplex& b,
@@ -116,9 +138,11 @@ std::optional<PairForces> edge_beside_edge(const Simplex& a, const Simplex& b,
       const EdgeOf of_b = edge_of(b, m);
       if (!holds(of_b, nearest.points.corners_b) || !is_bare(b, of_b, nearest.normal)) continue;
       if (slope_of(b, of_b, nearest.normal) > kLargestTilt) continue;
-      const auto edges = beside({corner(a, of_a.first, Side::a), corner(a, of_a.last, Side::a)},
-                                {corner(b, of_b.first, Side::b), corner(b, of_b.last, Side::b)});
-      if (edges) return along_edges(*edges, spring);
+      const auto pair =
+          as_far_as_parallel({corner(a, of_a.first, Side::a), corner(a, of_a.last, Side::a)},
+                             {corner(b, of_b.first, Side::b), corner(b, of_b.last, Side::b)},
+                             nearest, spring);
+      if (pair) return pair;
     }
   }
   return {};

@@ -46,6 +46,13 @@ class PatchSide {
     return total;
   }
 
+  /// N, sum of the sizes of the same.
+  double size_of_forces() const {
+    double size = 0.0;
+    for (const Vec3& force : forces_) size += force.norm();
+    return size;
+  }
+
   Vec3 total_attraction() const {
     Vec3 total = Vec3::Zero();
     for (const Vec3& force : attractions_) total += force;

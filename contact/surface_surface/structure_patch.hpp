@@ -81,6 +81,10 @@ struct StructurePatch {
   /// What the forces on the nodes come to.
   void find_totals(const StructurePair& bodies, Positions x) {
     elastic_force = second.total_force();
+    // Where forces cancel, as those of facets beside each other in one plane do, what is left is
+    // rounding: it has no direction, nor shares.
+    constexpr double kRounding = 1e-14;
+    if (!(elastic_force.norm() > kRounding * second.size_of_forces())) elastic_force.setZero();
     find_mean(bodies);
     if (!pushes()) return;
     const Vec3 per_force = elastic_force / (normal_force * normal_force);

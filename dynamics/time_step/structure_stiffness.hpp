@@ -24,7 +24,7 @@ namespace plekton::dynamics {
 /// M^(-1/2) H M^(-1/2), H their derivative, H is below lambda M. Structures that do not touch have
 /// one each. A node gets what lambda times its mass is above its springs.
 ///
-/// Differences go as far as nodes move in some steps: where surfaces lie on each other exactly,
+/// Differences go a ten thousandth of the smallest radius: where surfaces lie on each other exactly,
 /// forces jump, which makes them chatter and is no stiffness.
 class StructureStiffness {
  public:

@@ -17,7 +17,7 @@ std::uint64_t seed_of(std::uint64_t seed, std::size_t row) {
   return z ^ (z >> 31);
 }
 
-std::uint64_t share_of(std::uint64_t queries, std::size_t rows) {
+std::uint64_t share_of(std::uint64_t queries, std::uint64_t rows) {
   return (queries + rows - 1) / rows;
 }
 
@@ -37,8 +37,8 @@ Report check(const CheckOptions& options, const Kernel& kernel) {
         check_pairs(report.pairs[row], share_of(for_pairs, pair_count), seed, kernel,
                     examples[row]);
       } else {
-        check_invariant(report.invariants[row - pair_count],
-                        share_of(options.queries / 5, report.invariants.size()), seed,
+        InvariantTally& invariant = report.invariants[row - pair_count];
+        check_invariant(invariant, share_of(options.queries, 40 * invariant.cost), seed,
                         examples[row]);
       }
       if (options.progress)

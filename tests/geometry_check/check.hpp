@@ -16,8 +16,9 @@ struct CheckOptions {
   std::function<void(double)> progress;  ///< gets the share that is done, from any thread
 };
 
-/// Four fifths of the queries go to the pairs, the same number to each row of the table; one fifth
-/// to the invariants. The same report for any number of threads.
+/// Four fifths of the queries go to the pairs, the same number to each row of the table; a fortieth
+/// to each of the invariants, fewer trials where one takes long. The same report for any number of
+/// threads.
 Report check(const CheckOptions& options, const Kernel& kernel);
 
 }  // namespace plekton::geometry_check

@@ -3,11 +3,16 @@
 
 #include "tests/geometry_check/any_surface.hpp"
 #include "tests/geometry_check/force_check.hpp"
+#include "tests/geometry_check/knot_check.hpp"
+#include "tests/geometry_check/spread_check.hpp"
+#include "tests/geometry_check/structure_check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 /// The check itself must be able to fail.
 namespace plekton::geometry_check {
@@ -145,6 +150,214 @@ TEST(GeometryCheck, FindsForcesThatJumpOverCreases) {
   EXPECT_GT(of_minima.violations, 10);
   EXPECT_EQ(of_patches.violations, 0);
   EXPECT_GT(of_patches.trials, 1000);
+}
+
+constexpr double kBit = 1e-5;
+constexpr int kTrials = 100;
+
+/// In how many of 100 trials a check finds something.
+template <class Check>
+int found(Check check) {
+  int sum = 0;
+  for (std::uint64_t seed = 0; seed < kTrials; ++seed) {
+    test::Random random(seed);
+    const std::optional<bool> holds = check(random);
+    sum += holds && !*holds;
+  }
+  return sum;
+}
+
+/// What is right, changed afterwards.
+template <class Change>
+SpreadRule changed(Change change) {
+  return
+      [change](const geometry::Surface& surface, const Vec3& centre, const std::vector<Vec3>& x) {
+        SpreadPush push = push_of_patches(surface, centre, x);
+        change(push, centre);
+        return push;
+      };
+}
+template <class Change>
+StructureRule changed_structures(Change change) {
+  return [change](StructureScene& scene, const std::vector<Vec3>& x) {
+    StructurePush push = push_of_structures(scene, x);
+    change(push, x);
+    return push;
+  };
+}
+
+// A way of a single node does not see what is wrong with the others.
+TEST(SpreadCheck, FindsForcesAndEnergiesThatAreOffByABit) {
+  const SpreadRule forces = changed([](SpreadPush& push, const Vec3&) {
+    for (Vec3& force : push.on_nodes) force *= 1.0 + kBit;
+  });
+  const SpreadRule energy =
+      changed([](SpreadPush& push, const Vec3&) { push.energy *= 1.0 + kBit; });
+  const auto found_with = [](const SpreadRule& rule) {
+    return found([&](test::Random& random) {
+      const SpreadTouch touch = any_spread_touch(random);
+      return has_gradient(touch, rule, random);
+    });
+  };
+
+  EXPECT_GT(found_with(forces), kTrials / 2);
+  EXPECT_GT(found_with(energy), kTrials / 2);
+  EXPECT_EQ(found_with(push_of_patches), 0);
+}
+
+TEST(SpreadCheck, FindsBarsThatAreABitLessThanOneContact) {
+  const SpreadRule less = changed([](SpreadPush& push, const Vec3&) { push.energy *= 1.0 - kBit; });
+  const auto found_with = [](const SpreadRule& rule) {
+    return found([&](test::Random& random) {
+      SpreadTouch touch = any_spread_touch(random);
+      while (!touch.complex.facets.empty()) touch = any_spread_touch(random);
+      return counts_one(touch, rule);
+    });
+  };
+
+  EXPECT_GT(found_with(less), kTrials / 10);  // others are more than one contact
+  EXPECT_EQ(found_with(push_of_patches), 0);
+}
+
+TEST(SpreadCheck, FindsBallsThatAreAttractedABit) {
+  const SpreadRule attracting =
+      changed([](SpreadPush& push, const Vec3&) { push.on_ball *= -kBit; });
+  const auto found_with = [](const SpreadRule& rule) {
+    return found(
+        [&](test::Random& random) { return is_pushed_away(any_spread_touch(random), rule); });
+  };
+
+  EXPECT_GT(found_with(attracting), kTrials / 3);  // others are not before a plane
+  EXPECT_EQ(found_with(push_of_patches), 0);
+}
+
+TEST(SpreadCheck, FindsForcesThatJumpABit) {
+  int sum = 0;
+  for (std::uint64_t seed = 0; seed < kTrials; ++seed) {
+    test::Random random(seed);
+    const SpreadTouch touch = any_spread_touch(random);
+    const SpreadRule jumping = changed([&](SpreadPush& push, const Vec3& centre) {
+      if ((centre - touch.centre).norm() > 3e-4 * push.deepest) push.on_ball *= 1.0 + kBit;
+    });
+    sum += !follows(touch, jumping, random);
+  }
+
+  EXPECT_GT(sum, kTrials / 3);  // others may jump by more where tops tie
+}
+
+// Ways of a single node leave the ball where it is.
+TEST(SpreadCheck, FindsForcesThatDoNotChangeInProportion) {
+  const SpreadRule rattling = changed([](SpreadPush& push, const Vec3& centre) {
+    for (Vec3& force : push.on_nodes)
+      force.x() += kBit * push.deepest * std::sin(1e12 * centre.x());
+  });
+  const auto found_with = [](const SpreadRule& rule) {
+    return found(
+        [&](test::Random& random) { return follows(any_spread_touch(random), rule, random); });
+  };
+
+  EXPECT_GT(found_with(rattling), kTrials / 3);
+  EXPECT_EQ(found_with(push_of_patches), 0);
+}
+
+TEST(SpreadCheck, FindsBumpsOfKnots) {
+  const SpreadRule more = changed([](SpreadPush& push, const Vec3&) { push.energy *= 1.0 + kBit; });
+  const SpreadRule less = changed([](SpreadPush& push, const Vec3&) { push.energy *= 1.0 - kBit; });
+  const auto found_with = [](const SpreadRule& rule) {
+    return found([&](test::Random& random) { return rolls_evenly(any_knot(random), rule); });
+  };
+
+  EXPECT_GT(found_with(more), kTrials / 5);  // of straight wires
+  EXPECT_EQ(found_with(less), kTrials);
+  EXPECT_EQ(found_with(push_of_patches), 0);
+}
+
+TEST(StructureCheck, FindsForcesAndEnergiesThatAreOffByABit) {
+  const StructureRule forces =
+      changed_structures([](StructurePush& push, const std::vector<Vec3>&) {
+        for (Vec3& force : push.forces) force *= 1.0 + kBit;
+      });
+  const StructureRule energy = changed_structures(
+      [](StructurePush& push, const std::vector<Vec3>&) { push.energy *= 1.0 + kBit; });
+  const auto found_with = [](const StructureRule& rule) {
+    return found([&](test::Random& random) {
+      const Structures structures = any_structures(random);
+      return have_gradient(structures, rule, random);
+    });
+  };
+
+  EXPECT_GT(found_with(forces), kTrials / 2);
+  EXPECT_GT(found_with(energy), kTrials / 2);
+  EXPECT_EQ(found_with(push_of_structures), 0);
+}
+
+TEST(StructureCheck, FindsForcesThatDoNotBalanceByABit) {
+  const StructureRule uneven =
+      changed_structures([](StructurePush& push, const std::vector<Vec3>&) {
+        const auto largest =
+            std::max_element(push.forces.begin(), push.forces.end(),
+                             [](const Vec3& a, const Vec3& b) { return a.norm() < b.norm(); });
+        *largest *= 1.0 + kBit;
+      });
+  const auto found_with = [](const StructureRule& rule) {
+    return found([&](test::Random& random) {
+      const Structures structures = any_structures(random);
+      return are_balanced(structures, rule, random);
+    });
+  };
+
+  EXPECT_GT(found_with(uneven), kTrials * 9 / 10);
+  EXPECT_EQ(found_with(push_of_structures), 0);
+}
+
+// Of bars side by side there is more than their pieces, and of rings some is let pass.
+TEST(StructureCheck, FindsStructuresThatAreABitLessThanTheirPieces) {
+  const StructureRule less = changed_structures(
+      [](StructurePush& push, const std::vector<Vec3>&) { push.energy *= 1.0 - kBit; });
+  const auto found_with = [](const StructureRule& rule) {
+    return found([&](test::Random& random) {
+      const Structures bars = any_structures_of(StructureFamily::bars_on_bars, random);
+      return count_pieces(bars, rule);
+    });
+  };
+
+  EXPECT_GT(found_with(less), 3);
+  EXPECT_EQ(found_with(push_of_structures), 0);
+}
+
+TEST(StructureCheck, FindsForcesThatDoNotChangeInProportion) {
+  const StructureRule rattling =
+      changed_structures([](StructurePush& push, const std::vector<Vec3>& x) {
+        push.forces[0].x() += 1e-3 * kBit * std::sin(1e12 * x[0].x());
+      });
+  const auto found_with = [](const StructureRule& rule) {
+    return found([&](test::Random& random) {
+      const Structures structures = any_structures(random);
+      return follow(structures, rule, random);
+    });
+  };
+
+  EXPECT_GT(found_with(rattling), kTrials / 3);
+  EXPECT_EQ(found_with(push_of_structures), 0);
+}
+
+// Bisection finds a jump that is larger than what the step changes the energy by besides.
+TEST(StructureCheck, FindsEnergiesThatJumpByAHundredth) {
+  int sum = 0;
+  for (std::uint64_t seed = 0; seed < kTrials; ++seed) {
+    test::Random random(seed);
+    Structures structures = any_structures(random);
+    while (!structures.are_sheets) structures = any_structures(random);
+    const Vec3 start = structures.nodes().back();
+    const StructureRule jumping =
+        changed_structures([&](StructurePush& push, const std::vector<Vec3>& x) {
+          if ((x.back() - start).norm() > 3e-6) push.energy *= 1.01;
+        });
+    const std::optional<bool> holds = follow(structures, jumping, random);
+    sum += holds && !*holds;
+  }
+
+  EXPECT_GT(sum, kTrials / 2);
 }
 
 }  // namespace

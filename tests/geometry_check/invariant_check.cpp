@@ -4,7 +4,9 @@
 #include "geometry/critical/critical_features.hpp"
 #include "tests/geometry_check/any_surface.hpp"
 #include "tests/geometry_check/force_check.hpp"
+#include "tests/geometry_check/knot_check.hpp"
 #include "tests/geometry_check/spread_check.hpp"
+#include "tests/geometry_check/structure_check.hpp"
 #include "tests/support/contact_surfaces.hpp"
 
 #include <algorithm>
@@ -29,6 +31,11 @@ constexpr std::string_view kGradient = "spread: force = -gradient of energy";
 constexpr std::string_view kOne = "spread: one contact at least";
 constexpr std::string_view kAway = "spread: pushed away from what is in front";
 constexpr std::string_view kFollows = "spread: force in proportion to the step";
+constexpr std::string_view kKnot = "spread: rolls over knots without a bump";
+constexpr std::string_view kStructureGradient = "structures: force = -gradient of energy";
+constexpr std::string_view kStructureBalance = "structures: forces and moments balance";
+constexpr std::string_view kStructureCount = "structures: no less than their pieces";
+constexpr std::string_view kStructureFollows = "structures: force in proportion to step";
 
 bool has_euler_number(const Complex& complex, Random& random, int& trials) {
   const Surface surface = complex.surface();
@@ -141,6 +148,37 @@ bool keeps_features_on_the_lattice(const Complex& complex, Random& random, int& 
   return true;
 }
 
+bool spread_holds(std::string_view name, Random& random, int& trials) {
+  if (name == kKnot) {
+    ++trials;
+    return rolls_evenly(any_knot(random), push_of_patches);
+  }
+  const SpreadTouch touch = any_spread_touch(random);
+  if (name == kGradient) {
+    const auto seen = has_gradient(touch, push_of_patches, random);
+    trials += seen.has_value();
+    return seen.value_or(true);
+  }
+  ++trials;
+  if (name == kOne) return counts_one(touch, push_of_patches);
+  if (name == kAway) return is_pushed_away(touch, push_of_patches);
+  if (name == kFollows) return follows(touch, push_of_patches, random);
+  throw std::logic_error("an invariant without a check");
+}
+
+bool structures_hold(std::string_view name, Random& random, int& trials) {
+  const Structures structures = any_structures(random);
+  const auto seen = [&]() -> std::optional<bool> {
+    if (name == kStructureGradient) return have_gradient(structures, push_of_structures, random);
+    if (name == kStructureBalance) return are_balanced(structures, push_of_structures, random);
+    if (name == kStructureCount) return count_pieces(structures, push_of_structures);
+    if (name == kStructureFollows) return follow(structures, push_of_structures, random);
+    throw std::logic_error("an invariant without a check");
+  }();
+  trials += seen.has_value();
+  return seen.value_or(true);
+}
+
 bool holds(std::string_view name, Random& random, int& trials) {
   if (name == kEuler) return has_euler_number(any_surface(random), random, trials);
   if (name == kNumbering)
@@ -153,20 +191,26 @@ bool holds(std::string_view name, Random& random, int& trials) {
     trials += tally.trials;
     return tally.violations == 0;
   }
-  ++trials;
-  const SpreadTouch touch = any_spread_touch(random);
-  if (name == kGradient) return has_gradient(touch, random);
-  if (name == kOne) return counts_one(touch);
-  if (name == kAway) return is_pushed_away(touch);
-  if (name == kFollows) return follows(touch, random);
-  throw std::logic_error("an invariant without a check");
+  return name.starts_with("structures") ? structures_hold(name, random, trials)
+                                        : spread_holds(name, random, trials);
 }
 
 }  // namespace
 
 std::vector<InvariantTally> invariant_rows() {
-  return {{kEuler.data()},    {kNumbering.data()}, {kLattice.data()}, {kForce.data()},
-          {kGradient.data()}, {kOne.data()},       {kAway.data()},    {kFollows.data()}};
+  return {{kEuler.data()},
+          {kNumbering.data()},
+          {kLattice.data()},
+          {kForce.data()},
+          {kGradient.data(), 2},
+          {kOne.data()},
+          {kAway.data()},
+          {kFollows.data(), 8},
+          {kKnot.data(), 2},
+          {kStructureGradient.data(), 40},
+          {kStructureBalance.data(), 10},
+          {kStructureCount.data(), 10},
+          {kStructureFollows.data(), 100}};
 }
 
 void check_invariant(InvariantTally& row, std::uint64_t trials, std::uint64_t seed,

@@ -15,7 +15,9 @@ namespace plekton::geometry_check {
 ///     mixed, on lattices and turned;
 ///   - another numbering of nodes and cells gives the same features;
 ///   - so does a motion of everything on an integer lattice;
-///   - the force on a ball changes by no more than its motion allows (force_check.hpp).
+///   - the force on a ball changes by no more than its motion allows (force_check.hpp);
+/// about contacts of a ball that spread over many (spread_check.hpp, knot_check.hpp), and about
+/// structures that touch each other or themselves (structure_check.hpp).
 std::vector<InvariantTally> invariant_rows();
 
 /// Each surface has a seed of its own, the first one this, the others those after it.

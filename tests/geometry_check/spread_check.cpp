@@ -2,6 +2,7 @@
 #include "tests/geometry_check/spread_check.hpp"
 
 #include "contact/counting/wrap.hpp"
+#include "tests/geometry_check/slope.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -17,38 +18,17 @@ using test::Random;
 
 constexpr double kRange = SpreadTouch::kRange;
 
-/// What all patches do.
-struct Total {
-  double energy = 0.0;
-  Vec3 on_ball = Vec3::Zero();
-  std::vector<Vec3> on_nodes;
-  double deepest = 0.0;  ///< m, overlap
-  std::size_t terms = 0;
-};
-
-Total total_of(PatchFinder& finder, const Surface& surface, const Vec3& centre, Positions x) {
-  Total total;
-  total.on_nodes.assign(x.size(), Vec3::Zero());
-  for (const Patch& patch : finder.find(centre, kRange, test::all_cells(surface), x)) {
-    for (const PatchTerm& term : finder.terms(patch)) {
-      const double overlap = kRange - term.distance;
-      const Vec3 force = (term.weight * overlap + term.slope) * term.normal;
-      total.energy += 0.5 * term.weight * overlap * overlap + term.energy;
-      total.on_ball -= force;
-      for (int k = 0; k < 3; ++k)
-        total.on_nodes[index_of(term.core.nodes[static_cast<std::size_t>(k)])] +=
-            term.core.weights[k] * force;
-      if (term.is_minimum) total.deepest = std::max(total.deepest, overlap);
-      ++total.terms;
-    }
-  }
-  return total;
-}
-
-std::vector<Vec3> moved(const std::vector<Vec3>& x, const std::vector<Vec3>& ways, double part) {
-  std::vector<Vec3> result;
-  for (std::size_t i = 0; i < x.size(); ++i) result.push_back(x[i] + part * ways[i]);
-  return result;
+void add(const PatchTerm& term, SpreadPush& push) {
+  const double overlap = kRange - term.distance;
+  const double size = term.weight * overlap + term.slope;
+  push.energy += 0.5 * term.weight * overlap * overlap + term.energy;
+  push.on_ball -= size * term.normal;
+  for (int k = 0; k < 3; ++k)
+    push.on_nodes[index_of(term.core.nodes[static_cast<std::size_t>(k)])] +=
+        term.core.weights[k] * size * term.normal;
+  push.away -= term.normal;
+  if (term.is_minimum) push.deepest = std::max(push.deepest, overlap);
+  push.sum += std::abs(size);
 }
 
 double least_bar(const test::Complex& complex) {
@@ -59,93 +39,158 @@ double least_bar(const test::Complex& complex) {
   return least;
 }
 
+/// A ball on a surface, both of which move.
+struct Moving {
+  const SpreadRule& rule;
+  Surface surface;
+  Vec3 centre;          ///< m
+  std::vector<Vec3> x;  ///< m
+  Vec3 way;             ///< of the centre
+  std::vector<Vec3> ways;
+
+  SpreadPush at(double part) const {
+    std::vector<Vec3> there;
+    for (std::size_t i = 0; i < x.size(); ++i) there.push_back(x[i] + part * ways[i]);
+    return rule(surface, centre + part * way, there);
+  }
+  Forces forces_at(double part) const {
+    SpreadPush push = at(part);
+    push.on_nodes.push_back(push.on_ball);
+    return std::move(push.on_nodes);
+  }
+  /// N, work of the forces by length of the way.
+  double power(const SpreadPush& push) const {
+    double sum = push.on_ball.dot(way);
+    for (std::size_t i = 0; i < x.size(); ++i) sum += push.on_nodes[i].dot(ways[i]);
+    return sum;
+  }
+};
+
+/// Everything moves, or a single node. Right over a seam a surface that bends has another stiffness
+/// on either side: the ball is a little beside the touch.
+Moving any_motion(const SpreadTouch& touch, const SpreadRule& rule, Random& random) {
+  const Surface surface = touch.complex.surface();
+  const auto& x = touch.complex.x;
+  const double deepest = rule(surface, touch.centre, x).deepest;
+  Moving moving{rule, surface,      touch.centre + 0.03 * deepest * random.in_cube(1.0),
+                x,    Vec3::Zero(), std::vector<Vec3>(x.size(), Vec3::Zero())};
+  if (random.coin()) {
+    moving.ways[random.index(x.size())] = random.in_cube(1.0);
+  } else {
+    for (Vec3& w : moving.ways) w = random.in_cube(1.0);
+    moving.way = random.in_cube(1.0);
+  }
+  return moving;
+}
+
+/// m, of a distance: a moved coordinate below 2 ranges is rounded by eps / 2 of a range, those of
+/// both ends together by sqrt(6) / 2 eps, and the distance itself by a few more eps / 2.
+constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon() * kRange;
+
+std::optional<Slope> slope_of(const Moving& moving, const SpreadPush& here) {
+  return slope_at([&](double part) { return moving.at(part).energy; },
+                  {4e-3 * here.deepest, kRounding * here.sum, 1e-7 * here.force()});
+}
+
 }  // namespace
 
-bool has_gradient(const SpreadTouch& touch, Random& random) {
-  const Surface surface = touch.complex.surface();
-  PatchFinder finder(surface);
-  const auto& x = touch.complex.x;
-  // Differences tell the slope of what has a curvature: not right over a seam, where a surface that
-  // bends with the step has one on either side.
-  const double deepest = total_of(finder, surface, touch.centre, x).deepest;
-  const Vec3 centre = touch.centre + 0.03 * deepest * random.in_cube(1.0);
-  const Total here = total_of(finder, surface, centre, x);
-  std::vector<Vec3> ways(x.size(), Vec3::Zero());
-  Vec3 way = Vec3::Zero();
-  if (random.coin()) {
-    ways[random.index(x.size())] = random.in_cube(1.0);
-  } else {
-    for (Vec3& w : ways) w = random.in_cube(1.0);
-    way = random.in_cube(1.0);
-  }
-  double power = here.on_ball.dot(way);
-  for (std::size_t i = 0; i < x.size(); ++i) power += here.on_nodes[i].dot(ways[i]);
-  const auto energy_at = [&](double part) {
-    return total_of(finder, surface, centre + part * way, moved(x, ways, part)).energy;
-  };
-  const double scale = here.deepest * std::sqrt(static_cast<double>(here.terms));
-  // Differences of the fourth order. Where a feature comes into range within a step the slope has a
-  // kink, and a smaller step sees less of it, until distances are rounded.
-  for (const double part : {1e-4, 1e-5, 1e-6, 1e-7, 3e-8}) {
-    const double step = part * here.deepest;
-    const double slope = (8.0 * (energy_at(step) - energy_at(-step)) -
-                          (energy_at(2.0 * step) - energy_at(-2.0 * step))) /
-                         (12.0 * step);
-
-    if (std::abs(slope + power) < (1e-7 + 1e-15 * kRange / step) * scale) return true;
-  }
-  return false;
+double SpreadPush::force() const {
+  return on_ball.norm() + size_of(on_nodes);
 }
 
-bool counts_one(const SpreadTouch& touch) {
-  const Surface surface = touch.complex.surface();
+SpreadPush push_of_patches(const Surface& surface, const Vec3& centre, const std::vector<Vec3>& x) {
+  SpreadPush push;
+  push.on_nodes.assign(x.size(), Vec3::Zero());
   PatchFinder finder(surface);
-  const Total total = total_of(finder, surface, touch.centre, touch.complex.x);
-  const double one = 0.5 * total.deepest * total.deepest;
+  for (const Patch& patch : finder.find(centre, kRange, test::all_cells(surface), x)) {
+    for (const PatchTerm& term : finder.terms(patch)) add(term, push);
+  }
+  return push;
+}
+
+std::optional<bool> has_gradient(const SpreadTouch& touch, const SpreadRule& rule, Random& random) {
+  constexpr int kPlaces = 4;
+  for (int k = 0; k < kPlaces; ++k) {
+    const Moving moving = any_motion(touch, rule, random);
+    const SpreadPush here = moving.at(0.0);
+    if (const auto slope = slope_of(moving, here))
+      return std::abs(slope->value + moving.power(here)) < 1e-7 * here.force();
+  }
+  return std::nullopt;
+}
+
+bool counts_one(const SpreadTouch& touch, const SpreadRule& rule) {
+  const SpreadPush push = rule(touch.complex.surface(), touch.centre, touch.complex.x);
+  const double one = 0.5 * push.deepest * push.deepest;
   const double missing = touch.complex.facets.empty() ? 1e-9 : 2e-3;
-  return total.energy >= (1.0 - missing) * one - 1e-15;
+  return push.energy >= (1.0 - missing) * one - 1e-15;
 }
 
-bool is_pushed_away(const SpreadTouch& touch) {
+bool is_pushed_away(const SpreadTouch& touch, const SpreadRule& rule) {
   const Surface surface = touch.complex.surface();
-  PatchFinder finder(surface);
-  const Total total = total_of(finder, surface, touch.centre, touch.complex.x);
-  Vec3 away = Vec3::Zero();
-  for (const Patch& patch :
-       finder.find(touch.centre, kRange, test::all_cells(surface), touch.complex.x)) {
-    for (const PatchTerm& term : finder.terms(patch)) away -= term.normal;
-  }
-  const double length = away.norm();
+  const SpreadPush push = rule(surface, touch.centre, touch.complex.x);
+  const double length = push.away.norm();
   if (!(length > 0.0)) return true;
   for (const CellId cell : test::cells_near(surface, touch.centre, kRange, touch.complex.x)) {
     for (const NodeId node : surface.nodes_of(cell)) {
-      if ((touch.complex.x[index_of(node)] - touch.centre).dot(away) > 0.0) return true;
+      if ((touch.complex.x[index_of(node)] - touch.centre).dot(push.away) > 0.0) return true;
     }
   }
-  return total.on_ball.dot(away) >= -1e-12 * total.deepest * length;
+  return push.on_ball.dot(push.away) >= -1e-12 * push.deepest * length;
 }
 
-bool follows(const SpreadTouch& touch, Random& random) {
-  const Surface surface = touch.complex.surface();
-  PatchFinder finder(surface);
-  const Total here = total_of(finder, surface, touch.centre, touch.complex.x);
+namespace {
+
+/// N/m, of the force on the ball within a thousandth of the overlap.
+double largest_stiffness(const SpreadTouch& touch, const Surface& surface, double deepest) {
   double contacts = 0.0;
   for (const CellId cell :
-       test::cells_near(surface, touch.centre, kRange + here.deepest, touch.complex.x))
+       test::cells_near(surface, touch.centre, kRange + deepest, touch.complex.x))
     contacts += surface.nodes_of(cell).size() == 3 ? 7.0 : 3.0;
-  const double width_over_bar = std::sqrt(2.0 * kRange * here.deepest) / least_bar(touch.complex);
+  const double width_over_bar = std::sqrt(2.0 * kRange * deepest) / least_bar(touch.complex);
   const double turn = 0.53 / contact::kTurn * width_over_bar * width_over_bar *
                       std::hypot(1.0, 0.375 * std::numbers::pi * width_over_bar);
+  return contacts * (1.0 + turn) * kRange / (kRange - 1.001 * deepest);
+}
+
+/// N, by which the force on the ball may jump: 0.037 of a contact, in another direction, for every
+/// top that another may tie with.
+double largest_jump(const SpreadTouch& touch, const Surface& surface, double deepest) {
+  CriticalFeatureFinder finder(surface);
+  int tops = 0;
+  for (const CriticalFeature& feature :
+       finder.find(touch.centre, kRange + deepest, test::all_cells(surface), touch.complex.x))
+    tops += !feature.is_minimum() && !feature.is_pass();
+  return tops < 2 ? 0.0 : 0.037 * 2.0 * deepest * tops;
+}
+
+bool is_in_proportion(const SpreadTouch& touch, const SpreadRule& rule, Random& random) {
+  const Moving moving = any_motion(touch, rule, random);
+  const SpreadPush here = moving.at(0.0);
+  const auto slope = slope_of(moving, here);
+  // What is smooth for differences of the fourth order may still bend much within their step.
+  return !slope || is_proportional([&](double part) { return moving.forces_at(part); },
+                                   0.1 * slope->step, kRounding * here.sum / here.deepest);
+}
+
+}  // namespace
+
+bool follows(const SpreadTouch& touch, const SpreadRule& rule, Random& random) {
+  if (!is_in_proportion(touch, rule, random)) return false;
+  const Surface surface = touch.complex.surface();
+  const double deepest = rule(surface, touch.centre, touch.complex.x).deepest;
   // A step may lead through the core of a bar that the ball's centre lies next to.
-  if (!(1.001 * here.deepest < kRange)) return true;
-  const double steepness = kRange / (kRange - 1.001 * here.deepest);
+  if (!(1.001 * deepest < kRange)) return true;
+  const double stiffness = largest_stiffness(touch, surface, deepest);
+  const double jump = largest_jump(touch, surface, deepest);
   const Vec3 direction = random.direction();
-  for (const double part : {1e-3, 1e-4, 1e-5}) {
-    const double step = part * here.deepest;
-    const Total there = total_of(finder, surface, touch.centre + step * direction, touch.complex.x);
-    if ((there.on_ball - here.on_ball).norm() >
-        contacts * (1.0 + turn) * steepness * (step + 1e-13))
-      return false;
+  const auto force_at = [&](double part) -> Forces {
+    return {rule(surface, touch.centre + part * direction, touch.complex.x).on_ball};
+  };
+  double step = 1e-3 * deepest;
+  for (const double change : steepest_changes(force_at, step)) {
+    if (!(change <= jump + stiffness * (step + 1e-13))) return false;
+    step = std::ldexp(step, -kHalvings);
   }
   return true;
 }

@@ -34,6 +34,7 @@ struct PairTally {
 /// A statement about a surface and a point.
 struct InvariantTally {
   const char* name;
+  std::uint64_t cost = 1;  ///< queries that a trial takes as long as
   std::uint64_t trials = 0;
   std::uint64_t violations = 0;
 };
