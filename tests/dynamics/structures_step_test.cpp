@@ -253,8 +253,6 @@ Scene folded_sheet(Place& place) {
   return of_one(place, folded(coarse(place), place.overlap, place.random.integer(2, 4)));
 }
 
-// Scenes of which the estimates do not know all.
-
 Scene fine_sheets(Place& place) {
   return sheets(place, kRadius * place.random.uniform(1.0, 4.0), true);
 }
@@ -400,6 +398,11 @@ struct Kind {
 };
 
 class StructuresStep : public testing::TestWithParam<Kind> {};
+class BarsAlongOthers : public testing::TestWithParam<Kind> {};
+
+/// What 32 products of a power iteration may be short of, in the step: with a motion that has 1 in n
+/// of the stiffest at first, and another that is 1 - e as stiff, the rest is below e.
+constexpr double kIteration = 0.01;
 
 /// An estimate counts each node's share of a contact as if its nodes moved against it alone, so it is
 /// below the limit. How far has no bound that holds for any mesh: 0.2 is a guard, 0.31 the least seen.
@@ -415,12 +418,10 @@ void expect_below_limit(const Kind& kind, int places, double friction) {
     const Simulation simulation(scene, {});
     const double present = simulation.present_critical_step().dt;
 
-    EXPECT_LE(simulation.critical_step().dt, limit * (1.0 + kDifferences)) << "place " << seed;
-    EXPECT_LE(present, limit * (1.0 + kDifferences)) << "place " << seed;
+    EXPECT_LE(simulation.critical_step().dt, limit * (1.0 + kIteration)) << "place " << seed;
+    EXPECT_LE(present, limit * (1.0 + kIteration)) << "place " << seed;
     EXPECT_LE(simulation.time_step(), dynamics::kLargestStep * limit) << "place " << seed;
-    EXPECT_LE(simulation.exact_critical_step().dt, limit * (1.0 + kDifferences + kLanczos))
-        << "place " << seed;
-    // Contacts between structures hold each node by itself in either, and nothing else does.
+    // Contacts between structures are in either as what holds each node, and nothing else is there.
     EXPECT_NEAR(simulation.exact_critical_step().dt, present, 2.0 * kLanczos * present)
         << "place " << seed;
     EXPECT_GE(present, 0.2 * limit) << "place " << seed;
@@ -445,24 +446,29 @@ INSTANTIATE_TEST_SUITE_P(Of, StructuresStep,
                                          Kind{"TurnedSheets", turned_sheets, 31},
                                          Kind{"CrossedTubes", crossed_tubes, 41},
                                          Kind{"ParallelTubes", parallel_tubes, 51},
-                                         Kind{"FoldedSheet", folded_sheet, 61}),
-                         name_of);
-
-// Contacts have stiffness that the estimates do not count (issue 15), so that some places of each of
-// these are above the limit:
-// - facets whose sides are not long beside the thickness: nearest points of facets that lie flat
-//   turn them by 2 k range² / 0.19 (point_share.hpp), whatever the overlap;
-// - bars along bars or facets: where they are parallel within kLargestTilt the force goes from end
-//   to end, force / (kLargestTilt length) (tilt_share.hpp);
-// - joints of a chain around something (wrapped_joints.hpp);
-// - a contact that presses from all sides: how many it counts follows from its total force
-//   (StructurePatch::find_mean()), which is next to nothing.
-INSTANTIATE_TEST_SUITE_P(DISABLED_Of, StructuresStep,
-                         testing::Values(Kind{"FineSheets", fine_sheets, 71},
-                                         Kind{"RegisteredNets", registered_nets, 81},
-                                         Kind{"NetOnSheet", net_on_sheet, 91},
+                                         Kind{"FoldedSheet", folded_sheet, 61},
+                                         Kind{"FineSheets", fine_sheets, 71},
                                          Kind{"BeltAroundCylinder", belt_around_cylinder, 101},
                                          Kind{"Sleeve", sleeve, 111}),
+                         name_of);
+
+// Bars that lie along bars or facets within kLargestTilt pass their force from end to end: they are
+// stiff on ways of some 1e-5 of the radius, shorter than what StructureStiffness asks for, and
+// chatter. Chosen steps are then above their part of the limit on such ways, by 1.6 at most.
+TEST_P(BarsAlongOthers, MayChatterOnWaysThatAreShorterThanDifferences) {
+  for (int seed = GetParam().first_seed; seed < GetParam().first_seed + 6; ++seed) {
+    Place place(seed);
+    const Scene scene = GetParam().scene(place);
+
+    const Simulation simulation(scene, {});
+
+    EXPECT_LE(simulation.time_step(), 1.6 * dynamics::kLargestStep * limit_by_differences(scene))
+        << "place " << seed;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Of, BarsAlongOthers,
+                         testing::Values(Kind{"Nets", registered_nets, 81},
+                                         Kind{"NetOnSheet", net_on_sheet, 91}),
                          name_of);
 
 Body bar_along_x() {

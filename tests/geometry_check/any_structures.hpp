@@ -17,7 +17,8 @@ inline geometry::ClosestPoints nearest_points(const test::Body& a, const test::B
     std::vector<geometry::Core> found;
     const auto at = [&](int node) { return body.x[static_cast<std::size_t>(node)]; };
     for (const auto& f : body.facets) found.push_back({{at(f[0]), at(f[1]), at(f[2])}, 3});
-    for (const auto& c : body.cylinders) found.push_back({{at(c[0]), at(c[1])}, 2});
+    for (const auto& c : body.cylinders)
+      found.push_back({{at(c[0]), at(c[1]), geometry::Vec3::Zero()}, 2});
     return found;
   };
   geometry::ClosestPoints nearest{};
