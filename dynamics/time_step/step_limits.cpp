@@ -65,7 +65,7 @@ void StepLimits::add_near_contacts(ContactSprings& springs, double margin, doubl
 
 void StepLimits::add_between_structures(ContactSprings& springs, StructureStiffness& structures,
                                         geometry::Positions x, double moved) const {
-  constexpr double kDifference = 1e-4;  // of the smallest radius
+  constexpr double kDifference = 1e-5;  // of the smallest radius
   if (of_.surface.structure_count() == 0) return;
   structures.add_to(springs, of_.contacts, of_.scene.properties, {x, kDifference * pace_radius_},
                     moved);

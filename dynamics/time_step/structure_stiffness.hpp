@@ -24,8 +24,8 @@ namespace plekton::dynamics {
 /// M^(-1/2) H M^(-1/2), H their derivative, H is below lambda M. Structures that do not touch have
 /// one each. A node gets what lambda times its mass is above its springs.
 ///
-/// Differences go a ten thousandth of the smallest radius: where surfaces lie on each other exactly,
-/// forces jump, which makes them chatter and is no stiffness.
+/// Differences go 1e-5 of the smallest radius: the stiffness of bars that lie along each other is
+/// there on ways of that size. Where forces jump it looks large, and the step gets shorter.
 class StructureStiffness {
  public:
   /// @param rigid  rigid bodies among the nodes; must outlive this
