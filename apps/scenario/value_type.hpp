@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 /// What the keys of a scenario take: the reader checks values by it, and lists, schemas and
@@ -66,13 +65,18 @@ struct ValueType {
   std::vector<std::int64_t> low;   ///< of whole numbers
   std::int64_t high = 0;           ///< of whole numbers
   std::vector<std::string> words;  ///< of a word; of a quantity those that stand for one
-  std::vector<std::pair<std::string, ValueType>>
-      members;  ///< of a table, all required; of any if empty
+  struct Member;
+  std::vector<Member> members;  ///< of a table, all required; of any if empty
 
   static ValueType of(Kind kind, const Quantity& quantity = {}, const Quantity& second = {});
   /// @param low  one for each number
   static ValueType whole_from(Kind kind, std::vector<std::int64_t> low, std::int64_t high);
   static ValueType word_of(std::span<const std::string_view> words);
+};
+
+struct ValueType::Member {
+  std::string name;
+  ValueType type;
 };
 
 /// What it is, with its SI unit and range, as in "length (m) above 0".
