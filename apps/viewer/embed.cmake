@@ -8,7 +8,7 @@ function(pieces file result)
   set(at 0)
   while(at LESS length)
     string(SUBSTRING "${text}" ${at} 16000 piece)
-    string(APPEND literals "    R\"~plekton~(${piece})~plekton~\",\n")
+    string(APPEND literals "    R\"~plekton~(${piece})~plekton~\"sv,\n")
     math(EXPR at "${at} + 16000")
   endwhile()
   set(${result} "${literals}" PARENT_SCOPE)
@@ -21,6 +21,8 @@ file(WRITE ${OUT} "// Written by apps/viewer/embed.cmake.
 
 namespace plekton::apps {
 namespace {
+
+using namespace std::string_view_literals;
 
 constexpr std::string_view kHtml[] = {
 ${html}};
