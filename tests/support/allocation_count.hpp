@@ -9,7 +9,14 @@
 // Counts what operator new and malloc give out, by replacing them in the whole program: include
 // this in exactly one source of an executable. Eigen takes the room of its matrices from malloc.
 // Under a sanitizer, which has a malloc of its own, only operator new is counted.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#if defined(__has_feature)  // clang
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define PLEKTON_IS_SANITIZED 1
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PLEKTON_IS_SANITIZED 1
+#endif
+#if defined(PLEKTON_IS_SANITIZED) || !defined(__GLIBC__)
 #define PLEKTON_COUNTS_MALLOC 0
 #else
 #define PLEKTON_COUNTS_MALLOC 1
