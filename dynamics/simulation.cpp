@@ -520,6 +520,7 @@ PlanePress Simulation::plane_press(std::size_t plane, double way) const {
         if (near != plane || !(gap < way)) return;
         press.force += pair.normal_force(gap - way);
         press.stiffness += pair.stiffness(gap - way).normal;
+        if (gap < 0.0) press.damping += pair.stiffness(gap).normal_damping;
       });
   return press;
 }

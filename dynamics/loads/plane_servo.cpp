@@ -43,10 +43,18 @@ double way_to_press(double growth, double longest, const PlanePress& now,
 
 }  // namespace
 
-double servo_speed(const ServoPace& pace, double missing,
-                   const std::function<PlanePress(double way)>& press, double dt) {
+double servo_speed(const ServoPace& pace, const ServoPlate& plate,
+                   const std::function<PlanePress(double way)>& elastic, double dt) {
   const double longest = pace.largest_speed * dt;
-  const double change = pace.gain * missing;
+  const double damping = elastic(0.0).damping;
+  const double change = pace.gain * (plate.missing + damping * plate.speed);
+  // The dashpots resist a way in a drift as springs do.
+  const auto press = [&elastic, drag = pace.gain * damping / dt](double way) {
+    PlanePress there = elastic(way);
+    there.force += drag * way;
+    there.stiffness += drag;
+    return there;
+  };
   const PlanePress now = press(0.0);
   if (change > 0.0) {
     const double way = way_to_press(change, longest, now, press);
@@ -85,8 +93,9 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,
         servo.factor.at(step.time) * (servo.force + servo.pressure * plate_area(servo, planes));
     const double pressing = -reactions[servo.plane].dot(plane.normal);
     const auto press_here = [&](double way) { return press(servo.plane, way); };
+    const ServoPlate now{wanted - pressing, plane.velocity.dot(plane.normal)};
     const double speed =
-        servo_speed({servo.largest_speed, servo.gain}, wanted - pressing, press_here, step.after);
+        servo_speed({servo.largest_speed, servo.gain}, now, press_here, step.after);
     const Vec3 across = plane.velocity - plane.velocity.dot(plane.normal) * plane.normal;
     set(servo.plane, across + speed * plane.normal);
   }

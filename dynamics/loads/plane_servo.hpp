@@ -11,10 +11,12 @@
 
 namespace plekton::dynamics {
 
-/// What the bodies do to a plane along its normal by their elasticity.
+/// What the bodies do to a plane along its normal by their elasticity, and by the dashpots of those
+/// that it touches now.
 struct PlanePress {
-  double force = 0.0;      ///< N
+  double force = 0.0;      ///< N, without dashpots
   double stiffness = 0.0;  ///< N/m
+  double damping = 0.0;    ///< N s/m
 };
 /// That of a plane if it were a way (m) further in them, and they stayed where they are.
 using PlanePressAt = std::function<PlanePress(std::size_t plane, double way)>;
@@ -25,16 +27,24 @@ struct ServoPace {
   double gain;           ///< above 0, at most 1
 };
 
+/// A plate as it is.
+struct ServoPlate {
+  double missing;  ///< N, the wanted force over what it feels
+  double speed;    ///< m/s, in the last drift
+};
+
 /// m², the area of a plate under servo control with the planes where they are.
 double plate_area(const PlaneServo& servo, std::span<const contact::Plane> planes);
 
 /// Speed (m/s) along the normal, into the bodies, of a plate under servo control: the drift v dt
 /// for which
 ///
-///     P(v dt) - P(0) = gain (wanted - felt),  at most largest_speed either way,
+///     P(v dt) - P(0) = gain (wanted - felt - c (v - v_last)),  at most largest_speed either way,
 ///
-/// P(s) the force of the bodies, those not yet touched among them, on a plate that is s further in
-/// them: the error shrinks by the gain in each step if the bodies stay, and further as they give
+/// P(s) the elastic force of the bodies, those not yet touched among them, on a plate that is s
+/// further in them, c their dashpots: what is felt has c v_last in it, and will have c v. (With that
+/// of the last drift alone a plate on strong dashpots swings from step to step, by gain c / (k dt)
+/// of its speed.) The error shrinks by the gain in each step if the bodies stay, and further as they give
 /// way, without an error that stays. Seen by the bodies that is a plate without mass, pushed by the
 /// wanted force through a dashpot of k dt / gain, k = P': for any gain up to 1 it takes energy away
 /// from what swings.
@@ -45,11 +55,10 @@ double plate_area(const PlaneServo& servo, std::span<const contact::Plane> plane
 /// makes energy of up to 1/2 f s. A plate that struck at full speed would be off by up to
 /// 1/8 k (v dt)², whatever that is beside the work of the wanted force. Where no force is wanted, a
 /// plate without contacts stays.
-/// @param missing  N, wanted - felt
 /// @param press    of way (m) -> PlanePress; a force that grows less than in proportion makes the
 ///                 plate slower, never faster
 /// @param dt       s, length of the drift that begins now
-double servo_speed(const ServoPace& pace, double missing,
+double servo_speed(const ServoPace& pace, const ServoPlate& plate,
                    const std::function<PlanePress(double way)>& press, double dt);
 
 /// Planes that move by a table or under servo control.

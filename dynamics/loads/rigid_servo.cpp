@@ -11,10 +11,12 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
   springs_.clear();
   const auto is_own = [&](NodeId node) { return rigid.body_followed_by(node) == way.body; };
   // Of a law that gets stiffer with the overlap as stiff as it may get on the way.
-  const auto add = [&](double slope, double gap, double weight, const contact::PairSprings& pair) {
+  const auto add = [&](double slope, double gap, double weight, const contact::PairSprings& pair,
+                       double dashpot = 1.0) {
     const double stiffness =
         pair.stiffness(std::min(gap, 0.0) - std::abs(slope) * way.longest).normal;
-    springs_.push_back({slope, gap, weight * pair.normal_force(gap), weight * stiffness});
+    const double damping = gap < 0.0 ? dashpot * pair.stiffness(gap).normal_damping : 0.0;
+    springs_.push_back({slope, gap, weight * pair.normal_force(gap), weight * stiffness, damping});
   };
   contacts.for_each_near_sphere_pair(
       way.longest, x, [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
@@ -34,7 +36,7 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
     const double along = way.direction.dot(to_core) / distance;
     const double of_one = pair.normal_force(gap);
     const double weight = of_one > 0.0 && part.elastic != 0.0 ? part.elastic / of_one : 1.0;
-    add(is_ball ? along : -along, gap, weight, pair);
+    add(is_ball ? along : -along, gap, weight, pair, part.dashpot);
   };
   contacts.for_each_surface_term(add_on_surface);
   contacts.for_each_coming_surface_term(way.longest, x, add_on_surface);
@@ -45,7 +47,8 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
       });
   contacts.for_each_structure_stiffness(
       [&](NodeId node, const contact::PairStiffness& stiffness, double) {
-        if (is_own(node)) springs_.push_back({1.0, 0.0, 0.0, stiffness.normal});
+        if (is_own(node))
+          springs_.push_back({1.0, 0.0, 0.0, stiffness.normal, stiffness.normal_damping});
       });
 }
 
@@ -58,6 +61,7 @@ PlanePress BodyPress::at(double way) const noexcept {
                                           : spring.force + spring.stiffness * deeper;
     press.force += spring.slope * std::max(0.0, force);
     press.stiffness += spring.slope * spring.slope * spring.stiffness;
+    press.damping += spring.slope * spring.slope * spring.damping;
   }
   return press;
 }

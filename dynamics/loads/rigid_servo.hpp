@@ -36,6 +36,7 @@ class BodyPress {
     double gap;        ///< m
     double force;      ///< N, of now
     double stiffness;  ///< N/m
+    double damping;    ///< N s/m, of now
   };
   std::vector<Spring> springs_;
 };
@@ -63,10 +64,11 @@ class DrivenBodies {
           servo.factor.at(step.time) * (servo.force + servo.pressure * servo.area);
       const double pressing = -felt(servo.body).dot(direction);
       const BodyPress& press = look_at(servo, servo.largest_speed * step.after);
-      const ServoPace pace{servo.largest_speed, servo.gain};
-      const double speed = servo_speed(
-          pace, wanted - pressing, [&](double way) { return press.at(way); }, step.after);
       double& velocity = state.velocity[node][servo.axis];
+      const ServoPace pace{servo.largest_speed, servo.gain};
+      const ServoPlate plate{wanted - pressing, servo.towards * velocity};
+      const double speed = servo_speed(
+          pace, plate, [&](double way) { return press.at(way); }, step.after);
       const double now = servo.towards * speed;
       work += 0.5 * step.before * forces.force[node][servo.axis] * (now - velocity);
       velocity = now;

@@ -14,6 +14,9 @@
 namespace plekton::dynamics {
 namespace {
 
+/// How far differences of forces go, of the smallest radius.
+constexpr double kDifference = 1e-6;
+
 /// Leaves out the springs along the normals of contacts with surfaces, but for dashpots: the forces
 /// of the contacts' energy have them, and what turns with them.
 struct SlipOnSurfaces {
@@ -65,7 +68,6 @@ void StepLimits::add_near_contacts(ContactSprings& springs, double margin, doubl
 
 void StepLimits::add_between_structures(ContactSprings& springs, StructureStiffness& structures,
                                         geometry::Positions x, double moved) const {
-  constexpr double kDifference = 1e-5;  // of the smallest radius
   if (of_.surface.structure_count() == 0) return;
   structures.add_to(springs, of_.contacts, of_.scene.properties, {x, kDifference * pace_radius_},
                     moved);
@@ -73,7 +75,6 @@ void StepLimits::add_between_structures(ContactSprings& springs, StructureStiffn
 
 void StepLimits::add_spread(NodalStiffness& stiffness, ContactSprings& springs,
                             SpreadStiffness& spread, geometry::Positions x) const {
-  constexpr double kDifference = 1e-6;  // of the smallest radius
   if (!spread.begin(springs, of_.scene.state.size())) return;
   spread.add_to(stiffness, springs, of_.scene.properties, {x, kDifference * pace_radius_},
                 [&](geometry::Positions places, NodeForces& forces, contact::PatchFinder& finder) {

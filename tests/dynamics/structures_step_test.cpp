@@ -109,9 +109,12 @@ struct Place {
   void shake(Body& body) {
     for (Vec3& x : body.x) x += random.in_cube(0.3 * overlap);
   }
-  Vec3 in_plane(double half_side) {
+  /// By an angle between two, about z, and along the plane.
+  void turn_and_shift(Body& body, const std::array<double, 2>& angles, double half_side) {
+    const Mat3 turn =
+        Eigen::AngleAxisd(angle(angles[0], angles[1]), Vec3::UnitZ()).toRotationMatrix();
     const Vec3 shift = random.in_cube(half_side);
-    return {shift.x(), shift.y(), 0.0};
+    body.move(turn, {shift.x(), shift.y(), 0.0});
   }
 };
 
@@ -154,7 +157,7 @@ Scene stacked(Place& place, const Body& a, Body b) {
 Scene crossed_nets(Place& place) {
   const double pitch = kRadius * place.random.uniform(3.0, 12.0);
   Body upper = net(3, pitch);
-  upper.move(about(Vec3::UnitZ(), place.angle(0.5, 0.5 * pi - 0.5)), place.in_plane(0.5 * pitch));
+  place.turn_and_shift(upper, {0.5, 0.5 * pi - 0.5}, 0.5 * pitch);
   return stacked(place, net(3, pitch), upper);
 }
 
@@ -199,7 +202,7 @@ Body sheet(double cell, int cells) {
 
 Scene sheets(Place& place, double cell, bool is_turned) {
   Body upper = sheet(cell, place.random.integer(2, 3));
-  if (is_turned) upper.move(about(Vec3::UnitZ(), place.angle(0.0, pi)), place.in_plane(0.4 * cell));
+  if (is_turned) place.turn_and_shift(upper, {0.0, pi}, 0.4 * cell);
   return stacked(place, sheet(cell, 2), upper);
 }
 Scene registered_sheets(Place& place) {
@@ -270,7 +273,7 @@ Scene registered_nets(Place& place) {
 Scene net_on_sheet(Place& place) {
   Body upper = net(3, kRadius * place.random.uniform(3.0, 8.0));
   upper.radius = 0.5 * kRadius;
-  upper.move(about(Vec3::UnitZ(), place.angle(0.0, pi)), place.in_plane(kRadius));
+  place.turn_and_shift(upper, {0.0, pi}, kRadius);
   Scene scene = stacked(place, sheet(coarse(place), 2), upper);
   for (std::size_t i = 0; i < scene.state.size(); ++i) {
     Vec3& x = scene.state.position[i];
@@ -430,7 +433,7 @@ void expect_below_limit(const Kind& kind, int places, double friction) {
 }
 
 TEST_P(StructuresStep, IsNeverEstimatedAboveWhatDifferencesOfForcesGive) {
-  expect_below_limit(GetParam(), 6, 0.0);
+  expect_below_limit(GetParam(), 20, 0.0);
 }
 
 TEST_P(StructuresStep, IsNeverEstimatedAboveWhatDifferencesGiveWithFrictionAtRest) {

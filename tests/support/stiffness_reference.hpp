@@ -89,8 +89,8 @@ inline Scene random_frame(Random& random) {
     const std::size_t a = i < kNodes ? i : random.index(kNodes);
     const std::size_t b = i < kNodes ? (i + 1) % kNodes : random.index(kNodes);
     if (a == b) continue;
-    const auto section = dynamics::circular_section(std::abs(random.signed_power(-2.5, 0.0)), 1e3,
-                                                    random.uniform(-0.5, 0.5));
+    const double radius = std::abs(random.signed_power(-2.5, 0.0));
+    const auto section = dynamics::circular_section(radius, 1e3, random.uniform(-0.5, 0.5));
     scene.add_beam(geometry::id_at<NodeId>(a), geometry::id_at<NodeId>(b), section, 1.0);
   }
   for (std::size_t i = 0; i < kNodes; ++i) {
