@@ -11,14 +11,20 @@ bool Finding::passes() const noexcept {
 }
 
 std::span<const ValidationCase> validation_cases() {
-  static constexpr std::array<ValidationCase, 7> kCases = {{
+  static constexpr std::array<ValidationCase, 11> kCases = {{
       {"sphere_over_sheet", "a sphere is dragged over a flat sheet of irregular facets, pressed in",
        validate_sphere_over_sheet},
+      {"facet_probes", "spheres touch a facet from above and from beside it",
+       validate_facet_probes},
+      {"fold", "a sphere goes over a ridge and through a valley of facets", validate_fold},
       {"rolling", "a sphere rolls and slides down a sheet of facets", validate_rolling},
       {"cantilever", "beams in a row bend under a load at their end", validate_cantilever},
+      {"cable", "a chain of links hangs between two supports", validate_cable},
       {"tube", "a tube of a lattice of beams buckles between rings that come together",
        validate_tube},
       {"bounce", "a hollow sphere bounces on a wall and on an incline", validate_bounce},
+      {"pull_out", "a membrane and a grid are pulled out of a bed of grains between two plates",
+       validate_pull_out},
       {"conservation", "a spinning sphere collides with a free facet on beams, with friction",
        validate_conservation},
       {"determinism", "grains fall on a membrane, with 1, 2 and 4 threads", validate_determinism},

@@ -40,9 +40,13 @@ std::span<const ValidationCase> validation_cases();
 // The cases, a source each.
 CaseReport validate_sphere_over_sheet(bool full);
 CaseReport validate_rolling(bool full);
+CaseReport validate_facet_probes(bool full);
+CaseReport validate_fold(bool full);
 CaseReport validate_cantilever(bool full);
+CaseReport validate_cable(bool full);
 CaseReport validate_tube(bool full);
 CaseReport validate_bounce(bool full);
+CaseReport validate_pull_out(bool full);
 CaseReport validate_conservation(bool full);
 CaseReport validate_determinism(bool full);
 

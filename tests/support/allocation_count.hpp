@@ -7,8 +7,9 @@
 #include <new>
 
 // Counts what operator new and malloc give out, by replacing them in the whole program: include
-// this in exactly one source of an executable. Eigen takes the room of its matrices from malloc.
-// Under a sanitizer, which has a malloc of its own, only operator new is counted.
+// this in exactly one source of an executable. Eigen takes the room of its matrices from malloc. A
+// sanitizer has both of its own, and tells what it gives out; without glibc only operator new is
+// counted.
 #if defined(__has_feature)  // clang
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define PLEKTON_IS_SANITIZED 1
@@ -16,11 +17,16 @@
 #elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define PLEKTON_IS_SANITIZED 1
 #endif
-#if defined(PLEKTON_IS_SANITIZED) || !defined(__GLIBC__)
-#define PLEKTON_COUNTS_MALLOC 0
-#else
+#if defined(PLEKTON_IS_SANITIZED)
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*given)(const volatile void*,
+                                                                       std::size_t),
+                                                         void (*taken)(const volatile void*));
+#define PLEKTON_COUNTS_MALLOC 1
+#elif defined(__GLIBC__)
 #define PLEKTON_COUNTS_MALLOC 1
 extern "C" void* __libc_malloc(std::size_t size);
+#else
+#define PLEKTON_COUNTS_MALLOC 0
 #endif
 
 namespace plekton::test {
@@ -35,6 +41,12 @@ std::size_t allocations_of(const Work& work) {
   return allocation_count - before;
 }
 
+#if defined(PLEKTON_IS_SANITIZED)
+inline const bool hears_of_allocations =
+    __sanitizer_install_malloc_and_free_hooks(
+        [](const volatile void*, std::size_t) { ++allocation_count; },
+        [](const volatile void*) {}) != 0;
+#else
 inline void* counted_memory(std::size_t size) noexcept {
   ++allocation_count;
 #if PLEKTON_COUNTS_MALLOC
@@ -43,8 +55,11 @@ inline void* counted_memory(std::size_t size) noexcept {
   return std::malloc(size);
 #endif
 }
+#endif
 
 }  // namespace plekton::test
+
+#if !defined(PLEKTON_IS_SANITIZED)
 
 #if PLEKTON_COUNTS_MALLOC
 extern "C" [[gnu::noinline]] void* malloc(std::size_t size) noexcept {
@@ -78,3 +93,5 @@ extern "C" [[gnu::noinline]] void* malloc(std::size_t size) noexcept {
 [[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept {
   std::free(memory);
 }
+
+#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A4: a chain of 40 bars that may turn against each other hangs as a catenary: length 1.2 m over a
 // span of 1 m.
-#include "tests/support/hanging_chain.hpp"
+#include "apps/validation/hanging_chain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@ namespace plekton::test {
 namespace {
 
 TEST(A04Catenary, AChainOf40LinksHangsAsOne) {
-  const HangingChain exact = catenary(kChainWeight);
+  const apps::HangingChain exact = apps::catenary(apps::kChainWeight);
   EXPECT_NEAR(exact.sag, 0.292344, 1e-6);
   EXPECT_NEAR(exact.pull, 0.231533, 1e-6);
 
-  const HangingChain chain = hang_chain(40);
+  const apps::HangingChain chain = apps::hang_chain(40);
 
   std::printf("catenary: sag %.6f m, exact %.6f; pull %.6f N, exact %.6f\n", chain.sag, exact.sag,
               chain.pull, exact.pull);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/validation/hanging_chain.hpp"
 #include "dynamics/simulation.hpp"
 #include "tests/support/column.hpp"
 #include "tests/support/free_swing.hpp"
-#include "tests/support/hanging_chain.hpp"
 #include "tests/support/refinement.hpp"
 
 #include <gtest/gtest.h>
@@ -193,11 +193,11 @@ TEST(BeamRefinement, ACantileverSwingsAtItsFirstFrequency) {
 // A chain of links is a polygon with corners on a curve whose second derivative is bounded: second
 // order.
 TEST(BeamRefinement, AChainHangsAsACatenary) {
-  const HangingChain exact = catenary(kChainWeight);
+  const apps::HangingChain exact = apps::catenary(apps::kChainWeight);
   Refinement sag("catenary, sag (m)", exact.sag);
   Refinement pull("catenary, horizontal pull (N)", exact.pull);
   for (const int links : {6, 12, 24}) {
-    const HangingChain chain = hang_chain(links);
+    const apps::HangingChain chain = apps::hang_chain(links);
     sag.add(links, chain.sag);
     pull.add(links, chain.pull);
   }
