@@ -11,6 +11,7 @@ namespace py = pybind11;
 
 void bind_errors(py::module_& module);
 void bind_simulation(py::module_& module);
+void bind_stages(py::module_& module);
 void bind_geometry(py::module_& module);
 void bind_meshes(py::module_& module);
 void bind_results(py::module_& module);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/python/bindings.hpp"
+#include "apps/run/stage_watch.hpp"
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/units.hpp"
 #include "apps/viewer/view_error.hpp"
@@ -74,6 +75,8 @@ void translate(std::exception_ptr pointer) {
     PyErr_SetString(classes.input, error.what());
   } catch (const std::out_of_range& error) {
     PyErr_SetString(classes.input, error.what());
+  } catch (const apps::StageFailed& error) {
+    PyErr_SetString(classes.error, error.what());
   } catch (const std::logic_error& error) {
     PyErr_SetString(classes.error, error.what());
   }

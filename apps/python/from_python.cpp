@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/python/from_python.hpp"
 
+#include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/units.hpp"
 
@@ -114,6 +115,19 @@ std::vector<std::string> overrides_of(const py::handle& values) {
   std::vector<std::string> overrides;
   for (const py::handle value : values) overrides.push_back(value.cast<std::string>());
   return overrides;
+}
+
+apps::Scenario scenario_of(const py::object& scenario, const py::handle& overrides,
+                           const std::optional<std::filesystem::path>& folder) {
+  const auto all = overrides_of(overrides);
+  if (!py::isinstance<py::dict>(scenario)) {
+    if (folder)
+      throw InputError("folder: goes with a dict; paths in a file are relative to the file");
+    return apps::read_scenario(path_of(scenario), all);
+  }
+  const std::filesystem::path path = folder.value_or("") / "dict";
+  auto table = table_of(py::reinterpret_borrow<py::dict>(scenario), path.string());
+  return apps::scenario_from(std::move(table), path, all);
 }
 
 }  // namespace plekton::python

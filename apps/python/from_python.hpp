@@ -3,8 +3,10 @@
 
 #include "apps/python/bindings.hpp"
 #include "apps/scenario/config_tree.hpp"
+#include "apps/scenario/scenario.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,5 +31,11 @@ std::filesystem::path path_of(const py::handle& value);
 
 /// "path=value" each, as --set takes them.
 std::vector<std::string> overrides_of(const py::handle& values);
+
+/// A file, or a dict with the same keys.
+/// @param folder  where the paths in a dict begin
+/// @throws InputError as the program says it
+apps::Scenario scenario_of(const py::object& scenario, const py::handle& overrides,
+                           const std::optional<std::filesystem::path>& folder);
 
 }  // namespace plekton::python

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = std::string(plekton::kVersion);
   bind_errors(module);
   bind_simulation(module);
+  bind_stages(module);
   bind_geometry(module);
   bind_meshes(module);
   bind_results(module);

@@ -81,7 +81,7 @@ Session::Session(apps::ResumedRun resumed, std::optional<fs::path> folder)
 std::shared_ptr<apps::PreparedRun> Session::prepare() const {
   if (scenario_.stage)
     throw apps::InputError(
-        "the scenario has [[stages]], which are run by the program: plekton run");
+        "the scenario has [[stages]], which run_stages() and plekton run run with results");
   const py::gil_scoped_release free;
   auto prepared = std::make_shared<apps::PreparedRun>(
       apps::prepare_run(scenario_, [](const std::string&, double) { check_signals(); }));

@@ -30,15 +30,7 @@ using dynamics::NodeState;
 
 std::unique_ptr<Session> load(const py::object& scenario, const py::iterable& overrides,
                               const std::optional<fs::path>& folder) {
-  const auto all = overrides_of(overrides);
-  if (!py::isinstance<py::dict>(scenario)) {
-    if (folder)
-      throw InputError("folder: goes with a dict; paths in a file are relative to the file");
-    return std::make_unique<Session>(apps::read_scenario(path_of(scenario), all));
-  }
-  const fs::path path = folder.value_or("") / "dict";
-  auto table = table_of(py::reinterpret_borrow<py::dict>(scenario), path.string());
-  return std::make_unique<Session>(apps::scenario_from(std::move(table), path, all));
+  return std::make_unique<Session>(scenario_of(scenario, overrides, folder));
 }
 
 std::unique_ptr<Session> resume(const fs::path& path, const py::iterable& overrides) {

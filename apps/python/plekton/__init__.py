@@ -27,6 +27,7 @@ from ._core import (
     load,
     pairs,
     resume,
+    run_stages,
     write_mesh,
 )
 from ._meshes import ImportedMesh, import_mesh, repair_mesh
@@ -54,5 +55,6 @@ __all__ = [
     "pairs",
     "repair_mesh",
     "resume",
+    "run_stages",
     "write_mesh",
 ]

@@ -130,6 +130,16 @@ def load(
     folder: str | PathLike[str] | None = None,
 ) -> Simulation: ...
 def resume(path: str | PathLike[str], overrides: Iterable[str] = ...) -> Simulation: ...
+def run_stages(
+    scenario: str | PathLike[str] | dict[str, Any],
+    out: str | PathLike[str],
+    overrides: Iterable[str] = ...,
+    *,
+    folder: str | PathLike[str] | None = None,
+    after: tuple[str, str | PathLike[str]] | None = None,
+    until: str = "",
+    overwrite: bool = False,
+) -> dict[str, Any]: ...
 
 class Surface:
     def __init__(

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/command_line/stages_command.hpp"
+#include "apps/python/attendant.hpp"
+#include "apps/python/bindings.hpp"
+#include "apps/python/from_python.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace plekton::python {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where stages go on from: the name of one, and the folder of its run.
+using After = std::pair<std::string, fs::path>;
+
+/// @returns what run.json says
+py::object run_stages(const py::object& scenario, const fs::path& out,
+                      const py::iterable& overrides, const std::optional<fs::path>& folder,
+                      const std::optional<After>& after, const std::string& until, bool overwrite) {
+  const apps::Scenario read = scenario_of(scenario, overrides, folder);
+  if (read.stages.empty())
+    throw apps::InputError("the scenario has no [[stages]]; load() makes a simulation of it");
+  Attendant attendant({}, py::none());
+  const dynamics::Simulation* simulation = nullptr;  // of the stage that is run
+  apps::StagesAsked asked;
+  if (after) asked.from = {after->first, after->second.string()};
+  asked.until = until;
+  asked.begins = [&](const dynamics::Simulation& of) {
+    simulation = &of;
+    attendant.start(of);
+  };
+  std::ostringstream unseen;
+  apps::RunSettings settings{out, unseen, apps::ProgressStyle::none, {}};
+  settings.is_interrupted = [&] { return attendant.wants_end(*simulation); };
+  settings.overwrite = overwrite;
+  std::optional<apps::RunReport> report;
+  {
+    const py::gil_scoped_release free;
+    report = apps::run_stages_asked(read, asked, settings, {}, nullptr);
+  }
+  attendant.throw_if_any();
+  return py::module_::import("json").attr("loads")(apps::to_json(*report));
+}
+
+}  // namespace
+
+void bind_stages(py::module_& module) {
+  module.def(
+      "run_stages", &run_stages, py::arg("scenario"), py::arg("out"),
+      py::arg("overrides") = py::tuple(), py::kw_only(), py::arg("folder") = py::none(),
+      py::arg("after") = py::none(), py::arg("until") = "", py::arg("overwrite") = false,
+      "Runs the [[stages]] of a scenario, a TOML file or a dict, one after the other as plekton "
+      "run "
+      "does, with results in the folder out. after = (name of a stage, folder of its run) begins "
+      "with the stage after that one, as --from; until names the last one to be run. Returns what "
+      "run.json says.");
+}
+
+}  // namespace plekton::python
