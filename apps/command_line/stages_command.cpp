@@ -109,6 +109,7 @@ RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
              << std::flush;
     };
   }
+  stages.hear = hear;
   RunSettings from_there = settings;
   if (begin->from) from_there.resume = &*begin->from;
   return run_stages(scenario, std::move(begin->prepared), from_there, stages);

@@ -117,6 +117,11 @@ std::vector<std::string> overrides_of(const py::handle& values) {
   return overrides;
 }
 
+void check_signals() {
+  const py::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 apps::Scenario scenario_of(const py::object& scenario, const py::handle& overrides,
                            const std::optional<std::filesystem::path>& folder) {
   const auto all = overrides_of(overrides);

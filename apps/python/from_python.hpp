@@ -32,6 +32,9 @@ std::filesystem::path path_of(const py::handle& value);
 /// "path=value" each, as --set takes them.
 std::vector<std::string> overrides_of(const py::handle& values);
 
+/// Ctrl-C while a scene is built. To be called without the lock.
+void check_signals();
+
 /// A file, or a dict with the same keys.
 /// @param folder  where the paths in a dict begin
 /// @throws InputError as the program says it

@@ -2,6 +2,7 @@
 #include "apps/python/session.hpp"
 
 #include "apps/command_line/view_command.hpp"
+#include "apps/python/from_python.hpp"
 #include "apps/run/body_tables.hpp"
 #include "apps/run/frames.hpp"
 #include "apps/run/plane_places.hpp"
@@ -20,12 +21,6 @@ namespace plekton::python {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Ctrl-C while a scene is built. Without the lock.
-void check_signals() {
-  const py::gil_scoped_acquire lock;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
 
 /// A folder that is gone when it is left.
 class TemporaryFolder {
@@ -81,7 +76,8 @@ Session::Session(apps::ResumedRun resumed, std::optional<fs::path> folder)
 std::shared_ptr<apps::PreparedRun> Session::prepare() const {
   if (scenario_.stage)
     throw apps::InputError(
-        "the scenario has [[stages]], which run_stages() and plekton run run with results");
+        "the scenario has [[stages]], which run_stages(), resume_stages() and plekton run run with "
+        "results");
   const py::gil_scoped_release free;
   auto prepared = std::make_shared<apps::PreparedRun>(
       apps::prepare_run(scenario_, [](const std::string&, double) { check_signals(); }));

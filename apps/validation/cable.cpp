@@ -4,7 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace plekton::apps {
 namespace {
@@ -24,11 +28,13 @@ Curve curve_of(const HangingChain& exact) {
 
 }  // namespace
 
-/// A chain of straight links hangs by 1 / n² of itself off the catenary.
+/// A chain of n straight links hangs off the catenary by a part of it that falls with 1 / n²; of 40
+/// links it is below 1e-3 (A4 of docs/validation.md), and it grows from there.
 CaseReport validate_cable(bool full) {
   constexpr double kTolerance = 1e-3;  // of sag and pull, with 40 links
+  constexpr double kStretch = 5e-5;    // of links under their weight: below 3e-5
   const HangingChain exact = catenary(kChainWeight);
-  const std::string source = "catenary y = a cosh(x / a); off by 1 / n² with n links";
+  const std::string source = "catenary y = a cosh(x / a); n links are off as 1 / n²";
   CaseReport report;
   Figure shape{"A chain of 1.2 m over a span of 1 m", "place (m)", "height (m)", {}};
   Figure error{"How many links the chain has", "links", "error of the sag (m)", {}};
@@ -38,7 +44,7 @@ CaseReport validate_cable(bool full) {
       full ? std::vector<int>{6, 10, 20, 40, 80} : std::vector<int>{10, 20, 40};
   for (const int links : numbers) {
     const HangingChain chain = hang_chain(links);
-    const double allowed = kTolerance * std::max(1.0, 1600.0 / (links * links));
+    const double allowed = kTolerance * 1600.0 / (links * links) + kStretch;
     report.findings.push_back({fmt::format("sag, {} links", links), chain.sag, exact.sag,
                                allowed * exact.sag, "m", source});
     report.findings.push_back({fmt::format("pull on a support, {} links", links), chain.pull,

@@ -17,11 +17,14 @@ constexpr double kWidth = 760.0;
 constexpr double kHeight = 380.0;
 constexpr double kLeft = 90.0;
 constexpr double kRight = 740.0;
-constexpr double kTop = 44.0;
+constexpr double kLegend = 34.0;  // middle of its first row
+constexpr double kRow = 18.0;
+constexpr std::size_t kInRow = 3;
 constexpr double kBottom = 320.0;
 
-constexpr std::array<std::string_view, 6> kColours = {"#08519c", "#cb181d", "#238b45",
-                                                      "#6a51a3", "#d94801", "#525252"};
+constexpr std::array<std::string_view, 9> kColours = {"#08519c", "#cb181d", "#238b45",
+                                                      "#6a51a3", "#d94801", "#525252",
+                                                      "#4292c6", "#ef6548", "#74c476"};
 
 struct Span {
   double low = std::numeric_limits<double>::infinity();
@@ -58,6 +61,8 @@ class SvgWriter {
     }
     x_.round();
     y_.round();
+    const std::size_t rows = (figure.curves.size() + kInRow - 1) / kInRow;
+    top_ = kLegend + 10.0 + kRow * static_cast<double>(std::max<std::size_t>(rows, 1) - 1);
   }
 
   std::string write() {
@@ -76,7 +81,7 @@ class SvgWriter {
  private:
   double px(double x) const { return kLeft + (x - x_.low) / (x_.high - x_.low) * (kRight - kLeft); }
   double py(double y) const {
-    return kBottom - (y - y_.low) / (y_.high - y_.low) * (kBottom - kTop);
+    return kBottom - (y - y_.low) / (y_.high - y_.low) * (kBottom - top_);
   }
 
   void add_text(double x, double y, const std::string& text, std::string_view anchor,
@@ -93,7 +98,7 @@ class SvgWriter {
   void add_axes() {
     constexpr std::string_view kGrid = "stroke=\"#ddd\"";
     for (const double tick : ticks_of(x_.low, x_.high)) {
-      add_line(px(tick), kTop, px(tick), kBottom, kGrid);
+      add_line(px(tick), top_, px(tick), kBottom, kGrid);
       add_text(px(tick), kBottom + 18.0, fmt::format("{:.4g}", tick), "middle");
     }
     for (const double tick : ticks_of(y_.low, y_.high)) {
@@ -102,9 +107,9 @@ class SvgWriter {
     }
     svg_ += fmt::format(
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#222\"/>\n",
-        kLeft, kTop, kRight - kLeft, kBottom - kTop);
+        kLeft, top_, kRight - kLeft, kBottom - top_);
     add_text(0.5 * (kLeft + kRight), kBottom + 40.0, figure_.x_head, "middle");
-    const double middle = 0.5 * (kTop + kBottom);
+    const double middle = 0.5 * (top_ + kBottom);
     add_text(20.0, middle, figure_.y_head, "middle",
              fmt::format(" transform=\"rotate(-90 20 {})\"", middle));
   }
@@ -139,27 +144,29 @@ class SvgWriter {
     return curve.style == CurveStyle::dashed ? " stroke-dasharray=\"7 5\"" : "";
   }
 
-  /// In a row above the axes.
+  /// In rows above the axes.
   void add_legend() {
-    const double width =
-        (kRight - kLeft) / static_cast<double>(std::max<std::size_t>(1, figure_.curves.size()));
+    const std::size_t columns = std::clamp<std::size_t>(figure_.curves.size(), 1, kInRow);
+    const double width = (kRight - kLeft) / static_cast<double>(columns);
     for (std::size_t i = 0; i < figure_.curves.size(); ++i) {
       const Curve& curve = figure_.curves[i];
       const std::string_view colour = kColours[i % kColours.size()];
-      const double x = kLeft + width * static_cast<double>(i);
+      const double x = kLeft + width * static_cast<double>(i % columns);
+      const double y = kLegend + kRow * static_cast<double>(i / columns);
       if (curve.style == CurveStyle::points)
-        svg_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"34\" r=\"3\" fill=\"{}\"/>\n", x + 13.0,
-                            colour);
+        svg_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", x + 13.0,
+                            y, colour);
       else
-        add_line(x, 34.0, x + 26.0, 34.0,
+        add_line(x, y, x + 26.0, y,
                  fmt::format("stroke=\"{}\" stroke-width=\"2\"{}", colour, dashes(curve)));
-      add_text(x + 32.0, 38.0, curve.name, "start");
+      add_text(x + 32.0, y + 4.0, curve.name, "start");
     }
   }
 
   const Figure& figure_;
   Span x_;
   Span y_;
+  double top_ = 0.0;  // of the axes
   std::string svg_;
 };
 

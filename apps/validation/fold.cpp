@@ -8,6 +8,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace plekton::apps {
 namespace {
@@ -107,7 +111,8 @@ Felt felt_over(double slope, Place (*place_at)(double way), double whole, int pl
     felt.way.push_back(way);
     felt.force.push_back(force.norm());
     felt.expected.push_back(place.force.norm());
-    felt.worst = std::max(felt.worst, (force - place.force).norm());
+    const double off = (force - place.force).norm();
+    if (!(off <= felt.worst)) felt.worst = off;  // also what is no number
   }
   return felt;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/grains/random.hpp"
 #include "contact/models.hpp"
 #include "dynamics/simulation.hpp"
 #include "geometry/base/elementary.hpp"
@@ -8,12 +9,14 @@
 #include "geometry/mesh/generate/membrane.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
-#include <random>
+#include <string_view>
 #include <vector>
 
 /// A lattice is pulled out of a bed of 1368 grains, four layers on either side of it, between two
-/// plates that press with 20 kPa: the case y13 of YADE (docs/validation.md).
+/// plates that press with 20 kPa.
 namespace plekton::apps::pull_out {
 
 /// The linear law but for pairs of materials that do not touch: the walls around the bed are there
@@ -78,18 +81,6 @@ inline void add_lattice(dynamics::Scene& scene, Kind kind) {
     scene.properties.inertia[i] = scene.properties.mass[i] * kCell * kCell / 12.0;
 }
 
-/// The same numbers with any standard library.
-class Chance {
- public:
-  explicit Chance(std::uint64_t seed) : engine_(seed) {}
-  double in(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
-
 /// Layers on either side of the lattice, and the planes around them; the last two are the plates.
 inline void add_bed(dynamics::Scene& scene, std::uint64_t seed) {
   constexpr double kPitch = 2.04 * kGrain;
@@ -97,16 +88,17 @@ inline void add_bed(dynamics::Scene& scene, std::uint64_t seed) {
   constexpr int kLayers = 4;
   const int columns = static_cast<int>(kLength / kPitch);
   const int rows = static_cast<int>(kWidth / kPitch);
-  Chance chance(seed);
+  Random random(seed);
+  const Vec3 corner(kAside, kAside, kAside);
   for (const double side : {1.0, -1.0}) {
     for (int layer = 0; layer < kLayers; ++layer) {
       const double z = side * (kThickness + kGrain + 2e-4 + layer * kPitch);
       for (int i = 0; i < columns; ++i) {
         for (int j = 0; j < rows; ++j) {
-          const double radius = kGrain * chance.in(0.88, 1.0);
-          const double x = ((i + 0.5) / columns - 0.5) * kLength + chance.in(-kAside, kAside);
-          const double y = ((j + 0.5) / rows - 0.5) * kWidth + chance.in(-kAside, kAside);
-          chance.in(-kAside, kAside);
+          const double radius = kGrain * random.uniform(0.88, 1.0);
+          const Vec3 off = random.in_box(-corner, corner);
+          const double x = ((i + 0.5) / columns - 0.5) * kLength + off.x();
+          const double y = ((j + 0.5) / rows - 0.5) * kWidth + off.y();
           scene.add_sphere(Vec3(x, y, z), radius, kDensity, kGrains);
         }
       }

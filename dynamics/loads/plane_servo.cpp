@@ -44,25 +44,30 @@ double way_to_press(double growth, double longest, const PlanePress& now,
 }  // namespace
 
 double servo_speed(const ServoPace& pace, const ServoPlate& plate,
-                   const std::function<PlanePress(double way)>& elastic, double dt) {
+                   const std::function<PlanePress(double way)>& press, double dt) {
   const double longest = pace.largest_speed * dt;
-  const double damping = elastic(0.0).damping;
-  const double change = pace.gain * (plate.missing + damping * plate.speed);
+  PlanePress now = press(0.0);
+  const double of_last = now.damping * plate.speed;
+  const double of_dashpots = plate.felt - now.force;
+  const double change =
+      pace.gain * (plate.wanted - plate.felt +
+                   (of_last < 0.0 ? std::max(of_last, std::min(of_dashpots, 0.0)) : of_last));
   // The dashpots resist a way in a drift as springs do.
-  const auto press = [&elastic, drag = pace.gain * damping / dt](double way) {
-    PlanePress there = elastic(way);
+  const double drag = pace.gain * now.damping / dt;
+  now.stiffness += drag;
+  const auto resisted = [&press, drag](double way) {
+    PlanePress there = press(way);
     there.force += drag * way;
     there.stiffness += drag;
     return there;
   };
-  const PlanePress now = press(0.0);
   if (change > 0.0) {
-    const double way = way_to_press(change, longest, now, press);
+    const double way = way_to_press(change, longest, now, resisted);
     if (now.stiffness > 0.0) return way / dt;
     // A force is counted over half of the drift that brings it: over the way to the bodies too,
     // unless the plate comes to rest on them first.
     constexpr double kTouch = 1e-3;  // of the force it would press with
-    const double touch = way_to_press(kTouch * change, way, now, press);
+    const double touch = way_to_press(kTouch * change, way, now, resisted);
     return (touch > way - touch ? touch : way) / dt;
   }
   if (!(now.stiffness > 0.0)) return 0.0;
@@ -93,7 +98,7 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,
         servo.factor.at(step.time) * (servo.force + servo.pressure * plate_area(servo, planes));
     const double pressing = -reactions[servo.plane].dot(plane.normal);
     const auto press_here = [&](double way) { return press(servo.plane, way); };
-    const ServoPlate now{wanted - pressing, plane.velocity.dot(plane.normal)};
+    const ServoPlate now{wanted, pressing, plane.velocity.dot(plane.normal)};
     const double speed =
         servo_speed({servo.largest_speed, servo.gain}, now, press_here, step.after);
     const Vec3 across = plane.velocity - plane.velocity.dot(plane.normal) * plane.normal;

@@ -29,8 +29,9 @@ struct ServoPace {
 
 /// A plate as it is.
 struct ServoPlate {
-  double missing;  ///< N, the wanted force over what it feels
-  double speed;    ///< m/s, in the last drift
+  double wanted;  ///< N
+  double felt;    ///< N, that the bodies push back with, dashpots too
+  double speed;   ///< m/s, in the last drift
 };
 
 /// m², the area of a plate under servo control with the planes where they are.
@@ -42,21 +43,24 @@ double plate_area(const PlaneServo& servo, std::span<const contact::Plane> plane
 ///     P(v dt) - P(0) = gain (wanted - felt - c (v - v_last)),  at most largest_speed either way,
 ///
 /// P(s) the elastic force of the bodies, those not yet touched among them, on a plate that is s
-/// further in them, c their dashpots: what is felt has c v_last in it, and will have c v. (With that
-/// of the last drift alone a plate on strong dashpots swings from step to step, by gain c / (k dt)
-/// of its speed.) The error shrinks by the gain in each step if the bodies stay, and further as they give
-/// way, without an error that stays. Seen by the bodies that is a plate without mass, pushed by the
-/// wanted force through a dashpot of k dt / gain, k = P': for any gain up to 1 it takes energy away
-/// from what swings.
+/// further in them, c the dashpots of those it touches. Without dashpots the error shrinks by the
+/// gain in each step if the bodies stay, and further as they give way, without an error that stays.
+/// Seen by the bodies that is a plate without mass, pushed by the wanted force through a dashpot of
+/// k dt / gain, k = P': for any gain up to 1 it takes energy away from what swings.
+///
+/// What is felt has c v_last in it, and will have c v: a plate that followed it as a force would
+/// swing from step to step, by gain c / (k dt) of its speed. So v = gain (wanted - felt + c v_last)
+/// / (k dt + gain c), as of the plate above with c beside it. A dashpot that would have to pull does
+/// nothing: of a plate that goes back no more of it counts than what is felt below P(0).
 ///
 /// Far from the bodies the plate comes on with largest_speed. Where it would touch them it stops at
-/// a thousandth of that force, and presses from there: work is counted by the mean force over a
+/// a thousandth of the elastic force, and presses from there: work is counted by the mean force over a
 /// drift, so a force f that begins somewhere on a drift of way s, all of which would be counted,
 /// makes energy of up to 1/2 f s. A plate that struck at full speed would be off by up to
 /// 1/8 k (v dt)², whatever that is beside the work of the wanted force. Where no force is wanted, a
 /// plate without contacts stays.
 /// @param press    of way (m) -> PlanePress; a force that grows less than in proportion makes the
-///                 plate slower, never faster
+///                 plate slower, never faster. Dashpots are those of way 0
 /// @param dt       s, length of the drift that begins now
 double servo_speed(const ServoPace& pace, const ServoPlate& plate,
                    const std::function<PlanePress(double way)>& press, double dt);

@@ -66,7 +66,7 @@ class DrivenBodies {
       const BodyPress& press = look_at(servo, servo.largest_speed * step.after);
       double& velocity = state.velocity[node][servo.axis];
       const ServoPace pace{servo.largest_speed, servo.gain};
-      const ServoPlate plate{wanted - pressing, servo.towards * velocity};
+      const ServoPlate plate{wanted, pressing, servo.towards * velocity};
       const double speed = servo_speed(
           pace, plate, [&](double way) { return press.at(way); }, step.after);
       const double now = servo.towards * speed;

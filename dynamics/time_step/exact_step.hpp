@@ -16,7 +16,9 @@ namespace plekton::dynamics {
 struct ExactStep {
   double dt = std::numeric_limits<double>::infinity();  ///< s; infinite if nothing is stiff and
                                                         ///< free
-  double error = 0.0;        ///< relative: the true step is hardly below (1 - error) dt
+  /// Half of the residual over the eigenvalue: an eigenvalue of the scene has a step within error
+  /// dt of this one. That it is the largest has no proof, but see kTolerance.
+  double error = 0.0;
   int products = 0;          ///< of the stiffness with a motion
   std::size_t contacts = 0;  ///< how many contacts count
 };

@@ -19,6 +19,10 @@ using dynamics::Simulation;
 constexpr contact::MaterialId kStructure{0};
 constexpr contact::MaterialId kGrains{1};
 
+TEST(Allocation, IsCounted) {
+  EXPECT_EQ(test::allocations_of([] { ::operator delete(::operator new(1)); }), 1u);
+}
+
 TEST(Allocation, IsNoneInTheForcesOfBeams) {
   Scene scene = chain(50, 1.0, dynamics::circular_section(0.01, 1e6, 0.3));
   BeamBonds bonds(scene.bonds, scene.state.size());

@@ -42,6 +42,7 @@ std::size_t allocations_of(const Work& work) {
 }
 
 #if defined(PLEKTON_IS_SANITIZED)
+/// False where the sanitizer has no room for another hook.
 inline const bool hears_of_allocations =
     __sanitizer_install_malloc_and_free_hooks(
         [](const volatile void*, std::size_t) { ++allocation_count; },

@@ -27,6 +27,7 @@ from ._core import (
     load,
     pairs,
     resume,
+    resume_stages,
     run_stages,
     write_mesh,
 )
@@ -55,6 +56,7 @@ __all__ = [
     "pairs",
     "repair_mesh",
     "resume",
+    "resume_stages",
     "run_stages",
     "write_mesh",
 ]

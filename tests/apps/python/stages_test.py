@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scenarios with stages, run as the program runs them."""
 
+import os
+import signal
+import threading
+import time
+
 import plekton
 import pytest
 import scenes
@@ -102,3 +107,39 @@ def test_a_stage_that_does_not_come_to_its_end_fails_and_leaves_those_before(tmp
     with pytest.raises(plekton.Error, match="shake"):
         plekton.run_stages(scenario, tmp_path / "out")
     assert (tmp_path / "out" / "checkpoints").is_dir()
+
+
+def test_the_run_that_stages_go_on_from_is_kept(scenario, tmp_path):
+    first = tmp_path / "first"
+    plekton.run_stages(scenario, first, until="pour")
+    kept = {path: path.read_bytes() for path in first.rglob("*") if path.is_file()}
+
+    with pytest.raises(plekton.InputError, match="is to be kept"):
+        plekton.run_stages(scenario, first, after=("pour", first), overwrite=True)
+    with pytest.raises(plekton.OutputError, match="run.json"):
+        plekton.run_stages(scenario, first)
+    assert {path: path.read_bytes() for path in first.rglob("*") if path.is_file()} == kept
+
+
+def interrupt_once(path):
+    """Ctrl-C as soon as there is a file."""
+
+    def wait():
+        while not path.exists():
+            time.sleep(0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=wait, daemon=True).start()
+
+
+def test_an_interrupted_run_goes_on_to_the_same_bits(scenario, tmp_path):
+    scenario.write_text((BODIES + STAGES).replace("4 ms", "1.5 s"))
+    interrupt_once(tmp_path / "out" / "energy.csv")
+    with pytest.raises(KeyboardInterrupt):
+        plekton.run_stages(scenario, tmp_path / "out")
+    assert plekton.open_run(tmp_path / "out").report["interrupted"]
+
+    report = plekton.resume_stages(tmp_path / "out")
+
+    assert report["status"] == "finished"
+    assert last_hash(report) == last_hash(plekton.run_stages(scenario, tmp_path / "whole"))

@@ -31,6 +31,11 @@ PlaneServo servo_of(double force) {
   return servo;
 }
 
+/// A plate at rest that feels 10 N.
+dynamics::ServoPlate missing(double force) {
+  return {10.0 + force, 10.0, 0.0};
+}
+
 /// Springs of 1e4 N/m, one of which the plate presses already and one that is a gap (m) away.
 std::function<PlanePress(double)> springs(double pressed, double gap) {
   constexpr double kStiffness = 1e4;
@@ -52,26 +57,31 @@ TEST(ServoSpeed, BringsTheForceNearerByItsGainInAStep) {
   const auto press = springs(1e-3, 1.0);
 
   // 2 N are missing: 0.2 of them are 0.4 N, for which the contacts have to be pressed by 40 um.
-  EXPECT_NEAR(servo_speed({servo.largest_speed, servo.gain}, {2.0, 0.0}, press, kStep), 0.04,
+  EXPECT_NEAR(servo_speed({servo.largest_speed, servo.gain}, missing(2.0), press, kStep), 0.04,
               1e-3 * 0.04);
-  EXPECT_DOUBLE_EQ(servo_speed({servo.largest_speed, servo.gain}, {-2.0, 0.0}, press, kStep),
+  EXPECT_DOUBLE_EQ(servo_speed({servo.largest_speed, servo.gain}, missing(-2.0), press, kStep),
                    -0.04);
 }
 
-// Of springs that have 1e4 N/m and dashpots c: k v dt = gain (missing - c (v - v_last)), whatever the
-// plate felt of c v_last.
+// v = gain (wanted - felt + c v_last) / (k dt + gain c), whatever the plate felt of c v_last.
 TEST(ServoSpeed, DoesNotFollowWhatItFeelsOfItsOwnSpeed) {
   constexpr double kStep = 1e-3;
   constexpr double kStiffness = 1e4;
-  constexpr double kDashpot = 500.0;  // N s/m: 5 times gain c / (k dt) = 1
+  constexpr double kDashpot = 500.0;  // N s/m: gain c / (k dt) is 10
+  constexpr double kElastic = 10.0;   // N
   const auto press = [](double way) {
-    return PlanePress{kStiffness * (1e-3 + way), kStiffness, kDashpot};
+    return PlanePress{kElastic + kStiffness * way, kStiffness, kDashpot};
   };
-  for (const double last : {0.0, 0.03, -0.2}) {
+  const double expected = 0.2 * 2.0 / (kStiffness * kStep + 0.2 * kDashpot);
+  for (const double last : {0.0, 0.03, -0.01}) {
+    const double felt = kElastic + kDashpot * last;
     const double speed =
-        dynamics::servo_speed({0.5, 0.2}, {2.0 - kDashpot * last, last}, press, kStep);
-    EXPECT_NEAR(speed, 0.2 * 2.0 / (kStiffness * kStep + 0.2 * kDashpot), 1e-3 * 0.004) << last;
+        dynamics::servo_speed({0.5, 0.2}, {kElastic + 2.0, felt, last}, press, kStep);
+    EXPECT_NEAR(speed, expected, 1e-3 * expected) << last;
   }
+  // A dashpot never pulls: a plate that went back so fast felt nothing, and comes on again.
+  const double speed = dynamics::servo_speed({0.5, 0.2}, {kElastic + 2.0, 0.0, -0.2}, press, kStep);
+  EXPECT_NEAR(speed, expected, 1e-3 * expected);
 }
 
 TEST(ServoSpeed, IsBoundedAndComesOnWithoutContacts) {
@@ -79,10 +89,10 @@ TEST(ServoSpeed, IsBoundedAndComesOnWithoutContacts) {
   const auto touching = springs(1e-3, 1.0);
   const auto apart = springs(-1.0, 1.0);
 
-  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, {1e6, 0.0}, touching, 1e-3), 0.5);
-  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, {-1e6, 0.0}, touching, 1e-3), -0.5);
-  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, {10.0, 0.0}, apart, 1e-3), 0.5);
-  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, {0.0, 0.0}, apart, 1e-3), 0.0);
+  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, missing(1e6), touching, 1e-3), 0.5);
+  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, missing(-1e6), touching, 1e-3), -0.5);
+  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, missing(10.0), apart, 1e-3), 0.5);
+  EXPECT_EQ(servo_speed({servo.largest_speed, servo.gain}, missing(0.0), apart, 1e-3), 0.0);
 }
 
 TEST(ServoSpeed, TouchesFirstAndThenPressesWithNoMoreThanItsGain) {
@@ -90,7 +100,7 @@ TEST(ServoSpeed, TouchesFirstAndThenPressesWithNoMoreThanItsGain) {
   servo.gain = 0.2;
   constexpr double kStep = 1e-3;
   const auto way = [&](double pressed, double gap) {
-    return servo_speed({servo.largest_speed, servo.gain}, {10.0, 0.0}, springs(pressed, gap),
+    return servo_speed({servo.largest_speed, servo.gain}, missing(10.0), springs(pressed, gap),
                        kStep) *
            kStep;
   };

@@ -33,7 +33,7 @@ ExactStep exact_step(const Scene& scene, const ContactSprings& contacts = {}) {
 
 /// dt lies between (1 - error) of the reference and a little above it.
 void expect_close(const ExactStep& step, double reference) {
-  EXPECT_LE(step.error, 0.5e-3);
+  EXPECT_LE(step.error, 0.5e-5);
   EXPECT_NEAR(step.dt, reference, kTolerance * reference);
 }
 
