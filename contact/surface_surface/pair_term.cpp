@@ -3,6 +3,7 @@
 
 #include "contact/surface_surface/extended.hpp"
 #include "contact/surface_surface/nearest.hpp"
+#include "contact/surface_surface/rim_share.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -186,6 +187,56 @@ TermForces term_forces(const PairTerm& term, const TermProximity& found, const P
   add(extended, term.weight, term, result.forces);
   if (a.count == 3 && b.count == 3) result.spread = extended;  // of weight 1
   return result;
+}
+
+namespace {
+
+/// Bit k: corner k of a facet is among some nodes; 0 if one of these is none of its corners.
+unsigned corners_among(const geometry::FeatureNodes& facet, const geometry::FeatureNodes& nodes) {
+  unsigned corners = 0;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < nodes.count; ++i) {
+    for (std::size_t k = 0; k < facet.count; ++k) {
+      if (facet.ids[k] != nodes.ids[i]) continue;
+      corners |= 1U << k;
+      ++found;
+    }
+  }
+  return found == nodes.count ? corners : 0;
+}
+
+bool is_rim(const geometry::Surface& surface, geometry::NodeId node) {
+  return std::ranges::any_of(surface.edges_of(node), [&](geometry::EdgeId edge) {
+    return surface.faces_of(edge).size() == 1;
+  });
+}
+
+/// Whether the feature that these corners of a facet span is on a rim.
+bool is_rim(const geometry::Surface& surface, const geometry::FeatureNodes& facet,
+            const std::array<bool, 3>& is_seam, unsigned corners) {
+  if (std::popcount(corners) == 1)
+    return is_rim(surface, facet.ids[static_cast<std::size_t>(std::countr_zero(corners))]);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (corners == (1U << k | 1U << (k + 1) % 3)) return !is_seam[k];
+  return false;
+}
+
+}  // namespace
+
+RimPlaces rim_places(const geometry::Surface& surface, const PairTerm& facets,
+                     const geometry::FeatureNodes& a, const geometry::FeatureNodes& b) {
+  RimPlaces places{corners_among(facets.a, a), corners_among(facets.b, b)};
+  if (places.a == 0 || places.b == 0)
+    places = {corners_among(facets.a, b), corners_among(facets.b, a)};
+  if (places.a == 0 || places.b == 0) return {};
+  if (!is_rim(surface, facets.a, facets.is_seam_a, places.a)) return {};
+  if (!is_rim(surface, facets.b, facets.is_seam_b, places.b)) return {};
+  return places;
+}
+
+Real rim_share(const PairTerm& facets, const RimPlaces& places, geometry::Positions x) {
+  return rim_share(simplex_at(facets.a, facets.is_seam_a, x), places.a,
+                   simplex_at(facets.b, facets.is_seam_b, x), places.b);
 }
 
 void add_tilting(const PairTerm& facets, double by_tilt, geometry::Positions x, PairForces& to) {

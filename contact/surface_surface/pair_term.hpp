@@ -63,6 +63,18 @@ struct TermForces {
 TermForces term_forces(const PairTerm& term, const TermProximity& found, const PointShare& share,
                        const NormalSpring& spring, geometry::Positions x);
 
+/// The corners of two facets that span the features of both rims where a term has its nearest
+/// points, bit k for corner k; 0 if one of them is on no rim.
+struct RimPlaces {
+  unsigned a = 0;
+  unsigned b = 0;
+};
+/// @param a, b  nodes that span the features with the nearest points of a term that the facets have
+RimPlaces rim_places(const geometry::Surface& surface, const PairTerm& facets,
+                     const geometry::FeatureNodes& a, const geometry::FeatureNodes& b);
+/// What lies beside each other of a term's two facets (rim_share.hpp).
+Real rim_share(const PairTerm& facets, const RimPlaces& places, geometry::Positions x);
+
 /// Adds what an energy does that depends on the tilt of a term's two facets.
 /// @param by_tilt  J
 void add_tilting(const PairTerm& facets, double by_tilt, geometry::Positions x, PairForces& to);

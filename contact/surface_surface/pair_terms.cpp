@@ -119,6 +119,7 @@ void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& mo
   list_candidates();
   is_acting_.resize(candidates_.size());
   shared_.resize(candidates_.size());
+  nearest_.resize(candidates_.size());
   in_turns(candidates_.size(), pool,
            [&](std::size_t i) { is_acting_[i] = evaluate_candidate(i, springs, motion.position); });
   acted_.swap(acting_);
@@ -220,7 +221,8 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
   PairTerm& term = terms_[i];
   term.meets = found.cores.points.relation == geometry::Relation::touching_or_crossing;
   term.overlap = spring.range() - found.cores.signed_distance;
-  const PointShare share = share_of(term, term.overlap, spring.range());
+  nearest_[candidate] = {found.cores.points.corners_a, found.cores.points.corners_b};
+  const PointShare share = share_of(term, nearest_[candidate], spring.range(), x);
   const TermForces pushing = term_forces(term, found, share, spring, x);
   term.point_share = share.share;
   term.forces = pushing.forces;
@@ -237,15 +239,25 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
 }
 
 /// Mean of the pairs of cells that have a term. All of them are in range: their tilts are of now.
-PointShare PairTerms::share_of(const PairTerm& term, double overlap, double range) const noexcept {
+PointShare PairTerms::share_of(const PairTerm& term, const NearestCorners& nearest, double range,
+                               Positions x) const {
   double share = 0.0, by_distance = 0.0;
   for (const Holder& holder : holders(term)) {
-    const PointShare of = point_share(tilts_[holder.pair], overlap, range);
-    share += of.share;
-    by_distance += of.by_distance;
+    const PointShare of = point_share(tilts_[holder.pair], term.overlap, range);
+    const RimPlaces rims = of.share < 1.0 ? rims_of(term, nearest, holder.pair) : RimPlaces{};
+    const double beside = rims.a != 0 ? rim_share(of_cells(holder.pair), rims, x).value : 0.0;
+    share += of.share + (1.0 - of.share) * beside;
+    by_distance += (1.0 - beside) * of.by_distance;
   }
   const auto count = static_cast<double>(term.holder_count);
   return {share / count, by_distance / count, 0.0};
+}
+
+RimPlaces PairTerms::rims_of(const PairTerm& term, const NearestCorners& nearest,
+                             std::uint32_t pair) const {
+  const PairTerm& cells = of_cells(pair);
+  if (cells.a.count != 3 || cells.b.count != 3) return {};
+  return rim_places(*surface_, cells, some_of(term.a, nearest.a), some_of(term.b, nearest.b));
 }
 
 void PairTerms::give_back_of_rings(std::span<const NormalSpring> springs, Positions x) {
@@ -362,16 +374,41 @@ void PairTerms::add_flatness(std::span<const std::uint32_t> pairs, double energy
   }
 }
 
+/// Adds what the rims of two facets beside each other do as they turn.
+/// @param energies  J, of which a part lies beside, of attraction in the second
+/// @returns that part
+double PairTerms::turn_rims(std::size_t candidate, std::uint32_t pair,
+                            const std::array<double, 2>& energies, Positions x) {
+  const RimPlaces rims = rims_of(terms_[candidates_[candidate]], nearest_[candidate], pair);
+  if (rims.a == 0) return 0.0;
+  const std::uint32_t cells = term_of_pair_[pair];
+  const Real share = rim_share(terms_[cells], rims, x);
+  const PairForces turning = forces_of(share);
+  const auto add = [&](double energy, PairForces& to) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      to.on_a[k] += energy * turning.on_a[k];
+      to.on_b[k] += energy * turning.on_b[k];
+    }
+  };
+  add(energies[0], terms_[cells].forces);
+  if (energies[1] != 0.0) add(energies[1], attractions_[cells]);
+  return share.value;
+}
+
 /// The tilts of pairs of cells turn the nodes of both facets, also those that a term does not have.
 void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x) {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (shared_[i] == std::array{0.0, 0.0}) continue;
     const PairTerm& term = terms_[candidates_[i]];
     const double range = springs[term.spring].range();
+    const double part = 1.0 / static_cast<double>(term.holder_count);
     for (const Holder& holder : holders(term)) {
       const PointShare of = point_share(tilts_[holder.pair], term.overlap, range);
-      const double by_tilt = of.by_tilt / static_cast<double>(term.holder_count);
-      for (std::size_t k = 0; k < 2; ++k) by_tilt_[holder.pair][k] += by_tilt * shared_[i][k];
+      const std::array<double, 2> left{part * (1.0 - of.share) * shared_[i][0],
+                                       part * (1.0 - of.share) * shared_[i][1]};
+      const double beside = of.share < 1.0 ? turn_rims(i, holder.pair, left, x) : 0.0;
+      for (std::size_t k = 0; k < 2; ++k)
+        by_tilt_[holder.pair][k] += part * (1.0 - beside) * of.by_tilt * shared_[i][k];
     }
     has_tilting_ = true;
   }

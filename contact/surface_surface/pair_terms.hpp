@@ -120,6 +120,11 @@ class PairTerms {
     std::uint32_t term;
     friend constexpr auto operator<=>(const RingTerm&, const RingTerm&) = default;
   };
+  /// The corners of a term's features that span those which hold its nearest points.
+  struct NearestCorners {
+    unsigned a;
+    unsigned b;
+  };
   double furthest(Positions x) const;
   void find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
                        geometry::ThreadPool& pool);
@@ -129,7 +134,11 @@ class PairTerms {
                           Positions x);
   void act(std::size_t candidate, const TermProximity& found, const NormalSpring& spring,
            Positions x);
-  PointShare share_of(const PairTerm& term, double overlap, double range) const noexcept;
+  PointShare share_of(const PairTerm& term, const NearestCorners& nearest, double range,
+                      Positions x) const;
+  RimPlaces rims_of(const PairTerm& term, const NearestCorners& nearest, std::uint32_t pair) const;
+  double turn_rims(std::size_t candidate, std::uint32_t pair, const std::array<double, 2>& energies,
+                   Positions x);
   void give_back_of_rings(std::span<const NormalSpring> springs, Positions x);
   void give_back(std::span<const std::uint32_t> pairs, std::span<const RingTerm> terms,
                  std::span<const NormalSpring> springs, Positions x);
@@ -160,6 +169,7 @@ class PairTerms {
   std::vector<std::uint32_t> candidates_;
   /// J, by candidate: what the share of a term is of; of attraction in the second.
   std::vector<std::array<double, 2>> shared_;
+  std::vector<NearestCorners> nearest_;         ///< by candidate, of those in range
   std::vector<std::array<double, 2>> by_tilt_;  ///< J, by pair of cells: of tilt_cells()
   bool has_tilting_ = false;                    ///< any of them may not be 0
   std::vector<char> is_acting_;                 ///< by candidate

@@ -29,6 +29,8 @@
 /// where the share begins to fall. So the sum never falls below one contact while a body comes to
 /// lie flat.
 ///
+/// Facets beside each other in one plane, rim to rim, have no area to take over: see rim_share.hpp.
+///
 /// Features that facets share (geometry/critical/product_features.hpp) take the mean share of all
 /// pairs of cells that have them. With the weights of inclusion and exclusion, what lies in
 /// several pairs of cells then counts with a mean of their shares: on a seam of two with half of
