@@ -3,16 +3,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plekton::contact {
 namespace {
 
-/// Of the range. Smaller overlaps below a level are left out, as rounding makes them.
-constexpr double kLeastOverlap = 1e-12;
+/// Of the range. Levels of tops that are as near are one, as rounding parts them in bodies that are
+/// symmetric.
+constexpr double kTie = 1e-12;
+
+/// Of the range: rounding of a difference of distances. A hole that is there over no more than that
+/// ends as it begins, and gives back the energy at its end. Pass and top stand within a range times
+/// sqrt(2 kLeastLife) of each other, so the force jumps by 4e-8 of that of one contact at most.
+constexpr double kLeastLife = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// Two vertices at one distance have a link without resistance; this share of their overlap is as
 /// good as none, and finite.
 constexpr double kLeastDrop = 1e-20;
+
+/// In units of the deepest overlap: the power n + 1 of 1 / (o^2 - t^2) has to be a number. What is
+/// left out so overlaps by 3e-12 of the deepest, or ends with a top that is as near to the range.
+constexpr double kLeastDifference = 1e-23;
 
 /// n: the sharper, the less is given back beyond pieces and the less the force jumps where tops
 /// tie, and the faster it turns from pass to pass where two of these do.
@@ -77,7 +88,7 @@ std::span<const std::uint32_t> RingWeights::tops_at(double level) const noexcept
 }
 
 bool RingWeights::is_at(double level, std::uint32_t vertex) const noexcept {
-  return std::abs(complex_->distances()[vertex] - level) <= kLeastOverlap * range_;
+  return std::abs(complex_->distances()[vertex] - level) <= kTie * range_;
 }
 
 void RingWeights::end_holes(const End& end) {
@@ -118,9 +129,11 @@ void RingWeights::set_overlaps(const End& end) {
   inverses_.clear();
   for (const double distance : distances.first(end.first)) {
     const double below = end.level - distance;
-    if (!(below > kLeastOverlap * range_)) break;
-    overlaps_.push_back((range_ - distance) / unit);
-    inverses_.push_back(1.0 / (below / unit * (overlaps_.back() + top_)));
+    const double overlap = (range_ - distance) / unit;
+    const double difference = below / unit * (overlap + top_);
+    if (!(below > kLeastLife * range_ && difference > kLeastDifference)) break;
+    overlaps_.push_back(overlap);
+    inverses_.push_back(1.0 / difference);
   }
 }
 

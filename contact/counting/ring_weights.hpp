@@ -31,7 +31,10 @@ namespace plekton::contact {
 /// proportion to 1 / n. Where bars alone are in range it is never too little: shares are chances of
 /// links to be left out of a forest, pieces are what the best forest leaves, and the mean over all
 /// forests is no less. So a sphere is never pushed by less than one contact. On nets with up to 240
-/// meshes in range it adds up: one contact is up to 1.5.
+/// meshes in range it adds up: one contact is up to 1.5. Where rings are filled one after the other,
+/// what the mean over forests gives too much at each level is taken off again with what is left
+/// there, as of the level before: so as much as 6.4 % for a ring that is left may be missing. Seen
+/// is 0.13 % of one contact of a sphere on facets, and 1 % of the pieces of a chain on a net.
 ///
 /// The force is continuous but where two tops tie that end holes with common passes: there shares
 /// at the level of the one become shares at that of the other. A ring of two passes, with overlaps

@@ -272,6 +272,70 @@ TEST(SpreadCheck, FindsBumpsOfKnots) {
   EXPECT_EQ(found_with(push_of_patches), 0);
 }
 
+/// Bars of a node, and where a ball is over it.
+struct ArmsAndBall {
+  std::vector<double> angles;   ///< rad
+  std::vector<double> lengths;  ///< m, 0.3 to 1.5
+  double depth;                 ///< m, 1e-3 to 0.1
+  double place;                 ///< of half a chord, -1 to 1
+  double way;                   ///< rad
+
+  double excess() const {
+    const auto along = [](double angle) { return Vec3(std::cos(angle), std::sin(angle), 0.0); };
+    Knot knot{{}, false, depth, along(way)};
+    const int node = knot.complex.node(Vec3::Zero());
+    for (std::size_t i = 0; i < angles.size(); ++i)
+      knot.complex.cylinder(node, knot.complex.node(lengths[i] * along(angles[i])));
+    const double half_chord = std::sqrt(depth * (2.0 * SpreadTouch::kRange - depth));
+    return excess_of_knot(knot, place * half_chord * knot.way, push_of_patches);
+  }
+  ArmsAndBall beside(double by, test::Random& random) const {
+    const auto any = [&] { return by * random.uniform(-1.0, 1.0); };
+    ArmsAndBall next = *this;
+    for (double& angle : next.angles)
+      if (random.coin()) angle += any();
+    for (double& length : next.lengths)
+      if (random.coin()) length = std::clamp(length * std::exp(any()), 0.3, 1.5);
+    next.depth = std::clamp(depth * std::exp(any()), 1e-3, 0.1);
+    next.place = std::clamp(place + 0.3 * any(), -1.0, 1.0);
+    next.way += any();
+    return next;
+  }
+};
+
+ArmsAndBall any_arms_and_ball(int count, test::Random& random) {
+  ArmsAndBall arms{{}, {}, std::pow(10.0, random.uniform(-3.0, -1.0)), random.uniform(-1.0, 1.0),
+                   random.uniform(0.0, 6.3)};
+  for (int i = 0; i < count; ++i) {
+    arms.angles.push_back(random.uniform(0.0, 6.3));
+    arms.lengths.push_back(random.uniform(0.3, 1.5));
+  }
+  return arms;
+}
+
+TEST(SpreadCheck, AllowsKnotsWhatTheWorstOfThemHave) {
+  test::Random random(1);
+  double worst = 0.0;
+  for (int trial = 0; trial < 60; ++trial) {
+    ArmsAndBall at = any_arms_and_ball(trial % 10 < 4 ? 2 + trial % 10 : 6, random);
+    double excess = at.excess(), by = 0.5;
+    for (int k = 0; k < 2500; ++k) {
+      const ArmsAndBall next = at.beside(by, random);
+      const double there = next.excess();
+      if (there >= excess) {
+        excess = there;
+        at = next;
+      } else {
+        by = std::max(0.995 * by, 1e-5);
+      }
+    }
+    worst = std::max(worst, excess);
+  }
+
+  EXPECT_LE(worst, kMostOfKnots);
+  EXPECT_GT(worst, 0.85 * kMostOfKnots);
+}
+
 TEST(StructureCheck, FindsForcesAndEnergiesThatAreOffByABit) {
   const StructureRule forces =
       changed_structures([](StructurePush& push, const std::vector<Vec3>&) {

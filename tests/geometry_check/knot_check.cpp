@@ -63,19 +63,23 @@ Knot any_knot(Random& random) {
   return knot;
 }
 
-bool rolls_evenly(const Knot& knot, const SpreadRule& rule) {
+double excess_of_knot(const Knot& knot, const Vec3& foot, const SpreadRule& rule) {
   const geometry::Surface surface = knot.complex.surface();
+  const Vec3 centre = foot + (kRange - knot.depth) * Vec3::UnitZ();
+  const double more =
+      rule(surface, centre, knot.complex.x).energy - energy_of_pieces(knot, surface, centre);
+  return more / (0.5 * knot.depth * knot.depth);
+}
+
+bool rolls_evenly(const Knot& knot, const SpreadRule& rule) {
   // The node is in range as far as half a chord.
   const double half_chord = std::sqrt(knot.depth * (2.0 * kRange - knot.depth));
-  const double one = 0.5 * knot.depth * knot.depth;
-  const double most = knot.is_of_straight_wires ? 0.0 : 0.04;
+  const double most = knot.is_of_straight_wires ? 0.0 : kMostOfKnots;
   constexpr int kPlaces = 10;
   for (int i = -kPlaces; i <= kPlaces; ++i) {
-    const Vec3 centre = half_chord * i / kPlaces * knot.way + (kRange - knot.depth) * Vec3::UnitZ();
-    const double more =
-        rule(surface, centre, knot.complex.x).energy - energy_of_pieces(knot, surface, centre);
+    const double more = excess_of_knot(knot, half_chord * i / kPlaces * knot.way, rule);
     // Distances are rounded to some eps, and overlaps are 1e-3 at least.
-    if (!(more >= -1e-9 * one && more <= (most + 1e-9) * one)) return false;
+    if (!(more >= -1e-9 && more <= most + 1e-9)) return false;
   }
   return true;
 }

@@ -21,8 +21,9 @@ struct Differences {
 };
 
 struct Slope {
-  double value;  ///< N
-  double step;   ///< m, the energy is smooth as far as twice of it on either side
+  double value;      ///< N
+  double step;       ///< m, the energy is smooth as far as twice of it on either side
+  double tolerance;  ///< N, to which it is
 };
 
 /// Slope of an energy along a way at 0, of differences of the fourth order,
@@ -61,7 +62,7 @@ std::optional<Slope> slope_at(const Energy& energy_at, const Differences& by) {
       last = slope;
       last_kink = kink;
     }
-    if (is_smooth) return Slope{last, step};
+    if (is_smooth) return Slope{last, step, by.tolerance};
   }
 }
 
@@ -86,17 +87,21 @@ inline Forces difference(const Forces& a, const Forces& b, double times = 1.0) {
 /// Whether forces change in proportion to the step along a way on which the energy is smooth: a
 /// tenth of the step makes a tenth of the change, and so does a hundredth, to a tenth of it or of
 /// what one contact changes by, 1 N/m: of a wire that the way hardly turns the change begins with
-/// the square of the step.
+/// the square of the step. And to what the energies cannot tell: a contact that begins within the
+/// step bends them by no more. What is smooth for differences of the fourth order may still bend
+/// much within their step: a tenth of it is looked at.
 /// @param rounding  N, of the sum of all forces
 template <class ForcesAt>
-bool is_proportional(const ForcesAt& forces_at, double step, double rounding) {
+bool is_proportional(const ForcesAt& forces_at, const Slope& smooth, double rounding) {
   constexpr std::array<double, 2> kParts{10.0, 100.0};
+  const double step = 0.1 * smooth.step;
   const Forces here = forces_at(0.0);
   const Forces whole = difference(forces_at(step), here);
   return std::all_of(kParts.begin(), kParts.end(), [&](double times) {
     const Forces part = difference(forces_at(step / times), here);
     // Rounding at both ends, as often as the change is taken.
-    const double tolerance = 0.1 * std::max(size_of(whole), step) + 4.0 * times * rounding;
+    const double tolerance =
+        0.1 * std::max(size_of(whole), step) + smooth.tolerance + 4.0 * times * rounding;
     return size_of(difference(part, whole, times)) < tolerance;
   });
 }

@@ -168,9 +168,8 @@ bool is_in_proportion(const SpreadTouch& touch, const SpreadRule& rule, Random& 
   const Moving moving = any_motion(touch, rule, random);
   const SpreadPush here = moving.at(0.0);
   const auto slope = slope_of(moving, here);
-  // What is smooth for differences of the fourth order may still bend much within their step.
-  return !slope || is_proportional([&](double part) { return moving.forces_at(part); },
-                                   0.1 * slope->step, kRounding * here.sum / here.deepest);
+  return !slope || is_proportional([&](double part) { return moving.forces_at(part); }, *slope,
+                                   kRounding * here.sum / here.deepest);
 }
 
 }  // namespace

@@ -149,9 +149,9 @@ std::optional<bool> count_pieces(const Structures& structures, const StructureRu
   constexpr double kTilt = contact::structure::kLargestTilt;
   constexpr double kFarther = 0.5 * kTilt * kTilt * kRange;
   const double lost = 3.0 * pieces.pairs * kFarther * std::sqrt(2.0 * pieces.energy);
-  // A ring takes four pairs of cells; one that pairs of bars fill may give back 0.2 % too little, as
-  // those of facets do (contact/counting/ring_weights.hpp). Seen is 1.6e-4.
-  const double missing = pieces.pairs < 4 ? 1e-9 : 2e-3;
+  // A ring takes four pairs of cells. One that is left when another is filled may miss what it gave
+  // too much (contact/counting/ring_weights.hpp).
+  const double missing = pieces.pairs < 4 ? 1e-9 : 0.064;
   return push.energy >= (1.0 - missing) * pieces.energy - lost;
 }
 
@@ -174,10 +174,9 @@ bool is_continuous(const Moving& moving) {
 }
 
 bool is_in_proportion(const Moving& moving, const StructurePush& here, const Slope& slope) {
-  // N/m over N: shares of tilts make what is rounded by an angle a force. What is smooth for
-  // differences of the fourth order may still bend much within their step.
+  // N/m over N: shares of tilts make what is rounded by an angle a force.
   constexpr double kStiffness = 1e4;
-  return is_proportional([&](double part) { return moving.forces_at(part); }, 0.1 * slope.step,
+  return is_proportional([&](double part) { return moving.forces_at(part); }, slope,
                          kStiffness * kRounding * size_of(here.forces));
 }
 
