@@ -2,9 +2,11 @@
 # plekton_options(target): how every target of the project is compiled.
 # plekton_library(name EXCEPT folder PUBLIC libraries... PRIVATE libraries...): the library plekton::<name> from the sources of
 #   the current folder, without those of a folder in it, static or shared as BUILD_SHARED_LIBS says.
+# plekton_kernels(sources...): those of the current folder that run with the widest vectors of the processor.
 
 # GCC 12 makes fused operations of sums and differences side by side (vfmaddsub) where the processor has them, -ffp-contract=off
 # or not: its vectoriser of straight code does not ask.
+include(CheckCXXCompilerFlag)
 include(CheckCXXSourceCompiles)
 if(PLEKTON_NATIVE)
   set(CMAKE_REQUIRED_FLAGS -march=native)
@@ -61,4 +63,14 @@ function(plekton_library name)
     list(TRANSFORM arg_PRIVATE REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
   endif()
   target_link_libraries(plekton_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+endfunction()
+
+# Types are laid out for the whole file, whose processor has vectors of two numbers: GCC 12 copies what consists of wider ones in
+# pieces of two, also in functions for wider vectors, and a vector that is read from pieces just stored waits for them.
+check_cxx_compiler_flag("-mmove-max=512 -mstore-max=512" PLEKTON_MOVES_WHOLE_VECTORS)
+
+function(plekton_kernels)
+  if(PLEKTON_MOVES_WHOLE_VECTORS)
+    set_property(SOURCE ${ARGV} APPEND PROPERTY COMPILE_OPTIONS -mmove-max=512 -mstore-max=512)
+  endif()
 endfunction()

@@ -73,11 +73,9 @@ void SharedBlocks::find_messages(const SphereBlocks& blocks) {
 }
 
 void SharedBlocks::begin_ghosts(std::span<const SphereSum> sums) {
-  static_assert(offsetof(SphereSum, torque) == 3 * sizeof(double));
   std::byte* to = sent_.bytes.data();
   for (const std::uint32_t ghost : sent_.ghosts) {
-    std::memcpy(to, sums[ghost].force.data(), sizeof(Vec3));
-    std::memcpy(to + sizeof(Vec3), sums[ghost].torque.data(), sizeof(Vec3));
+    std::memcpy(to, sums[ghost].numbers.data(), kSphereBytes);
     to += kSphereBytes;
   }
   ranks_->begin_exchange(sent_.bytes, sent_.sizes, received_.bytes, received_.sizes);
@@ -87,8 +85,7 @@ void SharedBlocks::end_ghosts(std::span<SphereSum> sums) {
   ranks_->end_exchange();
   const std::byte* from = received_.bytes.data();
   for (const std::uint32_t ghost : received_.ghosts) {
-    std::memcpy(sums[ghost].force.data(), from, sizeof(Vec3));
-    std::memcpy(sums[ghost].torque.data(), from + sizeof(Vec3), sizeof(Vec3));
+    std::memcpy(sums[ghost].numbers.data(), from, kSphereBytes);
     from += kSphereBytes;
   }
 }

@@ -301,7 +301,7 @@ void SphereContacts::complete() const {
 void SphereContacts::advance_block(const SphereBlocks::Block& block, const Motion& motion,
                                    SphereWork& work) {
   work.spheres.load(blocks_.members(block), motion);
-  std::fill_n(work.sums.data(), block.member_count, SphereSum{Vec3::Zero(), Vec3::Zero(), {}});
+  std::fill_n(work.sums.data(), block.member_count, SphereSum{});
   for (const SphereBlocks::Range& range : blocks_.ranges(block))
     table_.kinds[range.kind].law->advance_spheres(range_of(range), work);
 }
@@ -477,8 +477,8 @@ void SphereContacts::hand_over(const SphereBlocks::Block& block, const SphereWor
     const std::size_t ahead = index_of(owned[std::min(m + kAhead, owned.size() - 1)].node);
     __builtin_prefetch(&forces.force[ahead], 1);
     __builtin_prefetch(&forces.torque[ahead], 1);
-    forces.force[index_of(owned[m].node)] = sums[m].force;
-    forces.torque[index_of(owned[m].node)] = sums[m].torque;
+    forces.force[index_of(owned[m].node)] = sums[m].force();
+    forces.torque[index_of(owned[m].node)] = sums[m].torque();
   }
   std::copy_n(sums + owned.size(), block.ghosts(), ghost_sums_.begin() + block.first_ghost);
 }
@@ -502,8 +502,8 @@ void SphereContacts::add_ghost_sums(NodeForces& forces, geometry::ThreadPool& po
 
 void SphereContacts::add_ghost_sums(std::size_t block, NodeForces& forces) const {
   const auto add = [&](NodeId node, std::size_t ghost) {
-    forces.force[index_of(node)] += ghost_sums_[ghost].force;
-    forces.torque[index_of(node)] += ghost_sums_[ghost].torque;
+    forces.force[index_of(node)] += ghost_sums_[ghost].force();
+    forces.torque[index_of(node)] += ghost_sums_[ghost].torque();
   };
   const auto ask = [&](NodeId node, std::size_t ghost) {
     __builtin_prefetch(&ghost_sums_[ghost]);

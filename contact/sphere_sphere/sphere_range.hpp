@@ -196,7 +196,7 @@ PLEKTON_INLINE void SphereLoop<Law>::add_forces(
   geometry::scatter_things<W, 8>(
       {if_touching(force.x), if_touching(force.y), if_touching(force.z), if_touching(cross.x),
        if_touching(cross.y), if_touching(cross.z), answer.step.arm_a, answer.step.arm_b},
-      [&](std::size_t k) __attribute__((always_inline)) { return of_lanes[k].force.data(); });
+      [&](std::size_t k) __attribute__((always_inline)) { return of_lanes[k].numbers.data(); });
   if constexpr (HasMoments<Law>) {
     const auto& moment = answer.step.moment;
     std::array<SphereMoment, std::size_t{W}> moments;
@@ -204,15 +204,15 @@ PLEKTON_INLINE void SphereLoop<Law>::add_forces(
     geometry::scatter_things<W, 8>(
         {none, none, none, if_touching(moment.x), if_touching(moment.y), if_touching(moment.z),
          none, none},
-        [&](std::size_t k) __attribute__((always_inline)) { return moments[k].none.data(); });
+        [&](std::size_t k) __attribute__((always_inline)) { return moments[k].numbers.data(); });
     for (std::size_t k = 0; k < std::size_t{W}; ++k) {
-      add_to_a(work_.sums[pairs[k].a], of_lanes[k], moments[k]);
-      add_to_b(work_.sums[pairs[k].b], of_lanes[k], moments[k]);
+      add_to_a<W>(work_.sums[pairs[k].a], of_lanes[k], moments[k]);
+      add_to_b<W>(work_.sums[pairs[k].b], of_lanes[k], moments[k]);
     }
   } else {
     for (std::size_t k = 0; k < std::size_t{W}; ++k) {
-      add_to_a(work_.sums[pairs[k].a], of_lanes[k]);
-      add_to_b(work_.sums[pairs[k].b], of_lanes[k]);
+      add_to_a<W>(work_.sums[pairs[k].a], of_lanes[k]);
+      add_to_b<W>(work_.sums[pairs[k].b], of_lanes[k]);
     }
   }
 }
@@ -266,14 +266,14 @@ void SphereLoop<Law>::add_one(std::size_t lane, const SphereBlocks::Pair& member
     outcome.overlap[lane] = -step.gap;
     outcome.radius[lane] = smaller;
   }
-  const SphereForce force{step.force, step.force_cross_normal, step.arm_a, step.arm_b};
+  const SphereForce force(step.force, step.force_cross_normal, step.arm_a, step.arm_b);
   if constexpr (HasMoments<Law>) {
-    const SphereMoment moment{Vec3::Zero(), step.moment, {}};
-    add_to_a(work_.sums[members.a], force, moment);
-    add_to_b(work_.sums[members.b], force, moment);
+    const SphereMoment moment(step.moment);
+    add_to_a<2>(work_.sums[members.a], force, moment);
+    add_to_b<2>(work_.sums[members.b], force, moment);
   } else {
-    add_to_a(work_.sums[members.a], force);
-    add_to_b(work_.sums[members.b], force);
+    add_to_a<2>(work_.sums[members.a], force);
+    add_to_b<2>(work_.sums[members.b], force);
   }
 }
 
