@@ -16,10 +16,20 @@ set(environment PYTHONPATH=${PROJECT_BINARY_DIR}/python PLEKTON_PROGRAM=$<TARGET
 if(CMAKE_CXX_FLAGS MATCHES "fsanitize=address")
   # The sanitizer has to be there before the interpreter, and the C++ library before the sanitizer looks for what it
   # throws with. What the interpreter keeps until it ends is no leak of ours.
-  foreach(library IN ITEMS libasan.so libstdc++.so)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    set(sanitizer libclang_rt.asan-${CMAKE_SYSTEM_PROCESSOR}.so)
+  else()
+    set(sanitizer libasan.so)
+  endif()
+  foreach(library IN ITEMS ${sanitizer} libstdc++.so)
     execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=${library} OUTPUT_VARIABLE path
       OUTPUT_STRIP_TRAILING_WHITESPACE)
     file(REAL_PATH ${path} path)
+    if(NOT EXISTS ${path})
+      message(FATAL_ERROR "The Python module cannot be tested with the address sanitizer: ${CMAKE_CXX_COMPILER} names no "
+        "${library}; install the compiler's runtime (Debian: libclang-rt-14-dev, libgcc-12-dev), or configure with "
+        "-DPLEKTON_BUILD_PYTHON=OFF")
+    endif()
     list(APPEND preloaded ${path})
   endforeach()
   list(JOIN preloaded ":" preloaded)
