@@ -33,7 +33,7 @@ std::string quantity_in(const std::string& unit) {
 bool is_drawn_unasked(const History::Column& column) {
   return !column.unit.empty() && column.name != "time_step" &&
          std::any_of(column.values.begin(), column.values.end(),
-                     [](double value) { return value != 0.0; });
+                     [](double value) { return std::isfinite(value) && value != 0.0; });
 }
 
 /// All columns but the time.

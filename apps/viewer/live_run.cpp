@@ -28,13 +28,15 @@ void LiveRun::read_new() {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::seconds(1);
   // Another run into the same folder begins from the first frame again.
-  if (next_ > run_.frames.size()) {
+  if (run_.frames.size() < told_frames_) {
     packed_ = {};
+    told_ = {};
     step_ = 1;
     next_ = 0;
     ++generation_;
     ++version_;
   }
+  told_frames_ = run_.frames.size();
   while (next_ < run_.frames.size()) {
     packed_.add(run_.frames[next_], planes_at(run_, run_.frames[next_].time));
     next_ += step_;

@@ -41,7 +41,8 @@ class LiveRun {
   PackedRun packed_;
   std::string problem_;  ///< with what was read last
   std::size_t step_ = 1;
-  std::size_t next_ = 0;  ///< frame of the run
+  std::size_t next_ = 0;         ///< frame of the run
+  std::size_t told_frames_ = 0;  ///< of the run, when it was read last
   std::size_t generation_ = 0;
   std::size_t version_ = 0;
   std::pair<std::size_t, bool> told_{0, false};  ///< rows of histories, and whether it has ended

@@ -20,6 +20,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostRows = 4000;  // of a history: more than a wide screen has columns
+constexpr std::size_t kMostNumbers = 1'000'000;  // of a history: some 3 MB of text
+constexpr std::size_t kFramesOfAKey = 8;  // what a page reads beside a frame, for a sixth less room
 /// Positions are kept in single precision where a step of 1/65536 of the box were more than this
 /// share of the smallest radius.
 constexpr double kCoarsestStep = 0.05;
@@ -106,20 +108,8 @@ std::string block_name(std::size_t frame) {
 
 }  // namespace
 
-/// Stores an array, or names the place where the same bytes are already.
-Json PackedRun::packed(Block& block, const ResultArray& array, std::string_view on,
-                       NumberType type) const {
-  const PackedNumbers numbers = pack_numbers(array.values, array.components, type);
-  Json record = {{"name", array.name},
-                 {"on", on},
-                 {"components", array.components},
-                 {"count", array.values.size() / array.components},
-                 {"type", name_of(type)}};
-  if (type == NumberType::u16) {
-    record["lo"] = numbers.low;
-    record["hi"] = numbers.high;
-  }
-  if (type == NumberType::f16) record["scale"] = numbers.scale;
+/// Stores bytes, or names the place where the same ones are already.
+Json PackedRun::stored(Block& block, const PackedNumbers& numbers) const {
   const auto* bytes = reinterpret_cast<const Bytef*>(numbers.bytes.data());
   const Print print{
       numbers.bytes.size(), std::hash<std::string>{}(numbers.bytes),
@@ -128,14 +118,76 @@ Json PackedRun::packed(Block& block, const ResultArray& array, std::string_view 
   if (found == places_.end()) {
     found = block.places.find(print);
     if (found == block.places.end()) {
-      const std::string text = deflated_text(numbers.bytes);
+      const std::string text = deflated_text(numbers.bytes, width_of(numbers.type));
       found =
           block.places.emplace(print, Place{block.name, block.chunks.size(), text.size()}).first;
       block.chunks += text;
     }
   }
   const auto& [name, place, length] = found->second;
-  record["at"] = {name, place, length};
+  return {name, place, length};
+}
+
+namespace {
+
+/// What tells an array of these numbers, but for its place.
+Json record_of(const ResultArray& array, std::string_view on, const PackedNumbers& numbers) {
+  Json record = {{"name", array.name},
+                 {"on", on},
+                 {"components", array.components},
+                 {"count", array.values.size() / array.components},
+                 {"type", name_of(numbers.type)}};
+  if (numbers.type == NumberType::u16) {
+    record["lo"] = numbers.low;
+    record["hi"] = numbers.high;
+  }
+  if (numbers.type == NumberType::f16) record["scale"] = numbers.scale;
+  return record;
+}
+
+/// Places in steps of their box, or in single precision where that were too coarse.
+NumberType type_of_places(const std::vector<double>& places, double smallest_radius) {
+  double widest = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double low = 0.0, high = 0.0;
+    for (std::size_t i = axis; i < places.size(); i += 3) {
+      low = i == axis ? places[i] : std::min(low, places[i]);
+      high = i == axis ? places[i] : std::max(high, places[i]);
+    }
+    widest = std::max(widest, high - low);
+  }
+  return widest / 65535.0 <= kCoarsestStep * smallest_radius ? NumberType::u16 : NumberType::f32;
+}
+
+}  // namespace
+
+Json PackedRun::packed(Block& block, const ResultArray& array, std::string_view on,
+                       NumberType type) const {
+  const PackedNumbers numbers = pack_numbers(array.values, array.components, type);
+  Json record = record_of(array, on, numbers);
+  record["at"] = stored(block, numbers);
+  return record;
+}
+
+Json PackedRun::packed_places(Block& block, const ResultArray& places, std::string_view on,
+                              double smallest_radius) const {
+  const NumberType type = type_of_places(places.values, smallest_radius);
+  if (type != NumberType::u16) return packed(block, places, on, type);
+  const auto key = keys_.find(std::string(on));
+  if (key != keys_.end() && frames_.size() < key->second.frame + kFramesOfAKey) {
+    const PackedNumbers& before = key->second.numbers;
+    if (auto ways = pack_ways(places.values, places.components, before)) {
+      PackedNumbers numbers{type, std::move(*ways), before.low, before.high, 1.0, {}};
+      Json record = record_of(places, on, numbers);
+      record["at"] = stored(block, numbers);
+      record["key"] = key->second.at;
+      return record;
+    }
+  }
+  PackedNumbers numbers = pack_numbers(places.values, places.components, type);
+  Json record = record_of(places, on, numbers);
+  record["at"] = stored(block, numbers);
+  block.keys[std::string(on)] = {std::move(numbers), record["at"], frames_.size()};
   return record;
 }
 
@@ -178,28 +230,10 @@ void PackedRun::add_array(Block& block, std::string_view series, const ResultArr
   note(series, array, on);
 }
 
-namespace {
-
-/// Places in steps of their box, or in single precision where that were too coarse.
-NumberType type_of_places(const std::vector<double>& places, double smallest_radius) {
-  double widest = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double low = 0.0, high = 0.0;
-    for (std::size_t i = axis; i < places.size(); i += 3) {
-      low = i == axis ? places[i] : std::min(low, places[i]);
-      high = i == axis ? places[i] : std::max(high, places[i]);
-    }
-    widest = std::max(widest, high - low);
-  }
-  return widest / 65535.0 <= kCoarsestStep * smallest_radius ? NumberType::u16 : NumberType::f32;
-}
-
-}  // namespace
-
 void PackedRun::add_grains(Block& block, const Results& results) {
   smallest_radius_ = smallest_radius(results.of_points);
-  block.directory["grains"].push_back(packed(block, {"position", 3, results.positions}, "grains",
-                                             type_of_places(results.positions, smallest_radius_)));
+  block.directory["grains"].push_back(
+      packed_places(block, {"position", 3, results.positions}, "grains", smallest_radius_));
   for (const ResultArray& array : results.of_points)
     add_array(block, "grains", array.name == "velocity" ? array : magnitudes(array), "grains");
 }
@@ -208,8 +242,7 @@ void PackedRun::add_membranes(Block& block, const Results& results) {
   const double radius = smallest_radius(results.of_cells);
   smallest_radius_ = smallest_radius_ > 0.0 ? std::min(smallest_radius_, radius) : radius;
   Json& directory = block.directory["membranes"];
-  directory.push_back(packed(block, {"position", 3, results.positions}, "nodes",
-                             type_of_places(results.positions, radius)));
+  directory.push_back(packed_places(block, {"position", 3, results.positions}, "nodes", radius));
   directory.push_back(packed(block, {"nodes", 2, results.line_ends}, "edges", NumberType::i32));
   directory.push_back(packed(block, {"nodes", 3, results.corners}, "facets", NumberType::i32));
   for (const ResultArray& array : results.of_points)
@@ -272,6 +305,7 @@ void PackedRun::add(const FrameFiles& files, const std::vector<std::array<double
 
 void PackedRun::finish(Block&& block) {
   places_.merge(block.places);
+  for (auto& [on, key] : block.keys) keys_[on] = std::move(key);
   std::string text =
       deflated_text(block.directory.dump(-1, ' ', false, Json::error_handler_t::replace)) + '.' +
       block.chunks;
@@ -286,7 +320,9 @@ void PackedRun::set_histories(const std::vector<History>& histories) {
   block.directory = Json::array();
   history_step_ = 1;
   for (const History& history : histories) {
-    const std::size_t step = (history.rows() + kMostRows - 1) / kMostRows;
+    const std::size_t most =
+        std::clamp<std::size_t>(kMostNumbers / history.columns.size(), 1, kMostRows);
+    const std::size_t step = (history.rows() + most - 1) / most;
     history_step_ = std::max(history_step_, step);
     Json columns = Json::array();
     for (const History::Column& column : history.columns) {

@@ -37,7 +37,8 @@ struct FieldRange {
 ///     {"grains": [{"name", "on", "components", "count", "type", ..., "at": [block, place, length]}]}
 ///
 /// An array that is the same as one before is stored once and named twice; so connectivity, radii
-/// and materials cost nothing after the first frame. Of vectors but the velocities of grains the
+/// and materials cost nothing after the first frame. Positions are those of every eighth frame at
+/// least, and of the others the ways from there: "key" is then where the earlier ones are. Of vectors but the velocities of grains the
 /// magnitudes are kept, and of contacts between two spheres no points: they are on the line between
 /// the centres.
 class PackedRun {
@@ -66,15 +67,26 @@ class PackedRun {
   using Print = std::tuple<std::size_t, std::size_t, std::uint32_t>;  ///< of bytes, to find equals
   using Place = std::tuple<std::string, std::size_t, std::size_t>;    ///< block, place, length
 
+  /// Positions of which later ones tell the ways.
+  struct Key {
+    PackedNumbers numbers;
+    Json at;
+    std::size_t frame = 0;
+  };
+
   /// A block that is being made.
   struct Block {
     std::string name;
     Json directory = Json::object();
     std::string chunks;
     std::map<Print, Place> places;
+    std::map<std::string, Key> keys;
   };
 
   Json packed(Block& block, const ResultArray& array, std::string_view on, NumberType type) const;
+  Json packed_places(Block& block, const ResultArray& places, std::string_view on,
+                     double smallest_radius) const;
+  Json stored(Block& block, const PackedNumbers& numbers) const;
   void add_array(Block& block, std::string_view series, const ResultArray& array,
                  std::string_view on);
   void add_grains(Block& block, const Results& results);
@@ -87,6 +99,7 @@ class PackedRun {
   std::vector<std::pair<std::string, std::string>> blocks_;
   std::size_t size_ = 0;
   std::map<Print, Place> places_;
+  std::map<std::string, Key> keys_;  ///< by what the positions are of
   /// By series and name; in the order in which they came.
   std::vector<std::pair<std::array<std::string, 3>, FieldRange>> fields_;
   double smallest_radius_ = 0.0;  ///< m, of the part that is being packed

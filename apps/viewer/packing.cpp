@@ -9,10 +9,13 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <stdexcept>
+#include <utility>
 
 namespace plekton::apps {
 namespace {
 
+constexpr double kNoWay = std::numeric_limits<double>::infinity();
 constexpr double kLargestHalf = 60000.0;  // below the largest number of half precision, 65504
 
 /// Bytes of whole numbers or bit patterns, the lowest ones first.
@@ -36,7 +39,7 @@ std::vector<double> by_component(std::span<const double> values, std::size_t com
 
 void pack_steps(std::span<const double> values, std::size_t components, PackedNumbers& packed) {
   const std::size_t count = values.size() / components;
-  std::vector<std::uint16_t> steps;
+  std::vector<std::uint16_t>& steps = packed.steps;
   steps.reserve(values.size());
   for (std::size_t c = 0; c < components; ++c) {
     const auto own = values.subspan(c * count, count);
@@ -108,7 +111,36 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
+/// @param parts  equal ones, each with a code of its own
+std::string deflated(std::string_view bytes, std::size_t parts, int strategy) {
+  z_stream stream{};
+  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, strategy) !=
+      Z_OK)
+    throw std::bad_alloc();  // zlib fails for no other reason here
+  std::string packed(deflateBound(&stream, static_cast<uLong>(bytes.size())) + 64 * parts, '\0');
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const std::size_t length = bytes.size() / parts;
+  int outcome = Z_OK;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const bool is_last = part + 1 == parts;
+    const std::string_view own = bytes.substr(part * length, is_last ? bytes.npos : length);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(own.data()));
+    stream.avail_in = static_cast<uInt>(own.size());
+    outcome = deflate(&stream, is_last ? Z_FINISH : Z_BLOCK);
+  }
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (outcome != Z_STREAM_END) throw std::logic_error("zlib asks for more room than it said");
+  return packed;
+}
+
 }  // namespace
+
+std::size_t width_of(NumberType type) noexcept {
+  constexpr std::array<std::size_t, 5> kWidths = {2, 2, 4, 8, 4};
+  return kWidths[static_cast<std::size_t>(type)];
+}
 
 std::string_view name_of(NumberType type) noexcept {
   constexpr std::array<std::string_view, 5> kNames = {"u16", "f16", "f32", "f64", "i32"};
@@ -140,6 +172,30 @@ PackedNumbers pack_numbers(std::span<const double> values, std::size_t component
   return packed;
 }
 
+std::optional<std::string> pack_ways(std::span<const double> values, std::size_t components,
+                                     const PackedNumbers& before) {
+  const std::size_t count = values.size() / components;
+  if (before.steps.size() != values.size()) return std::nullopt;
+  std::vector<std::uint16_t> ways;
+  ways.reserve(values.size());
+  for (std::size_t c = 0; c < components; ++c) {
+    const double low = before.low[c], width = before.high[c] - low;
+    double least = low, most = low;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = values[i * components + c];
+      least = i == 0 ? x : std::min(least, x);
+      most = i == 0 ? x : std::max(most, x);
+      // All in one place have no width, and then no step to tell another place in.
+      const double steps = width > 0.0 ? 65535.0 * ((x - low) / width) : x == low ? 0.0 : kNoWay;
+      const double way = std::round(steps) - before.steps[c * count + i];
+      if (!(std::abs(way) <= 32767.0)) return std::nullopt;
+      ways.push_back(static_cast<std::uint16_t>(way < 0.0 ? -2.0 * way - 1.0 : 2.0 * way));
+    }
+    if (width > 2.0 * (most - least)) return std::nullopt;
+  }
+  return sorted_bytes(ways);
+}
+
 // An exponent from 1 to 30 (bias 15) and 10 bits of fraction, of which the last two stay 0; below
 // 2^-14 the exponent is 0 and the fraction counts steps of 2^-24. A fraction that is rounded up to
 // 1 carries over into the exponent, as it should. Source: IEEE 754-2019, binary16.
@@ -159,15 +215,12 @@ std::uint16_t half_of(double value) noexcept {
   return static_cast<std::uint16_t>(sign | bits);
 }
 
-std::string deflated_text(std::string_view bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string packed(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()),
-                Z_BEST_COMPRESSION) != Z_OK)
-    throw std::bad_alloc();  // zlib fails for no other reason here
-  packed.resize(size);
-  return base64(packed);
+std::string deflated_text(std::string_view bytes, std::size_t width) {
+  std::string shortest = deflated(bytes, 1, Z_DEFAULT_STRATEGY);
+  if (width > 1)
+    if (std::string other = deflated(bytes, width, Z_FILTERED); other.size() < shortest.size())
+      shortest = std::move(other);
+  return base64(shortest);
 }
 
 }  // namespace plekton::apps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/viewer/run_folder.hpp"
 
+#include "apps/run/written_files.hpp"
 #include "apps/viewer/csv_text.hpp"
 #include "apps/viewer/view_error.hpp"
 #include "geometry/base/regular_file.hpp"
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -103,6 +105,17 @@ void add_row(std::string_view line, std::size_t number, const fs::path& file, Hi
                     file.string(), number, history.columns.size()));
 }
 
+/// Histories of measures, by name.
+std::vector<std::string> measure_files(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder / kMeasuresFolder, ignored))
+    if (entry.path().extension() == ".csv")
+      names.push_back(std::string(kMeasuresFolder) + '/' + entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 }  // namespace
 
 RunFolder open_run_folder(const fs::path& folder) {
@@ -146,7 +159,8 @@ std::vector<std::array<double, 6>> planes_at(const RunFolder& run, double time) 
   for (std::size_t first = 1; first + 6 <= columns.size(); first += 6) {
     std::array<double, 6> plane;
     for (std::size_t k = 0; k < 6; ++k) plane[k] = columns[first + k].values[row];
-    planes.push_back(plane);
+    if (std::none_of(plane.begin(), plane.end(), [](double x) { return std::isnan(x); }))
+      planes.push_back(plane);
   }
   return planes;
 }
@@ -176,10 +190,13 @@ History read_history(const fs::path& file) {
 }
 
 std::vector<History> read_histories(const fs::path& folder) {
+  std::vector<std::string> names(kHistories.begin(), kHistories.end());
+  for (std::string& name : measure_files(folder)) names.push_back(std::move(name));
   std::vector<History> histories;
-  for (const std::string_view name : kHistories) {
+  for (const std::string& name : names) {
     if (std::error_code ignored; !fs::exists(folder / name, ignored)) continue;
     History history = read_history(folder / name);
+    history.file = name;
     if (history.rows() > 0) histories.push_back(std::move(history));
   }
   return histories;

@@ -29,7 +29,7 @@ struct History {
     std::string unit;  ///< empty of a number without one
     std::vector<double> values;
   };
-  std::string file;  ///< its name in the folder
+  std::string file;  ///< its name in the folder of the run
   std::vector<Column> columns;
 
   std::size_t rows() const noexcept { return columns.empty() ? 0 : columns.front().values.size(); }
@@ -49,12 +49,14 @@ struct RunFolder {
 /// it, or files of that name that are something else
 RunFolder open_run_folder(const std::filesystem::path& folder);
 
-/// Point (m) and unit normal of every plane at a time.
+/// Point (m) and unit normal of every plane that is there at a time: one that comes in a later stage
+/// is not.
 std::vector<std::array<double, 6>> planes_at(const RunFolder& run, double time);
 
-/// The histories of a run: those of kHistories that are there.
-inline constexpr std::array<std::string_view, 3> kHistories = {"energy.csv", "reactions.csv",
-                                                               "pressures.csv"};
+/// The histories of a run: those of kHistories that are there, then those of its measures by name
+/// ("measures/NAME.csv").
+inline constexpr std::array<std::string_view, 5> kHistories = {
+    "energy.csv", "reactions.csv", "pressures.csv", "rigid_bodies.csv", "ties.csv"};
 /// Of a run that still goes on a last row without its end is left out.
 /// @throws ViewError for a file that is no table of numbers
 std::vector<History> read_histories(const std::filesystem::path& folder);

@@ -56,6 +56,14 @@ TEST_F(PackedRunOf, HasEveryFrameWithItsTimeAndCounts) {
   EXPECT_EQ(header["run"]["status"], "finished");
 }
 
+TEST_F(PackedRunOf, TellsPositionsOfLaterFramesAsWays) {
+  packed();
+
+  EXPECT_FALSE(blocks_.record("0", "grains", "grains", "position").contains("key"));
+  EXPECT_EQ(blocks_.record("1", "grains", "grains", "position")["key"],
+            blocks_.record("0", "grains", "grains", "position")["at"]);
+}
+
 TEST_F(PackedRunOf, HasPlacesToAStepOfTheBoxAndVelocitiesToOnePartIn512) {
   packed();
   const Results written = read_results(frame("grains", 3));
@@ -124,10 +132,12 @@ TEST_F(PackedRunOf, ThinsWhatIsAboveALimitKeepsTheLastFrameAndSaysSo) {
   ASSERT_EQ(all.packed.frames(), 5U);
   EXPECT_TRUE(all.notes.empty());
 
-  const PageData data = pack_run(run_, all.packed.size() * 2 / 3);
+  // The first frame takes more than half, as later ones name what is as in it.
+  const std::size_t limit = all.packed.size() * 4 / 5;
+  const PageData data = pack_run(run_, limit);
 
   EXPECT_LT(data.packed.frames(), 5U);
-  EXPECT_LE(data.packed.size(), all.packed.size() * 2 / 3);
+  EXPECT_LE(data.packed.size(), limit);
   const auto header = data.packed.header(run_, data.notes);
   EXPECT_EQ(header["frames"].back()["time"].get<double>(), run_.frames.back().time);
   ASSERT_FALSE(data.notes.empty());
@@ -192,6 +202,30 @@ TEST_F(PackedRunOf, FollowsARunWithinALimitByLeavingFramesOut) {
   EXPECT_LT(header["frames"].size(), 5U);
   EXPECT_GT(header["generation"], 0);
   EXPECT_FALSE(header["notes"].empty());
+  // The next frame that is shown lies beyond the last of the run: that is no other run.
+  live.refresh();
+  const auto later = nlohmann::json::parse(live.header());
+  EXPECT_EQ(later["generation"], header["generation"]);
+  EXPECT_EQ(later["version"], header["version"]);
+}
+
+TEST_F(PackedRunOf, BeginsAnewWithAnotherRunInTheSameFolder) {
+  LiveRun live(out(), 1'000'000);
+  live.refresh();
+  const auto before = nlohmann::json::parse(live.header());
+  ASSERT_EQ(before["frames"].size(), 5U);
+  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out(), "--overwrite", "--quiet", "--set",
+                        "simulation.duration=2 ms"})
+                .exit_code,
+            kDone);
+
+  live.refresh();
+
+  const auto after = nlohmann::json::parse(live.header());
+  EXPECT_LT(after["frames"].size(), 5U);
+  EXPECT_GT(after["frames"].size(), 0U);
+  EXPECT_NE(after["generation"], before["generation"]);
+  EXPECT_FALSE(after["histories"].get<std::string>().empty());
 }
 
 }  // namespace

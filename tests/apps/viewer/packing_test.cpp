@@ -96,6 +96,43 @@ TEST(Packing, TakesNoElements) {
     EXPECT_TRUE(pack_numbers({}, 3, type).bytes.empty());
 }
 
+TEST(Packing, TellsWaysInStepsOfTheBoxOfBefore) {
+  const PackedNumbers before =
+      pack_numbers(std::vector{0.0, 5.0, 65535.0, 9.0}, 2, NumberType::u16);
+  nlohmann::json record = {{"components", 2}, {"lo", before.low}, {"hi", before.high}};
+
+  const std::vector<double> values = {-3.0, 5.0, 65540.0, 9.0};
+  const auto ways = pack_ways(values, 2, before);
+
+  ASSERT_TRUE(ways);
+  EXPECT_EQ(unpacked_ways(*ways, before.bytes, record), values);
+}
+
+TEST(Packing, TellsNoWaysWhereTheyWouldNotDo) {
+  const PackedNumbers before = pack_numbers(std::vector{0.0, 65535.0}, 1, NumberType::u16);
+
+  EXPECT_TRUE(pack_ways(std::vector{32767.0, 65535.0}, 1, before));
+  EXPECT_FALSE(pack_ways(std::vector{32768.0, 65536.0}, 1, before)) << "too far for two bytes";
+  EXPECT_FALSE(pack_ways(std::vector{32767.0, 65534.0}, 1, before)) << "a box half as wide";
+  EXPECT_FALSE(pack_ways(std::vector{0.0}, 1, before)) << "fewer than before";
+  EXPECT_FALSE(pack_ways(std::vector{0.0, std::nan("")}, 1, before));
+  const PackedNumbers flat = pack_numbers(std::vector{7.0, 7.0}, 1, NumberType::u16);
+  EXPECT_TRUE(pack_ways(std::vector{7.0, 7.0}, 1, flat));
+  EXPECT_FALSE(pack_ways(std::vector{7.0, 7.1}, 1, flat)) << "out of a box without a width";
+}
+
+TEST(Packing, GivesLowAndHighBytesCodesOfTheirOwn) {
+  std::mt19937_64 random(11);
+  std::string bytes;  // low bytes of all values, high bytes of four
+  for (int i = 0; i < 3000; ++i) bytes += static_cast<char>(random());
+  for (int i = 0; i < 3000; ++i) bytes += static_cast<char>(random() % 4);
+
+  const std::string text = deflated_text(bytes, 2);
+
+  EXPECT_EQ(inflated_text(text), bytes);
+  EXPECT_LT(text.size(), deflated_text(bytes).size());
+}
+
 // RFC 4648, 10: "foobar" and its beginnings, here behind zlib.
 TEST(Packing, EndsBase64AsTheStandardSays) {
   for (const std::string text : {"", "f", "fo", "foo", "foob", "fooba", "foobar"}) {

@@ -114,5 +114,37 @@ TEST(RunFolder, FindsThePlanesAtTheTimeOfAFrame) {
   EXPECT_EQ(planes_at(run, 0.999), (std::vector<std::array<double, 6>>{{0, 0, 2, 0, 0, -1}}));
 }
 
+TEST(RunFolder, LeavesOutPlanesThatComeInALaterStage) {
+  const double none = std::nan("");
+  RunFolder run;
+  run.planes = History{"planes.csv", {{"time", "s", {0, 1}}}};
+  for (const char* name : {"floor", "lid"})
+    for (const char* field : {".point_x", ".point_y", ".point_z", ".normal_x", ".normal_y"})
+      run.planes->columns.push_back(
+          {std::string(name) + field, "", {name[0] == 'l' ? none : 0, 0}});
+  run.planes->columns.insert(run.planes->columns.begin() + 6, {"floor.normal_z", "", {1, 1}});
+  run.planes->columns.push_back({"lid.normal_z", "", {none, -1}});
+
+  EXPECT_EQ(planes_at(run, 0.0), (std::vector<std::array<double, 6>>{{0, 0, 0, 0, 0, 1}}));
+  EXPECT_EQ(planes_at(run, 1.0),
+            (std::vector<std::array<double, 6>>{{0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, -1}}));
+}
+
+TEST(RunFolder, ReadsHistoriesOfBodiesTiesAndMeasuresInTheOrderOfTheirNames) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "measures");
+  for (const char* name : {"measures/top.csv", "measures/bottom.csv", "ties.csv",
+                           "rigid_bodies.csv", "energy.csv", "planes.csv"})
+    test::write_bytes(folder / name, "time (s),x (m)\n0,1\n");
+  test::write_bytes(folder / "measures/notes.txt", "no table\n");
+  test::write_bytes(folder / "reactions.csv", "time (s),x (m)\n");
+
+  std::vector<std::string> files;
+  for (const History& history : read_histories(folder.path())) files.push_back(history.file);
+
+  EXPECT_THAT(files, testing::ElementsAre("energy.csv", "rigid_bodies.csv", "ties.csv",
+                                          "measures/bottom.csv", "measures/top.csv"));
+}
+
 }  // namespace
 }  // namespace plekton::apps

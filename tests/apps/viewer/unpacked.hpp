@@ -60,6 +60,28 @@ inline double from_half(std::uint64_t half) {
   return half & 0x8000 ? -size : size;
 }
 
+/// Two bytes of a number, as they are sorted.
+inline std::int32_t word_of(const std::string& bytes, std::size_t i) {
+  return static_cast<unsigned char>(bytes[i]) |
+         static_cast<unsigned char>(bytes[bytes.size() / 2 + i]) << 8;
+}
+
+/// Steps of the box of earlier numbers, from the ways from there.
+inline std::vector<double> unpacked_ways(const std::string& bytes, const std::string& before,
+                                         const nlohmann::json& record) {
+  const std::size_t total = bytes.size() / 2, components = record["components"];
+  std::vector<double> values(total);
+  for (std::size_t i = 0; i < total; ++i) {
+    const std::size_t component = i / (total / components);
+    const double low = record["lo"][component], high = record["hi"][component];
+    const std::int32_t way = word_of(bytes, i);
+    const std::int32_t steps = word_of(before, i) + (way % 2 == 0 ? way / 2 : -(way + 1) / 2);
+    values[i % (total / components) * components + component] =
+        low + (high - low) * steps / 65535.0;
+  }
+  return values;
+}
+
 /// The numbers of stored bytes, one element after the other.
 inline std::vector<double> unpacked(const std::string& bytes, const nlohmann::json& record) {
   const std::string type = record["type"];
@@ -103,10 +125,9 @@ class Blocks {
   }
 
   std::vector<double> values(const nlohmann::json& record) const {
-    const std::string& text = text_.at(record["at"][0]);
-    const std::string chunk = text.substr(text.find('.') + 1 + record["at"][1].get<std::size_t>(),
-                                          record["at"][2].get<std::size_t>());
-    return unpacked(inflated_text(chunk), record);
+    const std::string bytes = bytes_at(record["at"]);
+    return record.contains("key") ? unpacked_ways(bytes, bytes_at(record["key"]), record)
+                                  : unpacked(bytes, record);
   }
 
   /// An array of a series of a block. @throws std::out_of_range
@@ -119,6 +140,12 @@ class Blocks {
   }
 
  private:
+  std::string bytes_at(const nlohmann::json& at) const {
+    const std::string& text = text_.at(at[0]);
+    return inflated_text(
+        text.substr(text.find('.') + 1 + at[1].get<std::size_t>(), at[2].get<std::size_t>()));
+  }
+
   std::map<std::string, std::string> text_;
 };
 

@@ -36,10 +36,13 @@ function numbersOf(bytes, type) {
   return new kStored[type](sorted.buffer);
 }
 
+/** Steps from the ways (0, 1, 2, 3, ... for 0, -1, 1, -2, ...) from earlier ones; they may be outside of the box of those. */
+const stepsFrom = (before, ways) => Int32Array.from(ways, (way, i) => before[i] + ((way >>> 1) ^ -(way & 1)));
+
 /** Numbers of an array, one point or cell after the other, from how they are stored: one component after the other. */
-function decoded(bytes, record) {
+function decoded(bytes, record, before) {
   const { type, components, count } = record;
-  const stored = numbersOf(bytes, type);
+  const stored = before ? stepsFrom(numbersOf(before, type), numbersOf(bytes, type)) : numbersOf(bytes, type);
   if (stored.length !== components * count)
     throw new Error(`${record.name}: ${stored.length} numbers instead of ${components * count}`);
   if (type === 'i32') for (let i = 1; i < stored.length; i++) stored[i] += stored[i - 1];
@@ -105,11 +108,11 @@ export class Run {
     return run;
   }
 
-  /** Asks the server for what is new. @returns whether there is something */
+  /** Asks the server for what is new. Of a run that was begun anew and has no frame yet, what was before stays. @returns whether there is something */
   async refresh() {
     const header = await (await fetch('header')).json();
     const before = this.header;
-    if (header.version === before.version) return false;
+    if (header.version === before.version || !header.frames.length) return false;
     if (header.generation !== before.generation) { this.blocks.clear(); this.arrays.clear(); }
     this.header = header;
     return true;
@@ -118,23 +121,29 @@ export class Run {
   get frames() { return this.header.frames; }
 
   async block(id) {
-    const hit = this.blocks.get(id);
+    const key = `${this.header.generation}/${id}`;
+    const hit = this.blocks.get(key);
     if (hit) return hit;
     const text = await this.fetchBlock(id);
     const end = text.indexOf('.');
     if (end < 0) throw new Error('block ' + id + ' is damaged');
     const directory = JSON.parse(new TextDecoder().decode(await inflate(bytesOf(text.slice(0, end)))));
-    return this.blocks.put(id, { directory, chunks: text.slice(end + 1) }, text.length);
+    return this.blocks.put(key, { directory, chunks: text.slice(end + 1) }, text.length);
+  }
+
+  /** Bytes at a place: [block, offset, length]. */
+  async bytesAt([block, offset, length]) {
+    const { chunks } = await this.block(block);
+    if (offset + length > chunks.length) throw new Error('block ' + block + ' is cut off');
+    return inflate(bytesOf(chunks.slice(offset, offset + length)));
   }
 
   async values(record) {
-    const [block, offset, length] = record.at;
-    const key = `${block}/${offset}/${record.type}/${record.scale ?? record.lo}/${record.hi ?? ''}/${record.components}`;
+    const [block, offset] = record.at;
+    const key = `${this.header.generation}/${block}/${offset}/${record.key ?? ''}/${record.type}/${record.scale ?? record.lo}/${record.hi ?? ''}/${record.components}`;
     const hit = this.arrays.get(key);
     if (hit) return hit;
-    const { chunks } = await this.block(block);
-    if (offset + length > chunks.length) throw new Error('block ' + block + ' is cut off');
-    const values = decoded(await inflate(bytesOf(chunks.slice(offset, offset + length))), record);
+    const values = decoded(await this.bytesAt(record.at), record, record.key && await this.bytesAt(record.key));
     return this.arrays.put(key, values, values.byteLength);
   }
 

@@ -156,7 +156,10 @@ class Page {
       if (state.busy) return;
       state.at += passed / 1000 * perSecond * Number($('speed').value);
       const k = Math.min(Math.floor(state.at), this.run.frames.length - 1);
-      if (k !== this.frame) { state.busy = true; await this.goTo(k); state.busy = false; }
+      if (k !== this.frame) {
+        state.busy = true;
+        try { await this.goTo(k); } finally { state.busy = false; }
+      }
       if (k >= this.run.frames.length - 1 && !this.run.live) this.play(false);
     };
     this.playing = state;
@@ -520,7 +523,7 @@ class Page {
     $('help').showModal();
   }
 
-  precision() { return 'Positions are kept to 1/65536 of the box around a frame, values to 1/500, radii and histories to 7 digits. Vectors other than velocities of grains are kept as magnitudes.'; }
+  precision() { return 'Positions are kept to 1/65536 of the box around a frame, or of an earlier one at most twice as wide, values to 1/500, radii and histories to 7 digits. Vectors other than velocities of grains are kept as magnitudes.'; }
 
   look(direction) {
     this.stage.frame(this.view.homeBox, direction, this.view.places);
@@ -581,18 +584,26 @@ class Page {
     canvas.addEventListener('webglcontextlost', () => { $('message').textContent = 'The graphics card was lost; open the page again.'; });
   }
 
+  /** In another list of frames, where some were left out or the run was begun anew, what is shown is what is nearest to a time. */
+  changeList(time) {
+    this.view.asked++;   // what is still being read was asked for of the list before
+    this.frame = this.view.frame = this.frameAt(time);
+  }
+
   /** Follows a running simulation. */
   async follow() {
     try {
-      const atEnd = this.frame >= this.run.frames.length - 1;
+      const atEnd = this.frame >= this.run.frames.length - 1, { time } = this.run.frames[this.frame], { generation } = this.run.header;
       if (await this.run.refresh()) {
+        const isOther = this.run.header.generation !== generation;
+        if (isOther) this.changeList(time);
         this.choices = Object.fromEntries(kParts.map((part) => [part, choicesOf(this.run.header, part)]));
         this.describeRun();
         for (const part of kParts) if (!this.colours[part].key) this.colours[part].key = this.firstKey(part);
         if (this.shape() !== this.panelShape) this.panel();
         this.applyColours();
         this.legends();
-        if (atEnd && this.run.frames.length) await this.goTo(this.run.frames.length - 1);
+        if (atEnd || isOther) await this.goTo(atEnd ? Infinity : this.frame);
         if (!this.chosen.element) await this.loadHistories();
       }
       $('message').textContent = '';
