@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Takes scripts of YADE over and goes on with both programs; prints, for each, counts, masses and how far bodies are apart.
 
+What is judged: every body with a mass that may move is there; the masses agree to 1e-6; and no body is further from its place in YADE
+than the fastest body goes in a step. That is twice what the integrator explains: YADE begins with a whole kick where Plekton has half a
+one, so its velocities are those of half a step later, and its places half a step's way ahead.
+
 Run on request, with YADE and Plekton's module for Python: PYTHONPATH=build/release/python /usr/bin/python3
-compare_with_yade.py PROGRAM SCRIPT... [--steps 1000] [--iteration 0] [--mend-shear]. A script that fails is told and counted; ends 1 if any does.
+compare_with_yade.py PROGRAM SCRIPT... [--steps 1000] [--iteration 0] [--mend-shear] [--record FOLDER]. Ends 1 if a script is not as
+it should be.
 """
 
 import argparse
@@ -53,8 +58,11 @@ def moving(scene):
     return {b["id"]: b for b in scene["spheres"] + scene["nodes"] + scene["clumps"]}
 
 
-def compare(program, script, iteration, steps, folder):
+def compare(program, script, iteration, steps, folder, record):
     before, after = exported(script, [iteration, iteration + steps], folder)
+    if record:
+        record.mkdir(parents=True, exist_ok=True)
+        shutil.copy(folder / f"scene_{iteration}.json", record / f"{script.stem}.json")
     command = [program, "import-yade", script, "--iteration", str(iteration), "--out", folder / "taken", "--overwrite"]
     said = subprocess.run([str(c) for c in command], capture_output=True, text=True)
     if said.returncode != 0:
@@ -69,7 +77,14 @@ def compare(program, script, iteration, steps, folder):
         if distance[nearest] > 0:
             continue
         places[number] = nearest
-    sim.run(until=after["time"] - before["time"])
+    duration = after["time"] - before["time"]
+    speeds = [np.linalg.norm(b["v"]) for b in (*bodies.values(), *later.values())]
+    watched = list(places.values())
+
+    def note_speeds(sim):
+        speeds.append(np.linalg.norm(np.array(sim.velocities)[watched], axis=1).max())
+
+    sim.run(until=duration, every={duration / 50: note_speeds} if watched else {})
     end = np.array(sim.positions)
     apart, moved = 0.0, 0.0
     for number, place in places.items():
@@ -77,11 +92,19 @@ def compare(program, script, iteration, steps, folder):
         apart = max(apart, np.linalg.norm(end[place] - there))
         moved = max(moved, np.linalg.norm(there - np.array(bodies[number]["x"])))
     mass = sum(b["mass"] for b in bodies.values())
-    ours = float(np.sum(np.array(sim.masses)[list(places.values())]))
-    print(f"{script.stem}: {len(places)} of {len(bodies)} bodies, {mass:.6g} kg there and {ours:.6g} kg here, "
-          f"{after['time'] - before['time']:.4g} s in {steps} steps there: moved by up to {moved:.4g} m, apart by up to {apart:.3g} m "
-          f"({100 * apart / moved if moved else 0:.2g} % of that)")
-    return len(places) == len(bodies)
+    ours = float(np.sum(np.array(sim.masses)[watched]))
+    limit = max(speeds) * duration / steps
+    wrong = []
+    if len(places) != len(bodies):
+        wrong.append("bodies are missing")
+    if abs(ours - mass) > 1e-6 * mass:
+        wrong.append("the masses differ")
+    if apart > limit:
+        wrong.append("further apart than a step's way")
+    print(f"{script.stem}: {len(places)} of {len(bodies)} bodies, {mass:.6g} kg there and {ours:.6g} kg here, {duration:.4g} s in {steps} "
+          f"steps there: moved by up to {moved:.4g} m, apart by up to {apart:.3g} m ({100 * apart / moved if moved else 0:.2g} % of that), "
+          f"limit {limit:.3g} m: {', '.join(wrong) or 'agrees'}", flush=True)
+    return not wrong
 
 
 def main():
@@ -91,6 +114,7 @@ def main():
     parser.add_argument("--steps", type=int, default=1000)
     parser.add_argument("--iteration", type=int, default=0)
     parser.add_argument("--mend-shear", action="store_true", help="with the whole shear stiffness of beams in YADE")
+    parser.add_argument("--record", type=Path, help="folder to keep what YADE has told in, a file for each script")
     arguments = parser.parse_args()
     failed = 0
     for script in arguments.scripts:
@@ -98,9 +122,9 @@ def main():
             if arguments.mend_shear:
                 script = mended(script, Path(folder))
             try:
-                failed += not compare(arguments.program, script, arguments.iteration, arguments.steps, Path(folder))
+                failed += not compare(arguments.program, script, arguments.iteration, arguments.steps, Path(folder), arguments.record)
             except (RuntimeError, plekton.Error) as error:
-                print(f"{script.stem}: {error}")
+                print(f"{script.stem}: {error}", flush=True)
                 failed += 1
     return 1 if failed else 0
 
