@@ -22,7 +22,16 @@ def mean(values):
     return sum(values) / len(values)
 
 
+WINDOW, APART = 25, 5  # rows of a millisecond: a mean is over 0.75 mm of the way, and means begin that far from each other
 RIM = 0.15  # largest overlap over radius, of grains on the rim of the gap, that README.md explains
+
+
+def peak(over, under, first=0):
+    """The largest ratio of two histories, each a mean over WINDOW rows from `first` on, and the row in the middle of it."""
+    begins = range(first, len(over) - WINDOW + 1, APART)
+    ratio = lambda i: sum(over[i:i + WINDOW]) / sum(under[i:i + WINDOW])
+    best = max(begins, key=ratio)
+    return ratio(best), best + WINDOW // 2
 
 
 def new_red_rows(report):
@@ -44,12 +53,10 @@ def check(folder):
     total = {axis: [sum(parts) for parts in zip(of("lower half", axis), of("upper half", axis), of("lid", axis))]
              for axis in "xyz"}
     # Through the shear plane goes what the lower half bears, but for the weight of the sand in it.
-    ratio = [x / -z for x, z in zip(of("lower half", "x"), of("lower half", "z"))]
-    window = 9  # ms; a row is a millisecond
-    peak = max(mean(ratio[i:i + window]) for i in range(len(ratio) - window))
+    ratio, _ = peak(of("lower half", "x"), [-z for z in of("lower half", "z")])
     lid = mean(of("lid", "z"))
     return {
-        "peak friction angle (deg)": (math.degrees(math.atan(peak)), 25.0, 45.0),
+        "peak friction angle (deg)": (math.degrees(math.atan(ratio)), 25.0, 45.0),
         "force of the lid (N)": (lid, 97.0, 103.0),
         "sum of shear forces over that of the lid": (mean(total["x"]) / lid, -0.02, 0.02),
         "sum of forces across over that of the lid": (mean(total["y"]) / lid, -0.02, 0.02),
