@@ -28,7 +28,13 @@ SOIL = {
     "grains.sand.sieves": '[{ sieve = "4 mm", passing = 0 }, { sieve = "6 mm", passing = 1 }]',
 }
 PRESSURE = 25e3  # Pa, of the cell, and of the lid on the 56 mm by 56 mm between the walls
-BOX = {"stages.confine.loads.press.force": f'"{PRESSURE * 0.056**2:.1f} N"'}
+# The soil at three quarters of its scale, fifteen grains across; and walls without friction, on which sand that rises does not hang.
+BOX = {
+    "stages.confine.loads.press.force": f'"{PRESSURE * 0.056**2:.1f} N"',
+    "materials.steel.friction_angle": "0",
+    "grains.sand.sieves": '[{ sieve = "3 mm", passing = 0 }, { sieve = "4.5 mm", passing = 1 }]',
+    "grains.sand.count": "2850",
+}
 # Friction while the samples are made says how dense they get; rain and packing differ, so for the same porosity it does too.
 BOX_MAKING, TRIAXIAL_MAKING = "stages.deposit.materials.sand.friction_angle", "stages.confine.materials.sand.friction_angle"
 
