@@ -97,6 +97,7 @@ struct CommandLine {
   StudyArguments study;
   ImportYadeArguments yade;
   std::vector<std::string> columns;
+  std::string x;
   std::string at;
   ValidateArguments validate;
   std::string example;
@@ -498,7 +499,7 @@ int study_command(const CommandLine& line) {
 }
 
 int plot_command(const CommandLine& line) {
-  plot_run({line.run, line.columns, line.out}, std::cout);
+  plot_run({line.run, line.columns, line.x, line.out}, std::cout);
   flush_output();
   return kDone;
 }
@@ -738,6 +739,10 @@ CLI::App* add_plot(CLI::App& app, CommandLine& line) {
                    "Columns of energy.csv, reactions.csv and pressures.csv, without their units, "
                    "with commas between them; all that are not 0 if not given")
       ->delimiter(',');
+  plot->add_option(
+      "--x", line.x,
+      "Column on the horizontal axis, as in --x \"front edge.position_y\", for columns "
+      "of the same file; the time if not given");
   plot->add_option(
       "--out", line.out,
       "File to write, .svg or .png; plot.svg and plot.png in that folder if not given");

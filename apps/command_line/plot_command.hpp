@@ -12,6 +12,7 @@ namespace plekton::apps {
 struct PlotArguments {
   std::filesystem::path run;         ///< folder of a run
   std::vector<std::string> columns;  ///< none: all that say something
+  std::string x;                     ///< column on the horizontal axis; empty: the time
   std::filesystem::path out;         ///< .svg or .png; empty: plot.svg and plot.png in the folder
 };
 

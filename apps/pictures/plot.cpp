@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/pictures/plot.hpp"
 
+#include "apps/pictures/drawn_rows.hpp"
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/problems.hpp"
 
@@ -41,7 +42,12 @@ std::span<const History::Column> columns_of(const History& history) {
   return std::span(history.columns).subspan(1);
 }
 
-void require_known(const std::vector<History>& histories, std::span<const std::string> names) {
+std::string head_of(const History::Column& column) {
+  return column.unit.empty() ? column.name : fmt::format("{} ({})", column.name, column.unit);
+}
+
+void require_known(const std::vector<History>& histories, std::string_view option,
+                   std::span<const std::string> names) {
   std::vector<std::string_view> known;
   for (const History& history : histories)
     for (const History::Column& column : columns_of(history)) known.push_back(column.name);
@@ -49,18 +55,47 @@ void require_known(const std::vector<History>& histories, std::span<const std::s
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string hint = did_you_mean(name, known);
     throw InputError(
-        fmt::format("--columns: no history of the run has a column \"{}\"{}", name,
+        fmt::format("{}: no history of the run has a column \"{}\"{}", option, name,
                     hint.empty() ? fmt::format("; there are {}", fmt::join(known, ", ")) : hint));
   }
 }
 
+/// The column over which others are drawn, and the history that has it.
+struct Abscissa {
+  const History* history;
+  const History::Column* column;
+};
+
+/// Of a name that some history has.
+Abscissa abscissa_of(const std::vector<History>& histories, const std::string& name) {
+  for (const History& history : histories)
+    for (const History::Column& column : columns_of(history))
+      if (column.name == name) return {&history, &column};
+  throw InputError(fmt::format("--x: no history of the run has a column \"{}\"", name));
+}
+
+/// Rows of different files are of different times.
+void require_same_file(const std::vector<History>& histories, std::span<const std::string> names,
+                       const Abscissa& over) {
+  for (const History& history : histories) {
+    if (&history == over.history) continue;
+    for (const History::Column& column : columns_of(history)) {
+      if (std::find(names.begin(), names.end(), column.name) == names.end()) continue;
+      throw InputError(fmt::format(
+          "--columns: \"{}\" is in {} and cannot be drawn over \"{}\" (--x), which is in {}; "
+          "name columns of one file",
+          column.name, history.file, over.column->name, over.history->file));
+    }
+  }
+}
+
 PlotPanel& panel_of(std::vector<PlotPanel>& panels, const History& history,
-                    const std::string& quantity) {
+                    const std::string& quantity, const History::Column& x) {
   const auto found = std::find_if(panels.begin(), panels.end(), [&](const PlotPanel& panel) {
     return panel.file == history.file && panel.quantity == quantity;
   });
   if (found != panels.end()) return *found;
-  return panels.emplace_back(PlotPanel{quantity, history.file, history.columns.front().values, {}});
+  return panels.emplace_back(PlotPanel{quantity, history.file, head_of(x), x.values, {}});
 }
 
 /// As gnuplot reads it as it is. Column heads and names of folders have no line breaks in them but
@@ -74,35 +109,16 @@ std::string quoted(const std::string& text) {
   return result + '\'';
 }
 
-/// The rows that are drawn: all, or of many the least and the greatest of every few, so that no peak
-/// is lost.
-std::vector<std::size_t> rows_drawn(const std::vector<double>& values) {
-  constexpr std::size_t kMost = 4000;  // twice the pixels of a wide picture
-  std::vector<std::size_t> rows;
-  const std::size_t few = std::max<std::size_t>(1, 2 * values.size() / kMost);
-  for (std::size_t begin = 0; begin < values.size(); begin += few) {
-    const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto last =
-        values.begin() + static_cast<std::ptrdiff_t>(std::min(begin + few, values.size()));
-    const auto [low, high] = std::minmax_element(first, last);
-    auto a = static_cast<std::size_t>(low - values.begin());
-    auto b = static_cast<std::size_t>(high - values.begin());
-    if (a > b) std::swap(a, b);
-    rows.push_back(a);
-    if (a != b) rows.push_back(b);
-  }
-  return rows;
-}
-
 std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.9g}", value) : "NaN";
 }
 
 std::string data_block(const std::string& name, const PlotPanel& panel,
                        const std::vector<double>& values) {
+  constexpr std::size_t kMost = 4000;  // four times the pixels of a picture
   std::string text = fmt::format("${} << END\n", name);
-  for (const std::size_t row : rows_drawn(values))
-    text += fmt::format("{} {}\n", number(panel.times[row]), number(values[row]));
+  for (const std::size_t row : drawn_rows(panel.x, values, kMost))
+    text += fmt::format("{} {}\n", number(panel.x[row]), number(values[row]));
   return text + "END\n";
 }
 
@@ -117,22 +133,31 @@ std::string panel_commands(const PlotPanel& panel, std::size_t number) {
         fmt::format("{}${} using 1:2 with lines linewidth 1.5 dashtype {} title {}",
                     i > 0 ? ", " : "", name, 1 + i / kColours, quoted(panel.columns[i]->name));
   }
-  return fmt::format("{}set title {}\nset ylabel {}\nplot {}\n", data, quoted(panel.file),
-                     quoted(panel.quantity), curves);
+  return fmt::format("{}set title {}\nset xlabel {}\nset ylabel {}\nplot {}\n", data,
+                     quoted(panel.file), quoted(panel.x_head), quoted(panel.quantity), curves);
 }
 
 }  // namespace
 
 std::vector<PlotPanel> panels_of(const std::vector<History>& histories,
-                                 std::span<const std::string> names) {
-  require_known(histories, names);
+                                 std::span<const std::string> names, const std::string& x) {
+  require_known(histories, "--columns", names);
+  Abscissa over{nullptr, nullptr};
+  if (!x.empty()) {
+    require_known(histories, "--x", std::span(&x, 1));
+    over = abscissa_of(histories, x);
+    require_same_file(histories, names, over);
+  }
   std::vector<PlotPanel> panels;
   for (const History& history : histories) {
+    if (over.history != nullptr && over.history != &history) continue;
+    const History::Column& along = over.column != nullptr ? *over.column : history.columns.front();
     for (const History::Column& column : columns_of(history)) {
       const bool is_drawn = names.empty()
-                                ? is_drawn_unasked(column)
+                                ? is_drawn_unasked(column) && &column != over.column
                                 : std::find(names.begin(), names.end(), column.name) != names.end();
-      if (is_drawn) panel_of(panels, history, quantity_in(column.unit)).columns.push_back(&column);
+      if (!is_drawn) continue;
+      panel_of(panels, history, quantity_in(column.unit), along).columns.push_back(&column);
     }
   }
   if (panels.empty())
@@ -157,7 +182,6 @@ std::string gnuplot_script(const std::vector<PlotPanel>& panels, const std::stri
   script += fmt::format(
       "set output {}\n"
       "set multiplot layout {},1 title {} noenhanced\n"
-      "set xlabel 'time (s)'\n"
       "set grid\n"
       "set key outside right top noenhanced\n",
       quoted(output), panels.size(), quoted(title));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/validation/figure.hpp"
 
+#include "apps/pictures/drawn_rows.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -114,18 +116,11 @@ class SvgWriter {
              fmt::format(" transform=\"rotate(-90 20 {})\"", middle));
   }
 
-  /// Every few points of many, the last one always.
-  static std::size_t stride(const Curve& curve) {
-    const std::size_t most = curve.style == CurveStyle::points ? 60 : 1500;
-    return std::max<std::size_t>(1, curve.x.size() / most);
-  }
-
   void add_curve(const Curve& curve, std::size_t number) {
     const std::string_view colour = kColours[number % kColours.size()];
     std::string points;
-    const std::size_t every = stride(curve);
-    for (std::size_t i = 0; i < curve.x.size(); ++i) {
-      if (i % every != 0 && i + 1 != curve.x.size()) continue;
+    const std::size_t most = curve.style == CurveStyle::points ? 60 : 3000;
+    for (const std::size_t i : drawn_rows(curve.x, curve.y, most)) {
       if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
       if (curve.style == CurveStyle::points) {
         svg_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n",

@@ -44,6 +44,19 @@ TEST_F(PicturesCommand, PlotsTheColumnsThatAreNamedIntoTheFileThatIsNamed) {
                                           testing::Not(HasSubstr("gravity"))));
 }
 
+TEST_F(PicturesCommand, PlotsOneColumnOverAnother) {
+  if (!find_program("gnuplot")) GTEST_SKIP() << "gnuplot is not installed";
+  run();
+  const std::string name = file("loop.svg");
+
+  const Outcome outcome =
+      outcome_of({"plot", out(), "--columns", "kinetic", "--x", "gravity", "--out", name});
+
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(test::bytes_of(name),
+              AllOf(HasSubstr("gravity (J)"), testing::Not(HasSubstr("time (s)"))));
+}
+
 TEST_F(PicturesCommand, SayInOneLineWhatIsMissingOrWrong) {
   run();
   const auto lines = [](const std::string& text) {

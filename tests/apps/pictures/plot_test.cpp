@@ -64,6 +64,34 @@ TEST(PlotPanels, RefuseAColumnThatIsNotThere) {
   }
 }
 
+TEST(PlotPanels, AreDrawnOverAColumnOfTheirFile) {
+  const auto all = histories();
+  const auto panels = panels_of(all, {}, "kinetic");
+
+  ASSERT_EQ(panels.size(), 1U);
+  EXPECT_THAT(names_of(panels[0]), testing::ElementsAre("gravity"));
+  EXPECT_EQ(panels[0].x_head, "kinetic (J)");
+  EXPECT_THAT(panels[0].x, testing::ElementsAre(0, 2));
+  EXPECT_THAT(gnuplot_script(panels, "run", PictureKind::svg, "/tmp/picture"),
+              testing::AllOf(HasSubstr("set xlabel 'kinetic (J)'"), HasSubstr("\n2 -1\n")));
+  EXPECT_EQ(panels_of(all, {})[0].x_head, "time (s)");
+}
+
+TEST(PlotPanels, RefuseAnAbscissaThatIsNotThereOrOfAnotherFile) {
+  const auto all = histories();
+  const std::vector<std::string> names = {"kinetic"};
+  for (const auto& [x, said] :
+       {std::pair{"gravty", "--x: no history of the run has a column \"gravty\"; did you mean"},
+        std::pair{"floor's.force_z", "\"kinetic\" is in energy.csv and cannot be drawn over"}}) {
+    try {
+      panels_of(all, names, x);
+      ADD_FAILURE() << x;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(said));
+    }
+  }
+}
+
 TEST(GnuplotScript, KeepsTextsInQuotesThatNothingGetsOutOf) {
   auto all = histories();
   all[1].columns[1].name = "a'; system('x')\n`id`";

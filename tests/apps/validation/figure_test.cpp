@@ -43,6 +43,17 @@ TEST(SvgFigure, HasHeadsTicksALegendAndNothingThatIsNoNumber) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
+TEST(SvgFigure, KeepsThePeaksOfLongCurves) {
+  std::vector<double> x(100'000), y(x.size(), 0.0);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = static_cast<double>(i);
+  y[77'777] = 9.0;
+
+  const std::string svg = svg_of({"", "", "", {{"c", CurveStyle::line, x, y}}});
+
+  // The axis goes up to 10, from 320 px at its foot to 44 px.
+  EXPECT_THAT(svg, HasSubstr(",71.6 "));
+}
+
 TEST(SvgFigure, CanBeOfConstantsAndOfNothing) {
   for (const Figure& figure :
        {Figure{"", "", "", {{"c", CurveStyle::line, {1, 2}, {3, 3}}}}, Figure{"", "", "", {}}})
