@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Says how a sphere bounced, and whether that can be: python3 check.py RUN [RUN ...]
 
-RUN is the folder of a run of bouncing_sphere.toml, gas.toml or incline.toml, or of a run of the study speeds.toml. Ends 1 where
+RUN is the folder of a run of bouncing_sphere.toml, gas.toml, incline.toml or gas_incline.toml, or of a run of the study speeds.toml. Ends 1 where
 something is out of its bounds. Runs of the same speed with different steps are compared.
 """
 import csv
@@ -12,6 +12,7 @@ from pathlib import Path
 
 SLOPE = math.atan(0.29337)
 FRICTION = math.tan(math.radians(20))
+THROWN = 5.0  # m/s, downwards, of the ball full of gas
 OUTSIDE = 101325.0  # Pa
 EXPONENT = 1.4
 
@@ -73,13 +74,20 @@ def check_empty(run, bounds):
     return bounce
 
 
-def check_gas(run, bounds):
-    bounce = Bounce(run, "wall", lambda h: h["ball.position_z"])
-    gas, energy = columns(run / "pressures.csv"), columns(run / "energy.csv")
+def rows_when_full(run, bounds):
+    """The history of the gas, and its rows once the ball is inflated."""
+    gas = columns(run / "pressures.csv")
     full = [i for i, t in enumerate(gas["time"]) if t > 0.0201]
-    before = max(i for i in full if gas["time"][i] < bounce.t[bounce.touch])
     states = [(gas["air.pressure"][i] + OUTSIDE) * gas["air.volume"][i] ** EXPONENT for i in full]
     bounds.expect("largest change of p V^1.4", max(states) / min(states) - 1, 0, 1e-9, "gas without exchange of heat")
+    return gas, full
+
+
+def check_gas(run, bounds):
+    bounce = Bounce(run, "wall", lambda h: h["ball.position_z"])
+    gas, full = rows_when_full(run, bounds)
+    energy = columns(run / "energy.csv")
+    before = max(i for i in full if gas["time"][i] < bounce.t[bounce.touch])
     radius = (3 * gas["air.volume"][before] / 4 / math.pi) ** (1 / 3)
     mass = 2 * max(energy["kinetic"][i] for i, t in enumerate(energy["time"]) if t < bounce.t[bounce.touch]) / bounce.v_in**2
     cap = math.pi * math.sqrt(mass / (2 * math.pi * radius * gas["air.pressure"][before]))
@@ -88,17 +96,44 @@ def check_gas(run, bounds):
     print(f"  in {bounce.v_in:.3f} m/s, out {bounce.v_out:.3f} m/s, {1e3 * bounce.below():.2f} ms, pressure {gas['air.pressure'][before] / 1e3:.1f} to {max(gas['air.pressure'][i] for i in full) / 1e3:.1f} kPa")
 
 
-def check_incline(run, bounds):
+def on_incline(run, gravity):
+    """The bounce along the normal of the incline, its history, and places along the incline, downhill."""
     sine, cosine = math.sin(SLOPE), math.cos(SLOPE)
-    bounce = Bounce(run, "incline", lambda h: [sine * x + cosine * z for x, z in zip(h["ball.position_x"], h["ball.position_z"])], 9.81 * cosine)
+    bounce = Bounce(run, "incline", lambda h: [sine * x + cosine * z for x, z in zip(h["ball.position_x"], h["ball.position_z"])], gravity * cosine)
     history = columns(run / "reactions.csv")
-    bounds.expect("largest way out of the plane of symmetry (m)", max(abs(y - 0.1) for y in history["ball.position_y"]), 0, 1e-9, "symmetry")
+    return bounce, history, [cosine * x - sine * z for x, z in zip(history["ball.position_x"], history["ball.position_z"])]
+
+
+def check_slip(history, bounds, aside):
+    """@param aside  largest way out of the plane of symmetry (m)"""
+    sine, cosine = math.sin(SLOPE), math.cos(SLOPE)
+    middle = history["ball.position_y"][0]
+    bounds.expect("largest way out of the plane of symmetry (m)", max(abs(y - middle) for y in history["ball.position_y"]), 0, aside, "symmetry")
     slip = 0.0
     for x, z in zip(history["incline.force_x"], history["incline.force_z"]):
         pressed = -(sine * x + cosine * z)
         if pressed > 0:
             slip = max(slip, abs(cosine * x - sine * z) / pressed)
     bounds.expect("largest tangential over normal force", slip, 0, FRICTION * (1 + 1e-9), "Coulomb: tan 20 deg")
+
+
+def check_gas_incline(run, bounds):
+    bounce, history, along = on_incline(run, 0.0)
+    rows_when_full(run, bounds)
+    check_slip(history, bounds, 1e-3)  # a limp sheet wrinkles, and what rounding begins grows
+    bounds.expect("restitution along the normal", bounce.restitution, 0.85, 1.0, "elastic: at most 1")
+    expected = THROWN * math.cos(SLOPE)
+    bounds.expect("speed at the incline (m/s)", bounce.v_in, 0.99 * expected, 1.01 * expected, "as it was thrown")
+    after = range(bounce.leave + 1, len(bounce.t))
+    out = slope([bounce.t[i] for i in after], [along[i] for i in after])
+    bounds.expect("speed along the incline, out over in", out / (THROWN * math.sin(SLOPE)), 0.2, 0.6, "a shell that grips: elastic 1/5, rolling 3/5")
+    print(f"  in {bounce.v_in:.3f} m/s, out {bounce.v_out:.3f} m/s along the normal, {out:.3f} m/s along the incline")
+
+
+def check_incline(run, bounds):
+    cosine, sine = math.cos(SLOPE), math.sin(SLOPE)
+    bounce, history, _ = on_incline(run, 9.81)
+    check_slip(history, bounds, 1e-9)
     bounds.expect("restitution along the normal", bounce.restitution, 0.5, 1.0, "A21")
     heights = [sine * x + cosine * z for x, z in zip(history["ball.position_x"], history["ball.position_z"])]
     expected = math.sqrt(2 * 9.81 * cosine * (heights[0] - heights[bounce.touch]))
@@ -113,10 +148,9 @@ def main():
     for run in map(Path, sys.argv[1:]):
         report = json.loads((run / "run.json").read_text())
         print(run)
-        if (run / "pressures.csv").exists():
-            check_gas(run, bounds)
-        elif "incline.force_z" in columns(run / "reactions.csv"):
-            check_incline(run, bounds)
+        has_gas, has_incline = (run / "pressures.csv").exists(), "incline.force_z" in columns(run / "reactions.csv")
+        if has_gas or has_incline:
+            {(True, False): check_gas, (False, True): check_incline, (True, True): check_gas_incline}[has_gas, has_incline](run, bounds)
         else:
             bounce = check_empty(run, bounds)
             empty.setdefault(round(bounce.v_in, 6), []).append(bounce.restitution)

@@ -108,11 +108,13 @@ APPLICATIONS = {
             "half the step": ("bouncing_sphere", ["simulation.time_step=2.5 us"]),
             "gas": ("gas", []),
             "incline": ("incline", []),
+            "gas on the incline": ("gas_incline", []),
         },
         "wrong": {
             "a wall that takes energy": ("bouncing_sphere", ["simulation.damping=0.1"]),
             "gas that is kept at its temperature": ("gas", ["stages.inflate.loads.air.gas.exponent=1"]),
             "more friction than there is": ("incline", ["materials.plastic.friction_angle=30 deg"]),
+            "an incline without friction": ("gas_incline", ["materials.leather.friction_angle=0"]),
         },
     },
 }
