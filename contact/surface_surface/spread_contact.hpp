@@ -103,7 +103,7 @@ struct SpreadContact {
     elastic_force = spread.on_b[0] + spread.on_b[1] + spread.on_b[2];
     normal_force = elastic_force.norm();
     if (!(normal_force > 0.0) || !(spread.energy > 0.0)) return false;
-    gap = -2.0 * spread.energy / normal_force;
+    gap = -mean_overlap(bodies.parameters, spread.energy, normal_force);
     const double one = AnyLaw::elastic_normal_force(bodies.parameters, gap);
     if (!(one > 0.0)) return false;
     count = normal_force / one;

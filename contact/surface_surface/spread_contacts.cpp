@@ -102,9 +102,10 @@ bool SpreadContacts::locate_bar(const StructurePatches& patches, const PairTerm&
   const double own = of.spread();
   Vec3 towards = (spread.is_turned ? -1.0 : 1.0) * (1.0 - own) * patch.elastic_force;
   if (patch.pushes()) towards /= patch.normal_force;
+  const StructurePair& bodies = patches.structure_pairs()[term.spring];
+  const double overlap = mean_overlap(bodies.parameters, of.energy, of.bars);
   return spread.locate_bar(
-      term, {push * std::min(1.0, of.bars / of.positive), 2.0 * of.energy / of.bars, towards, own},
-      patches.structure_pairs()[term.spring], x);
+      term, {push * std::min(1.0, of.bars / of.positive), overlap, towards, own}, bodies, x);
 }
 
 // What those of the last step leave to those of this one.

@@ -130,7 +130,7 @@ void StructureBonds::list_pressed_pairs(const StructurePatches& patches) {
     const NormalSpring& spring = patches.spring_of(term);
     const double deepest = spring.force(spring.range() - term.overlap);
     const double one = AnyLaw::elastic_normal_force(
-        parameters, push > 0.0 ? -2.0 * term.forces.energy / push : 0.0);
+        parameters, push > 0.0 ? -mean_overlap(parameters, term.forces.energy, push) : 0.0);
     if (!(one > 0.0) || !(deepest > 0.0)) continue;
     const double near = near_push_[holder.pair] / deepest;
     const double wide = std::max(0.0, push - term.point_share * term.weight * deepest) / one;

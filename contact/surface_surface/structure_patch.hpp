@@ -3,6 +3,7 @@
 
 #include "contact/base/relative_motion.hpp"
 #include "contact/law/bonds.hpp"
+#include "contact/surface_surface/mean_overlap.hpp"
 #include "contact/surface_surface/patch_side.hpp"
 #include "contact/tracking/contact_memory.hpp"
 #include "contact/tracking/contact_state.hpp"
@@ -92,10 +93,10 @@ struct StructurePatch {
     second.find_shares(x, per_force);
   }
 
-  /// Mean overlap, that of a linear spring with this force and energy; how many springs that are.
+  /// Mean overlap, and how many contacts that are.
   void find_mean(const StructurePair& bodies) {
     normal_force = elastic_force.norm();
-    gap = pushes() ? -2.0 * energy / normal_force : 0.0;
+    gap = pushes() ? -mean_overlap(bodies.parameters, energy, normal_force) : 0.0;
     const double one = AnyLaw::elastic_normal_force(bodies.parameters, gap);
     count = one > 0.0 ? normal_force / one : 0.0;
   }

@@ -116,6 +116,7 @@ class StructurePairUnder {
       moment += (x_[i] - about).cross(forces_.force[i]);
     return moment;
   }
+  const contact::StructureContacts& contacts() const { return *contacts_; }
   const std::vector<Vec3>& forces() const { return forces_.force; }
   const std::vector<Vec3>& positions() const { return x_; }
   std::size_t first_node_of_b() const { return count_a_; }
