@@ -16,8 +16,8 @@
 #include <cstdint>
 #include <span>
 
-/// Spheres that touch the inside of one facet each, side by side: what lone_contact.hpp and the
-/// general way make of each, to the last bit.
+/// Spheres that touch the inside of one facet each, side by side: what single_feature_contact.hpp
+/// and the general way make of each, to the last bit.
 namespace plekton::contact {
 
 /// A sphere (first) and the corners of a facet, as they stand and move.

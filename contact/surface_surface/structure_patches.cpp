@@ -327,7 +327,7 @@ void StructurePatches::follow(const geometry::SurfaceChange& change) {
   terms_ = PairTerms(*surface_);
 }
 
-/// @param witness features  corners of the features of both cells that hold the nearest points
+/// @param witness_features  corners of the features of both cells that hold the nearest points
 void StructurePatches::hand_to_sides(const PairOfCells& pair,
                                      const std::array<geometry::FeatureNodes, 2>& witness_features,
                                      const geometry::SurfaceChange& change,
