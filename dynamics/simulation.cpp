@@ -101,7 +101,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       ties_(scene_),
       loads_(scene_),
       driven_planes_(scene_.loads, scene_.planes),
-      driven_bodies_(scene_.loads),
+      driven_bodies_(scene_, surface_),
       plane_reactions_(driven_planes_.empty() ? 0 : scene_.planes.size()),
       forces_(scene_.state.size()),
       nodes_(scene_.state, forces_),
@@ -227,6 +227,50 @@ void Simulation::set_pressure(std::size_t load, double pressure) {
     throw std::invalid_argument("set_pressure: the pressure must be finite");
   loads_.set_pressure(load, pressure);
   if (chooser_ != nullptr) chooser_->look_again();
+}
+
+namespace {
+
+/// @throws std::invalid_argument
+void require_target(const char* call, double force, double pressure) {
+  if (std::isfinite(force) && std::isfinite(pressure) && force >= 0.0 && pressure >= 0.0 &&
+      force + pressure > 0.0)
+    return;
+  throw std::invalid_argument(std::string(call) + ": got " + std::to_string(force) + " and " +
+                              std::to_string(pressure) +
+                              "; expected finite targets, none below 0, one of them above");
+}
+
+}  // namespace
+
+void Simulation::set_servo(std::size_t load, double force, double pressure) {
+  require_index("set_servo", "servo", load, scene_.loads.servos.size());
+  require_target("set_servo", force, pressure);
+  scene_.loads.servos[load].force = force;
+  scene_.loads.servos[load].pressure = pressure;
+  driven_planes_.set_target(load, force, pressure);
+}
+
+void Simulation::set_body_servo(std::size_t load, double target, double pressure) {
+  require_index("set_body_servo", "body servo", load, scene_.loads.body_servos.size());
+  require_target("set_body_servo", target, pressure);
+  BodyServo& servo = scene_.loads.body_servos[load];
+  if (servo.turns() && !(target > 0.0 && pressure == 0.0))
+    throw std::invalid_argument("set_body_servo: servo " + std::to_string(load) +
+                                " has a torque; expected one above 0, and no pressure");
+  (servo.turns() ? servo.torque : servo.force) = target;
+  servo.pressure = pressure;
+  driven_bodies_.set_target(load, servo);
+}
+
+void Simulation::set_plane_velocity(std::size_t plane, const Vec3& velocity) {
+  require_index("set_plane_velocity", "plane", plane, scene_.planes.size());
+  if (driven_planes_.drives(plane))
+    throw std::invalid_argument("set_plane_velocity: plane " + std::to_string(plane) +
+                                " is moved by a load; change that, or leave it out");
+  if (!velocity.allFinite())
+    throw std::invalid_argument("set_plane_velocity: the velocity must be finite");
+  driven_planes_.set_velocity(plane, velocity);
 }
 
 double Simulation::motion_ratio() const {
@@ -491,19 +535,20 @@ void Simulation::apply_loads() {
 
 void Simulation::drive_bodies(const LoadStep& step) {
   nodes_.know_all();  // also those that are near the bodies
-  const auto felt = [this](std::size_t body) { return rigid_bodies_.gathered_force(body); };
-  const auto look_at = [this](const BodyServo& servo, double longest) -> const BodyPress& {
-    body_press_.look(
-        *contacts_, rigid_nodes_,
-        {static_cast<std::int32_t>(servo.body), DrivenBodies::direction_of(servo), longest},
-        scene_.planes, scene_.state.position);
+  const auto felt = [this](const BodyServo& servo) {
+    return servo.turns() ? rigid_bodies_.gathered_torque(servo.body)
+                         : rigid_bodies_.gathered_force(servo.body);
+  };
+  const auto look_at = [this](const BodyPress::Way& way) -> const BodyPress& {
+    body_press_.look(*contacts_, rigid_nodes_, way, scene_.planes, scene_.state.position);
     return body_press_;
   };
-  work_.external += driven_bodies_.act(step, felt, forces_, rigid_nodes_, scene_.state, look_at);
+  work_.external +=
+      driven_bodies_.act(step, felt, forces_, rigid_nodes_, scene_.planes, scene_.state, look_at);
 }
 
 void Simulation::drive_planes() {
-  std::fill(plane_reactions_.begin(), plane_reactions_.end(), Vec3::Zero());
+  plane_reactions_.assign(scene_.planes.size(), Vec3::Zero());
   contacts_->for_each_plane_force(
       [&](std::size_t plane, const Vec3& force) { plane_reactions_[plane] += force; });
   const auto press = [this](std::size_t plane, double way) { return plane_press(plane, way); };

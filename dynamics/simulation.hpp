@@ -137,6 +137,16 @@ class Simulation {
   /// does not. @param pressure  Pa
   /// @throws std::invalid_argument for one by volume, or a pressure that is not finite
   void set_pressure(std::size_t load, double pressure);
+  /// The same of a plane servo, by its place in Loads::servos: with force + pressure area from then
+  /// on. @throws std::invalid_argument for targets that are not finite, below 0, or both 0
+  void set_servo(std::size_t load, double force, double pressure = 0.0);
+  /// The same by its place in Loads::body_servos. @param target  N, or N m of one that turns, which
+  /// has no pressure
+  void set_body_servo(std::size_t load, double target, double pressure = 0.0);
+  /// The velocity (m/s) of a plane that no load moves, from the next step on. A step that was given
+  /// does not follow. It is part of the state once that step was made.
+  /// @throws std::invalid_argument for a plane that a load moves, or a velocity that is not finite
+  void set_plane_velocity(std::size_t plane, const Vec3& velocity);
   const NodeProperties& properties() const noexcept { return scene_.properties; }
   /// Those that are left; nodes keep their ids.
   const geometry::Elements& elements() const noexcept { return scene_.elements; }
@@ -181,6 +191,8 @@ class Simulation {
   /// N, of all contacts on the nodes of a rigid body in the last step, by place in
   /// Scene::rigid_bodies.
   const Vec3& gathered_force(std::size_t body) const;
+  /// N m, the torque of these about the centre of mass.
+  const Vec3& gathered_torque(std::size_t body) const;
   /// How far from balance the last step was: measures/unbalanced_force.hpp. Like all reading out it
   /// costs nothing until it is asked for; then time linear in the number of nodes and contacts.
   double unbalanced_force_ratio() const;

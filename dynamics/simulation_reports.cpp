@@ -83,6 +83,11 @@ const Vec3& Simulation::gathered_force(std::size_t body) const {
   return rigid_bodies_.gathered_force(body);
 }
 
+const Vec3& Simulation::gathered_torque(std::size_t body) const {
+  require_index("gathered_torque", "rigid body", body, scene_.rigid_bodies.size());
+  return rigid_bodies_.gathered_torque(body);
+}
+
 BondForces Simulation::bond_forces(std::size_t bond) const {
   require_index("bond_forces", "bond", bond, bonds_.size());
   return yielding_bonds_.forces_of(bond, bonds_, scene_.state);

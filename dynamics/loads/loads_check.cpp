@@ -3,6 +3,7 @@
 
 #include "dynamics/loads/surface_pressure_check.hpp"
 #include "dynamics/model/scene.hpp"
+#include "dynamics/model/scene_figures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -102,14 +103,19 @@ class LoadProblems {
   }
 
   void list(const std::string& name, const BodyServo& servo) {
-    expect(servo.force >= 0.0 && servo.pressure >= 0.0 && servo.force + servo.pressure > 0.0, name,
-           "has no target; give a force (N) or a pressure (Pa) above 0");
+    const double pressing = servo.force + servo.pressure;
+    expect(servo.force >= 0.0 && servo.pressure >= 0.0 && servo.torque >= 0.0 &&
+               pressing + servo.torque > 0.0,
+           name, "has no target; give a force (N), a pressure (Pa) or a torque (N m) above 0");
+    expect(!(servo.turns() && pressing > 0.0), name,
+           "has a torque, and a force or pressure too; one servo drives one motion");
+    for (const auto& pair : servo.between) expect_facing(name, pair);
     expect(servo.area > 0.0, name, "its area must be above 0");
     expect(servo.largest_speed > 0.0, name, "its largest speed must be above 0");
     expect(servo.gain > 0.0 && servo.gain <= 1.0, name, "its gain must be above 0, at most 1");
     expect(std::abs(servo.towards) == 1.0, name, "goes towards 1 or -1 along its axis");
     expect_finite(name, "target, area and speed",
-                  Vec3(servo.force + servo.pressure, servo.area, servo.largest_speed));
+                  Vec3(pressing + servo.torque, servo.area, servo.largest_speed));
     if (servo.body >= scene_.rigid_bodies.size()) {
       text_ << name << ": there is no rigid body " << servo.body << ", only "
             << scene_.rigid_bodies.size() << " rigid bodies\n";
@@ -119,8 +125,9 @@ class LoadProblems {
       const NodeId node = scene_.rigid_bodies[servo.body].node;
       const std::vector<Held> held =
           held_with_motions(scene_.properties.held, scene_.loads.motions);
-      expect(!exists(node) || !holds_along(held[index_of(node)], servo.axis), name,
-             "its rigid body is held or moved along that axis already");
+      expect(!exists(node) || (held[index_of(node)] & driven_axis(servo)) == Held::nothing, name,
+             servo.turns() ? "its rigid body is held or turned about that axis already"
+                           : "its rigid body is held or moved along that axis already");
     }
   }
 

@@ -8,11 +8,20 @@ namespace plekton::dynamics {
 
 using contact::Plane;
 
-double plate_area(const PlaneServo& servo, std::span<const Plane> planes) {
-  double area = servo.area;
-  for (const auto& [a, b] : servo.between)
+double plate_area(double area, std::span<const std::array<std::size_t, 2>> between,
+                  std::span<const Plane> planes) {
+  for (const auto& [a, b] : between)
     area *= std::abs((planes[b].point - planes[a].point).dot(planes[a].normal));
   return area;
+}
+
+double full_target(const PlaneServo& servo, std::span<const Plane> planes) {
+  return servo.force + servo.pressure * plate_area(servo.area, servo.between, planes);
+}
+
+double full_target(const BodyServo& servo, std::span<const Plane> planes) {
+  if (servo.turns()) return servo.torque;
+  return servo.force + servo.pressure * plate_area(servo.area, servo.between, planes);
 }
 
 namespace {
@@ -81,12 +90,14 @@ DrivenPlanes::DrivenPlanes(const Loads& loads, std::span<const Plane> at_start)
 }
 
 double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,
-                         const PlanePressAt& press, std::vector<Plane>& planes) const {
+                         const PlanePressAt& press, std::vector<Plane>& planes) {
   double power = 0.0;  // W, at the new velocities more than at the old ones
   const auto set = [&](std::size_t plane, const Vec3& velocity) {
     power += reactions[plane].dot(velocity - planes[plane].velocity);
     planes[plane].velocity = velocity;
   };
+  for (const auto& [plane, velocity] : set_velocities_) set(plane, velocity);
+  set_velocities_.clear();
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const PlaneMotion& motion = motions_[i];
     const Vec3 place = start_[i] + motion.factor.integral(step.time + step.after) * motion.velocity;
@@ -94,8 +105,7 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,
   }
   for (const PlaneServo& servo : servos_) {
     const Plane& plane = planes[servo.plane];
-    const double wanted =
-        servo.factor.at(step.time) * (servo.force + servo.pressure * plate_area(servo, planes));
+    const double wanted = servo.factor.at(step.time) * full_target(servo, planes);
     const double pressing = -reactions[servo.plane].dot(plane.normal);
     const auto press_here = [&](double way) { return press(servo.plane, way); };
     const ServoPlate now{wanted, pressing, plane.velocity.dot(plane.normal)};
@@ -107,11 +117,17 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,
   return 0.5 * step.before * power;
 }
 
+bool DrivenPlanes::drives(std::size_t plane) const noexcept {
+  const auto is_it = [plane](const auto& driven) { return driven.plane == plane; };
+  return std::ranges::any_of(motions_, is_it) || std::ranges::any_of(servos_, is_it);
+}
+
 double DrivenPlanes::largest_speed() const noexcept {
   double speed = 0.0;
   for (const PlaneMotion& motion : motions_)
     speed = std::max(speed, motion.factor.largest() * motion.velocity.norm());
   for (const PlaneServo& servo : servos_) speed = std::max(speed, servo.largest_speed);
+  for (const auto& [plane, velocity] : set_velocities_) speed = std::max(speed, velocity.norm());
   return speed;
 }
 

@@ -5,8 +5,11 @@
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/model/loads.hpp"
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace plekton::dynamics {
@@ -34,8 +37,14 @@ struct ServoPlate {
   double speed;   ///< m/s, in the last drift
 };
 
-/// m², the area of a plate under servo control with the planes where they are.
-double plate_area(const PlaneServo& servo, std::span<const contact::Plane> planes);
+/// m², an area times the distances of pairs of planes, where they are.
+double plate_area(double area, std::span<const std::array<std::size_t, 2>> between,
+                  std::span<const contact::Plane> planes);
+
+/// What a servo wants where its factor is 1, with the planes where they are: N, or N m where it
+/// turns a body.
+double full_target(const PlaneServo& servo, std::span<const contact::Plane> planes);
+double full_target(const BodyServo& servo, std::span<const contact::Plane> planes);
 
 /// Speed (m/s) along the normal, into the bodies, of a plate under servo control: the drift v dt
 /// for which
@@ -70,14 +79,27 @@ class DrivenPlanes {
  public:
   DrivenPlanes(const Loads& loads, std::span<const contact::Plane> at_start);
 
-  bool empty() const noexcept { return motions_.empty() && servos_.empty(); }
+  bool empty() const noexcept {
+    return motions_.empty() && servos_.empty() && set_velocities_.empty();
+  }
+
+  /// By place in Loads::servos, from the next act() on: N and Pa.
+  void set_target(std::size_t servo, double force, double pressure) {
+    servos_[servo].force = force;
+    servos_[servo].pressure = pressure;
+  }
+  bool drives(std::size_t plane) const noexcept;
+  /// m/s, of a plane that nothing here drives, from the next act() on.
+  void set_velocity(std::size_t plane, const Vec3& velocity) {
+    set_velocities_.push_back({plane, velocity});
+  }
 
   /// Sets the velocities of the drift that begins now. No allocation.
   /// @param reactions  N, by plane, of all forces on it
   /// @returns the work (J) done on the bodies over half of the drift before, as far as the velocity
   ///          there was another one: who counts the whole kick does it with the new velocity
   double act(const LoadStep& step, std::span<const Vec3> reactions, const PlanePressAt& press,
-             std::vector<contact::Plane>& planes) const;
+             std::vector<contact::Plane>& planes);
 
   /// m/s, of all times.
   double largest_speed() const noexcept;
@@ -86,6 +108,7 @@ class DrivenPlanes {
   std::vector<PlaneMotion> motions_;
   std::vector<Vec3> start_;  // m, of motions_
   std::vector<PlaneServo> servos_;
+  std::vector<std::pair<std::size_t, Vec3>> set_velocities_;  // m/s, by plane, till the next act()
 };
 
 }  // namespace plekton::dynamics

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/rigid_servo.hpp"
 
+#include "dynamics/model/scene_figures.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plekton::dynamics {
@@ -18,37 +21,57 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
     const double damping = gap < 0.0 ? dashpot * pair.stiffness(gap).normal_damping : 0.0;
     springs_.push_back({slope, gap, weight * pair.normal_force(gap), weight * stiffness, damping});
   };
+  // What a turn drags along the surfaces, by the longer one of two levers.
+  const auto add_dragged = [&](const std::array<Vec3, 2>& places, const Vec3& normal, double gap,
+                               double weight, const contact::PairSprings& pair) {
+    if (!way.turn || !(gap < 0.0)) return;
+    double slope = 0.0;
+    for (const Vec3& place : places) {
+      const Vec3 motion = way.motion_at(place);
+      slope = std::max(slope, Vec3(motion - motion.dot(normal) * normal).norm());
+    }
+    springs_.push_back({slope, 0.0, 0.0, weight * pair.stiffness(gap).tangential, 0.0});
+  };
   contacts.for_each_near_sphere_pair(
-      way.longest, x, [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
+      way.longest_path(), x, [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
         if (is_own(a) == is_own(b)) return;
-        const double along = way.direction.dot(Vec3(x[index_of(b)] - x[index_of(a)]).normalized());
+        const Vec3& own = x[index_of(is_own(a) ? a : b)];
+        const Vec3 normal = Vec3(x[index_of(b)] - x[index_of(a)]).normalized();
+        const double along = way.motion_at(own).dot(normal);
         add(is_own(a) ? along : -along, gap, 1.0, pair);
+        add_dragged({x[index_of(a)], x[index_of(b)]}, normal, gap, 1.0, pair);
       });
   const auto add_on_surface = [&](NodeId ball, const geometry::CorePoint& core,
                                   const contact::PairSprings& pair, double range,
                                   const contact::TermPart& part) {
     const bool is_ball = is_own(ball);
     if (is_ball == is_own(core.nodes[0])) return;
-    const Vec3 to_core = geometry::position(core, x) - x[index_of(ball)];
+    const Vec3 foot = geometry::position(core, x);
+    const Vec3 to_core = foot - x[index_of(ball)];
     const double distance = to_core.norm();
     if (!(distance > 0.0)) return;
     const double gap = distance - range;
-    const double along = way.direction.dot(to_core) / distance;
+    const double along = way.motion_at(is_ball ? x[index_of(ball)] : foot).dot(to_core) / distance;
     const double of_one = pair.normal_force(gap);
     const double weight = of_one > 0.0 && part.elastic != 0.0 ? part.elastic / of_one : 1.0;
     add(is_ball ? along : -along, gap, weight, pair, part.dashpot);
+    add_dragged({x[index_of(ball)], foot}, to_core / distance, gap, weight, pair);
   };
   contacts.for_each_surface_term(add_on_surface);
-  contacts.for_each_coming_surface_term(way.longest, x, add_on_surface);
+  contacts.for_each_coming_surface_term(way.longest_path(), x, add_on_surface);
   contacts.for_each_near_plane_pair(
-      way.longest, planes, x,
+      way.longest_path(), planes, x,
       [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
-        if (is_own(ball)) add(-way.direction.dot(planes[plane].normal), gap, 1.0, pair);
+        if (!is_own(ball)) return;
+        const Vec3& normal = planes[plane].normal;
+        add(-way.motion_at(x[index_of(ball)]).dot(normal), gap, 1.0, pair);
+        add_dragged({x[index_of(ball)], x[index_of(ball)]}, normal, gap, 1.0, pair);
       });
   contacts.for_each_structure_stiffness(
       [&](NodeId node, const contact::PairStiffness& stiffness, double) {
-        if (is_own(node))
-          springs_.push_back({1.0, 0.0, 0.0, stiffness.normal, stiffness.normal_damping});
+        if (!is_own(node)) return;
+        const double slope = way.turn ? way.motion_at(x[index_of(node)]).norm() : 1.0;
+        springs_.push_back({slope, 0.0, 0.0, stiffness.normal, stiffness.normal_damping});
       });
 }
 
@@ -66,9 +89,28 @@ PlanePress BodyPress::at(double way) const noexcept {
   return press;
 }
 
+DrivenBodies::DrivenBodies(const Scene& scene, const geometry::Surface& surface)
+    : servos_(scene.loads.body_servos) {
+  std::vector<double> radii;  // m, of nodes
+  for (const BodyServo& servo : servos_) {
+    radii_.push_back(0.0);
+    if (!servo.turns()) continue;
+    if (radii.empty()) radii = node_radii(scene, surface);
+    const RigidBody& body = scene.rigid_bodies[servo.body];
+    const std::vector<Vec3>& x = scene.state.position;
+    for (const NodeId node : body.nodes) {
+      const double lever = (x[index_of(node)] - x[index_of(body.node)]).norm();
+      radii_.back() = std::max(radii_.back(), lever + radii[index_of(node)]);
+    }
+  }
+}
+
 double DrivenBodies::largest_speed() const noexcept {
   double speed = 0.0;
-  for (const BodyServo& servo : servos_) speed = std::max(speed, servo.largest_speed);
+  for (std::size_t i = 0; i < servos_.size(); ++i) {
+    const double of_way = servos_[i].turns() ? radii_[i] : 1.0;
+    speed = std::max(speed, servos_[i].largest_speed * of_way);
+  }
   return speed;
 }
 

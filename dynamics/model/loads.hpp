@@ -131,18 +131,23 @@ struct PlaneServo {
 };
 
 /// A rigid body that is pressed on the others along an axis of the world with (force + pressure
-/// area) factor(t), as a plate is by PlaneServo. Its motion along that axis is prescribed then, and
-/// its weight and other loads along it are borne by the servo; the other motions stay free.
+/// area) factor(t), as a plate is by PlaneServo; or that is turned about such an axis through its
+/// centre, with torque factor(t). Its motion along or about that axis is prescribed then, and its
+/// weight and other loads there are borne by the servo; the other motions stay free.
 struct BodyServo {
   std::size_t body = 0;   ///< by place in Scene::rigid_bodies
   int axis = 2;           ///< 0 to 2: x, y, z
-  double towards = -1.0;  ///< 1 or -1: along the axis or against it
+  double towards = -1.0;  ///< 1 or -1: along or about the axis, or against it
   double force = 0.0;     ///< N, >= 0
   double pressure = 0.0;  ///< Pa, >= 0
-  double area = 1.0;      ///< m², > 0
+  double torque = 0.0;    ///< N m, >= 0; above 0 it turns, and the force and the pressure are 0
+  double area = 1.0;      ///< m², > 0; m or 1 where planes bound it
+  std::vector<std::array<std::size_t, 2>> between;  ///< as of PlaneServo
   TimeTable factor;
-  double largest_speed = 0.0;  ///< m/s, > 0
+  double largest_speed = 0.0;  ///< m/s, or rad/s where it turns; > 0
   double gain = 0.1;           ///< above 0, at most 1
+
+  bool turns() const noexcept { return torque > 0.0; }
 };
 
 /// All that acts from outside.

@@ -88,12 +88,17 @@ geometry::ExclusionGroups rigid_groups(const Scene& scene) {
       RigidNodes(scene.rigid_bodies, scene.state, scene.properties).followed());
 }
 
+Held driven_axis(const BodyServo& servo) noexcept {
+  constexpr std::array kAlong = {Held::along_x, Held::along_y, Held::along_z};
+  constexpr std::array kAbout = {Held::about_x, Held::about_y, Held::about_z};
+  return (servo.turns() ? kAbout : kAlong)[static_cast<std::size_t>(servo.axis)];
+}
+
 Scene held_as_prescribed(Scene scene) {
   scene.properties.held = held_with_motions(std::move(scene.properties.held), scene.loads.motions);
-  constexpr std::array kAxes = {Held::along_x, Held::along_y, Held::along_z};
   for (const BodyServo& servo : scene.loads.body_servos) {
     Held& held = scene.properties.held[index_of(scene.rigid_bodies[servo.body].node)];
-    held = held | kAxes[static_cast<std::size_t>(servo.axis)];
+    held = held | driven_axis(servo);
   }
   return scene;
 }

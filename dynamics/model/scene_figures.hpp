@@ -36,6 +36,9 @@ std::vector<double> contact_masses(const Scene& scene);
 /// Nodes of one rigid body do not touch each other.
 geometry::ExclusionGroups rigid_groups(const Scene& scene);
 
+/// The axis along or about which a servo moves its body.
+Held driven_axis(const BodyServo& servo) noexcept;
+
 /// The scene with prescribed motions held.
 Scene held_as_prescribed(Scene scene);
 

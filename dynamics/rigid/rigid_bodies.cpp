@@ -72,7 +72,8 @@ RigidBodies::RigidBodies(std::span<const RigidBody> bodies, const NodeState& sta
   for (const RigidBody& body : bodies) {
     const std::size_t reference = index_of(body.node);
     const Mat3 axes = state.orientation[reference].toRotationMatrix();
-    Body own{body.node, body.nodes, {}, body.moments, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    Body own{body.node,    body.nodes,   {},           body.moments,
+             Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     for (const NodeId node : body.nodes)
       own.places.push_back(axes.transpose() *
                            Vec3(state.position[index_of(node)] - state.position[reference]));
@@ -139,6 +140,7 @@ void RigidBodies::gather(NodeState& state, NodeForces& forces, const NodePropert
         torque += Vec3(state.position[i] - centre).cross(forces.force[i]) + forces.torque[i];
       }
       body.gathered = force;
+      body.gathered_torque = torque;
       forces.force[reference] += force;
       forces.torque[reference] += torque;
       Vec3& spin = state.angular_velocity[reference];

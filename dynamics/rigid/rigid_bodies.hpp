@@ -58,6 +58,10 @@ class RigidBodies {
 
   /// N, of all forces on the nodes of a body in the last gather(), without the loads on it.
   const Vec3& gathered_force(std::size_t body) const noexcept { return bodies_[body].gathered; }
+  /// N m, about the centre of mass, likewise.
+  const Vec3& gathered_torque(std::size_t body) const noexcept {
+    return bodies_[body].gathered_torque;
+  }
   /// kg m²/s, angular momentum about the centre of mass, of a body that is free to turn.
   const Vec3& angular_momentum(std::size_t body) const noexcept { return bodies_[body].momentum; }
 
@@ -72,6 +76,7 @@ class RigidBodies {
     Vec3 moments;              ///< kg m²
     Vec3 momentum;             ///< kg m²/s, angular, world; about held axes of no meaning
     Vec3 gathered;             ///< N
+    Vec3 gathered_torque;      ///< N m
     Vec3 held_spin;            ///< rad/s, about held axes; 0 about the others
   };
 

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace plekton::test {
@@ -117,9 +119,11 @@ TEST(PlateArea, IsWhatTheFacingPlanesLeaveFree) {
   const std::vector<contact::Plane> planes = {{Vec3(-1.0, 0, 0), Vec3::UnitX()},
                                               {Vec3(2.0, 5, 5), -Vec3::UnitX()}};
   servo.area = 0.5;
-  EXPECT_EQ(plate_area(servo, planes), 0.5);
+  EXPECT_EQ(dynamics::plate_area(servo.area, servo.between, planes), 0.5);
   servo.between = {{0, 1}};
-  EXPECT_EQ(plate_area(servo, planes), 1.5);
+  EXPECT_EQ(dynamics::plate_area(servo.area, servo.between, planes), 1.5);
+  servo.pressure = 4.0;
+  EXPECT_EQ(dynamics::full_target(servo, planes), 1.0 + 4.0 * 1.5);
 }
 
 /// A grain on a floor, and a plate a little above.
@@ -145,6 +149,56 @@ TEST(PlaneServo, PressesAGrainWithItsForceAndStopsThere) {
               0.05 * 3.0);  // the grain rings without damping
   EXPECT_GT(simulation.energy().external_work, 0.0);
   EXPECT_LT(error, 0.01);  // of first order: the moment at which the plate strikes
+}
+
+TEST(PlaneServo, FollowsATargetThatIsSetWhileItRuns) {
+  Scene scene = grain_under_a_plate();
+  scene.loads.servos = {servo_of(3.0)};
+  scene.loads.servos[0].plane = 1;
+  auto simulation = simulation_of(scene, 0.25 * LoadedSimulation(scene, {}).time_step());
+  closure_until(simulation, 0.2);
+  EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 3.0, 1e-4 * 3.0);
+
+  simulation.set_servo(0, 1.0, 4.0);  // N, and Pa on 1 m²
+  const double error = closure_until(simulation, 0.4);
+
+  EXPECT_NEAR(simulation.contacts().force_on_plane(1).z(), 5.0, 1e-4 * 5.0);
+  EXPECT_LT(error, 0.01);
+  EXPECT_THROW(simulation.set_servo(1, 1.0), std::out_of_range);
+  EXPECT_THROW(simulation.set_servo(0, 0.0), std::invalid_argument);
+  EXPECT_THROW(simulation.set_servo(0, -1.0, 2.0), std::invalid_argument);
+  EXPECT_THROW(simulation.set_servo(0, std::numeric_limits<double>::infinity()),
+               std::invalid_argument);
+}
+
+// The floor goes up under a grain that lies under a plate which does not move: the work is counted
+// by the mean of the forces over each drift, also in that of the change.
+TEST(PlaneVelocity, IsSetWhileItRunsAndItsWorkIsCounted) {
+  Scene scene = grain_under_a_plate();
+  scene.planes[1].point.z() = 0.02;
+  auto simulation = simulation_of(scene, 0.1 * LoadedSimulation(scene, {}).time_step());
+  simulation.step();
+
+  simulation.set_plane_velocity(0, Vec3(0, 0, 1e-3));
+  const double there = closure_until(simulation, 0.02);
+  simulation.set_plane_velocity(0, Vec3(0, 0, -1e-3));
+  const double back = closure_until(simulation, 0.03);
+
+  EXPECT_NEAR(simulation.planes()[0].point.z(), 1e-5, 2.0 * simulation.time_step() * 1e-3);
+  EXPECT_GT(simulation.energy().external_work, 0.0);
+  EXPECT_LT(there, 1e-3);
+  EXPECT_LT(back, 1e-3);
+  EXPECT_THROW(simulation.set_plane_velocity(2, Vec3::Zero()), std::out_of_range);
+  EXPECT_THROW(simulation.set_plane_velocity(0, Vec3(0, std::nan(""), 0)), std::invalid_argument);
+}
+
+TEST(PlaneVelocity, IsNotThatOfAPlaneThatALoadMoves) {
+  Scene scene = grain_under_a_plate();
+  scene.loads.servos = {servo_of(3.0)};
+  scene.loads.servos[0].plane = 1;
+  LoadedSimulation simulation(scene, {});
+  EXPECT_THROW(simulation.set_plane_velocity(1, Vec3::Zero()), std::invalid_argument);
+  EXPECT_NO_THROW(simulation.set_plane_velocity(0, Vec3::Zero()));
 }
 
 // A plate that struck at 1 m/s would be in the grain by up to 0.4 % of its radius when it is felt.

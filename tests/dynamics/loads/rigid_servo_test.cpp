@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -92,6 +95,108 @@ TEST(RigidServo, LeavesATiltFree) {
 
   const Vec3 up = simulation.state().orientation[node] * Vec3::UnitZ();
   EXPECT_GT(up.head<2>().norm(), 1e-3);
+}
+
+/// A blade that stands on edge, and turns about z through its middle against two spheres, each
+/// before a wall.
+/// @param heights  m, of the spheres, that at +x and that at -x
+Scene blade_between_spheres(Held held, const std::array<double, 2>& heights = {0.0, 0.0}) {
+  constexpr double kHalf = 0.002;  // m, thickness
+  constexpr double kLever = 0.04;  // m
+  Scene scene;
+  scene.materials = {{1e7, 0.3, 0.5}};
+  for (int i = 0; i < 2; ++i) {
+    const double side = i == 0 ? 1.0 : -1.0;
+    scene.add_sphere(
+        Vec3(side * kLever, side * (kHalf + kRadius + 1e-4), heights[static_cast<std::size_t>(i)]),
+        kRadius, 2000.0, kMaterial);
+    scene.planes.push_back({Vec3(0, side * (kHalf + 2.0 * kRadius + 2e-4), 0),
+                            -side * Vec3::UnitY(), Vec3::Zero(), kMaterial});
+  }
+  const geometry::Mesh mesh = geometry::plane_sheet({0.12, 0.06, 4, 2});
+  std::vector<NodeId> nodes;
+  for (const Vec3& x : mesh.points)
+    nodes.push_back(scene.add_node(Vec3(x.x(), 0.0, x.y()), Held::everything));
+  for (const auto& [a, b, c] : mesh.facets)
+    scene.add_facet(nodes[index_of(a)], nodes[index_of(b)], nodes[index_of(c)], kHalf, kMaterial);
+  scene.add_rigid_body(nodes, {0.5, Vec3::Zero(), 1e-3 * Mat3::Identity()}, held);
+  BodyServo servo;
+  servo.torque = 0.4;
+  servo.towards = 1.0;
+  servo.largest_speed = 1.0;
+  scene.loads.body_servos.push_back(servo);
+  return scene;
+}
+
+constexpr Held kOnAPivot = Held::translation | Held::about_x | Held::about_y;
+
+// 0.4 N m at levers of 40 mm are 5 N on each.
+TEST(TorqueServo, TurnsABodyUntilItsContactsBearTheTorque) {
+  auto simulation = simulation_of(blade_between_spheres(kOnAPivot), 2e-6);
+  double largest = 0.0;
+  while (simulation.step_until(0.1))
+    largest = std::max(largest, -simulation.gathered_torque(0).z());
+
+  EXPECT_NEAR(simulation.gathered_torque(0).z(), -0.4, 1e-3 * 0.4);
+  for (const std::size_t wall : {0U, 1U})
+    EXPECT_NEAR(std::abs(simulation.plane_reaction(wall).force.y()), 5.0, 0.02 * 5.0);
+  EXPECT_LT(largest, 2.0 * 0.4);
+  EXPECT_LT(simulation.energy().closure(), 0.02);
+}
+
+TEST(TorqueServo, FollowsATorqueThatIsSetWhileItRuns) {
+  auto simulation = simulation_of(blade_between_spheres(kOnAPivot), 2e-6);
+  while (simulation.step_until(0.05)) {
+  }
+  simulation.set_body_servo(0, 0.6);
+  while (simulation.step_until(0.1)) {
+  }
+  EXPECT_NEAR(simulation.gathered_torque(0).z(), -0.6, 1e-3 * 0.6);
+  EXPECT_THROW(simulation.set_body_servo(0, 0.0), std::invalid_argument);
+  EXPECT_THROW(simulation.set_body_servo(0, 0.5, 1.0), std::invalid_argument);
+}
+
+// Spheres above and below the middle push the blade over, about x, which nothing holds.
+TEST(TorqueServo, LeavesATiltFree) {
+  Scene scene = blade_between_spheres(Held::translation, {0.01, -0.01});
+  const std::size_t node = index_of(scene.rigid_bodies[0].node);
+  auto simulation = simulation_of(std::move(scene), 2e-6);
+
+  while (simulation.step_until(0.02)) {
+  }
+
+  const Vec3 up = simulation.state().orientation[node] * Vec3::UnitZ();
+  EXPECT_GT(up.head<2>().norm(), 1e-3);
+}
+
+// A plate that is pressed on a bed of held spheres bears a torque by friction alone, of at most
+// 0.5 * 90 N * 27 mm.
+TEST(TorqueServo, ReachesATorqueThatFrictionBears) {
+  Scene scene = plate_over_spheres(Held::along_x | Held::along_y | Held::about_x | Held::about_y);
+  for (std::size_t i = 0; i < 9; ++i) scene.properties.held[i] = Held::everything;
+  BodyServo turn;
+  turn.torque = 0.5;
+  turn.largest_speed = 1.0;
+  turn.factor = TimeTable({{0.1, 0.0}, {0.12, 1.0}});
+  scene.loads.body_servos.push_back(turn);
+  auto simulation = simulation_of(std::move(scene), 2e-6);
+
+  while (simulation.step_until(0.2)) {
+  }
+
+  EXPECT_NEAR(simulation.gathered_force(0).z(), 90.0, 0.09);
+  EXPECT_NEAR(simulation.gathered_torque(0).z(), 0.5, 1e-3 * 0.5);
+}
+
+TEST(TorqueServo, IsRefusedWithAForceOrWhereTheBodyIsHeld) {
+  Scene scene = blade_between_spheres(Held::everything);
+  EXPECT_THAT(problems_of(scene), HasSubstr("held or turned about that axis already"));
+  scene = blade_between_spheres(kOnAPivot);
+  EXPECT_EQ(problems_of(scene), "");
+  scene.loads.body_servos[0].force = 1.0;
+  EXPECT_THAT(problems_of(scene), HasSubstr("has a torque, and a force or pressure too"));
+  scene.loads.body_servos[0].force = scene.loads.body_servos[0].torque = 0.0;
+  EXPECT_THAT(problems_of(scene), HasSubstr("has no target"));
 }
 
 TEST(RigidServo, IsRefusedOnABodyThatIsNotThereOrHeld) {

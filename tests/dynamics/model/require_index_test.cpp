@@ -19,7 +19,8 @@ namespace {
 
 using geometry::NodeId;
 
-/// A beam, a cylinder and a facet on three nodes, two planes, a force and a pressure.
+/// A beam, a cylinder and a facet on three nodes, two planes, a force, a pressure and a
+/// servo of the first plane.
 Scene scene_of_three_nodes() {
   Scene scene;
   scene.materials = {{1e6, 0.3, 0.5}};
@@ -33,6 +34,8 @@ Scene scene_of_three_nodes() {
     scene.planes.push_back({Vec3(0, 0, z), Vec3::UnitZ(), Vec3::Zero(), material});
   scene.loads.forces.emplace_back().nodes = {NodeId{2}};
   scene.loads.pressures.emplace_back().facets = {geometry::FaceId{0}};
+  scene.loads.servos.emplace_back().force = 1.0;
+  scene.loads.servos[0].largest_speed = 1.0;
   return scene;
 }
 
@@ -87,6 +90,9 @@ const std::vector<Call>& calls() {
        }},
       {"set_force", "force", 1, [](auto& s, auto i) { s.set_force(index(i), Vec3::Zero()); }},
       {"set_pressure", "pressure", 1, [](auto& s, auto i) { s.set_pressure(index(i), 1.0); }},
+      {"set_servo", "servo", 1, [](auto& s, auto i) { s.set_servo(index(i), 1.0); }},
+      {"set_plane_velocity", "plane", 2,
+       [](auto& s, auto i) { s.set_plane_velocity(index(i), Vec3::Zero()); }},
   };
   return all;
 }
@@ -119,6 +125,11 @@ TEST(IdsOfASimulation, AreRefusedWhereThereIsNothingOfTheKind) {
             "Simulation::force_point: there is no plane 0; this scene has no planes");
   EXPECT_EQ(refusal_of([&] { simulation.gathered_force(0); }),
             "Simulation::gathered_force: there is no rigid body 0; this scene has no rigid bodies");
+  EXPECT_EQ(
+      refusal_of([&] { simulation.gathered_torque(1); }),
+      "Simulation::gathered_torque: there is no rigid body 1; this scene has no rigid bodies");
+  EXPECT_EQ(refusal_of([&] { simulation.set_body_servo(0, 1.0); }),
+            "Simulation::set_body_servo: there is no body servo 0; this scene has no body servos");
   EXPECT_EQ(refusal_of([&] { simulation.set_velocity(NodeId{77}, Vec3::Zero()); }),
             "Simulation::set_velocity: there is no node 77; this scene has 1 nodes, from 0 to 0");
 }
