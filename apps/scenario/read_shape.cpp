@@ -40,6 +40,10 @@ ShapeSettings read_sheet(Section& section) {
   return sheet;
 }
 
+ShapeSettings read_polygon(Section& section) {
+  return geometry::Polygon{section.vectors("points", {kLength}, 3)};
+}
+
 ShapeSettings read_tube(Section& section) {
   const double radius = section.quantity("radius", kPositiveLength);
   const double length = section.quantity("length", kPositiveLength);
@@ -207,12 +211,12 @@ ShapeSettings read_bars(Section& section) {
   return lattice;
 }
 
-constexpr std::array<std::string_view, 11> kKinds = {
-    "sheet",    "tube",  "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid", "hexagonal_net",
-    "ring_net", "chain", "facets", "bars"};
-constexpr std::array<ShapeSettings (*)(Section&), 11> kReaders = {
-    read_sheet,     read_tube,     read_sphere, read_box_shell, read_biaxial, read_uniaxial,
-    read_hexagonal, read_ring_net, read_chain,  read_facets,    read_bars};
+constexpr std::array<std::string_view, 12> kKinds = {
+    "sheet",         "polygon",  "tube",  "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid",
+    "hexagonal_net", "ring_net", "chain", "facets", "bars"};
+constexpr std::array<ShapeSettings (*)(Section&), 12> kReaders = {
+    read_sheet,    read_polygon,   read_tube,     read_sphere, read_box_shell, read_biaxial,
+    read_uniaxial, read_hexagonal, read_ring_net, read_chain,  read_facets,    read_bars};
 
 }  // namespace
 

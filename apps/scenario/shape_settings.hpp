@@ -3,6 +3,7 @@
 
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/lattice.hpp"
+#include "geometry/mesh/generate/polygon.hpp"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ struct FacetShape {
 
 /// What a membrane without a mesh file is made from. Of a mesh and a lattice every point is told.
 using ShapeSettings =
-    std::variant<geometry::PlaneSheet, geometry::Tube, SphereShape, BoxShape,
+    std::variant<geometry::PlaneSheet, geometry::Polygon, geometry::Tube, SphereShape, BoxShape,
                  geometry::BiaxialGeogrid, geometry::UniaxialGeogrid, geometry::HexagonalNet,
                  geometry::RingNet, geometry::Chain, FacetShape, geometry::Lattice>;
 

@@ -121,6 +121,9 @@ MembraneBody body_of(Lattice lattice, const MembraneSettings& settings, std::siz
 Mesh make(const geometry::PlaneSheet& sheet) {
   return geometry::plane_sheet(sheet);
 }
+Mesh make(const geometry::Polygon& polygon) {
+  return geometry::polygon(polygon);
+}
 Mesh make(const geometry::Tube& tube) {
   return geometry::tube(tube);
 }

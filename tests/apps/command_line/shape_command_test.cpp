@@ -73,7 +73,10 @@ TEST_F(ShapeCommand, CheckCountsWhatEachKindOfSurfaceHas) {
   const auto sheet = [](std::string_view pattern) {
     return fmt::format("{}, pattern = \"{}\"", kSheet, pattern);
   };
-  const std::array<std::pair<std::string, std::string>, 6> cases = {{
+  const std::array<std::pair<std::string, std::string>, 7> cases = {{
+      // An L of 2 m x 2 m without a square of 1 m: 6 corners, all on the rim.
+      {R"(kind = "polygon", points = [[0, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0], [1, 2, 0], [0, 2, 0]])",
+       "6 nodes (6 held), 9 beams, 4 facets, area 3 m2"},
       {sheet("diagonal"),
        fmt::format("231 nodes (60 held), {} beams, 400 facets, area 2 m2", kSides + 200)},
       {std::string(kSheet),
@@ -146,14 +149,14 @@ hold = "rim")");
 TEST_F(ShapeCommand, NamesAKindThatDoesNotExistWithASuggestion) {
   EXPECT_THAT(error_of("kind = \"shet\""),
               HasSubstr("case.toml:10:18: membranes.m.shape.kind: got \"shet\"; expected one of "
-                        "\"sheet\", \"tube\""));
+                        "\"sheet\", \"polygon\", \"tube\""));
   EXPECT_THAT(error_of("kind = \"biaxial_geogrd\""),
               HasSubstr("did you mean \"biaxial_geogrid\"?"));
   EXPECT_THAT(error_of("width = 1"), HasSubstr("membranes.m.shape.kind: missing"));
   EXPECT_THAT(
       error_of(""),
       HasSubstr("case.toml:10:9: membranes.m.shape.kind: missing; expected one of "
-                "\"sheet\", \"tube\", \"sphere\", \"box\", \"biaxial_geogrid\", "
+                "\"sheet\", \"polygon\", \"tube\", \"sphere\", \"box\", \"biaxial_geogrid\", "
                 "\"uniaxial_geogrid\", \"hexagonal_net\", \"ring_net\", \"chain\", \"facets\", "
                 "\"bars\"\n"));
 }
@@ -174,7 +177,7 @@ TEST_F(ShapeCommand, ReportsEveryWrongSizeWithItsPlace) {
 
 TEST_F(ShapeCommand, RefusesSizesThatGiveNoShape) {
   const std::string_view sheet = R"(kind = "sheet", width = "1 m", length = "1 m", cells = )";
-  const std::array<std::pair<std::string, std::string_view>, 13> cases = {{
+  const std::array<std::pair<std::string, std::string_view>, 15> cases = {{
       {std::string(sheet) + "20", "cells: got 20; expected a list of 2 whole numbers"},
       {std::string(sheet) + "[1, 2, 3]", "expected a list of 2 whole numbers"},
       {std::string(sheet) + "[20000, 20000]",
@@ -185,6 +188,11 @@ TEST_F(ShapeCommand, RefusesSizesThatGiveNoShape) {
        "case.toml:10:63: membranes.m.shape.cells: asks for about 4e+07 facets or bars"},
       {R"(kind = "sheet", width = "1e80 m", length = "1 m", cells = [1, 1])",
        "case.toml:10:9: membranes.m: a sheet width of 1e+80 m; expected a positive length below"},
+      {R"(kind = "polygon", points = [[0, 0, 0], ["1 m", 0, 0]])",
+       "points: got 2; expected at least 3"},
+      {R"(kind = "polygon", points = [[0, 0, 0], ["1 m", "1 m", 0], ["1 m", 0, 0], [0, "1 m", 0]])",
+       "case.toml:10:9: membranes.m: a polygon whose sides touch or cross; give its corners in "
+       "their order"},
       {R"(kind = "tube", radius = "1 m", length = "1 m", cells = [2, 1])",
        "cells[0]: got 2; expected a whole number from 3"},
       {R"(kind = "sphere", radius = "1 m", subdivisions = 10)",
