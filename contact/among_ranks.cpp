@@ -20,4 +20,9 @@ ContactModel among_ranks(ContactModel model, geometry::Ranks& ranks) {
   };
 }
 
+std::vector<RankShare> shares_of_ranks(const Contacts& contacts) {
+  const auto* const of_scene = dynamic_cast<const SceneContacts*>(&contacts);
+  return of_scene == nullptr ? std::vector<RankShare>() : of_scene->shares_of_ranks();
+}
+
 }  // namespace plekton::contact

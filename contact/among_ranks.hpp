@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "contact/base/rank_share.hpp"
 #include "contact/contact_model.hpp"
 #include "geometry/base/ranks.hpp"
+
+#include <vector>
 
 namespace plekton::contact {
 
@@ -11,5 +14,9 @@ namespace plekton::contact {
 /// @param model  as contact/models.hpp makes it
 /// @param ranks  must outlive the contacts
 ContactModel among_ranks(ContactModel model, geometry::Ranks& ranks);
+
+/// What each rank does alone, since the last list; nothing where there is nothing to share: one
+/// process, or too few spheres near each other.
+std::vector<RankShare> shares_of_ranks(const Contacts& contacts);
 
 }  // namespace plekton::contact

@@ -31,6 +31,7 @@ class SceneContacts final : public Contacts {
   /// From here on ranks share the work; to be called before the first step.
   void share_among(geometry::Ranks& ranks) { with_spheres_.share_among(ranks); }
   SharedMotion* shared_motion() noexcept override { return with_spheres_.shared_motion(); }
+  std::vector<RankShare> shares_of_ranks() const { return with_spheres_.shares_of_ranks(); }
   bool may_make_lists(const Motion& motion, std::span<const Plane> planes) const noexcept override;
 
   void tune_skin(double radius) noexcept override { neighbours_.tune_skin(radius); }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
+#include <type_traits>
 
 namespace plekton::contact {
 
@@ -90,42 +92,59 @@ void SharedBlocks::end_ghosts(std::span<SphereSum> sums) {
   }
 }
 
-std::span<std::byte> SharedBlocks::begin_gather(std::size_t outcome_bytes) {
+void SharedBlocks::find_sizes_of_gather() {
   sizes_.resize(blocks_of_.size());
   std::size_t total = 0;
   for (std::size_t rank = 0; rank < sizes_.size(); ++rank) {
     const std::size_t nodes = motion_.common_in_blocks(static_cast<int>(rank)).size();
-    sizes_[rank] = nodes * kSphereBytes + blocks_of_[rank].size() * outcome_bytes;
+    sizes_[rank] = sizeof(BlockTotals) + nodes * kSphereBytes;
     total += sizes_[rank];
   }
   parts_.resize(total);
-  return parts_;
 }
 
-std::size_t SharedBlocks::first_of(int rank) const noexcept {
-  std::size_t first = 0;
-  for (int before = 0; before < rank; ++before) first += sizes_[static_cast<std::size_t>(before)];
-  return first;
-}
-
-void SharedBlocks::pack_forces(std::span<const NodeId> nodes, const NodeForces& forces,
-                               std::size_t at) {
-  std::byte* to = parts_.data() + at;
-  for (const NodeId node : nodes) {
+/// Each rank tells what its blocks came to, then force and torque of each of its common spheres.
+BlockTotals SharedBlocks::gather(NodeForces& forces, const BlockTotals& of_own) {
+  static_assert(std::is_trivially_copyable_v<BlockTotals> &&
+                sizeof(BlockTotals) % geometry::Ranks::kUnit == 0);
+  find_sizes_of_gather();
+  const auto self = static_cast<std::size_t>(ranks_->rank());
+  std::byte* to = std::accumulate(sizes_.begin(), sizes_.begin() + ranks_->rank(), parts_.data());
+  std::memcpy(to, &of_own, sizeof(BlockTotals));
+  to += sizeof(BlockTotals);
+  for (const NodeId node : motion_.common_in_blocks(ranks_->rank())) {
     std::memcpy(to, forces.force[index_of(node)].data(), sizeof(Vec3));
     std::memcpy(to + sizeof(Vec3), forces.torque[index_of(node)].data(), sizeof(Vec3));
     to += kSphereBytes;
   }
+  ranks_->gather(parts_, sizes_);
+  BlockTotals totals;
+  const std::byte* from = parts_.data();
+  for (std::size_t rank = 0; rank < sizes_.size(); ++rank) {
+    BlockTotals of_rank;
+    std::memcpy(&of_rank, from, sizeof(BlockTotals));
+    totals += of_rank;
+    if (rank == self) {
+      from += sizes_[rank];
+      continue;
+    }
+    from += sizeof(BlockTotals);
+    for (const NodeId node : motion_.common_in_blocks(static_cast<int>(rank))) {
+      std::memcpy(forces.force[index_of(node)].data(), from, sizeof(Vec3));
+      std::memcpy(forces.torque[index_of(node)].data(), from + sizeof(Vec3), sizeof(Vec3));
+      from += kSphereBytes;
+    }
+  }
+  return totals;
 }
 
-void SharedBlocks::unpack_forces(std::span<const NodeId> nodes, NodeForces& forces,
-                                 std::size_t at) const {
-  const std::byte* from = parts_.data() + at;
-  for (const NodeId node : nodes) {
-    std::memcpy(forces.force[index_of(node)].data(), from, sizeof(Vec3));
-    std::memcpy(forces.torque[index_of(node)].data(), from + sizeof(Vec3), sizeof(Vec3));
-    from += kSphereBytes;
-  }
+std::vector<RankShare> SharedBlocks::shares() const {
+  if (!is_worth_it()) return {};
+  std::vector<RankShare> shares;
+  for (int rank = 0; rank < ranks_->count(); ++rank)
+    shares.push_back(
+        {blocks_of_[static_cast<std::size_t>(rank)].size(), motion_.private_to(rank).size()});
+  return shares;
 }
 
 }  // namespace plekton::contact

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "contact/base/motion.hpp"
+#include "contact/base/rank_share.hpp"
+#include "contact/sphere_sphere/block_totals.hpp"
 #include "contact/sphere_sphere/shared_motion.hpp"
 #include "contact/sphere_sphere/sphere_blocks.hpp"
 #include "contact/sphere_sphere/sphere_sums.hpp"
@@ -9,7 +11,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -40,8 +41,6 @@ class SharedBlocks {
   /// Whether there is anything to share: one block, or one rank, needs no message. Each rank then
   /// computes all.
   bool is_worth_it() const noexcept { return ranks_->count() > 1 && owners_.size() > 1; }
-  /// By block.
-  int owner(std::size_t block) const noexcept { return owners_[block]; }
   // Those of this rank, ascending.
   std::span<const std::uint32_t> own() const noexcept { return own_; }
   /// With ghosts of other ranks.
@@ -56,39 +55,23 @@ class SharedBlocks {
   void end_ghosts(std::span<SphereSum> sums);
 
   /// Gives all ranks the forces on the common spheres of all blocks, and what the blocks came to.
-  /// @param outcomes  by block
-  template <class Outcome>
-  void gather(NodeForces& forces, std::span<Outcome> outcomes) {
-    const std::size_t outcome_bytes = sizeof(Outcome);
-    static_assert(sizeof(Outcome) % geometry::Ranks::kUnit == 0);
-    const std::span<std::byte> parts = begin_gather(outcome_bytes);
-    std::size_t at = first_of(ranks_->rank());
-    for (const std::uint32_t k : own_) {
-      std::memcpy(&parts[at], &outcomes[k], outcome_bytes);
-      at += outcome_bytes;
-    }
-    pack_forces(motion_.common_in_blocks(ranks_->rank()), forces, at);
-    ranks_->gather(parts, sizes_);
-    for (int rank = 0; rank < ranks_->count(); ++rank) {
-      if (rank == ranks_->rank()) continue;
-      at = first_of(rank);
-      for (const std::uint32_t k : blocks_of_[static_cast<std::size_t>(rank)]) {
-        std::memcpy(&outcomes[k], &parts[at], outcome_bytes);
-        at += outcome_bytes;
-      }
-      unpack_forces(motion_.common_in_blocks(rank), forces, at);
-    }
+  /// @param of_own  of the blocks of this rank
+  /// @returns       of all blocks
+  BlockTotals gather(NodeForces& forces, const BlockTotals& of_own);
+
+  /// Those of each rank, ascending.
+  std::span<const std::vector<std::uint32_t>> blocks_of_ranks() const noexcept {
+    return blocks_of_;
   }
+  /// What each rank does, since the last list; nothing where all do all.
+  std::vector<RankShare> shares() const;
 
  private:
   /// What is told of a sphere: force and torque.
   static constexpr std::size_t kSphereBytes = 6 * sizeof(double);
 
   void find_messages(const SphereBlocks& blocks);
-  std::span<std::byte> begin_gather(std::size_t outcome_bytes);
-  std::size_t first_of(int rank) const noexcept;
-  void pack_forces(std::span<const NodeId> nodes, const NodeForces& forces, std::size_t at);
-  void unpack_forces(std::span<const NodeId> nodes, NodeForces& forces, std::size_t at) const;
+  void find_sizes_of_gather();
 
   /// Ghosts whose sums go to a rank or come from one, in the order of ranks.
   struct Messages {

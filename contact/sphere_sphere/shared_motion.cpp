@@ -138,25 +138,40 @@ void SharedMotion::tell_neighbours(const NodesInMotion& nodes) {
 
 void SharedMotion::tell_all(const NodesInMotion& nodes) {
   if (!is_of_use()) return;
+  std::size_t most = 0;
+  for (const std::vector<NodeId>& of_rank : private_to_) most = std::max(most, of_rank.size());
+  const std::size_t at_a_time =
+      std::max<std::size_t>(1, geometry::Ranks::kUsualRoom / (kNodeBytes * private_to_.size()));
+  for (std::size_t begin = 0; begin < most; begin += at_a_time)
+    tell_all(nodes, begin, begin + at_a_time);
+}
+
+/// @param begin, end  of the private nodes of each rank, or as far as there are any
+void SharedMotion::tell_all(const NodesInMotion& nodes, std::size_t begin, std::size_t end) {
+  const auto part_of = [&](std::size_t rank) {
+    const std::span<const NodeId> all = private_to_[rank];
+    const std::size_t first = std::min(begin, all.size());
+    return all.subspan(first, std::min(end, all.size()) - first);
+  };
+  const auto self = static_cast<std::size_t>(ranks_->rank());
   std::vector<std::size_t> sizes;
   std::size_t total = 0, first = 0;
-  for (int rank = 0; rank < ranks_->count(); ++rank) {
-    if (rank == ranks_->rank()) first = total;
-    sizes.push_back(private_to_[static_cast<std::size_t>(rank)].size() * kNodeBytes);
+  for (std::size_t rank = 0; rank < private_to_.size(); ++rank) {
+    if (rank == self) first = total;
+    sizes.push_back(part_of(rank).size() * kNodeBytes);
     total += sizes.back();
   }
   room_.resize(total);
   Write write{room_.data() + first};
-  for (const NodeId node : own()) for_each_part(nodes, node, write);
+  for (const NodeId node : part_of(self)) for_each_part(nodes, node, write);
   ranks_->gather(room_, sizes);
   Read read{room_.data()};
-  for (int rank = 0; rank < ranks_->count(); ++rank) {
-    if (rank == ranks_->rank()) {
-      read.from += sizes[static_cast<std::size_t>(rank)];
+  for (std::size_t rank = 0; rank < private_to_.size(); ++rank) {
+    if (rank == self) {
+      read.from += sizes[rank];
       continue;
     }
-    for (const NodeId node : private_to_[static_cast<std::size_t>(rank)])
-      for_each_part(nodes, node, read);
+    for (const NodeId node : part_of(rank)) for_each_part(nodes, node, read);
   }
 }
 

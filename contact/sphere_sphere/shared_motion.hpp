@@ -55,8 +55,10 @@ class SharedMotion {
   // Ascending.
   std::span<const NodeId> common() const noexcept { return common_; }
   /// Private to this rank; asked for after assign().
-  std::span<const NodeId> own() const noexcept {
-    return private_to_[static_cast<std::size_t>(ranks_->rank())];
+  std::span<const NodeId> own() const noexcept { return private_to(ranks_->rank()); }
+  /// Private to a rank.
+  std::span<const NodeId> private_to(int rank) const noexcept {
+    return private_to_[static_cast<std::size_t>(rank)];
   }
   /// Common nodes of spheres in the blocks of a rank.
   std::span<const NodeId> common_in_blocks(int rank) const noexcept {
@@ -65,7 +67,7 @@ class SharedMotion {
 
   /// Tells those who have a private sphere as a ghost where it is and how it moves.
   void tell_neighbours(const NodesInMotion& nodes);
-  /// Tells all ranks all of all private nodes.
+  /// Tells all ranks all of all private nodes, some of each rank at a time.
   void tell_all(const NodesInMotion& nodes);
 
   /// Adds to sums over common nodes those that each rank made over its own. Sums may not depend on
@@ -87,6 +89,7 @@ class SharedMotion {
   void find_owners(const SphereBlocks& blocks, std::span<const int> owners,
                    std::span<const NodeId> met);
   void find_ghosts(const SphereBlocks& blocks, std::span<const int> owners);
+  void tell_all(const NodesInMotion& nodes, std::size_t begin, std::size_t end);
 
   /// Private nodes that are ghosts of other ranks.
   struct Messages {

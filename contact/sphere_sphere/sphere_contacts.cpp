@@ -228,11 +228,11 @@ double SphereContacts::advance(const Motion& motion, double dt, geometry::Thread
       compute_block(k, motion, work_[static_cast<std::size_t>(worker)], forces);
     });
     add_ghost_sums(forces, pool);
+    totals_ = {};
+    for (const Outcome& outcome : outcomes_) totals_.add(outcome);
   }
   set_others_zero(forces, pool);
-  double dissipated = 0.0;
-  for (const Outcome& outcome : outcomes_) dissipated += outcome.total_dissipated();
-  return dissipated;
+  return totals_.dissipated.value();
 }
 
 void SphereContacts::compute_block(std::size_t k, const Motion& motion, SphereWork& work,
@@ -251,6 +251,7 @@ void SphereContacts::share_blocks(const Motion& motion, geometry::ThreadPool& po
   const auto compute = [&](std::span<const std::uint32_t> blocks) {
     pool.for_each_shared(blocks.size(), [&](std::size_t i, int worker) {
       compute_block(blocks[i], motion, work_[static_cast<std::size_t>(worker)], forces);
+      if (worker == 0) shared_->ranks().progress();  // on the thread that began the exchange
     });
   };
   compute(shared_->border());
@@ -261,41 +262,57 @@ void SphereContacts::share_blocks(const Motion& motion, geometry::ThreadPool& po
   pool.for_each_range(own.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) add_ghost_sums(own[i], forces);
   });
-  shared_->gather(forces, std::span(outcomes_));
+  BlockTotals of_own;
+  for (const std::uint32_t k : own) of_own.add(outcomes_[k]);
+  totals_ = shared_->gather(forces, of_own);
   is_complete_ = false;
 }
 
-/// Calls visit(owner, first row, end) for the rows of all blocks.
+/// Calls visit(owner, first row, end) for the rows of a slice of the blocks of each rank.
 template <class Visit>
-void SphereContacts::for_each_shared_block(Visit&& visit) const {
-  for (std::size_t k = 0; k < blocks_.blocks().size(); ++k) {
-    const auto ranges = blocks_.ranges(blocks_.blocks()[k]);
-    if (ranges.empty()) continue;
-    visit(shared_->owner(k), std::size_t{ranges.front().first_row},
-          std::size_t{ranges.back().first_row + ranges.back().row_count});
+void SphereContacts::for_each_row_range(std::size_t slice, std::size_t slices,
+                                        Visit&& visit) const {
+  const auto of_ranks = shared_->blocks_of_ranks();
+  for (std::size_t rank = 0; rank < of_ranks.size(); ++rank) {
+    const std::vector<std::uint32_t>& all = of_ranks[rank];
+    for (std::size_t i = slice * all.size() / slices; i < (slice + 1) * all.size() / slices; ++i) {
+      const auto ranges = blocks_.ranges(blocks_.blocks()[all[i]]);
+      if (ranges.empty()) continue;
+      visit(static_cast<int>(rank), std::size_t{ranges.front().first_row},
+            std::size_t{ranges.back().first_row + ranges.back().row_count});
+    }
   }
 }
 
-/// First which pairs touch, then the rows of those: nobody reads numbers of others.
+/// So many that all numbers of one take about as much room as a message of ranks should.
+std::size_t SphereContacts::slices_of_rows() const {
+  return 1 + table_.numbers.size() * sizeof(double) / geometry::Ranks::kUsualRoom;
+}
+
+/// First which pairs touch, then the rows of those: nobody reads numbers of others. In slices, so
+/// that a message is not as large as the scene.
 void SphereContacts::complete() const {
   if (is_complete_) return;
   is_complete_ = true;
-  geometry::share(shared_->ranks(), room_, [&](const auto& visit) {
-    for_each_shared_block([&](int owner, std::size_t begin, std::size_t end) {
-      visit(owner, std::as_writable_bytes(std::span(table_.touched).subspan(begin, end - begin)));
+  const std::size_t slices = slices_of_rows();
+  for (std::size_t slice = 0; slice < slices; ++slice) {
+    geometry::share(shared_->ranks(), room_, [&](const auto& visit) {
+      for_each_row_range(slice, slices, [&](int owner, std::size_t begin, std::size_t end) {
+        visit(owner, std::as_writable_bytes(std::span(table_.touched).subspan(begin, end - begin)));
+      });
     });
-  });
-  geometry::share(shared_->ranks(), room_, [&](const auto& visit) {
-    for_each_shared_block([&](int owner, std::size_t begin, std::size_t end) {
-      for (std::size_t row = begin; row < end; ++row) {
-        if (!table_.touched[row].any()) continue;
-        const std::size_t slot = row * kLanes;
-        visit(owner, std::as_writable_bytes(
-                         std::span(table_.numbers)
-                             .subspan(table_.first_number(slot), table_.kind(slot).row_size)));
-      }
+    geometry::share(shared_->ranks(), room_, [&](const auto& visit) {
+      for_each_row_range(slice, slices, [&](int owner, std::size_t begin, std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row) {
+          if (!table_.touched[row].any()) continue;
+          const std::size_t slot = row * kLanes;
+          visit(owner, std::as_writable_bytes(
+                           std::span(table_.numbers)
+                               .subspan(table_.first_number(slot), table_.kind(slot).row_size)));
+        }
+      });
     });
-  });
+  }
 }
 
 void SphereContacts::advance_block(const SphereBlocks::Block& block, const Motion& motion,
@@ -318,18 +335,6 @@ SphereRange SphereContacts::range_of(const SphereBlocks::Range& range) noexcept 
           kind.parameters,
           common_ ? &common_->material : nullptr,
           range.was_apart};
-}
-
-std::size_t SphereContacts::touching() const noexcept {
-  std::size_t count = 0;
-  for (const Outcome& outcome : outcomes_) count += outcome.touching;
-  return count;
-}
-
-double SphereContacts::largest_overlap_ratio() const noexcept {
-  double deepest = 0.0;
-  for (const Outcome& outcome : outcomes_) deepest = std::max(deepest, outcome.largest_ratio());
-  return deepest;
 }
 
 double SphereContacts::elastic_energy() const {
@@ -396,9 +401,9 @@ void SphereContacts::exchange(const geometry::StateArchive& archive,
     ++place;  // each pair touches once
   });
   if (!archive.is_reading()) return;
-  outcomes_.assign(1, {});
-  outcomes_[0].touching = pairs.size();
-  outcomes_[0].overlap[0] = overlap_ratio;
+  totals_ = {};
+  totals_.touching = pairs.size();
+  totals_.largest_ratio = overlap_ratio;
 }
 
 void SphereContacts::take_over(const SphereContacts& before, std::span<const std::int32_t> places,
@@ -406,8 +411,8 @@ void SphereContacts::take_over(const SphereContacts& before, std::span<const std
   keys_.clear();
   list();
   numbers_ = {};
-  outcomes_.assign(1, {});
-  outcomes_[0].overlap[0] = before.largest_overlap_ratio();
+  totals_ = {};
+  totals_.largest_ratio = before.largest_overlap_ratio();
   std::size_t place = 0;
   for (KeptPair& pair : before.kept_pairs()) {
     for (std::int32_t& sphere : pair.spheres) sphere = places[static_cast<std::size_t>(sphere)];
@@ -417,7 +422,7 @@ void SphereContacts::take_over(const SphereContacts& before, std::span<const std
     if (place == keys_.size() || keys_[place] != key) continue;
     require_same_law(pair.memory.history, table_.kind(blocks_.slot(place)).law);
     keep(pair, place);
-    ++outcomes_[0].touching;
+    ++totals_.touching;
   }
 }
 

@@ -37,6 +37,11 @@ class SphereContacts {
   /// Which rank moves which nodes; nothing where this process computes all.
   SharedMotion* shared_motion() noexcept { return shared_ ? &shared_->motion() : nullptr; }
 
+  /// What each rank does alone; nothing where this process computes all.
+  std::vector<RankShare> shares_of_ranks() const {
+    return shared_ ? shared_->shares() : std::vector<RankShare>();
+  }
+
   /// Takes a new list of pairs of spheres (a < b, sorted); pairs in both lists keep their memory.
   /// @param spheres  must not change until the next list
   /// @param x  m, of nodes, to put what is near together; empty: the spheres are in order already
@@ -48,9 +53,9 @@ class SphereContacts {
   /// @returns the energy (J) dissipated
   double advance(const Motion& motion, double dt, geometry::ThreadPool& pool, NodeForces& forces);
 
-  std::size_t touching() const noexcept;
+  std::size_t touching() const noexcept { return totals_.touching; }
   /// Largest overlap of the last step over the radius of the smaller sphere.
-  double largest_overlap_ratio() const noexcept;
+  double largest_overlap_ratio() const noexcept { return totals_.largest_ratio; }
 
   /// Energy (J) stored in all contacts, at the positions of the last step.
   double elastic_energy() const;
@@ -193,7 +198,8 @@ class SphereContacts {
   void complete() const;
   void share_blocks(const Motion& motion, geometry::ThreadPool& pool, NodeForces& forces);
   template <class Visit>
-  void for_each_shared_block(Visit&& visit) const;
+  void for_each_row_range(std::size_t slice, std::size_t slices, Visit&& visit) const;
+  std::size_t slices_of_rows() const;
   void compute_block(std::size_t block, const Motion& motion, SphereWork& work, NodeForces& forces);
 
   /// Calls visit(touching pair), in the order of the list.
@@ -227,7 +233,8 @@ class SphereContacts {
   Table last_table_;                     ///< its room, and the kinds of the list to come
   PairNumbers numbers_;                  ///< of the pairs that touched when they were numbered last
   std::vector<SphereSum> ghost_sums_;    ///< of ghosts
-  std::vector<Outcome> outcomes_;        ///< by block
+  std::vector<Outcome> outcomes_;        ///< by block that this process computes
+  BlockTotals totals_;                   ///< of all blocks
   std::vector<SphereWork> work_;         ///< by thread
   std::vector<std::uint32_t> old_slots_;  ///< by pair of a new list
   std::vector<std::uint32_t> sources_;    ///< by slot of a new list

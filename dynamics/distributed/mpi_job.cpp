@@ -57,6 +57,8 @@ bool is_one_of_several() {
 }
 
 class MpiJob::MpiRanks final : public geometry::Ranks {
+  static constexpr int kTag = 1;
+
  public:
   MpiRanks() : owners_by_chance_(test_asks_for("owners")), delays_(test_asks_for("delays")) {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
@@ -82,6 +84,10 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
 
   void gather(std::span<std::byte> parts, std::span<const std::size_t> sizes) override {
     wait_by_chance();
+    if (delays_ && choices_() % 2 == 0) {
+      gather_by_messages(parts, sizes);
+      return;
+    }
     set(sizes, counts_, places_);
     requests_.resize(1);
     require(MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, parts.data(), counts_.data(),
@@ -94,29 +100,21 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
                       std::span<std::byte> received,
                       std::span<const std::size_t> received_sizes) override {
     wait_by_chance();
-    constexpr int kTag = 1;
     requests_.clear();
     std::size_t at = 0;
     for (int rank = 0; rank < count_; ++rank) {
       const std::size_t size = received_sizes[static_cast<std::size_t>(rank)];
-      if (size > 0) {
-        require(MPI_Irecv(received.data() + at, units(size), MPI_UINT64_T, rank, kTag,
-                          MPI_COMM_WORLD, &requests_.emplace_back()),
-                "to receive from another rank");
-      }
+      receive(rank, received.subspan(at, size));
       at += size;
     }
     at = 0;
     for (int rank = 0; rank < count_; ++rank) {
       const std::size_t size = sent_sizes[static_cast<std::size_t>(rank)];
-      if (size > 0) {
-        require(MPI_Isend(sent.data() + at, units(size), MPI_UINT64_T, rank, kTag, MPI_COMM_WORLD,
-                          &requests_.emplace_back()),
-                "to send to another rank");
-      }
+      send(rank, sent.subspan(at, size));
       at += size;
     }
   }
+  void progress() override { are_all_done(); }
   void end_exchange() override { wait_for_all(); }
 
  private:
@@ -126,13 +124,74 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
     constexpr double kLooking = 100e-6;  // s, some times what a message takes
     constexpr std::chrono::microseconds kSleep{20};
     const double begin = MPI_Wtime();
-    for (int is_done = 0;;) {
-      require(MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &is_done,
-                          MPI_STATUSES_IGNORE),
-              "to wait for another rank");
-      if (is_done != 0) return;
+    while (!are_all_done()) {
       if (MPI_Wtime() - begin > kLooking) std::this_thread::sleep_for(kSleep);
     }
+  }
+
+  /// Also lets MPI go on with what is not.
+  bool are_all_done() {
+    send_those_due();
+    int is_done = 0;
+    require(MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &is_done,
+                        MPI_STATUSES_IGNORE),
+            "to wait for another rank");
+    return is_done != 0 && held_.empty();
+  }
+
+  void receive(int rank, std::span<std::byte> message) {
+    if (message.empty()) return;
+    require(MPI_Irecv(message.data(), units(message.size()), MPI_UINT64_T, rank, kTag,
+                      MPI_COMM_WORLD, &requests_.emplace_back()),
+            "to receive from another rank");
+  }
+  void send(int rank, std::span<const std::byte> message) {
+    if (message.empty()) return;
+    if (delays_) {
+      held_.push_back({rank, message, MPI_Wtime() + seconds_by_chance()});
+      return;
+    }
+    require(MPI_Isend(message.data(), units(message.size()), MPI_UINT64_T, rank, kTag,
+                      MPI_COMM_WORLD, &requests_.emplace_back()),
+            "to send to another rank");
+  }
+
+  // For tests: ranks wait before they send anything, and messages by themselves, so that they come
+  // in another order than they were sent.
+
+  void wait_by_chance() {
+    if (delays_) std::this_thread::sleep_for(std::chrono::duration<double>(seconds_by_chance()));
+  }
+  double seconds_by_chance() {
+    constexpr unsigned kLongest = 1000;  // µs
+    return 1e-6 * static_cast<double>(waits_() % kLongest);
+  }
+  void send_those_due() {
+    const double now = held_.empty() ? 0.0 : MPI_Wtime();
+    std::erase_if(held_, [&](const Held& held) {
+      if (now < held.due) return false;
+      require(MPI_Isend(held.message.data(), units(held.message.size()), MPI_UINT64_T, held.rank,
+                        kTag, MPI_COMM_WORLD, &requests_.emplace_back()),
+              "to send to another rank");
+      return true;
+    });
+  }
+  void gather_by_messages(std::span<std::byte> parts, std::span<const std::size_t> sizes) {
+    requests_.clear();
+    std::span<const std::byte> own;
+    std::size_t at = 0;
+    for (int rank = 0; rank < count_; ++rank) {
+      const std::span<std::byte> part = parts.subspan(at, sizes[static_cast<std::size_t>(rank)]);
+      if (rank == rank_)
+        own = part;
+      else
+        receive(rank, part);
+      at += part.size();
+    }
+    for (int rank = 0; rank < count_; ++rank) {
+      if (rank != rank_) send(rank, own);
+    }
+    wait_for_all();
   }
 
   static void set(std::span<const std::size_t> sizes, std::vector<int>& counts,
@@ -147,12 +206,6 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
     }
   }
 
-  void wait_by_chance() {
-    if (!delays_) return;
-    constexpr unsigned kLongest = 1000;  // µs
-    std::this_thread::sleep_for(std::chrono::microseconds(waits_() % kLongest));
-  }
-
   int rank_ = 0;
   int count_ = 1;
   MPI_Comm ending_ = MPI_COMM_NULL;
@@ -162,6 +215,13 @@ class MpiJob::MpiRanks final : public geometry::Ranks {
   std::mt19937 waits_;
   std::vector<int> counts_, places_;
   std::vector<MPI_Request> requests_;
+  /// A message that is to be sent later.
+  struct Held {
+    int rank;
+    std::span<const std::byte> message;
+    double due;  ///< s
+  };
+  std::vector<Held> held_;
 };
 
 MpiJob::MpiJob() {

@@ -15,8 +15,9 @@ bool is_one_of_several();
 /// This process as a rank of a job of MPI, from the making of this to its end. One in a process.
 ///
 /// For tests, PLEKTON_RANKS_TEST in the environment may hold, parted by commas: "owners", ranks by
-/// chance for every piece of work of every list; "delays", every message waits for up to a
-/// millisecond by chance. Neither changes a result.
+/// chance for every piece of work of every list; "delays", every rank waits for up to a
+/// millisecond by chance before it tells anything, and every message does by itself. Neither changes
+/// a result.
 class MpiJob {
  public:
   /// Joins the others. @throws std::runtime_error

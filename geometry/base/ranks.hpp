@@ -16,6 +16,9 @@ namespace plekton::geometry {
 class Ranks {
  public:
   static constexpr std::size_t kUnit = sizeof(std::uint64_t);
+  /// Bytes that what is told to all at a time should take about: what is more is told in pieces,
+  /// so that a rank needs little more memory than one process.
+  static constexpr std::size_t kUsualRoom = std::size_t{4} << 20;
 
   Ranks() = default;
   Ranks(const Ranks&) = delete;
@@ -40,7 +43,7 @@ class Ranks {
   virtual void gather(std::span<std::byte> parts, std::span<const std::size_t> sizes) = 0;
 
   /// Begins to send a part to each rank and to take one from each. Until end_exchange() this rank
-  /// may compute, but calls no other function of this class.
+  /// may compute, but calls no other function of this class than progress().
   /// @param sent, received  parts one after the other, with their sizes by rank; they stay where
   ///                        they are until the end
   virtual void begin_exchange(std::span<const std::byte> sent,
@@ -49,6 +52,9 @@ class Ranks {
                               std::span<const std::size_t> received_sizes) = 0;
   /// From here on all that was to be received is there.
   virtual void end_exchange() = 0;
+  /// Lets an exchange that has begun go on while this rank computes: large messages move only when
+  /// both sides look at them. Called from the same thread, at any time.
+  virtual void progress() {}
 
   /// Ranges of pieces, in the order of the ranks: a piece goes to the rank in whose share of the
   /// work its middle lies.

@@ -10,8 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <mutex>
+#include <set>
 #include <vector>
 
 namespace plekton::contact {
@@ -84,6 +86,7 @@ class ShakenSpheres {
   }
 
   std::int64_t list_count() const { return contacts_->list_count(); }
+  const Contacts& contacts() const { return *contacts_; }
 
  private:
   std::vector<geometry::Sphere> spheres_;
@@ -110,6 +113,13 @@ std::vector<std::uint64_t> hashes(const ContactModel& model, int threads = 1) {
   for (int step = 0; step < kSteps; ++step) all.push_back(spheres.step(step, looks_after(step)));
   EXPECT_GT(spheres.list_count(), 3);
   return all;
+}
+
+/// Of two steps of so many spheres that what they remember goes into several messages.
+std::vector<std::uint64_t> hashes_of_many(const ContactModel& model) {
+  constexpr int kMany = 24;  // 13824 spheres, of which each has some 450 bytes
+  ShakenSpheres spheres(kMany, model, 1);
+  return {spheres.step(0, true), spheres.step(1, true)};
 }
 
 /// With one law, and with pairs of materials of different ones.
@@ -141,6 +151,38 @@ TEST(AmongRanks, HaveThemWithOwnersByChanceAtEveryList) {
 
 TEST(AmongRanks, HaveThemWithThreadsInRanks) {
   expect_same_bits(2, false, 2);
+}
+
+TEST(AmongRanks, HaveThemWhereWhatTheyRememberGoesIntoSeveralMessages) {
+  const std::vector<std::uint64_t> alone = hashes_of_many(linear_frictional());
+  std::mutex mutex;
+  test::ThreadRanks(3).run([&](geometry::Ranks& ranks) {
+    const std::vector<std::uint64_t> together =
+        hashes_of_many(among_ranks(linear_frictional(), ranks));
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(together, alone) << "rank " << ranks.rank();
+  });
+}
+
+TEST(AmongRanks, TellWhatEachDoesAlone) {
+  std::mutex mutex;
+  std::set<std::vector<std::size_t>> told;
+  test::ThreadRanks(3).run([&](geometry::Ranks& ranks) {
+    ShakenSpheres spheres(kPerSide, among_ranks(linear_frictional(), ranks), 1);
+    spheres.step(0, false);
+    std::vector<std::size_t> counts;
+    for (const RankShare& share : shares_of_ranks(spheres.contacts()))
+      counts.insert(counts.end(), {share.blocks, share.spheres});
+    const std::lock_guard lock(mutex);
+    told.insert(counts);
+  });
+  ASSERT_EQ(told.size(), 1U) << "all know the same";
+  ASSERT_EQ(told.begin()->size(), 6U);
+  EXPECT_GT(std::ranges::min(*told.begin()), 0U);
+
+  ShakenSpheres alone(kPerSide, linear_frictional(), 1);
+  alone.step(0, false);
+  EXPECT_TRUE(shares_of_ranks(alone.contacts()).empty());
 }
 
 TEST(AmongRanks, HaveThemWithMoreRanksThanBlocks) {

@@ -17,8 +17,8 @@ constexpr int kRanks = 3;
 
 /// A chain of spheres that touch, in several blocks, and two nodes more that are none.
 struct Chain {
-  Chain() {
-    for (std::size_t i = 0; i < kCount; ++i) {
+  explicit Chain(std::size_t count = kCount) {
+    for (std::size_t i = 0; i < count; ++i) {
       spheres.push_back({geometry::id_at<NodeId>(i), 0.5, MaterialId{0}, 1.0});
       x.emplace_back(0.99 * static_cast<double>(i), 0, 0);
       if (i > 0) {
@@ -26,7 +26,7 @@ struct Chain {
         pairs.push_back({b - 1, b});
       }
     }
-    x.resize(kCount + 2, Vec3(0, 50, 0));
+    x.resize(count + 2, Vec3(0, 50, 0));
     geometry::ThreadPool pool;
     blocks.assign(pairs, spheres, {}, pool, x);
     for (std::size_t k = 0; k < blocks.blocks().size(); ++k)
@@ -124,6 +124,18 @@ TEST(SharedMotion, TellsNeighboursOfGhostsAndOfNothingElse) {
 
 TEST(SharedMotion, TellsAllOfAllPrivateNodes) {
   const Chain chain;
+  on_ranks(chain, [&](geometry::Ranks& ranks, SharedMotion& motion, Known& known) {
+    motion.tell_all(known.nodes());
+    for (const NodeId node : motion.common()) known.learn(node);
+    for (std::size_t i = 0; i < chain.x.size(); ++i)
+      ASSERT_TRUE(known.knows_all(i)) << i << " on rank " << ranks.rank();
+  });
+}
+
+TEST(SharedMotion, TellsAllOfMoreNodesThanGoIntoAMessage) {
+  constexpr std::size_t kMany = 40000;
+  static_assert(kMany * sizeof(Vec3) > geometry::Ranks::kUsualRoom / 5, "five vectors a node");
+  const Chain chain(kMany);
   on_ranks(chain, [&](geometry::Ranks& ranks, SharedMotion& motion, Known& known) {
     motion.tell_all(known.nodes());
     for (const NodeId node : motion.common()) known.learn(node);
