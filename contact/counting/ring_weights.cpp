@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plekton::contact {
 namespace {
@@ -11,11 +10,6 @@ namespace {
 /// Of the range. Levels of tops that are as near are one, as rounding parts them in bodies that are
 /// symmetric.
 constexpr double kTie = 1e-12;
-
-/// Of the range: rounding of a difference of distances. A hole that is there over no more than that
-/// ends as it begins, and gives back the energy at its end. Pass and top stand within a range times
-/// sqrt(2 kLeastLife) of each other, so the force jumps by 4e-8 of that of one contact at most.
-constexpr double kLeastLife = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// Two vertices at one distance have a link without resistance; this share of their overlap is as
 /// good as none, and finite.

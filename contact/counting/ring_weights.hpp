@@ -4,6 +4,7 @@
 #include "contact/counting/level_complex.hpp"
 #include "contact/counting/ring_flows.hpp"
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,12 @@ namespace plekton::contact {
 /// have equal parts, so symmetric bodies feel symmetric forces.
 class RingWeights {
  public:
+  /// Of the range: rounding of a difference of distances. A hole that is there over no more than
+  /// that ends as it begins, and gives back the energy at its end. Pass and top stand within a range
+  /// times sqrt(2 kLeastLife) of each other, so the force jumps by 4e-8 of that of one contact at
+  /// most.
+  static constexpr double kLeastLife = 4.0 * std::numeric_limits<double>::epsilon();
+
   /// What a foot point gets.
   struct Share {
     std::uint32_t vertex;  ///< of the complex

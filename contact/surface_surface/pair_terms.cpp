@@ -261,7 +261,10 @@ RimPlaces PairTerms::rims_of(const PairTerm& term, const NearestCorners& nearest
 }
 
 void PairTerms::give_back_of_rings(std::span<const NormalSpring> springs, Positions x) {
-  if (!search_.find(acting_, terms_, holders_, term_of_pair_.size())) return;
+  double range = 0.0;
+  for (const NormalSpring& spring : springs) range = std::max(range, spring.range());
+  const double least_life = RingWeights::kLeastLife * range;
+  if (!search_.find(acting_, terms_, holders_, term_of_pair_.size(), least_life)) return;
   ring_terms_.clear();
   for (const std::uint32_t term : acting_) {
     const std::uint32_t part = search_.part_of(holders(terms_[term]).front().pair);

@@ -8,11 +8,6 @@
 namespace plekton::contact::structure {
 namespace {
 
-/// Of the overlap of the deepest term: others that differ by less are on one level. Rounding makes
-/// the order of features that stand at one place, and what a hole of such a life would get back is
-/// no more than that.
-constexpr double kTie = 1e-12;
-
 /// A ring needs three pairs of cells and three terms that join them.
 constexpr std::size_t kFewest = 6;
 
@@ -33,7 +28,7 @@ void sort_mostly_sorted(std::vector<Item>& items, const Before& before) {
 }  // namespace
 
 bool RingSearch::find(std::span<const std::uint32_t> acting, std::span<const PairTerm> terms,
-                      std::span<const Holder> holders, std::size_t pair_count) {
+                      std::span<const Holder> holders, std::size_t pair_count, double least_life) {
   pairs_.clear();
   found_ = false;
   if (acting.size() < kFewest) return false;
@@ -55,7 +50,7 @@ bool RingSearch::find(std::span<const std::uint32_t> acting, std::span<const Pai
   changed_.clear();
   double last = 0.0;
   for (const auto& [overlap, term] : order_) {
-    if (last - overlap > kTie * order_.front().overlap) check_level();
+    if (last - overlap > least_life) check_level();
     last = overlap;
     const std::uint32_t part = unite(holders_of(term));
     sums_[part] += terms[term].weight;

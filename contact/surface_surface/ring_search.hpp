@@ -23,9 +23,12 @@ class RingSearch {
   /// @param acting      terms in range, ascending
   /// @param holders     of all terms
   /// @param pair_count  of all pairs of cells
+  /// @param least_life  m: terms whose overlaps differ by no more are on one level. Rounding makes
+  ///                    the order of features that stand at one place, and a hole that is there
+  ///                    over no more than rounding gives back nothing (RingWeights::kLeastLife)
   /// @returns whether there is such a part
   bool find(std::span<const std::uint32_t> acting, std::span<const PairTerm> terms,
-            std::span<const Holder> holders, std::size_t pair_count);
+            std::span<const Holder> holders, std::size_t pair_count, double least_life);
 
   /// Pairs of cells of such parts, part after part: of one ascending, the lowest first. Of the last
   /// find(), as the next.

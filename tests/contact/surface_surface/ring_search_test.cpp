@@ -8,6 +8,8 @@
 namespace plekton::contact::structure {
 namespace {
 
+constexpr double kLeastLife = 1e-15;
+
 /// Pairs of cells in a row, each joined to the next.
 struct Row {
   std::vector<PairTerm> terms;
@@ -39,14 +41,14 @@ struct Row {
 TEST(RingSearch, FindsNothingWherePiecesMerge) {
   Row row(0, 5, false);
   RingSearch search;
-  EXPECT_FALSE(search.find(row.acting, row.terms, row.holders, 5));
+  EXPECT_FALSE(search.find(row.acting, row.terms, row.holders, 5, kLeastLife));
 }
 
 TEST(RingSearch, FindsThePartThatClosesARing) {
   Row row(0, 5, false);
   row.grow(5, 4, true);
   RingSearch search;
-  ASSERT_TRUE(search.find(row.acting, row.terms, row.holders, 9));
+  ASSERT_TRUE(search.find(row.acting, row.terms, row.holders, 9, kLeastLife));
   EXPECT_EQ(std::vector(search.pairs().begin(), search.pairs().end()),
             (std::vector<std::uint32_t>{5, 6, 7, 8}));
   EXPECT_TRUE(search.is_more(search.part_of(7)));
@@ -57,14 +59,21 @@ TEST(RingSearch, FindsARingThatIsFilledAtAHigherLevel) {
   Row row(0, 4, true);
   row.add(0.05, 1, {0, 1, 2, 3});
   RingSearch search;
-  EXPECT_TRUE(search.find(row.acting, row.terms, row.holders, 4));
+  EXPECT_TRUE(search.find(row.acting, row.terms, row.holders, 4, kLeastLife));
+}
+
+TEST(RingSearch, FindsARingThatIsFilledALittleHigher) {
+  Row row(0, 4, true);
+  row.add(0.1 - 1e-14, 1, {0, 1, 2, 3});
+  RingSearch search;
+  EXPECT_TRUE(search.find(row.acting, row.terms, row.holders, 4, kLeastLife));
 }
 
 TEST(RingSearch, TakesWhatRoundingTearsApartAsOneLevel) {
   Row row(0, 4, true);
   row.add(0.1 * (1.0 - 1e-15), 1, {0, 1, 2, 3});
   RingSearch search;
-  EXPECT_FALSE(search.find(row.acting, row.terms, row.holders, 4));
+  EXPECT_FALSE(search.find(row.acting, row.terms, row.holders, 4, kLeastLife));
 }
 
 }  // namespace

@@ -71,6 +71,36 @@ TEST(StructureRings, PushAgainstTheGradientOfTheirEnergyWithAdhesion) {
   expect_gradients<contact::DmtAdhesion>({1e-3});
 }
 
+/// The end of a bar in the middle of a dimple: a pass on an edge closes a ring half the square of a
+/// slope below the top that fills it.
+Body dimple(double slope) {
+  const Vec3 top(0.0, 0.0, 1.0);
+  Body dimple;
+  dimple.x = {top, top + 0.5 * Vec3(1.0, 0.0, -slope), Vec3(0.1, 0.4, 0.6), Vec3(-0.3, 0.0, 0.7),
+              Vec3(0.1, -0.4, 0.6)};
+  for (int k = 1; k <= 4; ++k) dimple.facets.push_back({0, k, k % 4 + 1});
+  for (Vec3& x : dimple.x) x *= kRange / 1.2;
+  return dimple;
+}
+
+// As of spheres (ring_limits_test.cpp): where levels that are nearer than 1e-12 of the deepest
+// overlap were taken for one the force jumped by 1e-6 of that of one contact.
+TEST(StructureRings, ChangeTheForceByNoMoreThanTheSlopeOfAPassDoes) {
+  const Body bar = moved(chain(1, 0.4), {0.0, 0.5 * std::numbers::pi, 0.0}, {0.0, 0.0, -0.2});
+  ASSERT_LT(bar.x[0].head<2>().norm(), 1e-16);
+  StructurePair structure_pair(bar, dimple(0.0), kRange);
+  const auto force_at = [&](double slope) -> Vec3 {
+    structure_pair.place(dimple(slope));
+    return structure_pair.force_on_b();
+  };
+  // Of up to four terms that turn by as much, each with a force of the top's overlap or less.
+  constexpr double kTop = kRange * (1.0 - 1.0 / 1.2);
+  for (double slope = 1e-7; slope < 1e-5; slope *= 1.05) {
+    const double change = (force_at(1.05 * slope) - force_at(slope)).norm();
+    ASSERT_LT(change, kTop * (4.0 * 0.05 * slope + 4e-8)) << slope;
+  }
+}
+
 // Bars that cross at 34 degrees touch at points. Nets give back up to a twelfth too much for every
 // mesh in range (ring_weights.hpp), and what bends of the wires keep besides (wrap.hpp).
 TEST(StructureRings, OfBarsOnBarsNeverPushLessThanPieces) {
