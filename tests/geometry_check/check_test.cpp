@@ -13,6 +13,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
+#include <string>
 
 /// The check itself must be able to fail.
 namespace plekton::geometry_check {
@@ -50,6 +52,49 @@ TEST(GeometryCheck, SeesTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(one.pairs[i].largest_error, three.pairs[i].largest_error);
     EXPECT_EQ(one.pairs[i].double_doubles, three.pairs[i].double_doubles);
     EXPECT_EQ(one.pairs[i].exact, three.pairs[i].exact);
+  }
+}
+
+TEST(GeometryCheck, AsksARowAloneWhatItAsksAmongAll) {
+  const Report all = check({20000, 2, 1, {}}, certified);
+  CheckOptions alone{20000, 2, 1, {}};
+  alone.only = all.pairs[7].family;
+  const Report found = check(alone, certified);
+
+  EXPECT_EQ(found.pairs[7].queries, all.pairs[7].queries);
+  EXPECT_EQ(found.pairs[7].largest_error, all.pairs[7].largest_error);
+  EXPECT_EQ(found.pairs[7].double_doubles, all.pairs[7].double_doubles);
+  for (std::size_t i = 0; i < all.pairs.size(); ++i)
+    EXPECT_EQ(found.pairs[i].queries > 0, std::string(all.pairs[i].family) == alone.only) << i;
+  for (const InvariantTally& row : found.invariants) EXPECT_EQ(row.trials, 0U) << row.name;
+}
+
+TEST(GeometryCheck, AsksAStatementAsOftenAsItIsTold) {
+  CheckOptions options{1, 2, 1, {}};
+  options.only = "structures";
+  options.trials = 25;
+  const Report report = check(options, certified);
+
+  int rows = 0;
+  for (const InvariantTally& row : report.invariants) {
+    if (row.trials == 0) continue;
+    ++rows;
+    EXPECT_GE(row.trials, 25U) << row.name;
+    EXPECT_EQ(std::string(row.name).find("structures"), 0U) << row.name;
+  }
+  EXPECT_EQ(rows, 4);
+  EXPECT_EQ(report.violations(), 0U);
+}
+
+TEST(GeometryCheck, RefusesARowThatIsNotThereAndNamesThoseThatAre) {
+  CheckOptions options{1, 2, 1, {}};
+  options.only = "structure push";
+  try {
+    check(options, certified);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("structure push"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("structures"), std::string::npos);
   }
 }
 
@@ -304,7 +349,10 @@ struct ArmsAndBall {
 };
 
 ArmsAndBall any_arms_and_ball(int count, test::Random& random) {
-  ArmsAndBall arms{{}, {}, std::pow(10.0, random.uniform(-3.0, -1.0)), random.uniform(-1.0, 1.0),
+  ArmsAndBall arms{{},
+                   {},
+                   std::pow(10.0, random.uniform(-3.0, -1.0)),
+                   random.uniform(-1.0, 1.0),
                    random.uniform(0.0, 6.3)};
   for (int i = 0; i < count; ++i) {
     arms.angles.push_back(random.uniform(0.0, 6.3));

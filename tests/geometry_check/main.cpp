@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdio>
 #include <mutex>
+#include <stdexcept>
 
 namespace {
 
@@ -25,6 +26,7 @@ void print_pairs(const Report& report) {
               "region", "relation", "", "distance", "sided", "", "error", "", "signs", "signs",
               "signs");
   for (const PairTally& row : report.pairs) {
+    if (row.queries == 0) continue;
     std::printf(
         "%-18s %-19s %10llu %8llu %9llu %5llu %9llu %9llu %6llu %9.1e %11llu %10llu %10llu "
         "%10llu\n",
@@ -46,11 +48,14 @@ void print_sums(const Report& report) {
       violations += row.violations();
       sum.largest_error = std::max(sum.largest_error, row.largest_error);
     }
+    if (sum.queries == 0) continue;
     std::printf("%-40s %12llu %12llu %14.1e\n", kind.name, Count{sum.queries}, Count{violations},
                 sum.largest_error);
   }
-  for (const InvariantTally& row : report.invariants)
+  for (const InvariantTally& row : report.invariants) {
+    if (row.trials == 0) continue;
     std::printf("%-40s %12llu %12llu\n", row.name, Count{row.trials}, Count{row.violations});
+  }
 }
 
 /// A line that is written over, on a terminal alone.
@@ -75,6 +80,10 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads, "the report is the same for any number")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
+  app.add_option("--only", options.only, "rows with this in their names, as in \"structures\"")
+      ->type_name("TEXT");
+  app.add_option("--trials", options.trials, "of each row, whatever --queries says")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000000}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -83,16 +92,21 @@ int main(int argc, char** argv) {
   options.progress = progress_line();
 
   const auto start = std::chrono::steady_clock::now();
-  const Report report =
-      check(options, [](const plekton::geometry::Core& a, const plekton::geometry::Core& b) {
-        return plekton::geometry::closest_points(a, b);
-      });
+  Report report;
+  try {
+    report = check(options, [](const plekton::geometry::Core& a, const plekton::geometry::Core& b) {
+      return plekton::geometry::closest_points(a, b);
+    });
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "plekton-geometry-check: --only: %s\n", error.what());
+    return 2;
+  }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 
   print_pairs(report);
   print_sums(report);
   for (const std::string& example : report.examples) std::printf("%s\n", example.c_str());
-  std::printf("\n%llu queries, seed %llu, %.1f s: %llu violations\n", Count{options.queries},
+  std::printf("\n%llu queries, seed %llu, %.1f s: %llu violations\n", Count{report.queries()},
               Count{options.seed}, seconds.count(), Count{report.violations()});
   return report.violations() == 0 ? 0 : 1;
 }

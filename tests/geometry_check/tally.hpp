@@ -46,6 +46,13 @@ struct Report {
   std::vector<InvariantTally> invariants;
   std::vector<std::string> examples;  ///< the first violations, to be replayed
 
+  /// Of pairs, and trials of statements.
+  std::uint64_t queries() const {
+    std::uint64_t sum = 0;
+    for (const PairTally& tally : pairs) sum += tally.queries;
+    for (const InvariantTally& tally : invariants) sum += tally.trials;
+    return sum;
+  }
   std::uint64_t violations() const {
     std::uint64_t sum = 0;
     for (const PairTally& tally : pairs) sum += tally.violations();
