@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   add_beams();
   add_broad_phase();
   add_patches();
+  add_wrapped_balls();
   add_leapfrog();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

@@ -12,6 +12,7 @@ void add_contact_law();
 void add_beams();
 void add_broad_phase();
 void add_patches();
+void add_wrapped_balls();
 void add_leapfrog();
 
 }  // namespace plekton::benchmarks
