@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Says how a tube buckled, beside the theory of thin shells: python3 check.py RUN [RUN ...]
 
-RUN is the folder of a run of buckling_tube.toml or continuum.toml, with these materials and sizes. Ends 1 where something is out of
-its bounds.
+RUN is the folder of a run of buckling_tube.toml or continuum.toml, with these materials and sizes. Writes shortening.csv into it (force over
+shortening, as shares of theory's). Ends 1 where something is out of its bounds.
 """
 import csv
 import json
@@ -49,6 +49,10 @@ def check(run):
     below = [abs(f) for f in history["lower ring.force_z"]]
     first = [i for i, u in enumerate(short) if 0.1 < u * stiffness / load < 0.4]
     measured = sum(short[i] * push[i] for i in first) / sum(short[i] ** 2 for i in first)
+    with open(run / "shortening.csv", "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["shortening over that at the load of theory", "force over that load"])
+        writer.writerows([f"{u * stiffness / load:.5g}", f"{p / load:.5g}"] for u, p in zip(short, push))
     values = [
         ("largest force over that of theory", max(push) / load, 0.90, 1.05, f"4 pi sqrt(C D) = {load:.1f} N, A18"),
         ("stiffness over that of theory", measured / stiffness, 1.00, 1.06, f"2 pi R C / H = {stiffness / 1e3:.1f} kN/m, A18"),
