@@ -61,6 +61,18 @@ bool require_known(const std::vector<std::string>& names, std::ostream& problems
   return all;
 }
 
+/// Before the cases, which take their time. @returns whether a page can be written
+bool make_page_folder(const std::filesystem::path& folder, std::ostream& problems) {
+  try {
+    make_output_folder(folder);
+  } catch (const dynamics::OutputError& error) {
+    problems << "plekton: " << error.what() << "; the cases run, but no page is written\n"
+             << std::flush;
+    return false;
+  }
+  return true;
+}
+
 bool write_page(const std::filesystem::path& folder, const std::vector<DoneCase>& cases,
                 std::ostream& out, std::ostream& problems) {
   const BuildInfo build = build_info();
@@ -68,7 +80,6 @@ bool write_page(const std::filesystem::path& folder, const std::vector<DoneCase>
       fmt::format("plekton {}, revision {}, {}, on {}, {}", kVersion, build.revision,
                   build.compiler, name_of_host(), date_of_now());
   try {
-    make_output_folder(folder);
     dynamics::OutputFile file(folder / kPage);
     file.write(validation_page(cases, origin));
     file.commit();
@@ -89,16 +100,22 @@ bool validate(const ValidateArguments& arguments, std::ostream& out, std::ostrea
     return true;
   }
   bool is_well = require_known(arguments.names, problems);
-  std::vector<DoneCase> cases;
+  std::vector<const ValidationCase*> asked;
   for (const ValidationCase& one : validation_cases()) {
     const auto& names = arguments.names;
-    if (!names.empty() && std::find(names.begin(), names.end(), one.name) == names.end()) continue;
-    cases.push_back(done_case(one, arguments.full));
+    if (names.empty() || std::find(names.begin(), names.end(), one.name) != names.end())
+      asked.push_back(&one);
+  }
+  if (asked.empty()) return false;
+  const bool has_folder = make_page_folder(arguments.out, problems);
+  std::vector<DoneCase> cases;
+  for (const ValidationCase* one : asked) {
+    out << fmt::format("{} of {}: {}\n", cases.size() + 1, asked.size(), one->what) << std::flush;
+    cases.push_back(done_case(*one, arguments.full));
     out << text_of(cases.back()) << std::flush;
     is_well = is_well && cases.back().passes();
   }
-  if (cases.empty()) return false;
-  return write_page(arguments.out, cases, out, problems) && is_well;
+  return has_folder && write_page(arguments.out, cases, out, problems) && is_well;
 }
 
 }  // namespace plekton::apps

@@ -40,7 +40,7 @@ TEST(ValidateCommand, NamesACaseThatIsNotThereAndGoesOnWithTheRest) {
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("cantilever"), HasSubstr("wrote ")));
 }
 
-TEST(ValidateCommand, SaysThatAFolderCannotBeWrittenAfterTheCases) {
+TEST(ValidateCommand, SaysThatAFolderCannotBeWrittenAndRunsTheCases) {
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "file", "");
 
@@ -49,7 +49,20 @@ TEST(ValidateCommand, SaysThatAFolderCannotBeWrittenAfterTheCases) {
 
   EXPECT_EQ(outcome.exit_code, kFailed);
   EXPECT_THAT(outcome.out, HasSubstr("cantilever"));
+  EXPECT_THAT(outcome.err, HasSubstr("no page is written"));
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+TEST(ValidateCommand, SaysWhichCaseItIsAtBeforeTheFiguresOfThatCase) {
+  const test::TemporaryFolder folder;
+
+  const Outcome outcome =
+      outcome_of({"validate", "cantilever", "cable", "--out", (folder / "out").string()});
+
+  const std::size_t announced = outcome.out.find("2 of 2: a chain of links");
+  ASSERT_NE(announced, std::string::npos) << outcome.out;
+  EXPECT_LT(outcome.out.find("cantilever ("), announced);
+  EXPECT_GT(outcome.out.find("cable ("), announced);
 }
 
 TEST(ValidateCommand, ListsItsCases) {
