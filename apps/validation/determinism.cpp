@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace plekton::apps {
 namespace {
@@ -50,13 +51,26 @@ dynamics::Scene grains_over_a_sheet() {
 CaseReport validate_determinism(bool full) {
   const std::int64_t steps = full ? 20'000 : 3'000;
   CaseReport report;
+  Figure figure{"Grains fall on a membrane: all numbers of threads on each other",
+                "time (s)",
+                "kinetic energy (J)",
+                {}};
   std::uint64_t first = 0;
   for (const int threads : {1, 2, 4}) {
     dynamics::SimulationOptions options;
     options.motion.gravity = Vec3(0.0, 0.0, -9.81);
     options.threads = threads;
     dynamics::Simulation simulation(grains_over_a_sheet(), options);
-    while (simulation.steps() < steps) simulation.step();
+    figure.curves.push_back({fmt::format("{} thread{}", threads, threads > 1 ? "s" : ""),
+                             threads > 1 ? CurveStyle::dashed : CurveStyle::line,
+                             {},
+                             {}});
+    while (simulation.steps() < steps) {
+      simulation.step();
+      if (simulation.steps() % (steps / 300) != 0) continue;
+      figure.curves.back().x.push_back(simulation.time());
+      figure.curves.back().y.push_back(simulation.energy().kinetic);
+    }
     const std::uint64_t hash = dynamics::state_hash(simulation);
     if (threads == 1) {
       first = hash;
@@ -68,6 +82,7 @@ CaseReport validate_determinism(bool full) {
          hash == first ? 0.0 : 1.0, 0.0, 0.0, "",
          fmt::format("one thread: hash of the state {:016x}", first)});
   }
+  report.figures.push_back(std::move(figure));
   return report;
 }
 

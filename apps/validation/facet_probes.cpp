@@ -50,6 +50,12 @@ Vec3 nearest_weights(const Corners& corners, const Vec3& x) {
   return best;
 }
 
+/// Force (N) on a sphere at a place, by the point of the facet that is nearest to its centre.
+Vec3 exact_force(const Corners& corners, const Vec3& centre) {
+  const Vec3 away = centre - point_at(corners, nearest_weights(corners, centre));
+  return kStiffness * std::max(0.0, kRange - away.norm()) * away.normalized();
+}
+
 /// Forces (N) on the corners and on a sphere at a place.
 std::array<Vec3, 4> forces_at(const Corners& corners, const Vec3& centre) {
   dynamics::Scene scene;
@@ -82,7 +88,7 @@ Count probed(const Corners& corners, int probes, bool beside, Random& random) {
     const Vec3 away = centre - point_at(corners, weights);
     if (away.norm() >= kRange || (weights.minCoeff() <= 0.0) != beside) continue;
     ++count.probes;
-    const Vec3 exact = kStiffness * (kRange - away.norm()) * away.normalized();
+    const Vec3 exact = exact_force(corners, centre);
     const std::array<Vec3, 4> forces = forces_at(corners, centre);
     bool is_right = (forces[3] - exact).norm() <= 1e-9 * exact.norm();
     for (std::size_t i = 0; i < 3; ++i)
@@ -93,6 +99,31 @@ Count probed(const Corners& corners, int probes, bool beside, Random& random) {
     count.missed += forces[3].isZero(0.0) ? 1 : 0;
   }
   return count;
+}
+
+/// The force on a sphere that passes at one height from above a facet to beside it.
+Figure passing_figure(const Corners& corners) {
+  constexpr double kHeight = 0.08;  // m
+  Figure figure{"A sphere passes from above a facet, over its side, to beside it",
+                "distance of its centre from the side, inwards above 0 (m)",
+                "force (N)",
+                {{"Plekton, along the facet", CurveStyle::line, {}, {}},
+                 {"closed form", CurveStyle::dashed, {}, {}},
+                 {"Plekton, normal to the facet", CurveStyle::line, {}, {}},
+                 {"closed form", CurveStyle::dashed, {}, {}}}};
+  const Vec3 middle = 0.5 * (corners[0] + corners[1]), side = corners[1] - corners[0];
+  const Vec3 inwards = Vec3(-side.y(), side.x(), 0.0).normalized();
+  for (int i = -100; i <= 100; ++i) {
+    const double inside = 1e-3 * i;  // m
+    const Vec3 centre = middle + inside * inwards + kHeight * Vec3::UnitZ();
+    const Vec3 felt = forces_at(corners, centre)[3], exact = exact_force(corners, centre);
+    const double values[] = {felt.dot(inwards), exact.dot(inwards), felt.z(), exact.z()};
+    for (std::size_t k = 0; k < figure.curves.size(); ++k) {
+      figure.curves[k].x.push_back(inside);
+      figure.curves[k].y.push_back(values[k]);
+    }
+  }
+  return figure;
 }
 
 }  // namespace
@@ -118,6 +149,7 @@ CaseReport validate_facet_probes(bool full) {
                   : "nearest point by projection; YADE 2023.02a: 0 of 127"});
     }
   }
+  report.figures.push_back(passing_figure(facets[2]));
   return report;
 }
 
