@@ -11,7 +11,7 @@ bool Finding::passes() const noexcept {
 }
 
 std::span<const ValidationCase> validation_cases() {
-  static constexpr std::array<ValidationCase, 11> kCases = {{
+  static constexpr std::array<ValidationCase, 12> kCases = {{
       {"sphere_over_sheet", "a sphere is dragged over a flat sheet of irregular facets, pressed in",
        validate_sphere_over_sheet},
       {"facet_probes", "spheres touch a facet from above and from beside it",
@@ -20,6 +20,8 @@ std::span<const ValidationCase> validation_cases() {
       {"rolling", "a sphere rolls and slides down a sheet of facets", validate_rolling},
       {"cantilever", "beams in a row bend under a load at their end", validate_cantilever},
       {"cable", "a chain of links hangs between two supports", validate_cable},
+      {"wire_net", "a double-twisted net of wire is pulled between two grips until it tears",
+       validate_wire_net},
       {"tube", "a tube of a lattice of beams buckles between rings that come together",
        validate_tube},
       {"bounce", "a hollow sphere bounces on a wall and on an incline", validate_bounce},

@@ -44,6 +44,7 @@ CaseReport validate_facet_probes(bool full);
 CaseReport validate_fold(bool full);
 CaseReport validate_cantilever(bool full);
 CaseReport validate_cable(bool full);
+CaseReport validate_wire_net(bool full);
 CaseReport validate_tube(bool full);
 CaseReport validate_bounce(bool full);
 CaseReport validate_pull_out(bool full);
