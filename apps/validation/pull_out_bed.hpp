@@ -48,6 +48,7 @@ inline constexpr double kPressure = 20e3;   // Pa
 inline constexpr double kSpeed = 0.1;       // m/s
 inline constexpr double kPull = 0.012;      // m
 inline constexpr double kSettling = 0.06;   // s
+inline constexpr double kStep = 1.2e-5;     // s
 inline constexpr contact::MaterialId kGrains{0}, kLattice{1}, kWalls{2};
 inline const double kFriction = elementary::tan(20.0 / 180.0 * std::numbers::pi);
 
@@ -132,6 +133,7 @@ inline dynamics::Scene scene_of(Kind kind, std::uint64_t seed) {
 
 struct PullOut {
   std::size_t grains = 0;
+  std::int64_t steps = 0;
   double largest = 0.0;        ///< of the pull over 2 sigma A, A what is still in the bed
   double mean = 0.0;           ///< of the last half
   double pressure = 0.0;       ///< Pa, on the upper plate, mean of the last half
@@ -139,10 +141,11 @@ struct PullOut {
   std::vector<double> shares;  ///< the pull over 2 sigma A there
 };
 
-/// @param seed  of the bed
-inline PullOut pulled_out(Kind kind, std::uint64_t seed) {
+/// @param seed       of the bed
+/// @param time_step  s; 0: the simulation chooses
+inline PullOut pulled_out(Kind kind, std::uint64_t seed, double time_step = kStep) {
   dynamics::SimulationOptions options;
-  options.time_step = 1.2e-5;
+  options.time_step = time_step;
   options.motion.damping = 0.2;
   const dynamics::Scene scene = scene_of(kind, seed);
   PullOut result;
@@ -170,6 +173,7 @@ inline PullOut pulled_out(Kind kind, std::uint64_t seed) {
     result.mean += result.shares.back();
     result.pressure += simulation.contacts().force_on_plane(5).z() / (kLength * kWidth);
   }
+  result.steps = simulation.steps();
   result.mean /= samples;
   result.pressure /= samples;
   return result;
