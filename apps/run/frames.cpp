@@ -180,14 +180,13 @@ fs::path Frames::file_of(std::string_view part, std::size_t frame) const {
   return folder_ / "frames" / fmt::format("{}_{:05}.vtp", part, frame);
 }
 
-/// The series are written again, with the frames up to then.
+/// The series are written again, with the frames up to then: also those that from now on get none.
 void Frames::go_on(const WrittenFiles& before) {
   times_ = before.frames;
-  const std::array<bool, 3> wanted = {settings_.grains, settings_.membranes, settings_.contacts};
-  for (std::size_t k = 0; k < kParts.size(); ++k) {
-    const std::string part(kParts[k]);
+  for (const std::string_view name : kParts) {
+    const std::string part(name);
     std::vector<dynamics::SeriesEntry> entries;
-    for (std::size_t frame = 0; frame < times_.size() && wanted[k]; ++frame) {
+    for (std::size_t frame = 0; frame < times_.size(); ++frame) {
       const fs::path file = file_of(part, frame);
       if (std::error_code ignored; fs::exists(file, ignored))
         entries.push_back({times_[frame], part, file});

@@ -17,6 +17,7 @@
 #include "apps/run/run_state.hpp"
 #include "apps/run/run_warnings.hpp"
 #include "apps/run/scenario_copy.hpp"
+#include "apps/run/servo_force.hpp"
 #include "apps/run/stage_watch.hpp"
 #include "apps/run/stiffness_warnings.hpp"
 #include "apps/run/tie_histories.hpp"
@@ -69,6 +70,7 @@ struct RunStart {
   RunReport report;
   OutputSettings output;  ///< of what there is
   LostGrains lost;
+  StageStart stop;  ///< from where [stop] counts; empty without it
 };
 
 RunReport begun_report(const Scenario& scenario, const PreparedRun& prepared) {
@@ -98,10 +100,22 @@ RunReport begun_report(const Scenario& scenario, const PreparedRun& prepared) {
   return report;
 }
 
+/// How things stand before a run without stages begins.
+StageStart start_now(const dynamics::Simulation& simulation) {
+  StageStart start;
+  start.positions = simulation.state().position;
+  for (const contact::Plane& plane : simulation.planes()) start.planes.push_back(plane.point);
+  return start;
+}
+
+/// Of a run that nothing ends before its duration is over.
+const StageEnd kNoEnd{};
+
 RunStart start_of(const Scenario& scenario, const PreparedRun& prepared) {
   const dynamics::Simulation& simulation = *prepared.simulation;
   return {begun_report(scenario, prepared), settings_for(scenario.output, simulation),
-          LostGrains(simulation.elements(), simulation.state().position, simulation.planes())};
+          LostGrains(simulation.elements(), simulation.state().position, simulation.planes()),
+          scenario.stop ? start_now(simulation) : StageStart{}};
 }
 
 /// One run: what is written, and what is watched.
@@ -116,6 +130,10 @@ class Run {
         end_time_(stage_ ? stage_->latest() : scenario.simulation.duration),
         bodies_(scenario, prepared.built, simulation_),
         lost_(std::move(start.lost)),
+        stop_start_(std::move(start.stop)),
+        stop_(scenario.stop ? *scenario.stop : kNoEnd, stop_start_, prepared.built,
+              EndWatch::kOfRuns),
+        servos_(scenario),
         before_(files_before(settings)),
         frames_(settings.out, start.output, bodies_, before()),
         history_(settings.out, before()),
@@ -154,6 +172,7 @@ class Run {
     }
     progress_.finish();
     complete_report();
+    if (!stage_ && report_.status != RunStatus::interrupted) warn_of_servos();
     write_whole_report();
     return report_;
   }
@@ -179,6 +198,11 @@ class Run {
     progress_.finish();
     if (!settings_.has_next_stage) write_whole_report();
     return report_;
+  }
+
+  void warn_of_servos() {
+    for (std::string& warning : servos_.warnings(simulation_))
+      report_.warnings.push_back(std::move(warning));
   }
 
   /// One step. @returns whether there was any left
@@ -221,7 +245,7 @@ class Run {
       if (looks && clock_says_checkpoint()) write_checkpoint_by_clock();
       if (looks) progress_.update(simulation_.time(), simulation_.steps());
       if (settings_.is_interrupted()) return RunStatus::interrupted;
-      if (looks && is_at_rest()) return RunStatus::at_rest;
+      if (looks && stops()) return stop_status();
       if (looks && stage_ends()) return RunStatus::finished;
     }
     return RunStatus::finished;
@@ -365,7 +389,8 @@ class Run {
     archive("last_reactions_step", last_reactions_step_);
     archive("last_frame_step", last_frame_step_);
     archive("next_look_at_grains", next_look_at_grains_);
-    archive("has_moved", has_moved_);
+    stop_.exchange(archive.group("stop"));
+    if (!stage_) servos_.exchange(archive.group("servos"));
   }
 
   /// Who is in whom where the largest overlap has grown: not often, since that lists all contacts.
@@ -418,6 +443,7 @@ class Run {
     measures_.add(simulation_);
     rigid_bodies_.add(simulation_);
     ties_.add(simulation_);
+    if (!stage_) servos_.look(simulation_);
     last_row_step_ = simulation_.steps();
   }
 
@@ -469,13 +495,15 @@ class Run {
         std::max(report_.largest_motion_ratio, simulation_.motion_ratio());
   }
 
-  bool is_at_rest() {
-    if (!scenario_.stop) return false;
-    const bool is_slow = simulation_.energy().kinetic < scenario_.stop->kinetic_energy;
-    if (!is_slow) has_moved_ = true;
-    // Bodies that are let go start without kinetic energy; they are not at rest.
-    if (!scenario_.stop->after) return is_slow && has_moved_;
-    return is_slow && simulation_.time() >= *scenario_.stop->after;
+  bool stops() {
+    report_.stopped_by = stop_.look(simulation_);
+    return !report_.stopped_by.empty();
+  }
+
+  RunStatus stop_status() const {
+    const std::string& by = report_.stopped_by;
+    return by == "kinetic_energy" || by == "unbalanced_force" ? RunStatus::at_rest
+                                                              : RunStatus::finished;
   }
 
   void complete_report() {
@@ -531,6 +559,9 @@ class Run {
   std::string ended_by_;  // of a stage; empty: it goes on
   BodyTables bodies_;
   LostGrains lost_;
+  StageStart stop_start_;
+  EndWatch stop_;  // of a run without stages
+  ServoWatch servos_;
   std::optional<WrittenFiles> before_;
   Frames frames_;
   History history_;
@@ -559,7 +590,6 @@ class Run {
   std::int64_t last_frame_step_ = -1;
   std::int64_t last_checkpoint_step_ = -1;
   std::int64_t next_look_at_grains_ = 1;
-  bool has_moved_ = false;  // its kinetic energy was above that of [stop]
 };
 
 /// @throws InputError

@@ -137,6 +137,7 @@ std::string to_json(const RunReport& report) {
                {"status", name_of(report.status)},
                {"interrupted", report.status == RunStatus::interrupted}};
   if (!report.message.empty()) json["message"] = report.message;
+  if (!report.stopped_by.empty()) json["stopped_by"] = report.stopped_by;
   json["options"] = options_of(report);
   if (report.resumed) json["resumed_s"] = *report.resumed;
   json["names"] = names_of(report.names);

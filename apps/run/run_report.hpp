@@ -19,7 +19,7 @@ namespace plekton::apps {
 /// How a run ended.
 enum class RunStatus : std::uint8_t {
   finished,     ///< the duration is over
-  at_rest,      ///< the criterion of [stop] was met
+  at_rest,      ///< [stop] found it so: by its kinetic energy or unbalanced force
   interrupted,  ///< by a signal
   failed        ///< by an error; see the message
 };
@@ -108,6 +108,7 @@ struct RunReport {
   std::vector<std::string> warnings;
   std::vector<std::string> stages;  ///< that have ended, each a JSON object
   std::string ended_by;             ///< what ended the last of them
+  std::string stopped_by;           ///< what of [stop] ended it, as in "force"; empty: nothing
 };
 
 /// Signs that took arithmetic of any length, of a node and a step that this part of the run took.

@@ -33,6 +33,17 @@ std::vector<std::string> names_of_tables(const std::vector<Table>& tables) {
   return names;
 }
 
+bool are_same_nodes(const NodeSetSettings& a, const NodeSetSettings& b) {
+  return a.rigid_body == b.rigid_body && a.of_grains == b.of_grains && a.body == b.body &&
+         a.which == b.which && a.box.lower == b.box.lower && a.box.upper == b.box.upper;
+}
+
+/// Whether the ties of both are between the same nodes.
+bool tie_the_same(const TieSettings& a, const TieSettings& b) {
+  return a.kind == b.kind && a.point == b.point && a.within == b.within &&
+         are_same_nodes(a.from, b.from) && are_same_nodes(a.to, b.to);
+}
+
 /// What goes on by its number has to be the same by its name.
 void require_same_tables(const Scenario& then, const Scenario& now) {
   const auto require = [&](const char* what, const auto& before, const auto& after) {
@@ -47,6 +58,14 @@ void require_same_tables(const Scenario& then, const Scenario& now) {
   require("membranes", then.membranes, now.membranes);
   require("rigid bodies", then.rigid_bodies, now.rigid_bodies);
   require("planes", then.planes, now.planes);
+  require("ties", then.ties, now.ties);
+  for (std::size_t i = 0; i < now.ties.size(); ++i) {
+    if (tie_the_same(then.ties[i], now.ties[i])) continue;
+    throw InputError(fmt::format(
+        "{}: {} ties other nodes than in the run that it is to go on from; its from, to and within "
+        "have to be the same",
+        now.stage->path, now.ties[i].path));
+  }
   if (then.stage->number != now.stage->number)
     throw InputError(
         fmt::format("{}: is stage {} here and was stage {} in the run that it is to go "

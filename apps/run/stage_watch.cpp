@@ -2,9 +2,8 @@
 #include "apps/run/stage_watch.hpp"
 
 #include "apps/run/reactions.hpp"
+#include "apps/run/servo_force.hpp"
 #include "apps/scene/node_set.hpp"
-#include "dynamics/loads/plane_servo.hpp"
-#include "dynamics/loads/rigid_servo.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <fmt/format.h>
@@ -19,35 +18,6 @@ namespace {
 using geometry::index_of;
 using geometry::NodeId;
 
-/// In a row: a force that swings through the wanted one has not reached it, and a few grains that
-/// strike hard make the mean force that contacts carry large for a moment.
-constexpr int kLooksWithin = 10;
-
-struct ServoForce {
-  double felt = 0.0;    ///< N, along the normal
-  double wanted = 0.0;  ///< N, at the end of its factor
-};
-
-ServoForce servo_force(const ServoEnd& end, const dynamics::Simulation& simulation) {
-  const dynamics::Scene& scene = simulation.scene();
-  if (end.body_servo) {
-    const dynamics::BodyServo& servo = scene.loads.body_servos[*end.body_servo];
-    const Vec3 direction = dynamics::DrivenBodies::direction_of(servo);
-    return {0.0 - simulation.gathered_force(servo.body).dot(direction),
-            servo.factor.rows().back().value * (servo.force + servo.pressure * servo.area)};
-  }
-  const auto servo = std::find_if(scene.loads.servos.begin(), scene.loads.servos.end(),
-                                  [&](const auto& one) { return one.plane == end.plane; });
-  const contact::Plane& plane = scene.planes[end.plane];
-  return {0.0 - simulation.plane_reaction(end.plane).force.dot(plane.normal),
-          servo->factor.rows().back().value *
-              (servo->force + servo->pressure * dynamics::plate_area(*servo, scene.planes))};
-}
-
-bool is_within(const ServoForce& force, double tolerance) {
-  return std::abs(force.felt - force.wanted) <= tolerance * std::abs(force.wanted);
-}
-
 /// m
 Vec3 mean_place(const std::vector<NodeId>& nodes, const std::vector<Vec3>& positions) {
   Vec3 sum = Vec3::Zero();
@@ -58,14 +28,14 @@ Vec3 mean_place(const std::vector<NodeId>& nodes, const std::vector<Vec3>& posit
 }  // namespace
 
 /// m
-double StageWatch::moved(const DisplacementEnd& end, const dynamics::Simulation& simulation) const {
+double EndWatch::moved(const DisplacementEnd& end, const dynamics::Simulation& simulation) const {
   if (!end.nodes) return (simulation.planes()[end.plane].point - start_.planes[end.plane]).norm();
   return (mean_place(built_.moved_nodes, simulation.state().position) -
           mean_place(built_.moved_nodes, start_.positions))
       .norm();
 }
 
-double StageWatch::strain_of(const StrainEnd& end, const dynamics::Simulation& simulation) const {
+double EndWatch::strain_of(const StrainEnd& end, const dynamics::Simulation& simulation) const {
   const auto [a, b] = end.of;
   Vec3 before, now, normal;  // from a to b
   if (end.are_rigid_bodies) {
@@ -85,7 +55,7 @@ double StageWatch::strain_of(const StrainEnd& end, const dynamics::Simulation& s
 }
 
 /// N
-double StageWatch::force_of(const ForceEnd& end, const dynamics::Simulation& simulation) const {
+double EndWatch::force_of(const ForceEnd& end, const dynamics::Simulation& simulation) const {
   const auto reaction =
       std::find_if(built_.reactions.begin(), built_.reactions.end(),
                    [&](const BuiltReaction& one) { return one.name == end.reaction; });
@@ -94,27 +64,27 @@ double StageWatch::force_of(const ForceEnd& end, const dynamics::Simulation& sim
   return reaction_in(simulation, *reaction, contacts).value.force[end.axis];
 }
 
-bool StageWatch::is_beyond(const ForceEnd& end, const dynamics::Simulation& simulation) const {
+bool EndWatch::is_beyond(const ForceEnd& end, const dynamics::Simulation& simulation) const {
   const double force = force_of(end, simulation);
   return end.is_above ? force > end.force : force < end.force;
 }
 
 /// @param seen  of it in this stage; noted here
-bool StageWatch::counts(bool holds, Seen& seen, double time) const {
+bool EndWatch::counts(bool holds, Seen& seen, double time, int looks) const {
   seen.in_a_row = holds ? seen.in_a_row + 1 : 0;
   if (!holds) seen.was_off = true;
-  if (seen.in_a_row < kLooksWithin) return false;
-  return stage_.end.after ? time >= start_.time + *stage_.end.after : seen.was_off;
+  if (seen.in_a_row < looks) return false;
+  return end_.after ? time >= start_.time + *end_.after : seen.was_off;
 }
 
-std::string StageWatch::look(const dynamics::Simulation& simulation) {
-  const StageEnd& end = stage_.end;
+std::string EndWatch::look(const dynamics::Simulation& simulation) {
+  const StageEnd& end = end_;
   const double time = simulation.time();
   if (end.servo &&
-      counts(is_within(servo_force(*end.servo, simulation), end.servo->tolerance), servo_, time))
+      counts(servo_force(*end.servo, simulation).is_within(end.servo->tolerance), servo_, time))
     return "servo";
-  if (end.kinetic_energy &&
-      counts(simulation.energy().kinetic < *end.kinetic_energy, kinetic_energy_, time))
+  if (end.kinetic_energy && counts(simulation.energy().kinetic < *end.kinetic_energy,
+                                   kinetic_energy_, time, looks_.at_kinetic_energy))
     return "kinetic_energy";
   if (end.unbalanced_force &&
       counts(simulation.unbalanced_force_ratio() < *end.unbalanced_force, unbalanced_, time))
@@ -133,16 +103,15 @@ std::string StageWatch::end_in_time(const dynamics::Simulation& simulation) cons
       "it "
       "can reach; the stages before it are kept, with checkpoints: go on from one of them with "
       "--from",
-      stage_.path, *stage_.max_duration, state_of_ends(simulation)));
+      stage_.path, *stage_.max_duration, ends_.state(simulation)));
 }
 
-std::string StageWatch::state_of_ends(const dynamics::Simulation& simulation) const {
-  const StageEnd& end = stage_.end;
+std::string EndWatch::state(const dynamics::Simulation& simulation) const {
+  const StageEnd& end = end_;
   std::vector<std::string> all;
   if (end.servo) {
-    const ServoForce force = servo_force(*end.servo, simulation);
-    all.push_back(fmt::format("servo \"{}\" feels {:.4g} N and wants {:.4g} N within {:.3g} %",
-                              end.servo->load, force.felt, force.wanted,
+    all.push_back(fmt::format("servo \"{}\" {} within {:.3g} %", end.servo->load,
+                              servo_force(*end.servo, simulation).text(),
                               100.0 * end.servo->tolerance));
   }
   if (end.kinetic_energy)
@@ -165,7 +134,7 @@ std::string StageWatch::state_of_ends(const dynamics::Simulation& simulation) co
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
-void StageWatch::exchange(const geometry::StateArchive& archive) {
+void EndWatch::exchange(const geometry::StateArchive& archive) {
   const auto exchange_seen = [&](const char* name, Seen& seen) {
     const auto of = archive.group(name);
     of("was_off", seen.was_off);

@@ -181,9 +181,9 @@ PressureSettings read_pressure(Section& section, const Scenario& scenario) {
   return settings;
 }
 
-dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
-  dynamics::PlaneServo servo;
-  servo.plane = read_plane_name(section, scenario).value_or(0);
+/// The force or pressure of a servo, of a plane or of a body.
+template <class Servo>
+void read_pressing(Section& section, const Scenario& scenario, Servo& servo) {
   has_one_of(section, "force", "pressure", "a servo needs a target");
   if (section.has("force")) servo.force = section.quantity("force", {kForce, kPositive});
   if (section.has("pressure")) {
@@ -194,6 +194,32 @@ dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
   if (section.has("between")) servo.between = read_plane_pairs(section, scenario);
   if (section.has("force") && (section.has("area") || section.has("between")))
     section.complain("force", "is the whole force on the plate; area and between go with pressure");
+}
+
+void read_servo_axis(Section& section, std::string_view key, dynamics::BodyServo& servo) {
+  constexpr std::array<std::string_view, 6> kWords = {"x", "-x", "y", "-y", "z", "-z"};
+  const std::size_t direction = section.choice(key, kWords);
+  servo.axis = static_cast<int>(direction / 2);
+  servo.towards = direction % 2 == 0 ? 1.0 : -1.0;
+}
+
+void read_torque(Section& section, dynamics::BodyServo& servo) {
+  for (const std::string_view key :
+       {"force", "pressure", "area", "between", "direction", "speed"}) {
+    if (section.has(key))
+      section.complain(key,
+                       "does not go with torque, which turns the body about an axis (about); "
+                       "one servo drives one motion: give each a load of its own");
+  }
+  servo.torque = section.quantity("torque", {kTorque, kPositive});
+  read_servo_axis(section, "about", servo);
+  servo.largest_speed = section.quantity("angular_speed", {kAngularVelocity, kPositive});
+}
+
+dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
+  dynamics::PlaneServo servo;
+  servo.plane = read_plane_name(section, scenario).value_or(0);
+  read_pressing(section, scenario, servo);
   servo.largest_speed = section.quantity("speed", {kVelocity, kPositive});
   servo.gain = section.quantity("gain", {kNumber, kGain}, servo.gain);
   servo.factor = read_factor(section);
@@ -201,21 +227,17 @@ dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
 }
 
 BodyServoSettings read_body_servo(Section& section, const Scenario& scenario) {
-  constexpr std::array<std::string_view, 6> kWords = {"x", "-x", "y", "-y", "z", "-z"};
   BodyServoSettings settings;
   settings.rigid_body = read_rigid_body_name(section, scenario).value_or(0);
   settings.place = section.place_of("rigid_body");
   dynamics::BodyServo& servo = settings.servo;
-  const std::size_t direction = section.choice("direction", kWords);
-  servo.axis = static_cast<int>(direction / 2);
-  servo.towards = direction % 2 == 0 ? 1.0 : -1.0;
-  has_one_of(section, "force", "pressure", "a servo needs a target");
-  if (section.has("force")) servo.force = section.quantity("force", {kForce, kPositive});
-  if (section.has("pressure")) {
-    servo.pressure = section.quantity("pressure", {kPressure, kPositive});
-    servo.area = section.quantity("area", {kArea, kPositive});
+  if (section.has("torque")) {
+    read_torque(section, servo);
+  } else {
+    read_servo_axis(section, "direction", servo);
+    read_pressing(section, scenario, servo);
+    servo.largest_speed = section.quantity("speed", {kVelocity, kPositive});
   }
-  servo.largest_speed = section.quantity("speed", {kVelocity, kPositive});
   servo.gain = section.quantity("gain", {kNumber, kGain}, servo.gain);
   servo.factor = read_factor(section);
   return settings;
@@ -249,7 +271,8 @@ LoadSettings read_load(Section section, const Scenario& scenario, std::size_t nu
       break;
     case 3:
       section.tell_default("plane", "required without rigid_body");
-      section.tell_default("direction", "required with rigid_body");
+      section.tell_default("direction", "required with rigid_body, but for a torque");
+      section.tell_default("about", "required with torque");
       if (section.has("rigid_body"))
         settings.load = read_body_servo(section, scenario);
       else

@@ -84,6 +84,23 @@ std::vector<std::size_t> read_plane_names(Section& section, std::string_view key
   return planes;
 }
 
+namespace {
+
+constexpr double kParallel = 1e-9;  // of unit normals
+
+void require_parallel(Section& section, const Scenario& scenario,
+                      const std::array<std::size_t, 2>& of) {
+  if (std::max(of[0], of[1]) >= scenario.planes.size()) return;  // complained of already
+  const PlaneSettings &a = scenario.planes[of[0]], &b = scenario.planes[of[1]];
+  if (a.normal.cross(b.normal).norm() < kParallel) return;
+  section.complain("between",
+                   fmt::format("planes \"{}\" and \"{}\" are not parallel, so that they have no "
+                               "distance; expected two that are",
+                               a.name, b.name));
+}
+
+}  // namespace
+
 StrainEnd read_two_bodies(Section& section, const Scenario& scenario) {
   const std::vector<std::string> names = section.texts("between");
   StrainEnd end;
@@ -104,6 +121,11 @@ StrainEnd read_two_bodies(Section& section, const Scenario& scenario) {
                               : find_name(section, "between", names[i], scenario.planes))
             .value_or(0);
   }
+  end.place = section.place_of("between");
+  if (names[0] == names[1])
+    section.complain("between", fmt::format("names \"{}\" twice; expected two", names[0]));
+  else if (!end.are_rigid_bodies)
+    require_parallel(section, scenario, end.of);
   return end;
 }
 
@@ -121,8 +143,7 @@ std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
     const auto a = find_name(section, "between", names[i], scenario.planes);
     const auto b = find_name(section, "between", names[i + 1], scenario.planes);
     if (!a || !b) continue;
-    constexpr double kTolerance = 1e-9;  // of unit normals
-    if ((scenario.planes[*a].normal + scenario.planes[*b].normal).norm() < kTolerance)
+    if ((scenario.planes[*a].normal + scenario.planes[*b].normal).norm() < kParallel)
       pairs.push_back({*a, *b});
     else
       section.complain("between", fmt::format("\"{}\" and \"{}\" do not face each other: their "

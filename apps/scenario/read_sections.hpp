@@ -38,7 +38,8 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
 PlaneSettings read_plane(Section section, const Known& known);
 /// @param scenario  with its duration, from which the intervals have their defaults, and its bodies
 OutputSettings read_output(Section section, const Scenario& scenario);
-StopSettings read_stop(Section section);
+/// @param scenario  with its bodies, planes, loads and output
+StageEnd read_stop(Section section, const Scenario& scenario);
 /// @param scenario  of the stage, with its bodies, planes and loads
 StageSettings read_stage(Section section, const Scenario& scenario);
 

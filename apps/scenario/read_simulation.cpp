@@ -28,12 +28,4 @@ SimulationSettings read_simulation(Section section) {
   return settings;
 }
 
-StopSettings read_stop(Section section) {
-  StopSettings stop;
-  stop.kinetic_energy = section.quantity("kinetic_energy", {kEnergy, kPositive});
-  if (section.has("after")) stop.after = section.quantity("after", {kTime, kNotNegative});
-  section.finish();
-  return stop;
-}
-
 }  // namespace plekton::apps

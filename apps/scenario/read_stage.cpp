@@ -31,8 +31,8 @@ ServoEnd read_servo_end(Section section, const Scenario& scenario) {
     if (drives_body) ++body_servos;
   }
   if (!end.load.empty())
-    section.complain(
-        "load", fmt::format("there is no load \"{}\" of kind \"servo\" in this stage", end.load));
+    section.complain("load",
+                     fmt::format("there is no load \"{}\" of kind \"servo\" here", end.load));
   return end;
 }
 
@@ -55,8 +55,8 @@ ForceEnd read_force_end(Section section, const Scenario& scenario) {
       std::any_of(reactions.begin(), reactions.end(),
                   [&](const ReactionSettings& one) { return one.name == end.reaction; });
   if (!end.reaction.empty() && !is_there)
-    section.complain("reaction", fmt::format("there is no reaction \"{}\" in this stage; expected "
-                                             "one of [[output.reactions]]",
+    section.complain("reaction", fmt::format("there is no reaction \"{}\" here; expected one of "
+                                             "[[output.reactions]]",
                                              end.reaction));
   end.axis = static_cast<int>(section.choice("component", kAxes));
   end.is_above = section.has("above");
@@ -71,9 +71,17 @@ ForceEnd read_force_end(Section section, const Scenario& scenario) {
   return end;
 }
 
-StageEnd read_end(Section section, const Scenario& scenario) {
+constexpr std::string_view kConditions =
+    "kinetic_energy, unbalanced_force, servo, displacement, strain, force";
+
+bool has_condition(const StageEnd& end) {
+  return end.kinetic_energy || end.unbalanced_force || end.servo || end.displacement ||
+         end.strain || end.force;
+}
+
+/// All but a duration.
+StageEnd read_conditions(Section& section, const Scenario& scenario) {
   StageEnd end;
-  if (section.has("duration")) end.duration = section.quantity("duration", {kTime, kPositive});
   if (section.has("kinetic_energy"))
     end.kinetic_energy = section.quantity("kinetic_energy", {kEnergy, kPositive});
   if (section.has("unbalanced_force"))
@@ -92,18 +100,23 @@ StageEnd read_end(Section section, const Scenario& scenario) {
   if (const auto table = section.optional_table("force"))
     end.force = read_force_end(*table, scenario);
   if (section.has("after")) end.after = section.quantity("after", {kTime, kNotNegative});
+  return end;
+}
+
+StageEnd read_end(Section section, const Scenario& scenario) {
+  StageEnd end = read_conditions(section, scenario);
+  if (section.has("duration")) end.duration = section.quantity("duration", {kTime, kPositive});
   section.finish();
   return end;
 }
 
 void require_end(Section& section, const StageSettings& stage) {
   const StageEnd& end = stage.end;
-  const bool has_other = end.kinetic_energy || end.unbalanced_force || end.servo ||
-                         end.displacement || end.strain || end.force;
-  if (!end.duration && !has_other)
-    section.complain("end",
-                     "missing or empty; expected end = { duration = \"0.1 s\" } or one or more of "
-                     "kinetic_energy, unbalanced_force, servo, displacement, strain, force");
+  if (!end.duration && !has_condition(end))
+    section.complain(
+        "end", fmt::format("missing or empty; expected end = {{ duration = \"0.1 s\" }} or one "
+                           "or more of {}",
+                           kConditions));
   else if (!end.duration && !stage.max_duration)
     section.complain("max_duration",
                      "missing; expected the time after which the stage has failed, for its end may "
@@ -138,6 +151,17 @@ std::vector<NodeSetSettings> read_sets(Section& stage, std::string_view key,
 }
 
 }  // namespace
+
+StageEnd read_stop(Section section, const Scenario& scenario) {
+  if (section.has("duration"))
+    section.complain("duration", "is that of the run, simulation.duration; leave it out here");
+  StageEnd stop = read_conditions(section, scenario);
+  section.finish();
+  if (!has_condition(stop))
+    section.complain("kinetic_energy",
+                     fmt::format("missing; expected one or more of {}", kConditions));
+  return stop;
+}
 
 StageSettings read_stage(Section section, const Scenario& scenario) {
   StageSettings stage;

@@ -204,12 +204,6 @@ struct OutputSettings {
   std::vector<MeasureSettings> measures;
 };
 
-/// When to stop before the duration is over.
-struct StopSettings {
-  double kinetic_energy = 0.0;  ///< J; the run stops when the kinetic energy is below
-  std::optional<double> after;  ///< s, not before this time; nothing: once it was above
-};
-
 struct Scenario {
   std::filesystem::path file;          ///< or kStandardInputName
   std::string text;                    ///< of the file, as it was read
@@ -224,10 +218,13 @@ struct Scenario {
   std::vector<PlaneSettings> planes;
   std::vector<LoadSettings> loads;
   OutputSettings output;
-  std::optional<StopSettings> stop;
+  std::optional<StageEnd> stop;        ///< before the duration is over; without one of its own
   std::optional<StageSettings> stage;  ///< of which this is the scenario
   NamesOfStages names_of_stages;       ///< where there are some
   std::vector<Scenario> stages;        ///< all of them; the rest of this is the first one
+
+  /// What ends this stage, or the run; nothing but the duration: null.
+  const StageEnd* end() const noexcept { return stage ? &stage->end : stop ? &*stop : nullptr; }
 };
 
 }  // namespace plekton::apps

@@ -95,7 +95,7 @@ Scenario read_root(Section root, const StageOrigins& stage, Problems& problems,
   const auto output = root.table("output");
   scenario.output =
       read_output(output.value_or(Section(none, root.place(), "output", problems)), scenario);
-  if (const auto section = root.table("stop")) scenario.stop = read_stop(*section);
+  if (const auto section = root.table("stop")) scenario.stop = read_stop(*section, scenario);
   for (Section& section : root.tables("stages")) scenario.stage = read_stage(section, scenario);
   root.finish();
   return scenario;

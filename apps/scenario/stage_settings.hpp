@@ -32,6 +32,7 @@ struct DisplacementEnd {
 /// The distance of two planes, or of the centres of two rigid bodies, has changed by this part of
 /// what it was at the start of the stage.
 struct StrainEnd {
+  Place place;  ///< of the key between
   double strain = 0.0;
   std::array<std::size_t, 2> of{};
   bool are_rigid_bodies = false;
@@ -45,7 +46,8 @@ struct ForceEnd {
   bool is_above = true;  ///< or below
 };
 
-/// When a stage ends: the first of these.
+/// When a stage ends, or a run without stages before its duration is over: the first of these. In
+/// such a run what is said of the start of the stage is of its own start.
 struct StageEnd {
   std::optional<double> duration;          ///< s, from its start
   std::optional<double> kinetic_energy;    ///< J, below

@@ -20,9 +20,16 @@ constexpr std::array<std::string_view, 4> kSimulationKeys = {"damping", "damp_gr
 constexpr std::array<std::string_view, 4> kMaterialKeys = {"friction_angle", "poisson_ratio",
                                                            "stiffness_ratio", "young_modulus"};
 constexpr std::array<std::string_view, 2> kBodyKeys = {"hold", "hold_rotation"};
-constexpr std::array<std::string_view, 8> kOutputKeys = {
-    "checkpoint_interval", "contacts", "grains", "history_interval", "interval", "measures",
-    "membranes",           "reactions"};
+constexpr std::array<std::string_view, 10> kOutputKeys = {"checkpoint_interval",
+                                                          "checkpoint_wall_interval",
+                                                          "contacts",
+                                                          "grains",
+                                                          "history_interval",
+                                                          "interval",
+                                                          "measures",
+                                                          "membranes",
+                                                          "reactions",
+                                                          "reactions_interval"};
 
 const std::string* text_of(const Table& table, std::string_view key) {
   const Entry* const entry = table.find(key);
@@ -411,6 +418,48 @@ class Stages {
     if (list.comes[place] >= std::max<std::size_t>(number_, 1) || list.is_gone[place])
       complain_of_none(list.kind, *removal.find(list.kind));
     list.is_gone[place] = true;
+    remove_reactions_of(list.kind, removal);
+  }
+
+  /// The list in [output] of a key; null where there is none.
+  Array* output_list(std::string_view key) {
+    Entry* const output = now_.find("output");
+    auto* const table = output ? std::get_if<Table>(&output->value.data) : nullptr;
+    Entry* const entry = table ? table->find(key) : nullptr;
+    return entry ? std::get_if<Array>(&entry->value.data) : nullptr;
+  }
+
+  /// Reactions go with what they are of; their columns stay.
+  void remove_reactions_of(std::string_view kind, const Table& removal) {
+    const std::string* const name = text_of(removal, kind);
+    Array* const all = output_list("reactions");
+    if (name == nullptr || all == nullptr) return;
+    for (std::size_t i = all->size(); i-- > 0;) {
+      const Table* const reaction = table_in((*all)[i]);
+      const std::string* const of = reaction ? text_of(*reaction, kind) : nullptr;
+      if (of == nullptr || *of != *name) continue;
+      const auto at = static_cast<std::ptrdiff_t>(i);
+      all->erase(all->begin() + at);
+      origins_.reactions.erase(origins_.reactions.begin() + at);
+    }
+  }
+
+  /// A plane that is gone cuts no region any more.
+  void leave_out_of_measures(const std::string& plane) {
+    Array* const all = output_list("measures");
+    if (all == nullptr) return;
+    for (Value& value : *all) {
+      auto* const measure = std::get_if<Table>(&value.data);
+      Entry* const between = measure ? measure->find("between") : nullptr;
+      auto* const names = between ? std::get_if<Array>(&between->value.data) : nullptr;
+      if (names == nullptr) continue;
+      std::erase_if(*names, [&](const Value& name) {
+        const auto* const text = std::get_if<std::string>(&name.data);
+        return text != nullptr && *text == plane;
+      });
+      if (names->empty())
+        std::erase_if(measure->entries, [](const Entry& entry) { return entry.key == "between"; });
+    }
   }
 
   void complain_of_none(std::string_view key, const Entry& named) {
@@ -443,6 +492,8 @@ class Stages {
     if (list != "planes") return;
     origins_.planes.erase(origins_.planes.begin() + at);
     origins_.moved_planes.erase(origins_.moved_planes.begin() + at);
+    remove_reactions_of(key, removal);
+    leave_out_of_measures(*text_of(removal, key));
   }
 
   /// The duration of the scenario is that of the stage: intervals of output follow from it.

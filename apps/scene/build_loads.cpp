@@ -6,6 +6,7 @@
 #include "apps/scene/prescribed_once.hpp"
 #include "dynamics/loads/surface_pressure.hpp"
 #include "dynamics/loads/surface_pressure_check.hpp"
+#include "dynamics/model/scene_figures.hpp"
 
 #include <fmt/format.h>
 
@@ -150,9 +151,7 @@ class LoadBuilder {
     servo.body = static_cast<std::size_t>(body - bodies.begin());
     dynamics::PrescribedMotion along;  // as one that no other motion may prescribe too
     along.nodes = {reference};
-    constexpr std::array kAxes = {dynamics::Held::along_x, dynamics::Held::along_y,
-                                  dynamics::Held::along_z};
-    along.held = kAxes[static_cast<std::size_t>(servo.axis)];
+    along.held = dynamics::driven_axis(servo);
     const std::string taken = prescribed_.add(along, *current_);
     if (!taken.empty())
       complain(settings.place, "rigid_body",

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace plekton::apps {
 namespace {
@@ -48,18 +49,44 @@ std::string problem_of(const ReactionSettings& settings, const BuiltReaction& re
       name);
 }
 
+/// What messages call that which ends the stage or the run.
+std::string end_path(const Scenario& scenario) {
+  return scenario.stage ? scenario.stage->path + ".end" : "stop";
+}
+
 void find_moved_nodes(const Scenario& scenario, BuiltScene& built, const StageBodies* bodies,
                       Problems& problems) {
-  if (!scenario.stage || !scenario.stage->end.displacement) return;
-  const std::optional<NodeSetSettings>& nodes = scenario.stage->end.displacement->nodes;
-  if (!nodes) return;
+  const StageEnd* const end = scenario.end();
+  if (end == nullptr || !end->displacement || !end->displacement->nodes) return;
+  const std::optional<NodeSetSettings>& nodes = end->displacement->nodes;
   const AtStart at_start(built, bodies ? &bodies->starts.back() : nullptr);
   built.moved_nodes = nodes_of(*nodes, built);
   if (built.moved_nodes.empty())
-    problems.add(nodes->place,
-                 fmt::format("{}.end.displacement: \"{}\" has no node there at the start of the "
-                             "stage",
-                             scenario.stage->path, name_of(*nodes, built)));
+    problems.add(nodes->place, fmt::format("{}.displacement: \"{}\" has no node there at the start",
+                                           end_path(scenario), name_of(*nodes, built)));
+}
+
+/// Those whose distance is to change have to be apart.
+void require_distance(const Scenario& scenario, const BuiltScene& built, const StageBodies* bodies,
+                      Problems& problems) {
+  const StageEnd* const end = scenario.end();
+  if (end == nullptr || !end->strain) return;
+  const auto [a, b] = end->strain->of;
+  const auto place_of = [&](std::size_t number) -> Vec3 {
+    if (!end->strain->are_rigid_bodies)
+      return bodies ? bodies->starts.back().planes[number] : built.scene.planes[number].point;
+    const std::size_t node = geometry::index_of(rigid_body_of(number, built).node);
+    return bodies ? bodies->starts.back().positions[node] : built.scene.state.position[node];
+  };
+  const Vec3 apart = place_of(b) - place_of(a);
+  const double distance = end->strain->are_rigid_bodies
+                              ? apart.norm()
+                              : std::abs(apart.dot(built.scene.planes[a].normal));
+  if (distance > 0.0) return;
+  problems.add(end->strain->place,
+               fmt::format("{}.strain.between: the two are at no distance from each other at the "
+                           "start, of which no part can be told; expected two that are apart",
+                           end_path(scenario)));
 }
 
 }  // namespace
@@ -84,6 +111,7 @@ void add_reactions(const Scenario& scenario, BuiltScene& built, const StageBodie
     built.reactions.push_back(std::move(reaction));
   }
   find_moved_nodes(scenario, built, bodies, problems);
+  require_distance(scenario, built, bodies, problems);
   problems.throw_if_any();
 }
 

@@ -393,6 +393,80 @@ TEST_F(Stages, ThatThereAreNotAreNotBegunFrom) {
   EXPECT_FALSE(fs::exists(folder_ / "x"));
 }
 
+TEST_F(Stages, GoOnOnlyWithTheTiesOfBefore) {
+  const std::string stages =
+      "[[stages]]\nname = \"a\"\nend = { duration = \"0.2 ms\" }\n"
+      "[[stages]]\nname = \"b\"\nend = { duration = \"0.2 ms\" }\n";
+  const auto tied = [&](const std::string& name, const std::string& side) {
+    return kBodies +
+           ("[[ties]]\nname = \"" + name + "\"\nfrom = { membrane = \"sheet\", nodes = \"" + side +
+            "\" }\nto = { kind = \"ground\" }\n" + stages);
+  };
+  ASSERT_EQ(run(write("first.toml", tied("rope", "x_min")), "first").exit_code, 0);
+  const std::vector<std::string> from = {"--from", "a", in("first")};
+
+  EXPECT_EQ(run(write("same.toml", tied("rope", "x_min")), "same", from).exit_code, 0);
+  const Outcome none = run(write("none.toml", kBodies + stages), "wrong", from);
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.err, HasSubstr("stages.a: has other ties than the run that it is to go on from: "
+                                  "there they are \"rope\", here \"\""));
+  EXPECT_THAT(run(write("side.toml", tied("rope", "x_max")), "wrong", from).err,
+              HasSubstr("stages.a: ties.rope ties other nodes than in the run"));
+  EXPECT_FALSE(fs::exists(folder_ / "wrong"));
+}
+
+TEST_F(Stages, ThatWriteLessKeepTheFramesOfThoseBefore) {
+  const std::string stages = R"([[stages]]
+name = "a"
+end = { duration = "6 ms" }
+[[stages]]
+name = "b"
+end = { duration = "6 ms" }
+output.contacts = false
+)";
+  ASSERT_EQ(run(write("less.toml", kBodies + stages), "less").exit_code, 0);
+
+  const std::string series = test::bytes_of(folder_ / "less/contacts.pvd");
+  EXPECT_THAT(series, HasSubstr("contacts_00001.vtp"));
+  EXPECT_THAT(series, Not(HasSubstr("contacts_00003.vtp")));
+  EXPECT_THAT(test::bytes_of(folder_ / "less/grains.pvd"), HasSubstr("grains_00003.vtp"));
+  EXPECT_FALSE(fs::exists(folder_ / "less/frames/contacts_00003.vtp"));
+}
+
+TEST_F(Stages, ThatAreFinishedAreKeptWhereALaterPackingIsTooDense) {
+  std::string tight = std::string(kBodies) + kStages;
+  tight.replace(tight.find("count = 10"), 10, "porosity = 0.3");
+  const std::string dense =
+      "sieves = [{ sieve = \"5.8 mm\", passing = 0 }, { sieve = \"6.2 mm\", passing = 1 }]\n"
+      "placement = \"packed\"";
+  tight.replace(tight.rfind("radius = \"3 mm\""), 15, dense);
+
+  const Outcome outcome = run(write("tight.toml", tight), "tight");
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("grains.second"));
+  EXPECT_THAT(outcome.err, HasSubstr("jam at a porosity"));
+  const json kept = report("tight");
+  EXPECT_EQ(kept["status"], "failed");
+  ASSERT_EQ(kept["stages"].size(), 1U);
+  EXPECT_EQ(kept["stages"][0]["name"], "pour");
+  EXPECT_EQ(checkpoints_of(folder_ / "tight").size(), 1U);
+}
+
+TEST_F(Stages, WithAStrainBetweenPlanesAtOnePlaceAreRefused) {
+  std::string text = std::string(kBodies) + R"([[stages]]
+name = "a"
+end = { strain = { between = ["left", "also left"], strain = 0.1 } }
+max_duration = 1
+)";
+  text.insert(text.find("[[planes]]"),
+              "[[planes]]\nname = \"also left\"\npoint = [\"-30 mm\", 0, 0]\nnormal = [1, 0, 0]\n"
+              "material = \"sand\"\n");
+  const Outcome outcome = run(write("flat.toml", text), "flat");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("stages.a.end.strain.between: the two are at no distance"));
+}
+
 TEST_F(Stages, AreAllLookedAtByCheck) {
   const Outcome sound = Program({"check", all_stages()}).wait();
   EXPECT_EQ(sound.exit_code, 0) << sound.err;

@@ -206,6 +206,109 @@ TEST(StageTable, HasTheBodiesOfAllStagesAndKnowsWhichAreThere) {
             dynamics::Held::along_x | dynamics::Held::along_y);
 }
 
+TEST(StageTable, TakesReactionsOutWithWhatTheyAreOfAndKeepsTheirColumns) {
+  const Scenario scenario = parsed(
+      "[[output.reactions]]\nkind = \"plane\"\nplane = \"floor\"\n"
+      "[[output.reactions]]\nkind = \"plane\"\nplane = \"wall\"\n"
+      "[[output.reactions]]\nname = \"on the stone\"\nkind = \"contacts\"\nrigid_body = \"stone\"\n"
+      "[[output.measures]]\nname = \"all\"\nbetween = [\"floor\", \"wall\"]\n"
+      "[[output.measures]]\nname = \"over\"\nbetween = [\"floor\"]\n"
+      "[[rigid_bodies]]\nname = \"stone\"\nmaterial = \"sand\"\ndensity = 2600\n"
+      "spheres = [{ centre = [0, 0, 1], radius = 0.1 }]\n"
+      "[[stages]]\nname = \"a\"\nend = { duration = 1 }\n"
+      "[[stages]]\nname = \"b\"\nend = { duration = 1 }\n"
+      "remove = [{ plane = \"floor\" }, { rigid_body = \"stone\" }]\n"
+      "[[stages]]\nname = \"c\"\nend = { duration = 1 }\n"
+      "[[stages.output.reactions]]\nname = \"grains\"\nkind = \"contacts\"\ngrains = \"first\"\n");
+  const std::vector<Scenario>& stages = scenario.stages;
+  const auto names = [&](std::size_t k) {
+    std::vector<std::string> of_stage;
+    for (const ReactionSettings& one : stages[k].output.reactions) of_stage.push_back(one.name);
+    return of_stage;
+  };
+
+  EXPECT_THAT(names(0), ElementsAre("floor", "wall", "on the stone"));
+  EXPECT_THAT(names(1), ElementsAre("wall"));
+  EXPECT_EQ(stages[1].output.reactions[0].plane, 0U);
+  EXPECT_THAT(names(2), ElementsAre("wall", "grains"));
+  EXPECT_THAT(stages[2].stage->origins.reactions, ElementsAre(0U, 2U));
+  EXPECT_THAT(scenario.names_of_stages.reactions,
+              ElementsAre("floor", "wall", "on the stone", "grains"));
+  EXPECT_THAT(stages[0].output.measures[0].planes, ElementsAre(0U, 1U));
+  EXPECT_THAT(stages[1].output.measures[0].planes, ElementsAre(0U));
+  EXPECT_TRUE(stages[1].output.measures[1].planes.empty());
+}
+
+TEST(StageTable, MayChangeEveryIntervalButThatOfHashes) {
+  const auto with = [](const std::string& output) {
+    return parsed("[[stages]]\nname = \"a\"\nend = { duration = 1 }\n[[stages]]\nname = \"b\"\n" +
+                  ("end = { duration = 1 }\noutput." + output));
+  };
+
+  EXPECT_EQ(with("reactions_interval = 0.125\n").stages[1].output.reactions_interval, 0.125);
+  EXPECT_EQ(with("checkpoint_wall_interval = 60\n").stages[1].output.checkpoint_wall_interval,
+            60.0);
+  EXPECT_THAT([&] { with("hash_interval = 7\n"); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("stages.b.output.hash_interval: is the same in all stages")));
+  EXPECT_THAT([&] { with("contact_list = true\n"); },
+              ThrowsMessage<InputError>(HasSubstr("contact_list: is the same in all stages")));
+}
+
+TEST(StageTable, EndsByAStrainBetweenTwoThatHaveADistance) {
+  const auto with = [](const std::string& names) {
+    parsed(
+        "[[planes]]\nname = \"lid\"\npoint = [0, 0, 1]\nnormal = [0, 0, -1]\nmaterial = \"sand\"\n"
+        "[[stages]]\nname = \"a\"\nmax_duration = 1\nend = { strain = { between = [" +
+        names + "], strain = 0.1 } }\n");
+  };
+
+  EXPECT_NO_THROW(with(R"("floor", "lid")"));
+  EXPECT_THAT(
+      [&] { with(R"("floor", "floor")"); },
+      ThrowsMessage<InputError>(HasSubstr("stages.a.end.strain.between: names \"floor\" twice")));
+  EXPECT_THAT(
+      [&] { with(R"("floor", "wall")"); },
+      ThrowsMessage<InputError>(HasSubstr("planes \"floor\" and \"wall\" are not parallel")));
+  EXPECT_THAT([&] { with(R"("floor", "lidd")"); },
+              ThrowsMessage<InputError>(HasSubstr("\"lidd\"")));
+}
+
+TEST(Stop, KnowsTheEndsOfStages) {
+  const auto with = [](const std::string& stop) {
+    std::string text(kScenario);
+    text.replace(text.find("damping"), 0, "duration = 1\n");
+    return parse_scenario(text + "[stop]\n" + stop, "case.toml");
+  };
+  const auto refusal = [&](const std::string& stop) {
+    try {
+      with(stop);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+
+  const StageEnd stop = *with(
+                             "kinetic_energy = 1\nunbalanced_force = 0.01\nafter = 0.5\n"
+                             "displacement = { plane = \"wall\", distance = \"5 mm\" }\n")
+                             .stop;
+  EXPECT_EQ(stop.kinetic_energy, 1.0);
+  EXPECT_EQ(stop.unbalanced_force, 0.01);
+  EXPECT_EQ(stop.after, 0.5);
+  EXPECT_EQ(stop.displacement.value().plane, 1U);
+  EXPECT_EQ(stop.displacement.value().distance, 0.005);
+  EXPECT_THAT(refusal("after = 1\n"),
+              HasSubstr("stop.kinetic_energy: missing; expected one or more of kinetic_energy, "
+                        "unbalanced_force, servo, displacement, strain, force"));
+  EXPECT_THAT(refusal("kinetic_energy = 1\nduration = 1\n"),
+              HasSubstr("stop.duration: is that of the run, simulation.duration"));
+  EXPECT_THAT(refusal("servo = { load = \"push\" }\n"),
+              HasSubstr("stop.servo.load: there is no load \"push\" of kind \"servo\" here"));
+  EXPECT_THAT(refusal("force = { reaction = \"floor\", component = \"z\", above = 1 }\n"),
+              HasSubstr("stop.force.reaction: there is no reaction \"floor\" here"));
+}
+
 TEST(StageTable, IsFoundByItsName) {
   const Scenario scenario = parsed(kStages);
 
