@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -21,8 +23,26 @@ namespace fs = std::filesystem;
 
 constexpr int kNoProgram = 127;  // as a shell says it
 
+/// What mpirun and srun tell the processes that they start of each other, by how its names begin.
+constexpr std::array<std::string_view, 8> kOfRanks = {"OMPI_", "PMIX_",  "PMI_",  "PMI2_",
+                                                      "PRTE_", "HYDRA_", "HYDI_", "MPI_LOCAL"};
+
+/// Of this program, but that a program which it starts is no rank of a job that this one is of: it
+/// would wait for the others, who know nothing of it.
+std::vector<char*> environment_for_child() {
+  std::vector<char*> kept;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    if (std::ranges::none_of(kOfRanks,
+                             [&](std::string_view name) { return text.starts_with(name); }))
+      kept.push_back(*variable);
+  }
+  kept.push_back(nullptr);
+  return kept;
+}
+
 /// The new process becomes the program. Between fork and exec only what is safe there is called.
-[[noreturn]] void become(char* const* argv, int output, ::pid_t parent) {
+[[noreturn]] void become(char* const* argv, char* const* environment, int output, ::pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(kNoProgram);  // the parent has ended before the line above
@@ -31,7 +51,7 @@ constexpr int kNoProgram = 127;  // as a shell says it
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
-  ::execv(argv[0], argv);
+  ::execve(argv[0], argv, environment);
   const char* const reason = std::strerror(errno);
   std::ignore = ::write(STDERR_FILENO, argv[0], std::strlen(argv[0]));
   std::ignore = ::write(STDERR_FILENO, ": ", 2);
@@ -67,11 +87,12 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, int output
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
+  const std::vector<char*> environment = environment_for_child();
   const ::pid_t parent = ::getpid();
   process_ = ::fork();
   if (process_ < 0)
     throw std::system_error(errno, std::generic_category(), "cannot start " + arguments.front());
-  if (process_ == 0) become(argv.data(), output, parent);
+  if (process_ == 0) become(argv.data(), environment.data(), output, parent);
   // Here too: whichever of both processes comes first, the group is there for interrupt().
   ::setpgid(process_, process_);
 }

@@ -26,6 +26,7 @@ std::string text_of(const ProgramEnd& end);
 
 /// A program that runs beside this one, in a process group of its own, so that Ctrl-C reaches it
 /// only by way of this program. It is killed where this program ends before it, however that ends.
+/// It has the environment of this one, without what says that this is one of several ranks.
 class ChildProcess {
  public:
   /// @param arguments  The path of the program and what it is told.

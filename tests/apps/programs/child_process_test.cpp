@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 
 namespace plekton::apps {
@@ -49,6 +51,20 @@ TEST_F(Child, EndsWhenItIsAskedToOrWhenNobodyWaitsForItAnyMore) {
   const auto began = std::chrono::steady_clock::now();
   { const ChildProcess forgotten({"/bin/sleep", "100"}, file_); }
   EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(50));
+}
+
+TEST_F(Child, IsNoRankOfTheJobThatThisProgramIsOf) {
+  constexpr std::array kOfRanks = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK",
+                                   "MPI_LOCALNRANKS"};
+  for (const char* const name : kOfRanks) ::setenv(name, "2", 1);
+  ::setenv("PLEKTON_TEST_KEPT", "2", 1);
+  ChildProcess child({"/usr/bin/env"}, file_);
+  for (const char* const name : kOfRanks) ::unsetenv(name);
+  ::unsetenv("PLEKTON_TEST_KEPT");
+
+  EXPECT_EQ(child.wait().exit_code, 0);
+  EXPECT_NE(said().find("PLEKTON_TEST_KEPT=2\n"), std::string::npos);
+  for (const char* const name : kOfRanks) EXPECT_EQ(said().find(name), std::string::npos) << name;
 }
 
 TEST(FindProgram, LooksThroughThePath) {
