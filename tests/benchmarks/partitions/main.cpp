@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cuts scenes into parts as ranks would, without computing a step, and counts what they would have
-// to tell each other. Blocks of spheres and their owners are those of the library; for a sheet,
-// which ranks do not share yet, it is what the same curve would give.
+// to tell each other: to neighbours, and to all. Blocks of spheres and their owners are those of the
+// library; for a sheet, which ranks do not share yet, it is what the same curve would give.
 #include "contact/sphere_sphere/shared_blocks.hpp"
 #include "contact/sphere_sphere/sphere_blocks.hpp"
+#include "dynamics/integrators/leapfrog.hpp"
 #include "geometry/neighbor/space_order.hpp"
 
 #include <CLI/CLI.hpp>
@@ -13,8 +14,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <iostream>
-#include <numeric>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace plekton::benchmarks {
@@ -24,44 +29,80 @@ using contact::SphereBlocks;
 using geometry::NodeId;
 using geometry::Vec3;
 
-constexpr double kSumBytes = 48;     // of a ghost, to its owner
-constexpr double kMotionBytes = 72;  // of a ghost, from its owner
-constexpr std::array kParts = {2, 8, 64, 512, 4096};
+// Bytes, as contact/sphere_sphere/shared_blocks.* and shared_motion.* tell them.
+constexpr std::uint64_t kSumBytes = 48;     // of a ghost of a block, to its owner
+constexpr std::uint64_t kMotionBytes = 72;  // of a private sphere, to a rank that has it as a ghost
+constexpr std::uint64_t kForceBytes = 48;   // of a common sphere, to all ranks
+constexpr std::uint64_t kNodeBytes = 152;   // of a private sphere, to all ranks where all look
+constexpr std::uint64_t kTotalBytes = sizeof(contact::BlockTotals) + sizeof(dynamics::StepSums);
+constexpr int kStepsBetweenLooks = 16;
+constexpr std::array kParts = {2, 8, 64, 256, 512, 4096};
+
+/// What a part sends to another one in a step.
+struct Message {
+  std::uint64_t sums = 0;    ///< bytes
+  std::uint64_t motion = 0;  ///< bytes
+};
 
 /// What a part has to do with others.
 struct Part {
-  std::uint64_t work = 0;
+  std::uint64_t inner_work = 0;   ///< of blocks with ghosts of no other part; in pairs
+  std::uint64_t border_work = 0;  ///< of those with
   std::uint64_t things = 0;
-  std::uint64_t ghosts = 0;     ///< that it has of others
-  std::vector<int> neighbours;  ///< may be there several times
+  std::uint64_t common = 0;                          ///< of its spheres, that all parts move
+  std::uint64_t ghosts = 0;                          ///< that it has of others
+  std::map<int, Message> sent;                       ///< by receiver
+  std::uint64_t bytes_sent = 0, bytes_received = 0;  ///< in a step, to and from its neighbours
+
+  std::uint64_t work() const { return inner_work + border_work; }
 };
 
-void print_head(const char* things) {
-  std::printf("%6s %12s %10s %10s %8s %10s %10s %10s\n", "parts", things, "ghosts", "most", "share",
-              "kB a step", "neighbours", "imbalance");
+/// Adds up what parts send, on both sides.
+void add_up_messages(std::vector<Part>& parts) {
+  for (Part& part : parts) {
+    for (const auto& [to, message] : part.sent) {
+      part.bytes_sent += message.sums + message.motion;
+      parts[static_cast<std::size_t>(to)].bytes_received += message.sums + message.motion;
+    }
+  }
 }
 
-/// @param bytes  a step, of one ghost
-void print_row(std::vector<Part>& parts, double bytes) {
-  double things = 0, ghosts = 0, work = 0;
-  std::uint64_t most_ghosts = 0, most_work = 0;
-  std::size_t most_neighbours = 0;
-  for (Part& part : parts) {
-    std::ranges::sort(part.neighbours);
-    const auto twice = std::unique(part.neighbours.begin(), part.neighbours.end());
-    part.neighbours.erase(twice, part.neighbours.end());
-    things += static_cast<double>(part.things);
-    ghosts += static_cast<double>(part.ghosts);
-    work += static_cast<double>(part.work);
-    most_ghosts = std::max(most_ghosts, part.ghosts);
-    most_work = std::max(most_work, part.work);
-    most_neighbours = std::max(most_neighbours, part.neighbours.size());
-  }
-  const auto count = static_cast<double>(parts.size());
-  std::printf("%6zu %12.0f %10.0f %10llu %7.2f%% %10.1f %10zu %9.2f%%\n", parts.size(),
-              things / count, ghosts / count, static_cast<unsigned long long>(most_ghosts),
-              100.0 * ghosts / things, 1e-3 * bytes * static_cast<double>(most_ghosts),
-              most_neighbours, 100.0 * (static_cast<double>(most_work) * count / work - 1.0));
+/// The largest of what all parts have.
+template <class Of>
+double most(const std::vector<Part>& parts, const Of& of) {
+  double largest = 0.0;
+  for (const Part& part : parts) largest = std::max(largest, static_cast<double>(of(part)));
+  return largest;
+}
+template <class Of>
+double mean(const std::vector<Part>& parts, const Of& of) {
+  double sum = 0.0;
+  for (const Part& part : parts) sum += static_cast<double>(of(part));
+  return sum / static_cast<double>(parts.size());
+}
+
+void print_head(const char* things) {
+  std::printf("%6s %11s %8s %8s %7s %10s %10s %10s %10s %10s %9s\n", "parts", things, "ghosts",
+              "most", "share", "kB sent", "kB taken", "neighbours", "kB to all", "kB looks",
+              "imbalance");
+}
+
+/// @param private_things  that are told to all where all look
+void print_row(const std::vector<Part>& parts, std::uint64_t private_things) {
+  const auto ghosts = [](const Part& part) { return part.ghosts; };
+  const auto things = [](const Part& part) { return part.things; };
+  const auto work = [](const Part& part) { return part.work(); };
+  double common = 0.0;
+  for (const Part& part : parts) common += static_cast<double>(part.common);
+  const double to_all = kForceBytes * common + kTotalBytes * static_cast<double>(parts.size());
+  std::printf("%6zu %11.0f %8.0f %8.0f %6.2f%% %10.1f %10.1f %10.0f %10.1f %10.1f %8.2f%%\n",
+              parts.size(), mean(parts, things), mean(parts, ghosts), most(parts, ghosts),
+              100.0 * mean(parts, ghosts) / mean(parts, things),
+              1e-3 * most(parts, [](const Part& part) { return part.bytes_sent; }),
+              1e-3 * most(parts, [](const Part& part) { return part.bytes_received; }),
+              most(parts, [](const Part& part) { return part.sent.size(); }), 1e-3 * to_all,
+              1e-3 * kNodeBytes * static_cast<double>(private_things) / kStepsBetweenLooks,
+              100.0 * (most(parts, work) / mean(parts, work) - 1.0));
 }
 
 /// Spheres in a dense crystal, each with its twelve neighbours, in no order in space.
@@ -99,46 +140,96 @@ struct Bed {
   std::vector<geometry::IndexPair> pairs;
 };
 
-void count_bed(std::size_t about) {
-  SphereBlocks blocks;
-  std::size_t spheres = 0;
-  {
+/// The bed in blocks, without its list.
+struct BlockedBed {
+  explicit BlockedBed(std::size_t about) {
     const Bed bed(about);
     spheres = bed.spheres.size();
     geometry::ThreadPool pool(2);
     blocks.assign(bed.pairs, bed.spheres, {}, pool, bed.x);
     std::printf("%zu spheres, %zu pairs, %zu blocks\n", spheres, bed.pairs.size(),
                 blocks.blocks().size());
+    for (std::size_t k = 0; k < blocks.blocks().size(); ++k)
+      work.push_back(contact::SharedBlocks::work_of(blocks, blocks.blocks()[k]));
+    block_of.resize(spheres);
+    for (std::size_t k = 0; k < work.size(); ++k)
+      for (const SphereBlocks::Member& sphere : blocks.owned(blocks.blocks()[k]))
+        block_of[index_of(sphere.node)] = static_cast<std::int32_t>(k);
+    // The outermost layer lies on the walls of a box.
+    const auto last = bed.x.back().maxCoeff();
+    for (const Vec3& x : bed.x)
+      is_common.push_back(x.minCoeff() < 0.5 || x.maxCoeff() > last - 0.5 ? 1 : 0);
   }
-  std::vector<std::uint64_t> work;
-  std::vector<std::int32_t> block_of(spheres);
-  for (std::size_t k = 0; k < blocks.blocks().size(); ++k) {
-    work.push_back(contact::SharedBlocks::work_of(blocks, blocks.blocks()[k]));
-    for (const SphereBlocks::Member& sphere : blocks.owned(blocks.blocks()[k]))
-      block_of[index_of(sphere.node)] = static_cast<std::int32_t>(k);
+
+  std::size_t spheres = 0;
+  SphereBlocks blocks;
+  std::vector<std::uint64_t> work;      ///< by block
+  std::vector<std::int32_t> block_of;   ///< by sphere
+  std::vector<std::uint8_t> is_common;  ///< by sphere
+};
+
+/// Parts are ranges of blocks: those of one follow each other.
+std::vector<Part> parts_of(const BlockedBed& bed, int count) {
+  const std::vector<int> owners = geometry::Ranks::ranges_of_equal_work(bed.work, count);
+  std::vector<Part> parts(static_cast<std::size_t>(count));
+  std::vector<int> last_with(bed.spheres, -1);  // part that had a sphere as a ghost last
+  for (std::size_t k = 0; k < owners.size(); ++k) {
+    const int self = owners[k];
+    Part& part = parts[static_cast<std::size_t>(self)];
+    const SphereBlocks::Block& block = bed.blocks.blocks()[k];
+    part.things += block.owned;
+    for (const SphereBlocks::Member& sphere : bed.blocks.owned(block))
+      part.common += bed.is_common[index_of(sphere.node)];
+    bool is_at_border = false;
+    for (const SphereBlocks::Member& ghost : bed.blocks.ghosts(block)) {
+      const std::size_t sphere = index_of(ghost.node);
+      const int owner = owners[static_cast<std::size_t>(bed.block_of[sphere])];
+      if (owner == self) continue;
+      is_at_border = true;
+      part.sent[owner].sums += kSumBytes;  // once for each block that has it
+      if (std::exchange(last_with[sphere], self) == self) continue;
+      ++part.ghosts;
+      if (bed.is_common[sphere] == 0)
+        parts[static_cast<std::size_t>(owner)].sent[self].motion += kMotionBytes;
+    }
+    (is_at_border ? part.border_work : part.inner_work) += bed.work[k];
   }
+  add_up_messages(parts);
+  return parts;
+}
+
+/// For simulate.py: a line of the whole, then one of each part.
+void write(const std::vector<Part>& parts, std::uint64_t private_spheres,
+           const std::filesystem::path& path) {
+  std::ofstream file(path);
+  file << parts.size() << ' ' << private_spheres << ' ' << kForceBytes << ' ' << kTotalBytes << ' '
+       << kNodeBytes << ' ' << kStepsBetweenLooks << '\n';
+  for (const Part& part : parts) {
+    file << part.things << ' ' << part.common << ' ' << part.border_work << ' ' << part.inner_work
+         << ' ' << part.sent.size();
+    for (const auto& [to, message] : part.sent)
+      file << ' ' << to << ' ' << message.sums << ' ' << message.motion;
+    file << '\n';
+  }
+  if (!file.flush()) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+/// @param folder  where parts are written, a file for each number of them; empty: nowhere
+void count_bed(std::size_t about, const std::filesystem::path& folder) {
+  const BlockedBed bed(about);
+  const auto common = static_cast<std::size_t>(std::ranges::count(bed.is_common, 1));
+  std::printf("%zu of the spheres on the walls of a box\n", common);
   print_head("spheres");
   for (const int count : kParts) {
-    const std::vector<int> owners = geometry::Ranks::ranges_of_equal_work(work, count);
-    std::vector<Part> parts(static_cast<std::size_t>(count));
-    std::vector<int> last_with(spheres, -1);           // part that had a sphere as a ghost last
-    for (std::size_t k = 0; k < owners.size(); ++k) {  // parts are ranges: one after the other
-      Part& part = parts[static_cast<std::size_t>(owners[k])];
-      part.work += work[k];
-      part.things += blocks.blocks()[k].owned;
-      for (const SphereBlocks::Member& ghost : blocks.ghosts(blocks.blocks()[k])) {
-        const int owner = owners[static_cast<std::size_t>(block_of[index_of(ghost.node)])];
-        if (owner == owners[k] || last_with[index_of(ghost.node)] == owners[k]) continue;
-        last_with[index_of(ghost.node)] = owners[k];
-        ++part.ghosts;
-        part.neighbours.push_back(owner);
-      }
-    }
-    print_row(parts, kSumBytes + kMotionBytes);
+    const std::vector<Part> parts = parts_of(bed, count);
+    print_row(parts, bed.spheres - common);
+    if (!folder.empty())
+      write(parts, bed.spheres - common, folder / (std::to_string(count) + ".txt"));
   }
 }
 
-/// A flat sheet of right triangles. A node is owned by the part of the first facet on it.
+/// A flat sheet of right triangles. A node is owned by the part of the first facet on it; the sums
+/// of a ghost are told to its owner, and its motion by it.
 void count_sheet(std::size_t about) {
   const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(about) / 2.0));
   std::vector<Vec3> centres;
@@ -162,17 +253,19 @@ void count_sheet(std::size_t about) {
     for (std::size_t place = 0; place < order.size(); ++place) {
       const int owner = static_cast<int>(place * static_cast<std::size_t>(count) / order.size());
       Part& part = parts[static_cast<std::size_t>(owner)];
-      ++part.work;
+      ++part.inner_work;
       ++part.things;
       for (const std::size_t corner : facets[static_cast<std::size_t>(order[place])]) {
         if (owners[corner] < 0) owners[corner] = owner;
         if (owners[corner] == owner || last_with[corner] == owner) continue;
         last_with[corner] = owner;
         ++part.ghosts;
-        part.neighbours.push_back(owners[corner]);
+        part.sent[owners[corner]].sums += kSumBytes;
+        parts[static_cast<std::size_t>(owners[corner])].sent[owner].motion += kMotionBytes;
       }
     }
-    print_row(parts, kSumBytes + kMotionBytes);
+    add_up_messages(parts);
+    print_row(parts, 0);
   }
 }
 
@@ -184,7 +277,10 @@ int main(int argc, char** argv) {
   std::size_t spheres = 10000000, facets = 1000000;
   app.add_option("--spheres", spheres, "about how many")->capture_default_str();
   app.add_option("--facets", facets, "about how many")->capture_default_str();
+  std::filesystem::path folder;
+  app.add_option("--write", folder, "folder for the parts of the spheres, for simulate.py")
+      ->check(CLI::ExistingDirectory);
   CLI11_PARSE(app, argc, argv);
-  plekton::benchmarks::count_bed(spheres);
+  plekton::benchmarks::count_bed(spheres, folder);
   plekton::benchmarks::count_sheet(facets);
 }
