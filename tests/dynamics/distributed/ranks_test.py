@@ -9,6 +9,7 @@ killed, whichever.
 Ends 77 where there is no mpirun, or the program has no MPI: ctest shows that as skipped.
 """
 
+import csv
 import json
 import os
 import random
@@ -99,6 +100,16 @@ class SameBytes(Ranks):
 
 @unittest.skipUnless(asks_for_all(), "long: set PLEKTON_RANKS=all")
 class NamedScenes(Ranks):
+    def test_tear_and_drag_as_their_names_say(self):
+        """What is torn and dragged goes over the blocks of more than one rank."""
+        torn, dragged = self.folder / "torn", self.folder / "dragged"
+        self.run_well(0, SCENES / "named/net_tearing.toml", "--out", torn, "--quiet")
+        self.assertGreater(json.loads((torn / "run.json").read_text())["counts"]["broken_bonds"], 20)
+        self.run_well(0, SCENES / "named/dragged_sheet.toml", "--out", dragged, "--quiet")
+        with (dragged / "energy.csv").open(encoding="utf-8") as file:
+            touching = [int(row["grain_membrane_contacts"]) for row in csv.DictReader(file)]
+        self.assertGreater(sum(count > 0 for count in touching), 0.5 * len(touching))
+
     def test_on_up_to_8_ranks_and_with_owners_by_chance(self):
         for scene in [*sorted((SCENES / "named").glob("*.toml")), SCENES / "all_kinds.toml"]:
             with self.subTest(scene.stem):
