@@ -3,7 +3,9 @@
 
 #include "dynamics/hdf5/handle.hpp"
 #include "dynamics/output/file.hpp"
+#include "dynamics/output/sync.hpp"
 #include "geometry/base/bit_hash.hpp"
+#include "geometry/base/new_file.hpp"
 #include "geometry/base/printable.hpp"
 #include "geometry/base/regular_file.hpp"
 #include "geometry/version.hpp"
@@ -14,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -29,7 +32,8 @@ using hdf5::Handle;
 using hdf5::QuietErrors;
 
 constexpr const char* kFormat = "plekton checkpoint";
-constexpr std::size_t kHeadSize = 512;  // bytes
+constexpr std::size_t kHeadSize = 512;         // bytes
+constexpr std::size_t kLongestRevision = 256;  // bytes, so that it leaves room for the rest
 
 /// How numbers lie in a file and in memory.
 struct NumberType {
@@ -109,13 +113,14 @@ std::string checksum_of(std::string_view image) {
   return text.str();
 }
 
-std::string head_of(std::string_view image) {
+std::string head_of(std::string_view image, std::string_view revision) {
   std::ostringstream text;
   text << kFormat << '\n'
        << "version " << kCheckpointVersion << '\n'
        << "writer " << kVersion << '\n'
        << "bytes " << image.size() << '\n'
-       << "checksum " << checksum_of(image) << '\n';
+       << "checksum " << checksum_of(image) << '\n'
+       << "revision " << revision.substr(0, kLongestRevision) << '\n';
   std::string head = text.str();
   head.resize(kHeadSize, '\0');
   return head;
@@ -123,7 +128,7 @@ std::string head_of(std::string_view image) {
 
 /// What a head says; nothing where it is none.
 struct Head {
-  std::string version, writer, bytes, checksum;
+  std::string version, writer, bytes, checksum, revision;
 };
 std::optional<Head> parsed_head(std::string_view bytes) {
   if (bytes.size() < kHeadSize) return std::nullopt;
@@ -139,10 +144,25 @@ std::optional<Head> parsed_head(std::string_view bytes) {
   if (!read("version ", head.version) || !read("writer ", head.writer)) return std::nullopt;
   read("bytes ", head.bytes);
   read("checksum ", head.checksum);
+  read("revision ", head.revision);
   return head;
 }
 
 // Reading.
+
+/// @throws CheckpointError
+Head known_head(std::string_view bytes, const std::filesystem::path& path) {
+  const std::optional<Head> head = parsed_head(bytes);
+  if (!head)
+    throw CheckpointError(path,
+                          "is no checkpoint of Plekton; expected a file that plekton run wrote");
+  if (head->version != std::to_string(kCheckpointVersion))
+    throw CheckpointError(path, "is of version " + head->version + ", written by Plekton " +
+                                    head->writer + "; this is Plekton " + std::string(kVersion) +
+                                    ", which reads version " + std::to_string(kCheckpointVersion) +
+                                    ": go on with the one that wrote it");
+  return *head;
+}
 
 /// A reader of one file that knows what to say of it.
 class Reader {
@@ -180,19 +200,9 @@ class Reader {
  private:
   /// Nothing that is damaged gets to the library, whose readers are not made for it.
   void check_head() const {
-    const std::optional<Head> head = parsed_head(bytes_);
-    if (!head) {
-      throw CheckpointError(path_,
-                            "is no checkpoint of Plekton; expected a file that plekton run wrote");
-    }
-    if (head->version != std::to_string(kCheckpointVersion)) {
-      throw CheckpointError(
-          path_, "is of version " + head->version + ", written by Plekton " + head->writer +
-                     "; this is Plekton " + std::string(kVersion) + ", which reads version " +
-                     std::to_string(kCheckpointVersion) + ": go on with the one that wrote it");
-    }
+    const Head head = known_head(bytes_, path_);
     const std::string_view image = std::string_view(bytes_).substr(kHeadSize);
-    if (head->bytes != std::to_string(image.size()) || head->checksum != checksum_of(image))
+    if (head.bytes != std::to_string(image.size()) || head.checksum != checksum_of(image))
       throw damaged();
   }
 
@@ -248,12 +258,25 @@ class Reader {
 CheckpointError::CheckpointError(const std::filesystem::path& file, const std::string& problem)
     : CheckpointError(geometry::printable(file.string()) + ": " + geometry::printable(problem)) {}
 
-void write_checkpoint(const std::filesystem::path& file, const StateTree& state) {
+void write_checkpoint(const std::filesystem::path& file, const StateTree& state,
+                      std::string_view revision) {
   const std::string image = image_of(state);
   OutputFile out(file);
-  out.write(head_of(image));
+  out.write(head_of(image, revision));
   out.write(image);
+  // Its bytes before its name: a name alone would be a damaged checkpoint in place of a whole one.
+  if (!goes_nowhere(file)) sync_file(geometry::part_of(file));
   out.commit();
+  sync_folder(file.parent_path());
+}
+
+CheckpointWriter writer_of_checkpoint(const std::filesystem::path& file) {
+  std::string bytes(kHeadSize, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  const Head head = known_head(bytes, file);
+  return {head.writer, head.revision};
 }
 
 StateTree read_checkpoint(const std::filesystem::path& file) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 /// Checkpoints: the state of a simulation in one HDF5 file.
 ///
@@ -13,11 +14,11 @@
 /// point numbers or signed integers of 64 or 32 or unsigned ones of 8 bits, little-endian. In the
 /// 512 bytes before what HDF5 reads (its user block) stand lines of text: `plekton checkpoint`,
 /// `version` (kCheckpointVersion), `writer` (the version of Plekton), `bytes` and `checksum` of the
-/// rest. A file in which a bit has changed is refused. The same state makes the same bytes.
+/// rest, `revision` (of the program that wrote it; "unknown" where none was told). A file in which a bit has changed is refused. The same state makes the same bytes.
 namespace plekton::dynamics {
 
 /// Grows whenever an array of the state changes its name or meaning.
-constexpr int kCheckpointVersion = 6;
+constexpr int kCheckpointVersion = 7;
 
 /// A checkpoint cannot be read. The message names the file, what is wrong with it and what to do.
 class CheckpointError : public std::runtime_error {
@@ -26,9 +27,23 @@ class CheckpointError : public std::runtime_error {
   CheckpointError(const std::filesystem::path& file, const std::string& problem);
 };
 
+inline constexpr std::string_view kUnknownRevision = "unknown";
+
 /// Writes a file beside the place and renames it: there is a whole checkpoint or the one of before
-/// at any moment. @throws OutputError
-void write_checkpoint(const std::filesystem::path& file, const geometry::StateTree& state);
+/// at any moment, also after a power cut: it returns when the file is on the disk.
+/// @param revision  of the program, one line
+/// @throws OutputError
+void write_checkpoint(const std::filesystem::path& file, const geometry::StateTree& state,
+                      std::string_view revision = kUnknownRevision);
+
+/// Who wrote a checkpoint.
+struct CheckpointWriter {
+  std::string version;   ///< of Plekton
+  std::string revision;  ///< of the program
+};
+/// Reads no more than the head of the file. @throws CheckpointError as read_checkpoint(), but for
+/// what is damaged behind the head
+CheckpointWriter writer_of_checkpoint(const std::filesystem::path& file);
 
 /// @throws CheckpointError if there is no such file, it is no checkpoint, of another version, or
 ///         damaged. No more memory is taken than the file has bytes, times two.

@@ -3,6 +3,7 @@
 
 #include "dynamics/output/file.hpp"
 #include "geometry/base/bit_hash.hpp"
+#include "geometry/version.hpp"
 #include "tests/support/seeded_random.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -62,6 +63,21 @@ TEST_F(CheckpointFile, HasTheSameBytesForTheSameState) {
   write_checkpoint(file(), example());
 
   EXPECT_EQ(bytes(), first);
+}
+
+TEST_F(CheckpointFile, TellsWhoWroteItAndTheStateIsTheSame) {
+  write_checkpoint(file(), example(), "abc123-modified");
+
+  EXPECT_EQ(writer_of_checkpoint(file()).revision, "abc123-modified");
+  EXPECT_EQ(writer_of_checkpoint(file()).version, kVersion);
+  EXPECT_EQ(read_checkpoint(file()).hash(), example().hash());
+  write_checkpoint(file(), example(), std::string(1000, 'a'));
+  EXPECT_EQ(writer_of_checkpoint(file()).revision, std::string(256, 'a'));
+  EXPECT_EQ(read_checkpoint(file()).hash(), example().hash());
+  write_checkpoint(file(), example());
+  EXPECT_EQ(writer_of_checkpoint(file()).revision, kUnknownRevision);
+  write("time = 1");
+  EXPECT_THROW(writer_of_checkpoint(file()), CheckpointError);
 }
 
 TEST_F(CheckpointFile, LeavesNothingButItself) {
