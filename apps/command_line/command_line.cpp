@@ -222,12 +222,20 @@ int run_aloud(const CommandLine& line, const Scenario& scenario, const fs::path&
 
 /// The same of a scenario with stages.
 int run_stages_aloud(const CommandLine& line, const Scenario& scenario, const fs::path& out,
-                     const geometry::StateTree* resume, Progress::Clock::time_point began) {
+                     const Resumption* resume, const std::optional<double>& until,
+                     Progress::Clock::time_point began) {
   const InterruptGuard guard;
-  const StagesAsked asked{resume ? std::vector<std::string>{} : line.from, resume, line.until};
+  StagesAsked asked{resume ? std::vector<std::string>{} : line.from, nullptr, line.until};
+  if (resume != nullptr) {
+    asked.resume = &resume->state;
+    asked.same_folder = resume->same_folder;
+    asked.written_from = resume->from;
+  }
+  RunSettings settings = settings_of(line, out, guard, began);
+  settings.until = until;
   return conclude(line, out, aloud(line.quiet, [&](const HearSetUp& hear) {
-                    return run_stages_asked(scenario, asked, settings_of(line, out, guard, began),
-                                            hear, line.quiet ? nullptr : &std::cout);
+                    return run_stages_asked(scenario, asked, settings, hear,
+                                            line.quiet ? nullptr : &std::cout);
                   }));
 }
 
@@ -237,32 +245,30 @@ int resume_command(const CommandLine& line) {
     throw InputError(
         "--from: with --resume expected one time; a stage and a folder go with a "
         "scenario file");
-  ResumedRun resumed = find_resumed_run(line.resume, overrides_of(line),
-                                        line.from.empty() ? "" : line.from[0], line.to);
-  share_among(line.ranks, resumed.scenario);
   const bool same_folder = line.out.empty();
-  const bool has_stages = resumed.scenario.stage.has_value();
-  if (has_stages && !same_folder)
-    throw InputError(
-        "--out: a scenario with stages goes on in its folder; to begin in another one "
-        "take --from STAGE DIR");
   if (same_folder && !(line.from.empty() && line.to.empty()))
     throw InputError(
         "--from and --to compute a part of a run again, with results of its own; give a folder for "
         "them with --out");
+  const std::vector<std::string> overrides = overrides_of(line);
+  ResumedRun resumed = find_resumed_run(
+      {line.resume, overrides, line.from.empty() ? "" : line.from[0], line.to, same_folder});
+  share_among(line.ranks, resumed.scenario);
   if (!same_folder)
     by_first_rank(line.ranks, [&] { check_output_folder(line.out, line.overwrite); });
-  for (const std::string& damaged : resumed.checkpoint.damaged)
-    std::cerr << "plekton: warning: " << damaged << '\n';
+  for (const std::string& warning : warnings_about(resumed))
+    std::cerr << "plekton: warning: " << geometry::printable(warning) << '\n';
   const double time = time_of(resumed.checkpoint.state);
   if (!line.quiet)
     std::cout << fmt::format("{}: goes on at {:.6g} s, step {}\n", resumed.checkpoint.file.string(),
                              time, steps_of(resumed.checkpoint.state));
-  const Resumption from{resumed.checkpoint.state, same_folder, resumed.from};
+  const Resumption from{resumed.checkpoint.state, same_folder, resumed.from, false,
+                        is_by_clock(resumed.checkpoint.file)};
+  const fs::path& out = same_folder ? line.resume : line.out;
   try {
-    if (has_stages)
-      return run_stages_aloud(line, resumed.scenario, line.resume, &from.state, began);
-    return run_aloud(line, resumed.scenario, same_folder ? line.resume : line.out, &from, began);
+    if (resumed.scenario.stage)
+      return run_stages_aloud(line, resumed.scenario, out, &from, resumed.until, began);
+    return run_aloud(line, resumed.scenario, out, &from, began);
   } catch (const geometry::StateMismatch& error) {
     throw InputError(
         fmt::format("{}: {}; nothing was changed: the meshes and tables that the scenario names "
@@ -303,7 +309,7 @@ int run_command(const CommandLine& line) {
   require_stages(line, scenario, out);
   // Before the scene is built, which may take long.
   by_first_rank(line.ranks, [&] { check_output_folder(out, line.overwrite); });
-  if (scenario.stage) return run_stages_aloud(line, scenario, out, nullptr, began);
+  if (scenario.stage) return run_stages_aloud(line, scenario, out, nullptr, std::nullopt, began);
   return run_aloud(line, scenario, out, nullptr, began);
 }
 

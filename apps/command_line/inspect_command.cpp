@@ -63,8 +63,11 @@ std::string lines_of_run(const StateTree& state) {
 
 std::string text_of_checkpoint(const std::filesystem::path& file) {
   const StateTree state = dynamics::read_checkpoint(file);
+  const dynamics::CheckpointWriter writer = dynamics::writer_of_checkpoint(file);
   std::string text = fmt::format("{}: checkpoint of version {}, whole\n",
                                  geometry::printable(file.string()), dynamics::kCheckpointVersion);
+  text += fmt::format("written by plekton {}, revision {}\n", geometry::printable(writer.version),
+                      geometry::printable(writer.revision));
   text += fmt::format("time {:.9g} s, step {}\n", time_of(state), steps_of(state));
   text += lines_of_run(state);
   for (const Count& count : kCounts) {

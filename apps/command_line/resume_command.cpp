@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/resume_command.hpp"
 
+#include "apps/run/build_info.hpp"
 #include "apps/run/run_state.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/units.hpp"
+#include "dynamics/checkpoint/checkpoint_file.hpp"
 
 #include <fmt/format.h>
 
@@ -50,18 +52,35 @@ std::optional<double> time_option(const char* name, const std::string& text) {
   return time;
 }
 
-ResumedRun find_resumed_run(const std::filesystem::path& folder,
-                            std::span<const std::string> overrides, const std::string& from,
-                            const std::string& to) {
-  const std::optional<double> begin = time_option("--from", from);
-  const std::optional<double> end = time_option("--to", to);
+ResumedRun find_resumed_run(const ResumeArguments& arguments) {
+  const std::optional<double> begin = time_option("--from", arguments.from);
+  const std::optional<double> end = time_option("--to", arguments.to);
   if (begin && end && !(*begin < *end))
-    throw InputError(
-        fmt::format("--to: got \"{}\"; expected a time after --from \"{}\"", to, from));
-  ResumedRun run = resumed_from(last_checkpoint(folder, begin), overrides);
+    throw InputError(fmt::format("--to: got \"{}\"; expected a time after --from \"{}\"",
+                                 arguments.to, arguments.from));
+  ResumedRun run = resumed_from(arguments.same_folder ? last_checkpoint_with_files(arguments.folder)
+                                                      : last_checkpoint(arguments.folder, begin),
+                                arguments.overrides);
   run.from = begin;
+  run.until = end;
   if (end) run.scenario.simulation.duration = *end;
   return run;
+}
+
+std::vector<std::string> warnings_about(const ResumedRun& run) {
+  std::vector<std::string> warnings = run.checkpoint.damaged;
+  if (!warnings.empty())
+    warnings.push_back(
+        fmt::format("goes on from an earlier checkpoint, {}: what came after is "
+                    "computed again",
+                    run.checkpoint.file.string()));
+  const std::string writer = dynamics::writer_of_checkpoint(run.checkpoint.file).revision;
+  if (writer != build_info().revision)
+    warnings.push_back(
+        fmt::format("{}: was written by revision {} of plekton, and this is {}: results may be "
+                    "others than those of one of them alone",
+                    run.checkpoint.file.string(), writer, build_info().revision));
+  return warnings;
 }
 
 ResumedRun resumed_from(FoundCheckpoint checkpoint, std::span<const std::string> overrides) {
@@ -69,7 +88,7 @@ ResumedRun resumed_from(FoundCheckpoint checkpoint, std::span<const std::string>
   ScenarioText text;
   text.exchange(geometry::StateArchive::reader(checkpoint.state).group(kRunGroup));
   text.overrides.insert(text.overrides.end(), overrides.begin(), overrides.end());
-  return {std::move(checkpoint), parse_scenario(text.text, text.file, text.overrides),
+  return {std::move(checkpoint), parse_scenario(text.text, text.file, text.overrides), std::nullopt,
           std::nullopt};
 }
 

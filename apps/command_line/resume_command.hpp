@@ -16,17 +16,28 @@ namespace plekton::apps {
 struct ResumedRun {
   FoundCheckpoint checkpoint;
   Scenario scenario;
-  std::optional<double> from;  ///< s, from when on results are wanted
+  std::optional<double> from;   ///< s, from when on results are wanted
+  std::optional<double> until;  ///< s, up to when
+};
+
+/// A run that is to go on.
+struct ResumeArguments {
+  std::filesystem::path folder;  ///< of the run
+  /// "path=value" each: of [output], [stop], the duration and the threads
+  std::span<const std::string> overrides;
+  /// "0.1 s", of an interval to be computed again, the earlier one with a checkpoint before; empty:
+  /// from the last checkpoint to the end
+  std::string from = "", to = "";
+  bool same_folder = false;  ///< its histories go on: they have to be there
 };
 
 /// Finds the last checkpoint of a run, and the scenario that was run.
-/// @param overrides  "path=value" each: of [output], [stop], the duration and the threads
-/// @param from, to   "0.1 s", of an interval to be computed again, the later one with a checkpoint
-///                   before; empty: from the last checkpoint to the end
 /// @throws InputError for an override of anything else, which would make it another run
-ResumedRun find_resumed_run(const std::filesystem::path& folder,
-                            std::span<const std::string> overrides, const std::string& from,
-                            const std::string& to);
+ResumedRun find_resumed_run(const ResumeArguments& arguments);
+
+/// What whoever goes on with it has to know: checkpoints that had to be left, and that another
+/// revision of the program wrote the one that is taken.
+std::vector<std::string> warnings_about(const ResumedRun& run);
 
 /// A run that goes on from a checkpoint. @throws InputError as find_resumed_run()
 ResumedRun resumed_from(FoundCheckpoint checkpoint, std::span<const std::string> overrides);

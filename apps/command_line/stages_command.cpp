@@ -44,12 +44,12 @@ std::unique_ptr<Begin> begin_of(const Scenario& scenario, const StagesAsked& ask
     const Scenario& stage = scenario.stages.at(of.bodies.stage);
     auto begin = std::make_unique<Begin>(Begin{prepare_stage(stage, *asked.resume, hear), {}});
     if (!of.has_ended) {
-      begin->from.emplace(Resumption{*asked.resume, asked.same_folder, std::nullopt, false});
+      begin->from.emplace(Resumption{*asked.resume, asked.same_folder, asked.written_from, false});
       return begin;
     }
     begin->prepared.simulation->restore(*asked.resume);
     begin = after(scenario, stage, begin->prepared, *asked.resume, asked.same_folder, hear);
-    begin->from->from.reset();  // what is written goes on
+    begin->from->from = asked.written_from;  // nothing: what is written goes on
     return begin;
   }
   if (asked.from.empty()) return std::make_unique<Begin>(Begin{prepare_run(scenario, hear), {}});

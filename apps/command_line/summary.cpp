@@ -114,9 +114,13 @@ std::string summary_of(const RunReport& report) {
       "{}\n",
       report.contacts, 100.0 * report.largest_overlap_ratio, 100.0 * report.energy_closure,
       report.lost_grains);
-  text += fmt::format("momentum drift {:.2g}, exact decisions {:.2g} for each node and step\n",
-                      std::max(report.momentum.linear, report.momentum.angular),
-                      exact_decisions_per_node(report));
+  const geometry::SignCounters& decisions = report.exact_decisions;
+  text += fmt::format("momentum drift {:.2g}\n",
+                      std::max(report.momentum.linear, report.momentum.angular));
+  text += fmt::format(
+      "decisions beyond doubles: {} by pairs, {} by intervals, {} exact ({:.2g} a node and step)\n",
+      decisions.double_double, decisions.interval, decisions.exact,
+      exact_decisions_per_node(report));
   if (report.broken_bonds > 0)
     text += fmt::format("broken bonds: {} of {}\n", report.broken_bonds, report.bonds);
   if (report.broken_ties > 0)

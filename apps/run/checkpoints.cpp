@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/checkpoints.hpp"
 
+#include "apps/run/build_info.hpp"
+#include "apps/run/run_state.hpp"
 #include "apps/scenario/problems.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "dynamics/output/file.hpp"
+#include "dynamics/output/sync.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -17,23 +21,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_checkpoint(const std::string& name) {
-  return name.starts_with("step_") && name.ends_with(".h5") &&
-         name.find_first_not_of("0123456789", 5) == name.size() - 3;
+constexpr std::string_view kBegin = "step_";
+constexpr std::string_view kEnd = ".h5";
+constexpr std::string_view kClockEnd = "_clock.h5";
+
+bool is_checkpoint(std::string_view name) {
+  if (!name.starts_with(kBegin)) return false;
+  const std::string_view end =
+      name.substr(std::min(name.find_first_not_of("0123456789", kBegin.size()), name.size()));
+  return end == kEnd || end == kClockEnd;
 }
 
-/// So many digits that names sort by steps.
-std::string name_of_checkpoint(std::int64_t steps) {
-  return fmt::format("step_{:012}.h5", steps);
+/// So many digits that names sort by steps, and of two of the same step that which stays is first.
+std::string name_of_checkpoint(std::int64_t steps, CheckpointKind kind = CheckpointKind::stays) {
+  return fmt::format("{}{:012}{}", kBegin, steps, kind == CheckpointKind::stays ? kEnd : kClockEnd);
 }
 
 }  // namespace
 
 void write_run_checkpoint(const fs::path& folder, std::int64_t steps,
-                          const geometry::StateTree& state) {
+                          const geometry::StateTree& state, CheckpointKind kind) {
   const fs::path below = folder / kCheckpointFolder;
+  std::error_code ignored;
+  const bool is_first = !fs::exists(below, ignored);
   dynamics::ensure_output_folder(below);  // not those above it: they are gone if somebody took them
-  dynamics::write_checkpoint(below / name_of_checkpoint(steps), state);
+  dynamics::write_checkpoint(below / name_of_checkpoint(steps, kind), state, build_info().revision);
+  if (is_first) dynamics::sync_folder(folder);
+}
+
+bool is_by_clock(const fs::path& checkpoint) {
+  return checkpoint.filename().string().ends_with(kClockEnd);
 }
 
 std::vector<fs::path> checkpoints_of(const fs::path& folder) {
@@ -46,27 +63,69 @@ std::vector<fs::path> checkpoints_of(const fs::path& folder) {
   return files;
 }
 
-void remove_run_checkpoint(const fs::path& folder, std::int64_t steps) {
+namespace {
+
+/// @param is_gone  (name)
+template <class IsGone>
+void remove_those(const fs::path& folder, const IsGone& is_gone) {
   std::error_code ignored;
-  fs::remove(folder / kCheckpointFolder / name_of_checkpoint(steps), ignored);
+  for (const fs::path& file : checkpoints_of(folder))
+    if (is_gone(file.filename().string())) fs::remove(file, ignored);
+}
+
+}  // namespace
+
+void remove_clock_checkpoints(const fs::path& folder, std::optional<std::int64_t> but) {
+  const std::string kept = but ? name_of_checkpoint(*but, CheckpointKind::by_clock) : "";
+  remove_those(folder,
+               [&](const std::string& name) { return name.ends_with(kClockEnd) && name != kept; });
+}
+
+void remove_checkpoints_after(const fs::path& folder, std::int64_t steps) {
+  const std::string last = name_of_checkpoint(steps, CheckpointKind::by_clock);
+  remove_those(folder, [&](const std::string& name) { return name > last; });
 }
 
 void remove_checkpoints(const fs::path& folder) {
-  std::error_code ignored;
-  for (const fs::path& file : checkpoints_of(folder)) fs::remove(file, ignored);
+  remove_those(folder, [](const std::string&) { return true; });
 }
 
 namespace {
 
+/// What keeps a run from going on with its histories from a state; empty: nothing.
+std::string problem_with_files(const fs::path& folder, const fs::path& checkpoint,
+                               const geometry::StateTree& state) {
+  WrittenFiles files;
+  exchange_files(geometry::StateArchive::reader(state).group(kRunGroup), files);
+  for (const auto& [name, size] : files.sizes) {
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(folder / name, error);
+    if (error)
+      return fmt::format("{}: {}, which the run had written then, is not there any more",
+                         checkpoint.string(), name);
+    if (bytes < size)
+      return fmt::format("{}: {} has {} bytes, fewer than the {} that the run had written then",
+                         checkpoint.string(), name, bytes, size);
+  }
+  return "";
+}
+
 /// The last one of some files that can be read and is not after a time.
+/// @param problem_with  (file, state), what is wrong with one that can be read; empty: nothing
 /// @throws InputError naming what is wrong with those that cannot be read
+template <class ProblemWith>
 std::optional<FoundCheckpoint> last_of(std::vector<fs::path> files,
-                                       const std::optional<double>& not_after) {
+                                       const std::optional<double>& not_after,
+                                       const ProblemWith& problem_with) {
   std::vector<std::string> damaged;
   for (; !files.empty(); files.pop_back()) {
     try {
       geometry::StateTree state = dynamics::read_checkpoint(files.back());
       if (not_after && time_of(state) > *not_after) continue;
+      if (std::string problem = problem_with(files.back(), state); !problem.empty()) {
+        damaged.push_back(std::move(problem));
+        continue;
+      }
       return FoundCheckpoint{files.back(), std::move(state), std::move(damaged)};
     } catch (const dynamics::CheckpointError& error) {
       damaged.emplace_back(error.what());
@@ -76,16 +135,35 @@ std::optional<FoundCheckpoint> last_of(std::vector<fs::path> files,
   return std::nullopt;
 }
 
-}  // namespace
+std::optional<FoundCheckpoint> last_of(std::vector<fs::path> files,
+                                       const std::optional<double>& not_after) {
+  return last_of(std::move(files), not_after,
+                 [](const fs::path&, const geometry::StateTree&) { return std::string(); });
+}
 
-FoundCheckpoint last_checkpoint(const fs::path& folder, const std::optional<double>& not_after) {
+/// @throws InputError
+std::vector<fs::path> some_checkpoints_of(const fs::path& folder) {
   std::vector<fs::path> files = checkpoints_of(folder);
   if (files.empty())
     throw InputError(
         fmt::format("{}: has no checkpoints; a run writes them where its scenario says "
                     "checkpoint_interval in [output], when it is interrupted, and at its end",
                     folder.string()));
-  if (auto found = last_of(std::move(files), not_after)) return std::move(*found);
+  return files;
+}
+
+}  // namespace
+
+FoundCheckpoint last_checkpoint_with_files(const fs::path& folder) {
+  // Nothing only if there are none: whatever is wrong with those that there are is thrown.
+  return std::move(*last_of(some_checkpoints_of(folder), std::nullopt,
+                            [&](const fs::path& file, const geometry::StateTree& state) {
+                              return problem_with_files(folder, file, state);
+                            }));
+}
+
+FoundCheckpoint last_checkpoint(const fs::path& folder, const std::optional<double>& not_after) {
+  if (auto found = last_of(some_checkpoints_of(folder), not_after)) return std::move(*found);
   throw InputError(
       fmt::format("{}: its first checkpoint comes after {:.6g} s; ask for a later time",
                   folder.string(), *not_after));

@@ -15,15 +15,28 @@ namespace plekton::apps {
 
 inline constexpr const char* kCheckpointFolder = "checkpoints";
 
+/// Why a checkpoint is there; its name tells.
+enum class CheckpointKind : std::uint8_t {
+  stays,    ///< step_N.h5
+  by_clock  ///< step_N_clock.h5, until the next one comes (ClockCheckpoints)
+};
+
 /// @param folder  of the run
 /// @throws dynamics::OutputError
 void write_run_checkpoint(const std::filesystem::path& folder, std::int64_t steps,
-                          const geometry::StateTree& state);
+                          const geometry::StateTree& state,
+                          CheckpointKind kind = CheckpointKind::stays);
+
+/// Of what kind a file is, by its name.
+bool is_by_clock(const std::filesystem::path& checkpoint);
 
 /// Files of a run, in the order of their steps.
 std::vector<std::filesystem::path> checkpoints_of(const std::filesystem::path& folder);
-/// One of them. What cannot be removed stays.
-void remove_run_checkpoint(const std::filesystem::path& folder, std::int64_t steps);
+/// Those by the clock, but for that of a step. What cannot be removed stays.
+void remove_clock_checkpoints(const std::filesystem::path& folder,
+                              std::optional<std::int64_t> but = std::nullopt);
+/// Those that come after a step, from which the run goes on.
+void remove_checkpoints_after(const std::filesystem::path& folder, std::int64_t steps);
 /// Those of an earlier run. What cannot be removed will be replaced.
 void remove_checkpoints(const std::filesystem::path& folder);
 
@@ -31,12 +44,17 @@ void remove_checkpoints(const std::filesystem::path& folder);
 struct FoundCheckpoint {
   std::filesystem::path file;
   geometry::StateTree state;
-  std::vector<std::string> damaged;  ///< what is wrong with later ones that cannot be read
+  /// What is wrong with later ones: they cannot be read, or go on with files that are not there.
+  std::vector<std::string> damaged;
 };
 /// The last one of a run, or the last one not after a time (s).
 /// @throws InputError if there is none, with what is wrong with those that cannot be read
 FoundCheckpoint last_checkpoint(const std::filesystem::path& folder,
                                 const std::optional<double>& not_after = std::nullopt);
+
+/// The last one of a run with whose histories it can go on: each has as many bytes as it had then.
+/// @throws InputError if there is none, with what is wrong with those that there are
+FoundCheckpoint last_checkpoint_with_files(const std::filesystem::path& folder);
 
 /// The last one before a step, and not after a time (s).
 /// @throws InputError if there is none

@@ -15,13 +15,12 @@ ClockCheckpoints::ClockCheckpoints(std::filesystem::path folder, std::optional<d
 }
 
 void ClockCheckpoints::written(std::int64_t step) {
-  remove_last(step);
-  last_ = step;
+  remove_clock_checkpoints(folder_, step);
   wait_again();
 }
 
-void ClockCheckpoints::replaced_by(std::int64_t step) {
-  remove_last(step);
+void ClockCheckpoints::replaced() {
+  remove_clock_checkpoints(folder_);
   wait_again();
 }
 
@@ -31,12 +30,6 @@ void ClockCheckpoints::wait_again() {
   if (!interval_) return;
   next_ =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::min(*interval_, kLongest));
-}
-
-/// @param now  step of the one that has come after it: of the same step it is in its place already
-void ClockCheckpoints::remove_last(std::int64_t now) {
-  if (last_ && *last_ != now) remove_run_checkpoint(folder_, *last_);
-  last_.reset();
 }
 
 }  // namespace plekton::apps

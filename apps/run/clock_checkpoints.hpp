@@ -10,8 +10,8 @@ namespace plekton::apps {
 
 /// Checkpoints by the clock on the wall: so that a run that is killed loses no more than that much
 /// of it. There is one at a time: each replaces the one before, and one that the scenario asks for
-/// by simulated time, or at the end, replaces it too. So they leave nothing behind, and what a run
-/// writes does not depend on the clock.
+/// by simulated time, or at the end, replaces it too, and those that a run left that was killed. So
+/// they leave nothing behind, and what a run writes does not depend on the clock.
 class ClockCheckpoints {
  public:
   using Clock = std::chrono::steady_clock;
@@ -25,16 +25,14 @@ class ClockCheckpoints {
   /// One has been written, complete.
   void written(std::int64_t step);
   /// One that stays has been written, complete.
-  void replaced_by(std::int64_t step);
+  void replaced();
 
  private:
   void wait_again();
-  void remove_last(std::int64_t now);
 
   std::filesystem::path folder_;
   std::optional<std::chrono::duration<double>> interval_;
   Clock::time_point next_ = Clock::time_point::max();
-  std::optional<std::int64_t> last_;  ///< step of the one that is there
 };
 
 }  // namespace plekton::apps

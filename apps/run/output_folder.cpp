@@ -58,11 +58,24 @@ void check_output_folder(const fs::path& folder, bool overwrite) {
 
 OutputFolderLock::OutputFolderLock(const fs::path& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-    return;
-  ::close(descriptor_);
-  throw dynamics::OutputError(
-      folder, "another run writes to this folder; wait for its end or choose another with --out");
+  if (descriptor_ < 0) {
+    // No folder yet, or none at all: whoever makes it says so.
+    if (errno == ENOENT || errno == ENOTDIR) return;
+    throw dynamics::OutputError(folder, "open the folder to keep other runs out of it", errno);
+  }
+  int reason = EINTR;
+  while (reason == EINTR) reason = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+  if (reason == EWOULDBLOCK) {
+    ::close(descriptor_);
+    throw dynamics::OutputError(folder,
+                                "another run writes to this folder; wait for its end or choose "
+                                "another with --out");
+  }
+  if (reason != 0)
+    warning_ = fmt::format(
+        "{}: cannot be locked ({}), so that nothing keeps a second run out of it: see that there "
+        "is none",
+        folder.string(), std::generic_category().message(reason));
 }
 
 OutputFolderLock::~OutputFolderLock() {

@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace plekton::apps {
@@ -36,17 +37,23 @@ void remove_parts(const std::filesystem::path& folder);
 void check_output_folder(const std::filesystem::path& folder, bool overwrite);
 
 /// Keeps a folder for one run: a second run into it would mix its files with those of the first.
-/// The lock ends with the process, however that ends. File systems without locks are not guarded.
+/// The lock ends with the process, however that ends.
 class OutputFolderLock {
  public:
-  /// @throws dynamics::OutputError if another run holds the folder
+  /// @throws dynamics::OutputError if another run holds the folder, or it is there and cannot be
+  /// opened
   explicit OutputFolderLock(const std::filesystem::path& folder);
   OutputFolderLock(const OutputFolderLock&) = delete;
   OutputFolderLock& operator=(const OutputFolderLock&) = delete;
   ~OutputFolderLock();
 
+  /// That nothing guards the folder, as on file systems without locks; empty: it is guarded, or not
+  /// there.
+  const std::string& warning() const noexcept { return warning_; }
+
  private:
   int descriptor_;
+  std::string warning_;
 };
 
 }  // namespace plekton::apps

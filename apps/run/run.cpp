@@ -25,6 +25,7 @@
 #include "apps/scene/build_stage.hpp"
 #include "contact/among_ranks.hpp"
 #include "dynamics/output/file.hpp"
+#include "dynamics/output/sync.hpp"
 #include "geometry/base/sign_totals.hpp"
 #include "geometry/base/state_archive.hpp"
 #include "geometry/base/vector_width.hpp"
@@ -152,10 +153,17 @@ class Run {
     if (settings.resume != nullptr) go_on_from(*settings.resume);
   }
 
+  /// For its report, once, however often it goes on. @param warning  may be empty
+  void warn(const std::string& warning) {
+    std::vector<std::string>& known = report_.warnings;
+    const bool is_new = std::find(known.begin(), known.end(), warning) == known.end();
+    if (!warning.empty() && is_new) known.push_back(warning);
+  }
+
   RunReport execute() {
     try {
       report_.status = loop();
-      if (stage_ && report_.status == RunStatus::finished) return end_of_stage();
+      if (!ended_by_.empty()) return end_of_stage();
       // What is written at the end is no part of it: a run that goes on has it not.
       if (last_checkpoint_step_ != simulation_.steps()) write_checkpoint();
       if (report_.status != RunStatus::interrupted) simulation_.check_energy();
@@ -245,10 +253,16 @@ class Run {
       if (looks && clock_says_checkpoint()) write_checkpoint_by_clock();
       if (looks) progress_.update(simulation_.time(), simulation_.steps());
       if (settings_.is_interrupted()) return RunStatus::interrupted;
+      if (is_far_enough()) return RunStatus::finished;
       if (looks && stops()) return stop_status();
       if (looks && stage_ends()) return RunStatus::finished;
     }
     return RunStatus::finished;
+  }
+
+  bool is_far_enough() const {
+    return settings_.until &&
+           simulation_.time() >= *settings_.until - 0.5 * simulation_.time_step();
   }
 
   bool clock_says_checkpoint() const {
@@ -289,9 +303,9 @@ class Run {
 
   void write_checkpoint() {
     next_checkpoint_ = std::max(next_checkpoint_ + checkpoint_interval(), simulation_.time());
-    geometry::StateTree state = written_state();
+    geometry::StateTree state = written_state(CheckpointKind::stays);
     last_checkpoint_step_ = simulation_.steps();
-    clock_checkpoints_.replaced_by(simulation_.steps());
+    clock_checkpoints_.replaced();
     if (settings_.end_of_stage != nullptr && !ended_by_.empty())
       *settings_.end_of_stage = std::move(state);
   }
@@ -299,11 +313,12 @@ class Run {
   /// As if there had been none: what is due by simulated time, and when, stays as it is.
   void write_checkpoint_by_clock() {
     if (last_checkpoint_step_ == simulation_.steps()) return;
-    written_state();
+    written_state(CheckpointKind::by_clock);
     clock_checkpoints_.written(simulation_.steps());
   }
 
-  geometry::StateTree written_state() {
+  /// Histories are on the disk before the checkpoint that goes on with them.
+  geometry::StateTree written_state(CheckpointKind kind) {
     const TimeInto output(report_.output_time);
     for_each_history([](auto& history) { history.flush(); });
     geometry::StateTree state = simulation_.snapshot();
@@ -316,7 +331,8 @@ class Run {
     ScenarioText text = text_of(scenario_);
     text.exchange(archive);
     if (stage_) exchange_stage(archive.group(kStageGroup));
-    write_run_checkpoint(settings_.out, simulation_.steps(), state);
+    for (const auto& [name, size] : files.sizes) dynamics::sync_file(settings_.out / name);
+    write_run_checkpoint(settings_.out, simulation_.steps(), state, kind);
     return state;
   }
 
@@ -344,7 +360,7 @@ class Run {
       next_checkpoint_ = simulation_.time() + checkpoint_interval();
     if (from.is_there) follow_new_intervals();
     if (from.same_folder) {
-      last_checkpoint_step_ = simulation_.steps();
+      if (!from.by_clock) last_checkpoint_step_ = simulation_.steps();
       return;
     }
     if (!from.from) return;
@@ -692,12 +708,16 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
     const bool goes_on = settings.resume != nullptr && settings.resume->same_folder;
     if (!settings.overwrite && !goes_on) refuse_results(settings.out, "run", kResultFiles);
     remove_parts(settings.out);
-    if (!goes_on) remove_checkpoints(settings.out);
+    // What came after is computed again, now perhaps with other intervals.
+    goes_on ? remove_checkpoints_after(settings.out, prepared.simulation->steps())
+            : remove_checkpoints(settings.out);
     std::error_code ignored;
     std::filesystem::remove(settings.out / "run.json", ignored);
     if (!goes_on) write_scenario_copy(settings.out, scenario);
   });
-  return Run(scenario, prepared, settings, start).execute();
+  Run all(scenario, prepared, settings, start);
+  if (lock) all.warn(lock->warning());
+  return all.execute();
 }
 
 }  // namespace plekton::apps

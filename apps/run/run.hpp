@@ -44,6 +44,7 @@ struct Resumption {
   bool same_folder = true;     ///< whose files go on; or others begin
   std::optional<double> from;  ///< s, when output begins; nothing: goes on as it would have
   bool is_there = false;  ///< the simulation is in that state already: a stage before led to it
+  bool by_clock = false;  ///< the state is that of a checkpoint that does not stay
 };
 
 /// How and where to run.
@@ -59,6 +60,8 @@ struct RunSettings {
   const RunReport* stages_before = nullptr;     ///< of the same run of the program
   geometry::StateTree* end_of_stage = nullptr;  ///< set to the state at its end, if it is given
   bool has_next_stage = false;                  ///< which will write run.json
+  /// s, after which a run of stages goes on no more, within one; nothing: to its end.
+  std::optional<double> until = std::nullopt;
 };
 
 /// Runs a prepared simulation to its end, or until it is at rest or interrupted, and writes frames,

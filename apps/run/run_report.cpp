@@ -83,10 +83,10 @@ Json json_of(const std::vector<Check>& certificate) {
   Json rows = Json::array();
   for (const Check& check : certificate) {
     rows.push_back({{"name", check.name},
-                    {"value", check.value},
-                    {"limit", check.limit},
+                    {"value", check.text.empty() ? Json(check.value) : Json(check.text)},
+                    {"limit", check.limit},  // null where there is none
                     {"verdict", check.is_red() ? "red" : "green"}});
-    if (check.is_red()) rows.back()["advice"] = check.advice;
+    if (!check.advice.empty()) rows.back()["advice"] = check.advice;
   }
   return rows;
 }

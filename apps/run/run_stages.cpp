@@ -106,7 +106,8 @@ RunReport run_stages(const Scenario& scenario, PreparedRun first, const RunSetti
       of_stage.stages_before = &*before;
     }
     before = run(stage, prepared, of_stage);
-    if (before->status != RunStatus::finished) return *before;
+    const bool has_ended = before->status == RunStatus::finished && !before->ended_by.empty();
+    if (!has_ended) return *before;
     if (stages.ends) stages.ends(stage, *before);
     if (!of_stage.has_next_stage) return *before;
     StageBegin next = begin_next(scenario.stages[number + 1], prepared, end, stages.hear,

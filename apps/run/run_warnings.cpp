@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace plekton::apps {
@@ -88,6 +89,25 @@ std::string advice_on_lost_grains(const RunReport& report) {
       report.lost_grains, report.lost_through_membranes, report.lost_out_of_bounds);
 }
 
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// What was asked for is no fault: only whoever did not expect it has to know.
+Check check_of_broken(const RunReport& report) {
+  Check check{"broken_bonds", static_cast<double>(report.broken_bonds), kNoLimit, false, "", ""};
+  if (report.broken_bonds > 0)
+    check.advice = fmt::format(
+        "{} of {} bonds broke, as strength, rupture_strain or wire of their membrane says; column "
+        "broken_bonds of energy.csv has when",
+        report.broken_bonds, report.bonds);
+  return check;
+}
+
+/// By it runs are compared, on other machines too.
+Check check_of_chain(const RunReport& report) {
+  const double states = static_cast<double>(report.states.all().size());
+  return {"hash_chain", states, kNoLimit, false, "", fmt::format("{:016x}", report.states.chain())};
+}
+
 /// A run tells of it when it happens.
 constexpr std::string_view kStepCheck = "dt_over_critical";
 
@@ -112,7 +132,7 @@ std::vector<Check> certificate_of_motion(const RunReport& report) {
   std::vector<Check> certificate;
   const auto add = [&](std::string_view name, double value, double limit, bool in_percent,
                        Advice advice) {
-    certificate.push_back(checked(report, {name, value, limit, in_percent, ""}, advice));
+    certificate.push_back(checked(report, {name, value, limit, in_percent, "", ""}, advice));
   };
   add("largest_overlap_ratio", report.largest_overlap_ratio, kDeepOverlap, true, advice_on_overlap);
   add("largest_motion_ratio", report.largest_motion_ratio, kFastMotion, true, advice_on_motion);
@@ -126,14 +146,17 @@ std::vector<Check> certificate_of_motion(const RunReport& report) {
       false, advice_on_momentum);
   add("lost_grains", static_cast<double>(report.lost_grains), 0.0, false, advice_on_lost_grains);
   add(kStepCheck, report.dt_over_critical, dynamics::kLargestStep, false, advice_on_step);
+  certificate.push_back(check_of_broken(report));
   return certificate;
 }
 
 std::vector<Check> certificate_of(const RunReport& report) {
   std::vector<Check> certificate = certificate_of_motion(report);
   certificate.push_back(checked(
-      report, {"exact_decisions", exact_decisions_per_node(report), kManyExactDecisions, false, ""},
+      report,
+      {"exact_decisions", exact_decisions_per_node(report), kManyExactDecisions, false, "", ""},
       advice_on_exact_decisions));
+  certificate.push_back(check_of_chain(report));
   return certificate;
 }
 

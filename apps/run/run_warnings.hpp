@@ -35,9 +35,10 @@ inline constexpr double kFastMotion = 1.001 * dynamics::kLargestMotion;
 struct Check {
   std::string_view name;
   double value = 0.0;
-  double limit = 0.0;       ///< above which it is red
+  double limit = 0.0;       ///< above which it is red; infinite: it is told, and never red
   bool in_percent = false;  ///< how people read it
-  std::string advice;       ///< what is wrong and what to do about it, where it is red
+  std::string advice;       ///< what is wrong and what to do about it, where there is anything
+  std::string text;         ///< in place of the value, of what is no number
 
   bool is_red() const noexcept { return !(value <= limit); }
 };
@@ -52,7 +53,7 @@ std::vector<Check> certificate_of_motion(const RunReport& report);
 /// Whether anything in it is red.
 bool has_red(const std::vector<Check>& certificate);
 
-/// As in "certificate: 9 of 10 green; red: largest_overlap_ratio 6.2 % (at most 5 %)".
+/// As in "certificate: 11 of 12 green; red: largest_overlap_ratio 6.2 % (at most 5 %)".
 std::string summary_of(const std::vector<Check>& certificate);
 
 /// The advice of what is red.

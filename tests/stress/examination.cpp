@@ -230,7 +230,8 @@ class Examination {
       fs::remove(checkpoints[i]);
     const int threads = 2 + static_cast<int>(text_.size() % 2);
     const std::vector<std::string> settings{fmt::format("simulation.threads={}", threads)};
-    const apps::ResumedRun resumed = apps::find_resumed_run(folder_of(Part::run), settings, "", "");
+    const apps::ResumedRun resumed = apps::find_resumed_run(
+        {.folder = folder_of(Part::run), .overrides = settings, .same_folder = true});
     try {
       PreparedRun prepared = apps::prepare_run(resumed.scenario);
       const apps::Resumption from{resumed.checkpoint.state, true, std::nullopt};

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -232,8 +233,8 @@ TEST_F(Stages, TakeOutGrainsBringOthersAndTellOfEach) {
   EXPECT_EQ(stages[2]["grains"], level);
   EXPECT_EQ(stages[2]["planes"], 5);
   EXPECT_EQ(stages[1]["start_s"], stages[0]["end_s"]);
-  // Exact decisions are counted for the run as a whole.
-  EXPECT_EQ(stages[2]["certificate"].size() + 1, report("once")["certificate"].size());
+  // Exact decisions and hashes are of the run as a whole.
+  EXPECT_EQ(stages[2]["certificate"].size() + 2, report("once")["certificate"].size());
   const std::string planes = test::bytes_of(folder_ / "once/planes.csv");
   EXPECT_THAT(planes.substr(0, planes.find('\n')), HasSubstr("lid.point_z (m)"));
   EXPECT_THAT(test::bytes_of(folder_ / "once/reactions.csv"), HasSubstr("lid.force_z (N)"));
@@ -263,6 +264,28 @@ TEST_F(Stages, GoOnFromAnyCheckpointToTheLastByte) {
       EXPECT_EQ(test::bytes_of(stopped / name), test::bytes_of(folder_ / "whole" / name))
           << name << " from " << files[left - 1];
   }
+}
+
+/// Across the end of a stage, with more output than there was.
+TEST_F(Stages, ArePartlyComputedAgainInAnotherFolder) {
+  ASSERT_EQ(run(all_stages(), "whole").exit_code, 0);
+  const Outcome outcome =
+      Program({"run", "--resume", in("whole"), "--quiet", "--out", in("part"), "--from", "15 ms",
+               "--to", "20 ms", "--set", "output.history_interval=\"0.2 ms\""})
+          .wait();
+
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json part = report("part");
+  EXPECT_EQ(part["status"], "finished");
+  EXPECT_NEAR(part["timing"]["simulated_time_s"].get<double>(), 0.020, 1e-4);
+  expect_same_states("part", "whole", 10);
+  std::istringstream rows(test::bytes_of(folder_ / "part/energy.csv"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(rows, line);) lines.push_back(line);
+  EXPECT_NEAR(std::stod(lines.at(1)), 0.015, 1e-4);
+  EXPECT_NEAR(std::stod(lines.back()), 0.020, 1e-4);
+  EXPECT_GE(lines.size(), 25U);
+  EXPECT_EQ(part["stages"].size(), 2U);  // the third one is cut off
 }
 
 TEST_F(Stages, FailWhereTheirEndDoesNotComeAndKeepThoseBefore) {

@@ -27,7 +27,9 @@ using testing::IsEmpty;
 
 class ClockCheckpointFiles : public testing::Test {
  protected:
-  void write(std::int64_t step) const { write_run_checkpoint(folder_.path(), step, {}); }
+  void write(std::int64_t step, CheckpointKind kind = CheckpointKind::by_clock) const {
+    write_run_checkpoint(folder_.path(), step, {}, kind);
+  }
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const fs::path& file : checkpoints_of(folder_.path())) names.push_back(file.stem());
@@ -44,21 +46,39 @@ TEST_F(ClockCheckpointFiles, ReplaceEachOther) {
     clock.written(step);
   }
 
-  EXPECT_THAT(names(), ElementsAre("step_000000000048"));
+  EXPECT_THAT(names(), ElementsAre("step_000000000048_clock"));
 }
 
 TEST_F(ClockCheckpointFiles, AreReplacedByOneThatStaysAlsoOfTheSameStep) {
   ClockCheckpoints clock(folder_.path(), 60.0);
   write(16);
   clock.written(16);
-  write(20);
-  clock.replaced_by(20);
+  write(20, CheckpointKind::stays);
+  clock.replaced();
   write(32);
   clock.written(32);
-  write(32);
-  clock.replaced_by(32);
+  write(32, CheckpointKind::stays);
+  clock.replaced();
 
   EXPECT_THAT(names(), ElementsAre("step_000000000020", "step_000000000032"));
+}
+
+TEST_F(ClockCheckpointFiles, OfARunThatWasKilledAreReplacedToo) {
+  for (const std::int64_t step : {16, 32}) write(step);
+  ClockCheckpoints clock(folder_.path(), std::nullopt);
+  write(40, CheckpointKind::stays);
+  clock.replaced();
+
+  EXPECT_THAT(names(), ElementsAre("step_000000000040"));
+}
+
+TEST_F(ClockCheckpointFiles, ThatComeAfterTheOneThatARunGoesOnFromAreRemoved) {
+  for (const std::int64_t step : {16, 32, 48}) write(step, CheckpointKind::stays);
+  write(32);
+  remove_checkpoints_after(folder_.path(), 32);
+
+  EXPECT_THAT(names(),
+              ElementsAre("step_000000000016", "step_000000000032", "step_000000000032_clock"));
 }
 
 TEST_F(ClockCheckpointFiles, AreDueAfterTheIntervalAndNotAgainAtOnce) {
@@ -114,16 +134,23 @@ TEST_F(ClockCheckpointRuns, GoOnFromOneAfterAKill) {
   ASSERT_TRUE(Program::appears(folder_ / "killed/frames/grains_00010.vtp"));
   killed.send(SIGKILL);
   killed.wait();
-  const std::vector<fs::path> left = checkpoints_of(out("killed"));
-  ASSERT_FALSE(left.empty());
+  ASSERT_FALSE(checkpoints_of(out("killed")).empty());
   const Outcome resumed = Program({"run", "--resume", out("killed"), "--quiet"}).wait();
 
   ASSERT_EQ(resumed.exit_code, kDone) << resumed.err;
-  auto results_of_killed = results("killed");
-  for (const fs::path& file : left)  // what the kill left may be one more
-    if (!results("plain").contains("checkpoints/" + file.filename().string()))
-      results_of_killed.erase("checkpoints/" + file.filename().string());
-  EXPECT_THAT(differences(results_of_killed, results("plain")), IsEmpty());
+  EXPECT_THAT(differences(results("killed"), results("plain")), IsEmpty());
+}
+
+/// As a kill between the last step and the checkpoint at the end leaves it.
+TEST_F(ClockCheckpointRuns, EndWithTheCheckpointThatStaysAlsoFromOneOfTheLastStep) {
+  ASSERT_EQ(Program(arguments_with("plain", false)).wait().exit_code, kDone);
+  const auto whole = results("plain");
+  const fs::path last = checkpoints_of(out("plain")).back();
+  fs::rename(last, last.parent_path() / (last.stem().string() + "_clock.h5"));
+  const Outcome resumed = Program({"run", "--resume", out("plain"), "--quiet"}).wait();
+
+  ASSERT_EQ(resumed.exit_code, kDone) << resumed.err;
+  EXPECT_THAT(differences(results("plain"), whole), IsEmpty());
 }
 
 TEST_F(ClockCheckpointRuns, RefuseAnIntervalThatIsNone) {

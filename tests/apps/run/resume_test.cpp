@@ -2,6 +2,7 @@
 // A run that goes on from any of its checkpoints is the run that was never stopped, to the last
 // byte of all that it writes. Each of the scenes is run by 1 and by 4 threads and goes on with 2 and
 // 1; with PLEKTON_RESUMES=all in the environment from every checkpoint, otherwise from a few.
+#include "apps/run/build_info.hpp"
 #include "apps/run/checkpoints.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "tests/apps/command_line/program_fixture.hpp"
@@ -221,6 +222,50 @@ TEST_F(ResumeErrors, GoOnFromTheCheckpointBeforeADamagedOne) {
   EXPECT_EQ(test::bytes_of(checkpoints.back()), last);
 }
 
+/// As a power cut may leave it where the disk does not keep its word.
+TEST_F(ResumeErrors, GoOnFromTheCheckpointThatKnowsNoMoreRowsThanThereAre) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const fs::path energies = folder_ / "out/energy.csv";
+  const std::string whole = test::bytes_of(energies);
+  const fs::path last = checkpoints_of(out()).back();
+  const std::string checkpoint = test::bytes_of(last);
+  fs::resize_file(energies, whole.size() - 10);
+  const Outcome outcome = resume();
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_NE(outcome.err.find("energy.csv has " + std::to_string(whole.size() - 10) +
+                             " bytes, fewer than the "),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("goes on from an earlier checkpoint"), std::string::npos);
+  EXPECT_EQ(test::bytes_of(energies), whole);
+  EXPECT_EQ(test::bytes_of(last), checkpoint);
+}
+
+TEST_F(ResumeErrors, TellThatNoCheckpointGoesOnWithTheFilesThatThereAre) {
+  ASSERT_EQ(run().exit_code, kDone);
+  fs::remove(folder_ / "out/energy.csv");
+  const Outcome outcome = resume();
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_NE(outcome.err.find("is not there any more"), std::string::npos) << outcome.err;
+}
+
+TEST_F(ResumeErrors, WarnOfACheckpointOfAnotherRevision) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const std::string revision(build_info().revision);
+  EXPECT_EQ(resume({"--set", "simulation.duration=6 ms"}).err.find("revision"), std::string::npos);
+  const fs::path last = checkpoints_of(out()).back();
+  std::string bytes = test::bytes_of(last);
+  bytes.replace(bytes.find("revision ") + 9, 1, "?");
+  test::write_bytes(last, bytes);
+  const Outcome outcome = resume({"--set", "simulation.duration=7 ms"});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_NE(outcome.err.find("was written by revision ?"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("this is " + revision), std::string::npos) << outcome.err;
+}
+
 TEST_F(ResumeErrors, RefuseWhatWouldMakeItAnotherRun) {
   ASSERT_EQ(run().exit_code, kDone);
   const Outcome outcome = resume({"--set", "materials.soil.young_modulus=\"1 MPa\""});
@@ -250,9 +295,8 @@ TEST_F(ResumeErrors, GoBeyondTheDurationThatWasAskedForAtFirst) {
 TEST_F(ResumeErrors, ComputeAPartOfARunAgainWithOtherOutput) {
   ASSERT_EQ(run().exit_code, kDone);
   const fs::path part = folder_ / "part";
-  const Outcome outcome =
-      resume({"--out", part.string(), "--from", "1.5 ms", "--to", "4 ms", "--set",
-              "output.history_interval=\"1e-4 s\""});
+  const Outcome outcome = resume({"--out", part.string(), "--from", "1.5 ms", "--to", "4 ms",
+                                  "--set", "output.history_interval=\"1e-4 s\""});
   ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
 
   const auto rows_of = [](const fs::path& file) {
@@ -267,9 +311,10 @@ TEST_F(ResumeErrors, ComputeAPartOfARunAgainWithOtherOutput) {
   EXPECT_GE(std::stod(again[1]), 0.001);
   EXPECT_NEAR(std::stod(again.back()), 0.004, 1e-4);
   EXPECT_EQ(again.front(), whole.front());
-  EXPECT_GE(std::count_if(again.begin() + 1, again.end(),
-                          [&](const std::string& row) { return std::ranges::count(whole, row) == 1; }),
-            2);
+  EXPECT_GE(
+      std::count_if(again.begin() + 1, again.end(),
+                    [&](const std::string& row) { return std::ranges::count(whole, row) == 1; }),
+      2);
 }
 
 TEST_F(ResumeErrors, InspectTellsWhatACheckpointHolds) {
@@ -278,6 +323,8 @@ TEST_F(ResumeErrors, InspectTellsWhatACheckpointHolds) {
   const Outcome outcome = Program({"inspect", last.string()}).wait();
 
   EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  const std::string revision = ", revision " + std::string(build_info().revision) + "\n";
+  EXPECT_NE(outcome.out.find(revision), std::string::npos) << outcome.out;
   for (const char* told : {": checkpoint of version ", "time 0.005 s, step ", "a.toml", " 5 nodes",
                            " 2 facets", "hash of the state ", "nodes/velocity "})
     EXPECT_NE(outcome.out.find(told), std::string::npos) << told << " in\n" << outcome.out;
