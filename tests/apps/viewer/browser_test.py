@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pages of plekton view in a browser without a screen: their own check passes, and pictures differ from frame to frame.
+"""Pages of plekton view in a browser without a screen: their own check passes, pictures differ from frame to frame, picking, histories and keys
+do what they say, and a page that is served shows its run. The page of the catch is below 3 MB.
 
 Usage: python3 browser_test.py PROGRAM ROOT [--pictures FOLDER]; ends 77 where chromium is missing
 """
@@ -9,6 +10,7 @@ import html
 import json
 import re
 import shutil
+import signal
 import struct
 import subprocess
 import sys
@@ -27,14 +29,94 @@ BROWSER = [
     "--enable-unsafe-swiftshader",
     "--hide-scrollbars",
     "--window-size=1000,760",
-    "--host-resolver-rules=MAP * ~NOTFOUND",
+    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
 ]
 """Software rendering, and no name is found: a page that loads something from a network fails."""
 
 SCENES = {
-    "catch": ["catch/catch.toml", "--set", "grains.gravel.count=150", "--set", "simulation.duration=300 ms"],
-    "net": ["net/net.toml", "--set", "simulation.duration=80 ms"],
+    "catch": ["apps/examples/catch/catch.toml", "--set", "grains.gravel.count=150", "--set", "simulation.duration=300 ms"],
+    "net": ["apps/examples/net/net.toml", "--set", "simulation.duration=80 ms"],
+    "pull-out": ["tests/apps/viewer/pull_out.toml"],
 }
+LARGEST_CATCH = 3_000_000
+"""Bytes of the page of the catch."""
+
+PROBE = """<pre id="probe" hidden></pre><script>
+(async () => {
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  const told = {};
+  try {
+    while (document.documentElement.dataset.ready !== 'yes') await wait(50);
+    const page = window.plekton, key = (key, more = {}) => window.dispatchEvent(new KeyboardEvent('keydown', { key, ...more }));
+    await (async () => { %s })();
+  } catch (error) { told.error = String(error); }
+  document.getElementById('probe').textContent = JSON.stringify(told);
+})();
+</script>"""
+"""Beside a page that is ready: what it does is told as JSON."""
+
+KEYS = """
+  key('End'); told.end = page.frame;
+  key('ArrowLeft'); told.left = page.frame;
+  key('ArrowLeft', { shiftKey: true }); told.ten = page.frame;
+  key('Home'); told.home = page.frame;
+  key('ArrowRight'); told.right = page.frame;
+  for (const [name, press, state] of [
+    ['contacts', 'c', () => page.view.settings.contacts.shown], ['slice', 'x', () => page.view.settings.slice.on],
+    ['dark', 'd', () => document.documentElement.classList.contains('dark')],
+    ['parallel', 'p', () => page.stage.camera === page.stage.orthographic],
+    ['histories', 'g', () => !document.querySelector('footer').classList.contains('no-plot')],
+    ['settings', 'h', () => !document.querySelector('main').classList.contains('no-panel')],
+    ['playing', ' ', () => page.playing !== null]]) {
+    const before = state();
+    key(press); const pressed = state();
+    key(press); told[name] = [before, pressed, state()];
+  }
+"""
+
+PICK = """
+  await page.goTo(Infinity);
+  page.stage.fitCamera();
+  const camera = page.stage.camera, box = document.getElementById('canvas').getBoundingClientRect();
+  const places = await page.run.array(page.frame, 'grains', 'grains', 'position');
+  const ids = await page.run.array(page.frame, 'grains', 'grains', 'id');
+  let best = null;
+  for (let i = 0; i < places.length / 3; i++) {
+    const at = camera.position.clone().set(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
+    const distance = at.distanceTo(camera.position);
+    if (!best || distance < best.distance) best = { distance, at, id: ids ? ids[i] : i };
+  }
+  best.at.project(camera);
+  const x = box.left + (best.at.x + 1) / 2 * box.width, y = box.top + (1 - best.at.y) / 2 * box.height;
+  const canvas = document.getElementById('canvas'), event = { clientX: x, clientY: y, isPrimary: true, button: 0, bubbles: true };
+  canvas.dispatchEvent(new PointerEvent('pointerdown', event));
+  canvas.dispatchEvent(new PointerEvent('pointerup', event));
+  await wait(500);
+  told.nearest = best.id;
+  told.picked = page.picked.innerText;
+  told.legend_before = document.getElementById('plot').innerText;
+  page.picked.querySelector('tr.can').click();
+  await wait(3000);
+  told.bar = document.getElementById('plot-bar').innerText;
+  told.rows = page.histories.plot.data[0].length;
+  told.values = page.histories.plot.data[1].filter((v) => v !== null).length;
+  key('Escape'); await wait(200);
+  told.after = page.view.selected;
+"""
+
+SHORTER = """
+  const { header } = page.run;
+  await page.goTo(10);
+  const lists = [header.frames.filter((_, k) => k % 2 === 0), header.frames.slice(0, 3)];
+  told.shown = [];
+  page.run.refresh = async () => {
+    if (!lists.length) return false;
+    page.run.header = { ...header, generation: lists.length, frames: lists.shift() };
+    return true;
+  };
+  while (lists.length) { await page.follow(); told.shown.push([page.frame, page.view.frame, page.run.frames.length]); }
+  told.message = document.getElementById('message').textContent;
+"""
 
 arguments = None
 folder = None
@@ -97,16 +179,24 @@ def coloured_share(file):
     return count / total
 
 
+def told_by(said, name):
+    """What a page that was dumped has in a <pre>, as JSON."""
+    found = re.search(rf'<pre id="{name}"[^>]*>(.*?)</pre>', said, re.DOTALL)
+    return json.loads(html.unescape(found[1]) or "{}")
+
+
 class Pages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        examples = Path(arguments.root) / "apps" / "examples"
-        for name, (scenario, *options) in SCENES.items():
-            out = folder / name
-            subprocess.run(
-                [arguments.program, "run", examples / scenario, "--out", out, "--quiet", *options], check=True
-            )
-            subprocess.run([arguments.program, "view", out], check=True, stdout=subprocess.DEVNULL)
+        for name, scenario in SCENES.items():
+            cls.view_of_run(name, *scenario)
+
+    @staticmethod
+    def view_of_run(name, scenario, *options):
+        out = folder / name
+        command = [arguments.program, "run", Path(arguments.root) / scenario, "--out", out, "--quiet", *options]
+        subprocess.run(command, check=True)
+        subprocess.run([arguments.program, "view", out], check=True, stdout=subprocess.DEVNULL)
 
     def page(self, name):
         return (folder / name / "view.html").as_uri()
@@ -119,15 +209,29 @@ class Pages(unittest.TestCase):
             shutil.copy(file, arguments.pictures)
         return file
 
+    def probed(self, name, script):
+        """What a script tells that runs beside a page."""
+        page = folder / name / "probed.html"
+        text = (folder / name / "view.html").read_text(encoding="utf-8")
+        page.write_text(text.replace("</body>", PROBE % script + "</body>"), encoding="utf-8")
+        told = told_by(browse(page.as_uri(), "--virtual-time-budget=20000", "--dump-dom"), "probe")
+        self.assertNotIn("error", told)
+        return told
+
+    def frames(self, name):
+        return json.loads((folder / name / "run.json").read_text())["counts"]["frames"]
+
     def test_a_page_finds_nothing_wrong_with_itself(self):
         for name in SCENES:
             said = browse(self.page(name) + "#self-check", "--virtual-time-budget=20000", "--dump-dom")
-            found = re.search(r'<pre id="self-check"[^>]*>(.*?)</pre>', said, re.DOTALL)
-            result = json.loads(html.unescape(found[1]) or "{}")
+            result = told_by(said, "self-check")
             self.assertTrue(result.get("ok"), result)
-            frames = json.loads((folder / name / "run.json").read_text())["counts"]["frames"]
-            self.assertEqual(result["frames"], frames)
+            self.assertEqual(result["frames"], self.frames(name))
             self.assertGreater(result["drawn"], 0.005)
+
+    def test_the_page_of_the_catch_is_small(self):
+        self.view_of_run("whole catch", "apps/examples/catch/catch.toml")
+        self.assertLess((folder / "whole catch" / "view.html").stat().st_size, LARGEST_CATCH)
 
     def test_grains_are_seen_where_they_are_shown_only(self):
         shown = coloured_share(self.picture("catch", self.page("catch") + "#frame=3&membranes=0"))
@@ -138,6 +242,53 @@ class Pages(unittest.TestCase):
     def test_times_differ(self):
         files = [self.picture(f"net-{frame}", self.page("net") + f"#frame={frame}") for frame in (0, 20, "last")]
         self.assertEqual(len({file.read_bytes() for file in files}), 3)
+
+    def test_keys_do_what_the_help_says(self):
+        told = self.probed("pull-out", KEYS)
+        last = self.frames("pull-out") - 1
+        self.assertEqual([told[k] for k in ("end", "left", "ten", "home", "right")], [last, last - 1, last - 11, 0, 1])
+        for name in ("contacts", "slice", "dark", "parallel", "histories", "settings", "playing"):
+            before, pressed, again = told[name]
+            self.assertNotEqual(before, pressed, name)
+            self.assertEqual(before, again, name)
+
+    def test_a_click_picks_a_grain_whose_numbers_have_histories(self):
+        told = self.probed("pull-out", PICK)
+        self.assertIn(f"Grain {told['nearest']}\n", told["picked"])
+        self.assertIn("velocity", told["picked"])
+        self.assertIn(f"Grain {told['nearest']}", told["bar"])
+        self.assertEqual(told["rows"], self.frames("pull-out"))
+        self.assertEqual(told["values"], told["rows"])
+        self.assertIsNone(told["after"])
+
+    def test_histories_of_measures_can_be_chosen(self):
+        told = self.probed("pull-out", "told.files = page.files.map((f) => f.file);")
+        self.assertEqual(told["files"], ["energy.csv", "reactions.csv", "measures/sample.csv"])
+
+    def test_a_page_that_follows_keeps_to_frames_that_are_there(self):
+        told = self.probed("pull-out", SHORTER)
+        self.assertEqual(told["shown"], [[5, 5, (self.frames("pull-out") + 1) // 2], [2, 2, 3]])
+        self.assertEqual(told["message"], "")
+
+    def test_a_served_page_shows_the_run(self):
+        server = subprocess.Popen(
+            [arguments.program, "view", folder / "net", "--serve", "0"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+        try:
+            said = ""
+            while not (address := re.search(r"http://127\.0\.0\.1:\d+/", said)):
+                line = server.stdout.readline()
+                said += line
+                if "cpp-httplib" in said:
+                    self.skipTest("compiled without cpp-httplib")
+                self.assertTrue(line, said)
+            dumped = browse(address[0] + "#self-check", "--virtual-time-budget=20000", "--dump-dom")
+        finally:
+            server.send_signal(signal.SIGINT)
+            server.communicate(timeout=60)
+        result = told_by(dumped, "self-check")
+        self.assertTrue(result.get("ok"), result)
+        self.assertEqual(result["frames"], self.frames("net"))
 
     def test_a_page_that_is_cut_off_says_so(self):
         whole = (folder / "net" / "view.html").read_bytes()
