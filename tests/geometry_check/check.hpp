@@ -15,7 +15,7 @@ struct CheckOptions {
   std::uint64_t seed = 7;
   int threads = 1;
   std::function<void(double)> progress;  ///< gets the share that is done, from any thread
-  std::string only;                      ///< rows with this in their names; all if it is empty
+  std::string only = {};                 ///< rows with this in their names; all if it is empty
   std::uint64_t trials = 0;              ///< of each of these rows, whatever queries says; 0: by it
 };
 

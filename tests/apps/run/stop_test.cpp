@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What ends a run before its duration is over, and what is said of servos.
+#include "apps/run/checkpoints.hpp"
 #include "apps/run/stage_watch.hpp"
 #include "tests/apps/command_line/program_fixture.hpp"
 #include "tests/support/temporary_folder.hpp"
