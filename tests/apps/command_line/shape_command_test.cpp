@@ -189,7 +189,7 @@ TEST_F(ShapeCommand, RefusesSizesThatGiveNoShape) {
       {R"(kind = "sheet", width = "1e80 m", length = "1 m", cells = [1, 1])",
        "case.toml:10:9: membranes.m: a sheet width of 1e+80 m; expected a positive length below"},
       {R"(kind = "polygon", points = [[0, 0, 0], ["1 m", 0, 0]])",
-       "points: got 2; expected at least 3"},
+       "points: got a list of 2; expected a list of at least 3 vectors"},
       {R"(kind = "polygon", points = [[0, 0, 0], ["1 m", "1 m", 0], ["1 m", 0, 0], [0, "1 m", 0]])",
        "case.toml:10:9: membranes.m: a polygon whose sides touch or cross; give its corners in "
        "their order"},
