@@ -274,7 +274,7 @@ TEST(StageTable, EndsByAStrainBetweenTwoThatHaveADistance) {
               ThrowsMessage<InputError>(HasSubstr("\"lidd\"")));
 }
 
-TEST(Stop, KnowsTheEndsOfStages) {
+TEST(StopKeys, KnowsTheEndsOfStages) {
   const auto with = [](const std::string& stop) {
     std::string text(kScenario);
     text.replace(text.find("damping"), 0, "duration = 1\n");
