@@ -58,14 +58,19 @@ TEST(GeometryCheck, SeesTheSameOnAnyNumberOfThreads) {
 TEST(GeometryCheck, AsksARowAloneWhatItAsksAmongAll) {
   const Report all = check({20000, 2, 1, {}}, certified);
   CheckOptions alone{20000, 2, 1, {}};
-  alone.only = all.pairs[7].family;
+  const auto name_of = [](const PairTally& row) {
+    return std::string(row.pair) + ' ' + row.family;
+  };
+  alone.only = name_of(all.pairs[7]);
   const Report found = check(alone, certified);
 
   EXPECT_EQ(found.pairs[7].queries, all.pairs[7].queries);
   EXPECT_EQ(found.pairs[7].largest_error, all.pairs[7].largest_error);
   EXPECT_EQ(found.pairs[7].double_doubles, all.pairs[7].double_doubles);
   for (std::size_t i = 0; i < all.pairs.size(); ++i)
-    EXPECT_EQ(found.pairs[i].queries > 0, std::string(all.pairs[i].family) == alone.only) << i;
+    EXPECT_EQ(found.pairs[i].queries > 0,
+              name_of(all.pairs[i]).find(alone.only) != std::string::npos)
+        << i;
   for (const InvariantTally& row : found.invariants) EXPECT_EQ(row.trials, 0U) << row.name;
 }
 
