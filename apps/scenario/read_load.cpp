@@ -273,6 +273,8 @@ LoadSettings read_load(Section section, const Scenario& scenario, std::size_t nu
       section.tell_default("plane", "required without rigid_body");
       section.tell_default("direction", "required with rigid_body, but for a torque");
       section.tell_default("about", "required with torque");
+      section.tell_default("speed", "required but for a torque");
+      section.tell_default("angular_speed", "required with torque");
       if (section.has("rigid_body"))
         settings.load = read_body_servo(section, scenario);
       else
