@@ -2,8 +2,9 @@
 """Says how inclusions were pulled out, and whether that can be: python3 check.py RUN [RUN ...]
 
 RUN is the folder of a run of pullout_grid.toml or pullout_membrane.toml, under any pressure. With some pressures it fits the line of
-friction and adhesion, of some beds under the same pressure it says mean and scatter. Writes forces.csv (the force along the inclusion) and
-displacements.csv (of grains, by height) into each folder. Ends 1 where something is out of its bounds.
+friction and adhesion, of some beds under the same pressure it says mean and scatter. Writes forces.csv (the force along the inclusion),
+displacements.csv (of grains, by height), shares.csv (F / (2 sigma A) over the way) and friction.csv (its mean) into each folder. Ends 1
+where something is out of its bounds.
 """
 import csv
 import json
@@ -59,6 +60,13 @@ def frames(run, kind):
     """Files of a series, by their times."""
     text = (run / f"{kind}.pvd").read_text()
     return {float(t): run / file for t, file in re.findall(r'timestep="([^"]+)"[^>]*file="([^"]+)"', text)}
+
+
+def write(path, heads, rows):
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(heads)
+        writer.writerows([f"{value:.5g}" for value in row] for row in rows)
 
 
 def mean(values):
@@ -127,6 +135,8 @@ class PullOut:
         self.share = sum(shares[i] for i in later) / len(later)
         self.largest = max(shares)
         self.sigma = sum(self.pressure[i] for i in later) / len(later)
+        write(run / "shares.csv", ["way of the front edge (mm)", "F / (2 sigma A)"], [(1e3 * u, share) for u, share in zip(self.way, shares)])
+        write(run / "friction.csv", ["pressure (kPa)", "shear stress on either side (kPa)"], [(1e-3 * self.sigma, 1e-3 * self.share * self.sigma)])
         self.along(run, [(t, f) for t, f in zip(of("time"), of("front edge.force_y"))], history["time"][rows[later[0]]])
         self.heights(run, begin)
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Says how a net has stopped a boulder, and whether that can be: python3 check.py RUN [RUN ...]
 
-RUN is the folder of a run of rockfall_net.toml. Ends 1 where something is out of its bounds.
+RUN is the folder of a run of rockfall_net.toml. Writes boulder.csv, ropes.csv and split.csv into it, for rockfall.gnuplot. Ends 1 where
+something is out of its bounds.
 """
 import csv
 import json
@@ -18,6 +19,35 @@ def columns(path):
     with open(path, newline="") as file:
         rows = list(csv.reader(file))
     return {head.split(" (")[0]: [float(row[i]) for row in rows[1:]] for i, head in enumerate(rows[0])}
+
+
+def write(path, heads, rows):
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(heads)
+        writer.writerows([f"{value:.6g}" for value in row] for row in rows)
+
+
+def rope_tensions(ties):
+    """The larger of both ends of each rope, by row: a brake bears what its rope does."""
+    ends = [[ties[f"{side}_brakes[{end}].tension"] for end in (0, 1)] for side in SIDES]
+    return [[max(pair) for pair in zip(*both)] for both in ends]
+
+
+def write_curves(run, boulder, ties, energy):
+    """What happens over time."""
+    write(run / "boulder.csv", ["time (ms)", "force (kN)", "below the net (m)"],
+          zip([1e3 * t for t in boulder["time"]], [1e-3 * f for f in boulder["boulder.force_z"]], [RADIUS - z for z in boulder["boulder.position_z"]]))
+    times = [1e3 * t for t in ties["time"]]
+    write(run / "ropes.csv", ["time (ms)", *SIDES], zip(times, *([1e-3 * f for f in rope] for rope in rope_tensions(ties))))
+    brakes = [sum(values) for values in zip(*(ties[f"{side}_brakes.dissipated"] for side in SIDES))]
+    shackles = [sum(values) for values in zip(*(ties[f"{side}_shackles.dissipated"] for side in SIDES))]
+    wires = [total - a - b for total, a, b in zip(energy["bond_dissipated"], brakes, shackles)]
+    stored = [a + b for a, b in zip(energy["bond_elastic"], energy["contact_elastic"])]
+    lost = [a + b for a, b in zip(energy["friction"], energy["damping"])]
+    parts = {"motion": energy["kinetic"], "height": energy["gravity"], "brakes": brakes, "shackles": shackles, "wires": wires, "stored": stored,
+             "friction and damping": lost}
+    write(run / "split.csv", ["time (ms)", *parts], zip(times, *([1e-3 * value for value in part] for part in parts.values())))
 
 
 class Bounds:
@@ -41,6 +71,7 @@ def check(run, bounds):
     t, z, force = boulder["time"], boulder["boulder.position_z"], boulder["boulder.force_z"]
     low = min(range(len(z)), key=z.__getitem__)
     fall = z[0] - z[low]
+    write_curves(run, boulder, ties, energy)
     available = 0.5 * MASS * SPEED**2 + MASS * GRAVITY * fall
 
     # Newton: at the lowest point the momentum is gone.
@@ -84,6 +115,7 @@ def check(run, bounds):
     bounds.expect("red rows of the certificate", len(red), 0, 0, ", ".join(red) or "all green")
 
     print(f"  the boulder goes {1e3 * (RADIUS - z[low]):.0f} mm below the net in {1e3 * t[low]:.0f} ms; largest force on it {max(force) / 1e3:.1f} kN")
+    print("  largest tension of ropes: " + ", ".join(f"{side} {max(rope) / 1e3:.2f} kN" for side, rope in zip(SIDES, rope_tensions(ties))))
     print(f"  brakes pay out {1e3 * min(paid):.0f} to {1e3 * max(paid):.0f} mm")
     print("  energy at the end: " + ", ".join(f"{name} {value / 1e3:.2f} kJ" for name, value in split.items()))
 

@@ -3,6 +3,8 @@
 
 Usage: python3 applications_test.py PROGRAM ROOT NAME
 
+NAME is the folder, and where its check is not check.py, that one's name after a space: "rockfall_net punch_check".
+
 Some are also run for a short while with 1 and 2 threads, which have to write the same bytes. With PLEKTON_APPLICATIONS=threads in the
 environment that is all that is done, but with every scenario that the check is for, whole, with 1, 2 and 4 threads (no more are started
 than there are processors), and each has a row in a table. It takes up to some minutes each.
@@ -28,6 +30,20 @@ COARSE_NET = [
     )
 ]
 """Half as many wires across, each twice as strong: a few seconds instead of a minute."""
+
+COARSE_PANEL = [
+    f"membranes.net.{setting}"
+    for setting in (
+        "shape.mesh_size=160 mm",
+        "shape.twist_length=80 mm",
+        "shape.wire_height=60 mm",
+        "shape.meshes=[19, 21]",
+        "thickness=5.4 mm",
+        'wire=[["0.19230769 %", "2862.8 N"], ["1.92 %", "3686.6 N"], ["5 %", "4384.8 N"], ["15 %", "5865.2 N"], ["35 %", "6479.6 N"]]',
+        'twist_wire=[["0.19230769 %", "2115.2 N"], ["2 %", "3239.8 N"], ["6 %", "4333.4 N"], ["14 %", "4787.4 N"]]',
+    )
+]
+"""Half as many wires across, each twice as strong."""
 
 APPLICATIONS = {
     "pullout_grid": {
@@ -62,6 +78,15 @@ APPLICATIONS = {
             "brakes that hold more": (
                 "rockfall_net",
                 [*COARSE_NET, *(f"ties.{side}_brakes.brake.force=11 kN" for side in ("left", "right", "front", "back"))],
+            ),
+        },
+    },
+    "rockfall_net punch_check": {
+        "right": {"panel": ("punch_test", COARSE_PANEL)},
+        "wrong": {
+            "wire that breaks at a third of its strain": (
+                "punch_test",
+                [*COARSE_PANEL, 'membranes.net.wire=[["0.19230769 %", "1431.4 N"], ["1.5 %", "1843.3 N"]]'],
             ),
         },
     },
@@ -135,8 +160,9 @@ def run(program, folder, scenario, settings, out, options=()):
     return out
 
 
-def check(folder, runs):
-    done = subprocess.run([sys.executable, "-B", folder / "check.py", *runs], capture_output=True, text=True)
+def check(folder, name, runs):
+    script = folder / f"{(name.split() + ['check'])[1]}.py"
+    done = subprocess.run([sys.executable, "-B", script, *runs], capture_output=True, text=True)
     return done.returncode, done.stdout + done.stderr
 
 
@@ -190,19 +216,20 @@ def compare_short(program, folder, name, work):
 def run_checks(program, folder, name, work):
     failures = []
     right = [run(program, folder, *what, Path(work, label)) for label, what in APPLICATIONS[name]["right"].items()]
-    code, said = check(folder, right)
+    code, said = check(folder, name, right)
     print(said)
     if code != 0:
         failures.append(f"{name}: the check fails")
     for label, what in APPLICATIONS[name]["wrong"].items():
-        code, said = check(folder, [run(program, folder, *what, Path(work, "wrong " + label))])
+        code, said = check(folder, name, [run(program, folder, *what, Path(work, "wrong " + label))])
         if code != 1 or "OUT OF BOUNDS" not in said:
             failures.append(f"{name}: the check passes {label}\n{said}")
     return failures
 
 
 def main():
-    program, folder, name = sys.argv[1], Path(sys.argv[2], "apps/examples", sys.argv[3]), sys.argv[3]
+    program, name = sys.argv[1], sys.argv[3]
+    folder = Path(sys.argv[2], "apps/examples", name.split()[0])
     with tempfile.TemporaryDirectory() as work:
         if os.environ.get("PLEKTON_APPLICATIONS") == "threads":
             failures = compare_all(program, folder, name, work)
