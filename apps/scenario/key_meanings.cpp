@@ -102,6 +102,7 @@ constexpr std::array kOfShapes = std::to_array<KeyMeaning>({
     {"membranes[].shape.subdivisions", "20 x 4^n facets"},
     {"membranes[].shape.size", "from the origin to the opposite corner"},
     {"membranes[].shape.open", "sides that are left out, as in [\"z_max\"]"},
+    {"membranes[].shape.closed", "ends over which there are discs, as in [\"z_min\", \"z_max\"]"},
     {"membranes[].shape.rib_pitch", "along x from rib to rib, between axes"},
     {"membranes[].shape.bar_pitch", "along y from bar to bar, between axes"},
     {"membranes[].shape.apertures", "along x and along y"},

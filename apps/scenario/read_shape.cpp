@@ -44,12 +44,35 @@ ShapeSettings read_polygon(Section& section) {
   return geometry::Polygon{section.vectors("points", {kLength}, 3)};
 }
 
+/// Which of the sides of a shape a key names.
+template <std::size_t N>
+std::array<bool, N> read_sides(Section& section, std::string_view key,
+                               const std::array<std::string_view, N>& sides) {
+  std::array<bool, N> named{};
+  if (!section.has(key)) return named;
+  for (const std::string& side : section.texts(key)) {
+    const auto found = std::find(sides.begin(), sides.end(), side);
+    if (found == sides.end())
+      section.complain(
+          key, fmt::format("there is no side \"{}\"; the sides are {}", side, listed(sides)));
+    else
+      named[static_cast<std::size_t>(found - sides.begin())] = true;
+  }
+  return named;
+}
+
 ShapeSettings read_tube(Section& section) {
-  const double radius = section.quantity("radius", kPositiveLength);
-  const double length = section.quantity("length", kPositiveLength);
+  TubeShape shape{};
+  shape.tube.radius = section.quantity("radius", kPositiveLength);
+  shape.tube.length = section.quantity("length", kPositiveLength);
   const auto cells = section.integers("cells", {3, 1}, kMostCells);
-  require_few(section, "cells", 2.0 * cells[0] * cells[1]);
-  return geometry::Tube{radius, length, cells[0], cells[1]};
+  shape.tube.around = cells[0];
+  shape.tube.along = cells[1];
+  shape.is_closed = read_sides<2>(section, "closed", {"z_min", "z_max"});
+  // A disc has about n² / 6 facets.
+  const double discs = static_cast<double>(std::ranges::count(shape.is_closed, true));
+  require_few(section, "cells", cells[0] * (2.0 * cells[1] + discs * cells[0] / 6.0));
+  return shape;
 }
 
 ShapeSettings read_sphere(Section& section) {
@@ -62,16 +85,7 @@ ShapeSettings read_sphere(Section& section) {
 std::array<bool, 6> read_open_sides(Section& section) {
   constexpr std::array<std::string_view, 6> kSides = {"x_min", "x_max", "y_min",
                                                       "y_max", "z_min", "z_max"};
-  std::array<bool, 6> open{};
-  if (!section.has("open")) return open;
-  for (const std::string& side : section.texts("open")) {
-    const auto found = std::find(kSides.begin(), kSides.end(), side);
-    if (found == kSides.end())
-      section.complain(
-          "open", fmt::format("there is no side \"{}\"; the sides are {}", side, listed(kSides)));
-    else
-      open[static_cast<std::size_t>(found - kSides.begin())] = true;
-  }
+  const std::array<bool, 6> open = read_sides(section, "open", kSides);
   if (std::find(open.begin(), open.end(), false) == open.end())
     section.complain("open", "names all sides, so that nothing is left of the box");
   return open;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/mesh/generate/closed_tube.hpp"
 #include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/lattice.hpp"
 #include "geometry/mesh/generate/polygon.hpp"
@@ -11,6 +12,12 @@
 #include <vector>
 
 namespace plekton::apps {
+
+/// Tube for geometry::closed_tube.
+struct TubeShape {
+  geometry::Tube tube;
+  std::array<bool, 2> is_closed{};  ///< at z_min and z_max
+};
 
 /// Sphere for geometry::icosphere.
 struct SphereShape {
@@ -33,7 +40,7 @@ struct FacetShape {
 
 /// What a membrane without a mesh file is made from. Of a mesh and a lattice every point is told.
 using ShapeSettings =
-    std::variant<geometry::PlaneSheet, geometry::Polygon, geometry::Tube, SphereShape, BoxShape,
+    std::variant<geometry::PlaneSheet, geometry::Polygon, TubeShape, SphereShape, BoxShape,
                  geometry::BiaxialGeogrid, geometry::UniaxialGeogrid, geometry::HexagonalNet,
                  geometry::RingNet, geometry::Chain, FacetShape, geometry::Lattice>;
 
@@ -69,7 +76,9 @@ inline bool is_closed(const ShapeSettings& shape) noexcept {
   const auto* const box = std::get_if<BoxShape>(&shape);
   const bool is_whole_box =
       box != nullptr && std::none_of(box->open.begin(), box->open.end(), [](bool o) { return o; });
-  return std::holds_alternative<SphereShape>(shape) || is_whole_box;
+  const auto* const tube = std::get_if<TubeShape>(&shape);
+  const bool is_whole_tube = tube != nullptr && tube->is_closed[0] && tube->is_closed[1];
+  return std::holds_alternative<SphereShape>(shape) || is_whole_box || is_whole_tube;
 }
 
 }  // namespace plekton::apps

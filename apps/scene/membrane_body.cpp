@@ -124,8 +124,8 @@ Mesh make(const geometry::PlaneSheet& sheet) {
 Mesh make(const geometry::Polygon& polygon) {
   return geometry::polygon(polygon);
 }
-Mesh make(const geometry::Tube& tube) {
-  return geometry::tube(tube);
+Mesh make(const TubeShape& shape) {
+  return geometry::closed_tube(shape.tube, shape.is_closed);
 }
 Mesh make(const SphereShape& sphere) {
   return geometry::icosphere(sphere.radius, sphere.subdivisions);

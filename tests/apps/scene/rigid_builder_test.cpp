@@ -124,6 +124,28 @@ TEST(RigidBuilder, LeavesOutTheSidesThatAreOpen) {
   EXPECT_EQ(scene.membranes[0].nodes, 8U);
 }
 
+// Two hexagons with the corners of one over the middles of the sides of the other: h / 6 (A + 4 M +
+// A), M with twelve corners at r cos 15 deg.
+TEST(RigidBuilder, MakesASolidOfATubeWithBothEnds) {
+  const std::string tube =
+      "rigid_bodies.lid.shape={ kind = \"tube\", radius = 0.1, length = 0.02, cells = [6, 1], ";
+  const BuiltScene scene = built({tube + "closed = [\"z_max\", \"z_min\"] }"});
+
+  const double end = 1.5 * std::sqrt(3.0) * 0.01;
+  const double middle = 3.0 * std::pow(0.1 * std::cos(std::numbers::pi / 12.0), 2);
+  const double volume = 0.02 * (2.0 * end + 4.0 * middle) / 6.0;
+  EXPECT_NEAR(body_called("lid", scene).mass.mass, 1000.0 * volume, 1e-13);
+  EXPECT_LT((body_called("lid", scene).mass.centre - Vec3(-0.05, -0.05, 0.11)).norm(), 1e-15);
+  EXPECT_THAT(error_of({tube + "closed = [\"z_max\"] }", "rigid_bodies.lid.filling=solid"}),
+              HasSubstr("rigid_bodies.lid: its mesh is open and encloses no volume"));
+  EXPECT_THAT(error_of({tube + "closed = [\"x_min\"] }"}),
+              HasSubstr("rigid_bodies.lid.shape.closed: there is no side \"x_min\"; the sides are "
+                        "\"z_min\", \"z_max\""));
+  EXPECT_THAT(error_of({"rigid_bodies.lid.shape={ kind = \"tube\", radius = 0.1, length = 1, "
+                        "cells = [6000, 1], closed = [\"z_max\"] }"}),
+              HasSubstr("rigid_bodies.lid.shape.cells: asks for about 6e+06 facets or bars"));
+}
+
 TEST(RigidBuilder, LoadsABodyAsAWhole) {
   const BuiltScene scene = built();
 
