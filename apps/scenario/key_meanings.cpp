@@ -183,7 +183,9 @@ constexpr std::array kOfTies = std::to_array<KeyMeaning>({
     {"ties[].from.nodes", "which nodes of the membrane"},
     {"ties[].to.place", "a point in space"},
     {"ties[].to.membrane", "to which each of them is tied where it is nearest"},
-    {"ties[].to.rigid_body", "instead of a membrane: its surface, or of kind nodes its centre"},
+    {"ties[].to.rigid_body",
+     "instead of a membrane: its surface, or of kind nodes its centre; of kind body on which each "
+     "is held where it is"},
     {"ties[].to.nodes", "which nodes of the membrane"},
     {"ties[].to.friction", "coefficient, of the force along the cable over that across it"},
     {"ties[].to.slip_force", "added to friction: force along the cable at which it slides"},

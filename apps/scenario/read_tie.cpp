@@ -9,9 +9,23 @@
 namespace plekton::apps {
 namespace {
 
+/// A rigid body that holds nodes where they are on it.
+NodeSetSettings read_holder(Section& section, const Scenario& scenario,
+                            const NodeSetSettings& from) {
+  NodeSetSettings holder;
+  holder.place = section.place_of("rigid_body");
+  holder.rigid_body = read_rigid_body_name(section, scenario);
+  if (holder.rigid_body && holder.rigid_body == from.rigid_body)
+    section.complain("rigid_body",
+                     fmt::format("ties \"{}\" to itself; expected another body than that of from",
+                                 scenario.rigid_bodies[*holder.rigid_body].name));
+  holder.rigid_body = holder.rigid_body.value_or(0);
+  return holder;
+}
+
 void read_to(Section section, const Scenario& scenario, TieSettings& tie) {
-  constexpr std::array<std::string_view, 5> kKinds = {"ground", "point", "nodes", "surface",
-                                                      "cable"};
+  constexpr std::array<std::string_view, 6> kKinds = {"ground",  "point", "nodes",
+                                                      "surface", "cable", "body"};
   const std::optional<std::size_t> kind = section.known_choice("kind", kKinds);
   if (!kind) return;
   tie.kind = static_cast<TieTo>(*kind);
@@ -32,6 +46,9 @@ void read_to(Section section, const Scenario& scenario, TieSettings& tie) {
       tie.to.body = read_membrane_name(section, scenario).value_or(0);
       tie.friction = section.quantity("friction", {kNumber, kNotNegative}, 0.0);
       tie.slip_force = section.quantity("slip_force", {kForce, kNotNegative}, 0.0);
+      break;
+    case TieTo::body:
+      tie.to = read_holder(section, scenario, tie.from);
       break;
   }
   section.finish();

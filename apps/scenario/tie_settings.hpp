@@ -12,8 +12,8 @@
 namespace plekton::apps {
 
 /// To what nodes are tied: where they are; a point of space; the nearest of some nodes; the nearest
-/// point of a surface; a cable on which they slide.
-enum class TieTo : std::uint8_t { ground, point, nodes, surface, cable };
+/// point of a surface; a cable on which they slide; where they are on a rigid body.
+enum class TieTo : std::uint8_t { ground, point, nodes, surface, cable, body };
 
 /// What one table [[ties]] asks for: a tie for each of some nodes.
 struct TieSettings {
@@ -23,8 +23,8 @@ struct TieSettings {
   NodeSetSettings from;
   TieTo kind = TieTo::ground;
   Place to_place;
-  geometry::Vec3 point = geometry::Vec3::Zero();  ///< m, of kind point
-  NodeSetSettings to;                             ///< of the kinds nodes, surface and cable
+  geometry::Vec3 point = geometry::Vec3::Zero();            ///< m, of kind point
+  NodeSetSettings to;                                       ///< of the kinds from nodes on
   double within = std::numeric_limits<double>::infinity();  ///< m, what is further is not tied
   std::optional<double> stiffness;                          ///< N/m; nothing: that of what is tied
   std::optional<double> rest_length;  ///< m; nothing: as far apart as they are

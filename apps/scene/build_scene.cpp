@@ -234,20 +234,9 @@ BuiltGrains add_grains(const GrainSettings& settings, const std::vector<PlacedGr
   return result;
 }
 
-}  // namespace
-
-BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear) {
-  BuiltScene built = build_bodies(scenario, {}, hear);
-  add_loads(scenario, built);
-  hold_as_loaded(scenario, built);
-  add_reactions(scenario, built);
-  return built;
-}
-
-BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there, const HearSetUp& hear) {
-  BuiltScene built;
-  Problems problems;
-  add_materials_and_planes(scenario, built.scene);
+/// Membranes, and surfaces of rigid bodies.
+void add_surfaces(const Scenario& scenario, BuiltScene& built, Problems& problems,
+                  const HearSetUp& hear) {
   for (const MembraneSettings& membrane : scenario.membranes) {
     if (hear) hear("making membrane " + membrane.name, 0.0);
     const std::size_t first_node = built.scene.state.size();
@@ -265,32 +254,61 @@ BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there, cons
       complain(membrane, {}, error.what(), problems);
     }
   }
-  for (const GrainSettings& grains : scenario.grains) {
+}
+
+/// Spheres of rigid bodies, whose tables come before those of grains.
+void add_clumps(const Scenario& scenario, BuiltScene& built, Problems& problems) {
+  for (const GrainSettings& spheres : scenario.grains) {
+    if (!spheres.rigid_body) continue;
+    const std::size_t first_node = built.scene.state.size();
     try {
-      if (grains.rigid_body) {
-        const std::size_t first_node = built.scene.state.size();
-        add_rigid_spheres(scenario.rigid_bodies[*grains.rigid_body], grains, built);
-        if (grains.is_absent) leave_out(first_node, built.scene);
-        continue;
-      }
-      const std::size_t table = built.grains.size();
+      add_rigid_spheres(scenario.rigid_bodies[*spheres.rigid_body], spheres, built);
+      if (spheres.is_absent) leave_out(first_node, built.scene);
+    } catch (const InputError& error) {
+      problems.add(spheres.place, fmt::format("rigid_bodies.{}: {}", spheres.name, error.what()));
+    }
+  }
+}
+
+void add_all_grains(const Scenario& scenario, const BodiesThere& there, BuiltScene& built,
+                    Problems& problems, const HearSetUp& hear) {
+  for (const GrainSettings& grains : scenario.grains) {
+    if (grains.rigid_body) continue;
+    const std::size_t table = built.grains.size();
+    const MaterialSettings& material = scenario.materials[grains.material];
+    try {
       const std::vector<PlacedGrain> placed =
           table < there.grains.size()
               ? grains_there(table, there, built)
-              : placed_grains(grains, scenario.materials[grains.material].young_modulus, there,
-                              built, hear);
-      built.grains.push_back(
-          add_grains(grains, placed, scenario.materials[grains.material].density.value(), built));
+              : placed_grains(grains, material.young_modulus, there, built, hear);
+      built.grains.push_back(add_grains(grains, placed, material.density.value(), built));
     } catch (const DoesNotFit& error) {
       problems.add(grains.place, fmt::format("grains.{}", error.what()));
     } catch (const InputError& error) {
-      problems.add(grains.place, grains.rigid_body
-                                     ? fmt::format("rigid_bodies.{}: {}", grains.name, error.what())
-                                     : fmt::format("grains.{}", error.what()));
+      problems.add(grains.place, fmt::format("grains.{}", error.what()));
     }
   }
+}
+
+}  // namespace
+
+BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear) {
+  BuiltScene built = build_bodies(scenario, {}, hear);
+  add_loads(scenario, built);
+  hold_as_loaded(scenario, built);
+  add_reactions(scenario, built);
+  return built;
+}
+
+BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there, const HearSetUp& hear) {
+  BuiltScene built;
+  Problems problems;
+  add_materials_and_planes(scenario, built.scene);
+  add_surfaces(scenario, built, problems, hear);
+  add_clumps(scenario, built, problems);
+  if (problems.empty()) add_ties(scenario, built);
+  add_all_grains(scenario, there, built, problems, hear);
   problems.throw_if_any();
-  add_ties(scenario, built);
   if (!built.scene.is_absent.empty()) built.scene.is_absent.resize(built.scene.state.size(), false);
   return built;
 }

@@ -130,7 +130,7 @@ class TieBuilder {
     return softest;
   }
 
-  Found find(const TieSettings& settings, NodeId node) const {
+  Found find(const TieSettings& settings, NodeId node) {
     const Vec3& x = place(node);
     switch (settings.kind) {
       case TieTo::ground:
@@ -141,10 +141,24 @@ class TieBuilder {
         return nearest_node(node);
       case TieTo::surface:
         return nearest_on_surface(node, settings.to);
+      case TieTo::body:
+        return {dynamics::material_point(follower_at(x, *settings.to.rigid_body)), {}, 0.0};
       case TieTo::cable:
         break;
     }
     return nearest_on_cable(node);
+  }
+
+  /// A node of a rigid body at a place: what pulls it, pulls and turns the body.
+  /// @param table  of the body, among [[rigid_bodies]]
+  NodeId follower_at(Vec3 place, std::size_t table) {
+    const NodeId follower = built_.scene.add_node(place, dynamics::Held::everything);
+    const NodeId reference = rigid_body_of(table, built_).node;
+    std::vector<dynamics::RigidBody>& bodies = built_.scene.rigid_bodies;
+    std::find_if(bodies.begin(), bodies.end(), [&](const dynamics::RigidBody& body) {
+      return body.node == reference;
+    })->nodes.push_back(follower);
+    return follower;
   }
 
   Found nearest_node(NodeId node) const {

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 namespace plekton::apps {
 namespace {
 
@@ -69,11 +71,22 @@ TEST(ScenarioSchema, AsksForNoMembraneWhereATieMayHoldARigidBody) {
   const Json ties = property(scenario_schema(), "ties").at("items");
 
   for (const Json& to : property(ties, "to").at("oneOf")) {
-    if (to.at("properties").contains("rigid_body")) {
+    if (to.at("properties").contains("rigid_body") && to.at("properties").contains("membrane")) {
       EXPECT_EQ(to.at("required"), Json::parse(R"(["kind"])"));
     }
   }
   EXPECT_FALSE(property(ties, "from").contains("required"));
+}
+
+TEST(ScenarioSchema, AsksForTheRigidBodyOnWhichATieHoldsNodes) {
+  const Json ties = property(scenario_schema(), "ties").at("items");
+
+  const Json kinds = property(ties, "to").at("oneOf");
+  const auto body = std::ranges::find_if(
+      kinds, [](const Json& to) { return property(to, "kind").at("const") == "body"; });
+  ASSERT_NE(body, kinds.end());
+  EXPECT_THAT(body->at("required"), testing::UnorderedElementsAre("kind", "rigid_body"));
+  EXPECT_FALSE(body->at("properties").contains("membrane"));
 }
 
 TEST(ScenarioSchema, SaysWhatEveryKeyMeans) {

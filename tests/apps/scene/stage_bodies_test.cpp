@@ -206,6 +206,56 @@ material = "sand"
   EXPECT_EQ(bytes("other/energy.csv"), bytes("same/energy.csv"));
 }
 
+/// A flag above the stone, which tumbles with it. What is far away does nothing to it: the places on
+/// the stone go on as they were at the first start, also before grains that come.
+TEST_F(StageBodies, HoldWhatIsTiedToThemWhereItWasAtTheStartOfTheRun) {
+  const std::string flag = R"([[membranes]]
+name = "flag"
+shape = { kind = "sheet", width = "12 mm", length = "12 mm", cells = [2, 2] }
+translate = [0, 0, "55 mm"]
+mode = "truss"
+thickness = "1 mm"
+material = "sand"
+young_modulus = "1 MPa"
+density = "1000 kg/m3"
+[[ties]]
+name = "pole"
+from = { membrane = "flag", nodes = "x_min" }
+to = { kind = "body", rigid_body = "stone" }
+stiffness = "100 N/m"
+)";
+  const std::string stages = R"([[stages]]
+name = "a"
+end = { duration = "7 ms" }
+[[stages]]
+name = "b"
+end = { duration = "9 ms" }
+)";
+  const std::string far = R"([[stages.grains]]
+name = "far"
+material = "sand"
+radius = "1 mm"
+centres = [[0, 0, 5]]
+)";
+  const std::string changed = write("other.toml", kTray + flag + stages + far);
+  run_well(write("same.toml", kTray + flag + stages), "same");
+  run_well(changed, "other");
+  run_well(changed, "first", {"--until", "a"});
+  run_well(changed, "later", {"--from", "a", in("first")});
+
+  const Columns ties(folder_ / "same/ties.csv");
+  EXPECT_GT(ties.at("pole.mean_tension (N)", 0.0065), 1e-4);
+  EXPECT_GT(ties.at("pole.mean_tension (N)", 0.0155), 1e-4);
+  EXPECT_EQ(bytes("other/ties.csv"), bytes("same/ties.csv"));
+  EXPECT_EQ(bytes("other/rigid_bodies.csv"), bytes("same/rigid_bodies.csv"));
+  const auto last_row = [&](const std::string& file) {
+    const std::string csv = bytes(file);
+    return csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
+  };
+  EXPECT_EQ(last_row("later/ties.csv"), last_row("same/ties.csv"));
+  EXPECT_LT(std::abs(report("same")["energy_closure"].get<double>()), 1e-2);
+}
+
 TEST_F(StageBodies, SpinOnFreelyWithTheirMomentumAndEnergy) {
   const std::string scene = R"([simulation]
 gravity = [0, 0, 0]
