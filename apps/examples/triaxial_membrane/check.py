@@ -86,8 +86,8 @@ class Test:
             middle = mean([area for s, (_, area) in zip(share, section) if 0.3 < s < 0.7])
             near_ends = mean([area for s, (_, area) in zip(share, section) if 0.04 < min(s, 1 - s) < 0.15])
             first = first or (volume, height, middle, of(core, "porosity"), middle / near_ends)
-            above = of(force, "upper platen.force_z") + of(force, "upper end.force_z")
-            below = of(force, "lower platen.force_z") + of(force, "lower end.force_z")
+            above = of(force, "upper platen.force_z")
+            below = of(force, "lower platen.force_z")
             # The membrane bears some of it: a hoop of the sheet, whose radius grows.
             radius = math.sqrt(middle / math.pi)
             hoop = math.sqrt(middle / first[2]) - 1
