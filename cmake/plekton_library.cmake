@@ -3,6 +3,7 @@
 # plekton_library(name EXCEPT folder PUBLIC libraries... PRIVATE libraries...): the library plekton::<name> from the sources of
 #   the current folder, without those of a folder in it, static or shared as BUILD_SHARED_LIBS says.
 # plekton_kernels(sources...): those of the current folder that run with the widest vectors of the processor.
+# plekton_batches(target folders...): these of the current folder are compiled in fewer, larger units, eight sources of a folder in each.
 
 # GCC 12 makes fused operations of sums and differences side by side (vfmaddsub) where the processor has them, -ffp-contract=off
 # or not: its vectoriser of straight code does not ask.
@@ -73,4 +74,25 @@ function(plekton_kernels)
   if(PLEKTON_MOVES_WHOLE_VECTORS)
     set_property(SOURCE ${ARGV} APPEND PROPERTY COMPILE_OPTIONS -mmove-max=512 -mstore-max=512)
   endif()
+endfunction()
+
+# Most of the time of a small source goes into the headers that its neighbours need too. Batches stay within a folder, so that a new
+# source moves those of its own alone. Sources with options of their own are left out (by CMake). PLEKTON_BATCHES=OFF, as the preset
+# `dev` has it, compiles one by one: less to compile after a change, and a header that is missing shows.
+option(PLEKTON_BATCHES "Compile the sources of the program in batches" ON)
+
+function(plekton_batches target)
+  if(NOT PLEKTON_BATCHES)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  foreach(folder IN LISTS ARGN)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+    set(count 0)
+    foreach(source IN LISTS sources)
+      math(EXPR batch "${count} / 8")
+      math(EXPR count "${count} + 1")
+      set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${folder}_${batch})
+    endforeach()
+  endforeach()
 endfunction()

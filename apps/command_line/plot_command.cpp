@@ -26,7 +26,7 @@ void plot_run(const PlotArguments& arguments, std::ostream& out) {
   if (arguments.out.empty()) files = {arguments.run / "plot.svg", arguments.run / "plot.png"};
   for (const fs::path& file : files) kind_of(file);
   const RunFolder run = open_run_folder(arguments.run);
-  const std::vector<History> histories = read_histories(arguments.run);
+  const std::vector<RecordedHistory> histories = read_histories(arguments.run);
   const std::vector<PlotPanel> panels = panels_of(histories, arguments.columns, arguments.x);
   for (const fs::path& file : files) {
     const std::string picture = drawn_plot(panels, run.title, kind_of(file));

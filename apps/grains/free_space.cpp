@@ -7,7 +7,7 @@
 namespace plekton::apps {
 namespace {
 
-constexpr double kMostCells = 1 << 22;  // about 100 MB; larger cells only cost time
+constexpr double kMostFreeCells = 1 << 22;  // about 100 MB; larger cells only cost time
 
 double distance_to_segment(const Vec3& point, const Vec3& x0, const Vec3& x1) noexcept {
   const Vec3 along = x1 - x0;
@@ -42,7 +42,7 @@ FreeSpace::FreeSpace(const Box& box, double largest, std::span<const contact::Pl
   // A flat or thin box has one cell across, so the side is found by trying.
   double side = 2.0 * largest;
   const auto counts = [&] { return Vec3((size / side).array().floor().max(1.0)); };
-  while (counts().prod() > kMostCells) side *= 2.0;
+  while (counts().prod() > kMostFreeCells) side *= 2.0;
   for (int axis = 0; axis < 3; ++axis) {
     cell_counts_[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(counts()[axis]);
     cell_size_[axis] = size[axis] / counts()[axis];

@@ -31,26 +31,26 @@ std::string quantity_in(const std::string& unit) {
   return fmt::format("value ({})", unit);
 }
 
-bool is_drawn_unasked(const History::Column& column) {
+bool is_drawn_unasked(const RecordedHistory::Column& column) {
   return !column.unit.empty() && column.name != "time_step" &&
          std::any_of(column.values.begin(), column.values.end(),
                      [](double value) { return std::isfinite(value) && value != 0.0; });
 }
 
 /// All columns but the time.
-std::span<const History::Column> columns_of(const History& history) {
+std::span<const RecordedHistory::Column> columns_of(const RecordedHistory& history) {
   return std::span(history.columns).subspan(1);
 }
 
-std::string head_of(const History::Column& column) {
+std::string head_of(const RecordedHistory::Column& column) {
   return column.unit.empty() ? column.name : fmt::format("{} ({})", column.name, column.unit);
 }
 
-void require_known(const std::vector<History>& histories, std::string_view option,
+void require_known(const std::vector<RecordedHistory>& histories, std::string_view option,
                    std::span<const std::string> names) {
   std::vector<std::string_view> known;
-  for (const History& history : histories)
-    for (const History::Column& column : columns_of(history)) known.push_back(column.name);
+  for (const RecordedHistory& history : histories)
+    for (const RecordedHistory::Column& column : columns_of(history)) known.push_back(column.name);
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string hint = did_you_mean(name, known);
@@ -62,24 +62,24 @@ void require_known(const std::vector<History>& histories, std::string_view optio
 
 /// The column over which others are drawn, and the history that has it.
 struct Abscissa {
-  const History* history;
-  const History::Column* column;
+  const RecordedHistory* history;
+  const RecordedHistory::Column* column;
 };
 
 /// Of a name that some history has.
-Abscissa abscissa_of(const std::vector<History>& histories, const std::string& name) {
-  for (const History& history : histories)
-    for (const History::Column& column : columns_of(history))
+Abscissa abscissa_of(const std::vector<RecordedHistory>& histories, const std::string& name) {
+  for (const RecordedHistory& history : histories)
+    for (const RecordedHistory::Column& column : columns_of(history))
       if (column.name == name) return {&history, &column};
   throw InputError(fmt::format("--x: no history of the run has a column \"{}\"", name));
 }
 
 /// Rows of different files are of different times.
-void require_same_file(const std::vector<History>& histories, std::span<const std::string> names,
-                       const Abscissa& over) {
-  for (const History& history : histories) {
+void require_same_file(const std::vector<RecordedHistory>& histories,
+                       std::span<const std::string> names, const Abscissa& over) {
+  for (const RecordedHistory& history : histories) {
     if (&history == over.history) continue;
-    for (const History::Column& column : columns_of(history)) {
+    for (const RecordedHistory::Column& column : columns_of(history)) {
       if (std::find(names.begin(), names.end(), column.name) == names.end()) continue;
       throw InputError(fmt::format(
           "--columns: \"{}\" is in {} and cannot be drawn over \"{}\" (--x), which is in {}; "
@@ -89,8 +89,8 @@ void require_same_file(const std::vector<History>& histories, std::span<const st
   }
 }
 
-PlotPanel& panel_of(std::vector<PlotPanel>& panels, const History& history,
-                    const std::string& quantity, const History::Column& x) {
+PlotPanel& panel_of(std::vector<PlotPanel>& panels, const RecordedHistory& history,
+                    const std::string& quantity, const RecordedHistory::Column& x) {
   const auto found = std::find_if(panels.begin(), panels.end(), [&](const PlotPanel& panel) {
     return panel.file == history.file && panel.quantity == quantity;
   });
@@ -139,7 +139,7 @@ std::string panel_commands(const PlotPanel& panel, std::size_t number) {
 
 }  // namespace
 
-std::vector<PlotPanel> panels_of(const std::vector<History>& histories,
+std::vector<PlotPanel> panels_of(const std::vector<RecordedHistory>& histories,
                                  std::span<const std::string> names, const std::string& x) {
   require_known(histories, "--columns", names);
   Abscissa over{nullptr, nullptr};
@@ -149,10 +149,11 @@ std::vector<PlotPanel> panels_of(const std::vector<History>& histories,
     require_same_file(histories, names, over);
   }
   std::vector<PlotPanel> panels;
-  for (const History& history : histories) {
+  for (const RecordedHistory& history : histories) {
     if (over.history != nullptr && over.history != &history) continue;
-    const History::Column& along = over.column != nullptr ? *over.column : history.columns.front();
-    for (const History::Column& column : columns_of(history)) {
+    const RecordedHistory::Column& along =
+        over.column != nullptr ? *over.column : history.columns.front();
+    for (const RecordedHistory::Column& column : columns_of(history)) {
       const bool is_drawn = names.empty()
                                 ? is_drawn_unasked(column) && &column != over.column
                                 : std::find(names.begin(), names.end(), column.name) != names.end();

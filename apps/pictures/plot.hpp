@@ -13,11 +13,11 @@ namespace plekton::apps {
 
 /// Curves over the time, or over another column, that share an axis.
 struct PlotPanel {
-  std::string quantity;                         ///< with unit, at the axis
-  std::string file;                             ///< of the run, where they are from
-  std::string x_head;                           ///< with unit
-  std::vector<double> x;                        ///< by row: the time, or another column
-  std::vector<const History::Column*> columns;  ///< of a history that outlives this
+  std::string quantity;                                 ///< with unit, at the axis
+  std::string file;                                     ///< of the run, where they are from
+  std::string x_head;                                   ///< with unit
+  std::vector<double> x;                                ///< by row: the time, or another column
+  std::vector<const RecordedHistory::Column*> columns;  ///< of a history that outlives this
 };
 
 /// What is drawn of the histories of a run, one panel for each file and unit.
@@ -26,7 +26,7 @@ struct PlotPanel {
 /// @param x  Column over which the others of its file are drawn; empty: the time, of all files.
 /// @throws InputError for a name that no history has, for columns of another file than that of x,
 ///         and if there is nothing to draw
-std::vector<PlotPanel> panels_of(const std::vector<History>& histories,
+std::vector<PlotPanel> panels_of(const std::vector<RecordedHistory>& histories,
                                  std::span<const std::string> names, const std::string& x = "");
 
 /// The kinds of pictures.

@@ -41,7 +41,7 @@ py::dict read_frame(const fs::path& file) {
 /// Columns and units by name.
 py::tuple read_history(const fs::path& file) {
   py::dict columns, units;
-  for (const apps::History::Column& column : apps::read_history(file).columns) {
+  for (const apps::RecordedHistory::Column& column : apps::read_history(file).columns) {
     columns[py::str(column.name)] = array_of(column.values);
     units[py::str(column.name)] = column.unit;
   }

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<dynamics::OutputField, 23> kFields = {{
+constexpr std::array<dynamics::OutputField, 23> kMeasureFields = {{
     {"time", "s", "simulated"},
     {"volume", "m3", "of the region"},
     {"porosity", "", "part of the region that no grain fills; overlaps count twice as grain"},
@@ -40,9 +40,9 @@ constexpr std::array<dynamics::OutputField, 23> kFields = {{
     {"fabric_yz", "", "likewise"},
 }};
 
-std::vector<dynamics::CsvColumn> columns() {
+std::vector<dynamics::CsvColumn> columns_of_measure() {
   std::vector<dynamics::CsvColumn> columns;
-  for (const dynamics::OutputField& field : kFields)
+  for (const dynamics::OutputField& field : kMeasureFields)
     columns.push_back({std::string(field.name), std::string(field.unit)});
   return columns;
 }
@@ -108,7 +108,7 @@ std::vector<double> row_of(double time, const dynamics::RegionMeasure& m) {
 }  // namespace
 
 std::span<const dynamics::OutputField> measure_fields() {
-  return kFields;
+  return kMeasureFields;
 }
 
 geometry::Region region_of(const MeasureSettings& settings, const dynamics::Simulation& simulation,
@@ -138,7 +138,7 @@ Measures::Measures(const fs::path& folder, const Scenario& scenario, const Writt
   if (before == nullptr) remove_files(folder / kMeasuresFolder);
   if (!measures_.empty()) dynamics::ensure_output_folder(folder / kMeasuresFolder);
   for (const MeasureSettings& measure : measures_)
-    files_.emplace_back().open(folder, file_of(measure), columns(), before);
+    files_.emplace_back().open(folder, file_of(measure), columns_of_measure(), before);
 }
 
 void Measures::add(const dynamics::Simulation& simulation) {

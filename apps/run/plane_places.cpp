@@ -12,7 +12,7 @@
 namespace plekton::apps {
 namespace {
 
-constexpr std::array<dynamics::OutputField, 6> kFields = {{
+constexpr std::array<dynamics::OutputField, 6> kPlaceFields = {{
     {"point_x", "m", "of a point of the plane, which moves with it"},
     {"point_y", "m", "likewise"},
     {"point_z", "m", "likewise"},
@@ -24,7 +24,7 @@ constexpr std::array<dynamics::OutputField, 6> kFields = {{
 }  // namespace
 
 std::span<const dynamics::OutputField> plane_fields() {
-  return kFields;
+  return kPlaceFields;
 }
 
 PlanePlaces::PlanePlaces(const std::filesystem::path& folder, const Scenario& scenario,
@@ -33,18 +33,18 @@ PlanePlaces::PlanePlaces(const std::filesystem::path& folder, const Scenario& sc
   columns_ = names.size();
   places_ = plane_numbers(scenario);
   HistoryColumns columns;
-  for (const std::string& name : names) columns.add(name, kFields);
+  for (const std::string& name : names) columns.add(name, kPlaceFields);
   open(folder, kPlanesFile, columns, before);
 }
 
 void PlanePlaces::add(const dynamics::Simulation& simulation) {
   if (!is_open()) return;
   constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> row(1 + kFields.size() * columns_, kNotThere);
+  std::vector<double> row(1 + kPlaceFields.size() * columns_, kNotThere);
   row[0] = simulation.time();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const contact::Plane& plane = simulation.planes()[i];
-    double* const at = &row[1 + kFields.size() * places_[i]];
+    double* const at = &row[1 + kPlaceFields.size() * places_[i]];
     std::copy_n(plane.point.data(), 3, at);
     std::copy_n(plane.normal.data(), 3, at + 3);
   }

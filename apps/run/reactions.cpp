@@ -13,14 +13,14 @@ namespace {
 using dynamics::ForceAndMoment;
 using geometry::index_of;
 
-constexpr std::array<dynamics::OutputField, 3> kFields = {{
+constexpr std::array<dynamics::OutputField, 3> kReactionFields = {{
     {"force", "N", "what the plane, the supports, the body or the nodes bear"},
     {"moment", "N m", "about the point of the plane, the origin, or the point `about`"},
     {"position", "m", "of the point of the plane, or the mean of the nodes, at that time"},
 }};
 
 /// Numbers of a reaction in a row.
-constexpr std::size_t kNumbers = 3 * kFields.size();
+constexpr std::size_t kNumbers = 3 * kReactionFields.size();
 
 /// The bodies that have some nodes. Structures come apart where bonds break, down to single nodes,
 /// but nodes stay with their body.
@@ -90,7 +90,7 @@ Vec3 position_of(const BuiltReaction& reaction, const dynamics::Simulation& simu
 }  // namespace
 
 std::span<const dynamics::OutputField> reaction_fields() {
-  return kFields;
+  return kReactionFields;
 }
 
 ReactionValue reaction_in(const dynamics::Simulation& simulation, const BuiltReaction& reaction,
@@ -115,7 +115,7 @@ Reactions::Reactions(const std::filesystem::path& folder,
     return reaction.kind == ReactionKind::contacts;
   });
   HistoryColumns columns;
-  for (const std::string& name : names_) columns.add_vectors(name, kFields);
+  for (const std::string& name : names_) columns.add_vectors(name, kReactionFields);
   open(folder, kReactionsFile, columns, before);
 }
 

@@ -13,7 +13,7 @@ namespace {
 using geometry::index_of;
 
 /// Vectors of three components.
-constexpr std::array<dynamics::OutputField, 6> kFields = {{
+constexpr std::array<dynamics::OutputField, 6> kMotionFields = {{
     {"position", "m", "of the centre of mass"},
     {"velocity", "m/s", "of the centre of mass"},
     {"turn", "rad", "rotation vector from the start, at most half a turn long"},
@@ -34,7 +34,7 @@ Vec3 rotation_vector(const geometry::Quat& turn) {
 }  // namespace
 
 std::span<const dynamics::OutputField> rigid_fields() {
-  return kFields;
+  return kMotionFields;
 }
 
 RigidMotions::RigidMotions(const std::filesystem::path& folder, const BuiltScene& built,
@@ -44,7 +44,7 @@ RigidMotions::RigidMotions(const std::filesystem::path& folder, const BuiltScene
     references_.push_back(body.node);
     starts_.push_back(body.orientation);
     are_absent_.push_back(body.is_absent);
-    columns.add_vectors(body.name, kFields);
+    columns.add_vectors(body.name, kMotionFields);
   }
   open(folder, kRigidBodiesFile, columns, before);
 }
@@ -56,7 +56,7 @@ void RigidMotions::add(const dynamics::Simulation& simulation) {
   const auto add_vector = [&](const Vec3& v) { row.insert(row.end(), v.data(), v.data() + 3); };
   for (std::size_t b = 0; b < references_.size(); ++b) {
     if (are_absent_[b]) {
-      row.insert(row.end(), 3 * kFields.size(), std::numeric_limits<double>::quiet_NaN());
+      row.insert(row.end(), 3 * kMotionFields.size(), std::numeric_limits<double>::quiet_NaN());
       continue;
     }
     const std::size_t i = index_of(references_[b]);

@@ -8,7 +8,7 @@
 namespace plekton::apps {
 namespace {
 
-constexpr std::array<dynamics::OutputField, 6> kFields = {{
+constexpr std::array<dynamics::OutputField, 6> kTieFields = {{
     {"largest_tension", "N", "of any of them, in the last step; below 0: all of them push"},
     {"mean_tension", "N", "of those that are whole"},
     {"largest_slip", "m", "way along the cable so far, or what the brake has paid out"},
@@ -23,8 +23,9 @@ constexpr std::array<dynamics::OutputField, 3> kSingleFields = {{
     {"broken", "", "1 once it is broken"},
 }};
 
-/// The numbers of kFields.
-std::array<double, kFields.size()> numbers_of(const BuiltTies& table, const dynamics::Ties& ties) {
+/// The numbers of kTieFields.
+std::array<double, kTieFields.size()> numbers_of(const BuiltTies& table,
+                                                 const dynamics::Ties& ties) {
   double largest = 0.0, sum = 0.0, slip = 0.0, elastic = 0.0, dissipated = 0.0;
   std::size_t whole = 0;
   for (std::size_t i = table.first; i < table.first + table.count; ++i) {
@@ -43,7 +44,7 @@ std::array<double, kFields.size()> numbers_of(const BuiltTies& table, const dyna
 }  // namespace
 
 std::span<const dynamics::OutputField> tie_fields() {
-  return kFields;
+  return kTieFields;
 }
 
 std::span<const dynamics::OutputField> single_tie_fields() {
@@ -55,7 +56,7 @@ TieHistories::TieHistories(const std::filesystem::path& folder, const BuiltScene
     : tables_(built.ties) {
   HistoryColumns columns;
   for (const BuiltTies& table : tables_) {
-    columns.add(table.name, kFields);
+    columns.add(table.name, kTieFields);
     for (std::size_t i = 0; table.lists_each && i < table.count; ++i)
       columns.add(table.name + "[" + std::to_string(i) + "]", kSingleFields);
   }

@@ -185,7 +185,7 @@ void read_stress(Section& section, GrainSettings& grains) {
                      "them out (a looser sample comes to a stress by a servo, in a stage)");
 }
 
-GrainPlacement read_placement(Section& section) {
+GrainPlacement read_grain_placement(Section& section) {
   constexpr std::array<std::string_view, 3> kWords = {"random", "lattice", "packed"};
   return static_cast<GrainPlacement>(section.choice("placement", kWords, 0));
 }
@@ -310,7 +310,7 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
     if (section.has("radii"))
       grains.radii = section.quantities("radii", {kLength, kPositive}, grains.centres.size());
   } else if (!has_file) {
-    grains.placement = read_placement(section);
+    grains.placement = read_grain_placement(section);
     grains.amount = read_amount(section, density, grains.sizes);
     read_space(section, grains);
     read_porosity(section, grains);

@@ -225,7 +225,7 @@ ShapeSettings read_bars(Section& section) {
   return lattice;
 }
 
-constexpr std::array<std::string_view, 12> kKinds = {
+constexpr std::array<std::string_view, 12> kShapeKinds = {
     "sheet",         "polygon",  "tube",  "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid",
     "hexagonal_net", "ring_net", "chain", "facets", "bars"};
 constexpr std::array<ShapeSettings (*)(Section&), 12> kReaders = {
@@ -235,7 +235,7 @@ constexpr std::array<ShapeSettings (*)(Section&), 12> kReaders = {
 }  // namespace
 
 std::optional<ShapeSettings> read_shape(Section section) {
-  const auto kind = section.known_choice("kind", kKinds);
+  const auto kind = section.known_choice("kind", kShapeKinds);
   if (!kind) return std::nullopt;
   ShapeSettings shape = kReaders[*kind](section);
   section.finish();

@@ -10,7 +10,7 @@
 namespace plekton::apps {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
@@ -28,7 +28,7 @@ std::string key_text(const std::string& key) {
   constexpr std::string_view kBare =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   const bool is_bare = !key.empty() && key.find_first_not_of(kBare) == std::string::npos;
-  return is_bare ? key : quoted(key);
+  return is_bare ? key : in_quotes(key);
 }
 
 /// The fewest digits that read back as the same number; a point keeps it from being a whole one.
@@ -40,7 +40,7 @@ std::string number_text(double number) {
 
 std::string value_text(const Value& value) {
   struct Write {
-    std::string operator()(const std::string& text) const { return quoted(text); }
+    std::string operator()(const std::string& text) const { return in_quotes(text); }
     std::string operator()(std::int64_t number) const { return fmt::format("{}", number); }
     std::string operator()(double number) const { return number_text(number); }
     std::string operator()(bool truth) const { return truth ? "true" : "false"; }
@@ -56,7 +56,7 @@ std::string value_text(const Value& value) {
       return text.empty() ? "{}" : "{ " + text + " }";
     }
     // No scenario that can be used has one.
-    std::string operator()(const OtherKind& other) const { return quoted(other.text); }
+    std::string operator()(const OtherKind& other) const { return in_quotes(other.text); }
   };
   return std::visit(Write{}, value.data);
 }

@@ -63,9 +63,10 @@ std::string report_value(const Json& report, const ResultSettings& result) {
   return value->is_string() ? value->get<std::string>() : value->dump();
 }
 
-const History::Column& column_of(const History& history, const ResultSettings& result) {
+const RecordedHistory::Column& column_of(const RecordedHistory& history,
+                                         const ResultSettings& result) {
   std::vector<std::string_view> names;
-  for (const History::Column& column : history.columns) {
+  for (const RecordedHistory::Column& column : history.columns) {
     if (column.name == result.column) return column;
     names.push_back(column.name);
   }
@@ -117,7 +118,7 @@ double taken(std::span<const double> times, std::span<const double> values, Take
   return values.back();
 }
 
-double history_value(const History& history, const ResultSettings& result) {
+double history_value(const RecordedHistory& history, const ResultSettings& result) {
   const std::vector<double>& times = history.columns.front().values;
   const std::vector<double>& values = column_of(history, result).values;
   if (times.empty()) refuse(result, result.file + " has no rows");
@@ -143,7 +144,7 @@ class RunReader {
 
   RunResult read(const ResultSettings& result) {
     if (!result.report.empty()) return {report_value(report(result), result), ""};
-    const History& history = history_of(result);
+    const RecordedHistory& history = history_of(result);
     return {fmt::format("{}", history_value(history, result)), column_of(history, result).unit};
   }
 
@@ -159,7 +160,7 @@ class RunReader {
     return report_;
   }
 
-  const History& history_of(const ResultSettings& result) {
+  const RecordedHistory& history_of(const ResultSettings& result) {
     const auto [found, is_new] = histories_.try_emplace(result.file);
     try {
       if (is_new) found->second = read_history(folder_ / result.file);
@@ -171,7 +172,7 @@ class RunReader {
 
   fs::path folder_;
   Json report_;
-  std::map<std::string, History> histories_;
+  std::map<std::string, RecordedHistory> histories_;
 };
 
 }  // namespace

@@ -48,7 +48,7 @@ bool are_glued(const Scene& scene, const Material& a, const Material& b) {
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\')
@@ -69,9 +69,10 @@ std::string MaterialTable::free_name(const Material& material, bool is_rigid) co
   const auto taken = [&](const std::string& wanted) {
     return std::ranges::any_of(rows_, [&](const Row& row) { return row.name == wanted; });
   };
-  if (!taken(quoted(name))) return quoted(name);
+  if (!taken(in_quotes(name))) return in_quotes(name);
   for (int i = 2;; ++i)
-    if (const std::string next = quoted(fmt::format("{} {}", name, i)); !taken(next)) return next;
+    if (const std::string next = in_quotes(fmt::format("{} {}", name, i)); !taken(next))
+      return next;
 }
 
 std::string MaterialTable::name(int material, std::optional<double> density, bool is_rigid) {

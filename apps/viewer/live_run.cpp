@@ -46,7 +46,7 @@ void LiveRun::read_new() {
   }
   const auto histories = read_histories(folder_);
   std::size_t rows = 0;
-  for (const History& history : histories) rows += history.rows();
+  for (const RecordedHistory& history : histories) rows += history.rows();
   if (const std::pair told{rows, run_.report.has_value()}; told != told_) {
     packed_.set_histories(histories);
     told_ = told;

@@ -313,19 +313,19 @@ void PackedRun::finish(Block&& block) {
   blocks_.emplace_back(std::move(block.name), std::move(text));
 }
 
-void PackedRun::set_histories(const std::vector<History>& histories) {
+void PackedRun::set_histories(const std::vector<RecordedHistory>& histories) {
   if (histories.empty()) return;
   Block block;
   block.name = 'h' + std::to_string(history_blocks_++);
   block.directory = Json::array();
   history_step_ = 1;
-  for (const History& history : histories) {
+  for (const RecordedHistory& history : histories) {
     const std::size_t most =
         std::clamp<std::size_t>(kMostNumbers / history.columns.size(), 1, kMostRows);
     const std::size_t step = (history.rows() + most - 1) / most;
     history_step_ = std::max(history_step_, step);
     Json columns = Json::array();
-    for (const History::Column& column : history.columns) {
+    for (const RecordedHistory::Column& column : history.columns) {
       ResultArray kept{column.name, 1, {}};
       for (std::size_t row = 0; row < history.rows(); row += step)
         kept.values.push_back(column.values[row]);

@@ -48,7 +48,7 @@ class PackedRun {
   void add(const FrameFiles& files, const std::vector<std::array<double, 6>>& planes);
 
   /// Replaces the histories. Of more rows than a plot can show every so many are kept.
-  void set_histories(const std::vector<History>& histories);
+  void set_histories(const std::vector<RecordedHistory>& histories);
 
   /// Everything a page needs to know before it reads a block.
   nlohmann::ordered_json header(const RunFolder& run, const std::vector<std::string>& notes) const;

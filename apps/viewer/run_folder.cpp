@@ -71,7 +71,7 @@ std::optional<nlohmann::ordered_json> read_report(const fs::path& file) {
 }
 
 /// "force (N)" is force in N.
-History::Column column_of(std::string_view head) {
+RecordedHistory::Column column_of(std::string_view head) {
   const std::size_t unit = head.rfind(" (");
   if (unit == std::string_view::npos || !head.ends_with(')')) return {std::string(head), "", {}};
   return {std::string(head.substr(0, unit)),
@@ -90,7 +90,8 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
 }
 
-void add_row(std::string_view line, std::size_t number, const fs::path& file, History& history) {
+void add_row(std::string_view line, std::size_t number, const fs::path& file,
+             RecordedHistory& history) {
   const auto cells = cells_of(line);
   bool fits = cells.size() == history.columns.size();
   for (std::size_t i = 0; fits && i < cells.size(); ++i) {
@@ -165,9 +166,9 @@ std::vector<std::array<double, 6>> planes_at(const RunFolder& run, double time) 
   return planes;
 }
 
-History read_history(const fs::path& file) {
+RecordedHistory read_history(const fs::path& file) {
   const std::string bytes = bytes_of(file, "a history (.csv)");
-  History history;
+  RecordedHistory history;
   history.file = file.filename().string();
   std::string_view rest = bytes;
   for (std::size_t number = 1;; ++number) {
@@ -189,13 +190,13 @@ History read_history(const fs::path& file) {
   }
 }
 
-std::vector<History> read_histories(const fs::path& folder) {
+std::vector<RecordedHistory> read_histories(const fs::path& folder) {
   std::vector<std::string> names(kHistories.begin(), kHistories.end());
   for (std::string& name : measure_files(folder)) names.push_back(std::move(name));
-  std::vector<History> histories;
+  std::vector<RecordedHistory> histories;
   for (const std::string& name : names) {
     if (std::error_code ignored; !fs::exists(folder / name, ignored)) continue;
-    History history = read_history(folder / name);
+    RecordedHistory history = read_history(folder / name);
     history.file = name;
     if (history.rows() > 0) histories.push_back(std::move(history));
   }

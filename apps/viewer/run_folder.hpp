@@ -23,7 +23,7 @@ struct FrameFiles {
 };
 
 /// A table of numbers over time, of a CSV file of the run.
-struct History {
+struct RecordedHistory {
   struct Column {
     std::string name;
     std::string unit;  ///< empty of a number without one
@@ -42,7 +42,7 @@ struct RunFolder {
   std::optional<nlohmann::ordered_json> report;  ///< run.json; none before the end of the run
   std::vector<FrameFiles> frames;                ///< by time
   /// planes.csv: at the times of the frames. @see planes_at
-  std::optional<History> planes;
+  std::optional<RecordedHistory> planes;
 };
 
 /// @throws ViewError for what is no folder of a run: no such folder, neither frames nor run.json in
@@ -59,9 +59,9 @@ inline constexpr std::array<std::string_view, 5> kHistories = {
     "energy.csv", "reactions.csv", "pressures.csv", "rigid_bodies.csv", "ties.csv"};
 /// Of a run that still goes on a last row without its end is left out.
 /// @throws ViewError for a file that is no table of numbers
-std::vector<History> read_histories(const std::filesystem::path& folder);
+std::vector<RecordedHistory> read_histories(const std::filesystem::path& folder);
 
 /// A CSV file with a head row "name (unit),...". @throws ViewError
-History read_history(const std::filesystem::path& file);
+RecordedHistory read_history(const std::filesystem::path& file);
 
 }  // namespace plekton::apps

@@ -76,6 +76,13 @@ class SeededTree(unittest.TestCase):
     def test_the_core_may_not_include_the_mesh_folder(self):
         self.assert_flagged("geometry/primitives/box.cpp", TAG + '#include "geometry/mesh/repair/repair.hpp"\n', "not part of it")
 
+    def test_two_types_of_one_name_in_one_namespace_are_flagged(self):
+        text = TAG + "namespace plekton::geometry {\n\nclass Box;\n\nclass Box final {\n};\n\n}  // namespace plekton::geometry\n"
+        self.assert_clean("geometry/primitives/box.hpp", text)
+        self.assert_clean("dynamics/model/box.hpp", text.replace("geometry", "dynamics"))
+        self.assert_clean("geometry/mesh/repair/repair.hpp", TAG + "namespace plekton::geometry {\n\nstruct Box;\n\nstruct Boxes {\n  struct Box {};\n};\n\n}\n")
+        self.assert_flagged("geometry/query/boxes.hpp", text, "geometry/primitives/box.hpp too")
+
     def test_packages_outside_their_file_are_flagged(self):
         for path, header, reason in (
             ("geometry/primitives/box.cpp", "fcl/fcl.h", "only geometry/neighbor/broad_phase.cpp"),

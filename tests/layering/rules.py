@@ -168,6 +168,43 @@ def _reached_from(root):
 def forget_tree():
     """To be called before a tree is read again."""
     _reached_from.cache_clear()
+    _homes_of_types.cache_clear()
+
+
+NAMESPACE_OR_TYPE = re.compile(r"^(?:namespace (?P<namespace>[\w:]+) \{|(?:class|struct|enum class) (?:alignas\([^)]*\) )?(?P<type>\w+)\b(?! *<)(?![^\n]*;$))", re.MULTILINE)
+
+
+def _types_of(source):
+    """Name and line of every type that a header defines outside of others."""
+    namespace = ""
+    for match in NAMESPACE_OR_TYPE.finditer(source.text):
+        if match["namespace"]:
+            namespace = match["namespace"]
+        else:
+            yield f"{namespace}::{match['type']}", source.text.count("\n", 0, match.start()) + 1
+
+
+@lru_cache(maxsize=None)
+def _homes_of_types(root):
+    """For every type of the libraries' headers, the first header by path that defines it."""
+    homes = {}
+    for library in LIBRARIES:
+        for path in sorted((Path(root) / library).rglob("*.hpp")):
+            source = Source(path.relative_to(root).as_posix(), path.read_text(encoding="utf-8"))
+            for name, _ in _types_of(source):
+                homes.setdefault(name, source.path)
+    return homes
+
+
+def one_home_for_each_type(source, root):
+    """Two types of one name in one namespace are one type to the linker, which keeps the destructor of either for both, even
+    where no source sees them together."""
+    if source.folder not in LIBRARIES or not source.path.endswith(".hpp"):
+        return
+    homes = _homes_of_types(str(root))
+    for name, line in _types_of(source):
+        if homes[name] != source.path:
+            yield f"{source.path}:{line}: {name} is defined in {homes[name]} too; give one another name"
 
 
 def _closure(graph):
@@ -266,4 +303,4 @@ def eigen_does_not_vectorise(source, root):
         yield f'{source.path}:{includes[0].line}: includes Eigen without "{EIGEN_HOME}", which sees to the same bits everywhere'
 
 
-RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, no_circles, same_bits_on_every_processor, eigen_does_not_vectorise)
+RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, no_circles, same_bits_on_every_processor, eigen_does_not_vectorise, one_home_for_each_type)
