@@ -106,20 +106,27 @@ std::string StageWatch::end_in_time(const dynamics::Simulation& simulation) cons
       stage_.path, *stage_.max_duration, ends_.state(simulation)));
 }
 
+std::string EndWatch::all_along(const Seen& seen) const {
+  if (end_.after || seen.was_off || seen.in_a_row == 0) return "";
+  return ", as it has been since the stage began: that counts where the end says after";
+}
+
 std::string EndWatch::state(const dynamics::Simulation& simulation) const {
   const StageEnd& end = end_;
   std::vector<std::string> all;
   if (end.servo) {
-    all.push_back(fmt::format("servo \"{}\" {} within {:.3g} %", end.servo->load,
+    all.push_back(fmt::format("servo \"{}\" {} within {:.3g} %{}", end.servo->load,
                               servo_force(*end.servo, simulation).text(),
-                              100.0 * end.servo->tolerance));
+                              100.0 * end.servo->tolerance, all_along(servo_)));
   }
   if (end.kinetic_energy)
-    all.push_back(fmt::format("the kinetic energy is {:.4g} J, to be below {:.4g} J",
-                              simulation.energy().kinetic, *end.kinetic_energy));
+    all.push_back(fmt::format("the kinetic energy is {:.4g} J, to be below {:.4g} J{}",
+                              simulation.energy().kinetic, *end.kinetic_energy,
+                              all_along(kinetic_energy_)));
   if (end.unbalanced_force)
-    all.push_back(fmt::format("the unbalanced force ratio is {:.4g}, to be below {:.4g}",
-                              simulation.unbalanced_force_ratio(), *end.unbalanced_force));
+    all.push_back(fmt::format("the unbalanced force ratio is {:.4g}, to be below {:.4g}{}",
+                              simulation.unbalanced_force_ratio(), *end.unbalanced_force,
+                              all_along(unbalanced_)));
   if (end.displacement)
     all.push_back(fmt::format("what is to move has moved by {:.4g} m of {:.4g} m",
                               moved(*end.displacement, simulation), end.displacement->distance));
@@ -127,10 +134,10 @@ std::string EndWatch::state(const dynamics::Simulation& simulation) const {
     all.push_back(fmt::format("the strain is {:.4g} of {:.4g}", strain_of(*end.strain, simulation),
                               end.strain->strain));
   if (end.force)
-    all.push_back(fmt::format("the force of \"{}\" along {} is {:.4g} N, to be {} {:.4g} N",
-                              end.force->reaction, "xyz"[end.force->axis],
-                              force_of(*end.force, simulation),
-                              end.force->is_above ? "above" : "below", end.force->force));
+    all.push_back(
+        fmt::format("the force of \"{}\" along {} is {:.4g} N, to be {} {:.4g} N{}",
+                    end.force->reaction, "xyz"[end.force->axis], force_of(*end.force, simulation),
+                    end.force->is_above ? "above" : "below", end.force->force, all_along(force_)));
   return fmt::format("{}", fmt::join(all, "; "));
 }
 

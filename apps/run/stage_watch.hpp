@@ -53,6 +53,8 @@ class EndWatch {
     return counts(holds, seen, time, looks_.at_forces);
   }
   bool counts(bool holds, Seen& seen, double time, int looks) const;
+  /// What to say of an end that has held from the start, and so does not count.
+  std::string all_along(const Seen& seen) const;
   bool is_beyond(const ForceEnd& end, const dynamics::Simulation& simulation) const;
   double moved(const DisplacementEnd& end, const dynamics::Simulation& simulation) const;
   double strain_of(const StrainEnd& end, const dynamics::Simulation& simulation) const;

@@ -326,6 +326,18 @@ speed = "0.5 m/s"
   EXPECT_EQ(report("again")["stages"][1]["ended_by"], "servo");
 }
 
+TEST_F(Stages, SayThatAnEndWhichHeldAllAlongDoesNotCount) {
+  const std::string stages = R"([[stages]]
+name = "pour"
+end = { kinetic_energy = "1 MJ" }
+max_duration = "2 ms"
+)";
+  EXPECT_THAT(failure_of(stages),
+              AllOf(HasSubstr("to be below 1e+06 J, as it has been since the stage began"),
+                    HasSubstr("counts where the end says after")));
+  EXPECT_EQ(report("wrong")["status"], "failed");
+}
+
 TEST_F(Stages, ThatCannotBeginLeaveAReportOfThoseBefore) {
   const std::string stages = R"([[stages]]
 name = "pour"
