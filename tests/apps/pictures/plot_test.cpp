@@ -14,21 +14,22 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::vector<History> histories() {
-  History energy{"energy.csv",
-                 {{"time", "s", {0, 1}},
-                  {"kinetic", "J", {0, 2}},
-                  {"friction", "J", {0, 0}},
-                  {"gravity", "J", {0, -1}},
-                  {"contacts", "", {0, 5}},
-                  {"time_step", "s", {1e-5, 1e-5}}}};
-  History reactions{"reactions.csv", {{"time", "s", {0, 1}}, {"floor's.force_z", "N", {0, 3}}}};
+std::vector<RecordedHistory> histories() {
+  RecordedHistory energy{"energy.csv",
+                         {{"time", "s", {0, 1}},
+                          {"kinetic", "J", {0, 2}},
+                          {"friction", "J", {0, 0}},
+                          {"gravity", "J", {0, -1}},
+                          {"contacts", "", {0, 5}},
+                          {"time_step", "s", {1e-5, 1e-5}}}};
+  RecordedHistory reactions{"reactions.csv",
+                            {{"time", "s", {0, 1}}, {"floor's.force_z", "N", {0, 3}}}};
   return {energy, reactions};
 }
 
 std::vector<std::string> names_of(const PlotPanel& panel) {
   std::vector<std::string> names;
-  for (const History::Column* column : panel.columns) names.push_back(column->name);
+  for (const RecordedHistory::Column* column : panel.columns) names.push_back(column->name);
   return names;
 }
 
@@ -109,7 +110,7 @@ TEST(GnuplotScript, KeepsPeaksOfLongHistories) {
   for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i);
   values[77'777] = 9.0;
   values[12'345] = -9.0;
-  const std::vector<History> all = {
+  const std::vector<RecordedHistory> all = {
       {"energy.csv", {{"time", "s", times}, {"kinetic", "J", values}}}};
 
   const auto script = gnuplot_script(panels_of(all, {}), "run", PictureKind::png, "/tmp/picture");

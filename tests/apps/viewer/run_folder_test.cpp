@@ -68,7 +68,7 @@ TEST(RunFolder, ReadsHistoriesWithUnitsAndWithoutARowThatIsBeingWritten) {
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "energy.csv", "time (s),kinetic (J),ratio\n0,1.5,inf\n1,2,3\n2,4");
 
-  const History history = read_history(folder / "energy.csv");
+  const RecordedHistory history = read_history(folder / "energy.csv");
 
   ASSERT_EQ(history.columns.size(), 3U);
   EXPECT_EQ(history.columns[1].name, "kinetic");
@@ -83,7 +83,7 @@ TEST(RunFolder, ReadsNamesOfColumnsWithCommasAndQuotes) {
   test::write_bytes(folder / "reactions.csv",
                     "time (s),\"a, \"\"b\"\".force (N)\",plain\n0,1,2\n3,4,5\n");
 
-  const History history = read_history(folder / "reactions.csv");
+  const RecordedHistory history = read_history(folder / "reactions.csv");
 
   ASSERT_EQ(history.columns.size(), 3U);
   EXPECT_EQ(history.columns[1].name, "a, \"b\".force");
@@ -102,14 +102,14 @@ TEST(RunFolder, RefusesHistoriesThatAreNone) {
 
 TEST(RunFolder, FindsThePlanesAtTheTimeOfAFrame) {
   RunFolder run;
-  run.planes = History{"planes.csv",
-                       {{"time", "s", {0, 1}},
-                        {"lid.point_x", "m", {0, 0}},
-                        {"lid.point_y", "m", {0, 0}},
-                        {"lid.point_z", "m", {3, 2}},
-                        {"lid.normal_x", "", {0, 0}},
-                        {"lid.normal_y", "", {0, 0}},
-                        {"lid.normal_z", "", {-1, -1}}}};
+  run.planes = RecordedHistory{"planes.csv",
+                               {{"time", "s", {0, 1}},
+                                {"lid.point_x", "m", {0, 0}},
+                                {"lid.point_y", "m", {0, 0}},
+                                {"lid.point_z", "m", {3, 2}},
+                                {"lid.normal_x", "", {0, 0}},
+                                {"lid.normal_y", "", {0, 0}},
+                                {"lid.normal_z", "", {-1, -1}}}};
 
   EXPECT_EQ(planes_at(run, 0.999), (std::vector<std::array<double, 6>>{{0, 0, 2, 0, 0, -1}}));
 }
@@ -117,7 +117,7 @@ TEST(RunFolder, FindsThePlanesAtTheTimeOfAFrame) {
 TEST(RunFolder, LeavesOutPlanesThatComeInALaterStage) {
   const double none = std::nan("");
   RunFolder run;
-  run.planes = History{"planes.csv", {{"time", "s", {0, 1}}}};
+  run.planes = RecordedHistory{"planes.csv", {{"time", "s", {0, 1}}}};
   for (const char* name : {"floor", "lid"})
     for (const char* field : {".point_x", ".point_y", ".point_z", ".normal_x", ".normal_y"})
       run.planes->columns.push_back(
@@ -140,7 +140,8 @@ TEST(RunFolder, ReadsHistoriesOfBodiesTiesAndMeasuresInTheOrderOfTheirNames) {
   test::write_bytes(folder / "reactions.csv", "time (s),x (m)\n");
 
   std::vector<std::string> files;
-  for (const History& history : read_histories(folder.path())) files.push_back(history.file);
+  for (const RecordedHistory& history : read_histories(folder.path()))
+    files.push_back(history.file);
 
   EXPECT_THAT(files, testing::ElementsAre("energy.csv", "rigid_bodies.csv", "ties.csv",
                                           "measures/bottom.csv", "measures/top.csv"));
