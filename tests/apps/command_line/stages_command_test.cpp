@@ -329,7 +329,7 @@ speed = "0.5 m/s"
 TEST_F(Stages, SayThatAnEndWhichHeldAllAlongDoesNotCount) {
   const std::string stages = R"([[stages]]
 name = "pour"
-end = { kinetic_energy = "1 MJ" }
+end = { kinetic_energy = "1000 kJ" }
 max_duration = "2 ms"
 )";
   EXPECT_THAT(failure_of(stages),
