@@ -3,7 +3,8 @@
 # plekton_library(name EXCEPT folder PUBLIC libraries... PRIVATE libraries...): the library plekton::<name> from the sources of
 #   the current folder, without those of a folder in it, static or shared as BUILD_SHARED_LIBS says.
 # plekton_kernels(sources...): those of the current folder that run with the widest vectors of the processor.
-# plekton_batches(target folders...): these of the current folder are compiled in fewer, larger units, eight sources of a folder in each.
+# plekton_batches(target EXCEPT folders...): its sources are compiled in fewer, larger units, eight of a folder in each, without those of
+#   some folders.
 
 # GCC 12 makes fused operations of sums and differences side by side (vfmaddsub) where the processor has them, -ffp-contract=off
 # or not: its vectoriser of straight code does not ask.
@@ -36,6 +37,32 @@ function(plekton_options target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
 
+# Most of the time of a small source goes into the headers that its neighbours need too. Batches stay within a folder, so that a new
+# source moves those of its own alone. Sources with options of their own are left out (by CMake). PLEKTON_BATCHES=OFF, as the preset
+# `dev` has it, compiles one by one: less to compile after a change, and a header that is missing shows.
+option(PLEKTON_BATCHES "Compile the sources of the libraries in batches" ON)
+
+function(plekton_batches target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "EXCEPT")
+  if(NOT PLEKTON_BATCHES)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # GCC takes the sources of a batch for headers, whose classes should have no members of types of their own.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE name)
+    if(NOT name IN_LIST arg_EXCEPT AND source MATCHES "^${CMAKE_CURRENT_SOURCE_DIR}/.*\\.cpp$")
+      string(MAKE_C_IDENTIFIER "${name}" name)
+      math(EXPR batch "0${count_${name}} / 8")
+      math(EXPR count_${name} "0${count_${name}} + 1")
+      set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${name}_${batch})
+    endif()
+  endforeach()
+endfunction()
+
 function(plekton_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "EXCEPT" "PUBLIC;PRIVATE")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
@@ -55,6 +82,7 @@ function(plekton_library name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/plekton>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   plekton_options(plekton_${name})
+  plekton_batches(plekton_${name})
   # Nobody replaces a function of ours at load time, so the compiler may inline and call directly within a library.
   target_compile_options(plekton_${name} PRIVATE -fno-semantic-interposition)
   target_link_options(plekton_${name} PRIVATE LINKER:-Bsymbolic-functions $<$<CXX_COMPILER_ID:GNU>:LINKER:--no-undefined>)
@@ -74,25 +102,4 @@ function(plekton_kernels)
   if(PLEKTON_MOVES_WHOLE_VECTORS)
     set_property(SOURCE ${ARGV} APPEND PROPERTY COMPILE_OPTIONS -mmove-max=512 -mstore-max=512)
   endif()
-endfunction()
-
-# Most of the time of a small source goes into the headers that its neighbours need too. Batches stay within a folder, so that a new
-# source moves those of its own alone. Sources with options of their own are left out (by CMake). PLEKTON_BATCHES=OFF, as the preset
-# `dev` has it, compiles one by one: less to compile after a change, and a header that is missing shows.
-option(PLEKTON_BATCHES "Compile the sources of the program in batches" ON)
-
-function(plekton_batches target)
-  if(NOT PLEKTON_BATCHES)
-    return()
-  endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  foreach(folder IN LISTS ARGN)
-    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
-    set(count 0)
-    foreach(source IN LISTS sources)
-      math(EXPR batch "${count} / 8")
-      math(EXPR count "${count} + 1")
-      set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${folder}_${batch})
-    endforeach()
-  endforeach()
 endfunction()

@@ -230,9 +230,42 @@ void Simulation::leave_out_absent() {
   if (are_fewer) follow_surface();
 }
 
+/// Calls look() with the contacts as the next forces will find them, and leaves them as they are.
+template <class Look>
+void Simulation::look_ahead(const Look& look) {
+  nodes_.know_all();
+  StateTree kept;
+  contacts_->exchange(StateArchive::writer(kept), scene_.planes, pool_);
+  NodeForces forces(scene_.state.size());
+  contacts_->advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces);
+  look();
+  contacts_->exchange(StateArchive::reader(kept), scene_.planes, pool_);
+}
+
+/// J
+double Simulation::next_contact_energy() {
+  double energy = 0.0;
+  look_ahead([&] { energy = contacts_->elastic_energy(); });
+  return energy;
+}
+
+std::vector<contact::ContactRecord> Simulation::next_contact_rows() {
+  std::vector<contact::ContactRecord> rows;
+  look_ahead([&] {
+    contacts_->for_each_record(scene_.state.position,
+                               [&](const contact::ContactRecord& row) { rows.push_back(row); });
+  });
+  return rows;
+}
+
 /// Contacts on the surface as it was, and then what has come and gone of that. Energy that they had
-/// stored on what is gone is work from outside, and none that tracking lost.
+/// stored on what is gone is work from outside, and none that tracking lost. So is what contacts
+/// have in this scene and had not in the other: those that come with bodies that touch others at
+/// once, and with another stiffness. They are known at the moment of the next forces; the ledger is
+/// of the moment of the last ones.
 void Simulation::take_contacts(Simulation& before, const contact::BodyPlaces& places) {
+  const double stored = before.contacts_->elastic_energy();
+  const double next = before.next_contact_energy();
   const geometry::Surface whole = whole_ ? *whole_ : surface_;
   const geometry::Surface made = surface_;
   const Scene& there = before.scene_;
@@ -246,15 +279,15 @@ void Simulation::take_contacts(Simulation& before, const contact::BodyPlaces& pl
   const bool comes_or_goes = !are_same_there(there, scene_);
   if (others || comes_or_goes) change_surface(part(there.elements));
   contacts_->take_over(*before.contacts_, places, scene_.planes, scene_.state.position, pool_);
-  work_.external += contacts_->elastic_energy() - before.contacts_->elastic_energy();
   if (comes_or_goes) {
     const double tracking = contacts_->tracking_loss();
     change_surface(part(scene_.elements));
-    const double gone = contacts_->tracking_loss() - tracking;
-    taken_out_ += gone;
-    work_.external -= gone;
+    taken_out_ += contacts_->tracking_loss() - tracking;
   }
   if (others) loads_.follow(geometry::SurfaceChange(made, surface_));
+  const double from_outside = next_contact_energy() - next;
+  work_.external += from_outside;
+  pending_.external += from_outside - (contacts_->elastic_energy() - stored);
 }
 
 /// Rigid bodies that are held in another way turn from now on as they move now; the others to the

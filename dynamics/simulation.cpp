@@ -449,8 +449,9 @@ void Simulation::check_motion() {
   if (is_slow) return;
   nodes_.know_all();
   if (const auto runaway = find_runaway(scene_.state, furthest_, drift_))
-    throw Diverged(*runaway, steps_, time_, scene_.state,
-                   fault_finder().fault(*runaway, {last_drift_, drift_}, suspect_));
+    throw Diverged(
+        *runaway, steps_, time_, scene_.state,
+        fault_finder().fault(*runaway, {last_drift_, drift_, chooser_ != nullptr}, suspect_));
 }
 
 /// Energy is made where motion is: the ledger is looked at when the kinetic energy has doubled, and
@@ -487,8 +488,9 @@ void Simulation::check_energy() {
   const std::size_t i = index_of(divergence.node);
   const double speed = std::sqrt(2.0 * made / scene_.properties.mass[i]);
   if (static_cast<double>(kStepsBetweenLooks) * speed * last_drift_ <= furthest_[i]) return;
-  throw Diverged(divergence, std::max<std::int64_t>(0, steps_ - 1), time_ - last_drift_,
-                 scene_.state, finder.fault(divergence, {last_drift_, last_drift_}, suspect_));
+  throw Diverged(
+      divergence, std::max<std::int64_t>(0, steps_ - 1), time_ - last_drift_, scene_.state,
+      finder.fault(divergence, {last_drift_, last_drift_, chooser_ != nullptr}, suspect_));
 }
 
 /// Before loads are added. With springs of stiffness k_i that have the energies e_i, the forces add

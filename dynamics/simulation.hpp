@@ -130,7 +130,7 @@ class Simulation {
   /// @throws std::invalid_argument for a node twice, or of a rigid body, and without a function
   void add_force(std::vector<NodeId> nodes, OwnForce force);
   /// Changes a load, from the next step on, by its place in Loads::forces; its factor goes on.
-  /// It is no part of the state, and forgotten by go_on_from().
+  /// It is part of the state, and forgotten by go_on_from().
   /// @throws std::invalid_argument for a force or torque that is not finite
   void set_force(std::size_t load, const Vec3& force, const Vec3& torque = Vec3::Zero());
   /// The same by its place in Loads::pressures. A step that was chosen follows; one that was given
@@ -144,7 +144,7 @@ class Simulation {
   /// has no pressure
   void set_body_servo(std::size_t load, double target, double pressure = 0.0);
   /// The velocity (m/s) of a plane that no load moves, from the next step on. A step that was given
-  /// does not follow. It is part of the state once that step was made.
+  /// does not follow.
   /// @throws std::invalid_argument for a plane that a load moves, or a velocity that is not finite
   void set_plane_velocity(std::size_t plane, const Vec3& velocity);
   const NodeProperties& properties() const noexcept { return scene_.properties; }
@@ -182,6 +182,9 @@ class Simulation {
   std::vector<contact::ContactRecord> list_contacts();
   /// The same without giving numbers.
   std::vector<contact::ContactRecord> contact_rows() const;
+  /// Those that the next step will find where the nodes are now, some of which may not have been
+  /// there in the last one. Takes about as long as a step and a snapshot.
+  std::vector<contact::ContactRecord> next_contact_rows();
   /// What bodies do to a plane, about force_point(plane).
   ForceAndMoment plane_reaction(std::size_t plane) const;
   /// What the supports of nodes bear: measures/reactions.hpp. Of grains, membranes and any other
@@ -303,8 +306,12 @@ class Simulation {
   void exchange_ledger(const geometry::StateArchive& archive);
   void exchange_asked_breaks(const geometry::StateArchive& archive);
   void exchange_last_step(const geometry::StateArchive& archive);
+  void exchange_loads(const geometry::StateArchive& archive);
   void exchange_step(const geometry::StateArchive& archive);
   void leave_out_absent();
+  template <class Look>
+  void look_ahead(const Look& look);
+  double next_contact_energy();
   void take_contacts(Simulation& before, const contact::BodyPlaces& places);
   void require_same_structures(const Simulation& before, const contact::BodyPlaces& places) const;
   void take_state(Simulation& before, const SceneChange& change);

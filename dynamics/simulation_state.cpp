@@ -6,6 +6,7 @@
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -38,7 +39,7 @@ void Simulation::exchange(const geometry::StateArchive& archive) {
   archive.same("scene", scene_hash_, "another scene");
   exchange_kept(archive);
   exchange_elements(archive.group("elements"));
-  loads_.exchange(archive.group("loads"));
+  exchange_loads(archive.group("loads"));
   contacts_->exchange(archive.group("contacts"), scene_.planes, pool_);
   exchange_step(archive.group("step"));
 }
@@ -89,6 +90,9 @@ template <class Id>
 bool is_below(std::size_t count, Id id) noexcept {
   const auto i = static_cast<std::int64_t>(id);
   return i >= 0 && i < static_cast<std::int64_t>(count);
+}
+bool is_target(double force) noexcept {
+  return force >= 0.0 && std::isfinite(force);
 }
 template <class Nodes>
 bool has_nodes(const Scene& scene, const Nodes& nodes) noexcept {
@@ -158,6 +162,31 @@ void Simulation::exchange_last_step(const geometry::StateArchive& archive) {
   archive("last_drift", last_drift_);
   archive("fastest", fastest_);
   archive("fastest_spin", fastest_spin_);
+}
+
+/// What the last step found of loads, and what has been set of them since the start.
+void Simulation::exchange_loads(const geometry::StateArchive& archive) {
+  loads_.exchange(archive);
+  const auto exchange_target = [](const geometry::StateArchive& of, auto& servo) {
+    of("force", servo.force);
+    of("pressure", servo.pressure);
+    of.require(is_target(servo.force), "force");
+    of.require(is_target(servo.pressure), "pressure");
+  };
+  for (std::size_t i = 0; i < scene_.loads.servos.size(); ++i) {
+    PlaneServo& servo = scene_.loads.servos[i];
+    exchange_target(archive.group("servo_" + std::to_string(i)), servo);
+    driven_planes_.set_target(i, servo.force, servo.pressure);
+  }
+  for (std::size_t i = 0; i < scene_.loads.body_servos.size(); ++i) {
+    BodyServo& servo = scene_.loads.body_servos[i];
+    const geometry::StateArchive of = archive.group("body_servo_" + std::to_string(i));
+    exchange_target(of, servo);
+    of("torque", servo.torque);
+    of.require(is_target(servo.torque), "torque");
+    driven_bodies_.set_target(i, servo);
+  }
+  driven_planes_.exchange(archive.group("planes"), scene_.planes.size());
 }
 
 /// How long steps are, and what the next choice of one knows.

@@ -77,10 +77,10 @@ std::string warning_about_bonds(const Scenario& scenario, std::size_t table, std
 }  // namespace
 
 InitialContacts initial_contacts(const Scenario& scenario, const BuiltScene& built,
-                                 const dynamics::Simulation& simulation) {
+                                 const dynamics::Simulation& simulation,
+                                 std::span<const ContactRecord> rows) {
   const BodyTables bodies(scenario, built, simulation);
   InitialContacts contacts;
-  const std::vector<ContactRecord> rows = simulation.contact_rows();
   contacts.bonds = count_bonds(rows, bodies, scenario.contacts);
   for (const ContactRecord& row : rows) {
     if (const auto overlap = overlap_of(row, bodies, simulation))
@@ -123,8 +123,11 @@ void require_possible_start(const InitialContacts& contacts, const Scenario& sce
     if (all.count++ == 0) all.deepest = &overlap;
   }
   Problems problems;
+  const bool is_later = scenario.stage && scenario.stage->number > 0;
+  const std::string stage = is_later ? scenario.stage->path + ": at its start " : "";
   for (const auto& [tables, all] : by_tables)
-    problems.add(place_of(tables[0], scenario), refusal_of(all.count, *all.deepest, scenario));
+    problems.add(place_of(tables[0], scenario),
+                 stage + refusal_of(all.count, *all.deepest, scenario));
   problems.throw_if_any();
 }
 

@@ -7,6 +7,7 @@
 #include "dynamics/simulation.hpp"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,11 @@ struct InitialContacts {
   std::vector<std::size_t> bonds;     ///< how many hold, by table [[contacts]]
 };
 
-/// Looks at the contacts of a simulation that has not made a step. Overlaps that may be rounding of
-/// coordinates do not count.
+/// Looks at the contacts that a simulation begins with. Overlaps that may be rounding of coordinates
+/// do not count.
 InitialContacts initial_contacts(const Scenario& scenario, const BuiltScene& built,
-                                 const dynamics::Simulation& simulation);
+                                 const dynamics::Simulation& simulation,
+                                 std::span<const contact::ContactRecord> rows);
 
 /// Bonds that were asked for and of which there are none, and overlaps that are deep.
 std::vector<std::string> warnings_about(const InitialContacts& contacts, const Scenario& scenario);

@@ -687,7 +687,8 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   prepared.simulation = simulation_of(scenario, prepared.built);
   prepared.duration = scenario.simulation.duration;
   choose_time_step(scenario.simulation, *prepared.simulation);
-  prepared.start = initial_contacts(scenario, prepared.built, *prepared.simulation);
+  prepared.start = initial_contacts(scenario, prepared.built, *prepared.simulation,
+                                    prepared.simulation->contact_rows());
   for (std::string& warning : warnings_about(prepared.start, scenario))
     prepared.built.warnings.push_back(std::move(warning));
   for (std::string& warning : warnings_about_stiffness(scenario, prepared.built))

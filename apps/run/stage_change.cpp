@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/stage_change.hpp"
 
+#include "apps/run/initial_contacts.hpp"
 #include "apps/run/run_state.hpp"
 #include "apps/scene/build_stage.hpp"
 #include "geometry/base/state_archive.hpp"
@@ -167,6 +168,32 @@ geometry::StateTree run_state(const geometry::StateTree& before, const contact::
   return state;
 }
 
+/// Contacts of what comes with a stage, or is moved by it: what was there before may be as deep in
+/// each other as it has been pressed.
+std::vector<contact::ContactRecord> contacts_of_new(const dynamics::SceneChange& change,
+                                                    dynamics::Simulation& now) {
+  std::vector<bool> is_new_node(now.state().size(), true);
+  for (const std::int32_t node : change.places.nodes)
+    if (node >= 0) is_new_node[static_cast<std::size_t>(node)] = false;
+  std::vector<bool> is_new_plane(now.planes().size(), true);
+  for (const std::int32_t plane : change.places.planes)
+    if (plane >= 0)
+      is_new_plane[static_cast<std::size_t>(plane)] =
+          !change.moved_planes.empty() && change.moved_planes[static_cast<std::size_t>(plane)];
+  const auto is_new = [&](const contact::ContactBody& body) {
+    if (body.kind == contact::BodyKind::plane)
+      return static_cast<bool>(is_new_plane[static_cast<std::size_t>(body.index)]);
+    if (body.feature.id < 0) return false;
+    const geometry::FeatureNodes nodes = geometry::nodes_of(now.surface(), body.feature);
+    return std::any_of(nodes.begin(), nodes.end(),
+                       [&](geometry::NodeId node) { return is_new_node[index_of(node)]; });
+  };
+  std::vector<contact::ContactRecord> rows = now.next_contact_rows();
+  std::erase_if(
+      rows, [&](const contact::ContactRecord& row) { return !is_new(row.a) && !is_new(row.b); });
+  return rows;
+}
+
 }  // namespace
 
 StageOfState stage_of(const geometry::StateTree& state) {
@@ -210,8 +237,12 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
     if (stage.stage->origins.changes_nothing) {
       next.simulation->restore(ended.snapshot());
     } else {
-      next.simulation->go_on_from(
-          ended, change_to(stage.stage->origins, places, ended, next.simulation->scene()));
+      const dynamics::SceneChange change =
+          change_to(stage.stage->origins, places, ended, next.simulation->scene());
+      next.simulation->go_on_from(ended, change);
+      require_possible_start(initial_contacts(now, next.built, *next.simulation,
+                                              contacts_of_new(change, *next.simulation)),
+                             now);
       if (!stage.simulation.time_step && !std::isfinite(next.simulation->time_step()))
         throw InputError(fmt::format(
             "{}: nothing moves freely at its start, so no time step can be chosen; free or add "

@@ -139,7 +139,10 @@ class Stages {
       if (entry.key != "remove" && !change(entry)) own.entries.push_back(entry);
     origins_.absent_membranes = membranes_.absent_in(number_);
     origins_.absent_rigid_bodies = rigid_bodies_.absent_in(number_);
-    origins_.changes_nothing = number_ > 0 && !changes_bodies_ && text_of_all() == before;
+    const bool moves_planes = std::find(origins_.moved_planes.begin(), origins_.moved_planes.end(),
+                                        true) != origins_.moved_planes.end();
+    origins_.changes_nothing =
+        number_ > 0 && !changes_bodies_ && !moves_planes && text_of_all() == before;
     Table table = now_;
     set_duration(table, stage, place);
     table.entries.push_back({"stages", place, Value{place, Array{Value{place, std::move(own)}}}});
@@ -406,8 +409,13 @@ class Stages {
         remove_body(rigid_bodies_, *table);
       else if (is_membrane)
         remove_body(membranes_, *table);
-      else
+      else if (number_ > 0)
         left.push_back(value);
+      else
+        complain(
+            value.place, "remove",
+            "no grains have been there before the first stage; say so where they are placed, or "
+            "take them out in a stage after it");
     }
     return {removals.key, removals.place, Value{removals.value.place, std::move(left)}};
   }
@@ -464,7 +472,8 @@ class Stages {
 
   void complain_of_none(std::string_view key, const Entry& named) {
     complain(named.value.place, fmt::format("remove.{}", key),
-             fmt::format("there is none called {} in the stage before", shown(named.value)));
+             fmt::format("there is none called {} in the stage before, or it is taken out already",
+                         shown(named.value)));
   }
 
   /// @returns the length of the list after a problem

@@ -5,9 +5,11 @@
 #include "apps/scene/build_loads.hpp"
 #include "apps/scene/build_reactions.hpp"
 #include "apps/scene/build_ties.hpp"
+#include "apps/scene/fixity.hpp"
 #include "apps/scene/grain_generator.hpp"
 #include "apps/scene/membrane_builder.hpp"
 #include "apps/scene/rigid_builder.hpp"
+#include "apps/scene/stage_ends.hpp"
 #include "geometry/base/elementary.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/neighbor/space_order.hpp"
@@ -294,6 +296,8 @@ void add_all_grains(const Scenario& scenario, const BodiesThere& there, BuiltSce
 
 BuiltScene build_scene(const Scenario& scenario, const HearSetUp& hear) {
   BuiltScene built = build_bodies(scenario, {}, hear);
+  if (scenario.stage) fix_and_free(*scenario.stage, built, built.scene.properties.held);
+  if (const StageEnd* const end = scenario.end()) require_apart(*end, built);
   add_loads(scenario, built);
   hold_as_loaded(scenario, built);
   add_reactions(scenario, built);

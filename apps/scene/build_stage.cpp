@@ -3,8 +3,10 @@
 
 #include "apps/scene/build_loads.hpp"
 #include "apps/scene/build_reactions.hpp"
+#include "apps/scene/fixity.hpp"
 #include "apps/scene/node_set.hpp"
 #include "apps/scene/rigid_builder.hpp"
+#include "apps/scene/stage_ends.hpp"
 
 #include <fmt/format.h>
 
@@ -69,25 +71,6 @@ void take_presence(const BuiltScene& built, StageBodies& bodies, std::vector<Vec
   }
 }
 
-void fix_and_free(const StageSettings& stage, const BuiltScene& there, StageBodies& bodies) {
-  Problems problems;
-  const auto set_all = [&](const std::vector<NodeSetSettings>& sets, Held held) {
-    for (const NodeSetSettings& set : sets) {
-      const std::vector<geometry::NodeId> nodes = nodes_of(set, there);
-      if (nodes.empty())
-        problems.add(set.place,
-                     fmt::format("{}: has no node there at the start of the stage", stage.path));
-      for (const geometry::NodeId node : nodes) {
-        Held& own = bodies.held[index_of(node)];
-        own = held | (own & Held::by_body);
-      }
-    }
-  };
-  set_all(stage.freed, Held::nothing);
-  set_all(stage.fixed, Held::everything);
-  problems.throw_if_any();
-}
-
 /// Of bodies of which the stage says anew what is held.
 void hold_as_told(const Scenario& stage, const BuiltScene& built, StageBodies& bodies) {
   for (const BuiltRigidBody& body : built.rigid_bodies) {
@@ -140,7 +123,8 @@ BuiltScene begun(BuiltScene built, const Scenario& stage, StageBodies& bodies,
   take_new_grains(stage, built, bodies, positions);
   hold_as_told(stage, built, bodies);
   std::vector<Vec3> as_built = std::exchange(built.scene.state.position, positions);
-  fix_and_free(*stage.stage, built, bodies);
+  fix_and_free(*stage.stage, built, bodies.held);
+  require_apart(stage.stage->end, built);
   built.scene.state.position = std::move(as_built);
   const std::vector<Vec3> planes = points_of(built.scene.planes);
   note_new_planes(stage, planes, bodies);

@@ -341,7 +341,6 @@ EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
   Transferred transferred;
   EnergyLoss loss;
   for (const Contact& old : contacts_of(pair, previous_)) {
-    const double stored = AnyLaw::history_energy(pair.parameters, old.memory.history);
     const Feature* minima =
         previous_[static_cast<std::size_t>(pair.contacts.worker)].minima.data() + old.first_minimum;
     const bool stays = old.minimum_count == 1 && *minima == term.core.feature;
@@ -352,14 +351,17 @@ EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
       loss.dissipated = loss_at_end(pair, old, motion, dt);
       continue;
     }
-    loss.tracking = stored;
     worker.pass_throughs += is_turned_over(old.memory.normal, state.normal);
     AnyLaw::accumulate_history(
         transferred.history,
         carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), 1.0);
     transferred.id = old.id;
+    // Where it stays it is turned with its normal: what differs is rounding, and not counted side by
+    // side either.
+    if (!stays)
+      loss.tracking = AnyLaw::history_energy(pair.parameters, old.memory.history) -
+                      AnyLaw::history_energy(pair.parameters, transferred.history);
   }
-  loss.tracking -= AnyLaw::history_energy(pair.parameters, transferred.history);
   const PatchTermForce term_force{state.elastic_force, 1.0};
   loss.dissipated +=
       add_contact(pair, {&term, 1}, state, {&term_force, 1}, transferred, dt, worker_index);

@@ -14,7 +14,7 @@ Point<Number> normal_of(const std::array<Point<Number>, 3>& facet) {
 
 /// What round-off makes of a point on a plane is below this times the numbers it comes from. A line
 /// that lies in a plane up to that crosses it nowhere.
-constexpr double kRoundoff = 1e-12;
+constexpr double kPlaneRoundoff = 1e-12;
 
 /// Height of a point over a plane, in units of the length of its normal; 0 up to round-off.
 template <class Number>
@@ -23,8 +23,9 @@ double height_now(const Point<Number>& point, const Point<Number>& origin,
   const Vec3 up = still(point) - still(origin);
   const Vec3 n = still(normal);
   const double height = up.dot(n);
-  return std::abs(height) <= kRoundoff * std::sqrt(up.squaredNorm() * n.squaredNorm()) ? 0.0
-                                                                                       : height;
+  return std::abs(height) <= kPlaneRoundoff * std::sqrt(up.squaredNorm() * n.squaredNorm())
+             ? 0.0
+             : height;
 }
 
 template <class Number>

@@ -123,6 +123,9 @@ double AppliedLoads::largest_speed() const noexcept {
 }
 
 void AppliedLoads::exchange(const geometry::StateArchive& archive) {
+  archive.same("forces", forces_.size(), "another number of forces");
+  for (std::size_t i = 0; i < forces_.size(); ++i)
+    forces_[i].exchange(archive.group("force_" + std::to_string(i)));
   archive.same("pressures", pressures_.size(), "another number of pressures");
   for (std::size_t i = 0; i < pressures_.size(); ++i)
     pressures_[i].exchange(archive.group("pressure_" + std::to_string(i)));

@@ -75,7 +75,7 @@ class AppliedLoads {
   void add_elastic_forces(double time, const NodeState& state, NodeForces& forces,
                           geometry::ThreadPool& pool);
 
-  /// What the last step found. @throws geometry::StateMismatch
+  /// What the last step found, and loads as they are set. @throws geometry::StateMismatch
   void exchange(const geometry::StateArchive& archive);
 
   /// m/s, of prescribed motions at any time.

@@ -4,6 +4,7 @@
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/loads/loaded_nodes.hpp"
 #include "dynamics/model/loads.hpp"
+#include "geometry/base/state_archive.hpp"
 
 namespace plekton::dynamics {
 
@@ -24,6 +25,13 @@ class ForcedNodes {
   void set(const Vec3& force, const Vec3& torque) noexcept {
     load_.force = force;
     load_.torque = torque;
+  }
+  /// What set() may have changed. @throws geometry::StateMismatch
+  void exchange(const geometry::StateArchive& archive) {
+    archive("force", load_.force);
+    archive("torque", load_.torque);
+    archive.require(load_.force.allFinite(), "force");
+    archive.require(load_.torque.allFinite(), "torque");
   }
 
  private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/plane_servo.hpp"
 
+#include "geometry/base/state_archive.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -120,6 +122,15 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,
 bool DrivenPlanes::drives(std::size_t plane) const noexcept {
   const auto is_it = [plane](const auto& driven) { return driven.plane == plane; };
   return std::ranges::any_of(motions_, is_it) || std::ranges::any_of(servos_, is_it);
+}
+
+void DrivenPlanes::exchange(const geometry::StateArchive& archive, std::size_t plane_count) {
+  archive.rows("set_velocities", set_velocities_, [&](geometry::RowFields& row, SetVelocity& set) {
+    row("plane", set.plane);
+    row.require(set.plane < plane_count && !drives(set.plane), "plane");
+    row("velocity", set.velocity);
+    row.require(set.velocity.allFinite(), "velocity");
+  });
 }
 
 double DrivenPlanes::largest_speed() const noexcept {

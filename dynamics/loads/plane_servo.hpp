@@ -12,6 +12,10 @@
 #include <utility>
 #include <vector>
 
+namespace plekton::geometry {
+class StateArchive;
+}
+
 namespace plekton::dynamics {
 
 /// What the bodies do to a plane along its normal by their elasticity, and by the dashpots of those
@@ -101,6 +105,9 @@ class DrivenPlanes {
   double act(const LoadStep& step, std::span<const Vec3> reactions, const PlanePressAt& press,
              std::vector<contact::Plane>& planes);
 
+  /// Velocities that wait for the next act(). @throws geometry::StateMismatch
+  void exchange(const geometry::StateArchive& archive, std::size_t plane_count);
+
   /// m/s, of all times.
   double largest_speed() const noexcept;
 
@@ -108,7 +115,11 @@ class DrivenPlanes {
   std::vector<PlaneMotion> motions_;
   std::vector<Vec3> start_;  // m, of motions_
   std::vector<PlaneServo> servos_;
-  std::vector<std::pair<std::size_t, Vec3>> set_velocities_;  // m/s, by plane, till the next act()
+  struct SetVelocity {
+    std::size_t plane;
+    Vec3 velocity;  // m/s
+  };
+  std::vector<SetVelocity> set_velocities_;  // till the next act()
 };
 
 }  // namespace plekton::dynamics

@@ -40,7 +40,7 @@ class PressedSurface {
   /// there is no pressure.
   void follow(const geometry::SurfaceChange& change);
 
-  /// What the last act found.
+  /// What the last act found, and what set() may have changed.
   void exchange(const geometry::StateArchive& archive);
 
   /// From the next step on. @param pressure  Pa, times the factor; over the outside of a gas at the

@@ -60,7 +60,7 @@ std::string FaultFinder::fault(const Divergence& divergence, const Drifts& drift
   text << "; the time step of " << drift << " s is ";
   const double usual = critical_step_at(before, drifts.last, true);
   const double critical = critical_step_at(before, drifts.last, false);
-  if (drift > kLargestStep * usual) {
+  if (drift > kLargestStep * usual && !drifts.is_chosen) {
     text << drift / usual << " of the critical one: use a smaller time step (or \"auto\")";
     return text.str();
   }

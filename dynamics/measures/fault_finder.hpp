@@ -15,8 +15,9 @@ class StrongestAction;
 
 /// How long the last drifts were.
 struct Drifts {
-  double last;   ///< s, between the forces of the last step and those before
-  double drift;  ///< s, that the last step has moved the nodes by
+  double last;     ///< s, between the forces of the last step and those before
+  double drift;    ///< s, that the last step has moved the nodes by
+  bool is_chosen;  ///< and that nobody gave
 };
 
 /// Finds who is at fault where a simulation has become meaningless.

@@ -118,6 +118,15 @@ void StepChooser::exchange(const geometry::StateArchive& archive) {
   archive("longest_way", look_.longest_way);
   archive("way_in_a_step", way_in_a_step_);
   archive("stable_step", stable_step_);
+  // Of the scene as it was when steps began to be chosen, which may have gone on from another.
+  archive("collision_step", collision_step_);
+  archive("pace_radius", pace_radius_);
+  archive.rows("of_structures", of_structures_, [](geometry::RowFields& row, ExpectedOfNode& node) {
+    row("translation", node.stiffness.translation);
+    row("rotation", node.stiffness.rotation);
+    row("damping", node.damping);
+  });
+  archive.require(of_structures_.size() == is_counted_.size(), "of_structures");
   spread_.exchange(archive.group("spread"));
   structures_.exchange(archive.group("structures"));
 }

@@ -15,7 +15,7 @@ namespace plekton::dynamics {
 namespace {
 
 /// How far differences of forces go, of the smallest radius.
-constexpr double kDifference = 1e-6;
+constexpr double kShareOfRadius = 1e-6;
 
 /// Leaves out the springs along the normals of contacts with surfaces, but for dashpots: the forces
 /// of the contacts' energy have them, and what turns with them.
@@ -69,14 +69,14 @@ void StepLimits::add_near_contacts(ContactSprings& springs, double margin, doubl
 void StepLimits::add_between_structures(ContactSprings& springs, StructureStiffness& structures,
                                         geometry::Positions x, double moved) const {
   if (of_.surface.structure_count() == 0) return;
-  structures.add_to(springs, of_.contacts, of_.scene.properties, {x, kDifference * pace_radius_},
+  structures.add_to(springs, of_.contacts, of_.scene.properties, {x, kShareOfRadius * pace_radius_},
                     moved);
 }
 
 void StepLimits::add_spread(NodalStiffness& stiffness, ContactSprings& springs,
                             SpreadStiffness& spread, geometry::Positions x) const {
   if (!spread.begin(springs, of_.scene.state.size())) return;
-  spread.add_to(stiffness, springs, of_.scene.properties, {x, kDifference * pace_radius_},
+  spread.add_to(stiffness, springs, of_.scene.properties, {x, kShareOfRadius * pace_radius_},
                 [&](geometry::Positions places, NodeForces& forces, contact::PatchFinder& finder) {
                   of_.contacts.add_elastic_forces(
                       places, forces, finder, [&](NodeId ball) { return spread.is_spread(ball); });

@@ -2,19 +2,13 @@
 #include "geometry/closest/certificate.hpp"
 
 #include "geometry/base/predicates.hpp"
+#include "geometry/closest/corner_mask.hpp"
 
 #include <algorithm>
 #include <bit>
 
 namespace plekton::geometry::closest {
 namespace {
-
-std::size_t first_of(unsigned corners) {
-  return static_cast<std::size_t>(std::countr_zero(corners));
-}
-std::size_t last_of(unsigned corners) {
-  return static_cast<std::size_t>(std::bit_width(corners)) - 1;
-}
 
 /// Conditions that must not be positive: whether all hold, and whether all are negative.
 class Conditions {

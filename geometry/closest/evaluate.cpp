@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/base/predicates.hpp"
+#include "geometry/closest/corner_mask.hpp"
 #include "geometry/closest/decide.hpp"
 #include "geometry/closest/foot_point.hpp"
 
@@ -16,13 +17,6 @@ namespace {
 /// side_side()), which is 2.6e-13 of a distance of this share. So do the foot points on faces whose
 /// height is below this share of their size: the error of their normal is that of the height.
 constexpr double kShortest = 0x1p-8;
-
-std::size_t first_of(unsigned corners) {
-  return static_cast<std::size_t>(std::countr_zero(corners)) & 3U;  // never 32: there is a corner
-}
-std::size_t last_of(unsigned corners) {
-  return static_cast<std::size_t>(std::bit_width(corners)) - 1;
-}
 
 /// Weights of both sides, and the separation from a to b (m).
 struct Points {

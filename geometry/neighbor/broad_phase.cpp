@@ -32,16 +32,16 @@ namespace plekton::geometry {
 namespace {
 
 /// FCL ranks boxes by squared diagonals, which must not overflow.
-constexpr double kLargestCoordinate = 1e150;
+constexpr double kFarthest = 1e150;
 /// Nodes on the longest way down, root and leaf included. A tree of 2^31 boxes has 29.
 constexpr std::size_t kMaxHeight = 64;
 
 /// NaN is unbounded. std::max and std::min return their first argument when the second is NaN.
 double bounded_below(double lower) {
-  return std::min(kLargestCoordinate, std::max(-kLargestCoordinate, lower));
+  return std::min(kFarthest, std::max(-kFarthest, lower));
 }
 double bounded_above(double upper) {
-  return std::max(-kLargestCoordinate, std::min(kLargestCoordinate, upper));
+  return std::max(-kFarthest, std::min(kFarthest, upper));
 }
 
 fcl::AABBd to_fcl(const Box& box) {

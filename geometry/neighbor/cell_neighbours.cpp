@@ -12,7 +12,7 @@
 namespace plekton::geometry {
 namespace {
 
-constexpr std::int64_t kListsPerTree = 64;
+constexpr std::int64_t kListsPerCellTree = 64;
 
 /// m, of two cells: both radii and the skin.
 double interaction_range_of(const Surface& surface, CellId a, CellId b, double margin) {
@@ -211,7 +211,7 @@ void CellNeighbours::exchange(const StateArchive& archive, ThreadPool& pool) {
 void CellNeighbours::make_list(Positions x, ThreadPool& pool) {
   make_boxes(x);
   // Cells keep their neighbours in the structure: the tree stays a good one for long.
-  if (tree_.size() == boxes_.size() && rebuild_count_ % kListsPerTree != 0) {
+  if (tree_.size() == boxes_.size() && rebuild_count_ % kListsPerCellTree != 0) {
     tree_.refit(boxes_);
   } else {
     tree_.rebuild(boxes_);

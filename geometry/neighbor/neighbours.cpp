@@ -124,7 +124,7 @@ bool Neighbours::may_touch(const IndexPair& pair, Positions x) const noexcept {
 /// Where cells come that are in no list, it is made anew with the next step.
 void Neighbours::follow(const SurfaceChange& change) {
   surface_ = &change.after();
-  if (brings_elements(change)) skin_ = Skin(skin());
+  if (brings_elements(change)) skin_.expire();
   std::vector<IndexPair> left;
   for (const IndexPair& pair : sphere_cells_) {
     for (const CellId cell : change.left_of(CellId{pair.b}))

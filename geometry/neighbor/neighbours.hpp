@@ -61,7 +61,7 @@ class Neighbours {
   /// The lists are made anew from where the nodes were when they were made. @throws StateMismatch
   void exchange(const StateArchive& archive, ThreadPool& pool);
   /// m, where the nodes were when the lists were made; empty before that.
-  Positions list_positions() const noexcept { return skin_.built_positions(); }
+  Positions list_positions() const noexcept { return skin_.listed_positions(); }
 
   double skin() const noexcept { return 2.0 * skin_.margin(); }
   /// How often the lists were made.

@@ -64,6 +64,11 @@ class Skin {
     return built_ ? Positions(built_positions_) : Positions();
   }
 
+  /// m, of the list that there is, also where it is due to be made anew; empty if there is none.
+  Positions listed_positions() const noexcept { return built_positions_; }
+  /// The list is due, wherever nodes are.
+  void expire() noexcept { built_ = false; }
+
   void exchange(const StateArchive& archive);
 
  private:

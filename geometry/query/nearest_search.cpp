@@ -9,7 +9,6 @@ namespace plekton::geometry {
 namespace {
 
 using Row = BoxTree::Row;
-constexpr std::size_t kLanes = BoxTree::kLanes;
 
 /// Of a distance, more than rounding in boxes, supports and the kernel's usual case adds up to.
 constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
@@ -92,7 +91,7 @@ void push_children(const BoxTree::Node& node, const Box& from, Stack& open, std:
                    const IsBeyond& is_beyond) {
   const Row squared = node.squared_distances(from);
   const std::size_t first = count;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+  for (std::size_t lane = 0; lane < BoxTree::kLanes; ++lane) {
     if (!node.child[lane].exists() || is_beyond(squared[lane], node.radius[lane])) continue;
     const Entry entry{squared[lane], node.radius[lane], node.child[lane]};
     std::size_t k = count++;
@@ -187,7 +186,7 @@ class PairSearch {
 
   NearestCells run() {
     const BoxTree::Node& root = a_.tree.root();
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::size_t lane = 0; lane < BoxTree::kLanes; ++lane) {
       if (!root.child[lane].exists()) continue;
       split_b(EntryPair{0.0, root.child[lane], {0}, root.radius[lane], 0.0, root.box(lane), {}});
       go_down();
@@ -240,7 +239,7 @@ class PairSearch {
   template <class Replace>
   void push(const BoxTree::Node& node, const Row& squared, const EntryPair& pair,
             const Replace& replace) {
-    std::array<std::size_t, kLanes> order{0, 1, 2, 3};
+    std::array<std::size_t, BoxTree::kLanes> order{0, 1, 2, 3};
     std::sort(order.begin(), order.end(),
               [&](std::size_t i, std::size_t k) { return squared[i] > squared[k]; });
     for (const std::size_t lane : order) {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/query/ray.hpp"
 
+#include "geometry/base/largest_coordinate.hpp"
+
 #include <cmath>
 
 namespace plekton::geometry {
 namespace {
 
 /// A ray that grazes halves its distance in each step; after as many no bit is left of it.
-constexpr int kMostSteps = 100;
+constexpr int kMostHalvings = 100;
 
 /// Of a core without thickness the point may be on it, or beyond it by rounding: there the normal
 /// is turned to where the ray comes from.
@@ -20,7 +22,7 @@ RayHit hit_at(double t, const Vec3& point, const Proximity& proximity, CellId ce
 }  // namespace
 
 bool can_hit(const Ray& ray) noexcept {
-  constexpr double kLargestCoordinate = 1e75, kShortest = 1e-150, kLongest = 1e150;
+  constexpr double kShortest = 1e-150, kLongest = 1e150;
   const double speed = ray.direction.norm();
   return speed >= kShortest && speed <= kLongest && ray.origin.allFinite() &&
          ray.origin.cwiseAbs().maxCoeff() < kLargestCoordinate && ray.t_end >= 0.0;
@@ -36,7 +38,7 @@ std::optional<RayHit> hit(const Ray& ray, const PlacedSurface& on, CellId cell) 
   if (!can_hit(ray)) return std::nullopt;
   const double radius = on.surface.radius(on.surface.structure_of(cell));
   double t = 0.0;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostHalvings; ++step) {
     const Vec3 point = ray.origin + t * ray.direction;
     const Proximity near = proximity(Probe::point(point), on, cell);
     if (near.gap <= 4.0 * kUlp * near.arm_b + resolution(ray, t))

@@ -9,8 +9,8 @@ namespace plekton::geometry {
 namespace {
 
 using Row = BoxTree::Row;
-constexpr std::size_t kLanes = BoxTree::kLanes;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// t where there is no hit.
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// m. Whatever hit() calls a hit at t or before is as near to the point at t or before, also in its
 /// rounded box.
@@ -52,10 +52,10 @@ struct Way {
   /// does not.
   Row entries(const BoxTree::Node& node) const {
     Row in{}, out;
-    out.fill(kInfinity);
+    out.fill(kNever);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double from = start[static_cast<int>(axis)], by = inverse[static_cast<int>(axis)];
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      for (std::size_t lane = 0; lane < BoxTree::kLanes; ++lane) {
         const double margin = node.radius[lane] + slack;
         const double p = (node.lower[axis][lane] - margin - from) * by;
         const double q = (node.upper[axis][lane] + margin - from) * by;
@@ -63,8 +63,8 @@ struct Way {
         out[lane] = std::min(out[lane], std::max(p, q));
       }
     }
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (!node.child[lane].exists() || !(in[lane] <= out[lane])) in[lane] = kInfinity;
+    for (std::size_t lane = 0; lane < BoxTree::kLanes; ++lane) {
+      if (!node.child[lane].exists() || !(in[lane] <= out[lane])) in[lane] = kNever;
     }
     return in;
   }
@@ -74,17 +74,17 @@ struct Way {
 /// boxes first.
 template <class Visit, class Last>
 void walk(const Way& way, const BoxTree& tree, const Visit& visit, const Last& last) {
-  struct Entry {
+  struct Waiting {
     double in;
     BoxTree::Child child;
   };
-  std::array<Entry, BoxTree::kMostEntries> open;
+  std::array<Waiting, BoxTree::kMostEntries> open;
   std::size_t count = 0;
   const auto push = [&](const BoxTree::Node& node) {
     const Row in = way.entries(node);
     const std::size_t first = count;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (!(in[lane] < kInfinity) || in[lane] > last()) continue;
+    for (std::size_t lane = 0; lane < BoxTree::kLanes; ++lane) {
+      if (!(in[lane] < kNever) || in[lane] > last()) continue;
       std::size_t k = count++;
       for (; k > first && open[k - 1].in < in[lane]; --k) open[k] = open[k - 1];
       open[k] = {in[lane], node.child[lane]};
@@ -92,7 +92,7 @@ void walk(const Way& way, const BoxTree& tree, const Visit& visit, const Last& l
   };
   push(tree.root());
   while (count > 0) {
-    const Entry entry = open[--count];
+    const Waiting entry = open[--count];
     if (entry.in > last()) continue;
     if (entry.child.is_item())
       visit(CellId{entry.child.item()});
@@ -108,7 +108,7 @@ std::optional<RayHit> first_hit(const Ray& ray, const SearchedSurface& on, const
   if (on.tree.is_empty() || !can_hit(ray)) return first;
   const Way way(ray, bounds);
   if (way.is_empty) return first;
-  double last = kInfinity;
+  double last = kNever;
   walk(
       way, on.tree,
       [&](CellId cell) {
@@ -133,7 +133,7 @@ std::vector<RayHit> all_hits(const Ray& ray, const SearchedSurface& on, const Bo
       [&](CellId cell) {
         if (const auto found = hit(ray, on.placed, cell)) hits.push_back(*found);
       },
-      [] { return kInfinity; });
+      [] { return kNever; });
   std::sort(hits.begin(), hits.end(), [](const RayHit& p, const RayHit& q) {
     return std::pair(p.t, p.cell) < std::pair(q.t, q.cell);
   });

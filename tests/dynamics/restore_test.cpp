@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
 
 namespace plekton::dynamics {
@@ -118,6 +119,63 @@ TEST(RestoreFiles, GoOnFromAFile) {
   resumed.load(folder / "state.h5");
 
   EXPECT_EQ(state_hash(resumed), state_hash(whole));
+}
+
+/// A pushed ball, a pressed facet, a plate and a rigid ball under servo control, and a plane that
+/// nothing moves.
+Scene scene_of_loads() {
+  Scene scene;
+  scene.materials = {{1e6, 0.3, 0.4}};
+  const contact::MaterialId material{0};
+  for (const double x : {0.0, 0.1}) scene.add_sphere(Vec3(x, 0, 0.01), 0.01, 2650.0, material);
+  scene.add_rigid_body(std::array{NodeId{1}}, {0.01, Vec3(0.1, 0, 0.01), 1e-6 * Mat3::Identity()});
+  std::array<NodeId, 3> corners;
+  for (int i = 0; i < 3; ++i)
+    corners[static_cast<std::size_t>(i)] = scene.add_node(Vec3(1 + (i == 1), i == 2, 0));
+  scene.add_facet(corners[0], corners[1], corners[2], 0.01, material);
+  for (std::size_t i = 0; i < 3; ++i)
+    scene.add_beam(corners[i], corners[(i + 1) % 3], circular_section(0.01, 1e7, 0.3), 1000.0);
+  for (const double height : {0.0, 0.0205, -1.0})
+    scene.planes.push_back({Vec3(0, 0, height), height > 0.0 ? Vec3(-Vec3::UnitZ()) : Vec3::UnitZ(),
+                            Vec3::Zero(), material});
+  scene.loads.forces.emplace_back().nodes = {NodeId{0}};
+  scene.loads.pressures.emplace_back().facets = {geometry::FaceId{0}};
+  scene.loads.pressures[0].pressure = 1.0;
+  PlaneServo& plate = scene.loads.servos.emplace_back();
+  plate.plane = 1;
+  plate.force = 3.0;
+  plate.largest_speed = 0.1;
+  BodyServo& press = scene.loads.body_servos.emplace_back();
+  press.force = 2.0;
+  press.axis = 2;
+  press.towards = -1.0;
+  press.largest_speed = 0.1;
+  return scene;
+}
+
+TEST(RestoreLoads, GoOnAsTheyWereSet) {
+  const auto start = [] {
+    SimulationOptions options;
+    options.time_step = 2e-6;
+    return Simulation(scene_of_loads(), options);
+  };
+  Simulation whole = start(), untouched = start();
+  for (Simulation* const simulation : {&whole, &untouched}) advance(*simulation, 20);
+  whole.set_force(0, Vec3(0.1, 0, 0), Vec3(0, 0, 1e-3));
+  whole.set_pressure(0, -5.0);
+  whole.set_servo(0, 7.0, 1.0);
+  whole.set_body_servo(0, 4.0);
+  whole.set_plane_velocity(2, Vec3(0, 0, 1e-3));
+  Simulation resumed = start();
+  resumed.restore(whole.snapshot());
+
+  for (Simulation* const simulation : {&whole, &untouched, &resumed}) advance(*simulation, 2000);
+
+  EXPECT_EQ(differences(resumed.snapshot(), whole.snapshot()), std::vector<std::string>{});
+  const NodeState &set = whole.state(), &before = untouched.state();
+  for (const std::size_t node : {0U, 1U, 2U}) EXPECT_NE(set.position[node], before.position[node]);
+  for (const std::size_t plane : {1U, 2U})
+    EXPECT_NE(whole.planes()[plane].point.z(), untouched.planes()[plane].point.z()) << plane;
 }
 
 TEST(RestoreErrors, NameAnotherScene) {

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kDigits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-bool is_blank(char c) {
+bool is_xml_blank(char c) {
   return c == ' ' || c == '\n' || c == '\r' || c == '\t';
 }
 
@@ -27,7 +27,7 @@ bool VtkBytes::decode_group() {
     if (stored_.empty()) return false;
     const char c = stored_.front();
     stored_.remove_prefix(1);
-    if (is_blank(c)) continue;
+    if (is_xml_blank(c)) continue;
     if (c == '=') {
       ++padding;
       bits <<= 6;

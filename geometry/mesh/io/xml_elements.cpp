@@ -9,7 +9,7 @@
 namespace plekton::geometry {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kXmlBlanks = " \t\r\n";
 constexpr std::string_view kEndsOfAName = " \t\r\n/>";
 constexpr std::size_t kMostLevels = 64;
 
@@ -75,7 +75,7 @@ class XmlReader {
     pass(end + text.size());
   }
 
-  void pass_blanks() { pass(std::min(bytes_.find_first_not_of(kBlanks, at_), bytes_.size())); }
+  void pass_blanks() { pass(std::min(bytes_.find_first_not_of(kXmlBlanks, at_), bytes_.size())); }
 
   std::string_view word(std::string_view ends) {
     const std::size_t begin = at_;
