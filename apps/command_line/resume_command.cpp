@@ -61,6 +61,12 @@ ResumedRun find_resumed_run(const ResumeArguments& arguments) {
   ResumedRun run = resumed_from(arguments.same_folder ? last_checkpoint_with_files(arguments.folder)
                                                       : last_checkpoint(arguments.folder, begin),
                                 arguments.overrides);
+  const double last = run.scenario.simulation.duration;
+  if (begin && run.scenario.stages.empty() && !(*begin < last))
+    throw InputError(
+        fmt::format("--from: got \"{}\"; expected a time before the end of the run, {:.6g} s; "
+                    "to go on beyond that give --set simulation.duration=TIME",
+                    arguments.from, last));
   run.from = begin;
   run.until = end;
   if (end) run.scenario.simulation.duration = *end;

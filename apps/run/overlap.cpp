@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/overlap.hpp"
 
-#include "geometry/closest/core_pair.hpp"
-#include "geometry/critical/product_features.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +14,6 @@ namespace {
 using contact::BodyKind;
 using contact::ContactBody;
 using contact::ContactRecord;
-using geometry::index_of;
 
 /// m; nothing for a plane.
 std::optional<double> radius_of(const ContactBody& body, const dynamics::Simulation& simulation) {
@@ -27,26 +23,19 @@ std::optional<double> radius_of(const ContactBody& body, const dynamics::Simulat
   return simulation.surface().radius(geometry::id_at<geometry::StructureId>(i));
 }
 
-geometry::Core core_of(const ContactBody& body, const dynamics::Simulation& simulation) {
-  const geometry::FeatureNodes nodes = nodes_of(simulation.surface(), body.feature);
-  geometry::Core core;
-  for (std::size_t i = 0; i < nodes.count; ++i)
-    core.x[core.count++] = simulation.state().position[index_of(nodes.ids[i])];
-  return core;
+bool is_of_structures(const ContactRecord& row) {
+  return row.a.kind == BodyKind::structure && row.b.kind == BodyKind::structure;
 }
 
 /// m. Where structures touch over an area the gap of their contact stands for all of it; how far
 /// they are in each other is seen where they are deepest.
-double depth_of(const ContactRecord& row, const dynamics::Simulation& simulation) {
-  if (row.a.kind != BodyKind::structure || row.b.kind != BodyKind::structure) return -row.gap;
-  const double distance =
-      closest_points(core_of(row.a, simulation), core_of(row.b, simulation)).distance;
-  return radius_of(row.a, simulation).value() + radius_of(row.b, simulation).value() - distance;
+double depth_of(const ContactRecord& row) {
+  return is_of_structures(row) ? row.deepest : -row.gap;
 }
 
 /// Between structures a bond has a row of its own beside that of the contact.
 bool is_bond_alone(const ContactRecord& row) {
-  return row.is_bonded && row.a.kind == BodyKind::structure && row.b.kind == BodyKind::structure;
+  return row.is_bonded && is_of_structures(row);
 }
 
 /// What a depth may be off by (m): centres and their distance are rounded.
@@ -61,7 +50,7 @@ double rounding_of(const ContactRecord& row) {
 
 std::optional<BodyOverlap> overlap_of(const ContactRecord& row, const BodyTables& bodies,
                                       const dynamics::Simulation& simulation) {
-  const double depth = depth_of(row, simulation);
+  const double depth = depth_of(row);
   if (is_bond_alone(row) || !(depth > rounding_of(row))) return std::nullopt;
   const double radius_a = radius_of(row.a, simulation).value();  // Only b may be a plane.
   const double radius_b = radius_of(row.b, simulation).value_or(radius_a);

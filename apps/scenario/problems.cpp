@@ -16,7 +16,26 @@ std::string to_string(const Place& place) {
 }
 
 void Problems::add(const Place& place, const std::string& text) {
-  problems_.push_back({place, text});
+  problems_.push_back({place, text, ""});
+}
+
+void Problems::add_of_stage(const std::string& path, const Problems& of_stage) {
+  const auto is_at = [](const Place& place) {
+    return [&place](const Problem& other) { return to_string(other.place) == to_string(place); };
+  };
+  for (const Problem& problem : of_stage.problems_) {
+    const bool is_known =
+        std::any_of(problems_.begin(), problems_.end(), [&](const Problem& other) {
+          return other.text == problem.text && is_at(problem.place)(other);
+        });
+    // The duration of a stage is that of its scenario too: one fault, one message.
+    const bool is_said = problem.text.starts_with("simulation.duration") &&
+                         std::count_if(of_stage.problems_.begin(), of_stage.problems_.end(),
+                                       is_at(problem.place)) > 1;
+    if (is_known || is_said) continue;
+    const bool names_it = path.empty() || problem.text.starts_with("stages");
+    problems_.push_back({problem.place, problem.text, names_it ? "" : path + ": "});
+  }
 }
 
 std::vector<std::string> Problems::lines() const {
@@ -29,7 +48,8 @@ std::vector<std::string> Problems::lines() const {
   std::vector<std::string> lines;
   lines.reserve(sorted.size());
   for (const Problem& problem : sorted)
-    lines.push_back(geometry::printable(to_string(problem.place) + ": " + problem.text));
+    lines.push_back(
+        geometry::printable(to_string(problem.place) + ": " + problem.stage + problem.text));
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
   return lines;
 }

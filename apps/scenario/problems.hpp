@@ -27,6 +27,10 @@ struct InputError : std::runtime_error {
 class Problems {
  public:
   void add(const Place& place, const std::string& text);
+  /// Those of a later stage: what has been found in an earlier one is not said again, and of the rest
+  /// it is said which stage has it.
+  /// @param path  of the stage, as in "stages.shear"
+  void add_of_stage(const std::string& path, const Problems& of_stage);
 
   std::size_t count() const noexcept { return problems_.size(); }
   bool empty() const noexcept { return problems_.empty(); }
@@ -41,6 +45,7 @@ class Problems {
   struct Problem {
     Place place;
     std::string text;
+    std::string stage;  ///< in front of the text
   };
   std::vector<Problem> problems_;
 };

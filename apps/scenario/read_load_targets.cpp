@@ -23,10 +23,11 @@ std::optional<std::size_t> find_name(Section& section, std::string_view key,
       if constexpr (requires { bodies[i].is_absent; }) {
         if (bodies[i].is_absent)
           section.complain(
-              key, fmt::format("\"{}\" is not there in this stage; expected a body that is; a load "
-                               "that goes on has to be taken out with its body, remove = [{{ load "
-                               "= NAME }}]",
-                               name));
+              key, fmt::format("\"{}\" is not there in this stage; {}", name,
+                               section.path().starts_with("ties")
+                                   ? "ties stay for the whole run, and so has to stay what they tie"
+                                   : "expected a body that is; a load that goes on has to be taken "
+                                     "out with its body, remove = [{ load = NAME }]"));
       }
       return i;
     }

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace plekton::apps {
 namespace {
@@ -204,6 +206,20 @@ std::vector<std::array<NodeId, 2>> read_bars_beside(Section& section, const geom
   return bars;
 }
 
+void refuse_same_corners(Section& section, const geometry::Mesh& mesh) {
+  std::map<std::array<NodeId, 3>, std::size_t> first;
+  for (std::size_t i = 0; i < mesh.facets.size(); ++i) {
+    std::array<NodeId, 3> corners = mesh.facets[i];
+    std::ranges::sort(corners);
+    const auto [same, is_new] = first.emplace(corners, i);
+    if (is_new) continue;
+    section.complain(
+        "facets",
+        fmt::format("facet {} has the same corners as facet {}; leave one out", i, same->second));
+    return;
+  }
+}
+
 ShapeSettings read_facets(Section& section) {
   FacetShape shape;
   geometry::Mesh& mesh = shape.mesh;
@@ -212,6 +228,7 @@ ShapeSettings read_facets(Section& section) {
   for (std::size_t i = 0; i < corners.size(); i += 3)
     mesh.facets.push_back({NodeId{corners[i]}, NodeId{corners[i + 1]}, NodeId{corners[i + 2]}});
   require_few(section, "facets", static_cast<double>(mesh.facets.size()));
+  refuse_same_corners(section, mesh);
   if (section.has("bars")) shape.bars = read_bars_beside(section, mesh);
   return shape;
 }

@@ -116,7 +116,10 @@ Scenario scenario_of(const Table& table, const StageOrigins& stage, const Place&
 Scenario staged_scenario(const Table& table, const Place& start, Problems& problems) {
   std::vector<Scenario> stages;
   for (StageTable& stage : stage_tables(table, problems)) {
-    stages.push_back(scenario_of(stage.table, stage.origins, start, problems));
+    Problems of_stage;
+    stages.push_back(scenario_of(stage.table, stage.origins, start, of_stage));
+    const bool is_later = stages.size() > 1 && stages.back().stage;
+    problems.add_of_stage(is_later ? stages.back().stage->path : "", of_stage);
     if (!stages.back().stage) continue;
     stages.back().stage->number = stages.size() - 1;
     stages.back().stage->origins = std::move(stage.origins);

@@ -116,7 +116,7 @@ class LoadBuilder {
                fmt::format("\"{}\" is a net without facets; expected a sheet or a shell for the "
                            "pressure to act on",
                            name));
-    else if (load.gas || load.by_volume)
+    else if (faces_one_way(settings, load) && (load.gas || load.by_volume))
       require_closed(settings, load);
     warn_about_turned_facets(built_.membranes[settings.membrane]);
     load.factor = begun(load.factor);
@@ -203,13 +203,27 @@ class LoadBuilder {
     return dynamics::volume_under(corners, built_.scene.state.position);
   }
 
-  void require_closed(const PressureSettings& settings, const dynamics::SurfacePressure& load) {
+  std::vector<geometry::Facet> facets_of(const dynamics::SurfacePressure& load) const {
     std::vector<geometry::Facet> facets;
     for (const geometry::FaceId facet : load.facets)
       facets.push_back(built_.scene.elements.facets[index_of(facet)]);
+    return facets;
+  }
+
+  bool faces_one_way(const PressureSettings& settings, const dynamics::SurfacePressure& load) {
+    const auto two = dynamics::opposite_neighbours(facets_of(load));
+    if (!two) return true;
+    complain(settings.membrane_place, "membrane",
+             fmt::format("facets {} and {} of \"{}\" are neighbours but face opposite ways, and "
+                         "pressure acts along their normals; swap two corners of one of them",
+                         (*two)[0], (*two)[1], built_.membranes[settings.membrane].name));
+    return false;
+  }
+
+  void require_closed(const PressureSettings& settings, const dynamics::SurfacePressure& load) {
     const std::string& name = built_.membranes[settings.membrane].name;
     const std::string_view key = load.gas ? "gas" : "by_volume";
-    if (!dynamics::are_closed(facets))
+    if (!dynamics::are_closed(facets_of(load)))
       complain(
           settings.volume_place, key,
           fmt::format("\"{}\" is open and encloses no volume; expected a closed surface: close "

@@ -4,6 +4,7 @@
 #include "geometry/base/rotation_about.hpp"
 #include "geometry/mesh/edge_table.hpp"
 #include "geometry/mesh/io/import.hpp"
+#include "geometry/mesh/repair/measures.hpp"
 
 #include <fmt/format.h>
 
@@ -191,6 +192,10 @@ const Lattice& make(const Lattice& lattice) {
 MembraneBody body_of(const FacetShape& shape, const MembraneSettings& settings,
                      std::size_t first_node) {
   MembraneBody body = body_of(shape.mesh, settings, first_node);
+  const double angle = geometry::smallest_angle(shape.mesh);
+  if (!shape.mesh.facets.empty() && angle < geometry::kSmallAngle)
+    body.membrane.warnings.push_back(fmt::format(
+        "the smallest angle of a facet is {:.3g} deg; needles make small time steps", angle));
   auto& edges = body.membrane.edges;
   for (const auto& [a, b] : shape.bars)
     edges.push_back({geometry::id_at<NodeId>(index_of(a) + first_node),

@@ -22,10 +22,10 @@ std::string PrescribedOnce::add(const dynamics::PrescribedMotion& motion,
       if (!holds(motion.held, component)) continue;
       const LoadSettings*& by = by_[node][static_cast<std::size_t>(component)];
       if (taken.empty() && (by != nullptr || holds(held_[node], component))) {
-        taken = fmt::format("the {} {} of node {} is {} already",
-                            component < 3 ? "translation along" : "rotation about",
-                            "xyz"[component % 3], node,
-                            by ? "prescribed by " + by->path : "held by hold of its membrane");
+        taken = fmt::format(
+            "the {} {} of node {} is {} already",
+            component < 3 ? "translation along" : "rotation about", "xyz"[component % 3], node,
+            by ? "prescribed by " + by->path : "held by what its body says of hold, or by a stage");
       }
       by = &load;
     }

@@ -141,6 +141,7 @@ ContactRecord StructureContacts::row_of(const StructurePatch& patch,
   row.point = row.point_b + patch.lever_of_second(structure_pair);
   row.normal = patch.memory.normal;
   row.gap = patch.gap;
+  row.deepest = patch.deepest_overlap;
   const double point_force = patch.point_part * patch.normal_force;
   set_force(row, patch.other_force);
   set_state<AnyLaw>(row, patch.parameters(structure_pair), patch.memory.history, point_force);

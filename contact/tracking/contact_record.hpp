@@ -31,6 +31,8 @@ struct ContactRecord {
   Vec3 point;                  ///< m, contact point, where the forces act
   Vec3 normal;                 ///< unit, from a to b
   double gap;                  ///< m
+  double deepest = 0.0;        ///< m, how far structures are in each other where they are furthest;
+                               ///< 0 of other bodies
   Vec3 normal_force;           ///< N, on b
   Vec3 tangential_force;       ///< N, on b
   Vec3 moment = Vec3::Zero();  ///< N m, on b about the contact point

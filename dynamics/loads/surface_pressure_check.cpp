@@ -69,14 +69,11 @@ std::vector<geometry::Facet> facets_of(const SurfacePressure& load, const Scene&
 
 void list_facets_the_other_way(const SurfacePressure& load, std::span<const geometry::Facet> facets,
                                const std::string& name, std::ostream& problems) {
-  bool is_said = false;
-  for_each_edge(sides_of(facets), [&](std::span<const Side> sides) {
-    if (is_said || sides.size() != 2 || sides[0].direction != sides[1].direction) return;
-    is_said = true;
-    problems << name << ": facets " << index_of(load.facets[sides[0].facet]) << " and "
-             << index_of(load.facets[sides[1].facet])
-             << " are neighbours but face opposite ways; swap two nodes of one of them\n";
-  });
+  const auto two = opposite_neighbours(facets);
+  if (!two) return;
+  problems << name << ": facets " << index_of(load.facets[(*two)[0]]) << " and "
+           << index_of(load.facets[(*two)[1]])
+           << " are neighbours but face opposite ways; swap two nodes of one of them\n";
 }
 
 void list_gas_problems(const Gas& gas, const std::string& name, std::ostream& problems) {
@@ -129,6 +126,16 @@ bool are_closed(std::span<const geometry::Facet> facets) {
     closed = closed && sum == 0;
   });
   return closed;
+}
+
+std::optional<std::array<std::size_t, 2>> opposite_neighbours(
+    std::span<const geometry::Facet> facets) {
+  std::optional<std::array<std::size_t, 2>> two;
+  for_each_edge(sides_of(facets), [&](std::span<const Side> sides) {
+    if (two || sides.size() != 2 || sides[0].direction != sides[1].direction) return;
+    two = {sides[0].facet, sides[1].facet};
+  });
+  return two;
 }
 
 void list_problems(const SurfacePressure& load, const Scene& scene, const std::string& name,

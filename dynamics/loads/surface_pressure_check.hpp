@@ -4,7 +4,10 @@
 #include "dynamics/model/loads.hpp"
 #include "geometry/primitives/facet.hpp"
 
+#include <array>
+#include <cstddef>
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -15,6 +18,10 @@ struct Scene;
 /// Whether facets have no rim: each side belongs to as many facets in one direction as in the
 /// other.
 bool are_closed(std::span<const geometry::Facet> facets);
+
+/// Two of them, by place, that share a side and face opposite ways there; nothing if there are none.
+std::optional<std::array<std::size_t, 2>> opposite_neighbours(
+    std::span<const geometry::Facet> facets);
 
 /// Writes a line for everything that is wrong with a pressure: facets that do not exist or are
 /// named twice, neighbours that face opposite ways, a gas that is not enclosed, numbers out of

@@ -95,14 +95,12 @@ double angle_degrees(const Vec3& u, const Vec3& v) {
 }
 
 void measure_facets(const Mesh& mesh, MeshMeasures& m) {
-  m.smallest_angle = mesh.facets.empty() ? 0.0 : 180.0;
-  for (const auto& facet : mesh.facets) {
-    std::array<Vec3, 3> side;  // From corner k to the next.
-    for (std::size_t k = 0; k < 3; ++k)
-      side[k] = mesh.points[index_of(facet[(k + 1) % 3])] - mesh.points[index_of(facet[k])];
-    m.area += 0.5 * side[0].cross(side[1]).norm();
-    for (std::size_t k = 0; k < 3; ++k)
-      m.smallest_angle = std::min(m.smallest_angle, angle_degrees(side[k], -side[(k + 2) % 3]));
+  m.smallest_angle = smallest_angle(mesh);
+  for (const auto& [a, b, c] : mesh.facets) {
+    const Vec3& x = mesh.points[index_of(a)];
+    m.area += 0.5 * (mesh.points[index_of(b)] - x)
+                        .cross(mesh.points[index_of(c)] - mesh.points[index_of(b)])
+                        .norm();
   }
 }
 
@@ -149,6 +147,18 @@ void measure_solid(const Mesh& mesh, const EdgeTable& edges, bool intersections,
 }
 
 }  // namespace
+
+double smallest_angle(const Mesh& mesh) {
+  double smallest = mesh.facets.empty() ? 0.0 : 180.0;
+  for (const auto& facet : mesh.facets) {
+    std::array<Vec3, 3> side;  // From corner k to the next.
+    for (std::size_t k = 0; k < 3; ++k)
+      side[k] = mesh.points[index_of(facet[(k + 1) % 3])] - mesh.points[index_of(facet[k])];
+    for (std::size_t k = 0; k < 3; ++k)
+      smallest = std::min(smallest, angle_degrees(side[k], -side[(k + 2) % 3]));
+  }
+  return smallest;
+}
 
 MeshMeasures measure(const Mesh& mesh, bool intersections) {
   const EdgeTable edges(mesh);

@@ -9,7 +9,6 @@
 namespace plekton::geometry {
 namespace {
 
-constexpr double kSmallAngle = 1.0;  // degrees
 
 /// "1 edge has ..." or "3 edges have ...".
 std::string counted(std::size_t count, const char* one, const char* many) {
