@@ -425,8 +425,11 @@ void PairTerms::tilt_cells(std::span<const NormalSpring> springs, Positions x) {
 }
 
 void PairTerms::exchange(const geometry::StateArchive& archive) {
-  if (archive.is_reading()) clearances_.reset(term_of_pair_.size(), 0.0);
-  if (clearances_.size() != term_of_pair_.size()) return;  // no step with this list yet
+  bool is_new = clearances_.size() != term_of_pair_.size();  // no step with this list yet
+  archive("is_new", is_new);
+  if (archive.is_reading())
+    is_new ? clearances_.clear() : clearances_.reset(term_of_pair_.size(), 0.0);
+  if (is_new) return;
   clearances_.exchange(archive);
   archive.fixed("is_near", is_near_, "pairs of cells");
   std::vector<std::array<std::uint8_t, 2>> corners(is_near_.size());
