@@ -242,18 +242,28 @@ void Simulation::look_ahead(const Look& look) {
   contacts_->exchange(StateArchive::reader(kept), scene_.planes, pool_);
 }
 
-/// J
+/// J. What they will lose at once, as where friction is less or a plane is gone, is still theirs: it
+/// is counted when it is lost. Before the first step what they have is what they will have.
 double Simulation::next_contact_energy() {
-  double energy = 0.0;
-  look_ahead([&] { energy = contacts_->elastic_energy(); });
+  double energy = contacts_->elastic_energy();
+  if (!has_begun()) return energy;
+  const double lost = contacts_->dissipated() + contacts_->tracking_loss();
+  look_ahead([&] {
+    energy =
+        contacts_->elastic_energy() + (contacts_->dissipated() + contacts_->tracking_loss() - lost);
+  });
   return energy;
 }
 
-std::vector<contact::ContactRecord> Simulation::next_contact_rows() {
+std::vector<contact::ContactRecord> Simulation::next_contact_rows(
+    geometry::FunctionRef<bool(const contact::ContactRecord&)> wants) {
+  if (!has_begun())
+    throw std::logic_error("the contacts of the first step are those of the start: contact_rows()");
   std::vector<contact::ContactRecord> rows;
   look_ahead([&] {
-    contacts_->for_each_record(scene_.state.position,
-                               [&](const contact::ContactRecord& row) { rows.push_back(row); });
+    contacts_->for_each_record(scene_.state.position, [&](const contact::ContactRecord& row) {
+      if (wants(row)) rows.push_back(row);
+    });
   });
   return rows;
 }

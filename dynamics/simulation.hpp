@@ -130,7 +130,7 @@ class Simulation {
   /// @throws std::invalid_argument for a node twice, or of a rigid body, and without a function
   void add_force(std::vector<NodeId> nodes, OwnForce force);
   /// Changes a load, from the next step on, by its place in Loads::forces; its factor goes on.
-  /// It is part of the state, and forgotten by go_on_from().
+  /// It is part of the state from then on, and forgotten by go_on_from().
   /// @throws std::invalid_argument for a force or torque that is not finite
   void set_force(std::size_t load, const Vec3& force, const Vec3& torque = Vec3::Zero());
   /// The same by its place in Loads::pressures. A step that was chosen follows; one that was given
@@ -184,7 +184,10 @@ class Simulation {
   std::vector<contact::ContactRecord> contact_rows() const;
   /// Those that the next step will find where the nodes are now, some of which may not have been
   /// there in the last one. Takes about as long as a step and a snapshot.
-  std::vector<contact::ContactRecord> next_contact_rows();
+  /// @param wants  which of them
+  /// @throws std::logic_error before the first step, whose contacts are those of contact_rows()
+  std::vector<contact::ContactRecord> next_contact_rows(
+      geometry::FunctionRef<bool(const contact::ContactRecord&)> wants);
   /// What bodies do to a plane, about force_point(plane).
   ForceAndMoment plane_reaction(std::size_t plane) const;
   /// What the supports of nodes bear: measures/reactions.hpp. Of grains, membranes and any other
@@ -311,6 +314,7 @@ class Simulation {
   void leave_out_absent();
   template <class Look>
   void look_ahead(const Look& look);
+  bool has_begun() const noexcept { return steps_ > 0; }
   double next_contact_energy();
   void take_contacts(Simulation& before, const contact::BodyPlaces& places);
   void require_same_structures(const Simulation& before, const contact::BodyPlaces& places) const;

@@ -91,9 +91,6 @@ bool is_below(std::size_t count, Id id) noexcept {
   const auto i = static_cast<std::int64_t>(id);
   return i >= 0 && i < static_cast<std::int64_t>(count);
 }
-bool is_target(double force) noexcept {
-  return force >= 0.0 && std::isfinite(force);
-}
 template <class Nodes>
 bool has_nodes(const Scene& scene, const Nodes& nodes) noexcept {
   return std::all_of(nodes.begin(), nodes.end(),
@@ -167,26 +164,10 @@ void Simulation::exchange_last_step(const geometry::StateArchive& archive) {
 /// What the last step found of loads, and what has been set of them since the start.
 void Simulation::exchange_loads(const geometry::StateArchive& archive) {
   loads_.exchange(archive);
-  const auto exchange_target = [](const geometry::StateArchive& of, auto& servo) {
-    of("force", servo.force);
-    of("pressure", servo.pressure);
-    of.require(is_target(servo.force), "force");
-    of.require(is_target(servo.pressure), "pressure");
-  };
-  for (std::size_t i = 0; i < scene_.loads.servos.size(); ++i) {
-    PlaneServo& servo = scene_.loads.servos[i];
-    exchange_target(archive.group("servo_" + std::to_string(i)), servo);
-    driven_planes_.set_target(i, servo.force, servo.pressure);
-  }
-  for (std::size_t i = 0; i < scene_.loads.body_servos.size(); ++i) {
-    BodyServo& servo = scene_.loads.body_servos[i];
-    const geometry::StateArchive of = archive.group("body_servo_" + std::to_string(i));
-    exchange_target(of, servo);
-    of("torque", servo.torque);
-    of.require(is_target(servo.torque), "torque");
-    driven_bodies_.set_target(i, servo);
-  }
   driven_planes_.exchange(archive.group("planes"), scene_.planes.size());
+  driven_bodies_.exchange(archive.group("bodies"));
+  scene_.loads.servos = driven_planes_.servos();
+  scene_.loads.body_servos = driven_bodies_.servos();
 }
 
 /// How long steps are, and what the next choice of one knows.

@@ -61,7 +61,9 @@ ResumedRun find_resumed_run(const ResumeArguments& arguments) {
   ResumedRun run = resumed_from(arguments.same_folder ? last_checkpoint_with_files(arguments.folder)
                                                       : last_checkpoint(arguments.folder, begin),
                                 arguments.overrides);
-  const double last = run.scenario.simulation.duration;
+  // It may have been longer than the checkpoint that it goes on from knows.
+  const double last =
+      std::max(run.scenario.simulation.duration, time_of(last_checkpoint(arguments.folder).state));
   if (begin && run.scenario.stages.empty() && !(*begin < last))
     throw InputError(
         fmt::format("--from: got \"{}\"; expected a time before the end of the run, {:.6g} s; "

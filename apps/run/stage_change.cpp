@@ -168,30 +168,46 @@ geometry::StateTree run_state(const geometry::StateTree& before, const contact::
   return state;
 }
 
-/// Contacts of what comes with a stage, or is moved by it: what was there before may be as deep in
-/// each other as it has been pressed.
+/// Whether the stage says of a plane that it is elsewhere, though perhaps by the words that it was
+/// first described with.
+bool moves_planes(const Scenario& stage, const dynamics::Simulation& before) {
+  const StageOrigins& origins = stage.stage->origins;
+  for (std::size_t i = 0; i < stage.planes.size(); ++i) {
+    if (!origins.moved_planes[i] || origins.planes[i] < 0) continue;
+    const auto then = static_cast<std::size_t>(origins.planes[i]);
+    if (stage.planes[i].point != before.planes()[then].point) return true;
+  }
+  return false;
+}
+
+/// Contacts of what comes with a stage, and of grains with planes that come or are moved by it: what
+/// was there before may be as deep in each other as it has been pressed.
 std::vector<contact::ContactRecord> contacts_of_new(const dynamics::SceneChange& change,
                                                     dynamics::Simulation& now) {
   std::vector<bool> is_new_node(now.state().size(), true);
   for (const std::int32_t node : change.places.nodes)
     if (node >= 0) is_new_node[static_cast<std::size_t>(node)] = false;
   std::vector<bool> is_new_plane(now.planes().size(), true);
-  for (const std::int32_t plane : change.places.planes)
-    if (plane >= 0)
-      is_new_plane[static_cast<std::size_t>(plane)] =
-          !change.moved_planes.empty() && change.moved_planes[static_cast<std::size_t>(plane)];
+  for (const std::int32_t plane : change.places.planes) {
+    if (plane < 0) continue;
+    const auto i = static_cast<std::size_t>(plane);
+    is_new_plane[i] = !change.moved_planes.empty() && change.moved_planes[i];
+  }
+  const auto is_any = [](const std::vector<bool>& all) {
+    return std::find(all.begin(), all.end(), true) != all.end();
+  };
+  if (!is_any(is_new_node) && !is_any(is_new_plane)) return {};
   const auto is_new = [&](const contact::ContactBody& body) {
-    if (body.kind == contact::BodyKind::plane)
-      return static_cast<bool>(is_new_plane[static_cast<std::size_t>(body.index)]);
     if (body.feature.id < 0) return false;
     const geometry::FeatureNodes nodes = geometry::nodes_of(now.surface(), body.feature);
     return std::any_of(nodes.begin(), nodes.end(),
                        [&](geometry::NodeId node) { return is_new_node[index_of(node)]; });
   };
-  std::vector<contact::ContactRecord> rows = now.next_contact_rows();
-  std::erase_if(
-      rows, [&](const contact::ContactRecord& row) { return !is_new(row.a) && !is_new(row.b); });
-  return rows;
+  return now.next_contact_rows([&](const contact::ContactRecord& row) {
+    if (row.b.kind != contact::BodyKind::plane) return is_new(row.a) || is_new(row.b);
+    return is_new(row.a) || (row.a.kind == contact::BodyKind::sphere &&
+                             is_new_plane[static_cast<std::size_t>(row.b.index)]);
+  });
 }
 
 }  // namespace
@@ -234,7 +250,7 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
   next.simulation = simulation_of(now, next.built);
   next.duration = stage.simulation.duration;
   try {
-    if (stage.stage->origins.changes_nothing) {
+    if (stage.stage->origins.changes_nothing && !moves_planes(stage, ended)) {
       next.simulation->restore(ended.snapshot());
     } else {
       const dynamics::SceneChange change =

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <utility>
+#include <vector>
 
 namespace plekton::apps {
 namespace {
@@ -207,17 +208,17 @@ std::vector<std::array<NodeId, 2>> read_bars_beside(Section& section, const geom
 }
 
 void refuse_same_corners(Section& section, const geometry::Mesh& mesh) {
-  std::map<std::array<NodeId, 3>, std::size_t> first;
-  for (std::size_t i = 0; i < mesh.facets.size(); ++i) {
-    std::array<NodeId, 3> corners = mesh.facets[i];
-    std::ranges::sort(corners);
-    const auto [same, is_new] = first.emplace(corners, i);
-    if (is_new) continue;
-    section.complain(
-        "facets",
-        fmt::format("facet {} has the same corners as facet {}; leave one out", i, same->second));
-    return;
+  std::vector<std::pair<std::array<NodeId, 3>, std::size_t>> all;
+  for (const std::array<NodeId, 3>& facet : mesh.facets) {
+    all.emplace_back(facet, all.size());
+    std::ranges::sort(all.back().first);
   }
+  std::ranges::sort(all);
+  const auto same = std::ranges::adjacent_find(
+      all, [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (same == all.end()) return;
+  section.complain("facets", fmt::format("facet {} has the same corners as facet {}; leave one out",
+                                         std::next(same)->second, same->second));
 }
 
 ShapeSettings read_facets(Section& section) {

@@ -139,10 +139,7 @@ class Stages {
       if (entry.key != "remove" && !change(entry)) own.entries.push_back(entry);
     origins_.absent_membranes = membranes_.absent_in(number_);
     origins_.absent_rigid_bodies = rigid_bodies_.absent_in(number_);
-    const bool moves_planes = std::find(origins_.moved_planes.begin(), origins_.moved_planes.end(),
-                                        true) != origins_.moved_planes.end();
-    origins_.changes_nothing =
-        number_ > 0 && !changes_bodies_ && !moves_planes && text_of_all() == before;
+    origins_.changes_nothing = number_ > 0 && !changes_bodies_ && text_of_all() == before;
     Table table = now_;
     set_duration(table, stage, place);
     table.entries.push_back({"stages", place, Value{place, Array{Value{place, std::move(own)}}}});
@@ -409,7 +406,7 @@ class Stages {
         remove_body(rigid_bodies_, *table);
       else if (is_membrane)
         remove_body(membranes_, *table);
-      else if (number_ > 0)
+      else if (number_ > 0 || table == nullptr || table->find("grains") == nullptr)
         left.push_back(value);
       else
         complain(

@@ -123,12 +123,47 @@ double AppliedLoads::largest_speed() const noexcept {
 }
 
 void AppliedLoads::exchange(const geometry::StateArchive& archive) {
-  archive.same("forces", forces_.size(), "another number of forces");
-  for (std::size_t i = 0; i < forces_.size(); ++i)
-    forces_[i].exchange(archive.group("force_" + std::to_string(i)));
   archive.same("pressures", pressures_.size(), "another number of pressures");
   for (std::size_t i = 0; i < pressures_.size(); ++i)
     pressures_[i].exchange(archive.group("pressure_" + std::to_string(i)));
+  exchange_set_forces(archive);
+  exchange_set_pressures(archive);
+}
+
+/// Those alone that have been set: all others are those of the scene.
+void AppliedLoads::exchange_set_forces(const geometry::StateArchive& archive) {
+  struct SetForce {
+    std::size_t load = 0;
+    Vec3 force, torque;
+  };
+  std::vector<SetForce> all;
+  for (std::size_t i = 0; i < forces_.size(); ++i)
+    if (forces_[i].is_set()) all.push_back({i, forces_[i].force(), forces_[i].torque()});
+  archive.rows("set_forces", all, [&](geometry::RowFields& row, SetForce& one) {
+    row("load", one.load);
+    row.require(one.load < forces_.size(), "load");
+    row("force", one.force);
+    row("torque", one.torque);
+    row.require(one.force.allFinite() && one.torque.allFinite(), "force");
+    if (row.is_reading()) forces_[one.load].set(one.force, one.torque);
+  });
+}
+
+void AppliedLoads::exchange_set_pressures(const geometry::StateArchive& archive) {
+  struct SetPressure {
+    std::size_t load = 0;
+    double pressure = 0.0;
+  };
+  std::vector<SetPressure> all;
+  for (std::size_t i = 0; i < pressures_.size(); ++i)
+    if (pressures_[i].is_set()) all.push_back({i, pressures_[i].full_pressure()});
+  archive.rows("set_pressures", all, [&](geometry::RowFields& row, SetPressure& one) {
+    row("load", one.load);
+    row.require(one.load < pressures_.size(), "load");
+    row("pressure", one.pressure);
+    row.require(std::isfinite(one.pressure), "pressure");
+    if (row.is_reading()) pressures_[one.load].set(one.pressure);
+  });
 }
 
 }  // namespace plekton::dynamics

@@ -75,7 +75,7 @@ class AppliedLoads {
   void add_elastic_forces(double time, const NodeState& state, NodeForces& forces,
                           geometry::ThreadPool& pool);
 
-  /// What the last step found, and loads as they are set. @throws geometry::StateMismatch
+  /// What the last step found, and the loads that have been set. @throws geometry::StateMismatch
   void exchange(const geometry::StateArchive& archive);
 
   /// m/s, of prescribed motions at any time.
@@ -85,6 +85,8 @@ class AppliedLoads {
   const std::vector<PressedSurface>& pressed_surfaces() const noexcept { return pressures_; }
 
  private:
+  void exchange_set_forces(const geometry::StateArchive& archive);
+  void exchange_set_pressures(const geometry::StateArchive& archive);
   /// Calls visit with each load that is a force.
   /// @returns the work that visit returned, what damping took apart from the rest
   template <class Visit>

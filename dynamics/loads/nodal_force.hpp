@@ -4,7 +4,6 @@
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/loads/loaded_nodes.hpp"
 #include "dynamics/model/loads.hpp"
-#include "geometry/base/state_archive.hpp"
 
 namespace plekton::dynamics {
 
@@ -25,18 +24,19 @@ class ForcedNodes {
   void set(const Vec3& force, const Vec3& torque) noexcept {
     load_.force = force;
     load_.torque = torque;
+    is_set_ = true;
   }
-  /// What set() may have changed. @throws geometry::StateMismatch
-  void exchange(const geometry::StateArchive& archive) {
-    archive("force", load_.force);
-    archive("torque", load_.torque);
-    archive.require(load_.force.allFinite(), "force");
-    archive.require(load_.torque.allFinite(), "torque");
-  }
+  /// Whether set() has been called.
+  bool is_set() const noexcept { return is_set_; }
+  /// N, times the factor
+  const Vec3& force() const noexcept { return load_.force; }
+  /// N m, times the factor
+  const Vec3& torque() const noexcept { return load_.torque; }
 
  private:
   NodalForce load_;
   LoadedNodes nodes_;
+  bool is_set_ = false;
 };
 
 }  // namespace plekton::dynamics

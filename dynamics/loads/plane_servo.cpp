@@ -125,6 +125,23 @@ bool DrivenPlanes::drives(std::size_t plane) const noexcept {
 }
 
 void DrivenPlanes::exchange(const geometry::StateArchive& archive, std::size_t plane_count) {
+  struct Target {
+    std::size_t servo = 0;
+    double force = 0.0, pressure = 0.0;
+  };
+  std::vector<Target> targets;
+  for (const std::size_t i : set_servos_)
+    targets.push_back({i, servos_[i].force, servos_[i].pressure});
+  archive.rows("set_targets", targets, [&](geometry::RowFields& row, Target& target) {
+    row("servo", target.servo);
+    row.require(target.servo < servos_.size(), "servo");
+    row("force", target.force);
+    row("pressure", target.pressure);
+    row.require(target.force >= 0.0 && std::isfinite(target.force) && target.pressure >= 0.0 &&
+                    std::isfinite(target.pressure),
+                "force");
+    if (row.is_reading()) set_target(target.servo, target.force, target.pressure);
+  });
   archive.rows("set_velocities", set_velocities_, [&](geometry::RowFields& row, SetVelocity& set) {
     row("plane", set.plane);
     row.require(set.plane < plane_count && !drives(set.plane), "plane");

@@ -5,6 +5,7 @@
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/model/loads.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -91,6 +92,8 @@ class DrivenPlanes {
   void set_target(std::size_t servo, double force, double pressure) {
     servos_[servo].force = force;
     servos_[servo].pressure = pressure;
+    if (std::find(set_servos_.begin(), set_servos_.end(), servo) == set_servos_.end())
+      set_servos_.push_back(servo);
   }
   bool drives(std::size_t plane) const noexcept;
   /// m/s, of a plane that nothing here drives, from the next act() on.
@@ -105,8 +108,11 @@ class DrivenPlanes {
   double act(const LoadStep& step, std::span<const Vec3> reactions, const PlanePressAt& press,
              std::vector<contact::Plane>& planes);
 
-  /// Velocities that wait for the next act(). @throws geometry::StateMismatch
+  /// Targets that have been set, and velocities that wait for the next act(). @throws geometry::StateMismatch
   void exchange(const geometry::StateArchive& archive, std::size_t plane_count);
+
+  /// By place in Loads::servos, with targets as they are set.
+  const std::vector<PlaneServo>& servos() const noexcept { return servos_; }
 
   /// m/s, of all times.
   double largest_speed() const noexcept;
@@ -115,6 +121,7 @@ class DrivenPlanes {
   std::vector<PlaneMotion> motions_;
   std::vector<Vec3> start_;  // m, of motions_
   std::vector<PlaneServo> servos_;
+  std::vector<std::size_t> set_servos_;
   struct SetVelocity {
     std::size_t plane;
     Vec3 velocity;  // m/s

@@ -2,10 +2,12 @@
 #include "dynamics/loads/rigid_servo.hpp"
 
 #include "dynamics/model/scene_figures.hpp"
+#include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace plekton::dynamics {
 
@@ -103,6 +105,32 @@ DrivenBodies::DrivenBodies(const Scene& scene, const geometry::Surface& surface)
       radii_.back() = std::max(radii_.back(), lever + radii[index_of(node)]);
     }
   }
+}
+
+void DrivenBodies::exchange(const geometry::StateArchive& archive) {
+  struct Target {
+    std::size_t servo = 0;
+    double force = 0.0, pressure = 0.0, torque = 0.0;
+  };
+  std::vector<Target> targets;
+  for (const std::size_t i : set_servos_)
+    targets.push_back({i, servos_[i].force, servos_[i].pressure, servos_[i].torque});
+  archive.rows("set_targets", targets, [&](geometry::RowFields& row, Target& target) {
+    row("servo", target.servo);
+    row.require(target.servo < servos_.size(), "servo");
+    for (const auto& [name, value] :
+         {std::pair("force", &target.force), std::pair("pressure", &target.pressure),
+          std::pair("torque", &target.torque)}) {
+      row(name, *value);
+      row.require(*value >= 0.0 && std::isfinite(*value), name);
+    }
+    if (!row.is_reading()) return;
+    BodyServo servo = servos_[target.servo];
+    servo.force = target.force;
+    servo.pressure = target.pressure;
+    servo.torque = target.torque;
+    set_target(target.servo, servo);
+  });
 }
 
 double DrivenBodies::largest_speed() const noexcept {

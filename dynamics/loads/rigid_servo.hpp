@@ -68,7 +68,15 @@ class DrivenBodies {
   bool empty() const noexcept { return servos_.empty(); }
 
   /// By place in Loads::body_servos, from the next act() on.
-  void set_target(std::size_t servo, const BodyServo& target) { servos_[servo] = target; }
+  void set_target(std::size_t servo, const BodyServo& target) {
+    servos_[servo] = target;
+    if (std::find(set_servos_.begin(), set_servos_.end(), servo) == set_servos_.end())
+      set_servos_.push_back(servo);
+  }
+  /// With targets as they are set.
+  const std::vector<BodyServo>& servos() const noexcept { return servos_; }
+  /// Targets that have been set. @throws geometry::StateMismatch
+  void exchange(const geometry::StateArchive& archive);
 
   /// Sets the velocities of the bodies along or about their axes, for the drift that begins now.
   /// @param felt     (servo) -> force (N), or torque (N m) of one that turns, of contacts alone
@@ -112,6 +120,7 @@ class DrivenBodies {
 
  private:
   std::vector<BodyServo> servos_;
+  std::vector<std::size_t> set_servos_;
   std::vector<double> radii_;  ///< m, of the bodies of servos that turn; 0 of others
 };
 

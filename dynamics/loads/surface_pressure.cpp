@@ -143,8 +143,6 @@ double PressedSurface::gas_frequency_squared(Positions x, const NodeProperties& 
 void PressedSurface::exchange(const geometry::StateArchive& archive) {
   archive("volume", volume_);
   archive("pressure", pressure_);
-  archive("full_pressure", load_.pressure);
-  archive.require(std::isfinite(load_.pressure), "full_pressure");
 }
 
 }  // namespace plekton::dynamics

@@ -40,12 +40,19 @@ class PressedSurface {
   /// there is no pressure.
   void follow(const geometry::SurfaceChange& change);
 
-  /// What the last act found, and what set() may have changed.
+  /// What the last act found.
   void exchange(const geometry::StateArchive& archive);
 
   /// From the next step on. @param pressure  Pa, times the factor; over the outside of a gas at the
   ///                                         volume of the start
-  void set(double pressure) noexcept { load_.pressure = pressure; }
+  void set(double pressure) noexcept {
+    load_.pressure = pressure;
+    is_set_ = true;
+  }
+  /// Whether set() has been called.
+  bool is_set() const noexcept { return is_set_; }
+  /// Pa, times the factor
+  double full_pressure() const noexcept { return load_.pressure; }
 
   /// m³, at the last act; only where the pressure follows it.
   double volume() const noexcept { return volume_; }
@@ -84,6 +91,7 @@ class PressedSurface {
   double start_volume_ = 0.0;
   double volume_ = 0.0;
   double pressure_ = 0.0;
+  bool is_set_ = false;
   geometry::ParallelSum<double> sum_;
 };
 

@@ -3,8 +3,8 @@
 
 #include "dynamics/loads/load_step.hpp"
 #include "dynamics/loads/loaded_nodes.hpp"
-#include "dynamics/model/loads.hpp"
 #include "dynamics/loads/node_members.hpp"
+#include "dynamics/model/loads.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/yielding_bonds.hpp"
 

@@ -64,7 +64,7 @@ std::string FaultFinder::fault(const Divergence& divergence, const Drifts& drift
     text << drift / usual << " of the critical one: use a smaller time step (or \"auto\")";
     return text.str();
   }
-  if (std::isfinite(usual)) text << drift / usual << " of the critical one and ";
+  if (std::isfinite(usual) && drift <= kLargestStep * usual) text << drift / usual << " of the critical one and ";
   text << "not the cause: ";
   if (drift > kLargestStep * critical)
     text << "with the contacts of now that is " << critical

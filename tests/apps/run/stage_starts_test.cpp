@@ -218,6 +218,102 @@ materials.stone.young_modulus = "100 MPa"
   EXPECT_LT(report().at("energy_closure").get<double>(), 2e-3);
 }
 
+/// A box that friction holds on a slope of 20 degrees slides where it is 5: what its springs have stored
+/// goes into friction, once.
+TEST_F(StageStarts, LoseOnceWhatLessFrictionLetsGo) {
+  const Outcome outcome = run(std::string(kStone) + kFloor + R"(
+[simulation]
+gravity = [3.355, 0, -9.218]
+time_step = "5 us"
+[[rigid_bodies]]
+name = "block"
+shape = { kind = "box", size = [0.1, 0.1, 0.02] }
+translate = [-0.05, -0.05, "0.999 mm"]
+thickness = "2 mm"
+density = "2650 kg/m3"
+material = "stone"
+[[contacts]]
+between = "stone"
+and = "stone"
+law = "hertz_mindlin"
+[[stages]]
+name = "a"
+simulation.damping = 0.3
+end = { duration = "40 ms" }
+[[stages]]
+name = "b"
+simulation.damping = 0
+end = { duration = "0.1 ms" }
+materials.stone.friction_angle = "5 deg"
+)");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_GT(energy("friction"), 0.0);
+  EXPECT_NEAR(energy("closure_error"), 0.0, 1e-2 * energy("friction"));
+}
+
+TEST_F(StageStarts, GoOnFromAnotherRunWithTheLoadsOfTheirFile) {
+  test::write_bytes(folder_ / "case.toml", std::string(kStone) + R"(
+[simulation]
+gravity = [0, 0, 0]
+time_step = "10 us"
+[[grains]]
+name = "ball"
+material = "stone"
+radius = "5 mm"
+centres = [[0, 0, 0]]
+[[loads]]
+name = "push"
+kind = "force"
+grains = "ball"
+force = [0, 0, "1 mN"]
+[[stages]]
+name = "a"
+end = { duration = "1 ms" }
+[[stages]]
+name = "b"
+end = { duration = "1 ms" }
+)");
+  const std::string file = (folder_ / "case.toml").string();
+  ASSERT_EQ(outcome_of({"run", file, "--quiet", "--until", "a", "--out", out() + "1"}).exit_code,
+            0);
+  const Outcome outcome = outcome_of({"run", file, "--quiet", "--from", "a", out() + "1", "--set",
+                                      "loads.push.force=[0, 0, '3 mN']", "--out", out()});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  // v = (1 + 3) mN ms / m, a step of the change apart.
+  const double mass = 2650.0 * 4.0 / 3.0 * 3.14159265358979324 * 125e-9;
+  EXPECT_NEAR(energy("kinetic"), 0.5 * 16e-12 / mass, 0.03 * 0.5 * 16e-12 / mass);
+}
+
+/// Bodies that are held, or moved by loads, have no mass.
+TEST_F(StageStarts, EndByAStrainBetweenPlatens) {
+  const std::string platen = R"(
+shape = { kind = "box", size = [0.1, 0.1, 0.01] }
+thickness = "2 mm"
+material = "stone"
+hold_rotation = "xyz"
+)";
+  const Outcome outcome = run(std::string(kStone) + "[simulation]\ntime_step = \"10 us\"\n" +
+                              "[[rigid_bodies]]\nname = \"top\"\ntranslate = [0, 0, 0.1]" + platen +
+                              "[[rigid_bodies]]\nname = \"bottom\"\nhold = \"xyz\"" + platen + R"(
+[[grains]]
+name = "ball"
+material = "stone"
+radius = "5 mm"
+centres = [[1, 0, 0]]
+[[loads]]
+name = "down"
+kind = "motion"
+rigid_body = "top"
+velocity = [0, 0, -1]
+[[stages]]
+name = "a"
+end = { strain = { between = ["top", "bottom"], strain = 0.01 } }
+max_duration = "1 s"
+)");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NEAR(report().at("simulated_time_s").get<double>(), 1e-3, 2e-4);
+}
+
 TEST_F(StageStarts, AreRefusedWhereWhatComesIsBehindAPlaneOrInAnother) {
   const std::string text = std::string(kStone) + kFloor + R"(
 [[grains]]
