@@ -364,8 +364,11 @@ class Run {
       return;
     }
     if (!from.from) return;
-    next_row_ = next_frame_ = std::max(*from.from, simulation_.time());
-    if (!reactions_.empty()) next_reactions_ = next_row_;
+    // A stage that begins in another folder is written when it would have been in that of the others.
+    if (!from.is_there || *from.from > simulation_.time()) {
+      next_row_ = next_frame_ = std::max(*from.from, simulation_.time());
+      if (!reactions_.empty()) next_reactions_ = next_row_;
+    }
     last_row_step_ = last_reactions_step_ = last_frame_step_ = -1;
   }
 

@@ -215,6 +215,11 @@ TEST_F(Stages, HaveTheSameBitsAtOnceOneByOneAndWithAnyThreads) {
   EXPECT_EQ(report("press")["states"]["chain"], once["states"]["chain"]);
   EXPECT_EQ(report("threads")["states"]["chain"], once["states"]["chain"]);
   EXPECT_EQ(report("press")["timing"]["steps"], once["timing"]["steps"]);
+  // The rows of the last stage are those of the whole run.
+  const std::string rows = test::bytes_of(folder_ / "press/energy.csv");
+  const std::string last = rows.substr(rows.find('\n') + 1);
+  EXPECT_GT(last.size(), 100U);
+  EXPECT_THAT(test::bytes_of(folder_ / "once/energy.csv"), testing::EndsWith(last));
   EXPECT_EQ(test::bytes_of(folder_ / "threads/energy.csv"),
             test::bytes_of(folder_ / "once/energy.csv"));
 }

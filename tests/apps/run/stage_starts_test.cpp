@@ -432,7 +432,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ComputedAgain,
                          testing::Values(Again{"stretched_stages", "41.1 ms", "65 ms"},
                                          Again{"turned_clump_stages", "100 ms", "150 ms"},
                                          Again{"sand_in_box", "0.2 s", "0.39 s"}),
-                         [](const auto& info) { return std::string(info.param.scene); });
+                         [](const auto& again) { return std::string(again.param.scene); });
 
 }  // namespace
 }  // namespace plekton::apps
