@@ -12,6 +12,12 @@ double SurfaceContacts::follow(const geometry::SurfaceChange& change,
     pair.single_face = kNoFace;
     if (pair.contacts.count > 0) lost += keep_minima(pair, change);
   }
+  // What the last step did where elements are gone is not told any more.
+  records_.keep_if([&](SurfaceForce& record) {
+    const auto now = change.now(record.core.feature);
+    if (now) record.core.feature = *now;
+    return now.has_value();
+  });
   surface_ = &change.after();
   watch_ = DeferredPairs(*surface_);
   workers_.clear();

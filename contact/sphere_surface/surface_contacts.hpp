@@ -186,6 +186,10 @@ class SurfaceContacts {
     std::uint32_t contact;  ///< among all
     SurfaceForce record;
   };
+  struct Kept {
+    std::vector<KeptContact> contacts;
+    std::vector<KeptForce> forces;
+  };
   struct Worker {
     explicit Worker(const geometry::Surface& surface) : patches(surface), successors(surface) {}
     PatchFinder patches;
@@ -250,8 +254,7 @@ class SurfaceContacts {
   double keep_minima(const Pair& pair, const geometry::SurfaceChange& change);
   void begin_anew(geometry::FunctionRef<void()> list, geometry::ThreadPool& pool);
   void find_single_faces();
-  std::vector<KeptContact> kept_contacts() const;
-  std::vector<KeptForce> kept_forces() const;
+  Kept kept() const;
   std::size_t exchange_contact(geometry::RowFields& row, KeptContact& kept, std::size_t from) const;
   void keep(const KeptContact& kept, std::size_t place);
   std::uint32_t first_contact(std::size_t worker) const noexcept;

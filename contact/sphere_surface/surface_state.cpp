@@ -3,7 +3,9 @@
 #include "contact/sphere_surface/surface_contacts.hpp"
 #include "contact/tracking/contact_state.hpp"
 
+#include <limits>
 #include <optional>
+#include <utility>
 
 namespace plekton::contact {
 
@@ -11,22 +13,19 @@ void SurfaceContacts::exchange(const geometry::StateArchive& archive,
                                geometry::FunctionRef<void()> list, geometry::ThreadPool& pool) {
   double overlap_ratio = largest_overlap_ratio();
   archive("largest_overlap_ratio", overlap_ratio);
-  std::vector<KeptContact> contacts;
-  std::vector<KeptForce> forces;
-  if (archive.is_reading()) {
+  Kept all;
+  if (archive.is_reading())
     begin_anew(list, pool);
-  } else {
-    contacts = kept_contacts();
-    forces = kept_forces();
-  }
+  else
+    all = kept();
   std::size_t place = 0;
   std::vector<std::uint32_t> pairs;  // by contact
-  archive.rows("contacts", contacts, [&](geometry::RowFields& row, KeptContact& kept) {
+  archive.rows("contacts", all.contacts, [&](geometry::RowFields& row, KeptContact& kept) {
     place = exchange_contact(row, kept, place);
     if (row.is_reading()) keep(kept, place);
     pairs.push_back(static_cast<std::uint32_t>(place));
   });
-  archive.rows("forces", forces, [&](geometry::RowFields& row, KeptForce& kept) {
+  archive.rows("forces", all.forces, [&](geometry::RowFields& row, KeptForce& kept) {
     row("contact", kept.contact);
     row.require(kept.contact < pairs.size(), "contact");
     SurfaceForce& record = kept.record;
@@ -70,7 +69,8 @@ void SurfaceContacts::take_over(const SurfaceContacts& before, std::span<const s
   };
   std::vector<std::optional<Now>> now;  // by contact of before
   std::size_t place = 0;
-  for (KeptContact& kept : before.kept_contacts()) {
+  Kept all = before.kept();
+  for (const KeptContact& kept : all.contacts) {
     now.emplace_back();
     const geometry::IndexPair key{places[static_cast<std::size_t>(kept.pair[0])], kept.pair[1]};
     if (key.a < 0) continue;
@@ -80,7 +80,7 @@ void SurfaceContacts::take_over(const SurfaceContacts& before, std::span<const s
     now.back() = {place, static_cast<std::uint32_t>(current_[0].contacts.size())};
     keep(kept, place);
   }
-  for (KeptForce& kept : before.kept_forces()) {
+  for (KeptForce& kept : all.forces) {
     const std::optional<Now>& of = now[kept.contact];
     if (!of) continue;
     kept.record.pair = static_cast<std::uint32_t>(of->pair);
@@ -98,8 +98,10 @@ std::uint32_t SurfaceContacts::first_contact(std::size_t worker) const noexcept 
   return static_cast<std::uint32_t>(count);
 }
 
-std::vector<SurfaceContacts::KeptContact> SurfaceContacts::kept_contacts() const {
-  std::vector<KeptContact> kept(touching());
+/// What pairs have: where elements have gone since the last step there may be more in the lists.
+SurfaceContacts::Kept SurfaceContacts::kept() const {
+  constexpr std::uint32_t kGone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::optional<KeptContact>> all(touching());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Pair& pair = pairs_[i];
     if (pair.contacts.count == 0) continue;
@@ -108,19 +110,22 @@ std::vector<SurfaceContacts::KeptContact> SurfaceContacts::kept_contacts() const
     for (std::uint32_t k = 0; k < pair.contacts.count; ++k) {
       const Contact& contact = current_[worker].contacts[pair.contacts.first + k];
       const Feature* const minima = current_[worker].minima.data() + contact.first_minimum;
-      kept[first + k] = {
+      all[first + k] = {
           {rekey_.key(i).a, rekey_.key(i).b}, contact, {minima, minima + contact.minimum_count}};
     }
   }
-  return kept;
-}
-
-std::vector<SurfaceContacts::KeptForce> SurfaceContacts::kept_forces() const {
-  std::vector<KeptForce> kept;
+  Kept kept;
+  std::vector<std::uint32_t> places;
+  for (std::optional<KeptContact>& contact : all) {
+    places.push_back(contact ? static_cast<std::uint32_t>(kept.contacts.size()) : kGone);
+    if (contact) kept.contacts.push_back(*std::move(contact));
+  }
   for (std::size_t w = 0; w < records_.lists().size(); ++w) {
     const auto& list = records_.lists()[w];
-    for (std::size_t i = 0; i < list.count; ++i)
-      kept.push_back({first_contact(w) + list.records[i].contact, list.records[i]});
+    for (std::size_t i = 0; i < list.count; ++i) {
+      const std::uint32_t place = places[first_contact(w) + list.records[i].contact];
+      if (place != kGone) kept.forces.push_back({place, list.records[i]});
+    }
   }
   return kept;
 }

@@ -90,6 +90,21 @@ class ForceRecords {
     }
   }
 
+  /// Leaves those for which keep(record) is true, in their order; it may change them.
+  template <class Keep>
+  void keep_if(Keep&& keep) {
+    for (List& list : lists_) {
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < list.count; ++i) {
+        Record& record = list.records[i];
+        if (!keep(record)) continue;
+        if (kept != i) list.records[kept] = record;
+        ++kept;
+      }
+      list.count = kept;
+    }
+  }
+
   List& of_worker(int worker) noexcept { return lists_[static_cast<std::size_t>(worker)]; }
 
   const std::vector<List>& lists() const noexcept { return lists_; }

@@ -278,7 +278,7 @@ TEST_F(Loads, AreRefusedWhereAComponentIsPrescribedTwice) {
                  "loads.b.nodes: in \"sheet\", the translation along x of node 4 is prescribed by "
                  "loads.a already");
   expect_problem("kind = \"motion\"\nmembrane = \"net\"\nnodes = \"all\"\nvelocity = [1, 0, 0]\n",
-                 "is held by hold of its membrane already");
+                 "is held by what its body says of hold, or by a stage already");
   EXPECT_EQ(check("[[loads]]\nname = \"a\"\ncomponents = \"x\"\n" + pull +
                   "[[loads]]\nname = \"b\"\nkind = \"motion\"\nmembrane = \"sheet\"\n"
                   "nodes = \"y_min\"\ncomponents = \"z\"\nvelocity = [0, 0, 1]\n")
