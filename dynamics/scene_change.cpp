@@ -230,25 +230,32 @@ void Simulation::leave_out_absent() {
   if (are_fewer) follow_surface();
 }
 
-/// Calls look() with the contacts as the next forces will find them, and leaves them as they are.
+/// Calls look() with the contacts as they would be found, and leaves them as they are.
+/// @param ago  s, before now: where nodes and planes were then
 template <class Look>
-void Simulation::look_ahead(const Look& look) {
+void Simulation::look_ahead(double ago, const Look& look) {
   nodes_.know_all();
   StateTree kept;
   contacts_->exchange(StateArchive::writer(kept), scene_.planes, pool_);
-  NodeForces forces(scene_.state.size());
-  contacts_->advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces);
+  NodeState state = scene_.state;
+  for (std::size_t i = 0; i < state.size(); ++i) state.position[i] -= ago * state.velocity[i];
+  std::vector<contact::Plane> planes = scene_.planes;
+  for (contact::Plane& plane : planes) plane.point -= ago * plane.velocity;
+  NodeForces forces(state.size());
+  contacts_->advance(state.motion(), planes, 0.0, pool_, forces);
   look();
   contacts_->exchange(StateArchive::reader(kept), scene_.planes, pool_);
 }
 
-/// J. What they will lose at once, as where friction is less or a plane is gone, is still theirs: it
-/// is counted when it is lost. Before the first step what they have is what they will have.
-double Simulation::next_contact_energy() {
+/// J, half a drift ago: what comes or goes between two forces has acted on half of the drift between
+/// them, so that this loses nothing to second order (trapezoidal rule). What contacts will lose at
+/// once, as where friction is less or a plane is gone, is still theirs: it is counted when it is
+/// lost. Before the first step what they have is what they will have.
+double Simulation::contact_energy_between() {
   double energy = contacts_->elastic_energy();
   if (!has_begun()) return energy;
   const double lost = contacts_->dissipated() + contacts_->tracking_loss();
-  look_ahead([&] {
+  look_ahead(0.5 * last_drift_, [&] {
     energy =
         contacts_->elastic_energy() + (contacts_->dissipated() + contacts_->tracking_loss() - lost);
   });
@@ -260,7 +267,7 @@ std::vector<contact::ContactRecord> Simulation::next_contact_rows(
   if (!has_begun())
     throw std::logic_error("the contacts of the first step are those of the start: contact_rows()");
   std::vector<contact::ContactRecord> rows;
-  look_ahead([&] {
+  look_ahead(0.0, [&] {
     contacts_->for_each_record(scene_.state.position, [&](const contact::ContactRecord& row) {
       if (wants(row)) rows.push_back(row);
     });
@@ -271,11 +278,10 @@ std::vector<contact::ContactRecord> Simulation::next_contact_rows(
 /// Contacts on the surface as it was, and then what has come and gone of that. Energy that they had
 /// stored on what is gone is work from outside, and none that tracking lost. So is what contacts
 /// have in this scene and had not in the other: those that come with bodies that touch others at
-/// once, and with another stiffness. They are known at the moment of the next forces; the ledger is
-/// of the moment of the last ones.
+/// once, and with another stiffness. The ledger is of the moment of the last forces.
 void Simulation::take_contacts(Simulation& before, const contact::BodyPlaces& places) {
   const double stored = before.contacts_->elastic_energy();
-  const double next = before.next_contact_energy();
+  const double energy_before = before.contact_energy_between();
   const geometry::Surface whole = whole_ ? *whole_ : surface_;
   const geometry::Surface made = surface_;
   const Scene& there = before.scene_;
@@ -295,7 +301,7 @@ void Simulation::take_contacts(Simulation& before, const contact::BodyPlaces& pl
     taken_out_ += contacts_->tracking_loss() - tracking;
   }
   if (others) loads_.follow(geometry::SurfaceChange(made, surface_));
-  const double from_outside = next_contact_energy() - next;
+  const double from_outside = contact_energy_between() - energy_before;
   work_.external += from_outside;
   pending_.external += from_outside - (contacts_->elastic_energy() - stored);
 }

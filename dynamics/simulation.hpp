@@ -313,9 +313,9 @@ class Simulation {
   void exchange_step(const geometry::StateArchive& archive);
   void leave_out_absent();
   template <class Look>
-  void look_ahead(const Look& look);
+  void look_ahead(double ago, const Look& look);
   bool has_begun() const noexcept { return steps_ > 0; }
-  double next_contact_energy();
+  double contact_energy_between();
   void take_contacts(Simulation& before, const contact::BodyPlaces& places);
   void require_same_structures(const Simulation& before, const contact::BodyPlaces& places) const;
   void take_state(Simulation& before, const SceneChange& change);
