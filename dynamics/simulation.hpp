@@ -254,7 +254,7 @@ class Simulation {
   geometry::StateTree snapshot();
   /// Goes on from a state: from here on every bit is as it was there, with any number of threads.
   /// To be called before the first step of a simulation of the same scene, materials and laws; its
-  /// loads may be other ones of the same kinds.
+  /// loads may be other ones of the same kinds. Those that have been set there go on so, by place.
   /// @throws std::logic_error after the first step
   /// @throws geometry::StateMismatch if the state is of another scene, or damaged: the simulation
   ///         can only be thrown away then

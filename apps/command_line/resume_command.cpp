@@ -36,6 +36,18 @@ void require_same_run(std::span<const std::string> overrides) {
   }
 }
 
+/// Of a run without stages. It may have been longer than the checkpoint that it goes on from knows.
+void require_within(const Scenario& scenario, double begin, const ResumeArguments& arguments) {
+  const double duration = scenario.simulation.duration;
+  if (!scenario.stages.empty() || begin < duration) return;
+  const double last = std::max(duration, time_of(last_checkpoint(arguments.folder).state));
+  if (begin < last) return;
+  throw InputError(fmt::format(
+      "--from: got \"{}\"; expected a time before the end of the run, {:.6g} s; to go on "
+      "beyond that give --set simulation.duration=TIME",
+      arguments.from, last));
+}
+
 }  // namespace
 
 std::optional<double> time_option(const char* name, const std::string& text) {
@@ -61,14 +73,7 @@ ResumedRun find_resumed_run(const ResumeArguments& arguments) {
   ResumedRun run = resumed_from(arguments.same_folder ? last_checkpoint_with_files(arguments.folder)
                                                       : last_checkpoint(arguments.folder, begin),
                                 arguments.overrides);
-  // It may have been longer than the checkpoint that it goes on from knows.
-  const double last =
-      std::max(run.scenario.simulation.duration, time_of(last_checkpoint(arguments.folder).state));
-  if (begin && run.scenario.stages.empty() && !(*begin < last))
-    throw InputError(
-        fmt::format("--from: got \"{}\"; expected a time before the end of the run, {:.6g} s; "
-                    "to go on beyond that give --set simulation.duration=TIME",
-                    arguments.from, last));
+  if (begin) require_within(run.scenario, *begin, arguments);
   run.from = begin;
   run.until = end;
   if (end) run.scenario.simulation.duration = *end;

@@ -4,11 +4,8 @@
 #include "apps/scene/build_loads.hpp"
 #include "apps/scene/build_reactions.hpp"
 #include "apps/scene/fixity.hpp"
-#include "apps/scene/node_set.hpp"
 #include "apps/scene/rigid_builder.hpp"
 #include "apps/scene/stage_ends.hpp"
-
-#include <fmt/format.h>
 
 #include <cstddef>
 #include <utility>

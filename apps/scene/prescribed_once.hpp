@@ -12,7 +12,7 @@ namespace plekton::apps {
 /// Who prescribes which component of which node.
 class PrescribedOnce {
  public:
-  /// @param held  by node: what membranes hold
+  /// @param held  by node: what bodies and stages hold
   explicit PrescribedOnce(std::vector<dynamics::Held> held) : held_(std::move(held)) {}
 
   /// Takes down a motion.

@@ -22,9 +22,9 @@ void require_apart(const StageEnd& end, const BuiltScene& built) {
   if (distance > kRounding * (size(a) + size(b))) return;
   throw InputError(fmt::format(
       "{}: the strain between two bodies: the centres of \"{}\" and \"{}\" are {:.3g} m apart "
-      "where it "
-      "begins, so that there is no length to compare with; name two bodies that lie apart, or ask "
-      "for a displacement",
+      "where it begins, so that there is no length to compare with; name two bodies that lie "
+      "apart, "
+      "or ask for a displacement",
       to_string(end.strain->place), a.name, b.name, distance));
 }
 

@@ -9,7 +9,6 @@
 namespace plekton::geometry {
 namespace {
 
-
 /// "1 edge has ..." or "3 edges have ...".
 std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + ' ' + (count == 1 ? one : many);
