@@ -9,19 +9,23 @@
 namespace plekton::contact::structure {
 namespace {
 
-/// Above the interior of the facet.
+Real magnitude(const Real& x) {
+  return x.value < 0.0 ? -x : x;
+}
+
+/// Above the interior of the facet, or below it.
 Real of_edge_above_facet(const Vector& first, const Vector& last,
                          const std::array<Vector, 3>& facet, const NormalSpring& spring) {
   auto over = above(first, last, facet);
   if (!over) return {0.0};
   const Real range(spring.range());
   if (!cut(over->part, range - over->first, range - over->last)) return {0.0};
+  if (!cut(over->part, range + over->first, range + over->last)) return {0.0};
   const Interval& part = over->part;
   const Real middle = 0.5 * (part.from + part.to);
-  // Simpson's rule: exact for a linear spring.
-  const Real sum = spring.energy(over->distance(part.from)) +
-                   4.0 * spring.energy(over->distance(middle)) +
-                   spring.energy(over->distance(part.to));
+  // Simpson's rule: exact for a linear spring, but where the edge crosses the facet.
+  const auto energy_at = [&](const Real& t) { return spring.energy(magnitude(over->distance(t))); };
+  const Real sum = energy_at(part.from) + 4.0 * energy_at(middle) + energy_at(part.to);
   // Cosine to second order of the slope, so that a level cylinder has a derivative.
   const Real cosine = Real(1.0) - 0.5 * over->slope * over->slope;
   return parallel_share(cosine) * over->length * (part.to - part.from) *

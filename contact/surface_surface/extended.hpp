@@ -26,8 +26,8 @@ namespace plekton::contact::structure {
 /// Whether a pair may have an extent: not if a node is in it, or two edges of facets.
 bool can_extend(const Simplex& a, const Simplex& b);
 
-/// Of simplices whose cores do not meet; otherwise the part beyond the crossing counts as if it lay
-/// on the side where most of the overlap is.
+/// Where cores cross, what lies beyond the crossing counts by its distance too, on that side: the
+/// energy goes on where they meet, largest there.
 PairForces extended_part(const Simplex& a, const Simplex& b, const NormalSpring& spring);
 
 }  // namespace plekton::contact::structure

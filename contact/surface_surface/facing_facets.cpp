@@ -78,11 +78,12 @@ class Overlap {
   const std::array<Traced, 3>& b() const { return b_; }
 
  private:
-  /// Four cuts leave a triangle at most 4, 6, 9, 13 corners and make 20 new ones, also where
+  /// Five cuts leave a triangle at most 4, 6, 9, 13, 19 corners and make 32 new ones, also where
   /// rounding takes corners for dents.
-  static constexpr std::size_t kMostCorners = 13;
-  static constexpr std::size_t kMostPoints = 23;
+  static constexpr std::size_t kMostCorners = 19;
+  static constexpr std::size_t kMostPoints = 35;
   static constexpr std::size_t kRangeCut = 3;
+  static constexpr std::size_t kRangeBeyondCut = 4;  ///< of what lies on b's other side
 
   /// A corner that a cut made on the way from one point to another.
   struct Cut {
@@ -101,6 +102,7 @@ class Overlap {
 
   bool face_each_other();
   bool make_region();
+  /// m, negative on b's other side, where a facet that crosses it has a part.
   double distance(const Vec3& p) const { return side_ * (b_[0].x - p).dot(normal_b()); }
   const Vec3& normal_a() const { return of_a_.direction.along.x; }
   const Vec3& normal_b() const { return of_b_.direction.along.x; }
@@ -119,7 +121,7 @@ class Overlap {
   Normal of_b_;
   std::array<Traced, 3> inward_;
   Vec3 tie_break_ = Vec3::Zero();  ///< how b is moved against a where they tie
-  double side_ = 1.0;              ///< 1 if b lies on the normal's side of a, -1 on the other
+  double side_ = 1.0;              ///< 1 if most of b lies on the normal's side of a, or -1
   std::array<Traced, kMostPoints> points_;
   std::size_t point_count_ = 0;
   std::array<Cut, kMostPoints> cuts_;
@@ -187,11 +189,18 @@ bool Overlap::make_region() {
     cut(i, [&](std::size_t point) { return height(point, i); });
     if (region_.size < 3) return false;
   }
-  double above = 0.0;
-  for (std::size_t i = 0; i < region_.size; ++i)
-    above += (b_[0].x - points_[region_.points[i]].x).dot(normal_b());
+  double above = 0.0, lowest = 0.0, highest = 0.0;
+  for (std::size_t i = 0; i < region_.size; ++i) {
+    const double height = (b_[0].x - points_[region_.points[i]].x).dot(normal_b());
+    above += height;
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
   side_ = above >= 0.0 ? 1.0 : -1.0;
   cut(kRangeCut, [&](std::size_t point) { return range_ - distance(points_[point].x); });
+  const double beyond = above >= 0.0 ? -lowest : highest;
+  if (region_.size >= 3 && beyond > range_)
+    cut(kRangeBeyondCut, [&](std::size_t point) { return range_ + distance(points_[point].x); });
   return region_.size >= 3;
 }
 
@@ -202,14 +211,14 @@ void for_each_triangle(const Polygon& region, Visit visit) {
     visit(region.points[0], region.points[i], region.points[i + 1]);
 }
 
-/// Of a triangle: exact for a linear spring.
+/// By the middles of the sides of triangles: exact for a linear spring, but where facets cross.
 double Overlap::integral(const NormalSpring& spring) const {
   double sum = 0.0;
   for_each_triangle(region_, [&](std::size_t i, std::size_t j, std::size_t k) {
     const Vec3 &p = points_[i].x, &q = points_[j].x, &r = points_[k].x;
     const double area = 0.5 * normal_a().dot((q - p).cross(r - p));
     const auto middle = [&](const Vec3& u, const Vec3& v) {
-      return spring.energy(distance(0.5 * (u + v)));
+      return spring.energy(std::abs(distance(0.5 * (u + v))));
     };
     sum += area / 3.0 * (middle(p, q) + middle(q, r) + middle(r, p));
   });
@@ -226,9 +235,12 @@ void Overlap::integral_back(const NormalSpring& spring, double by_integral) {
     double energies = 0.0;
     const auto middle_back = [&](Traced& s, Traced& t) {
       const Vec3 middle = 0.5 * (s.x + t.x);
-      energies += spring.energy(distance(middle));
+      const double signed_distance = distance(middle);
+      const double apart = std::abs(signed_distance);
+      energies += spring.energy(apart);
       Vec3 by_middle = Vec3::Zero();
-      distance_back(middle, -by_integral * area / 3.0 * spring.force(distance(middle)), by_middle);
+      const double by_apart = -by_integral * area / 3.0 * spring.force(apart);
+      distance_back(middle, std::copysign(1.0, signed_distance) * by_apart, by_middle);
       s.slope += 0.5 * by_middle;
       t.slope += 0.5 * by_middle;
     };
@@ -262,9 +274,10 @@ void Overlap::cut_back(const Cut& cut) {
   to.slope += share * by_point;
   const double by_from = -by_share * cut.height_to / (drop * drop);
   const double by_to = by_share * cut.height_from / (drop * drop);
-  if (cut.plane == kRangeCut) {
-    distance_back(from.x, -by_from, from.slope);
-    distance_back(to.x, -by_to, to.slope);
+  if (cut.plane == kRangeCut || cut.plane == kRangeBeyondCut) {
+    const double sign = cut.plane == kRangeCut ? -1.0 : 1.0;
+    distance_back(from.x, sign * by_from, from.slope);
+    distance_back(to.x, sign * by_to, to.slope);
     return;
   }
   Traced& inward = inward_[cut.plane];

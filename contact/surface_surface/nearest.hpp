@@ -36,6 +36,7 @@ PairForces nearest_part(const Simplex& a, const Simplex& b, const CoreProximity&
 
 /// Of simplices of any kind: energy and force along the line of the nearest points; of cores that
 /// meet along the shortest way out, with its length as overlap too.
+/// @param nearest  of cores that meet the points that touch last (geometry::at_last_touch)
 PairForces at_nearest_points(const CoreProximity& nearest, const NormalSpring& spring);
 
 /// A force (N) along the line of the nearest points, without energy.

@@ -46,8 +46,8 @@ Simplex simplex_at(const geometry::FeatureNodes& nodes, const std::array<bool, 3
   return simplex;
 }
 
-/// Of the range. Cores nearer than that meet, up to what matters: side by side has no meaning, and
-/// the direction is that of the nearest points.
+/// Of the range. Cores nearer than that meet, up to what matters: the direction is that of the
+/// nearest points, wherever they lie side by side.
 constexpr double kStructurePair = 1e-6;
 
 /// How far the boxes of two simplices are apart along the axis along which they are furthest apart;
@@ -118,14 +118,16 @@ TermProximity proximity(const PairTerm& term, double range, geometry::Positions 
                         const geometry::closest::WitnessFeatures& last) {
   const Simplex a = simplex_at(term.a, term.is_seam_a, x);
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
+  const geometry::Core core_a = core_of(a), core_b = core_of(b);
   TermProximity found{};
   if (was_near) {  // what was near mostly still is, at the same features
-    found.cores = geometry::core_proximity(core_of(a), core_of(b), last);
+    found.cores = geometry::core_proximity(core_a, core_b, last);
   } else {
     found.clearance = gap_of_boxes(a, b) - range;
     if (found.clearance > 0.0) return found;
-    found.cores = geometry::core_proximity(core_of(a), core_of(b));
+    found.cores = geometry::core_proximity(core_a, core_b);
   }
+  found.cores = geometry::at_last_touch(core_a, core_b, found.cores);
   found.clearance = found.cores.signed_distance - range;
   found.tilt = -1.0;
   if (found.clearance < 0.0) {
@@ -174,14 +176,13 @@ void add_nearest(const PairTerm& term, const PairForces& nearest, const CoreProx
 TermForces term_forces(const PairTerm& term, const TermProximity& found, const PointShare& share,
                        const NormalSpring& spring, geometry::Positions x) {
   TermForces result;
-  if (found.cores.signed_distance < kStructurePair * spring.range()) {
-    add(at_nearest_points(found.cores, spring), term.weight, term, result.forces);
-    return result;
-  }
   const Simplex a = simplex_at(term.a, term.is_seam_a, x);
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
-  add_nearest(term, nearest_part(a, b, found.cores, found.may_be_flat, spring), found.cores, share,
-              result);
+  const bool meet = found.cores.signed_distance < kStructurePair * spring.range();
+  const PairForces nearest = meet
+                                 ? at_nearest_points(found.cores, spring)
+                                 : nearest_part(a, b, found.cores, found.may_be_flat, spring);
+  add_nearest(term, nearest, found.cores, share, result);
   if (!can_extend(a, b)) return result;
   const PairForces extended = extended_part(a, b, spring);
   add(extended, term.weight, term, result.forces);

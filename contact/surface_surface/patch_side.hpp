@@ -14,7 +14,7 @@
 namespace plekton::contact::structure {
 
 /// The nodes of one side of a patch, each with the elastic force on it, with what attracts it, and
-/// with its share of the patch's elastic force. A share may be negative; the shares add up to 1.
+/// with its share of the patch's elastic force. No share is negative; they add up to 1.
 class PatchSide {
  public:
   void clear() noexcept { nodes_.clear(); }
@@ -59,14 +59,16 @@ class PatchSide {
     return total;
   }
 
-  /// Finds the shares, and the point on which the force acts.
-  /// @param per_force  1/N, the total force over its square: a share is that of the force along it
+  /// Finds the shares, and the point on which the force acts: among the nodes, also where forces
+  /// cancel for the most part, as those of bodies that cross.
+  /// @param per_force  1/N, the total force over its square: a share is that of the force along it,
+  ///                   and 0 of one against it
   void find_shares(Positions x, const Vec3& per_force) {
     point_ = Vec3::Zero();
     const Vec3 origin = nodes_.empty() ? Vec3(Vec3::Zero()) : x[index_of(nodes_[0])];
     double sum = 0.0;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      shares_[i] = per_force.dot(forces_[i]);
+      shares_[i] = std::max(0.0, per_force.dot(forces_[i]));
       point_ += shares_[i] * (x[index_of(nodes_[i])] - origin);
       sum += shares_[i];
     }

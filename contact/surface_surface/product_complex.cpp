@@ -105,7 +105,8 @@ void ProductComplex::take(std::span<const Candidate> same, std::span<const CellP
       const CellPair& pair = pairs[cell.pair];
       place = {*pair.a, *pair.b, *pair.cores};
     } else {
-      place.cores = geometry::core_proximity(core_of(place.a, x), core_of(place.b, x));
+      const geometry::Core a = core_of(place.a, x), b = core_of(place.b, x);
+      place.cores = geometry::at_last_touch(a, b, geometry::core_proximity(a, b));
       if (!(place.cores.signed_distance < range)) return;
     }
     cell.place = static_cast<std::uint32_t>(places_.size());

@@ -102,8 +102,12 @@ struct SpreadContact {
               Positions x) {
     elastic_force = spread.on_b[0] + spread.on_b[1] + spread.on_b[2];
     normal_force = elastic_force.norm();
-    if (!(normal_force > 0.0) || !(spread.energy > 0.0)) return false;
-    gap = -mean_overlap(bodies.parameters, spread.energy, normal_force);
+    // Of facets that cross in the middle the forces on both sides cancel but for rounding.
+    constexpr double kRounding = 1e-14;
+    const double size = spread.on_b[0].norm() + spread.on_b[1].norm() + spread.on_b[2].norm();
+    if (!(normal_force > kRounding * size) || !(spread.energy > 0.0)) return false;
+    const double range = bodies.radius_first + bodies.radius_second;
+    gap = -std::min(range, mean_overlap(bodies.parameters, spread.energy, normal_force));
     const double one = AnyLaw::elastic_normal_force(bodies.parameters, gap);
     if (!(one > 0.0)) return false;
     count = normal_force / one;

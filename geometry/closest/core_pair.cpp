@@ -9,6 +9,8 @@
 #include "geometry/closest/segment_triangle.hpp"
 #include "geometry/closest/triangle_triangle.hpp"
 
+#include <algorithm>
+
 namespace plekton::geometry {
 namespace {
 
@@ -85,6 +87,30 @@ CoreProximity core_proximity(const Core& a, const Core& b,
       holds ? closest::evaluate(a.corners(), b.corners(), {guess, Relation::apart})
             : closest_points(a, b);
   return with_direction(a, b, points, Vec3::Zero());
+}
+
+CoreProximity at_last_touch(const Core& a, const Core& b, const CoreProximity& found) noexcept {
+  if (!(found.signed_distance < 0.0)) return found;
+  constexpr double kClear = 1e-12;  // of their size: further out than rounding leaves in doubt
+  Core still = a, moved = b;
+  double size = 0.0;
+  for (std::size_t i = 0; i < a.count; ++i) {
+    still.x[i] = a.x[i] - a.x[0];
+    size = std::max(size, still.x[i].norm());
+  }
+  for (std::size_t i = 0; i < b.count; ++i) {
+    moved.x[i] = b.x[i] - a.x[0];
+    size = std::max(size, moved.x[i].norm());
+  }
+  const Vec3 way = (kClear * size - found.signed_distance) * found.normal;
+  for (std::size_t i = 0; i < b.count; ++i) moved.x[i] += way;
+  const ClosestPoints last = closest_points(still, moved);
+  CoreProximity result = found;
+  result.points.weights_a = last.weights_a;
+  result.points.weights_b = last.weights_b;
+  result.points.corners_a = last.corners_a;
+  result.points.corners_b = last.corners_b;
+  return result;
 }
 
 }  // namespace plekton::geometry

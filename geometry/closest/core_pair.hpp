@@ -39,4 +39,13 @@ CoreProximity core_proximity(const Core& a, const Core& b,
 CoreProximity core_proximity(const Core& a, const Core& b,
                              const closest::WitnessFeatures& guess) noexcept;
 
+/// The same, for cores that meet with the points that touch last as b goes out of a, instead of one
+/// that they have in common: from the one on a to the one on b it is signed_distance * normal, as
+/// for cores that are apart. So the slope of the signed distance by the corners is what a unit
+/// force along the normal does there: minus the weights times the normal on a, plus on b. Source:
+/// the nearest point of the boundary of the Minkowski difference is a convex combination of
+/// differences of corners, which are the multipliers of the minimum (Danskin's theorem).
+/// @param found  of core_proximity()
+CoreProximity at_last_touch(const Core& a, const Core& b, const CoreProximity& found) noexcept;
+
 }  // namespace plekton::geometry

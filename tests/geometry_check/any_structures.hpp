@@ -173,6 +173,28 @@ inline Structures bars_on_sheet(double depth, test::Random& random) {
   return pair;
 }
 
+/// A sheet, a ridge, a chain or a net pressed through another: at a small angle or at any.
+inline Structures crossed(test::Random& random) {
+  const auto any = [&]() -> test::Body {
+    const double side = random.uniform(0.1, 0.6);
+    if (random.integer(0, 3) == 0) return test::chain(random.integer(1, 3), side);
+    if (random.integer(0, 3) == 0) return test::square_net_of(random.integer(1, 2), 0.5 * side);
+    const int n = random.integer(1, 2);
+    test::Body sheet = test::sheet(n, n, side, side, any_cut(random));
+    const double slope = random.uniform(-0.5, 0.5);
+    for (geometry::Vec3& x : sheet.x) x.z() = slope * std::abs(x.y());
+    return roughened(sheet, 0.01 * side, random);
+  };
+  Structures pair{any(), any(), false, {}};
+  pair.do_cross = true;
+  const geometry::Vec3 turns =
+      random.coin() ? geometry::Vec3(random.in_cube(3.0))
+                    : geometry::Vec3(0.4 * random.in_cube(1.0).x(), 0.4 * random.in_cube(1.0).x(),
+                                     random.uniform(0.0, 3.2));
+  pair.b = test::moved(pair.b, turns, 0.2 * random.in_cube(1.0));
+  return pair;
+}
+
 enum class StructureFamily {
   bars_on_bars,
   sheet_on_sheet,
@@ -203,6 +225,12 @@ inline Structures any_structures_of(StructureFamily family, test::Random& random
     }
   }();
   if (found.rest.empty()) found.rest = found.nodes();
+  return found;
+}
+
+inline Structures any_crossed_structures(test::Random& random) {
+  Structures found = crossed(random);
+  found.rest = found.nodes();
   return found;
 }
 

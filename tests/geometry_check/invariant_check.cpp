@@ -36,6 +36,9 @@ constexpr std::string_view kStructureGradient = "structures: force = -gradient o
 constexpr std::string_view kStructureBalance = "structures: forces and moments balance";
 constexpr std::string_view kStructureCount = "structures: no less than their pieces";
 constexpr std::string_view kStructureFollows = "structures: force in proportion to step";
+constexpr std::string_view kCrossedGradient = "crossed bodies: force = -gradient of energy";
+constexpr std::string_view kCrossedBalance = "crossed bodies: forces and moments balance";
+constexpr std::string_view kCrossedEnergy = "crossed bodies: no leap of their energy";
 
 bool has_euler_number(const Complex& complex, Random& random, int& trials) {
   const Surface surface = complex.surface();
@@ -179,6 +182,18 @@ bool structures_hold(std::string_view name, Random& random, int& trials) {
   return seen.value_or(true);
 }
 
+bool crossed_structures_hold(std::string_view name, Random& random, int& trials) {
+  const Structures structures = any_crossed_structures(random);
+  const auto seen = [&]() -> std::optional<bool> {
+    if (name == kCrossedGradient) return have_gradient(structures, push_of_structures, random);
+    if (name == kCrossedBalance) return are_balanced(structures, push_of_structures, random);
+    if (name == kCrossedEnergy) return keep_energy(structures, push_of_structures, random);
+    throw std::logic_error("an invariant without a check");
+  }();
+  trials += seen.has_value();
+  return seen.value_or(true);
+}
+
 bool holds(std::string_view name, Random& random, int& trials) {
   if (name == kEuler) return has_euler_number(any_surface(random), random, trials);
   if (name == kNumbering)
@@ -191,6 +206,7 @@ bool holds(std::string_view name, Random& random, int& trials) {
     trials += tally.trials;
     return tally.violations == 0;
   }
+  if (name.starts_with("crossed")) return crossed_structures_hold(name, random, trials);
   return name.starts_with("structures") ? structures_hold(name, random, trials)
                                         : spread_holds(name, random, trials);
 }
@@ -210,7 +226,10 @@ std::vector<InvariantTally> invariant_rows() {
           {kStructureGradient.data(), 40},
           {kStructureBalance.data(), 10},
           {kStructureCount.data(), 10},
-          {kStructureFollows.data(), 100}};
+          {kStructureFollows.data(), 100},
+          {kCrossedGradient.data(), 40},
+          {kCrossedBalance.data(), 10},
+          {kCrossedEnergy.data(), 40}};
 }
 
 void check_invariant(InvariantTally& row, std::uint64_t trials, std::uint64_t seed,

@@ -44,8 +44,9 @@ struct Moving {
 };
 
 /// Whether there is anything to be checked.
-bool is_touched(const StructureScene& scene, const StructurePush& push) {
-  return scene.crossings() == 0 && push.energy > 0.0;
+bool is_touched(const Structures& structures, const StructureScene& scene,
+                const StructurePush& push) {
+  return structures.do_cross == (scene.crossings() > 0) && push.energy > 0.0;
 }
 
 bool have_bars(const Structures& structures) {
@@ -89,7 +90,7 @@ std::optional<bool> where_smooth(const Structures& structures, const StructureRu
     const auto there = beside(x, random);
     const Moving moving{scene, rule, there, any_ways(x.size(), random)};
     const StructurePush here = moving.at(0.0);
-    if (!is_touched(scene, here)) return std::nullopt;
+    if (!is_touched(structures, scene, here)) return std::nullopt;
     if (const auto slope = slope_of(moving, here)) return visit(moving, here, *slope);
   }
   return std::nullopt;
@@ -113,7 +114,7 @@ std::optional<bool> have_gradient(const Structures& structures, const StructureR
   const auto x = structures.nodes();
   const Moving moving{scene, rule, x, down(x)};
   const StructurePush here = moving.at(0.0);
-  if (!is_touched(scene, here)) return std::nullopt;
+  if (!is_touched(structures, scene, here)) return std::nullopt;
   const auto slope = slope_of(moving, here);
   if (!slope) return std::nullopt;
   return is_slope(moving, here, *slope);
@@ -125,7 +126,7 @@ std::optional<bool> are_balanced(const Structures& structures, const StructureRu
   const bool has_bars = have_bars(structures);
   const auto x = has_bars ? beside(structures.nodes(), random) : structures.nodes();
   const StructurePush push = rule(scene, x);
-  if (!is_touched(scene, push)) return std::nullopt;
+  if (!is_touched(structures, scene, push)) return std::nullopt;
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   for (std::size_t i = 0; i < x.size(); ++i) {
     force += push.forces[i];
@@ -181,6 +182,21 @@ bool is_in_proportion(const Moving& moving, const StructurePush& here, const Slo
 }
 
 }  // namespace
+
+std::optional<bool> keep_energy(const Structures& structures, const StructureRule& rule,
+                                Random& random) {
+  if (have_bars(structures)) return std::nullopt;
+  StructureScene scene(structures);
+  const auto x = structures.nodes();
+  if (!is_touched(structures, scene, rule(scene, x))) return std::nullopt;
+  const Moving moving{scene, rule, x, any_ways(x.size(), random)};
+  const auto energy_at = [&](double part) -> Forces {
+    return {moving.at(part).energy * Vec3::UnitX()};
+  };
+  const double energy = std::max(moving.at(0.0).energy, moving.at(kRange).energy);
+  constexpr double kJump = 0.01;
+  return steepest_changes(energy_at, kRange).back() <= kJump * energy;
+}
 
 std::optional<bool> follow(const Structures& structures, const StructureRule& rule,
                            Random& random) {

@@ -9,7 +9,8 @@
 
 /// What structures promise that touch each other or themselves: nets, sheets with edges or rims in
 /// common, sheets on their own mirror images, folded ones, ridges and rims of holes. Springs have 1
-/// N/m. A configuration whose cores meet, or in which nothing touches, is left out.
+/// N/m. A configuration in which nothing touches is left out, and one whose cores meet, but for
+/// those that are meant to cross.
 namespace plekton::geometry_check {
 
 /// What is checked: what a scene of structures does with its nodes there (m).
@@ -55,5 +56,11 @@ std::optional<bool> count_pieces(const Structures& structures, const StructureRu
 /// another bar that it is perpendicular to (contact/surface_surface/nearest.hpp).
 std::optional<bool> follow(const Structures& structures, const StructureRule& rule,
                            test::Random& random);
+
+/// On a way of 0.1 m, through each other, the energy of facets nowhere changes by more than 1 % of
+/// it within 0.1 um. Leaps of 0.3 % are seen on one of 500 such ways, where nearest points leave a
+/// rim (contact/surface_surface/rim_share.hpp); nothing is claimed of bars, as above.
+std::optional<bool> keep_energy(const Structures& structures, const StructureRule& rule,
+                                test::Random& random);
 
 }  // namespace plekton::geometry_check

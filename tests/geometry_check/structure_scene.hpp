@@ -14,6 +14,7 @@ struct Structures {
   test::Body b;                          ///< may have nothing
   bool are_sheets = false;               ///< that lie on each other along z = 0, up to roughness
   std::vector<geometry::Vec3> rest;      ///< m, all nodes, where bodies are at rest
+  bool do_cross = false;                 ///< cores of one go through those of the other
   static constexpr double kRange = 0.1;  ///< m, sum of both radii
 
   std::vector<geometry::Vec3> nodes() const {

@@ -95,6 +95,94 @@ TEST(CoreProximity, GivesTheSameBitsWithAnyGuess) {
   EXPECT_GT(crossings, 100u);
 }
 
+Vec3 point_on(const Core& core, const Vec3& weights) {
+  Vec3 point = Vec3::Zero();
+  for (std::size_t i = 0; i < core.count; ++i) point += weights[static_cast<int>(i)] * core.x[i];
+  return point;
+}
+
+/// Two cores of two or three corners in a cube of side 2 about its middle: many of them cross.
+std::array<Core, 2> crossing_cores(test::Random& random) {
+  std::array<Core, 2> cores;
+  for (Core& core : cores) {
+    core.count = random.coin() ? 3 : 2;
+    for (std::size_t i = 0; i < core.count; ++i) core.x[i] = random.in_cube(1.0);
+  }
+  return cores;
+}
+
+TEST(AtLastTouch, HasPointsThatAreTheDepthApart) {
+  test::Random random(3);
+  int crossings = 0;
+  for (int trial = 0; trial < 5000 && !::testing::Test::HasFailure(); ++trial) {
+    const auto [a, b] = crossing_cores(random);
+    const CoreProximity found = core_proximity(a, b);
+    const CoreProximity last = at_last_touch(a, b, found);
+
+    EXPECT_EQ(last.normal, found.normal);
+    EXPECT_EQ(last.signed_distance, found.signed_distance);
+    EXPECT_EQ(last.points.relation, found.points.relation);
+    const Vec3 way = point_on(b, last.points.weights_b) - point_on(a, last.points.weights_a);
+    EXPECT_LE((way - last.signed_distance * last.normal).norm(), 1e-11) << trial;
+    EXPECT_GE(std::min(last.points.weights_a.minCoeff(), last.points.weights_b.minCoeff()), 0.0);
+    EXPECT_NEAR(last.points.weights_a.sum(), 1.0, 1e-15);
+    EXPECT_NEAR(last.points.weights_b.sum(), 1.0, 1e-15);
+    crossings += found.signed_distance < 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(crossings, 500);
+}
+
+// A side that lies in the plane of a facet, or two parallel ones, have a kink: of corners at random
+// they are rare, and left out where both one-sided differences are unlike each other.
+TEST(AtLastTouch, HasTheSlopeOfTheSignedDistanceAsWeights) {
+  test::Random random(4);
+  constexpr double kStep = 1e-7;
+  int crossings = 0, kinks = 0;
+  for (int trial = 0; trial < 5000 && !::testing::Test::HasFailure(); ++trial) {
+    auto [a, b] = crossing_cores(random);
+    const CoreProximity found = at_last_touch(a, b, core_proximity(a, b));
+    if (!(found.signed_distance < -0.01)) continue;
+    ++crossings;
+    for (Core* moving : {&a, &b}) {
+      for (std::size_t i = 0; i < moving->count; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+          double& x = moving->x[i][axis];
+          const double at = x;
+          x = at + kStep;
+          const double ahead = core_proximity(a, b).signed_distance;
+          x = at - kStep;
+          const double behind = core_proximity(a, b).signed_distance;
+          x = at;
+          if (std::abs(ahead - 2.0 * found.signed_distance + behind) > 1e-4 * kStep) {
+            ++kinks;
+            continue;
+          }
+          const Vec3& weights =
+              moving == &a ? found.points.weights_a : found.points.weights_b;
+          const double sign = moving == &a ? -1.0 : 1.0;
+          EXPECT_NEAR((ahead - behind) / (2.0 * kStep),
+                      sign * weights[static_cast<int>(i)] * found.normal[axis], 1e-4)
+              << trial;
+        }
+      }
+    }
+  }
+  EXPECT_GT(crossings, 500);
+  EXPECT_LT(kinks, crossings / 20);
+}
+
+TEST(AtLastTouch, LeavesCoresThatAreApartOrTouchAsTheyAre) {
+  const Core sheet = core_of(std::array{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)});
+  for (const double height : {0.0, 1.0}) {
+    const Core bar = core_of(std::array{Vec3(1, 1, height), Vec3(1, 1, 3)});
+    const CoreProximity found = core_proximity(sheet, bar);
+    const CoreProximity last = at_last_touch(sheet, bar, found);
+
+    EXPECT_EQ(last.points.weights_a, found.points.weights_a);
+    EXPECT_EQ(last.points.weights_b, found.points.weights_b);
+  }
+}
+
 TEST(CorePair, HasADistanceAndADirectionWhereTheSquareOfTheDistanceVanishes) {
   const Core facet{{Vec3(-1, -1, 0), Vec3(2, -1, 0), Vec3(-1, 2, 0)}, 3};
   const Core bar{{Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3::Zero()}, 2};
