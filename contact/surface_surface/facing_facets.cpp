@@ -78,12 +78,12 @@ class Overlap {
   const std::array<Traced, 3>& b() const { return b_; }
 
  private:
-  /// Five cuts leave a triangle at most 4, 6, 9, 13, 19 corners and make 32 new ones, also where
-  /// rounding takes corners for dents.
+  /// Five cuts leave a triangle at most 4, 6, 9, 13, 19 corners and make 2, 4, 6, 8, 12 new ones,
+  /// the last two on either side of b, also where rounding takes corners for dents.
   static constexpr std::size_t kMostCorners = 19;
-  static constexpr std::size_t kMostPoints = 35;
-  static constexpr std::size_t kRangeCut = 3;
-  static constexpr std::size_t kRangeBeyondCut = 4;  ///< of what lies on b's other side
+  static constexpr std::size_t kMostPoints = 3 + 12 + 2 * 20;
+  static constexpr std::size_t kSideCut = 3;
+  static constexpr std::size_t kRangeCut = 4;
 
   /// A corner that a cut made on the way from one point to another.
   struct Cut {
@@ -102,7 +102,8 @@ class Overlap {
 
   bool face_each_other();
   bool make_region();
-  /// m, negative on b's other side, where a facet that crosses it has a part.
+  double energy_of_region(const NormalSpring& spring, double by_energy);
+  double energy_of_sides(const NormalSpring& spring, double by_energy);
   double distance(const Vec3& p) const { return side_ * (b_[0].x - p).dot(normal_b()); }
   const Vec3& normal_a() const { return of_a_.direction.along.x; }
   const Vec3& normal_b() const { return of_b_.direction.along.x; }
@@ -121,12 +122,13 @@ class Overlap {
   Normal of_b_;
   std::array<Traced, 3> inward_;
   Vec3 tie_break_ = Vec3::Zero();  ///< how b is moved against a where they tie
-  double side_ = 1.0;              ///< 1 if most of b lies on the normal's side of a, or -1
+  double side_ = 1.0;              ///< 1 if b lies on the normal's side of a, -1 on the other
   std::array<Traced, kMostPoints> points_;
   std::size_t point_count_ = 0;
   std::array<Cut, kMostPoints> cuts_;
   std::size_t cut_count_ = 0;
   Polygon region_;
+  bool is_in_range_ = false;  ///< any part of it
 };
 
 bool Overlap::face_each_other() {
@@ -177,7 +179,7 @@ void Overlap::cut(std::size_t plane, Height height) {
   region_ = kept;
 }
 
-/// @returns whether any part is in range
+/// Sets what of a lies over b, on whichever side. @returns whether there is any
 bool Overlap::make_region() {
   if (!face_each_other()) return false;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -189,19 +191,7 @@ bool Overlap::make_region() {
     cut(i, [&](std::size_t point) { return height(point, i); });
     if (region_.size < 3) return false;
   }
-  double above = 0.0, lowest = 0.0, highest = 0.0;
-  for (std::size_t i = 0; i < region_.size; ++i) {
-    const double height = (b_[0].x - points_[region_.points[i]].x).dot(normal_b());
-    above += height;
-    lowest = std::min(lowest, height);
-    highest = std::max(highest, height);
-  }
-  side_ = above >= 0.0 ? 1.0 : -1.0;
-  cut(kRangeCut, [&](std::size_t point) { return range_ - distance(points_[point].x); });
-  const double beyond = above >= 0.0 ? -lowest : highest;
-  if (region_.size >= 3 && beyond > range_)
-    cut(kRangeBeyondCut, [&](std::size_t point) { return range_ + distance(points_[point].x); });
-  return region_.size >= 3;
+  return true;
 }
 
 /// Calls visit(first, second, third corner) for the triangles of a fan.
@@ -211,14 +201,14 @@ void for_each_triangle(const Polygon& region, Visit visit) {
     visit(region.points[0], region.points[i], region.points[i + 1]);
 }
 
-/// By the middles of the sides of triangles: exact for a linear spring, but where facets cross.
+/// Of a triangle: exact for a linear spring.
 double Overlap::integral(const NormalSpring& spring) const {
   double sum = 0.0;
   for_each_triangle(region_, [&](std::size_t i, std::size_t j, std::size_t k) {
     const Vec3 &p = points_[i].x, &q = points_[j].x, &r = points_[k].x;
     const double area = 0.5 * normal_a().dot((q - p).cross(r - p));
     const auto middle = [&](const Vec3& u, const Vec3& v) {
-      return spring.energy(std::abs(distance(0.5 * (u + v))));
+      return spring.energy(distance(0.5 * (u + v)));
     };
     sum += area / 3.0 * (middle(p, q) + middle(q, r) + middle(r, p));
   });
@@ -235,12 +225,9 @@ void Overlap::integral_back(const NormalSpring& spring, double by_integral) {
     double energies = 0.0;
     const auto middle_back = [&](Traced& s, Traced& t) {
       const Vec3 middle = 0.5 * (s.x + t.x);
-      const double signed_distance = distance(middle);
-      const double apart = std::abs(signed_distance);
-      energies += spring.energy(apart);
+      energies += spring.energy(distance(middle));
       Vec3 by_middle = Vec3::Zero();
-      const double by_apart = -by_integral * area / 3.0 * spring.force(apart);
-      distance_back(middle, std::copysign(1.0, signed_distance) * by_apart, by_middle);
+      distance_back(middle, -by_integral * area / 3.0 * spring.force(distance(middle)), by_middle);
       s.slope += 0.5 * by_middle;
       t.slope += 0.5 * by_middle;
     };
@@ -274,10 +261,12 @@ void Overlap::cut_back(const Cut& cut) {
   to.slope += share * by_point;
   const double by_from = -by_share * cut.height_to / (drop * drop);
   const double by_to = by_share * cut.height_from / (drop * drop);
-  if (cut.plane == kRangeCut || cut.plane == kRangeBeyondCut) {
-    const double sign = cut.plane == kRangeCut ? -1.0 : 1.0;
-    distance_back(from.x, sign * by_from, from.slope);
-    distance_back(to.x, sign * by_to, to.slope);
+  // Where a crosses b the energy has the same density on both sides: moving the line between them
+  // changes nothing, and its place is lost in rounding as the facets come to lie in one plane.
+  if (cut.plane == kSideCut) return;
+  if (cut.plane == kRangeCut) {
+    distance_back(from.x, -by_from, from.slope);
+    distance_back(to.x, -by_to, to.slope);
     return;
   }
   Traced& inward = inward_[cut.plane];
@@ -288,13 +277,52 @@ void Overlap::cut_back(const Cut& cut) {
   inward.slope += by_from * (from.x - origin.x) + by_to * (to.x - origin.x);
 }
 
+/// What the part of the region on one side of b stores, times range^2, and its slopes.
+/// @param by_energy  slope of the whole by that
+double Overlap::energy_of_region(const NormalSpring& spring, double by_energy) {
+  const std::size_t first_cut = cut_count_;
+  cut(kRangeCut, [&](std::size_t point) { return range_ - distance(points_[point].x); });
+  if (region_.size < 3) {
+    cut_count_ = first_cut;
+    return 0.0;
+  }
+  is_in_range_ = true;
+  const double sum = integral(spring);
+  integral_back(spring, by_energy);
+  while (cut_count_ > first_cut) cut_back(cuts_[--cut_count_]);
+  return sum;
+}
+
+/// The same of all of it.
+double Overlap::energy_of_sides(const NormalSpring& spring, double by_energy) {
+  double above = 0.0, lowest = 0.0, highest = 0.0;
+  for (std::size_t i = 0; i < region_.size; ++i) {
+    const double height = (b_[0].x - points_[region_.points[i]].x).dot(normal_b());
+    above += height;
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  side_ = above >= 0.0 ? 1.0 : -1.0;
+  if (!(lowest < 0.0 && highest > 0.0)) return energy_of_region(spring, by_energy);
+  const Polygon both = region_;
+  double sum = 0.0;
+  for (side_ = -1.0; side_ <= 1.0; side_ += 2.0) {
+    region_ = both;
+    const std::size_t first_cut = cut_count_;
+    cut(kSideCut, [&](std::size_t point) { return distance(points_[point].x) + 0.0; });  // no -0
+    if (region_.size >= 3) sum += energy_of_region(spring, by_energy);
+    while (cut_count_ > first_cut) cut_back(cuts_[--cut_count_]);
+  }
+  return sum;
+}
+
 double Overlap::energy_and_slopes(const NormalSpring& spring) {
   if (!make_region()) return 0.0;
   const double cosine = normal_a().dot(normal_b());
   const double factor = parallel_share(cosine) / (range_ * range_);
-  const double sum = integral(spring);
-  integral_back(spring, factor);
-  for (std::size_t i = cut_count_; i-- > 0;) cut_back(cuts_[i]);
+  const double sum = energy_of_sides(spring, factor);
+  if (!is_in_range_) return 0.0;
+  while (cut_count_ > 0) cut_back(cuts_[--cut_count_]);
   for (std::size_t i = 0; i < 3; ++i) {
     a_[i].slope += points_[i].slope;
     Traced &first = b_[i], &last = b_[(i + 1) % 3];

@@ -191,7 +191,7 @@ inline Structures crossed(test::Random& random) {
       random.coin() ? geometry::Vec3(random.in_cube(3.0))
                     : geometry::Vec3(0.4 * random.in_cube(1.0).x(), 0.4 * random.in_cube(1.0).x(),
                                      random.uniform(0.0, 3.2));
-  pair.b = test::moved(pair.b, turns, 0.2 * random.in_cube(1.0));
+  pair.b = test::moved(pair.b, turns, 0.05 * random.in_cube(1.0));
   return pair;
 }
 
@@ -232,6 +232,21 @@ inline Structures any_crossed_structures(test::Random& random) {
   Structures found = crossed(random);
   found.rest = found.nodes();
   return found;
+}
+
+/// Two rough shells pressed through each other, which have no rims.
+inline Structures any_crossed_shells(test::Random& random) {
+  const auto any = [&]() -> test::Body {
+    test::Body ball = test::hollow_ball(random.integer(1, 2));
+    const geometry::Vec3 semi_axes(random.uniform(0.05, 0.4), random.uniform(0.2, 0.4), 0.3);
+    for (geometry::Vec3& x : ball.x) x = x.cwiseProduct(semi_axes);
+    return roughened(ball, 0.02, random);
+  };
+  Structures pair{any(), any(), false, {}};
+  pair.do_cross = true;
+  pair.b = test::moved(pair.b, random.in_cube(3.0), 0.4 * random.in_cube(1.0));
+  pair.rest = pair.nodes();
+  return pair;
 }
 
 inline Structures any_structures(test::Random& random) {

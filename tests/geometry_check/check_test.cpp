@@ -408,6 +408,39 @@ TEST(StructureCheck, FindsForcesAndEnergiesThatAreOffByABit) {
   EXPECT_EQ(found_with(push_of_structures), 0);
 }
 
+TEST(StructureCheck, FindsForcesOfCrossedBodiesThatAreOffByABit) {
+  const StructureRule forces =
+      changed_structures([](StructurePush& push, const std::vector<Vec3>&) {
+        for (Vec3& force : push.forces) force *= 1.0 + kBit;
+      });
+  const auto found_with = [](const StructureRule& rule) {
+    return found([&](test::Random& random) {
+      const Structures structures = any_crossed_structures(random);
+      return have_gradient(structures, rule, random);
+    });
+  };
+
+  EXPECT_GT(found_with(forces), kTrials / 3);
+  EXPECT_EQ(found_with(push_of_structures), 0);
+}
+
+// What is left out where cores meet is a leap: the extent of facets, say.
+TEST(StructureCheck, FindsEnergiesThatLeapWhereCoresCross) {
+  const StructureRule leap = [](StructureScene& scene, const std::vector<Vec3>& x) {
+    StructurePush push = push_of_structures(scene, x);
+    if (scene.crossings() % 2 == 1) push.energy *= 1.1;
+    return push;
+  };
+  const auto found_with = [](const StructureRule& rule) {
+    return found([&](test::Random& random) {
+      return keep_energy(any_crossed_shells(random), rule, random);
+    });
+  };
+
+  EXPECT_GT(found_with(leap), kTrials / 2);
+  EXPECT_EQ(found_with(push_of_structures), 0);
+}
+
 TEST(StructureCheck, FindsForcesThatDoNotBalanceByABit) {
   const StructureRule uneven =
       changed_structures([](StructurePush& push, const std::vector<Vec3>&) {

@@ -38,7 +38,7 @@ constexpr std::string_view kStructureCount = "structures: no less than their pie
 constexpr std::string_view kStructureFollows = "structures: force in proportion to step";
 constexpr std::string_view kCrossedGradient = "crossed bodies: force = -gradient of energy";
 constexpr std::string_view kCrossedBalance = "crossed bodies: forces and moments balance";
-constexpr std::string_view kCrossedEnergy = "crossed bodies: no leap of their energy";
+constexpr std::string_view kCrossedEnergy = "crossed bodies: no leap of the energy of shells";
 
 bool has_euler_number(const Complex& complex, Random& random, int& trials) {
   const Surface surface = complex.surface();
@@ -183,7 +183,8 @@ bool structures_hold(std::string_view name, Random& random, int& trials) {
 }
 
 bool crossed_structures_hold(std::string_view name, Random& random, int& trials) {
-  const Structures structures = any_crossed_structures(random);
+  const Structures structures =
+      name == kCrossedEnergy ? any_crossed_shells(random) : any_crossed_structures(random);
   const auto seen = [&]() -> std::optional<bool> {
     if (name == kCrossedGradient) return have_gradient(structures, push_of_structures, random);
     if (name == kCrossedBalance) return are_balanced(structures, push_of_structures, random);

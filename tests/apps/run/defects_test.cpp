@@ -212,18 +212,17 @@ TEST(Defects, ASheetThickerThanItsCellsIsSetUp) {
   EXPECT_THAT(check.out, HasSubstr("no problems"));
 }
 
-// Shells whose cores cross from 28 ms on: their energy is not closed then (tests/validation/
-// README.md), and the run says so.
-TEST(Defects, ShellsThatCrossAreNotPassedOverInSilence) {
-  const Defect defect("spin_20130", {"simulation.duration=0.0295"});
+// Shells whose cores cross from 28 ms on: forces turn from one step to the next as what is the
+// shortest way out changes, so that the energy of single steps is off by up to 0.6 J of 450 J;
+// 0.5 % in all is seen, 0.2 % at a quarter of the step.
+TEST(Defects, ShellsThatCrossKeepTheirEnergyAndAreNotPassedOverInSilence) {
+  const Defect defect("spin_20130", {});
 
   ASSERT_EQ(defect.outcome().exit_code, 0) << defect.outcome().err;
   EXPECT_GT(defect.report().at("most_crossings").get<int>(), 0);
   EXPECT_THAT(defect.outcome().err,
               HasSubstr("membranes went into each other by more than both thicknesses"));
-  if (defect.closure() > 0.01) {
-    EXPECT_THAT(defect.outcome().err, HasSubstr("the energy balance is off by"));
-  }
+  EXPECT_LT(defect.closure(), 0.01);
 }
 
 }  // namespace

@@ -273,6 +273,25 @@ TEST(StructureContacts, AnswerCoresThatMeetWithFiniteForces) {
   }
 }
 
+// What pushes on either side of a crossing cancels, and what is left acts far from where it came
+// from: friction there would turn nodes by levers of metres.
+TEST(StructureContacts, KeepTheirPlaceAmongTheNodesWhereForcesCancel) {
+  const Body square = sheet(1, 1, 1.0, 1.0);
+  int records = 0;
+  for (const double offset : {1e-6, 1e-5, 1e-4, 1e-3, -1e-5}) {
+    for (const double turn : {0.0, 0.3, 1.0}) {
+      StructurePair structure_pair(square, square, kRange);
+      at(structure_pair, square, {{0.1, 0.0, turn}, {0.01, 0.02, offset}});
+      structure_pair.contacts().for_each_record(
+          structure_pair.positions(), [&](const contact::ContactRecord& record) {
+            ++records;
+            EXPECT_LT(record.point.cwiseAbs().maxCoeff(), 0.8) << offset << ' ' << turn;
+          });
+    }
+  }
+  EXPECT_GT(records, 0);
+}
+
 /// Random poses of random bodies, from parallel to steep, whose cores do not meet.
 template <class Visit>
 void for_each_random_structure_pair(int count, Visit visit) {
