@@ -11,9 +11,10 @@ namespace {
 /// symmetric.
 constexpr double kTie = 1e-12;
 
-/// Two vertices at one distance have a link without resistance; this share of their overlap is as
-/// good as none, and finite.
-constexpr double kLeastDrop = 1e-20;
+/// Of the overlap. Two vertices that are nearer to one distance have a link of this drop, which is as
+/// good as none, whatever they do: what the rounding of energies makes of slopes by it stays below
+/// eps / kLeastDrop.
+constexpr double kLeastDrop = 1e-12;
 
 /// In units of the deepest overlap: the power n + 1 of 1 / (o^2 - t^2) has to be a number. What is
 /// left out so overlaps by 3e-12 of the deepest, or ends with a top that is as near to the range.
@@ -136,11 +137,13 @@ void RingWeights::set_resistances() {
   const auto distances = complex_->distances();
   const double unit = range_ - distances.front();
   resistances_.clear();
+  is_level_.clear();
   for (std::size_t i = 0; i < complex_->links().size(); ++i) {
     const Link& link = complex_->links()[i];
     if (link.a >= overlaps_.size()) break;
-    const double drop =
-        std::max((distances[link.a] - distances[link.b]) / unit, kLeastDrop * overlaps_[link.a]);
+    const double least = kLeastDrop * overlaps_[link.a];
+    const double drop = std::max((distances[link.a] - distances[link.b]) / unit, least);
+    is_level_.push_back(drop == least);
     const double x = inverses_[link.a];
     const double y = inverses_[link.b];
     const double difference = drop * (overlaps_[link.a] + overlaps_[link.b]) * x * y;
@@ -154,6 +157,7 @@ void RingWeights::add_slopes(const End& end) {
   const double per_metre = 2.0 * kSharpness / (range_ - complex_->distances().front());
   double of_top = 0.0;
   for (std::size_t i = 0; i < by_resistance.size(); ++i) {
+    if (is_level_[i] != 0) continue;
     const Link& link = complex_->links()[i];
     const double slope = per_metre * by_resistance[i] / complex_->multiplicities()[i];
     // In this order, as the next power may overflow, and slopes be as small.

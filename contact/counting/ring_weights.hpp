@@ -100,6 +100,7 @@ class RingWeights {
   std::vector<double> overlaps_;     ///< by vertex
   std::vector<double> inverses_;     ///< by vertex: 1 / (overlap^2 - top^2)
   std::vector<double> resistances_;  ///< by link
+  std::vector<char> is_level_;       ///< by link: both vertices are at one distance
   std::vector<double> values_;       ///< J, by link
 };
 

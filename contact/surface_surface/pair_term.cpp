@@ -186,7 +186,7 @@ TermForces term_forces(const PairTerm& term, const TermProximity& found, const P
   if (!can_extend(a, b)) return result;
   const PairForces extended = extended_part(a, b, spring);
   add(extended, term.weight, term, result.forces);
-  if (a.count == 3 && b.count == 3) result.spread = extended;  // of weight 1
+  if (a.count == 3 && b.count == 3) result.extent = extended;  // of weight 1
   return result;
 }
 

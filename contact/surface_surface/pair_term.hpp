@@ -57,7 +57,7 @@ bool takes_over(const PairTerm& term, const PairTerm& other, bool is_turned,
 /// at the nearest points, plus what it does over the extent.
 struct TermForces {
   PairForces forces;
-  PairForces spread;    ///< the part of them that two facets have by their extent
+  PairForces extent;    ///< the part of them that two facets have by their extent
   double shared = 0.0;  ///< J, of the nearest points, what the share is of; 0 where that is all
 };
 TermForces term_forces(const PairTerm& term, const TermProximity& found, const PointShare& share,

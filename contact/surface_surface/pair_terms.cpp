@@ -52,16 +52,6 @@ void add_on_nodes(const geometry::FeatureNodes& nodes, const std::array<Vec3, 3>
   }
 }
 
-PairForces scaled(const PairForces& forces, double by) {
-  PairForces result;
-  result.energy = by * forces.energy;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.on_a[i] = by * forces.on_a[i];
-    result.on_b[i] = by * forces.on_b[i];
-  }
-  return result;
-}
-
 }  // namespace
 
 std::array<geometry::FeatureNodes, 2> PairTerms::witness_features(
@@ -84,7 +74,7 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
   term_of_pair_.resize(pairs.size());
   proximity_.resize(pairs.size());
   tilts_.resize(pairs.size());
-  spreads_.resize(pairs.size());
+  extents_.resize(pairs.size());
   is_near_.assign(pairs.size(), 0);
   by_tilt_.assign(pairs.size(), {});
   has_tilting_ = false;
@@ -227,7 +217,7 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
   term.point_share = share.share;
   term.forces = pushing.forces;
   if (term.a.count == 3 && term.b.count == 3)
-    spreads_[holders(term).front().pair] = scaled(pushing.spread, 1.0 - share.share);
+    extents_[holders(term).front().pair] = pushing.extent;
   shared_[candidate][0] = pushing.shared;
   term.push = push_of(term, found.cores.normal);
   term.push += joints_.evaluate(i, term, found, spring, x, false, term.forces);

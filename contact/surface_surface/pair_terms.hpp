@@ -73,12 +73,12 @@ class PairTerms {
     return attracts_.empty() || attracts_[terms_[term].spring] == 0 ? nullptr : &attractions_[term];
   }
 
-  /// What the extent of two facets does that a term in range is of, as far as their nearest points
-  /// do not count (1 - their share): a part of its forces; null if it is of anything else.
-  const PairForces* spread(std::size_t term) const noexcept {
+  /// What the extent of two facets does that a term in range is of: a part of its forces; null if it
+  /// is of anything else.
+  const PairForces* extent(std::size_t term) const noexcept {
     const PairTerm& of = terms_[term];
     if (of.a.count != 3 || of.b.count != 3) return nullptr;
-    return &spreads_[holders(of).front().pair];
+    return &extents_[holders(of).front().pair];
   }
 
   /// Whether a joint of a chain that wraps around something is in a term in range.
@@ -164,7 +164,7 @@ class PairTerms {
   std::vector<std::uint32_t> due_;        ///< pairs of cells that may be in range, ascending
   std::vector<TermProximity> proximity_;  ///< by pair; of those in range, as it is now
   std::vector<double> tilts_;             ///< by pair; of those in range, of proximity_
-  std::vector<PairForces> spreads_;       ///< by pair; of those of facets in range
+  std::vector<PairForces> extents_;       ///< by pair; of those of facets in range
   std::vector<char> is_near_;             ///< by pair: in range
   std::vector<std::uint32_t> candidates_;
   /// J, by candidate: what the share of a term is of; of attraction in the second.

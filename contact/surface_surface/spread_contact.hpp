@@ -96,26 +96,34 @@ struct SpreadContact {
   Vec3 other_force = Vec3::Zero();  ///< N, on b: all but the elastic force
   Vec3 moment = Vec3::Zero();       ///< N m, on b
 
-  /// Sets where and how hard a term of two facets presses by its extent.
+  /// Sets where and how hard a term of two facets presses by its extent, as far as its nearest
+  /// points do not count.
   /// @returns whether it does
-  bool locate(const PairTerm& term, const PairForces& spread, const StructurePair& bodies,
+  bool locate(const PairTerm& term, const PairForces& extent, const StructurePair& bodies,
               Positions x) {
-    elastic_force = spread.on_b[0] + spread.on_b[1] + spread.on_b[2];
+    elastic_force = extent.on_b[0] + extent.on_b[1] + extent.on_b[2];
     normal_force = elastic_force.norm();
     // Of facets that cross in the middle the forces on both sides cancel but for rounding.
     constexpr double kRounding = 1e-14;
-    const double size = spread.on_b[0].norm() + spread.on_b[1].norm() + spread.on_b[2].norm();
-    if (!(normal_force > kRounding * size) || !(spread.energy > 0.0)) return false;
+    const double size = extent.on_b[0].norm() + extent.on_b[1].norm() + extent.on_b[2].norm();
+    if (!(normal_force > kRounding * size) || !(extent.energy > 0.0)) return false;
+    const double pushing =
+        pushing_part(bodies.parameters, extent.energy, normal_force, term.overlap);
     const double range = bodies.radius_first + bodies.radius_second;
-    gap = -std::min(range, mean_overlap(bodies.parameters, spread.energy, normal_force));
+    gap = -std::min(range,
+                    mean_overlap(bodies.parameters, extent.energy, pushing * normal_force));
+    const double part = (1.0 - term.point_share) * pushing;
+    if (!(part > 0.0)) return false;
+    elastic_force *= part;
+    normal_force *= part;
     const double one = AnyLaw::elastic_normal_force(bodies.parameters, gap);
     if (!(one > 0.0)) return false;
     count = normal_force / one;
     a.nodes = term.a.ids;
     b.nodes = term.b.ids;
     const Vec3 per_force = elastic_force / (normal_force * normal_force);
-    a.find_shares(spread.on_a, -per_force, x);
-    b.find_shares(spread.on_b, per_force, x);
+    a.find_shares(extent.on_a, -per_force, x);
+    b.find_shares(extent.on_b, per_force, x);
     return true;
   }
 

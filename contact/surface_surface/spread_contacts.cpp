@@ -32,7 +32,7 @@ void SpreadContacts::find(StructurePatches& patches, Positions x) {
     spread.is_turned = patches.places()[i].is_turned;
     spread.structure_pair = term.spring;
     StructurePatch& patch = patches.patches()[spread.patch];
-    if (const PairForces* const extent = terms.spread(acting)) {
+    if (const PairForces* const extent = terms.extent(acting)) {
       if (!spread.locate(term, *extent, patches.structure_pairs()[term.spring], x)) continue;
       if (patch.pushes()) patch.point_part -= spread.normal_force / patch.normal_force;
     } else if (!locate_bar(patches, term, spread, x)) {

@@ -111,6 +111,31 @@ double StructureBonds::form(StructurePatches& patches, Positions x) {
   return lost;
 }
 
+/// How many contacts a term of two cells counts for beside its nearest points: as many as give that
+/// part of its force along the patch's normal at its mean overlap.
+/// @param deepest  N, of one contact at the nearest points
+double StructureBonds::wide_count(const PairTerms& terms, std::uint32_t acting,
+                                  const AnyLaw::Parameters& parameters, double deepest,
+                                  const Vec3& normal) {
+  const PairTerm& term = terms[acting];
+  double push = std::abs(force_on_a(term).dot(normal));
+  double energy = term.forces.energy;
+  double of_point = term.point_share * term.weight * deepest;
+  // What the shares of points do as facets turn is no push: of two that have no area over each
+  // other it is all there is.
+  if (const PairForces* const extent = terms.extent(acting)) {
+    const Vec3 force = extent->on_a[0] + extent->on_a[1] + extent->on_a[2];
+    push = std::abs(force.dot(normal));
+    energy = extent->energy;
+    of_point = 0.0;
+  }
+  if (!(push > 0.0) || !(energy > 0.0)) return 0.0;
+  push *= pushing_part(parameters, energy, push, term.overlap);
+  const double one = AnyLaw::elastic_normal_force(parameters,
+                                                  -mean_overlap(parameters, energy, push));
+  return one > 0.0 ? std::max(0.0, push - of_point) / one : 0.0;
+}
+
 /// Pairs of cells in patches that may have bonds, and how many contacts they count for: as many as
 /// give their force along the patch's normal at its mean overlap.
 void StructureBonds::list_pressed_pairs(const StructurePatches& patches) {
@@ -126,14 +151,11 @@ void StructureBonds::list_pressed_pairs(const StructurePatches& patches) {
     const auto at = static_cast<std::uint32_t>(patches.pairs()[holder.pair].patch);
     const StructurePatch& patch = patches.patches()[at];
     if (patch.is_torn || !patch.pushes()) continue;
-    const double push = std::abs(force_on_a(term).dot(patch.normal()));
     const NormalSpring& spring = patches.spring_of(term);
     const double deepest = spring.force(spring.range() - term.overlap);
-    const double one = AnyLaw::elastic_normal_force(
-        parameters, push > 0.0 ? -mean_overlap(parameters, term.forces.energy, push) : 0.0);
-    if (!(one > 0.0) || !(deepest > 0.0)) continue;
+    if (!(deepest > 0.0)) continue;
     const double near = near_push_[holder.pair] / deepest;
-    const double wide = std::max(0.0, push - term.point_share * term.weight * deepest) / one;
+    const double wide = wide_count(terms, acting, parameters, deepest, patch.normal());
     pressed_.push_back({holder.pair, at, acting, holder.is_turned, near, wide, 0.0});
     gluing_[at].near += near;
     gluing_[at].positive += std::max(0.0, near);

@@ -89,6 +89,9 @@ class StructureBonds {
   std::int32_t patch_of(const StructureBond& bond, const StructurePatches& patches) const;
   double form(StructurePatches& patches, Positions x);
   void list_pressed_pairs(const StructurePatches& patches);
+  static double wide_count(const PairTerms& terms, std::uint32_t acting,
+                           const AnyLaw::Parameters& parameters, double deepest,
+                           const Vec3& normal);
   void add_near_push(const StructurePatches& patches, const PairTerm& term);
   double glue_pair(StructurePatches& patches, const Pressed& pressed, double count, Positions x);
   void free_patches_of_pressing(StructurePatches& patches);
