@@ -251,7 +251,8 @@ EnergyLoss StructurePatches::transfer(const Motion& motion, double dt) {
 
 /// Each gets as much of the force as it pushes. With these forces F_i in all F, and contacts c_i,
 /// their springs store as much as one of F² / sum F_i² / c_i contacts: where that is what the old
-/// one was, as where it splits, both its force and its energy stay.
+/// one was, as where it splits, both its force and its energy stay. One that pushes without energy
+/// counts for no contact, and gets nothing.
 void StructurePatches::hand_on_history(const Predecessor& old,
                                        std::span<const PatchSuccessor> successors,
                                        const Motion& motion, double dt) {
@@ -259,14 +260,14 @@ void StructurePatches::hand_on_history(const Predecessor& old,
   for (const PatchSuccessor& successor : successors) {
     const StructurePatch& patch = patches_[successor.patch];
     total += patch.normal_force;
-    if (patch.normal_force > 0.0 && patch.point_part > 0.0)
+    if (patch.point_count() > 0.0)
       squares += patch.normal_force * patch.normal_force / patch.point_count();
   }
   if (!(squares > 0.0)) return;
   const double contacts = std::min(old.count, total * total / squares);
   for (const PatchSuccessor& successor : successors) {
     StructurePatch& patch = patches_[successor.patch];
-    if (!(patch.normal_force > 0.0) || !(patch.point_part > 0.0)) continue;
+    if (!(patch.point_count() > 0.0)) continue;
     const double sign = successor.is_turned ? -1.0 : 1.0;
     const Vec3 normal = sign / patch.normal_force * patch.elastic_force;
     const Vec3 spin =
