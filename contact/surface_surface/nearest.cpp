@@ -64,6 +64,32 @@ void find_flat_edge(const Simplex& simplex, unsigned corners, const Simplex& fac
   }
 }
 
+/// Energy of the nearest points of a cylinder's edge and a side of a facet.
+Real of_edge_and_side(const Simplex& simplex, const EdgeOf& edge, Side of_edge,
+                      const Simplex& facet, std::size_t first, Side of_facet,
+                      const NormalSpring& spring) {
+  const std::size_t last = (first + 1) % 3;
+  const CoreProximity nearest =
+      geometry::core_proximity({{simplex.x[edge.first], simplex.x[edge.last], Vec3::Zero()}, 2},
+                               {{facet.x[first], facet.x[last], Vec3::Zero()}, 2});
+  Real energy(spring.energy(nearest.signed_distance));
+  const Vec3 push = spring.force(nearest.signed_distance) * nearest.normal;
+  const auto add = [&](Side side, std::size_t corner, double weight) {
+    for (int k = 0; k < 3; ++k)
+      energy.slopes[static_cast<int>(side) + 3 * static_cast<int>(corner) + k] += weight * push[k];
+  };
+  add(of_edge, edge.first, nearest.points.weights_a[0]);
+  add(of_edge, edge.last, nearest.points.weights_a[1]);
+  add(of_facet, first, -nearest.points.weights_b[0]);
+  add(of_facet, last, -nearest.points.weights_b[1]);
+  return energy;
+}
+
+/// Where the part above the facet ends at a side of it, the cylinder goes on beside it, and what is
+/// nearest there if it is tilted that way is nearest to that side. If the side is a seam, that is
+/// what the seam takes off and the facet beyond it has too, at its own end there: the three add up
+/// to nothing, wherever the cylinder crosses the seam. The place where it does moves as 1 over the
+/// angle, and nothing depends on it.
 std::optional<PairForces> edge_over_facet(const Simplex& a, const Simplex& b,
                                           const CoreProximity& nearest,
                                           const NormalSpring& spring) {
@@ -80,8 +106,13 @@ std::optional<PairForces> edge_over_facet(const Simplex& a, const Simplex& b,
                           corner(simplex, flat->edge.last, side), corners(facet, other_side));
   if (!over) return {};
   const Real at_start = share_rising(over->slope);
-  return forces_of(at_start * spring.energy(over->distance(over->part.from)) +
-                   (Real(1.0) - at_start) * spring.energy(over->distance(over->part.to)));
+  const auto energy_at = [&](const Real& place, int at_side) {
+    if (at_side < 0) return spring.energy(over->distance(place));
+    return of_edge_and_side(simplex, flat->edge, side, facet, static_cast<std::size_t>(at_side),
+                            other_side, spring);
+  };
+  return forces_of(at_start * energy_at(over->part.from, over->sides[0]) +
+                   (Real(1.0) - at_start) * energy_at(over->part.to, over->sides[1]));
 }
 
 /// Whether an edge may share its nearest point with its ends: free, or the rim of a facet that

@@ -56,12 +56,18 @@ bool keep_inside(IntervalOf<Number>& interval, const Point<Number>& first,
 }
 
 /// Keeps the part of an edge above the interior of a facet. @returns whether there is one
+/// @param sides  get the sides of the facet that the part begins and ends at, if there are any
 template <class Number>
 bool keep_over(IntervalOf<Number>& part, const Point<Number>& first, const Point<Number>& last,
-               const std::array<Point<Number>, 3>& facet, const Point<Number>& normal) {
+               const std::array<Point<Number>, 3>& facet, const Point<Number>& normal,
+               std::array<int, 2>* sides = nullptr) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Point<Number> inward = normal.cross(facet[(i + 1) % 3] - facet[i]);
+    const double from = still(part.from), to = still(part.to);
     if (!keep_inside(part, first, last, facet[i], inward)) return false;
+    if (sides == nullptr) continue;
+    if (still(part.from) != from) (*sides)[0] = static_cast<int>(i);
+    if (still(part.to) != to) (*sides)[1] = static_cast<int>(i);
   }
   return true;
 }
@@ -98,8 +104,8 @@ std::optional<EdgeOverFacet> above(const Vector& first, const Vector& last,
                                    const std::array<Vector, 3>& facet) {
   if (!is_over_now(first, last, facet)) return {};
   const Vector normal = normal_of<Real>(facet);
-  EdgeOverFacet found{{0.0, 1.0}, (last - first).norm(), 0.0, 0.0, 0.0};
-  keep_over(found.part, first, last, facet, normal);
+  EdgeOverFacet found{{0.0, 1.0}, {-1, -1}, (last - first).norm(), 0.0, 0.0, 0.0};
+  keep_over(found.part, first, last, facet, normal, &found.sides);
   const Real height_first = (first - facet[0]).dot(normal);
   const Real height_last = (last - facet[0]).dot(normal);
   // Beyond the facet the edge may go to the other side of its plane.

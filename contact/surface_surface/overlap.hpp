@@ -21,6 +21,8 @@ using Interval = IntervalOf<Real>;
 /// An edge above (or below) a facet.
 struct EdgeOverFacet {
   Interval part;  ///< of the edge, that lies above the facet
+  std::array<int, 2> sides{-1, -1};  ///< of the facet, that the part begins and ends at; -1: at an
+                                     ///< end of the edge
   Real length;    ///< m, of the whole edge
   Real first;     ///< m, distance of the edge's first end from the facet's plane
   Real last;      ///< m, of its other end
