@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/law/cohesive_frictional.hpp"
 #include "tests/support/bodies_of_cells.hpp"
+#include "tests/support/hollow_ball.hpp"
 #include "tests/support/seeded_random.hpp"
 
 #include <gtest/gtest.h>
@@ -94,6 +95,30 @@ TEST(StructureBonds, PullWithTheContactsThatWereGluedUntilTheirStrength) {
     structure_pair.place(lifted(lying, 0.5 * kLimit));
     EXPECT_EQ(structure_pair.force_on_b().norm(), 0.0);
     EXPECT_EQ(structure_pair.patches(), 0u);
+  }
+}
+
+// Facets beside each other whose rims fall together have no area in common, and slopes that cancel;
+// all around a mesh of a net that lies flat the places are at one distance.
+TEST(StructureBonds, CountBodiesThatFallTogetherAsTheyComeApartSlowly) {
+  const Body square = sheet(3, 3, 0.9, 0.9);
+  const double area = 0.9 * 0.9 / (kRange * kRange);
+  const Body net = square_net_of(1, 0.6);
+  double length = 0.0;
+  for (const auto& [first, last] : net.cylinders)
+    length += (net.x[static_cast<std::size_t>(first)] - net.x[static_cast<std::size_t>(last)]).norm();
+  const Lying cases[] = {
+      {"equal sheets", square, square, {0, 0, 0}, {0, 0, 0}, area},
+      {"sheets of one outline", square, sheet(2, 2, 0.9, 0.9), {0, 0, 0}, {0, 0, 0}, area},
+      {"mesh on plate", sheet(2, 2, 3.0, 3.0), net, {0, 0, 0}, {0.03, 0.02, 0}, 1.0 + length / kRange}};
+  for (const Lying& lying : cases) {
+    SCOPED_TRACE(lying.name);
+    StructurePair structure_pair(lying.a, lying.b, kRange, kFragile);
+    for (int i = 0; i < 100; ++i)
+      structure_pair.place(lifted(lying, -kOverlap * (1.0 - 0.01 * i)));
+    structure_pair.place(lifted(lying, 0.5 * kLimit));
+    const double limit = lying.contacts * kLimit;
+    EXPECT_NEAR(structure_pair.force_on_b().z(), -0.5 * limit, 0.1 * limit);
   }
 }
 

@@ -228,6 +228,25 @@ TEST(StructureContacts, CarryALoweredSheetOnAllItsNodes) {
   }
 }
 
+// Where it crosses the seam moves along all of it with the least turn: nothing may depend on that.
+TEST(StructureContacts, PushACylinderAcrossASeamNoHarderWhateverTheAngle) {
+  const Body a = sheet(1, 1, 2.0, 2.0);  // its seam is the diagonal
+  const Body b = chain(1, 0.9);
+  for (const double slope : {0.0, 1e-5, 1e-4, 2.5e-4, 2e-3}) {
+    for (const double angle : {1e-13, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3, 1e-1}) {
+      for (const double along : {-0.3, 0.0, 0.17}) {
+        StructurePair structure_pair(a, b, kRange);
+        const double turn = -0.25 * std::numbers::pi + angle;
+        const Vec3 shift(along * std::cos(turn), along * std::sin(turn), kHeight);
+        const Resultant found = at(structure_pair, b, {{0.0, slope, turn}, shift});
+        for (const Vec3& force : structure_pair.forces())
+          EXPECT_LT(force.norm(), 1.1 * found.force.norm()) << slope << ' ' << angle;
+        EXPECT_LT(found.force.head<2>().norm(), 1e-2 * found.force.z()) << slope << ' ' << angle;
+      }
+    }
+  }
+}
+
 TEST(StructureContacts, CountACylinderAlongASeamOnce) {
   const Body a = sheet(4, 4, 2.0, 2.0);
   const Body b = chain(3, 0.9);

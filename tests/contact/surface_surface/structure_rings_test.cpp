@@ -40,6 +40,25 @@ double error_of_forces(StructurePairUnder<Law>& structure_pair, const Body& b, R
   return std::min(std::abs(difference(1e-6) - slope), std::abs(difference(1e-7) - slope)) / scale;
 }
 
+// All around a mesh that lies flat the places are at one distance, and no rounding of their energies
+// may become a force of its own there: the moment is none, as at a tilt that tells them apart.
+TEST(StructureRings, OfNetsThatLieFlatPushWithoutAMoment) {
+  const Body plate = sheet(2, 2, 3.0, 3.0);
+  for (const Body& net : {square_net_of(1, 0.6), square_net_of(3, 0.3)}) {
+    for (const double tilt : {0.0, 1e-15, 1e-12, 1e-9}) {
+      for (const double turn : {0.0, 0.3}) {
+        StructurePairUnder<contact::LinearFrictional> pair(plate, net, kRange);
+        const Vec3 shift(0.03, 0.02, kRange - 1e-5);
+        pair.place(moved(net, {tilt, 0.0, turn}, shift));
+        const double force = pair.force_on_b().z();
+        EXPECT_GT(force, 0.0);
+        EXPECT_LT(pair.moment_on_b(shift).norm(), 0.05 * force) << tilt << ' ' << turn;
+        for (const Vec3& on_node : pair.forces()) EXPECT_LT(on_node.norm(), force) << tilt;
+      }
+    }
+  }
+}
+
 /// A ball on a hole, or a net on a net: both have rings that nothing fills.
 template <class Law>
 void expect_gradients(const contact::PropertiesOf<Law>& properties) {
