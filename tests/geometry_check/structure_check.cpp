@@ -144,7 +144,7 @@ std::optional<bool> count_pieces(const Structures& structures, const StructureRu
   if (scene.crossings() != 0 || !(pieces.energy > 0.0)) return std::nullopt;
   // Less parallel than this facets touch at points (contact/surface_surface/extended.hpp).
   const bool have_facets = !structures.a.facets.empty() || !structures.b.facets.empty();
-  if (pieces.most_parallel > (have_facets ? 0.89 : 0.999)) return std::nullopt;
+  if (have_facets && pieces.most_parallel > 0.89) return std::nullopt;
   // Bars that cross share with points whose separation is up to that slope off the nearest: each
   // pair of cells, and of their joints, loses no more than the force of all times what that is.
   constexpr double kTilt = contact::structure::kLargestTilt;

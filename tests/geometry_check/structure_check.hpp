@@ -32,8 +32,9 @@ std::optional<bool> have_gradient(const Structures& structures, const StructureR
 
 /// Forces and their moments add up to 0, to 1e-12 of the sum of their sizes (times 1 m). With bars
 /// every node has gone by 1e-6 to 1e-4 m, and they do to 1e-10: where one lies along an edge and
-/// crosses it at an angle t, both facets push nodes with 1 / t of their force, here 1e5, which
-/// cancels but for its rounding. Nothing is claimed of bars at the tie itself: seen are 8e-7.
+/// crosses it at an angle t, what it has by its length over both facets pushes nodes with 1 / t of
+/// their force, here 1e5, which cancels but for its rounding. Nothing is claimed of bars at the tie
+/// itself: seen are 2e-8.
 std::optional<bool> are_balanced(const Structures& structures, const StructureRule& rule,
                                  test::Random& random);
 
@@ -42,9 +43,7 @@ std::optional<bool> are_balanced(const Structures& structures, const StructureRu
 /// nearest ones (contact/surface_surface/tilt_share.hpp).
 ///
 /// Facets that lie flat count by their area, which may be less than one contact: nothing is claimed
-/// of them. Nor of bars that are parallel but for 2.6 degrees: of nets whose bars lie along each
-/// other one in 200 has too little, as far as less than 0, where an end of one bar lies over another
-/// that it is perpendicular to (contact/surface_surface/nearest.hpp).
+/// of them.
 std::optional<bool> count_pieces(const Structures& structures, const StructureRule& rule);
 
 /// Where the energy is smooth, a tenth and a hundredth of a step change the forces by a tenth and a
