@@ -28,7 +28,8 @@ std::string advice_on_overlap(const RunReport& report) {
 std::string advice_on_motion(const RunReport& report) {
   return fmt::format(
       "the fastest node moves by {:.3g} % of the smallest radius in one step, above {:.0f} %: "
-      "contacts are seen late; run with simulation.time_step \"auto\" or {:.2g} of this one",
+      "contacts are seen late; run with {:.2g} of this simulation.time_step, or with \"auto\" if it was "
+      "given, which foresees gravity but not what tears",
       100.0 * report.largest_motion_ratio, 100.0 * dynamics::kLargestMotion,
       dynamics::kLargestMotion / report.largest_motion_ratio);
 }

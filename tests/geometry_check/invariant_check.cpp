@@ -36,9 +36,9 @@ constexpr std::string_view kStructureGradient = "structures: force = -gradient o
 constexpr std::string_view kStructureBalance = "structures: forces and moments balance";
 constexpr std::string_view kStructureCount = "structures: no less than their pieces";
 constexpr std::string_view kStructureFollows = "structures: force in proportion to step";
-constexpr std::string_view kCrossedGradient = "crossed bodies: force = -gradient of energy";
-constexpr std::string_view kCrossedBalance = "crossed bodies: forces and moments balance";
-constexpr std::string_view kCrossedEnergy = "crossed bodies: no leap of the energy of shells";
+constexpr std::string_view kCrossedGradient = "crossed: force = -gradient of energy";
+constexpr std::string_view kCrossedBalance = "crossed: forces and moments balance";
+constexpr std::string_view kCrossedEnergy = "crossed: no leap of the energy of shells";
 
 bool has_euler_number(const Complex& complex, Random& random, int& trials) {
   const Surface surface = complex.surface();
