@@ -71,7 +71,8 @@ std::size_t add_nodes(const MembraneSettings& settings, const MembraneBody& body
   const auto count = static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
   if (count == 0 && settings.hold.which == HoldWhich::rim) {
     throw InputError(fmt::format(
-        "\"{}\" has no rim to hold: its mesh is closed; hold the nodes in a box{}", settings.name,
+        "\"{}\" has no rim to hold: {}; hold the nodes in a box{}", settings.name,
+        body.membrane.facets.empty() ? "none of its points has one bar only" : "its mesh is closed",
         settings.repair.fill_holes ? ", or fill no hole as long as the rim (longest_hole)" : ""));
   }
   if (count == 0 && settings.hold.which == HoldWhich::box) {

@@ -267,6 +267,27 @@ TEST_F(BuildScene, RefusesToHoldWhatIsNotThere) {
               HasSubstr("has no node in the box of hold"));
 }
 
+TEST_F(BuildScene, RefusesTheRimOfBarsThatHaveNoEnds) {
+  constexpr std::string_view kRing = R"([simulation]
+duration = "1 s"
+[materials.steel]
+young_modulus = "20 MPa"
+friction_angle = 0
+[[membranes]]
+name = "ring"
+shape = { kind = "bars", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], bars = [[0, 1], [1, 2], [2, 0]] }
+thickness = "4 mm"
+young_modulus = "100 MPa"
+density = "2000 kg/m3"
+material = "steel"
+hold = "rim"
+)";
+  const auto build = [&] { build_scene(parse_scenario(kRing, folder_ / "ring.toml", {})); };
+
+  EXPECT_THAT(build, testing::ThrowsMessage<std::exception>(HasSubstr(
+                         "has no rim to hold: none of its points has one bar only")));
+}
+
 TEST_F(BuildScene, WarnsOfAThicknessThatDoesNotGoWithTheMesh) {
   const BuiltScene scene = built({"membranes.sheet.thickness=1.2 cm"});
 
