@@ -49,6 +49,19 @@ double largest_interaction_range(std::span<const geometry::Sphere> spheres,
   return reach;
 }
 
+/// By StructureId: all its nodes are in one group.
+std::vector<char> rigid_structures(const geometry::Surface& surface,
+                                   const geometry::ExclusionGroups& groups) {
+  std::vector<char> are_rigid(surface.structure_count(), 0);
+  for (std::size_t n = 0; n < surface.node_count(); ++n) {
+    const auto node = geometry::id_at<NodeId>(n);
+    const auto structure = surface.structure_of(node);
+    if (structure != geometry::StructureId{-1} && groups.exclude({&node, 1}, {&node, 1}))
+      are_rigid[index_of(structure)] = 1;
+  }
+  return are_rigid;
+}
+
 }  // namespace
 
 SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
@@ -66,6 +79,7 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
   neighbours_.leave_out(groups);
   cell_neighbours_.leave_out(groups);
   materials_.structure_masses = structure::mean_node_masses(surface, materials_.masses);
+  between_structures_.set_rigid(rigid_structures(surface, groups));
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const NodeId node = spheres[i].nodes[0];
     spheres_.push_back(

@@ -187,8 +187,11 @@ struct SpreadContact {
   }
 
   /// One step of the law.
-  void apply_law(const StructurePair& bodies, double free_part, const Motion& motion, double dt) {
-    const auto of_all = parameters(bodies, free_part);
+  /// @param contacts  of the patch
+  void apply_law(const StructurePair& bodies, double contacts, double free_part,
+                 const Motion& motion, double dt) {
+    const auto of_all = AnyLaw::unbonded_part(
+        AnyLaw::scaled(bodies.of_part(count / contacts), count), free_part);
     memory.normal = normal();
     const Vec3 velocity =
         b.velocity_at(lever_b(bodies), motion) - a.velocity_at(lever_a(bodies), motion);

@@ -238,8 +238,9 @@ double SpreadContacts::apply_law(const StructurePatches& patches, const Motion& 
   pool.for_each_range(contacts_.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
       SpreadContact& spread = contacts_[i];
-      spread.apply_law(patches.structure_pairs()[spread.structure_pair],
-                       patches.patches()[spread.patch].free_part, motion, dt);
+      const StructurePatch& patch = patches.patches()[spread.patch];
+      spread.apply_law(patches.structure_pairs()[spread.structure_pair], patch.count,
+                       patch.free_part, motion, dt);
     }
   });
   double dissipated = 0.0;

@@ -13,6 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace plekton::contact {
 
@@ -32,6 +34,9 @@ namespace plekton::contact {
 class StructureContacts {
  public:
   explicit StructureContacts(const geometry::Surface& surface) : patches_(surface) {}
+
+  /// Before the first list. @param are_rigid  by StructureId: all nodes have the mass of the whole
+  void set_rigid(std::vector<char> are_rigid) { patches_.set_rigid(std::move(are_rigid)); }
 
   /// Takes a new list of cells that may touch, sorted; pairs in both lists keep their patches.
   /// @returns the energy (J) lost with patches that left the list

@@ -19,7 +19,21 @@ struct StructurePair {
   AnyLaw::Parameters parameters;  ///< without the attraction
   double radius_first;            ///< m, of the lower structure
   double radius_second;
-  double attraction;  ///< N, of one contact
+  double attraction;               ///< N, of one contact
+  AnyLaw::Properties properties;   ///< what the parameters are of, as the next
+  std::array<Body, 2> bodies;      ///< the lower structure first
+  std::array<bool, 2> are_rigid;   ///< their nodes have the mass of all
+  bool is_damped_by_mass = false;  ///< by that of one that is rigid
+
+  /// Of a part of a contact, with that part of the mass of what is rigid: springs side by side carry
+  /// it together, and so do their dashpots. What deforms has its mass in the nodes there.
+  AnyLaw::Parameters of_part(double part) const {
+    if (!is_damped_by_mass || !(part > 0.0 && part < 1.0)) return parameters;
+    std::array<Body, 2> parts = bodies;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (are_rigid[i]) parts[i].mass *= part;
+    return AnyLaw::without_attraction(AnyLaw::combine(properties, parts[0], parts[1]));
+  }
 };
 
 /// Which structures something is of. @returns their law. @throws geometry::StateMismatch
@@ -126,7 +140,9 @@ struct StructurePatch {
     const RelativeMotion relative =
         relative_motion(memory.normal, gap, point_part * normal_force, velocity,
                         second.angular_velocity(motion) - first.angular_velocity(motion));
-    const ContactForce result = AnyLaw::force(parameters(bodies), relative, memory.history, dt);
+    const auto of_part = AnyLaw::unbonded_part(
+        AnyLaw::scaled(bodies.of_part(point_part), point_count()), free_part);
+    const ContactForce result = AnyLaw::force(of_part, relative, memory.history, dt);
     other_force = result.force - point_part * elastic_force;
     moment = result.moment;
     return result.dissipated;

@@ -56,11 +56,24 @@ std::vector<StructurePair> StructurePatches::find_structure_pairs(
     return BodyPart{materials.of_structures[i], surface_->radius(id), masses[i],
                     shape_of(*surface_, id)};
   };
+  const auto body = [&](const BodyPart& of) {
+    return Body{materials.pairs.at(of.material), of.radius, of.mass, of.shape};
+  };
+  const auto is_rigid = [&](std::size_t i) { return i < are_rigid_.size() && are_rigid_[i] != 0; };
   for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
     for (std::size_t k = i; k < surface_->structure_count(); ++k) {
       const AnyLaw::Parameters parameters = materials.pairs.combine(part(i), part(k));
-      structure_pairs.push_back({AnyLaw::without_attraction(parameters), part(i).radius,
-                                 part(k).radius, AnyLaw::attraction(parameters)});
+      StructurePair pair{AnyLaw::without_attraction(parameters),
+                         part(i).radius,
+                         part(k).radius,
+                         AnyLaw::attraction(parameters),
+                         materials.pairs.properties(part(i).material, part(k).material),
+                         {body(part(i)), body(part(k))},
+                         {is_rigid(i), is_rigid(k)}};
+      pair.is_damped_by_mass =
+          (pair.are_rigid[0] || pair.are_rigid[1]) &&
+          AnyLaw::normal_damping(pair.parameters, -pair.radius_first) > 0.0;
+      structure_pairs.push_back(pair);
     }
   }
   return structure_pairs;

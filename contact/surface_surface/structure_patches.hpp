@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace plekton::contact::structure {
@@ -57,6 +58,9 @@ class StructurePatches {
       : surface_(&surface), terms_(surface) {}
   StructurePatches(StructurePatches&&) = default;  // a copy's springs would be those of another
   StructurePatches& operator=(StructurePatches&&) = default;
+
+  /// @param are_rigid  by StructureId: all nodes have the mass of the whole; empty: none is
+  void set_rigid(std::vector<char> are_rigid) { are_rigid_ = std::move(are_rigid); }
 
   /// Takes a new list of cells that may touch, sorted; pairs in both lists keep their patches.
   /// @returns the energy (J) lost with patches that left the list
@@ -158,6 +162,7 @@ class StructurePatches {
   void hand_on_number(const Predecessor& old, std::span<const PatchSuccessor> successors);
 
   const geometry::Surface* surface_;
+  std::vector<char> are_rigid_;  ///< by StructureId
   std::vector<PairOfCells> pairs_;
   std::vector<StructurePair> structure_pairs_;
   std::vector<NormalSpring> springs_;  ///< of the structure pairs
