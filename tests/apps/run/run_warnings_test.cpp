@@ -30,7 +30,7 @@ TEST(RunWarnings, NameAStepThatIsTooLongForTheMotion) {
 
   EXPECT_THAT(warnings_about(report),
               ElementsAre(AllOf(HasSubstr("by 40 % of the smallest radius in one step, above 10 %"),
-                                HasSubstr("0.25 of this one"))));
+                                HasSubstr("0.25 of this"))));
 }
 
 TEST(RunWarnings, NameDeepOverlapsEnergyThatDoesNotAddUpAndLostGrains) {
