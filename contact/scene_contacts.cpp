@@ -49,7 +49,7 @@ double largest_interaction_range(std::span<const geometry::Sphere> spheres,
   return reach;
 }
 
-/// By StructureId: all its nodes are in one group.
+/// By StructureId: its nodes are in a group.
 std::vector<char> rigid_structures(const geometry::Surface& surface,
                                    const geometry::ExclusionGroups& groups) {
   std::vector<char> are_rigid(surface.structure_count(), 0);
