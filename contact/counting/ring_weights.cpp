@@ -11,9 +11,9 @@ namespace {
 /// symmetric.
 constexpr double kTie = 1e-12;
 
-/// Of the overlap. Two vertices that are nearer to one distance have a link of this drop, which is as
-/// good as none, whatever they do: what the rounding of energies makes of slopes by it stays below
-/// eps / kLeastDrop.
+/// Of the overlap. Two vertices that are nearer to one distance have a link of this drop, which is
+/// as good as none, whatever they do: what the rounding of energies makes of slopes by it stays
+/// below eps / kLeastDrop.
 constexpr double kLeastDrop = 1e-12;
 
 /// In units of the deepest overlap: the power n + 1 of 1 / (o^2 - t^2) has to be a number. What is

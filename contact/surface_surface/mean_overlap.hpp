@@ -25,11 +25,14 @@ inline double mean_overlap(const AnyLaw::Parameters& parameters, double energy, 
   return exponent * energy / force;
 }
 
-/// How much of the force of two bodies that lie on each other can be a push. Contacts whose overlaps
-/// fall linearly over an area or a line to 0 have half of the deepest as their mean at least, that of
-/// a corner that dips in; what has less is the slope by which the area grows or shrinks. Of facets
-/// beside each other whose rims fall together that is all there is, and cancels in their sum.
-/// @param deepest  m, of the nearest points
+/// How much of the force of two bodies that lie on each other can be a push. Contacts whose
+/// overlaps fall linearly over an area or a line to 0 have half of the deepest as their mean at
+/// least, that of a corner that dips in; what has less is the slope by which the area grows or
+/// shrinks. Of facets beside each other whose rims fall together that is all there is, and cancels
+/// in their sum.
+/// @param energy, force  J and N, of both; force > 0
+/// @param deepest        m, of the nearest points, > 0
+/// @returns              0 to 1
 inline double pushing_part(const AnyLaw::Parameters& parameters, double energy, double force,
                            double deepest) {
   return std::clamp(mean_overlap(parameters, energy, force) / (0.5 * deepest), 0.0, 1.0);

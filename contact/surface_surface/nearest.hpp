@@ -10,8 +10,8 @@
 /// the part side by side then get their share (tilt_share.hpp), so that the force and where it acts
 /// change continuously with every motion of the corners, and derive from one energy:
 ///
-/// - a cylinder, nearly parallel to a facet: both ends of its part above the facet; where that ends at
-///   a side of the facet, what is nearest to that side;
+/// - a cylinder, nearly parallel to a facet: both ends of its part above the facet; where that ends
+///   at a side of the facet, what is nearest to that side;
 /// - a cylinder and an edge beside each other: both ends of the part, and the nearest point
 ///   between;
 /// - anything else: the nearest points. Facets that lie flat on each other have none that matter

@@ -73,8 +73,8 @@ class PairTerms {
     return attracts_.empty() || attracts_[terms_[term].spring] == 0 ? nullptr : &attractions_[term];
   }
 
-  /// What the extent of two facets does that a term in range is of: a part of its forces; null if it
-  /// is of anything else.
+  /// What the extent of two facets does that a term in range is of: a part of its forces; null if
+  /// it is of anything else.
   const PairForces* extent(std::size_t term) const noexcept {
     const PairTerm& of = terms_[term];
     if (of.a.count != 3 || of.b.count != 3) return nullptr;

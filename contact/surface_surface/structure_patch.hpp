@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace plekton::contact::structure {
@@ -19,20 +20,24 @@ struct StructurePair {
   AnyLaw::Parameters parameters;  ///< without the attraction
   double radius_first;            ///< m, of the lower structure
   double radius_second;
-  double attraction;               ///< N, of one contact
-  AnyLaw::Properties properties;   ///< what the parameters are of, as the next
-  std::array<Body, 2> bodies;      ///< the lower structure first
-  std::array<bool, 2> are_rigid;   ///< their nodes have the mass of all
-  bool is_damped_by_mass = false;  ///< by that of one that is rigid
+  double attraction;  ///< N, of one contact
+  /// What the parameters are of.
+  struct Damped {
+    AnyLaw::Properties properties;
+    std::array<Body, 2> bodies;     ///< the lower structure first
+    std::array<bool, 2> are_rigid;  ///< their nodes have the mass of all
+  };
+  std::shared_ptr<const Damped> damped;  ///< by the mass of what is rigid; null of any other pair
 
-  /// Of a part of a contact, with that part of the mass of what is rigid: springs side by side carry
-  /// it together, and so do their dashpots. What deforms has its mass in the nodes there.
+  /// Of a part of a contact, with that part of the mass of what is rigid: springs side by side
+  /// carry it together, and so do their dashpots. What deforms has its mass in the nodes there.
+  /// @param part  of its contacts; what is not between 0 and 1 counts as the whole
   AnyLaw::Parameters of_part(double part) const {
-    if (!is_damped_by_mass || !(part > 0.0 && part < 1.0)) return parameters;
-    std::array<Body, 2> parts = bodies;
+    if (damped == nullptr || !(part > 0.0 && part < 1.0)) return parameters;
+    std::array<Body, 2> parts = damped->bodies;
     for (std::size_t i = 0; i < parts.size(); ++i)
-      if (are_rigid[i]) parts[i].mass *= part;
-    return AnyLaw::without_attraction(AnyLaw::combine(properties, parts[0], parts[1]));
+      if (damped->are_rigid[i]) parts[i].mass *= part;
+    return AnyLaw::without_attraction(AnyLaw::combine(damped->properties, parts[0], parts[1]));
   }
 };
 

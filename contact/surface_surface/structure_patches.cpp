@@ -67,13 +67,15 @@ std::vector<StructurePair> StructurePatches::find_structure_pairs(
                          part(i).radius,
                          part(k).radius,
                          AnyLaw::attraction(parameters),
-                         materials.pairs.properties(part(i).material, part(k).material),
-                         {body(part(i)), body(part(k))},
-                         {is_rigid(i), is_rigid(k)}};
-      pair.is_damped_by_mass =
-          (pair.are_rigid[0] || pair.are_rigid[1]) &&
-          AnyLaw::normal_damping(pair.parameters, -pair.radius_first) > 0.0;
-      structure_pairs.push_back(pair);
+                         nullptr};
+      if ((is_rigid(i) || is_rigid(k)) &&
+          AnyLaw::normal_damping(pair.parameters, -pair.radius_first) > 0.0) {
+        pair.damped = std::make_shared<const StructurePair::Damped>(StructurePair::Damped{
+            materials.pairs.properties(part(i).material, part(k).material),
+            {body(part(i)), body(part(k))},
+            {is_rigid(i), is_rigid(k)}});
+      }
+      structure_pairs.push_back(std::move(pair));
     }
   }
   return structure_pairs;

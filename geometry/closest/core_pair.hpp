@@ -45,7 +45,8 @@ CoreProximity core_proximity(const Core& a, const Core& b,
 /// force along the normal does there: minus the weights times the normal on a, plus on b. Source:
 /// the nearest point of the boundary of the Minkowski difference is a convex combination of
 /// differences of corners, which are the multipliers of the minimum (Danskin's theorem).
-/// @param found  of core_proximity()
+/// @param a, b   m
+/// @param found  of core_proximity(); what is apart or only touches stays as it is
 CoreProximity at_last_touch(const Core& a, const Core& b, const CoreProximity& found) noexcept;
 
 }  // namespace plekton::geometry

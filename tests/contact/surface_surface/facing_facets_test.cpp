@@ -110,8 +110,7 @@ double twice_the_energy(const Simplex& a, const Simplex& b) {
   return share * share * sum / (kRange * kRange);
 }
 
-// The middles of sides of triangles are as many places as a linear spring needs on one side; across
-// the crossing they are few.
+// The sum is rough where the outline of the overlap cuts cells of the grid.
 TEST_P(FacingFacets, StoreWhatLiesOnBothSidesWhereTheyCross) {
   double largest = 0.0, error = 0.0;
   for (int i = 0; i < 30; ++i) {
