@@ -40,7 +40,7 @@ endfunction()
 # Most of the time of a small source goes into the headers that its neighbours need too. Batches stay within a folder, so that a new
 # source moves those of its own alone. Sources with options of their own are left out (by CMake). PLEKTON_BATCHES=OFF, as the preset
 # `dev` has it, compiles one by one: less to compile after a change, and a header that is missing shows.
-option(PLEKTON_BATCHES "Compile the sources of the libraries in batches" ON)
+option(PLEKTON_BATCHES "Compile sources in batches" ON)
 
 function(plekton_batches target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "EXCEPT")

@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-namespace plekton::apps {
+namespace plekton::apps::readme_test {
 namespace {
 
 using Words = std::set<std::string>;
@@ -115,4 +115,4 @@ TEST(FirstSteps, LetTheSphereFallAndTheSheetCatchIt) {
 #endif
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::readme_test

@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace plekton::benchmarks {
+namespace plekton::benchmarks::scenes_test {
 namespace {
 
 constexpr std::size_t kFewSpheres = 100;
@@ -200,4 +200,4 @@ TEST(Bed, RefusesANumberOfSpheresThatItHasNoLinesForBeforeMemoryIsTaken) {
 }
 
 }  // namespace
-}  // namespace plekton::benchmarks
+}  // namespace plekton::benchmarks::scenes_test

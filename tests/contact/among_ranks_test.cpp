@@ -16,7 +16,7 @@
 #include <set>
 #include <vector>
 
-namespace plekton::contact {
+namespace plekton::contact::among_ranks_test {
 namespace {
 
 /// Spheres in a dense cube that shake on the spot and turn; two sizes and two materials.
@@ -190,4 +190,4 @@ TEST(AmongRanks, HaveThemWithMoreRanksThanBlocks) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::among_ranks_test

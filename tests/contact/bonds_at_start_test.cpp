@@ -8,7 +8,7 @@
 #include <vector>
 
 /// Which contacts are glued: those of the first step, or those that come later too.
-namespace plekton::contact {
+namespace plekton::contact::bonds_at_start_test {
 namespace {
 
 constexpr double kRadius = 0.05;  // m, of all bodies
@@ -99,4 +99,4 @@ TEST(NoBonds, AreFormedWhereTheLawSaysSo) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::bonds_at_start_test

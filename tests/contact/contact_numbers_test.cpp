@@ -9,7 +9,7 @@
 #include <set>
 
 /// A contact keeps its number as long as it lasts, and no number is given twice.
-namespace plekton::test {
+namespace plekton::test::contact_numbers_test {
 namespace {
 
 constexpr double kStep = 0.02;  // s
@@ -227,4 +227,4 @@ TEST(ContactRecord, SaysWhetherAContactSlips) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::contact_numbers_test

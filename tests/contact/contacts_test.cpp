@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace plekton::test {
+namespace plekton::test::contacts_test {
 namespace {
 
 bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
@@ -142,4 +142,4 @@ TEST(Contacts, PushASphereOutHoweverDeepItStartsBehindAPlane) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::contacts_test

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-namespace plekton::contact {
+namespace plekton::contact::law_list_test {
 namespace {
 
 /// A parameter of several laws, as those of linear springs, is one and the same.
@@ -98,4 +98,4 @@ TEST(LawList, GivesEachNameItsLaw) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::law_list_test

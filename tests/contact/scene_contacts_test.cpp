@@ -8,7 +8,7 @@
 #include <string>
 
 /// Contacts of all kinds under each law.
-namespace plekton::contact {
+namespace plekton::contact::scene_contacts_test {
 namespace {
 
 using Scene = test::MovingScene;
@@ -47,4 +47,4 @@ TEST(SceneContacts, AreUnderTheLinearLawWhereNothingIsSaid) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::scene_contacts_test

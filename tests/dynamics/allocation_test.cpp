@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace plekton::test {
+namespace plekton::test::allocation_test {
 namespace {
 
 using dynamics::Held;
@@ -228,4 +228,4 @@ TEST(Allocation, IsNoneInTheStepsOfGrainsOnANet) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::allocation_test

@@ -10,7 +10,7 @@
 
 /// A boulder falls into a net that wraps around it: more and more wires hang together in range, all
 /// of them come to be one contact, and many again as the boulder leaves.
-namespace plekton::test {
+namespace plekton::test::boulder_in_net_test {
 namespace {
 
 using dynamics::Scene;
@@ -69,4 +69,4 @@ TEST(BoulderInANet, IsCaughtAndThrownBackWithTheEnergyThatItHas) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::boulder_in_net_test

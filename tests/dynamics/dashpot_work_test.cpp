@@ -10,7 +10,7 @@
 #include <cmath>
 
 /// A dashpot beside a linear spring against a leapfrog of one number, written here.
-namespace plekton::dynamics {
+namespace plekton::dynamics::dashpot_work_test {
 namespace {
 
 using contact::AnyLaw;
@@ -106,4 +106,4 @@ INSTANTIATE_TEST_SUITE_P(All, DashpotOn,
                          [](const auto& ground) { return std::string(ground.param.name); });
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::dashpot_work_test

@@ -14,7 +14,7 @@
 
 /// Two flat sheets, their meshes unlike, set into each other and glued where they are; nothing else
 /// acts. The glue has no stretch where their surfaces just touch: the overlap pushes them there.
-namespace plekton::test {
+namespace plekton::test::glued_sheets_test {
 namespace {
 
 using dynamics::Held;
@@ -130,4 +130,4 @@ TEST(GluedSheets, SetIntoEachOtherComeOffWeakGlueWithNoMoreThanTheyHadStored) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::glued_sheets_test

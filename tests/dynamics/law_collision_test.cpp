@@ -10,7 +10,7 @@
 #include <string>
 
 /// Every pair of bodies collides under every contact law: no gravity, nothing held.
-namespace plekton::dynamics {
+namespace plekton::dynamics::law_collision_test {
 namespace {
 
 using namespace test::free_bodies;
@@ -149,4 +149,4 @@ INSTANTIATE_TEST_SUITE_P(Of, LawCollision, testing::ValuesIn(all_cases()), name_
 INSTANTIATE_TEST_SUITE_P(OfSticky, LawCollision, testing::ValuesIn(sticky_cases()), name_of);
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::law_collision_test

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-namespace plekton::test {
+namespace plekton::test::measure_sample_test {
 namespace {
 
 using dynamics::RegionMeasure;
@@ -83,4 +83,4 @@ TEST(Sample, DoesNotCountSpheresOfRigidBodies) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::measure_sample_test

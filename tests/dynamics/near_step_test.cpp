@@ -13,7 +13,7 @@
 /// Steps that a simulation chooses for itself, every one against the frequencies of the scene as a
 /// whole with the contacts of that moment: as it knows them itself and, where structures meet, by
 /// differences of the contacts' forces, of which its own estimate knows nothing.
-namespace plekton::test {
+namespace plekton::test::near_step_test {
 namespace {
 
 using contact::MaterialId;
@@ -357,4 +357,4 @@ INSTANTIATE_TEST_SUITE_P(Of, ChosenStepOfStructures,
                          });
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::near_step_test

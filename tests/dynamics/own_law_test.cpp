@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::own_law_test {
 namespace {
 
 /// Spheres that slide down between two planes.
@@ -56,4 +56,4 @@ TEST(OwnLaw, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::own_law_test

@@ -12,7 +12,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::restore_test {
 namespace {
 
 using geometry::StateMismatch;
@@ -289,4 +289,4 @@ TEST(RestoreErrors, NameTheArrayWithAnIdThatIsNone) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::restore_test

@@ -8,7 +8,7 @@
 
 /// A ball that falls on a net, or on a membrane that wraps around it, touches rings of wires or
 /// facets that open and close all the time.
-namespace plekton::dynamics {
+namespace plekton::dynamics::ring_energy_test {
 namespace {
 
 using test::add_net;
@@ -54,4 +54,4 @@ TEST(EnergyOfASphereOnRings, IsKeptToTheSecondOrderOfTheStep) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::ring_energy_test

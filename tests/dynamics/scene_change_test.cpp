@@ -13,7 +13,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::scene_change_test {
 namespace {
 
 using test::NamedLaw;
@@ -225,4 +225,4 @@ TEST(SceneChange, ComesBeforeTheFirstStep) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::scene_change_test

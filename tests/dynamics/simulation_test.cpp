@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::simulation_test {
 namespace {
 
 using geometry::NodeId;
@@ -171,4 +171,4 @@ TEST(Simulation, SaysWhereItDivergedWhenANodeMovesFurtherThanItsElementsCanNotic
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::simulation_test

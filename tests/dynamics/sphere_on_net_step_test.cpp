@@ -11,7 +11,7 @@
 /// Critical steps of a sphere on a net finer than itself, against the eigenvalue of the largest
 /// magnitude of differences of the contacts' forces: on bars that are short beside the sphere it is
 /// their turning that is stiffest, which no spring along the normals has.
-namespace plekton::test {
+namespace plekton::test::sphere_on_net_step_test {
 namespace {
 
 using dynamics::Simulation;
@@ -148,4 +148,4 @@ TEST(SphereOnNetStep, IsNeverEstimatedAboveWhatDifferencesOfForcesGiveWhereNoRin
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::sphere_on_net_step_test

@@ -9,7 +9,7 @@
 #include <cmath>
 
 /// A sheet that falls by 1 mm onto an equal one that is held: all their edges coincide.
-namespace plekton::test {
+namespace plekton::test::stacked_sheets_test {
 namespace {
 
 using dynamics::Held;
@@ -97,4 +97,4 @@ TEST(StackedSheets, BounceWithinTheErrorOfATouch) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::stacked_sheets_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::state_hash_test {
 namespace {
 
 /// Three balls that fall on each other, and a floor.
@@ -49,4 +49,4 @@ TEST(StateHash, ShowsTheLastBitOfOneCoordinateAndOfAPlane) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::state_hash_test

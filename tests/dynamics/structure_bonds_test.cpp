@@ -9,7 +9,7 @@
 #include <string>
 
 /// Structures that are glued to each other at the start and torn apart: no gravity, nothing held.
-namespace plekton::dynamics {
+namespace plekton::dynamics::structure_bonds_test {
 namespace {
 
 using namespace test::free_bodies;
@@ -186,4 +186,4 @@ std::string name_of(const testing::TestParamInfo<Case>& item) {
 INSTANTIATE_TEST_SUITE_P(Of, StructureBonds, testing::ValuesIn(all_cases()), name_of);
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::structure_bonds_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 /// Two free structures that collide: no gravity, nothing held.
-namespace plekton::dynamics {
+namespace plekton::dynamics::structure_collision_test {
 namespace {
 
 using test::momenta_of;
@@ -79,4 +79,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& item) { return item.param.name; });
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::structure_collision_test

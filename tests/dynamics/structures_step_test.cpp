@@ -19,7 +19,7 @@
 /// Critical steps of structures that touch structures, against the eigenvalue of the largest
 /// magnitude of differences of the contacts' forces. There are no bonds: contacts are all there is,
 /// and what an estimate of bonds has to spare hides nothing.
-namespace plekton::test {
+namespace plekton::test::structures_step_test {
 namespace {
 
 using dynamics::Simulation;
@@ -537,4 +537,4 @@ TEST(StructuresStep, IsBelowTheLimitWhereOnlyCurvatureBelowZeroIsLeft) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::structures_step_test

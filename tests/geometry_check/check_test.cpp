@@ -17,7 +17,7 @@
 #include <string>
 
 /// The check itself must be able to fail.
-namespace plekton::geometry_check {
+namespace plekton::geometry_check::check_test {
 namespace {
 
 using geometry::ClosestPoints;
@@ -511,4 +511,4 @@ TEST(StructureCheck, FindsEnergiesThatJumpByAHundredth) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry_check
+}  // namespace plekton::geometry_check::check_test

@@ -10,7 +10,7 @@
 #include <ostream>
 #include <vector>
 
-namespace plekton::stress {
+namespace plekton::stress::examination_test {
 namespace {
 
 using geometry::id_at;
@@ -149,4 +149,4 @@ TEST(Examination, ShortensADurationToANumberOfSteps) {
 }
 
 }  // namespace
-}  // namespace plekton::stress
+}  // namespace plekton::stress::examination_test

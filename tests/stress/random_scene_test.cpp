@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace plekton::stress {
+namespace plekton::stress::random_scene_test {
 namespace {
 
 constexpr std::uint64_t kScenes = 300;
@@ -71,4 +71,4 @@ TEST(RandomScene, HasEveryShapeModeLawAndLoad) {
 }
 
 }  // namespace
-}  // namespace plekton::stress
+}  // namespace plekton::stress::random_scene_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::stress {
+namespace plekton::stress::scene_text_test {
 namespace {
 
 TEST(SceneText, IsTakenApartIntoTablesAndKeysAndPutTogetherAgain) {
@@ -33,4 +33,4 @@ TEST(SceneText, FindsTheValueOfAKey) {
 }
 
 }  // namespace
-}  // namespace plekton::stress
+}  // namespace plekton::stress::scene_text_test

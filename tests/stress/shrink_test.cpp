@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::stress {
+namespace plekton::stress::shrink_test {
 namespace {
 
 const SceneText kScene = taken_apart(
@@ -37,4 +37,4 @@ TEST(Shrink, LeavesAloneWhatDoesNotFailAnyMore) {
 }
 
 }  // namespace
-}  // namespace plekton::stress
+}  // namespace plekton::stress::shrink_test

@@ -7,7 +7,7 @@
 
 #include <sstream>
 
-namespace plekton::stress {
+namespace plekton::stress::stress_test {
 namespace {
 
 using testing::ElementsAre;
@@ -95,4 +95,4 @@ TEST(Stress, RunsAFewRandomScenes) {
 }
 
 }  // namespace
-}  // namespace plekton::stress
+}  // namespace plekton::stress::stress_test

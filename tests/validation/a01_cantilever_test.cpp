@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a01_cantilever_test {
 namespace {
 
 struct Case {
@@ -43,4 +43,4 @@ INSTANTIATE_TEST_SUITE_P(AllSizes, A01Cantilever,
                          });
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a01_cantilever_test

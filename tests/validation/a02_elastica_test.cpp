@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::a02_elastica_test {
 namespace {
 
 // Tip of a cantilever under a transverse force P of constant direction, P L² / (E I) = 1, 3, 10:
@@ -69,4 +69,4 @@ TEST(A02Elastica, AMomentRollsABeamUpIntoACircle) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a02_elastica_test

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::a03_column_test {
 namespace {
 
 using dynamics::Held;
@@ -121,4 +121,4 @@ TEST(A03Column, HoldsTheForceOfEulerWhileItBends) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a03_column_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a04_catenary_test {
 namespace {
 
 TEST(A04Catenary, AChainOf40LinksHangsAsOne) {
@@ -22,4 +22,4 @@ TEST(A04Catenary, AChainOf40LinksHangsAsOne) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a04_catenary_test

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::test {
+namespace plekton::test::a05_truss_membrane_test {
 namespace {
 
 using dynamics::Held;
@@ -236,4 +236,4 @@ TEST(A05TrussMembrane, SagsUnderALoadAsItsLeastEnergySays) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a05_truss_membrane_test

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace plekton::test {
+namespace plekton::test::a06_facet_probes_test {
 namespace {
 
 constexpr double kSphereRadius = 0.1;  // m
@@ -87,4 +87,4 @@ TEST(A06FacetProbes, FeelTheClosestPointAt243RandomPlacesFromBothSidesInEveryNod
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a06_facet_probes_test

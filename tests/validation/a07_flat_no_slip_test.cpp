@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a07_flat_no_slip_test {
 namespace {
 
 using namespace dragged;
@@ -150,4 +150,4 @@ TEST(A07FlatNoSlip, NoCrossingOfARandomDelaunaySheetLosesTheSpringInFinerSteps) 
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a07_flat_no_slip_test

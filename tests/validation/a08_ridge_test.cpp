@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a08_ridge_test {
 namespace {
 
 using namespace dragged;
@@ -63,4 +63,4 @@ TEST(A08Ridge, HandsTheSpringOverTheWedgeWithoutSlip) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a08_ridge_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a09_valley_test {
 namespace {
 
 using namespace dragged;
@@ -77,4 +77,4 @@ TEST(A09Valley, TheSecondSideComesInWithoutAJump) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a09_valley_test

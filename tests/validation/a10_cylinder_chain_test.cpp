@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a10_cylinder_chain_test {
 namespace {
 
 using namespace dragged;
@@ -99,4 +99,4 @@ TEST(A10CylinderChain, HandsTheSpringAroundAKink) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a10_cylinder_chain_test

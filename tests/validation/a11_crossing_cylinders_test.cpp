@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a11_crossing_cylinders_test {
 namespace {
 
 using namespace crossing;
@@ -17,7 +17,7 @@ using namespace crossing;
 constexpr double kTolerance = 5e-3;
 
 void expect_one_spring(double angle) {
-  const Felt felt = drag_over_joint(angle);
+  const crossing::Felt felt = drag_over_joint(angle);
   EXPECT_EQ(felt.most_patches, 1u);
   EXPECT_LE(felt.normal_error, kTolerance);
   EXPECT_LE(felt.tangential_error, kTolerance);
@@ -35,4 +35,4 @@ TEST(A11CrossingCylinders, HandTheSpringOverAKink) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a11_crossing_cylinders_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a12_momentum_test {
 namespace {
 
 class A12Momentum : public testing::TestWithParam<Collision> {};
@@ -39,4 +39,4 @@ INSTANTIATE_TEST_SUITE_P(SphereOn, A12Momentum, testing::ValuesIn(kCollisions),
                          [](const auto& collision) { return collision.param.name; });
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a12_momentum_test

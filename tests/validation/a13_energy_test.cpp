@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a13_energy_test {
 namespace {
 
 class A13Energy : public testing::TestWithParam<Collision> {};
@@ -51,4 +51,4 @@ INSTANTIATE_TEST_SUITE_P(SphereOn, A13Energy, testing::ValuesIn(kCollisions),
                          [](const auto& collision) { return collision.param.name; });
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a13_energy_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a14_co_rotation_test {
 namespace {
 
 using namespace dragged;
@@ -50,4 +50,4 @@ TEST(A14CoRotation, ASphereThatTurnsAloneSlips) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a14_co_rotation_test

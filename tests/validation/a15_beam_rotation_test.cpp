@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::a15_beam_rotation_test {
 namespace {
 
 // A link of length 40 mm, sheared by 0.5 mm, is carried through one revolution as the leapfrog
@@ -42,4 +42,4 @@ TEST(A15BeamRotation, APreShearedLinkKeepsItsForceThroughARevolution) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a15_beam_rotation_test

@@ -10,7 +10,7 @@
 
 /// A16: the step at which the leapfrog becomes unstable, by running just below and just above it,
 /// against 2 / omega_max of the lumped Euler-Bernoulli matrix; and what the estimates say of it.
-namespace plekton::test {
+namespace plekton::test::a16_time_step_test {
 namespace {
 
 using dynamics::Simulation;
@@ -97,4 +97,4 @@ TEST(A16TimeStep, AContactOnACylinderIsCountedOnItsNodes) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a16_time_step_test

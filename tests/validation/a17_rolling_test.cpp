@@ -8,7 +8,7 @@
 #include <array>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::a17_rolling_test {
 namespace {
 
 using dynamics::Held;
@@ -142,4 +142,4 @@ TEST(A17Rolling, ASphereRollsDownTwoRails) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a17_rolling_test

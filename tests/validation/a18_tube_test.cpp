@@ -21,7 +21,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::a18_tube_test {
 namespace {
 
 using dynamics::Held;
@@ -139,4 +139,4 @@ TEST(A18Tube, BucklesAsAShellOfItsStiffness) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a18_tube_test

@@ -5,7 +5,7 @@
 
 /// A19: a sphere glued to a facet, pulled off it. What YADE gives to one node (its defect D7) is
 /// shared by all three.
-namespace plekton::test {
+namespace plekton::test::a19_cohesive_facet_test {
 namespace {
 
 using namespace glued;
@@ -50,4 +50,4 @@ TEST(A19, NothingSticksThatHasNotTouched) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a19_cohesive_facet_test

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace plekton::test {
+namespace plekton::test::a20_bounce_test {
 namespace {
 
 using dynamics::Held;
@@ -88,4 +88,4 @@ TEST(A20Bounce, AHollowSphereKeepsItsEnergyAndTheResultDoesNotDependOnTheStep) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a20_bounce_test

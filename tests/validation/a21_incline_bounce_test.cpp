@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::a21_incline_bounce_test {
 namespace {
 
 using dynamics::Held;
@@ -83,4 +83,4 @@ TEST(A21InclineBounce, DoesNotDependOnTheStepAndStaysInItsPlane) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a21_incline_bounce_test

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <cstdio>
 
-namespace plekton::test {
+namespace plekton::test::a22_pull_out_test {
 namespace {
 
 using namespace apps::pull_out;
@@ -61,4 +61,4 @@ TEST(A22PullOut, AMembraneSlidesAndAGridInterlocks) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a22_pull_out_test

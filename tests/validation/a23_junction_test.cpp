@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::a23_junction_test {
 namespace {
 
 using namespace dragged;
@@ -80,4 +80,4 @@ TEST(A23Junction, ChangesInProportionToTheStepOverSixBranches) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::a23_junction_test

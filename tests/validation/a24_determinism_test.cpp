@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace plekton {
+namespace plekton::a24_determinism_test {
 namespace {
 
 using dynamics::Simulation;
@@ -117,4 +117,4 @@ TEST(A24Determinism, TheOrderOfCreationChangesTheResultByRoundingOnlyOver20000St
 }
 
 }  // namespace
-}  // namespace plekton
+}  // namespace plekton::a24_determinism_test

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace plekton {
+namespace plekton::a24_threads_test {
 namespace {
 
 using dynamics::Held;
@@ -144,4 +144,4 @@ TEST(A24Threads, OneTwoAndFourGiveTheSameBitsOver20000Steps) {
 }
 
 }  // namespace
-}  // namespace plekton
+}  // namespace plekton::a24_threads_test

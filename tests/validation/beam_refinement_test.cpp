@@ -14,7 +14,7 @@
 /// A beam between two nodes is exact for what acts at its nodes. What is spread along it, weight or
 /// mass, is lumped there: the trapezoidal rule, of second order, whose error for a smooth g is
 /// h² / 12 (g'(L) - g'(0)).
-namespace plekton::test {
+namespace plekton::test::beam_refinement_test {
 namespace {
 
 using dynamics::Held;
@@ -208,4 +208,4 @@ TEST(BeamRefinement, AChainHangsAsACatenary) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::beam_refinement_test

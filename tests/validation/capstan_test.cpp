@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::test {
+namespace plekton::test::capstan_test {
 namespace {
 
 using dynamics::Held;
@@ -184,4 +184,4 @@ TEST(Capstan, PullsByEulersFormula) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::capstan_test

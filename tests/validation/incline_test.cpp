@@ -13,7 +13,7 @@
 #include <numbers>
 #include <vector>
 
-namespace plekton::test {
+namespace plekton::test::incline_test {
 namespace {
 
 using dynamics::Held;
@@ -96,4 +96,4 @@ TEST(Incline, LetsASheetSlideAsTheoryHasIt) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::incline_test

@@ -9,7 +9,7 @@
 /// One rule for the materials of all pairs: a sphere rebounds in the same way from a plane, from a
 /// facet and from a sheet, however it is cut into facets. To a contact, a plane is the sphere's own
 /// mirror image, so the sheets have its radius.
-namespace plekton::dynamics {
+namespace plekton::dynamics::material_rule_test {
 namespace {
 
 using contact::AnyLaw;
@@ -84,4 +84,4 @@ INSTANTIATE_TEST_SUITE_P(Under, MaterialRule, testing::ValuesIn(test::kLaws),
                          [](const auto& item) { return std::string(item.param.name); });
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::material_rule_test

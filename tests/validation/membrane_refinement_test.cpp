@@ -8,7 +8,7 @@
 #include <string>
 
 /// Stretching of sheets against membrane theory, on finer and finer meshes.
-namespace plekton::test {
+namespace plekton::test::membrane_refinement_test {
 namespace {
 
 using dynamics::solid_sheet;
@@ -86,4 +86,4 @@ TEST(MembraneRefinement, ASphereGrowsWithItsPressureByATenth) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::membrane_refinement_test

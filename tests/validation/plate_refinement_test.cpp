@@ -8,7 +8,7 @@
 #include <string>
 
 /// Bending of sheets against plate theory, on finer and finer meshes.
-namespace plekton::test {
+namespace plekton::test::plate_refinement_test {
 namespace {
 
 using dynamics::solid_sheet;
@@ -157,4 +157,4 @@ TEST(PlateRefinement, AStripBendsAsABeam) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::plate_refinement_test

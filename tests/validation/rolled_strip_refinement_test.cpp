@@ -9,7 +9,7 @@
 
 /// A strip of a thin sheet, clamped at one end, is rolled up by a moment at the other until it is a
 /// circle, R = D / M per width: a whole turn, and hardly any strain.
-namespace plekton::test {
+namespace plekton::test::rolled_strip_refinement_test {
 namespace {
 
 using dynamics::Simulation;
@@ -103,4 +103,4 @@ TEST(RolledStripRefinement, BecomesACircle) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::rolled_strip_refinement_test

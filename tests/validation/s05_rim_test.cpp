@@ -13,7 +13,7 @@
 
 /// S5: a hollow ball of 2048 facets (R = 1 m) on the rim of a hole of 24 corners, at 0.7 R. Its
 /// contact is a ring that nothing fills. k = 1 N/m.
-namespace plekton::test {
+namespace plekton::test::s05_rim_test {
 namespace {
 
 constexpr double kRange = 0.1;  // m, thickness of the ball and of the plate
@@ -131,4 +131,4 @@ TEST(S05Rim, NeverCarriesLessThanThePiecesOfTheRegionOfContact) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::s05_rim_test

@@ -13,7 +13,7 @@
 /// S9: laws after Hertz have the curvature of the undeformed surfaces where they touch. Against the
 /// closed forms of Johnson, Contact Mechanics (1985), 4.1 and 4.2: a ball of R = 10 mm on a plane,
 /// on a sheet of half thickness 1 mm and on a cylinder, and crossed cylinders.
-namespace plekton::contact {
+namespace plekton::contact::s09_contact_radius_test {
 namespace {
 
 using geometry::Cylinder;
@@ -248,4 +248,4 @@ TEST(ContactStiffness, IsThatOfTheThicknessOrOfTheCurvatureOrAsGiven) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::s09_contact_radius_test

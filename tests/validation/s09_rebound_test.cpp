@@ -9,7 +9,7 @@
 
 /// S9: what follows the stiffness and radius of a contact: the restitution is what was asked for,
 /// and the time step what the contact allows, whatever a ball of 10 mm falls on.
-namespace plekton::dynamics {
+namespace plekton::dynamics::s09_rebound_test {
 namespace {
 
 using contact::AnyLaw;
@@ -122,4 +122,4 @@ TEST(CriticalStep, IsThatOfTheCurvatureUnderHertz) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::s09_rebound_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace plekton {
+namespace plekton::servo_plate_test {
 namespace {
 
 using dynamics::PlaneServo;
@@ -145,4 +145,4 @@ TEST(ServoPlate, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace plekton
+}  // namespace plekton::servo_plate_test

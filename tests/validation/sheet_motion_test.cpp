@@ -9,7 +9,7 @@
 #include <numbers>
 
 /// Sheets that move.
-namespace plekton::test {
+namespace plekton::test::sheet_motion_test {
 namespace {
 
 using dynamics::Simulation;
@@ -104,4 +104,4 @@ TEST(SheetMotion, IsTheSameToTheLastBitForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::sheet_motion_test

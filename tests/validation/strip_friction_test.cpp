@@ -13,7 +13,7 @@
 /// until friction balances the pull: where it slips the tension falls by mu N / L per length, so
 /// half of it slips, from the pulled end on, and the rest stays where it is but for the springs of
 /// the contact (shear lag over sqrt(E A / k) = 3 mm here, far less than a cell).
-namespace plekton::test {
+namespace plekton::test::strip_friction_test {
 namespace {
 
 using dynamics::Held;
@@ -79,4 +79,4 @@ TEST(StripOnASheet, SlipsFromThePulledEndOn) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::strip_friction_test

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::test {
+namespace plekton::test::wire_net_test {
 namespace {
 
 using dynamics::Held;
@@ -291,4 +291,4 @@ TEST(WireNet, FollowsTheCurveOfItsMeshesAndClosesItsEnergyThroughTheBreaks) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::wire_net_test

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::yade_defects_cylinder_test {
 namespace {
 
 // YADE takes the spin of a cylinder as d x (v2 - v1), without 1 / L²: what turns rigidly slips by
@@ -200,4 +200,4 @@ TEST(D13_CylinderOnWall, IsPushedAtBothEndsAndDoesNotTurn) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::yade_defects_cylinder_test

@@ -14,7 +14,7 @@
 
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::yade_defects_dynamics_test {
 namespace {
 
 using dynamics::Simulation;
@@ -181,4 +181,4 @@ TEST(D16_Order, OfBodiesChangesRoundingOnly) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::yade_defects_dynamics_test

@@ -14,7 +14,7 @@
 
 #include <algorithm>
 
-namespace plekton::test {
+namespace plekton::test::yade_defects_facet_test {
 namespace {
 
 using namespace dragged;
@@ -225,4 +225,4 @@ TEST(D15_CylinderOnFacet, TouchesInsideTheFaceAlone) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::yade_defects_facet_test

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace plekton::apps {
+namespace plekton::apps::certificate_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -71,4 +71,4 @@ TEST_F(CertificateCommand, TellsOfBrokenBondsWithoutAVerdictAgainstThem) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::certificate_command_test

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace plekton::apps {
+namespace plekton::apps::command_line_test {
 namespace {
 
 using testing::HasSubstr;
@@ -30,4 +30,4 @@ TEST(CommandLine, NamesAScenarioThatDoesNotExist) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::command_line_test

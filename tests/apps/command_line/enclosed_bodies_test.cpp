@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace plekton::apps {
+namespace plekton::apps::enclosed_bodies_test {
 namespace {
 
 constexpr std::string_view kScene = R"([simulation]
@@ -59,4 +59,4 @@ TEST(EnclosedBodies, AreNoneWithoutAClosedMembrane) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::enclosed_bodies_test

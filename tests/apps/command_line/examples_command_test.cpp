@@ -8,7 +8,7 @@
 
 #include <sstream>
 
-namespace plekton::apps {
+namespace plekton::apps::examples_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -66,4 +66,4 @@ TEST_F(Examples, AreSuggestedForAnUnknownName) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::examples_command_test

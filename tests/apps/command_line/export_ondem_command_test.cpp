@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-namespace plekton::apps {
+namespace plekton::apps::export_ondem_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -100,4 +100,4 @@ TEST_F(ExportOndemCommand, SaysInOneLineWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::export_ondem_command_test

@@ -2,7 +2,7 @@
 // What other programs need of this one: silence, JSON and standard input.
 #include "tests/apps/command_line/command_fixture.hpp"
 
-namespace plekton::apps {
+namespace plekton::apps::for_programs_test {
 namespace {
 
 using testing::AllOf;
@@ -108,4 +108,4 @@ TEST_F(ForPrograms, StandardInputThatIsWrongIsNamedWithItsLine) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::for_programs_test

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::glued_membranes_test {
 namespace {
 
 using testing::HasSubstr;
@@ -101,4 +101,4 @@ TEST_F(GluedMembranes, HaveNoBondsWithoutStrength) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::glued_membranes_test

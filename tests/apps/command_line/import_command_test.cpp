@@ -12,7 +12,7 @@
 
 #include <sstream>
 
-namespace plekton::apps {
+namespace plekton::apps::import_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -217,4 +217,4 @@ TEST(ImportCommand, LeavesNoHalfOfItsFilesWhenTheFolderCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::import_command_test

@@ -2,7 +2,7 @@
 #include "apps/programs/child_process.hpp"
 #include "tests/apps/command_line/command_fixture.hpp"
 
-namespace plekton::apps {
+namespace plekton::apps::import_yade_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -56,4 +56,4 @@ TEST_F(ImportYadeCommand, SaysInOneLineWhatIsMissingOrWrong) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::import_yade_command_test

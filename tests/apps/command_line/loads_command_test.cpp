@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::loads_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -376,4 +376,4 @@ TEST_F(Loads, AreRefusedAsGasInAnOpenSurface) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::loads_command_test

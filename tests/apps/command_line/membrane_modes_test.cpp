@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace plekton::apps {
+namespace plekton::apps::membrane_modes_test {
 namespace {
 
 using testing::HasSubstr;
@@ -31,4 +31,4 @@ TEST_F(MembraneModes, CatchGrainsWithTheirEnergyAccountedFor) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::membrane_modes_test

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace plekton::apps {
+namespace plekton::apps::mesh_keys_test {
 namespace {
 
 using testing::HasSubstr;
@@ -189,4 +189,4 @@ TEST_F(MeshKeys, CloseTheBagOfTheExampleAndRemeshIt) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::mesh_keys_test

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace plekton::apps {
+namespace plekton::apps::motion_test {
 namespace {
 
 using testing::HasSubstr;
@@ -96,4 +96,4 @@ velocity = [0, 0, "-50 m/s"]
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::motion_test

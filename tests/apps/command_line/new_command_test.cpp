@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace plekton::apps {
+namespace plekton::apps::new_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -38,4 +38,4 @@ TEST_F(New, DoesNotReplaceAFile) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::new_command_test

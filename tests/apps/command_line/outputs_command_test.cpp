@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-namespace plekton::apps {
+namespace plekton::apps::outputs_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -312,4 +312,4 @@ TEST_F(Outputs, AreListedFromTheTablesThatWriteThem) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::outputs_command_test

@@ -2,7 +2,7 @@
 #include "apps/programs/child_process.hpp"
 #include "tests/apps/command_line/command_fixture.hpp"
 
-namespace plekton::apps {
+namespace plekton::apps::pictures_command_test {
 namespace {
 
 using testing::AllOf;
@@ -92,4 +92,4 @@ TEST_F(PicturesCommand, RendersAFrame) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::pictures_command_test

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-namespace plekton::apps {
+namespace plekton::apps::program_test {
 namespace {
 
 using testing::HasSubstr;
@@ -388,4 +388,4 @@ TEST_F(Command, CheckListsAllProblems) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::program_test

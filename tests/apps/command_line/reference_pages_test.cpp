@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace plekton::apps {
+namespace plekton::apps::reference_pages_test {
 namespace {
 
 using testing::HasSubstr;
@@ -66,4 +66,4 @@ TEST(ReferencePages, HaveEveryCommandOfTheHelpAndNotTheHiddenOne) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::reference_pages_test

@@ -4,7 +4,7 @@
 #include "apps/scenario/scenario_reader.hpp"
 #include "tests/apps/command_line/command_fixture.hpp"
 
-namespace plekton::apps {
+namespace plekton::apps::run_estimate_test {
 namespace {
 
 using testing::AllOf;
@@ -62,4 +62,4 @@ TEST_F(RunEstimates, WarnOfARunThatDivergesAtOnce) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::run_estimate_test

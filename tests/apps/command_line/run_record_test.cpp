@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::apps {
+namespace plekton::apps::run_record_test {
 namespace {
 
 using testing::AllOf;
@@ -120,4 +120,4 @@ TEST_F(RunRecord, HasNoDeepestOverlapWhereNoneIsDeep) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::run_record_test

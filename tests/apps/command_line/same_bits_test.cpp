@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <set>
 
-namespace plekton::apps {
+namespace plekton::apps::same_bits_test {
 namespace {
 
 using testing::HasSubstr;
@@ -91,4 +91,4 @@ TEST_F(SameBits, RunRefusesAHashIntervalBelowOneStep) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::same_bits_test

@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-namespace plekton::apps {
+namespace plekton::apps::shape_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -327,4 +327,4 @@ interval = "30 ms"
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::shape_command_test

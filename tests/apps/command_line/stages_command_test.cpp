@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::stages_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -520,4 +520,4 @@ TEST_F(Stages, AreAllLookedAtByCheck) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::stages_command_test

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::start_of_scenes_test {
 namespace {
 
 using testing::HasSubstr;
@@ -267,4 +267,4 @@ TEST_F(StartOfScenes, WriteTheWarningsOfTheirStartIntoTheReportOfTheRun) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::start_of_scenes_test

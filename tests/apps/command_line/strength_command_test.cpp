@@ -12,7 +12,7 @@
 #include <numbers>
 #include <variant>
 
-namespace plekton::apps {
+namespace plekton::apps::strength_command_test {
 namespace {
 
 using dynamics::BondStrength;
@@ -226,4 +226,4 @@ wire = [["1 %", "1 kN"], ["6 %", "1.5 kN"]]
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::strength_command_test

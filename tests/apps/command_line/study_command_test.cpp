@@ -8,7 +8,7 @@
 
 #ifdef PLEKTON_PROGRAM
 
-namespace plekton::apps {
+namespace plekton::apps::study_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -293,6 +293,6 @@ TEST_F(StudyCommand, RefusesANumberThatIsNoRun) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::study_command_test
 
 #endif

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::ties_command_test {
 namespace {
 
 using nlohmann::json;
@@ -278,4 +278,4 @@ TEST_F(TiesCommand, WithNumbersThatCannotBeAreErrors) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::ties_command_test

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::time_step_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -107,4 +107,4 @@ TEST_F(TimeStepAdvice, IsJoinedByPowerIterationIfAsked) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::time_step_command_test

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace plekton::apps {
+namespace plekton::apps::validate_command_test {
 namespace {
 
 using testing::AllOf;
@@ -73,4 +73,4 @@ TEST(ValidateCommand, ListsItsCases) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::validate_command_test

@@ -8,7 +8,7 @@
 
 #include <regex>
 
-namespace plekton::apps {
+namespace plekton::apps::view_command_test {
 namespace {
 
 using testing::AllOf;
@@ -152,4 +152,4 @@ TEST_F(ViewCommand, SaysWhatIsNoPort) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::view_command_test

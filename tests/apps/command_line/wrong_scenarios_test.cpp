@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::wrong_scenarios_test {
 namespace {
 
 using testing::HasSubstr;
@@ -214,4 +214,4 @@ TEST(WrongScenarios, ThatAreNoFilesOfADiskAreRefused) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::wrong_scenarios_test

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace plekton::apps {
+namespace plekton::apps::container_test {
 namespace {
 
 TEST(Container, OfACylinderHoldsBallsThatTouchItsSidesAndNoMore) {
@@ -36,4 +36,4 @@ TEST(Container, OfASurfaceHoldsWhatItSaysIsInside) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::container_test

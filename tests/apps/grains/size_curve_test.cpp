@@ -10,7 +10,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace plekton::apps {
+namespace plekton::apps::size_curve_test {
 namespace {
 
 const std::vector<Sieve> kSieves = {{0.006, 0.0}, {0.008, 0.3}, {0.010, 0.3}, {0.016, 1.0}};
@@ -93,4 +93,4 @@ TEST(SizeCurve, IsContinuousInTheShare) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::size_curve_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::sphere_packing_test {
 namespace {
 
 /// Equal spheres of radius 1 that shall fill a part of a space, small and apart at first.
@@ -158,4 +158,4 @@ TEST(SpherePacking, IsTheSameEachTime) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::sphere_packing_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-namespace plekton::apps {
+namespace plekton::apps::drawn_rows_test {
 namespace {
 
 using testing::Contains;
@@ -52,4 +52,4 @@ TEST(DrawnRows, KeepPeaksBesideWhatIsNoNumberAndGapsAsGaps) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::drawn_rows_test

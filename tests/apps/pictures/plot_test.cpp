@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace plekton::apps {
+namespace plekton::apps::plot_test {
 namespace {
 
 using testing::HasSubstr;
@@ -121,4 +121,4 @@ TEST(GnuplotScript, KeepsPeaksOfLongHistories) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::plot_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::render_test {
 namespace {
 
 RunFolder run_with_frames() {
@@ -34,4 +34,4 @@ TEST(RenderScript, IsTheFileOfTheTree) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::render_test

@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <thread>
 
-namespace plekton::apps {
+namespace plekton::apps::child_process_test {
 namespace {
 
 class Child : public testing::Test {
@@ -80,4 +80,4 @@ TEST(ShellWord, IsInQuotesWhereItHasTo) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::child_process_test

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::clock_checkpoints_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -164,4 +164,4 @@ TEST_F(ClockCheckpointRuns, RefuseAnIntervalThatIsNone) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::clock_checkpoints_test

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::defects_test {
 namespace {
 
 using testing::HasSubstr;
@@ -250,4 +250,4 @@ TEST(Defects, ShellsThatCrossKeepTheirEnergyAndAreNotPassedOverInSilence) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::defects_test

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::faults_test {
 namespace {
 
 using namespace test::frequent_outputs;
@@ -141,4 +141,4 @@ TEST_F(Command, RunWritesNowhereElseWhateverNamesAScenarioGives) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::faults_test

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::first_rank_test {
 namespace {
 
 TEST(FirstRank, AloneWritesIntoTheFolder) {
@@ -75,4 +75,4 @@ TEST(FirstRank, IsTheOnlyOneWhoseFilesGoAnywhere) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::first_rank_test

@@ -8,7 +8,7 @@
 #include <array>
 #include <filesystem>
 
-namespace plekton::apps {
+namespace plekton::apps::history_file_test {
 namespace {
 
 constexpr std::array<dynamics::OutputField, 2> kFields = {{{"force", "N", ""}, {"slip", "m", ""}}};
@@ -70,4 +70,4 @@ TEST_F(HistoryFileTest, GoesOnWhereItWasWhenItToldAndForgetsWhatCameAfter) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::history_file_test

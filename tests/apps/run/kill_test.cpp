@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::kill_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ TEST(InterruptedRun, WritesACheckpointAndSaysHowToGoOn) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::kill_test

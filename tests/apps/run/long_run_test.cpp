@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::long_run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -185,4 +185,4 @@ TEST_F(ManySteps, OfMoreThan32BitsWriteTheSameResults) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::long_run_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::lost_grains_test {
 namespace {
 
 using geometry::id_at;
@@ -141,4 +141,4 @@ TEST(PassesThrough, IsImpossibleForATriangleWithoutArea) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::lost_grains_test

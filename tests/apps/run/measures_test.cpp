@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::measures_test {
 namespace {
 
 using testing::HasSubstr;
@@ -260,4 +260,4 @@ TEST_F(Measured, RefusesPackingsThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::measures_test

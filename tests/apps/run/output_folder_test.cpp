@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::output_folder_test {
 namespace {
 
 using dynamics::OutputError;
@@ -46,4 +46,4 @@ TEST(OutputFolderLock, RefusesAFolderThatItCannotOpen) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::output_folder_test

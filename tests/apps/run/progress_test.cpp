@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace plekton::apps {
+namespace plekton::apps::progress_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -94,4 +94,4 @@ TEST(DurationText, ShowsTwoUnits) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::progress_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::refused_self_contact_test {
 namespace {
 
 TEST(RefusedSelfContact, PointsToTheMembraneWhoseEdgesAreShortestAgainstItsThickness) {
@@ -27,4 +27,4 @@ TEST(RefusedSelfContact, PointsToTheMembraneWhoseEdgesAreShortestAgainstItsThick
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::refused_self_contact_test

@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::resume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -356,4 +356,4 @@ TEST_F(ResumeErrors, VerifySeesThatARunIsAnother) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::resume_test

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::rigid_motions_test {
 namespace {
 
 using testing::HasSubstr;
@@ -102,4 +102,4 @@ TEST_F(RigidBodyRuns, GoOnFromACheckpointToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::rigid_motions_test

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace plekton::apps {
+namespace plekton::apps::run_report_test {
 namespace {
 
 RunReport example() {
@@ -71,4 +71,4 @@ TEST(RunReport, IsWrittenUnderItsName) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::run_report_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::run_warnings_test {
 namespace {
 
 using testing::AllOf;
@@ -120,4 +120,4 @@ TEST(Certificate, IsRedWhereAValueIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::run_warnings_test

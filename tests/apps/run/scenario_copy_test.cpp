@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::scenario_copy_test {
 namespace {
 
 using testing::HasSubstr;
@@ -49,4 +49,4 @@ TEST(ScenarioCopy, LeavesAScenarioThatIsThatFileAsItIs) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::scenario_copy_test

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::seeded_faults_test {
 namespace {
 
 using testing::AllOf;
@@ -283,4 +283,4 @@ TEST_F(SeededFault, AStructureThatCrossesAnotherIsRefused) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::seeded_faults_test

@@ -11,7 +11,7 @@
 #include <ostream>
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::stage_change_test {
 namespace {
 
 constexpr const char* kSameBits = "tests/same_bits/scenes/";
@@ -82,4 +82,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& scene) { return std::string(scene.param.name); });
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::stage_change_test

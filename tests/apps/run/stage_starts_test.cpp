@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::stage_starts_test {
 namespace {
 
 using testing::HasSubstr;
@@ -435,4 +435,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ComputedAgain,
                          [](const auto& again) { return std::string(again.param.scene); });
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::stage_starts_test

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace plekton::apps {
+namespace plekton::apps::stiffness_warnings_test {
 namespace {
 
 using testing::AllOf;
@@ -68,4 +68,4 @@ TEST(StiffnessWarnings, NameTangentialStiffnessesFarAboveTheNormalOnes) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::stiffness_warnings_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::stop_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ TEST_F(Stop, OfATorqueServoRefusesWhatDoesNotGoWithIt) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::stop_test

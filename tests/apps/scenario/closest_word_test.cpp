@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace plekton::apps {
+namespace plekton::apps::closest_word_test {
 namespace {
 
 constexpr std::array<std::string_view, 4> kWords = {"duration", "damping", "gravity", "time_step"};
@@ -31,4 +31,4 @@ TEST(ClosestWord, IsNoneIfNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::closest_word_test

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::grain_table_test {
 namespace {
 
 using geometry::Vec3;
@@ -62,4 +62,4 @@ TEST(GrainTable, OfAFileThatIsNotThereNamesIt) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::grain_table_test

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace plekton::apps {
+namespace plekton::apps::json_schema_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -99,4 +99,4 @@ TEST(ScenarioSchema, SaysWhatEveryKeyMeans) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::json_schema_test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::key_list_test {
 namespace {
 
 using Words = std::set<std::string>;
@@ -207,4 +207,4 @@ TEST(KeyList, HasUnitsRangesAndDefaults) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::key_list_test

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::overrides_test {
 namespace {
 
 using testing::HasSubstr;
@@ -107,4 +107,4 @@ TEST(Overrides, WithALineBreakAreATextAndAddNoTable) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::overrides_test

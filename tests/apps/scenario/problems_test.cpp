@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::problems_test {
 namespace {
 
 TEST(Problems, AreALineEachInTheOrderOfTheirPlaces) {
@@ -24,4 +24,4 @@ TEST(Problems, ShowControlCharactersOfTheInputInsteadOfSendingThemToTheTerminal)
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::problems_test

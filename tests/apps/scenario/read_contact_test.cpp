@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::read_contact_test {
 namespace {
 
 std::string scenario_with(const std::string& contacts) {
@@ -130,4 +130,4 @@ TEST(ReadContact, SaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::read_contact_test

@@ -12,7 +12,7 @@
 
 #include <cstring>
 
-namespace plekton::apps {
+namespace plekton::apps::read_ondem_source_test {
 namespace {
 
 using dynamics::OndemScene;
@@ -149,4 +149,4 @@ TEST_F(OndemSource, SaysInOneProblemWhatIsWrongWithAFile) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::read_ondem_source_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::scenario_mutation_test {
 namespace {
 
 /// A character, a few, or a line of the text changed, doubled or taken away.
@@ -57,4 +57,4 @@ TEST(ScenarioReader, AnswersAnyTextWithAScenarioOrAnInputError) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::scenario_mutation_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plekton::apps {
+namespace plekton::apps::scenario_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -400,4 +400,4 @@ TEST(ScenarioReader, RefusesSievesThatAreTooExtremeToComputeWith) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::scenario_reader_test

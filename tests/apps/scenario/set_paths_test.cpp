@@ -8,7 +8,7 @@
 
 #include <string_view>
 
-namespace plekton::apps {
+namespace plekton::apps::set_paths_test {
 namespace {
 
 using testing::Contains;
@@ -61,4 +61,4 @@ TEST(SetPaths, AreTakenByTheOverrides) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::set_paths_test

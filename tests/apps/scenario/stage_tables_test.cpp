@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::stage_tables_test {
 namespace {
 
 using testing::ElementsAre;
@@ -318,4 +318,4 @@ TEST(StageTable, IsFoundByItsName) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::stage_tables_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::toml_depth_test {
 namespace {
 
 /// A key of this many parts.
@@ -59,4 +59,4 @@ TEST(KeyOfMoreParts, TakesAnyTextThatIsNoToml) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::toml_depth_test

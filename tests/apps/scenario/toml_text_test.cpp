@@ -11,7 +11,7 @@
 #include <initializer_list>
 #include <limits>
 
-namespace plekton::apps {
+namespace plekton::apps::toml_text_test {
 namespace {
 
 using testing::HasSubstr;
@@ -118,4 +118,4 @@ TEST(TablesThatWereMade, AreReadAsAFileWouldBe) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::toml_text_test

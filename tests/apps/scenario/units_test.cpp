@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-namespace plekton::apps {
+namespace plekton::apps::units_test {
 namespace {
 
 using testing::HasSubstr;
@@ -91,4 +91,4 @@ TEST(Units, CutShortAreRefused) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::units_test

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::apps {
+namespace plekton::apps::build_scene_test {
 namespace {
 
 using dynamics::Held;
@@ -393,4 +393,4 @@ TEST_F(BuildScene, TakesGrainsFromATable) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::build_scene_test

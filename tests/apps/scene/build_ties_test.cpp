@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::build_ties_test {
 namespace {
 
 using dynamics::MaterialPoint;
@@ -230,4 +230,4 @@ TEST(BuildTies, ToABodySayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::build_ties_test

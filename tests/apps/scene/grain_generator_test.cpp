@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::apps {
+namespace plekton::apps::grain_generator_test {
 namespace {
 
 using testing::HasSubstr;
@@ -312,4 +312,4 @@ TEST(DistanceToTriangle, KnowsCollinearAndPointTriangles) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::grain_generator_test

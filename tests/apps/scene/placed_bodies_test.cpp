@@ -9,7 +9,7 @@
 
 #include <numbers>
 
-namespace plekton::apps {
+namespace plekton::apps::placed_bodies_test {
 namespace {
 
 using dynamics::Held;
@@ -244,4 +244,4 @@ TEST(PlacedBodies, RefuseVelocitiesThatAreNotOneForEach) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::placed_bodies_test

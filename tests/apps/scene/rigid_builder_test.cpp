@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace plekton::apps {
+namespace plekton::apps::rigid_builder_test {
 namespace {
 
 using dynamics::Held;
@@ -177,4 +177,4 @@ TEST(RigidBuilder, RefusesABodyThatIsCalledLikeGrains) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::rigid_builder_test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::stage_bodies_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -481,4 +481,4 @@ TEST_F(StageBodies, AreRefusedByTheirNamesWhereTheyAreWrong) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::stage_bodies_test

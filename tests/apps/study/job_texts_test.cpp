@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace plekton::apps {
+namespace plekton::apps::job_texts_test {
 namespace {
 
 using testing::HasSubstr;
@@ -33,4 +33,4 @@ TEST(JobTexts, NameTheTasksOfAnArrayByRanges) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::job_texts_test

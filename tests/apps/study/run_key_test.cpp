@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::run_key_test {
 namespace {
 
 constexpr const char* kText = "[simulation]\nduration = \"1 s\"\n[[membranes]]\nmesh = \"a.off\"\n";
@@ -49,4 +49,4 @@ TEST_F(RunKey, NeedsATextThatIsToml) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::run_key_test

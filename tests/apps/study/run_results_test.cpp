@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::run_results_test {
 namespace {
 
 using testing::HasSubstr;
@@ -92,4 +92,4 @@ TEST_F(RunResults, SayWhichFileIsMissing) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::run_results_test

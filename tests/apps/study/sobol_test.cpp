@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-namespace plekton::apps {
+namespace plekton::apps::sobol_test {
 namespace {
 
 /// The first points as Joe and Kuo print them in their notes on generating Sobol sequences (2008),
@@ -46,4 +46,4 @@ TEST(SobolPoints, BeginWithThoseOfAShorterSequence) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::sobol_test

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::study_test {
 namespace {
 
 using testing::AllOf;
@@ -115,4 +115,4 @@ TEST_F(StudyFile, RefusesMoreRunsThanItCanCount) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::study_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::value_text_test {
 namespace {
 
 /// What --set makes of a text is the value again.
@@ -43,4 +43,4 @@ TEST(NumberWithUnit, IsANumberAndWhatFollows) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::value_text_test

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::apps::yade {
+namespace plekton::apps::yade::material_table_test {
 namespace {
 
 using testing::AllOf;
@@ -81,4 +81,4 @@ TEST(MaterialTable, TakesHertzForMindlin) {
 }
 
 }  // namespace
-}  // namespace plekton::apps::yade
+}  // namespace plekton::apps::yade::material_table_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace plekton::apps::yade {
+namespace plekton::apps::yade::node_boxes_test {
 namespace {
 
 using geometry::Box;
@@ -80,4 +80,4 @@ TEST(BoxesAround, LeaveOutWhatIsAtThePlaceOfOneThatIsNotChosen) {
 }
 
 }  // namespace
-}  // namespace plekton::apps::yade
+}  // namespace plekton::apps::yade::node_boxes_test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::apps::yade {
+namespace plekton::apps::yade::recorded_scenes_test {
 namespace {
 
 Scene recorded_scene(const std::string& name) {
@@ -65,4 +65,4 @@ INSTANTIATE_TEST_SUITE_P(OfYade, RecordedScene,
                          });
 
 }  // namespace
-}  // namespace plekton::apps::yade
+}  // namespace plekton::apps::yade::recorded_scenes_test

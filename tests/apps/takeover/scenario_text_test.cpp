@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::apps::yade {
+namespace plekton::apps::yade::scenario_text_test {
 namespace {
 
 using testing::Contains;
@@ -187,4 +187,4 @@ TEST(ScenarioText, SaysWhatIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace plekton::apps::yade
+}  // namespace plekton::apps::yade::scenario_text_test

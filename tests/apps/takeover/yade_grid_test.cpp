@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::apps::yade {
+namespace plekton::apps::yade::yade_grid_test {
 namespace {
 
 using testing::Contains;
@@ -79,4 +79,4 @@ TEST(YadeGrid, SaysWhatAMembraneCannotSay) {
 }
 
 }  // namespace
-}  // namespace plekton::apps::yade
+}  // namespace plekton::apps::yade::yade_grid_test

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace plekton::apps::yade {
+namespace plekton::apps::yade::yade_scene_test {
 namespace {
 
 constexpr std::string_view kTold = R"({"iteration": 7, "time": 0.5, "dt": 1e-3, "periodic": false,
@@ -48,4 +48,4 @@ TEST(YadeScene, IsRefusedWhereItIsNotWhatIsExpected) {
 }
 
 }  // namespace
-}  // namespace plekton::apps::yade
+}  // namespace plekton::apps::yade::yade_scene_test

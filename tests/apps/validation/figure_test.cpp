@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace plekton::apps {
+namespace plekton::apps::figure_test {
 namespace {
 
 using testing::HasSubstr;
@@ -61,4 +61,4 @@ TEST(SvgFigure, CanBeOfConstantsAndOfNothing) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::figure_test

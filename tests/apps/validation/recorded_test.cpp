@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace plekton::apps {
+namespace plekton::apps::recorded_test {
 namespace {
 
 TEST(RecordedCurve, IsOfTheRowsBelowCommentsAndHeads) {
@@ -31,4 +31,4 @@ TEST(RecordedCurve, HasWhatWasRecorded) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::recorded_test

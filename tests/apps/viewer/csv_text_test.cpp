@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::apps {
+namespace plekton::apps::csv_text_test {
 namespace {
 
 using testing::ElementsAre;
@@ -29,4 +29,4 @@ TEST(CsvText, IsReadAsItWasWritten) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::csv_text_test

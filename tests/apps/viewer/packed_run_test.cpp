@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace plekton::apps {
+namespace plekton::apps::packed_run_test {
 namespace {
 
 using testing::HasSubstr;
@@ -229,4 +229,4 @@ TEST_F(PackedRunOf, BeginsAnewWithAnotherRunInTheSameFolder) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::packed_run_test

@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace plekton::apps {
+namespace plekton::apps::packing_test {
 namespace {
 
 std::vector<double> there_and_back(const std::vector<double>& values, std::size_t components,
@@ -143,4 +143,4 @@ TEST(Packing, EndsBase64AsTheStandardSays) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::packing_test

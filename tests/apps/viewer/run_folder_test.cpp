@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace plekton::apps {
+namespace plekton::apps::run_folder_test {
 namespace {
 
 using testing::HasSubstr;
@@ -148,4 +148,4 @@ TEST(RunFolder, ReadsHistoriesOfBodiesTiesAndMeasuresInTheOrderOfTheirNames) {
 }
 
 }  // namespace
-}  // namespace plekton::apps
+}  // namespace plekton::apps::run_folder_test

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <utility>
 
-namespace plekton::contact {
+namespace plekton::contact::curvature_test {
 namespace {
 
 using test::Random;
@@ -122,4 +122,4 @@ TEST(HertzRadius, IsThatOfASphereWhereTheRadiiAreEqualAndGoesThereSteadily) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::curvature_test

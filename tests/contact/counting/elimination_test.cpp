@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-namespace plekton::contact {
+namespace plekton::contact::elimination_test {
 namespace {
 
 using test::Random;
@@ -94,4 +94,4 @@ TEST(Elimination, CouplesALongChainNoMoreThanItsLinksDo) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::elimination_test

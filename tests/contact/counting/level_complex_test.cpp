@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::level_complex_test {
 namespace {
 
 /// W and slope by vertex, for springs of 1 N/m.
@@ -46,4 +46,4 @@ TEST(LevelComplex, SharesRingsAlikeWhereLinksAreMerged) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::level_complex_test

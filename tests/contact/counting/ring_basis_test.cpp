@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::contact {
+namespace plekton::contact::ring_basis_test {
 namespace {
 
 using namespace test;
@@ -61,4 +61,4 @@ TEST(RingBasis, HasNoHoleWhereTheOnlyRingIsFilled) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::ring_basis_test

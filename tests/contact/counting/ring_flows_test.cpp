@@ -7,7 +7,7 @@
 
 #include <functional>
 
-namespace plekton::contact {
+namespace plekton::contact::ring_flows_test {
 namespace {
 
 using namespace test;
@@ -250,4 +250,4 @@ TEST(RingFlows, LeaveEveryBridgeAndKeepSmallSharesToTheirLastDigits) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::ring_flows_test

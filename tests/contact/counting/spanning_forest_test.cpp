@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace plekton::contact {
+namespace plekton::contact::spanning_forest_test {
 namespace {
 
 using namespace test;
@@ -83,4 +83,4 @@ TEST(SpanningForest, PutsALoopInNeitherList) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::spanning_forest_test

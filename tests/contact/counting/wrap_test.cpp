@@ -11,7 +11,7 @@
 /// What wires and nets that wrap a ball push with (S1 and S8 of the open points of contacts that
 /// spread). The range is 1 m and springs have 1 N/m. That the energy is the one of its levels is
 /// checked in patch_reference_test, that the force is its gradient in contact_energy_test.
-namespace plekton::test {
+namespace plekton::test::wrap_test {
 namespace {
 
 /// A wire around the ball's lower half, all its bars as deep.
@@ -220,4 +220,4 @@ TEST(SphereOnABend, FeelsForcesThatFollowWhereAWirePassesThroughStraight) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::wrap_test

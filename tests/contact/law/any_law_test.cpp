@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::contact {
+namespace plekton::contact::any_law_test {
 namespace {
 
 using Law = AnyLaw;
@@ -61,4 +61,4 @@ TEST(AnyLaw, TakesANewHistoryForOneOfWhicheverLawAsks) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::any_law_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::contact {
+namespace plekton::contact::cohesive_frictional_test {
 namespace {
 
 const Body kBody{{1e6, 0.5, 0.4}, 0.1};
@@ -106,4 +106,4 @@ TEST(CohesiveFrictional, KeepsItsBooks) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::cohesive_frictional_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace plekton::contact {
+namespace plekton::contact::dmt_adhesion_test {
 namespace {
 
 const Body kGrain{{1e9, 0.0, 0.5, 0.25}, 1e-4};
@@ -51,4 +51,4 @@ TEST(DmtAdhesion, HasFrictionWithoutLoad) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::dmt_adhesion_test

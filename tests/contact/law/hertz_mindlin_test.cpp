@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::contact {
+namespace plekton::contact::hertz_mindlin_test {
 namespace {
 
 /// Glass on steel, as in any table of Hertz' formula.
@@ -53,4 +53,4 @@ TEST(HertzMindlin, GivesUpTangentialForceAsItIsUnloaded) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::hertz_mindlin_test

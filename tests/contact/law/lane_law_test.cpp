@@ -12,7 +12,7 @@
 
 /// Every law side by side against one contact after the other: the same bits in every lane, also
 /// beside lanes whose numbers are none.
-namespace plekton::contact {
+namespace plekton::contact::lane_law_test {
 namespace {
 
 using geometry::RowsOf;
@@ -134,4 +134,4 @@ TYPED_TEST(LaneLawOf, HasTheBitsOfOneContactAfterTheOther) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::lane_law_test

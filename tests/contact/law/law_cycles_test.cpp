@@ -6,7 +6,7 @@
 #include <numbers>
 
 /// Tries to gain energy from a contact law: smooth random cycles of gap, slip and rotation.
-namespace plekton::contact {
+namespace plekton::contact::law_cycles_test {
 namespace {
 
 constexpr double kSize = 1e-4;  ///< m, of the overlaps
@@ -122,4 +122,4 @@ TYPED_TEST(LawCycles, GainNoEnergy) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::law_cycles_test

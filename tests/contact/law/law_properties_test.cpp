@@ -9,7 +9,7 @@
 #include <numbers>
 
 /// What every contact law has to obey. A new law joins the list and is tested.
-namespace plekton::contact {
+namespace plekton::contact::law_properties_test {
 namespace {
 
 using test::Random;
@@ -268,4 +268,4 @@ TEST(LinearFrictional, LetsGoOfTheTangentialForceWithTheNormalForce) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::law_properties_test

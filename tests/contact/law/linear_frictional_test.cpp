@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::contact {
+namespace plekton::contact::linear_frictional_test {
 namespace {
 
 using Parameters = LinearFrictional::Parameters;
@@ -72,4 +72,4 @@ TEST(LinearFrictional, GivesBondsTheStiffnessOfThePairToo) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::linear_frictional_test

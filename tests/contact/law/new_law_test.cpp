@@ -16,7 +16,7 @@
 #include <memory>
 #include <vector>
 
-namespace plekton::contact {
+namespace plekton::contact::new_law_test {
 namespace {
 
 using geometry::Sphere;
@@ -169,4 +169,4 @@ TYPED_TEST(NewLawInLanes, KeepsItsWholeHistory) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::new_law_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::contact {
+namespace plekton::contact::restitution_test {
 namespace {
 
 /// Schwager & Poeschel (2007), for a damping ratio below 1 / sqrt(2).
@@ -77,4 +77,4 @@ TEST(Dashpot, GivesTheRestitutionThatWasAskedForAtAnySpeed) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::restitution_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::contact {
+namespace plekton::contact::rolling_twisting_test {
 namespace {
 
 using Law = Sum<LinearFrictional, RollingTwisting>;
@@ -57,4 +57,4 @@ TEST(RollingTwisting, TurnsItsMomentWithTheContactButNotTheTwist) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::rolling_twisting_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace plekton::contact {
+namespace plekton::contact::plane_neighbours_test {
 namespace {
 
 using test::Random;
@@ -81,4 +81,4 @@ TEST(PlaneNeighbours, StayWhileNothingMovesAcrossAPlane) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::plane_neighbours_test

@@ -7,7 +7,7 @@
 
 /// Contacts give nothing to the whole: forces and moments of every kind of contact cancel to
 /// round-off, and the elastic part is the gradient of its energy.
-namespace plekton::test {
+namespace plekton::test::momentum_test {
 namespace {
 
 using Law = LinearFrictional;
@@ -160,4 +160,4 @@ TEST(ElasticForce, IsTheGradientOfTheEnergyWhereNoRingCloses) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::momentum_test

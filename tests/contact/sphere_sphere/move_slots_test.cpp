@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace plekton::contact {
+namespace plekton::contact::move_slots_test {
 namespace {
 
 struct Thing {
@@ -53,4 +53,4 @@ TEST(MoveSlots, DoAsACopyWould) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::move_slots_test

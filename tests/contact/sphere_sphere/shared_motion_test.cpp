@@ -9,7 +9,7 @@
 #include <mutex>
 #include <vector>
 
-namespace plekton::contact {
+namespace plekton::contact::shared_motion_test {
 namespace {
 
 constexpr std::size_t kCount = 4000;
@@ -164,4 +164,4 @@ TEST(SharedMotion, IsOfNoUseWhereAllIsCommon) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::shared_motion_test

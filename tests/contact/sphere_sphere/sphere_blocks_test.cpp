@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::contact {
+namespace plekton::contact::sphere_blocks_test {
 namespace {
 
 using geometry::IndexPair;
@@ -211,4 +211,4 @@ TEST(SphereBlocks, OfNoPairsHaveNoRows) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::sphere_blocks_test

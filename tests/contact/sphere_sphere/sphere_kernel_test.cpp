@@ -17,7 +17,7 @@
 
 // The kernel for contacts side by side against its plain description, one pair after the other: the
 // same bits.
-namespace plekton::contact {
+namespace plekton::contact::sphere_kernel_test {
 namespace {
 
 constexpr double kStep = 1e-5;  // s
@@ -295,4 +295,4 @@ TEST(SphereContacts, DoNotDependOnWhoTouchedWhenTheListWasMade) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::sphere_kernel_test

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace plekton::test {
+namespace plekton::test::allocation_test {
 namespace {
 
 using contact::Link;
@@ -94,4 +94,4 @@ TEST(Allocation, DoesNotHappenWhenWarmRingsShareWhatTheyGiveBack) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::allocation_test

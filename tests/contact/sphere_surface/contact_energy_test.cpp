@@ -7,7 +7,7 @@
 
 /// Whether the force of a contact is the gradient of its energy, whatever moves: the ball, or the
 /// nodes of the surface.
-namespace plekton::test {
+namespace plekton::test::contact_energy_test {
 namespace {
 
 struct Law {
@@ -215,4 +215,4 @@ TEST(ContactEnergy, HasTheForceAsItsGradientOnClosedBodiesInsideTheSphere) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::contact_energy_test

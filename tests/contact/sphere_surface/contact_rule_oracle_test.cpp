@@ -12,7 +12,7 @@
 
 /// The reference in C++ against the contact rule's reference in Python, if that and numpy are at
 /// hand.
-namespace plekton::test {
+namespace plekton::test::contact_rule_oracle_test {
 namespace {
 
 const std::filesystem::path kOracle =
@@ -142,4 +142,4 @@ TEST(ContactRuleReference, CountsOneContactOnAnEdgeOfAFlatSheet) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::contact_rule_oracle_test

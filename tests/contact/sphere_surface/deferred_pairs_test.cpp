@@ -11,7 +11,7 @@
 #include <algorithm>
 
 /// Cells that sleep do not change anything but the time it takes.
-namespace plekton::test {
+namespace plekton::test::deferred_pairs_test {
 namespace {
 
 using Law = LinearFrictional;
@@ -165,4 +165,4 @@ TEST(SurfaceContacts, PushTheSameToTheLastBitWhetherCellsAreDeferredOrNot) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::deferred_pairs_test

@@ -8,7 +8,7 @@
 
 /// A grain of radius 1 pressed on nets and on plates with a hole: it is never pulled in, and what
 /// carries it grows with depth.
-namespace plekton::test {
+namespace plekton::test::holes_test {
 namespace {
 
 constexpr double kDeepest = 0.05;  ///< m, overlap
@@ -299,4 +299,4 @@ TEST(GrainOnThreeSidesOfACube, FeelsNoJumpWhereDistancesTieButForRounding) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::holes_test

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 /// A ball that covers closed bodies from all sides.
-namespace plekton::test {
+namespace plekton::test::hollows_test {
 namespace {
 
 /// What passes from one top to another where two tie, in contacts of the depth of the tops: of a
@@ -168,4 +168,4 @@ TEST(GrainThatCoversTwoHollowsWithACommonWall, FeelsAForceThatFollowsItsMotion) 
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::hollows_test

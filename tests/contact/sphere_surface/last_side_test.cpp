@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 /// A ball whose centre comes to lie exactly on the surface stays on the side from which it came.
-namespace plekton::test {
+namespace plekton::test::last_side_test {
 namespace {
 
 constexpr Material kRough{1e6, 0.5, 1e3};  // no sliding within the tests below
@@ -90,4 +90,4 @@ TEST(NormalOnTheLastSide, IsTheFeaturesOwnWhereTheLastOneLiesInIt) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::last_side_test

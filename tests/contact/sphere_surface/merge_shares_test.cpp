@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace plekton::contact {
+namespace plekton::contact::merge_shares_test {
 namespace {
 
 std::vector<double> shares_of(MergeShares& merging) {
@@ -97,4 +97,4 @@ TEST(MergeShares, AddUpToOneAndChangeInProportionToTheDistances) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::merge_shares_test

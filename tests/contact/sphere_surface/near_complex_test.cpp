@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::near_complex_test {
 namespace {
 
 std::uint32_t count_below(const NearComplex& complex, double level) {
@@ -107,4 +107,4 @@ TEST(NearComplex, HasTheHolesThatTheCriticalFeaturesCountAtEveryLevel) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::near_complex_test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 /// A ball that slides over a surface: one contact on a flat one, no jumps on any.
-namespace plekton::test {
+namespace plekton::test::patch_continuity_test {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
@@ -216,4 +216,4 @@ TEST(SphereInACorner, IsTwoContactsWhenTheEdgeIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::patch_continuity_test

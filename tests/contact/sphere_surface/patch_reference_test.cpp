@@ -7,7 +7,7 @@
 
 /// The patches of a ball against the reference "cells minus seams", on surfaces of every kind, and
 /// what bars that wrap the ball give back against its levels.
-namespace plekton::test {
+namespace plekton::test::patch_reference_test {
 namespace {
 
 /// Compares one surface at many places. What it saw is counted, so that a test cannot pass by
@@ -197,4 +197,4 @@ TEST(PatchAgainstReference, AgreesOnRandomNonManifoldComplexes) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::patch_reference_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::patch_successors_test {
 namespace {
 
 /// A surface with a ball over it.
@@ -69,4 +69,4 @@ TEST(PatchSuccessors, AreAllPatchesOfASplitContactEachOnce) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::patch_successors_test

@@ -9,7 +9,7 @@
 
 /// Rings where rounding decides: features at the range, levels that tie, a ball's centre on the
 /// surface; and very many rings.
-namespace plekton::test {
+namespace plekton::test::ring_limits_test {
 namespace {
 
 /// A range and its neighbours, from some last digits below it to 1e-9 above.
@@ -155,4 +155,4 @@ TEST(RingsOfAFineNet, AreOneContactAtLeastAndLittleMoreForEachRing) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::ring_limits_test

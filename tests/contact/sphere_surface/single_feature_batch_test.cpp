@@ -13,7 +13,7 @@
 #include <cstring>
 
 /// Balls side by side on the insides of facets, against one after the other: the same bits.
-namespace plekton::test {
+namespace plekton::test::single_feature_batch_test {
 namespace {
 
 using LinearLaw = LinearFrictional;
@@ -299,4 +299,4 @@ TEST_P(SingleFeatureBatchOf, LeavesToTheGeneralWayWhatIsNotCertain) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::single_feature_batch_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::single_feature_contact_test {
 namespace {
 
 using Law = LinearFrictional;
@@ -71,4 +71,4 @@ TEST(LoneContact, HasTheStateOfAPatchToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::single_feature_contact_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <random>
 
-namespace plekton::contact::structure {
+namespace plekton::contact::structure::clearances_test {
 namespace {
 
 using geometry::Vec3;
@@ -77,4 +77,4 @@ TEST(Clearances, NeverMissAPairThatComesIntoRange) {
 }
 
 }  // namespace
-}  // namespace plekton::contact::structure
+}  // namespace plekton::contact::structure::clearances_test

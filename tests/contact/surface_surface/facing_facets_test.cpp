@@ -10,7 +10,7 @@
 #include <random>
 #include <tuple>
 
-namespace plekton::contact::structure {
+namespace plekton::contact::structure::facing_facets_test {
 namespace {
 
 constexpr double kRange = 0.3;
@@ -175,4 +175,4 @@ TEST(FacingFacetsAlone, DoNothingWithoutArea) {
 }
 
 }  // namespace
-}  // namespace plekton::contact::structure
+}  // namespace plekton::contact::structure::facing_facets_test

@@ -13,7 +13,7 @@
 /// Sheets that lie flat on each other, their meshes registered or nearly so. k = 1 N/m: a force
 /// over the overlap is a number of contacts, and a square of one range (sum of both radii) counts
 /// for one.
-namespace plekton::test {
+namespace plekton::test::flat_sheets_test {
 namespace {
 
 constexpr double kRange = 0.1;
@@ -302,4 +302,4 @@ TEST(FlatSheets, ChangeTheirForcesInProportionToTheStep) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::flat_sheets_test

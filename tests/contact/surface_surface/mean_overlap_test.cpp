@@ -13,7 +13,7 @@
 #include <vector>
 
 /// What structures on structures are told about their contacts: how deep, how many, how stiff.
-namespace plekton::test {
+namespace plekton::test::mean_overlap_test {
 namespace {
 
 using contact::AnyLaw;
@@ -119,4 +119,4 @@ TEST(MeanOverlap, GivesStructuresTheStiffnessOfHertzAndMindlin) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::mean_overlap_test

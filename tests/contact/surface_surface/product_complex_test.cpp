@@ -10,7 +10,7 @@
 #include <deque>
 #include <numeric>
 
-namespace plekton::test {
+namespace plekton::test::product_complex_test {
 namespace {
 
 using contact::structure::ProductComplex;
@@ -102,4 +102,4 @@ TEST(ProductComplex, KnowsWhichPairsHaveAPlace) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::product_complex_test

@@ -11,7 +11,7 @@
 #include <vector>
 
 /// Sheets in one plane, rim to rim. k = 1 N/m: a force over the overlap is a number of contacts.
-namespace plekton::test {
+namespace plekton::test::rim_share_test {
 namespace {
 
 constexpr double kRange = 0.1;
@@ -96,4 +96,4 @@ TEST(Rims, SetInWithoutAJumpAsASheetSlidesOffAnother) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::rim_share_test

@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-namespace plekton::contact::structure {
+namespace plekton::contact::structure::ring_search_test {
 namespace {
 
 constexpr double kLeastLife = 1e-15;
@@ -77,4 +77,4 @@ TEST(RingSearch, TakesWhatRoundingTearsApartAsOneLevel) {
 }
 
 }  // namespace
-}  // namespace plekton::contact::structure
+}  // namespace plekton::contact::structure::ring_search_test

@@ -17,7 +17,7 @@
 #include <vector>
 
 /// Friction of sheets that lie on each other is a field.
-namespace plekton::test {
+namespace plekton::test::spread_contacts_test {
 namespace {
 
 constexpr double kRange = 0.02;
@@ -508,4 +508,4 @@ TEST(SpreadFriction, LosesNoMoreThanANinthWherePointsOfContactTwoToOneSplit) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::spread_contacts_test

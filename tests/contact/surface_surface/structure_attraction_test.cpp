@@ -8,7 +8,7 @@
 #include <numbers>
 
 /// Structures that attract each other where they touch.
-namespace plekton::test {
+namespace plekton::test::structure_attraction_test {
 namespace {
 
 using contact::DmtAdhesion;
@@ -82,4 +82,4 @@ TEST(StructureAttraction, PushesAgainstTheGradientOfItsEnergy) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::structure_attraction_test

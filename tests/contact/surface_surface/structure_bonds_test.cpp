@@ -12,7 +12,7 @@
 
 /// Structures that are glued to each other: k = 1 N/m for a contact, which a bond stretches by
 /// kLimit before it fails.
-namespace plekton::test {
+namespace plekton::test::structure_bonds_test {
 namespace {
 
 using contact::CohesiveFrictional;
@@ -351,4 +351,4 @@ TEST(StructureBonds, HoldASheetThatIsFoldedOver) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::structure_bonds_test

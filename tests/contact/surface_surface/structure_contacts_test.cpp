@@ -10,7 +10,7 @@
 #include <numbers>
 
 /// Structure against structure: k = 1 N/m, so a force over the overlap is a number of contacts.
-namespace plekton::test {
+namespace plekton::test::structure_contacts_test {
 namespace {
 
 constexpr double kRange = 0.1;
@@ -408,4 +408,4 @@ TEST(StructureContacts, GainNoEnergyInAClosedCycle) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::structure_contacts_test

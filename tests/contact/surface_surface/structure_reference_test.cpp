@@ -10,7 +10,7 @@
 /// Structure against structure where they touch at points, against the reference "cells minus
 /// seams": chains, folded sheets, corners of shells. Chains that bend around the other body keep
 /// more of their contacts than that (wrapped_joints_test.cpp).
-namespace plekton::test {
+namespace plekton::test::structure_reference_test {
 namespace {
 
 constexpr double kRange = 0.1;
@@ -149,4 +149,4 @@ TEST(StructureContactsAgainstReference, AgreeOnChainsOverFoldsAndCorners) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::structure_reference_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 /// Regions of contact of two structures that close rings: counted by pieces, from one energy.
-namespace plekton::test {
+namespace plekton::test::structure_rings_test {
 namespace {
 
 constexpr double kRange = 0.1;
@@ -141,4 +141,4 @@ TEST(StructureRings, OfBarsOnBarsNeverPushLessThanPieces) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::structure_rings_test

@@ -13,7 +13,7 @@
 #include <random>
 
 /// Chains of bars that wrap around a body.
-namespace plekton::test {
+namespace plekton::test::wrapped_joints_test {
 namespace {
 
 using std::numbers::pi;
@@ -262,4 +262,4 @@ TEST(Wrap, ResistsSlipByAllThatPresses) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::wrapped_joints_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace plekton::contact {
+namespace plekton::contact::interpolation_test {
 namespace {
 
 using geometry::CorePoint;
@@ -98,4 +98,4 @@ TEST(Interpolation, FollowsARigidMotion) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::interpolation_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <map>
 
-namespace plekton::contact {
+namespace plekton::contact::rekey_test {
 namespace {
 
 using geometry::IndexPair;
@@ -66,4 +66,4 @@ TEST(Rekey, FindsWhereTheKeysOfAnIndexBegin) {
 }
 
 }  // namespace
-}  // namespace plekton::contact
+}  // namespace plekton::contact::rekey_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::break_contacts_test {
 namespace {
 
 using test::BreakingSimulation;
@@ -294,4 +294,4 @@ TEST(BreakContacts, BreakingAllBondsInAnyOrderLeavesTheIncidenceOfASurfaceBuiltA
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::break_contacts_test

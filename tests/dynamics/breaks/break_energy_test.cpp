@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::break_energy_test {
 namespace {
 
 using test::BreakingSimulation;
@@ -253,4 +253,4 @@ TEST(BreakEnergy, TrackingIsNothingWhereOneContactGoesOverFlatFacets) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::break_energy_test

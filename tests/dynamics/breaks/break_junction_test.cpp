@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::break_junction_test {
 namespace {
 
 using test::BreakingSimulation;
@@ -104,4 +104,4 @@ TEST(BreakJunction, D9AWireIsHeldByOneContactAndDraggedByOneSpringAcrossIt) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::break_junction_test

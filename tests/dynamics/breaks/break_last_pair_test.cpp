@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::break_last_pair_test {
 namespace {
 
 using test::BreakingSimulation;
@@ -130,4 +130,4 @@ TEST(BreakLastPair, NeverDisturbsWhatIsLeftOfRandomBodiesThatCross) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::break_last_pair_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::break_laws_test {
 namespace {
 
 using contact::AnyLaw;
@@ -82,4 +82,4 @@ INSTANTIATE_TEST_SUITE_P(Of, BreakLaws, testing::ValuesIn(test::kLaws),
                          [](const auto& item) { return item.param.name; });
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::break_laws_test

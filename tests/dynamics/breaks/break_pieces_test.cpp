@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::break_pieces_test {
 namespace {
 
 using test::BreakingSimulation;
@@ -287,4 +287,4 @@ TEST(BreakPieces, AnyNumberOfThreadsGivesTheSameBitsThroughBreaks) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::break_pieces_test

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <set>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::broken_elements_test {
 namespace {
 
 using test::bond_between;
@@ -108,4 +108,4 @@ TEST_F(TwoFacets, ABondWithoutElementsTakesNothingAway) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::broken_elements_test

@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::sheet_tear_test {
 namespace {
 
 using geometry::NodeId;
@@ -219,4 +219,4 @@ TEST(BreakCylinder, RefusesWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::sheet_tear_test

@@ -17,7 +17,7 @@
 #include <limits>
 #include <sstream>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::checkpoint_file_test {
 namespace {
 
 using geometry::StateTree;
@@ -210,4 +210,4 @@ TEST_F(CheckpointFile, RefusesOneThatLeadsToAnotherFile) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::checkpoint_file_test

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <stdexcept>
 
-namespace plekton::dynamics::hdf5 {
+namespace plekton::dynamics::hdf5::trial_test {
 namespace {
 
 TEST(Trial, TellsWhatKillsAProcess) {
@@ -39,4 +39,4 @@ TEST(Trial, KeepsNothingOfWhatIsDone) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics::hdf5
+}  // namespace plekton::dynamics::hdf5::trial_test

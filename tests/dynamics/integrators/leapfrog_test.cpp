@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::leapfrog_test {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
@@ -355,4 +355,4 @@ TEST(Leapfrog, TakesMotionThatIsNoNumberForInfinitelyFast) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::leapfrog_test

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::nodes_of_ranks_test {
 namespace {
 
 constexpr double kRadius = 5e-3;  // m
@@ -161,4 +161,4 @@ TEST(NodesOfRanks, MoveOnlySomeOfTheSpheresEach) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::nodes_of_ranks_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::applied_loads_test {
 namespace {
 
 using dynamics::Held;
@@ -85,4 +85,4 @@ TEST(AppliedLoads, GiveTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::applied_loads_test

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace plekton::test {
+namespace plekton::test::damped_sheets_test {
 namespace {
 
 using dynamics::FacetDashpot;
@@ -193,4 +193,4 @@ TEST(DampedSheets, AreRefusedWithAFacetThatIsNotThereOrANegativeRatio) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::damped_sheets_test

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace plekton::test {
+namespace plekton::test::gravity_ramp_test {
 namespace {
 
 using dynamics::TimeTable;
@@ -52,4 +52,4 @@ TEST(GravityRamp, IsNoWorkWhereTheFactorStays) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::gravity_ramp_test

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::ground_springs_test {
 namespace {
 
 using dynamics::GroundSprings;
@@ -73,4 +73,4 @@ TEST(GroundSprings, AreRefusedWithNegativeStiffness) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::ground_springs_test

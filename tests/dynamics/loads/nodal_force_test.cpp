@@ -8,7 +8,7 @@
 
 #include <limits>
 
-namespace plekton::test {
+namespace plekton::test::nodal_force_test {
 namespace {
 
 using dynamics::Held;
@@ -105,4 +105,4 @@ TEST(NodalForce, IsRefusedIfItIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::nodal_force_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::own_force_test {
 namespace {
 
 /// Balls of 4 kg and radius 0.1 m in a row, 1 m apart.
@@ -139,4 +139,4 @@ TEST(Loads, ShortenAChosenStepAsSoonAsAPressureNeedsIt) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::own_force_test

@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace plekton::test {
+namespace plekton::test::plane_servo_test {
 namespace {
 
 using dynamics::PlaneMotion;
@@ -401,4 +401,4 @@ TEST(PlaneServo, IsRefusedWithoutATargetOrWithAPlaneThatIsDrivenAlready) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::plane_servo_test

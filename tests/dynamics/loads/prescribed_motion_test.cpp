@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace plekton::test {
+namespace plekton::test::prescribed_motion_test {
 namespace {
 
 using dynamics::Held;
@@ -271,4 +271,4 @@ TEST(PrescribedMotion, IsRefusedForNodesThatAreNotThereOrNamedTwice) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::prescribed_motion_test

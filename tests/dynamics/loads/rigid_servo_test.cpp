@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::rigid_servo_test {
 namespace {
 
 using geometry::NodeId;
@@ -207,4 +207,4 @@ TEST(RigidServo, IsRefusedOnABodyThatIsNotThereOrHeld) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::rigid_servo_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::surface_pressure_test {
 namespace {
 
 using dynamics::Gas;
@@ -336,4 +336,4 @@ TEST(SurfacePressure, IsRefusedOnFacetsThatDoNotGoTogether) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::surface_pressure_test

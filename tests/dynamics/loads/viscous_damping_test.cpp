@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::viscous_damping_test {
 namespace {
 
 using dynamics::BeamDamping;
@@ -181,4 +181,4 @@ TEST(ViscousDamping, IsRefusedOutOfRange) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::viscous_damping_test

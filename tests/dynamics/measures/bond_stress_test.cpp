@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::bond_stress_test {
 namespace {
 
 constexpr double kRadius = 0.01;  // m
@@ -41,4 +41,4 @@ TEST(BondStress, OfABarIsAxialAlone) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::bond_stress_test

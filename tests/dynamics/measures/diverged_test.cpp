@@ -35,7 +35,7 @@ static_assert(contact::ContactLaw<Pump>);
 
 }  // namespace plekton::test
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::diverged_test {
 namespace {
 
 using testing::AllOf;
@@ -182,4 +182,4 @@ TEST(Diverged, IsNothingAPlaneThatArrivesFastDoes) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::diverged_test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::test {
+namespace plekton::test::energy_test {
 namespace {
 
 using dynamics::Held;
@@ -302,4 +302,4 @@ TEST(Energy, TakesWhatIsLeftOfWorkThatCancelsForRounding) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::energy_test

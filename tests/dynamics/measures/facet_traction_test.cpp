@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::facet_traction_test {
 namespace {
 
 using geometry::Facet;
@@ -78,4 +78,4 @@ TEST(FacetTraction, IsFiniteOnAFacetWithoutArea) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::facet_traction_test

@@ -8,7 +8,7 @@
 
 /// A grain or a bar thrown at a thin sheet that is held: caught, or reported, at any speed and any
 /// step.
-namespace plekton::dynamics {
+namespace plekton::dynamics::fast_grain_test {
 namespace {
 
 constexpr double kRadius = 0.005;
@@ -135,4 +135,4 @@ TEST(FastGrain, IsReportedWhereItIsFasterThanTheContactCanHold) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::fast_grain_test

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::momentum_balance_test {
 namespace {
 
 using test::NamedLaw;
@@ -142,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(, MomentumOfScenes, testing::ValuesIn(test::kLaws),
                          [](const auto& law) { return std::string(law.param.name); });
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::momentum_balance_test

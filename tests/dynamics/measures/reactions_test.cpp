@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::reactions_test {
 namespace {
 
 using dynamics::ForceAndMoment;
@@ -98,4 +98,4 @@ TEST(UnbalancedForceRatio, IsSmallAtRestOneInFreeLoadAndZeroWhereNothingActs) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::reactions_test

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::region_measure_test {
 namespace {
 
 using contact::BodyKind;
@@ -220,4 +220,4 @@ TEST(BoxAround, HoldsAllGrains) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::region_measure_test

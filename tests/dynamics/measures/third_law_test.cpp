@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::test {
+namespace plekton::test::third_law_test {
 namespace {
 
 using contact::BodyKind;
@@ -163,4 +163,4 @@ INSTANTIATE_TEST_SUITE_P(Of, ThirdLaw, testing::ValuesIn(kLaws),
                          [](const auto& law) { return std::string(law.param.name); });
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::third_law_test

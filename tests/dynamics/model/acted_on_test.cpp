@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::acted_on_test {
 namespace {
 
 /// Spheres in a row, nodes 0 to 19, then a facet on nodes 20 to 22.
@@ -56,4 +56,4 @@ TEST(ActedOn, AreNodesOfBondsSheetsAndRigidBodies) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::acted_on_test

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::require_index_test {
 namespace {
 
 using geometry::NodeId;
@@ -147,4 +147,4 @@ TEST(IdsOfASimulation, LeaveTheSimulationAsItWasWhereTheyAreRefused) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::require_index_test

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::rigid_check_test {
 namespace {
 
 using geometry::NodeId;
@@ -68,4 +68,4 @@ TEST(RigidCheck, RefusesALoadOnAnInnerNode) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::rigid_check_test

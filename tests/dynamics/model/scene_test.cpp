@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::scene_test {
 namespace {
 
 using contact::MaterialId;
@@ -208,4 +208,4 @@ TEST(Scene, RefusesSurfacesWithoutThicknessThatQueriesTake) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::scene_test

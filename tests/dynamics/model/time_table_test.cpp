@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::time_table_test {
 namespace {
 
 using testing::HasSubstr;
@@ -87,4 +87,4 @@ TEST(TimeTable, RefusesRowsWithoutAnOrderInTime) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::time_table_test

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::read_ondem_test {
 namespace {
 
 using testing::AllOf;
@@ -339,4 +339,4 @@ TEST(ReadOndem, RefusesEveryFileThatIsCutOff) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::read_ondem_test

@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::vtk_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -55,4 +55,4 @@ TEST(VtkReader, SeesBodiesMembranesAndContactsInBlocks) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::vtk_reader_test

@@ -9,7 +9,7 @@
 
 #include <array>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::csv_writer_test {
 namespace {
 
 using test::bytes_of;
@@ -136,4 +136,4 @@ TEST(CsvWriter, TellsOfAFullDiskAtFlushAndNotInItsDestructor) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::csv_writer_test

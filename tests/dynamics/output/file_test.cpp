@@ -9,7 +9,7 @@
 
 #include <cerrno>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::file_test {
 namespace {
 
 using test::bytes_of;
@@ -232,4 +232,4 @@ TEST(EnsureOutputFolder, RemovesAFolderCreatedInVain) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::file_test

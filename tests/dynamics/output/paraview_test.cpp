@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::paraview_test {
 namespace {
 
 using geometry::NodeId;
@@ -127,4 +127,4 @@ TEST(ParaView, OpensEveryKindOfFile) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::paraview_test

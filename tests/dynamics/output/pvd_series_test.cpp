@@ -17,7 +17,7 @@
 #include <csignal>
 #include <sstream>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::pvd_series_test {
 namespace {
 
 using test::bytes_of;
@@ -250,4 +250,4 @@ TEST(PvdSeries, OpensWhereverItsWriterWasKilled) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::pvd_series_test

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::scene_frame_test {
 namespace {
 
 using geometry::Cylinder;
@@ -283,4 +283,4 @@ TEST(SceneFrames, KeepTheirArraysWhenThereIsNothingToShow) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::scene_frame_test

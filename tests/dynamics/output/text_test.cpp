@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::text_test {
 namespace {
 
 std::string number_text(double value) {
@@ -41,4 +41,4 @@ TEST(XmlEscaped, KeepsEveryCharacterThatXmlCanExpress) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::text_test

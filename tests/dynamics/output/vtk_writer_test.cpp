@@ -13,7 +13,7 @@
 #include <cstring>
 #include <random>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::vtk_writer_test {
 namespace {
 
 using geometry::Vec3;
@@ -163,4 +163,4 @@ TEST(WriteVtp, LeavesNoFileOnAFullDisk) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::vtk_writer_test

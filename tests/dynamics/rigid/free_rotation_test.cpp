@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::free_rotation_test {
 namespace {
 
 double energy_of(const Vec3& momentum, const Vec3& moments, const Quat& orientation) {
@@ -119,4 +119,4 @@ TEST(PartlyHeldTurn, AboutTwoAxesKeepsTheEnergy) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::free_rotation_test

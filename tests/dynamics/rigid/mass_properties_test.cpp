@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::mass_properties_test {
 namespace {
 
 using geometry::NodeId;
@@ -127,4 +127,4 @@ TEST(PrincipalAxes, GiveTheTensorBack) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::mass_properties_test

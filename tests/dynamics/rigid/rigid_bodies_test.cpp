@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::rigid_bodies_test {
 namespace {
 
 using geometry::NodeId;
@@ -393,4 +393,4 @@ TEST(RigidBodies, RefuseAVelocityForANodeThatFollows) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::rigid_bodies_test

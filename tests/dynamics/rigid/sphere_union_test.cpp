@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::sphere_union_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -88,4 +88,4 @@ TEST(SphereUnion, OfThreeThatOverlapDoesNotDependOnHowItIsTurned) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::sphere_union_test

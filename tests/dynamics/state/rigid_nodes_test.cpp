@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::rigid_nodes_test {
 namespace {
 
 /// A body of two nodes on the x axis.
@@ -85,4 +85,4 @@ TEST(RigidNodes, AddUpWhatHoldsThemInSixDirections) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::rigid_nodes_test

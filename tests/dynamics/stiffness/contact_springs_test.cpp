@@ -6,7 +6,7 @@
 #include <cmath>
 
 /// The step that follows collisions with surfaces: omega dt = 1/2 for the energy in them.
-namespace plekton::test {
+namespace plekton::test::contact_springs_test {
 namespace {
 
 using dynamics::ContactSprings;
@@ -60,4 +60,4 @@ TEST(CollisionStep, IsInfiniteWhereNothingCollides) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::contact_springs_test

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace plekton::test {
+namespace plekton::test::nodal_stiffness_test {
 namespace {
 
 using dynamics::CriticalStep;
@@ -304,4 +304,4 @@ TEST(TimeStep, IsInfiniteWhereNothingIsStiffAndFree) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::nodal_stiffness_test

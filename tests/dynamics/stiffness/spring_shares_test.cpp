@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace plekton::test {
+namespace plekton::test::spring_shares_test {
 namespace {
 
 using dynamics::ContactSprings;
@@ -103,4 +103,4 @@ TEST(SpringShares, LeaveNothingOfAContactToWhatIsHeld) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::spring_shares_test

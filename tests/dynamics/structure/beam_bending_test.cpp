@@ -10,7 +10,7 @@
 #include <numbers>
 
 // Bonds that are bent far.
-namespace plekton::test {
+namespace plekton::test::beam_bending_test {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -69,4 +69,4 @@ TEST(BeamBending, OfHalfATurnBalancesBothMomentaAndStaysFinite) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::beam_bending_test

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <set>
 
-namespace plekton::test {
+namespace plekton::test::beam_blocks_test {
 namespace {
 
 using dynamics::BeamBlocks;
@@ -107,4 +107,4 @@ TEST(BeamBlocks, ShareOutTheBondsOfAHub) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::beam_blocks_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace plekton::test {
+namespace plekton::test::beam_bond_test {
 namespace {
 
 using testing::HasSubstr;
@@ -355,4 +355,4 @@ TEST(BeamBond, LiesAlongItsChordHoweverNearThatIsToTheOppositeOfX) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::beam_bond_test

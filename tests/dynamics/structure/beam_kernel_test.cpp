@@ -11,7 +11,7 @@
 #include <vector>
 
 // Bonds side by side against the same formulas for one bond: the same bits.
-namespace plekton::test {
+namespace plekton::test::beam_kernel_test {
 namespace {
 
 using dynamics::BeamRow;
@@ -109,4 +109,4 @@ TYPED_TEST(BeamLanes, GiveTheBitsOfOneBondAfterTheOtherWhereNodesCoincide) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::beam_kernel_test

@@ -8,7 +8,7 @@
 
 #include <limits>
 
-namespace plekton::test {
+namespace plekton::test::bond_forces_test {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -90,4 +90,4 @@ TEST(BondForces, VanishWithTheBond) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::bond_forces_test

@@ -14,7 +14,7 @@
 #include <sstream>
 #include <string>
 
-namespace plekton::test {
+namespace plekton::test::bond_yield_test {
 namespace {
 
 using dynamics::BondForces;
@@ -349,4 +349,4 @@ TEST(BondStrength, ListsEveryProblem) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::bond_yield_test

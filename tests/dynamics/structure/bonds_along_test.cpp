@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::bonds_along_test {
 namespace {
 
 TEST(BondsAlong, AreFoundByTheirNodesAndPreferredIfTheyHold) {
@@ -28,4 +28,4 @@ TEST(BondsAlong, AreFoundByTheirNodesAndPreferredIfTheyHold) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::bonds_along_test

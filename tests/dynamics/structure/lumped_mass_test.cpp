@@ -11,7 +11,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::lumped_mass_test {
 namespace {
 
 double total(const std::vector<double>& values) {
@@ -120,4 +120,4 @@ TEST(LumpedMass, OfAFacetWithoutAreaIsZero) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::lumped_mass_test

@@ -10,7 +10,7 @@
 
 #include <limits>
 
-namespace plekton::test {
+namespace plekton::test::sheet_facets_test {
 namespace {
 
 using dynamics::SheetSection;
@@ -345,4 +345,4 @@ TEST(SheetFacets, RefuseAFacetWithoutArea) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::sheet_facets_test

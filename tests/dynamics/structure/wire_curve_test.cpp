@@ -12,7 +12,7 @@
 #include <limits>
 #include <sstream>
 
-namespace plekton::test {
+namespace plekton::test::wire_curve_test {
 namespace {
 
 using dynamics::BondLaw;
@@ -181,4 +181,4 @@ TEST(BondLaws, ListWhatDoesNotFitTheirBonds) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::wire_curve_test

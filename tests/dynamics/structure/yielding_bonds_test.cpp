@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::test {
+namespace plekton::test::yielding_bonds_test {
 namespace {
 
 using dynamics::BondStrength;
@@ -221,4 +221,4 @@ TEST(Scene, ListsBondLawsThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::yielding_bonds_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::cable_slide_test {
 namespace {
 
 /// Nodes 0, 1, ... at these places, in a chain.
@@ -165,4 +165,4 @@ TEST(CableSlide, PassesSegmentsWithoutLengthAndStopsOnARingOfThem) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::cable_slide_test

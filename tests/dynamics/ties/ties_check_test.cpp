@@ -7,7 +7,7 @@
 
 #include <limits>
 
-namespace plekton::test {
+namespace plekton::test::ties_check_test {
 namespace {
 
 using dynamics::CablePlace;
@@ -107,4 +107,4 @@ TEST(TiesCheck, RefusesCablesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::ties_check_test

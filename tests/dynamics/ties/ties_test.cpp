@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::ties_test {
 namespace {
 
 using dynamics::Cable;
@@ -432,4 +432,4 @@ TEST(Ties, GoOnFromAStateToTheLastBitWithAnyThreads) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::ties_test

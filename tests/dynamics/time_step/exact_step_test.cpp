@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::test {
+namespace plekton::test::exact_step_test {
 namespace {
 
 using dynamics::AppliedLoads;
@@ -242,4 +242,4 @@ TEST(ExactStep, IsTheSameEveryTime) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::exact_step_test

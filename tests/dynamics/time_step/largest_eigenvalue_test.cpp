@@ -8,7 +8,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::largest_eigenvalue_test {
 namespace {
 
 /// Of a ball on a wall: along the normal, and two that slide and turn. Only three of its six
@@ -42,4 +42,4 @@ TEST(LargestEigenvalue, IsThatOfASphereOnAWallWhateverItsStiffness) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::largest_eigenvalue_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace plekton::dynamics {
+namespace plekton::dynamics::motion_step_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -119,4 +119,4 @@ TEST(GivenStep, StaysAsGivenHoweverFastASphereIs) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::motion_step_test

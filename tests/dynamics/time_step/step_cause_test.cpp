@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace plekton::test {
+namespace plekton::test::step_cause_test {
 namespace {
 
 using dynamics::StepCause;
@@ -110,4 +110,4 @@ TEST(StepCause, IsNothingWhereNothingIsStiffAndFree) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::step_cause_test

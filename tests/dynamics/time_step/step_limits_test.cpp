@@ -12,7 +12,7 @@
 
 /// Critical steps with dashpots, against the step at which the matrix of one step of a leapfrog
 /// whose damping follows the speed of half a step before gets an eigenvalue beyond 1.
-namespace plekton::dynamics {
+namespace plekton::dynamics::step_limits_test {
 namespace {
 
 using contact::AnyLaw;
@@ -153,4 +153,4 @@ TEST(StepWithDashpots, LetsNoLightNetGainEnergyUnderAHeavyBall) {
 }
 
 }  // namespace
-}  // namespace plekton::dynamics
+}  // namespace plekton::dynamics::step_limits_test

@@ -6,7 +6,7 @@
 #include <bit>
 #include <set>
 
-namespace plekton::geometry {
+namespace plekton::geometry::bit_hash_test {
 namespace {
 
 std::uint64_t hash_of(const Vec3& v) {
@@ -47,4 +47,4 @@ TEST(BitHash, DiffersForAnotherOrderAndForTheSignOfZero) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::bit_hash_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace plekton::geometry {
+namespace plekton::geometry::double_double_test {
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -54,4 +54,4 @@ TEST(DoubleDouble, HasExactDifferencesOfDoubles) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::double_double_test

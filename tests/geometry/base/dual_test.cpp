@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::geometry {
+namespace plekton::geometry::dual_test {
 namespace {
 
 using Number = Dual<2>;
@@ -30,4 +30,4 @@ TEST(Dual, ChainsAFunctionWhoseDerivativeIsKnown) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::dual_test

@@ -12,7 +12,7 @@
 #include <functional>
 #include <limits>
 
-namespace plekton {
+namespace plekton::elementary_test {
 namespace {
 
 /// 50 digits, by other algorithms than ours.
@@ -152,4 +152,4 @@ TEST(Elementary, HasTheLimitsAndSignsOfTheCLibrary) {
 }
 
 }  // namespace
-}  // namespace plekton
+}  // namespace plekton::elementary_test

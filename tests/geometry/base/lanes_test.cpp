@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::lanes_test {
 namespace {
 
 /// 0, 1, 2, ...: every number tells where it was.
@@ -132,4 +132,4 @@ TYPED_TEST(Lanes, GiveTheirFlagsAsBits) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::lanes_test

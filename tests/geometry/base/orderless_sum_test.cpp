@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::orderless_sum_test {
 namespace {
 
 __extension__ using Int128 = __int128;
@@ -114,4 +114,4 @@ TEST(OrderlessSum, IsNoNumberWhereOneIsNotFiniteOrTooLarge) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::orderless_sum_test

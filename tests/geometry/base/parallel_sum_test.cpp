@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::parallel_sum_test {
 namespace {
 
 /// Terms of both signs and of sizes from 1e-20 to 1e20, so that any other order of adding gives
@@ -124,4 +124,4 @@ TEST(ParallelSum, PassesOnWhatABodyThrows) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::parallel_sum_test

@@ -13,7 +13,7 @@
 #include <limits>
 #include <thread>
 
-namespace plekton::geometry {
+namespace plekton::geometry::predicates_test {
 namespace {
 
 using test::kFamilies;
@@ -240,4 +240,4 @@ TEST(SignCounters, BelongToTheirThread) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::predicates_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::geometry {
+namespace plekton::geometry::printable_test {
 namespace {
 
 TEST(Printable, ShowsControlCharactersAndLeavesTheRestAsItIs) {
@@ -22,4 +22,4 @@ TEST(Printable, ChangesNothingTheSecondTime) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::printable_test

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::ranks_test {
 namespace {
 
 TEST(Ranks, GiveEachRankARangeOfAboutEqualWork) {
@@ -67,4 +67,4 @@ TEST(Ranks, KnowWhetherAnyOfThemSaysYes) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::ranks_test

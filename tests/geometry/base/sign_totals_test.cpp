@@ -7,7 +7,7 @@
 
 #include <thread>
 
-namespace plekton::geometry {
+namespace plekton::geometry::sign_totals_test {
 namespace {
 
 /// A right angle, of products that need rounding: only exact arithmetic tells.
@@ -70,4 +70,4 @@ TEST(SignTotals, MayBeAskedForWhileOthersCount) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::sign_totals_test

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace plekton::geometry {
+namespace plekton::geometry::state_archive_test {
 namespace {
 
 using testing::HasSubstr;
@@ -163,4 +163,4 @@ TEST(StateTree, HasAnotherHashWhereABitOrANameDiffers) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::state_archive_test

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::thread_pool_test {
 namespace {
 
 struct Part {
@@ -264,4 +264,4 @@ TEST(ThreadPool, MayEndWithoutEverHavingWorked) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::thread_pool_test

@@ -10,7 +10,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace plekton::geometry {
+namespace plekton::geometry::types_test {
 namespace {
 
 /// The order in which the library adds three numbers everywhere, in packs too.
@@ -78,4 +78,4 @@ TEST(Eigen, HasTheBitsThatItHasElsewhere) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::types_test

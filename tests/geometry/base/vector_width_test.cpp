@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace plekton::geometry {
+namespace plekton::geometry::vector_width_test {
 namespace {
 
 using testing::HasSubstr;
@@ -44,4 +44,4 @@ TEST(VectorWidth, OfTheProgramIsOneOfThose) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::vector_width_test

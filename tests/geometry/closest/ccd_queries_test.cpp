@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::ccd_queries_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST(CollisionQueries, OfASmallSetAreAnsweredExactlyAtBothTimes) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::ccd_queries_test

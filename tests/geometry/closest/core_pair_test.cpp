@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plekton::geometry {
+namespace plekton::geometry::core_pair_test {
 namespace {
 
 Core core_of(std::span<const Vec3> corners) {
@@ -198,4 +198,4 @@ TEST(CorePair, HasADistanceAndADirectionWhereTheSquareOfTheDistanceVanishes) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::core_pair_test

@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::deep_test {
 namespace {
 
 using Corners = std::span<const Vec3>;
@@ -145,4 +145,4 @@ TEST(DeepSeparation, IsNotBeatenByLibccd) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::deep_test

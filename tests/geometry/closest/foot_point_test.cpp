@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace plekton::geometry {
+namespace plekton::geometry::foot_point_test {
 namespace {
 
 using test::ExactFoot;
@@ -216,4 +216,4 @@ TEST(FootPoint, LiesWhereDirectionAndDistanceLead) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::foot_point_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/closest_checks.hpp"
 
-namespace plekton::geometry {
+namespace plekton::geometry::point_triangle_test {
 namespace {
 
 ClosestPoints kernel(const std::array<Vec3, 1>& a, const std::array<Vec3, 3>& b) {
@@ -23,4 +23,4 @@ TEST(ClosestPointTriangle, IsNeverNotANumberAtAnyScale) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::point_triangle_test

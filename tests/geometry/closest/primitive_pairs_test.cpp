@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace plekton::geometry {
+namespace plekton::geometry::primitive_pairs_test {
 namespace {
 
 using test::Complex;
@@ -157,4 +157,4 @@ TEST(ProximityOfAProbe, NamesItsOwnCornersAndSides) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::primitive_pairs_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/closest_checks.hpp"
 
-namespace plekton::geometry {
+namespace plekton::geometry::segment_segment_test {
 namespace {
 
 TEST(SegmentSegment, AgreesWithExactRationalsOnAdversarialFamilies) {
@@ -57,4 +57,4 @@ TEST(ClosestCounters, CountPairsTiesAndExactLengths) {
   EXPECT_EQ(closest_counters().exact_lengths, 1U);
 }
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::segment_segment_test

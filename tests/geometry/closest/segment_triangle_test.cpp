@@ -3,7 +3,7 @@
 
 #include "tests/support/closest_checks.hpp"
 
-namespace plekton::geometry {
+namespace plekton::geometry::segment_triangle_test {
 namespace {
 
 TEST(SegmentTriangle, AgreesWithExactRationalsOnAdversarialFamilies) {
@@ -39,4 +39,4 @@ TEST(SegmentTriangle, StopsOnAnEndOfASegmentParallelToTheFace) {
   EXPECT_EQ(found.separation, Vec3(0, 0, -2));
 }
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::segment_triangle_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/closest_checks.hpp"
 
-namespace plekton::geometry {
+namespace plekton::geometry::triangle_triangle_test {
 namespace {
 
 TEST(TriangleTriangle, AgreesWithExactRationalsOnAdversarialFamilies) {
@@ -43,4 +43,4 @@ TEST(TriangleTriangle, KeepsTheDistanceOfParallelFacesWhateverTheirTilt) {
   }
 }
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::triangle_triangle_test

@@ -15,7 +15,7 @@
 #include <numeric>
 #include <utility>
 
-namespace plekton::geometry {
+namespace plekton::geometry::critical_features_test {
 namespace {
 
 using test::Complex;
@@ -307,4 +307,4 @@ TEST(CriticalFeatureFinder, NamesOneCellDownhillForEachBranch) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::critical_features_test

@@ -11,7 +11,7 @@
 #include <map>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::descent_test {
 namespace {
 
 using test::Complex;
@@ -201,4 +201,4 @@ TEST(Descend, StopsInTheValleyOnTheSideOfTheRidgeItStartedOn) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::descent_test

@@ -7,7 +7,7 @@
 // The coefficients of all features of a surface add up to its Euler characteristic, for every
 // point: the self-test of the signs. More than a million points in all: 300 000 closed, 200 000
 // open, 500 000 non-manifold.
-namespace plekton::geometry {
+namespace plekton::geometry::euler_invariant_test {
 namespace {
 
 using test::Complex;
@@ -78,4 +78,4 @@ TEST(EulerInvariant, HoldsOnRandomComplexesOfFacetsAndCylinders) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::euler_invariant_test

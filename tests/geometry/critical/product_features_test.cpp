@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-namespace plekton::geometry {
+namespace plekton::geometry::product_features_test {
 namespace {
 
 NodeId node(int i) {
@@ -96,4 +96,4 @@ TEST(ProductFeatures, WeighTheEulerNumberOfAnySetOfProducts) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::product_features_test

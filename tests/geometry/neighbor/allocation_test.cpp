@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::allocation_test {
 namespace {
 
 TEST(Allocation, IsCounted) {
@@ -98,4 +98,4 @@ TEST(Allocation, DoesNotHappenInAWarmSearchForCriticalFeaturesNorInADescent) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::allocation_test

@@ -18,6 +18,7 @@ static void PrintTo(const IndexPair& pair, std::ostream* stream) {
   *stream << "(" << pair.a << ", " << pair.b << ")";
 }
 
+namespace broad_phase_test {
 namespace {
 
 using Pairs = std::vector<IndexPair>;
@@ -337,4 +338,5 @@ TEST(BroadPhase, KeepsItsBoxesWhenMoved) {
 }
 
 }  // namespace
+}  // namespace broad_phase_test
 }  // namespace plekton::geometry

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace plekton::geometry {
+namespace plekton::geometry::cell_neighbours_test {
 namespace {
 
 /// A strip of squares, two facets each, folded once into a U whose sides are a gap apart.
@@ -140,4 +140,4 @@ TEST(CellNeighbours, MissNothingWhileNodesMoveByLessThanHalfTheSkin) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::cell_neighbours_test

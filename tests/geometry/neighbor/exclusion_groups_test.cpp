@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::exclusion_groups_test {
 namespace {
 
 std::vector<NodeId> nodes(std::initializer_list<int> ids) {
@@ -67,4 +67,4 @@ TEST(ExclusionGroups, KeepCellsOfAGroupApart) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::exclusion_groups_test

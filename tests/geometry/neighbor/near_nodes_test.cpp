@@ -11,7 +11,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace plekton::geometry {
+namespace plekton::geometry::near_nodes_test {
 namespace {
 
 /// m, lengths of the shortest ways along edges from one node: Bellman and Ford, until nothing gets
@@ -129,4 +129,4 @@ TEST(NearNodes, AreRefusedWhereTheirListsWouldFillTheMemory) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::near_nodes_test

@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-namespace plekton::test {
+namespace plekton::test::neighbours_test {
 namespace {
 
 /// Spheres among a sheet, a net and a ball of facets, all nodes of their own.
@@ -37,7 +37,7 @@ struct Scene {
   double distance(const Sphere& sphere, CellId cell) const {
     const Vec3& p = complex.x[index_of(sphere.nodes[0])];
     const auto n =
-        nodes_of(surface, closest_feature(surface, surface.feature_of(cell), p, complex.x));
+        test::nodes_of(surface, closest_feature(surface, surface.feature_of(cell), p, complex.x));
     const auto at = [&](std::size_t i) { return complex.x[index_of(n[i])]; };
     if (n.size() == 1) return foot_on_node(p, at(0)).distance;
     if (n.size() == 2) return foot_on_edge(p, {at(0), at(1)}).distance;
@@ -170,4 +170,4 @@ TEST(Neighbours, ChooseASoundSkinAfterAListThatLastedForBillionsOfSteps) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::neighbours_test

@@ -15,7 +15,7 @@
 #include <limits>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::new_primitive_test {
 namespace {
 
 using test::Complex;
@@ -137,4 +137,4 @@ TEST(NewPrimitive, HasTheSameProximityFromBothSides) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::new_primitive_test

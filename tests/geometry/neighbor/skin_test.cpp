@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::skin_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -282,4 +282,4 @@ TEST(Skin, RefusesAThicknessThatIsNoLength) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::skin_test

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::space_order_test {
 namespace {
 
 struct Cloud {
@@ -83,4 +83,4 @@ TEST(SpaceOrder, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::space_order_test

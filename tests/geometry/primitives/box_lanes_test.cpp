@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace plekton::geometry {
+namespace plekton::geometry::box_lanes_test {
 namespace {
 
 template <int W>
@@ -51,4 +51,4 @@ TEST(BoxLanes, TellApartBoxesTheSmallestNumberApart) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::box_lanes_test

@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::box_test {
 namespace {
 
 /// Sign of point + margin - bound, without rounding.
@@ -68,4 +68,4 @@ TEST(Box, OfOnePointWithoutMarginHoldsThePointInside) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::box_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace plekton::test {
+namespace plekton::test::cell_clearance_test {
 namespace {
 
 /// A facet and a free cylinder with random corners: usual, far from the origin, or a sliver.
@@ -111,4 +111,4 @@ TEST(Clearance, ClaimsNothingOfAFacetWithoutAreaOrOfSizesWhoseSquaresVanish) {
 }
 
 }  // namespace
-}  // namespace plekton::test
+}  // namespace plekton::test::cell_clearance_test

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace plekton::geometry {
+namespace plekton::geometry::elements_test {
 namespace {
 
 using test::Complex;
@@ -367,4 +367,4 @@ TEST(Surface, MayBeWithoutThickness) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::elements_test

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace plekton::geometry {
+namespace plekton::geometry::surface_change_test {
 namespace {
 
 using test::Complex;
@@ -151,4 +151,4 @@ TEST(SurfaceChange, TakingElementsAwayInAnyOrderGivesTheIncidenceOfASurfaceBuilt
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::surface_change_test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plekton::geometry {
+namespace plekton::geometry::ball_volume_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -155,4 +155,4 @@ TEST(BallVolume, OfAPointIsNothing) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::ball_volume_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace plekton::geometry {
+namespace plekton::geometry::box_tree_test {
 namespace {
 
 std::vector<ThickBox> random_boxes(test::Random& random, std::size_t count) {
@@ -79,4 +79,4 @@ TEST(BoxTree, HoldsBoxesInOnePlaceAndOfExtremeCoordinates) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::box_tree_test

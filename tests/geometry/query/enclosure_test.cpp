@@ -14,7 +14,7 @@
 
 #include <stdexcept>
 
-namespace plekton::geometry {
+namespace plekton::geometry::enclosure_test {
 namespace {
 
 using test::Complex;
@@ -222,4 +222,4 @@ TEST(SignedDistance, IsThatOfTheNearestCoreWithTheSignOfTheSide) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::enclosure_test

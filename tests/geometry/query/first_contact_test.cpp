@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace plekton::geometry {
+namespace plekton::geometry::first_contact_test {
 namespace {
 
 Probe random_probe(test::Random& random, const Vec3& at) {
@@ -153,4 +153,4 @@ TEST(FirstContact, RefusesWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::first_contact_test

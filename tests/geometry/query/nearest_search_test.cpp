@@ -8,7 +8,7 @@
 
 #include <limits>
 
-namespace plekton::geometry {
+namespace plekton::geometry::nearest_search_test {
 namespace {
 
 using test::Complex;
@@ -151,4 +151,4 @@ TEST(NearestCells, OfSingleCellsAreTheseCells) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::nearest_search_test

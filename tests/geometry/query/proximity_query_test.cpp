@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace plekton::geometry {
+namespace plekton::geometry::proximity_query_test {
 namespace {
 
 /// A sheet with a free cylinder at its corner and spheres around it.
@@ -242,4 +242,4 @@ TEST(PrimitivePairs, AgreeBitForBitAboutAFootOnACommonEdge) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::proximity_query_test

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace plekton::geometry {
+namespace plekton::geometry::ray_search_test {
 namespace {
 
 using test::Complex;
@@ -84,4 +84,4 @@ TEST(AllHits, ListBothFacetsOfAnEdgeThatTheRayGoesThrough) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::ray_search_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace plekton::geometry {
+namespace plekton::geometry::ray_test {
 namespace {
 
 using test::Complex;
@@ -203,4 +203,4 @@ TEST(Hit, IsNoneOfARayThatEndsBeforeItBegins) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::ray_test

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::region_test {
 namespace {
 
 std::vector<Region> regions() {
@@ -79,4 +79,4 @@ TEST(Region, HoldsOfABallWhatItsShapeSays) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::region_test

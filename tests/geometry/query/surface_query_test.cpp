@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace plekton::geometry {
+namespace plekton::geometry::surface_query_test {
 namespace {
 
 using test::Complex;
@@ -214,4 +214,4 @@ TEST(SurfaceQuery, RefusesPositionsThatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::surface_query_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plekton::geometry {
+namespace plekton::geometry::closed_tube_test {
 namespace {
 
 using std::numbers::pi;
@@ -95,4 +95,4 @@ TEST(ClosedTube, RefusesWhatMakesNoTubeAndMoreNodesThanNumbers) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::closed_tube_test

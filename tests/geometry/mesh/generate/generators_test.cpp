@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plekton::geometry {
+namespace plekton::geometry::generators_test {
 namespace {
 
 /// A generated mesh needs no repair; equal after it.
@@ -111,4 +111,4 @@ TEST(Generators, RefuseMoreNodesThanNumbersBeforeTheyMakeAny) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::generators_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace plekton::geometry {
+namespace plekton::geometry::hammock_test {
 namespace {
 
 const std::filesystem::path kHammock =
@@ -70,4 +70,4 @@ TEST(Hammock, MakesAMembraneOfAGeotextile) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::hammock_test

@@ -13,7 +13,7 @@
 #include <map>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::lattice_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -276,4 +276,4 @@ TEST(Lattice, MakesNetsThatAreFarWiderThanHigh) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::lattice_test

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace plekton::geometry {
+namespace plekton::geometry::membrane_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -96,4 +96,4 @@ TEST(MakeMembrane, RefusesAThicknessThatIsNoLengthAndAnEmptyMesh) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::membrane_test

@@ -13,7 +13,7 @@
 #include <numbers>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::polygon_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -150,4 +150,4 @@ TEST(PolygonMesh, RefusesSidesThatTouchOrCross) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::polygon_test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::bad_input_test {
 namespace {
 
 using ::testing::AllOf;
@@ -383,4 +383,4 @@ TEST(BadMeshInput, NeverCrashesOnADamagedFile) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::bad_input_test

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::mesh_collection_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -251,4 +251,4 @@ TEST_P(MeshCollection, ReadsTheSamePolygonsAsCgal) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::mesh_collection_test

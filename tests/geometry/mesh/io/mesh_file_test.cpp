@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::mesh_file_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -250,4 +250,4 @@ TEST(ParseNumber, AcceptsWholeDecimalNumbersOnly) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::mesh_file_test

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace plekton::geometry {
+namespace plekton::geometry::read_gmsh_test {
 namespace {
 
 using ::testing::AllOf;
@@ -131,4 +131,4 @@ TEST(GmshReader, BelievesNoCount) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::read_gmsh_test

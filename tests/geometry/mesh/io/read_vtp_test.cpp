@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::read_vtp_test {
 namespace {
 
 using test::VtpPiece;
@@ -214,4 +214,4 @@ TEST(VtpReader, NeverCrashesOnACutOffOrDamagedFileInAnyEncoding) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::read_vtp_test

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::close_slits_test {
 namespace {
 
 std::array<NodeId, 3> nodes(std::int32_t a, std::int32_t b, std::int32_t c) {
@@ -63,4 +63,4 @@ TEST(CloseSlits, MakesNoEdgeWithMoreThanTwoFacets) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::close_slits_test

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::orientation_test {
 namespace {
 
 using test::inside_out;
@@ -176,4 +176,4 @@ TEST(SelfIntersections, AreFoundOnceEachAndOnlyBeyondWhatFacetsShare) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::orientation_test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::repair_test {
 namespace {
 
 using test::repaired;
@@ -228,4 +228,4 @@ TEST(Repair, RefusesASoupThatNamesPointsItDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::repair_test

@@ -9,7 +9,7 @@
 
 #include <utility>
 
-namespace plekton::geometry {
+namespace plekton::geometry::report_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -63,4 +63,4 @@ TEST(MeshReport, GivesTheReasonOfARefusal) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::report_test

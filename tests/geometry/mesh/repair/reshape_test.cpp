@@ -15,7 +15,7 @@
 #include <numbers>
 #include <string>
 
-namespace plekton::geometry {
+namespace plekton::geometry::reshape_test {
 namespace {
 
 using test::inside_out;
@@ -282,4 +282,4 @@ TEST(Repair, RefusesToRemeshWhatIsNotManifold) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::reshape_test

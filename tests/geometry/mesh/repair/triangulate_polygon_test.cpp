@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::triangulate_polygon_test {
 namespace {
 
 using Polygon = std::vector<Vec3>;
@@ -138,4 +138,4 @@ TEST(ExactSigns, DecideCollinearityWithoutRounding) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::triangulate_polygon_test

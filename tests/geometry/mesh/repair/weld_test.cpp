@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-namespace plekton::geometry {
+namespace plekton::geometry::weld_test {
 namespace {
 
 using test::repaired;
@@ -62,4 +62,4 @@ TEST(Weld, RefusesADistanceBelowTheResolution) {
 }
 
 }  // namespace
-}  // namespace plekton::geometry
+}  // namespace plekton::geometry::weld_test
