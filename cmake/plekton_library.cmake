@@ -3,8 +3,7 @@
 # plekton_library(name EXCEPT folder PUBLIC libraries... PRIVATE libraries...): the library plekton::<name> from the sources of
 #   the current folder, without those of a folder in it, static or shared as BUILD_SHARED_LIBS says.
 # plekton_kernels(sources...): those of the current folder that run with the widest vectors of the processor.
-# plekton_batches(target EXCEPT folders...): its sources are compiled in fewer, larger units, eight of a folder in each, without those of
-#   some folders.
+# plekton_batches(target): its sources are compiled in fewer, larger units, eight of a folder in each.
 
 # GCC 12 makes fused operations of sums and differences side by side (vfmaddsub) where the processor has them, -ffp-contract=off
 # or not: its vectoriser of straight code does not ask.
@@ -43,7 +42,6 @@ endfunction()
 option(PLEKTON_BATCHES "Compile sources in batches" ON)
 
 function(plekton_batches target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "EXCEPT")
   if(NOT PLEKTON_BATCHES)
     return()
   endif()
@@ -55,7 +53,7 @@ function(plekton_batches target)
     cmake_path(GET source PARENT_PATH folder)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE name)
     cmake_path(IS_PREFIX CMAKE_CURRENT_SOURCE_DIR "${source}" is_own)
-    if(is_own AND NOT name IN_LIST arg_EXCEPT)
+    if(is_own)
       string(MAKE_C_IDENTIFIER "${name}" name)
       math(EXPR batch "0${count_${name}} / 8")
       math(EXPR count_${name} "0${count_${name}} + 1")

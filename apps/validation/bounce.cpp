@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::apps {
+namespace plekton::apps::bounce {
 namespace {
 
 using dynamics::Held;
@@ -190,7 +190,7 @@ void add_slope(CaseReport& report, double degrees, const char* recorded, double 
 }  // namespace
 
 /// What a hollow sphere loses in a bounce it keeps as vibrations: no closed form, but limits.
-CaseReport validate_bounce(bool full) {
+CaseReport validate(bool full) {
   CaseReport report;
   add_wall(report, full);
   add_slope(report, 20.0, "yade_incline_phi20", 0.9552);
@@ -198,4 +198,4 @@ CaseReport validate_bounce(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::bounce

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::cable {
 namespace {
 
 /// Of the catenary, which is lowest in the middle of the span: y = a (cosh((x - span / 2) / a) -
@@ -30,7 +30,7 @@ Curve curve_of(const HangingChain& exact) {
 
 /// A chain of n straight links hangs off the catenary by a part of it that falls with 1 / n²; of 40
 /// links it is below 1e-3 (A4 of docs/validation.md), and it grows from there.
-CaseReport validate_cable(bool full) {
+CaseReport validate(bool full) {
   constexpr double kTolerance = 1e-3;  // of sag and pull, with 40 links
   constexpr double kStretch = 5e-5;    // of links under their weight: below 3e-5
   const HangingChain exact = catenary(kChainWeight);
@@ -68,4 +68,4 @@ CaseReport validate_cable(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::cable

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace plekton::apps {
+namespace plekton::apps::cantilever {
 namespace {
 
 using dynamics::Held;
@@ -65,7 +65,7 @@ Bent bent(int beams) {
 
 }  // namespace
 
-CaseReport validate_cantilever(bool full) {
+CaseReport validate(bool full) {
   CaseReport report;
   Figure figure{"Cantilever under a load at its end", "place (m)", "deflection (m)", {}};
   const std::vector<int> numbers =
@@ -99,4 +99,4 @@ CaseReport validate_cantilever(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::cantilever

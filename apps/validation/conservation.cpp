@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace plekton::apps {
+namespace plekton::apps::conservation {
 namespace {
 
 using geometry::NodeId;
@@ -52,7 +52,7 @@ Momenta momenta_of(const dynamics::Simulation& simulation) {
 
 }  // namespace
 
-CaseReport validate_conservation(bool full) {
+CaseReport validate(bool full) {
   dynamics::SimulationOptions options;
   options.time_step = full ? 1e-7 : 1e-6;
   dynamics::Simulation simulation(collision(), options);
@@ -93,4 +93,4 @@ CaseReport validate_conservation(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::conservation

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <utility>
 
-namespace plekton::apps {
+namespace plekton::apps::determinism {
 namespace {
 
 using dynamics::Held;
@@ -48,7 +48,7 @@ dynamics::Scene grains_over_a_sheet() {
 
 }  // namespace
 
-CaseReport validate_determinism(bool full) {
+CaseReport validate(bool full) {
   const std::int64_t steps = full ? 20'000 : 3'000;
   CaseReport report;
   Figure figure{"Grains fall on a membrane: all numbers of threads on each other",
@@ -86,4 +86,4 @@ CaseReport validate_determinism(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::determinism

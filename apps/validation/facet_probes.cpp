@@ -9,7 +9,7 @@
 #include <array>
 #include <utility>
 
-namespace plekton::apps {
+namespace plekton::apps::facet_probes {
 namespace {
 
 using dynamics::Held;
@@ -130,7 +130,7 @@ Figure passing_figure(const Corners& corners) {
 
 /// The point of the facet that is nearest to the centre decides: k_n times the overlap along the
 /// line to it, and its weights share it out over the nodes.
-CaseReport validate_facet_probes(bool full) {
+CaseReport validate(bool full) {
   const std::array<Corners, 3> facets{{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.9, 0.2, 0)},
                                        {Vec3(0, 0, 0), Vec3(0.5, 0, 0), Vec3(-0.4, 0.35, 0)},
                                        {Vec3(0, 0, 0), Vec3(0.8, 0.05, 0), Vec3(0.35, 0.7, 0)}}};
@@ -153,4 +153,4 @@ CaseReport validate_facet_probes(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::facet_probes

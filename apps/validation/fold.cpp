@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::fold {
 namespace {
 
 using dynamics::Held;
@@ -129,7 +129,7 @@ Figure figure_of(const std::string& title, const Felt& felt, std::string_view re
 }  // namespace
 
 /// Closed form: k_n times the overlap with each plane, and around a ridge with the ridge.
-CaseReport validate_fold(bool full) {
+CaseReport validate(bool full) {
   constexpr double kTolerance = 1e-9;  // of one contact
   const int places = full ? 8000 : 800;
   const double side = kStart / elementary::cos(kSlope);
@@ -146,4 +146,4 @@ CaseReport validate_fold(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::fold

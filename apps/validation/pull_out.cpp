@@ -11,11 +11,8 @@
 #include <utility>
 #include <vector>
 
-namespace plekton::apps {
+namespace plekton::apps::pull_out {
 namespace {
-
-using pull_out::Kind;
-using pull_out::PullOut;
 
 constexpr std::uint64_t kFirstSeed = 3;
 
@@ -40,7 +37,7 @@ PullOut mean_of(const std::vector<PullOut>& pulls) {
 PullOut pulled(Kind kind, int beds, Figure& figure) {
   std::vector<PullOut> pulls;
   for (int i = 0; i < beds; ++i) {
-    pulls.push_back(pull_out::pulled_out(kind, kFirstSeed + static_cast<std::uint64_t>(i)));
+    pulls.push_back(pulled_out(kind, kFirstSeed + static_cast<std::uint64_t>(i)));
     figure.curves.push_back(
         {fmt::format("{}{}", name_of(kind), beds > 1 ? fmt::format(", bed {}", i + 1) : ""),
          CurveStyle::line, pulls.back().out, pulls.back().shares});
@@ -52,7 +49,7 @@ PullOut pulled(Kind kind, int beds, Figure& figure) {
 constexpr double kLeastMembrane = 0.18, kLeastGrid = 0.35, kMostGrid = 0.65;
 
 Curve bound(const char* name, double share) {
-  return {name, CurveStyle::dashed, {0.5 * pull_out::kPull, pull_out::kPull}, {share, share}};
+  return {name, CurveStyle::dashed, {0.5 * kPull, kPull}, {share, share}};
 }
 
 Curve recorded_of(Kind kind) {
@@ -65,14 +62,14 @@ Curve recorded_of(Kind kind) {
 
 /// Grains that slide on a membrane hold it with at most their friction; those that interlock with a
 /// grid of the same lattice hold it better.
-CaseReport validate_pull_out(bool full) {
+CaseReport validate(bool full) {
   const int beds = full ? 3 : 1;
   Figure figure{"Pull-out at 20 kPa", "way of the front edge (m)", "pull over 2 sigma A", {}};
   const PullOut membrane = pulled(Kind::membrane, beds, figure);
   const PullOut grid = pulled(Kind::grid, beds, figure);
-  const double phi = pull_out::kFriction;
+  const double phi = kFriction;
   figure.curves.push_back(
-      {"tan of the friction angle", CurveStyle::dashed, {0.0, pull_out::kPull}, {phi, phi}});
+      {"tan of the friction angle", CurveStyle::dashed, {0.0, kPull}, {phi, phi}});
   figure.curves.push_back(bound("membrane, at least", kLeastMembrane));
   figure.curves.push_back(bound("grid, at least", kLeastGrid));
   figure.curves.push_back(bound("grid, at most", kMostGrid));
@@ -91,12 +88,12 @@ CaseReport validate_pull_out(bool full) {
        "grains interlock with it: 0.35 to 0.65; YADE 2023.02a: 0.477"},
       {"that of the grid over that of the membrane, less two scatters of both",
        grid.mean - membrane.mean - 4.0 * kScatter, 0.25, 0.25, "", "above 0"},
-      {"pressure of the plates on the membrane's bed", membrane.pressure, pull_out::kPressure,
-       0.05 * pull_out::kPressure, "Pa", "what the servos are told"},
-      {"pressure of the plates on the grid's bed", grid.pressure, pull_out::kPressure,
-       0.05 * pull_out::kPressure, "Pa", "what the servos are told"}};
+      {"pressure of the plates on the membrane's bed", membrane.pressure, kPressure,
+       0.05 * kPressure, "Pa", "what the servos are told"},
+      {"pressure of the plates on the grid's bed", grid.pressure, kPressure, 0.05 * kPressure, "Pa",
+       "what the servos are told"}};
   report.figures.push_back(std::move(figure));
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::pull_out

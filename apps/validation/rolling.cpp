@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::apps {
+namespace plekton::apps::rolling {
 namespace {
 
 using dynamics::Held;
@@ -74,7 +74,7 @@ Figure figure_of(const std::string& title, const Descent& descent, double accele
 
 /// A rigid sphere of inertia 2/5 m R² rolls with 5/7 g sin(slope), and slides with
 /// g (sin(slope) - mu cos(slope)).
-CaseReport validate_rolling(bool full) {
+CaseReport validate(bool full) {
   constexpr double kTolerance = 2e-3;  // until the spring is loaded there is less friction
   constexpr double kDegree = std::numbers::pi / 180.0;
   const int cells = full ? 160 : 16;
@@ -94,4 +94,4 @@ CaseReport validate_rolling(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::rolling

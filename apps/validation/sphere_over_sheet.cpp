@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace plekton::apps {
+namespace plekton::apps::sphere_over_sheet {
 namespace {
 
 using dynamics::Held;
@@ -92,7 +92,7 @@ Felt dragged_over(int cells) {
 }  // namespace
 
 /// Closed form: one contact all the way, F_n = k_n u, F_s = min(k_s s, mu F_n).
-CaseReport validate_sphere_over_sheet(bool full) {
+CaseReport validate(bool full) {
   const double normal = kStiffness * kOverlap;
   const double limit = kFriction * normal;
   const double increment = kRatio * kStiffness * kSpeed * 1.01 * kStep;  // N in a step
@@ -120,4 +120,4 @@ CaseReport validate_sphere_over_sheet(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::sphere_over_sheet

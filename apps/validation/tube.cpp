@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plekton::apps {
+namespace plekton::apps::tube {
 namespace {
 
 using dynamics::Held;
@@ -118,7 +118,7 @@ double first_stiffness(const Compression& tube, double at_buckling) {
 
 /// A shell buckles under 4 pi sqrt(C D), whatever its radius: C its stiffness in stretching, D in
 /// bending (Timoshenko and Gere, Theory of Elastic Stability (1961), 11.1).
-CaseReport validate_tube(bool full) {
+CaseReport validate(bool full) {
   const Sheet sheet = sheet_of_lattice();
   const double load = sheet.buckling();
   const double at_buckling = load / sheet.stiffness();
@@ -143,4 +143,4 @@ CaseReport validate_tube(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::tube

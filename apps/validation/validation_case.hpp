@@ -37,18 +37,42 @@ struct ValidationCase {
 
 std::span<const ValidationCase> validation_cases();
 
-// The cases, a source each.
-CaseReport validate_sphere_over_sheet(bool full);
-CaseReport validate_rolling(bool full);
-CaseReport validate_facet_probes(bool full);
-CaseReport validate_fold(bool full);
-CaseReport validate_cantilever(bool full);
-CaseReport validate_cable(bool full);
-CaseReport validate_wire_net(bool full);
-CaseReport validate_tube(bool full);
-CaseReport validate_bounce(bool full);
-CaseReport validate_pull_out(bool full);
-CaseReport validate_conservation(bool full);
-CaseReport validate_determinism(bool full);
+// The cases, a source and a namespace each.
+namespace sphere_over_sheet {
+CaseReport validate(bool full);
+}
+namespace rolling {
+CaseReport validate(bool full);
+}
+namespace facet_probes {
+CaseReport validate(bool full);
+}
+namespace fold {
+CaseReport validate(bool full);
+}
+namespace cantilever {
+CaseReport validate(bool full);
+}
+namespace cable {
+CaseReport validate(bool full);
+}
+namespace wire_net {
+CaseReport validate(bool full);
+}
+namespace tube {
+CaseReport validate(bool full);
+}
+namespace bounce {
+CaseReport validate(bool full);
+}
+namespace pull_out {
+CaseReport validate(bool full);
+}
+namespace conservation {
+CaseReport validate(bool full);
+}
+namespace determinism {
+CaseReport validate(bool full);
+}
 
 }  // namespace plekton::apps

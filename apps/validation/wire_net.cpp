@@ -16,7 +16,7 @@
 // the force that YADE's own check of its wire model asserts (scripts/checks-and-tests/checks,
 // checkWirePM.py; the model is that of Thoeni, Lambert, Giacomini, Sloan, Computers and Geotechnics
 // 49 (2013) 158-169).
-namespace plekton::apps {
+namespace plekton::apps::wire_net {
 namespace {
 
 using dynamics::Held;
@@ -218,7 +218,7 @@ Pull pulled(double speed) {
 }  // namespace
 
 /// The net draws in between its grips, so that there is no closed form.
-CaseReport validate_wire_net(bool full) {
+CaseReport validate(bool full) {
   constexpr double kSpeed = 0.25;  // m/s, slow beside the waves in a wire of steel
   const Pull pull = pulled(kSpeed);
   const double force = pull.force_at(kElongation);
@@ -242,4 +242,4 @@ CaseReport validate_wire_net(bool full) {
   return report;
 }
 
-}  // namespace plekton::apps
+}  // namespace plekton::apps::wire_net

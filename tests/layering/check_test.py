@@ -76,6 +76,13 @@ class SeededTree(unittest.TestCase):
     def test_the_core_may_not_include_the_mesh_folder(self):
         self.assert_flagged("geometry/primitives/box.cpp", TAG + '#include "geometry/mesh/repair/repair.hpp"\n', "not part of it")
 
+    def test_a_file_of_tests_without_a_namespace_of_its_name_is_flagged(self):
+        path = "tests/geometry/primitives/box_test.cpp"
+        self.assert_clean(path, TAG + "namespace plekton::geometry::box_test {\nnamespace {\n}\n}\n")
+        self.assert_clean(path, TAG + "namespace plekton::geometry {\nnamespace box_test {\n}\n}\n")
+        self.assert_clean(path, TAG + "namespace {\n}\n")
+        self.assert_flagged(path, TAG + "namespace plekton::geometry {\nnamespace {\n}\n}\n", "plekton::geometry::box_test")
+
     def test_two_types_of_one_name_in_one_namespace_are_flagged(self):
         text = TAG + "namespace plekton::geometry {\n\nclass Box;\n\nclass Box final {\n};\n\n}  // namespace plekton::geometry\n"
         self.assert_clean("geometry/primitives/box.hpp", text)

@@ -207,6 +207,17 @@ def one_home_for_each_type(source, root):
             yield f"{source.path}:{line}: {name} is defined in {homes[name]} too; give one another name"
 
 
+def tests_keep_to_themselves(source, root):
+    """Files of tests are compiled together, so what helps one is in a namespace of that file's name. What is
+    in none but the unnamed one is seen, where it collides, by the compiler."""
+    path = Path(source.path)
+    if not source.path.startswith("tests/") or not path.name.endswith("_test.cpp"):
+        return
+    namespaces = re.findall(r"^namespace ([\w:]+) \{", source.text, re.MULTILINE)
+    if namespaces and not any(name.split("::")[-1] == path.stem for name in namespaces):
+        yield f"{source.path}: its helpers meet those of other tests; put them in the namespace {namespaces[0]}::{path.stem}"
+
+
 def _closure(graph):
     reached = {}
     for start in graph:
@@ -303,4 +314,4 @@ def eigen_does_not_vectorise(source, root):
         yield f'{source.path}:{includes[0].line}: includes Eigen without "{EIGEN_HOME}", which sees to the same bits everywhere'
 
 
-RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, no_circles, same_bits_on_every_processor, eigen_does_not_vectorise, one_home_for_each_type)
+RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, no_circles, same_bits_on_every_processor, eigen_does_not_vectorise, one_home_for_each_type, tests_keep_to_themselves)
