@@ -341,8 +341,10 @@ int check_for_programs(const CommandLine& line) {
     const Scenario scenario = scenario_of(line);
     PreparedRun prepared = prepared_aloud(scenario, true);
     require_possible_start(prepared.start, scenario);
-    if (scenario.stage) text_of_stages(scenario, {});
+    StagesSeen stages;
+    if (scenario.stage) stages = look_at_stages(scenario, {});
     auto report = check_report(scenario, prepared);
+    for (const std::string& warning : stages.warnings) report["warnings"].push_back(warning);
     print(report);
   } catch (const InputError& error) {
     print(check_report(error.what()));
@@ -361,7 +363,11 @@ int check_command(const CommandLine& line) {
   if (line.power_iteration) std::cout << summary_of(prepared.simulation->exact_critical_step());
   // Last, since it moves the simulation on.
   std::cout << text_of(estimate_run(scenario, prepared));
-  if (scenario.stage) std::cout << text_of_stages(scenario, {});
+  if (scenario.stage) {
+    const StagesSeen stages = look_at_stages(scenario, {});
+    std::cout << stages.text;
+    for (const std::string& warning : stages.warnings) std::cout << "warning: " << warning << '\n';
+  }
   std::cout << scenario.file.string() << ": no problems\n";
   flush_output();
   return kDone;

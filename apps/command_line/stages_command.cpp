@@ -82,6 +82,20 @@ std::string limits_of(const StageSettings& stage) {
   return text;
 }
 
+/// The step is judged for good where the stage begins, with the contacts that there are then.
+/// @param simulation  of the stage, its bodies where they are made
+void look_at_step(const Scenario& stage, const dynamics::Simulation& simulation,
+                  std::vector<std::string>& warnings) {
+  require_something_free(stage, simulation);
+  const double limit = dynamics::kLargestStep * simulation.critical_step().dt;
+  if (!stage.simulation.time_step || *stage.simulation.time_step < limit) return;
+  warnings.push_back(fmt::format(
+      "{}: simulation.time_step of {:.6g} s is not below {:.6g} s, {} of the critical time step of "
+      "its bodies where they are made; if it still is not when the stage begins, the run ends "
+      "there",
+      stage.stage->path, *stage.simulation.time_step, limit, dynamics::kLargestStep));
+}
+
 }  // namespace
 
 RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
@@ -115,25 +129,26 @@ RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
   return run_stages(scenario, std::move(begin->prepared), from_there, stages);
 }
 
-std::string text_of_stages(const Scenario& scenario, const HearSetUp& hear) {
-  std::string text;
+StagesSeen look_at_stages(const Scenario& scenario, const HearSetUp& hear) {
+  StagesSeen seen;
   StageBodies bodies;
   std::vector<Vec3> positions;
   for (const Scenario& stage : scenario.stages) {
-    BuiltScene built;
-    if (bodies.empty()) {
-      built = build_scene(stage, hear);
-      bodies = first_stage(built);
-      positions = built.scene.state.position;
-    } else {
-      built = try_stage(stage, bodies, positions, hear);
-    }
-    text +=
+    const bool is_first = bodies.empty();
+    BuiltScene built =
+        is_first ? build_scene(stage, hear) : try_stage(stage, bodies, positions, hear);
+    seen.text +=
         fmt::format("stage {} ({} of {}): {}; {} grains, {} planes, {} loads\n", stage.stage->name,
                     stage.stage->number + 1, scenario.stages.size(), limits_of(*stage.stage),
                     built.scene.elements.spheres.size(), stage.planes.size(), stage.loads.size());
+    if (is_first) {
+      bodies = first_stage(built);
+      positions = built.scene.state.position;
+    } else {
+      look_at_step(stage, *simulation_of(stage, built), seen.warnings);
+    }
   }
-  return text;
+  return seen;
 }
 
 }  // namespace plekton::apps

@@ -27,10 +27,16 @@ struct StagesAsked {
 RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
                            const RunSettings& settings, const HearSetUp& hear, std::ostream* aloud);
 
-/// What `plekton check` says of stages, in the order in which they come. Looks at each as far as it
-/// can be known before it is run: what it says, that its scene can be built, and that its grains
-/// have room beside membranes and planes.
+/// What `plekton check` says of stages.
+struct StagesSeen {
+  std::string text;  ///< a line each, in the order in which they come
+  std::vector<std::string> warnings;
+};
+
+/// Looks at each stage as far as it can be known before it is run: what it says, that its scene can
+/// be built, that its grains have room beside membranes and planes, that something moves, and
+/// that a time step it gives is below the limit of its bodies where they are made.
 /// @throws InputError
-std::string text_of_stages(const Scenario& scenario, const HearSetUp& hear);
+StagesSeen look_at_stages(const Scenario& scenario, const HearSetUp& hear);
 
 }  // namespace plekton::apps

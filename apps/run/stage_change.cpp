@@ -222,6 +222,14 @@ StageOfState stage_of(const geometry::StateTree& state) {
   return stage;
 }
 
+void require_something_free(const Scenario& stage, const dynamics::Simulation& simulation) {
+  if (stage.simulation.time_step || std::isfinite(simulation.time_step())) return;
+  throw InputError(fmt::format(
+      "{}: nothing moves freely at its start, so no time step can be chosen; free or add "
+      "something, give simulation.time_step, or end the run before it with --until",
+      stage.stage->path));
+}
+
 PreparedRun prepare_stage(const Scenario& stage, const geometry::StateTree& state,
                           const HearSetUp& hear) {
   PreparedRun prepared;
@@ -259,11 +267,7 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
       require_possible_start(initial_contacts(now, next.built, *next.simulation,
                                               contacts_of_new(change, *next.simulation)),
                              now);
-      if (!stage.simulation.time_step && !std::isfinite(next.simulation->time_step()))
-        throw InputError(fmt::format(
-            "{}: nothing moves freely at its start, so no time step can be chosen; free or add "
-            "something, give simulation.time_step, or end the run before it with --until",
-            stage.stage->path));
+      require_something_free(stage, *next.simulation);
       choose_time_step(stage.simulation, *next.simulation);
     }
   } catch (const geometry::StateMismatch& error) {

@@ -17,6 +17,10 @@ struct StageOfState {
 /// @throws InputError if the state is one of a scenario without stages
 StageOfState stage_of(const geometry::StateTree& state);
 
+/// @param simulation  of the stage
+/// @throws InputError where nothing moves from which a time step could be chosen, and none is given
+void require_something_free(const Scenario& stage, const dynamics::Simulation& simulation);
+
 /// A simulation of the stage in which a state is; it has yet to be restored.
 PreparedRun prepare_stage(const Scenario& stage, const geometry::StateTree& state,
                           const HearSetUp& hear = {});

@@ -519,5 +519,52 @@ TEST_F(Stages, AreAllLookedAtByCheck) {
   EXPECT_THAT(full.err, HasSubstr("grains.second"));
 }
 
+/// A grain that falls on a floor, and is held in a second stage.
+constexpr const char* kHeld = R"([materials.stone]
+density = "2650 kg/m3"
+young_modulus = "10 MPa"
+friction_angle = "30 deg"
+[[grains]]
+name = "ball"
+material = "stone"
+centres = [[0, 0, "6 mm"]]
+radius = "5 mm"
+[[planes]]
+name = "floor"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+material = "stone"
+[[stages]]
+name = "fall"
+end = { duration = "1 ms" }
+[[stages]]
+name = "hold"
+end = { duration = "1 ms" }
+)";
+
+TEST_F(Stages, InWhichNothingMovesAreRefusedByCheckAsByTheRun) {
+  const std::string file =
+      write("held.toml", std::string(kHeld) + R"(fix = [{ grains = "ball", nodes = "all" }])");
+  const std::string refusal = "stages.hold: nothing moves freely at its start";
+
+  const Outcome checked = Program({"check", file}).wait();
+  EXPECT_EQ(checked.exit_code, 1);
+  EXPECT_THAT(checked.err, HasSubstr(refusal));
+  EXPECT_THAT(run(file, "held").err, HasSubstr(refusal));
+}
+
+TEST_F(Stages, WhoseTimeStepIsTooLongAreToldByCheck) {
+  const std::string file =
+      write("long.toml", std::string(kHeld) + "simulation.time_step = \"0.9 ms\"\n");
+  const std::string warning = "stages.hold: simulation.time_step of 0.0009 s is not below ";
+
+  const Outcome checked = Program({"check", file}).wait();
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("warning: " + warning));
+  const json report = json::parse(Program({"check", "--json", file}).wait().out);
+  EXPECT_THAT(report["warnings"].back().get<std::string>(), HasSubstr(warning));
+  EXPECT_THAT(run(file, "long").err, HasSubstr("0.0009 s is not below 0.8 of the critical"));
+}
+
 }  // namespace
 }  // namespace plekton::apps::stages_command_test
