@@ -76,53 +76,51 @@ Real integral(Stretch stretch, const NormalSpring& spring) {
   return half * sum;
 }
 
-/// Cosine of the angle between the lines of two edges.
-Real cosine_between(const std::array<Vector, 2>& a, const std::array<Vector, 2>& b) {
-  const Real cosine = unit(a[1] - a[0]).dot(unit(b[1] - b[0]));
-  return cosine.value < 0.0 ? -cosine : cosine;
+/// Whether an edge is out of range of the line of another for certain; cheap.
+bool is_far_from_line(const Edge& edge, const Edge& other, double range) {
+  const auto origin = now(other[0]);
+  const auto along = unit(now(other[1]) - origin);
+  const auto across = [&](const Vector& point) {
+    const auto from_line = now(point) - origin;
+    return from_line - from_line.dot(along) * along;
+  };
+  const auto first = across(edge[0]), last = across(edge[1]);
+  return first.norm() - (last - first).norm() > 1.000001 * range;
 }
 
-/// A cylinder beside the side of a facet, integrated along the cylinder; only where it lies outside
-/// a plane through the side, if there is one.
-struct Outside {
-  Vector origin;
-  Vector outward;
-};
-Real of_cylinder_beside_side(const std::array<Vector, 2>& cylinder,
-                             const std::array<Vector, 2>& side, const NormalSpring& spring,
-                             const Outside* outside) {
-  const Real factor = parallel_share(cosine_between(cylinder, side));
-  if (factor.value == 0.0) return {0.0};
+/// A cylinder beside the side of a facet, integrated along the cylinder.
+/// @param facet  which it is a side of: only where the cylinder lies beyond it; nullptr: everywhere
+Real of_cylinder_beside_side(const Edge& cylinder, const Edge& side, const NormalSpring& spring,
+                             const std::array<Vector, 3>* facet) {
+  if (!are_along(cylinder, side) || is_far_from_line(cylinder, side, spring.range())) return {0.0};
   auto edges = beside(cylinder, side);
   if (!edges) return {0.0};
-  if (outside) {
-    const auto& [origin, outward] = *outside;
-    if (lies_in_plane(cylinder[0], cylinder[1], origin, outward)) return {0.0};
-    if (!cut(edges->part, cylinder[0], cylinder[1], origin, outward)) return {0.0};
+  if (facet != nullptr) {
+    const auto& [p, q, r] = *facet;
+    const Vector outward = (side[1] - side[0]).cross((q - p).cross(r - p));
+    if (lies_in_plane(cylinder[0], cylinder[1], side[0], outward)) return {0.0};
+    if (!cut(edges->part, cylinder[0], cylinder[1], side[0], outward)) return {0.0};
   }
   const Stretch stretch{edges->length * edges->part.from, edges->length * edges->part.to,
                         edges->start, edges->drift};
-  return factor * integral(stretch, spring) * Real(1.0 / spring.range());
+  return parallel_share(cosine_between(cylinder, side)) * integral(stretch, spring) *
+         Real(1.0 / spring.range());
 }
 
 /// Every point of the cylinder pushes where it is nearest to the facet: inside, or on a side.
-Real of_cylinder_and_facet(const std::array<Vector, 2>& cylinder,
-                           const std::array<Vector, 3>& facet, const NormalSpring& spring) {
+Real of_cylinder_and_facet(const Edge& cylinder, const std::array<Vector, 3>& facet,
+                           const NormalSpring& spring) {
   Real energy = of_edge_above_facet(cylinder[0], cylinder[1], facet, spring);
-  const Vector normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]);
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::array<Vector, 2> side{facet[k], facet[(k + 1) % 3]};
-    const Outside outside{facet[k], (side[1] - side[0]).cross(normal)};
-    energy = energy + of_cylinder_beside_side(cylinder, side, spring, &outside);
+    const Edge side{facet[k], facet[(k + 1) % 3]};
+    energy = energy + of_cylinder_beside_side(cylinder, side, spring, &facet);
   }
   return energy;
 }
 
 /// Two cylinders, integrated along the mean of their directions.
-Real of_cylinders(const std::array<Vector, 2>& a, std::array<Vector, 2> b,
-                  const NormalSpring& spring) {
-  const Real factor = parallel_share(cosine_between(a, b));
-  if (factor.value == 0.0) return {0.0};
+Real of_cylinders(const Edge& a, Edge b, const NormalSpring& spring) {
+  if (!are_along(a, b)) return {0.0};
   if ((a[1] - a[0]).dot(b[1] - b[0]).value < 0.0) std::swap(b[0], b[1]);
   const Vector along_a = unit(a[1] - a[0]);
   const Vector along_b = unit(b[1] - b[0]);
@@ -138,10 +136,11 @@ Real of_cylinders(const std::array<Vector, 2>& a, std::array<Vector, 2> b,
   if (!(stretch.from < stretch.to)) return {0.0};
   stretch.drift = (Real(1.0) / half_cosine) * (along_b - along_a);
   stretch.start = (b[0] - a[0]) - (start_b / half_cosine) * along_b;
-  return factor * integral(stretch, spring) * Real(1.0 / spring.range());
+  return parallel_share(cosine_between(a, b)) * integral(stretch, spring) *
+         Real(1.0 / spring.range());
 }
 
-std::array<Vector, 2> ends(const Simplex& edge, Side side) {
+Edge ends(const Simplex& edge, Side side) {
   return {corner(edge, 0, side), corner(edge, 1, side)};
 }
 
@@ -160,8 +159,8 @@ PairForces extended_part(const Simplex& a, const Simplex& b, const NormalSpring&
   if (b.count == 3) {
     return forces_of(of_cylinder_and_facet(ends(a, Side::a), corners(b, Side::b), spring));
   }
-  const std::array<Vector, 2> edge_a = ends(a, Side::a);
-  const std::array<Vector, 2> edge_b = ends(b, Side::b);
+  const Edge edge_a = ends(a, Side::a);
+  const Edge edge_b = ends(b, Side::b);
   if (is_cylinder(a) && is_cylinder(b)) return forces_of(of_cylinders(edge_a, edge_b, spring));
   return forces_of(is_cylinder(a) ? of_cylinder_beside_side(edge_a, edge_b, spring, nullptr)
                                   : of_cylinder_beside_side(edge_b, edge_a, spring, nullptr));

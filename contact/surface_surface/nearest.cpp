@@ -139,15 +139,13 @@ Real along_edges(const EdgeBesideEdge& edges, const NormalSpring& spring) {
 
 /// Only as far as edges are parallel: the part of one beside another that it crosses at a right
 /// angle ends nowhere that is certain, and moves with the angle as 1 / cosine.
-std::optional<PairForces> as_far_as_parallel(const std::array<Vector, 2>& a,
-                                             const std::array<Vector, 2>& b,
+std::optional<PairForces> as_far_as_parallel(const Edge& a, const Edge& b,
                                              const CoreProximity& nearest,
                                              const NormalSpring& spring) {
-  const Real cosine = unit(a[1] - a[0]).dot(unit(b[1] - b[0]));
-  const Real share = parallel_share(cosine.value < 0.0 ? -cosine : cosine);
-  if (share.value == 0.0) return {};
+  if (!are_along(a, b)) return {};
   const auto edges = beside(a, b);
   if (!edges) return {};
+  const Real share = parallel_share(cosine_between(a, b));
   const PairForces at_point = at_nearest_points(nearest, spring);
   PairForces pair = forces_of(share * (along_edges(*edges, spring) - Real(at_point.energy)));
   pair.energy += at_point.energy;
@@ -169,10 +167,9 @@ std::optional<PairForces> edge_beside_edge(const Simplex& a, const Simplex& b,
       const EdgeOf of_b = edge_of(b, m);
       if (!holds(of_b, nearest.points.corners_b) || !is_bare(b, of_b, nearest.normal)) continue;
       if (slope_of(b, of_b, nearest.normal) > kLargestTilt) continue;
-      const auto pair =
-          as_far_as_parallel({corner(a, of_a.first, Side::a), corner(a, of_a.last, Side::a)},
-                             {corner(b, of_b.first, Side::b), corner(b, of_b.last, Side::b)},
-                             nearest, spring);
+      const auto pair = as_far_as_parallel(
+          {corner(a, of_a.first, Side::a), corner(a, of_a.last, Side::a)},
+          {corner(b, of_b.first, Side::b), corner(b, of_b.last, Side::b)}, nearest, spring);
       if (pair) return pair;
     }
   }

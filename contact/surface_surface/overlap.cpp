@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/surface_surface/overlap.hpp"
 
+#include "contact/surface_surface/facing_facets.hpp"
+
 namespace plekton::contact::structure {
 namespace {
 
@@ -34,54 +36,49 @@ bool lies_in(const Point<Number>& first, const Point<Number>& last, const Point<
   return height_now(first, origin, normal) == 0.0 && height_now(last, origin, normal) == 0.0;
 }
 
+/// Where an edge with these heights at its ends crosses height 0.
+template <class Number>
+Number crossing(const Number& height_at_0, const Number& height_at_1) {
+  return height_at_0 / (height_at_0 - height_at_1);
+}
+
 template <class Number>
 bool keep_above(IntervalOf<Number>& interval, const Number& height_at_0,
                 const Number& height_at_1) {
   const double now_at_0 = still(height_at_0), now_at_1 = still(height_at_1);
   if (now_at_0 < 0.0 && now_at_1 < 0.0) return false;
   if (now_at_0 < 0.0 || now_at_1 < 0.0) {
-    const Number zero = height_at_0 / (height_at_0 - height_at_1);
+    const Number zero = crossing(height_at_0, height_at_1);
     if (now_at_0 < 0.0 && zero > interval.from) interval.from = zero;
     if (now_at_1 < 0.0 && zero < interval.to) interval.to = zero;
   }
   return interval.from < interval.to;
 }
 
-template <class Number>
-bool keep_inside(IntervalOf<Number>& interval, const Point<Number>& first,
-                 const Point<Number>& last, const Point<Number>& origin,
-                 const Point<Number>& inward) {
-  if (lies_in(first, last, origin, inward)) return true;
-  return keep_above<Number>(interval, (first - origin).dot(inward), (last - origin).dot(inward));
-}
+/// Which sides of a facet, or -1 the ends of an edge, bound the part of the edge above it.
+using BoundingSides = std::array<int, 2>;
 
-/// Keeps the part of an edge above the interior of a facet. @returns whether there is one
-/// @param sides  get the sides of the facet that the part begins and ends at, if there are any
-template <class Number>
-bool keep_over(IntervalOf<Number>& part, const Point<Number>& first, const Point<Number>& last,
-               const std::array<Point<Number>, 3>& facet, const Point<Number>& normal,
-               std::array<int, 2>* sides = nullptr) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Point<Number> inward = normal.cross(facet[(i + 1) % 3] - facet[i]);
-    const double from = still(part.from), to = still(part.to);
-    if (!keep_inside(part, first, last, facet[i], inward)) return false;
-    if (sides == nullptr) continue;
-    if (still(part.from) != from) (*sides)[0] = static_cast<int>(i);
-    if (still(part.to) != to) (*sides)[1] = static_cast<int>(i);
-  }
-  return true;
-}
-
-/// A point without derivatives.
-Point<double> now(const Vector& x) {
-  return {x.x.value, x.y.value, x.z.value};
-}
-
-/// Whether an edge has a part above a facet: by the same numbers, without derivatives.
-bool is_over_now(const Vector& first, const Vector& last, const std::array<Vector, 3>& facet) {
-  const std::array<Point<double>, 3> corners{now(facet[0]), now(facet[1]), now(facet[2])};
+/// By the same numbers, without derivatives. @returns nothing where no part is above the facet
+std::optional<BoundingSides> sides_of_part(const Point<double>& first, const Point<double>& last,
+                                           const std::array<Point<double>, 3>& facet) {
+  const Point<double> normal = normal_of(facet);
+  BoundingSides sides{-1, -1};
   IntervalOf<double> part{0.0, 1.0};
-  return keep_over(part, now(first), now(last), corners, normal_of(corners));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point<double> inward = normal.cross(facet[(i + 1) % 3] - facet[i]);
+    if (lies_in(first, last, facet[i], inward)) continue;
+    const auto [from, to] = part;
+    if (!keep_above(part, (first - facet[i]).dot(inward), (last - facet[i]).dot(inward))) return {};
+    if (part.from != from) sides[0] = static_cast<int>(i);
+    if (part.to != to) sides[1] = static_cast<int>(i);
+  }
+  return sides;
+}
+
+template <class Number>
+Number cosine_of(const std::array<Point<Number>, 2>& a, const std::array<Point<Number>, 2>& b) {
+  const Number cosine = unit(a[1] - a[0]).dot(unit(b[1] - b[0]));
+  return still(cosine) < 0.0 ? -cosine : cosine;
 }
 
 }  // namespace
@@ -93,7 +90,8 @@ bool lies_in_plane(const Vector& first, const Vector& last, const Vector& origin
 
 bool cut(Interval& interval, const Vector& first, const Vector& last, const Vector& origin,
          const Vector& inward) {
-  return keep_inside<Real>(interval, first, last, origin, inward);
+  if (lies_in(first, last, origin, inward)) return true;
+  return cut(interval, (first - origin).dot(inward), (last - origin).dot(inward));
 }
 
 bool cut(Interval& interval, const Real& height_at_0, const Real& height_at_1) {
@@ -102,10 +100,18 @@ bool cut(Interval& interval, const Real& height_at_0, const Real& height_at_1) {
 
 std::optional<EdgeOverFacet> above(const Vector& first, const Vector& last,
                                    const std::array<Vector, 3>& facet) {
-  if (!is_over_now(first, last, facet)) return {};
+  const auto sides =
+      sides_of_part(now(first), now(last), {now(facet[0]), now(facet[1]), now(facet[2])});
+  if (!sides) return {};
   const Vector normal = normal_of<Real>(facet);
-  EdgeOverFacet found{{0.0, 1.0}, {-1, -1}, (last - first).norm(), 0.0, 0.0, 0.0};
-  keep_over(found.part, first, last, facet, normal, &found.sides);
+  EdgeOverFacet found{{0.0, 1.0}, *sides, (last - first).norm(), 0.0, 0.0, 0.0};
+  const auto crossing_of = [&](int side) {
+    const auto i = static_cast<std::size_t>(side);
+    const Vector inward = normal.cross(facet[(i + 1) % 3] - facet[i]);
+    return crossing((first - facet[i]).dot(inward), (last - facet[i]).dot(inward));
+  };
+  if ((*sides)[0] >= 0) found.part.from = crossing_of((*sides)[0]);
+  if ((*sides)[1] >= 0) found.part.to = crossing_of((*sides)[1]);
   const Real height_first = (first - facet[0]).dot(normal);
   const Real height_last = (last - facet[0]).dot(normal);
   // Beyond the facet the edge may go to the other side of its plane.
@@ -118,8 +124,15 @@ std::optional<EdgeOverFacet> above(const Vector& first, const Vector& last,
   return found;
 }
 
-std::optional<EdgeBesideEdge> beside(const std::array<Vector, 2>& edge,
-                                     const std::array<Vector, 2>& other) {
+Real cosine_between(const Edge& a, const Edge& b) {
+  return cosine_of<Real>(a, b);
+}
+
+bool are_along(const Edge& a, const Edge& b) {
+  return parallel_share(cosine_of<double>({now(a[0]), now(a[1])}, {now(b[0]), now(b[1])})) > 0.0;
+}
+
+std::optional<EdgeBesideEdge> beside(const Edge& edge, const Edge& other) {
   const Vector along = unit(other[1] - other[0]);
   const Vector to_first = edge[0] - other[0];
   const Real first = to_first.dot(along);

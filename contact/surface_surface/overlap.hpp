@@ -20,18 +20,26 @@ using Interval = IntervalOf<Real>;
 
 /// An edge above (or below) a facet.
 struct EdgeOverFacet {
-  Interval part;  ///< of the edge, that lies above the facet
+  Interval part;                     ///< of the edge, that lies above the facet
   std::array<int, 2> sides{-1, -1};  ///< of the facet, that the part begins and ends at; -1: at an
                                      ///< end of the edge
-  Real length;    ///< m, of the whole edge
-  Real first;     ///< m, distance of the edge's first end from the facet's plane
-  Real last;      ///< m, of its other end
-  Real slope;     ///< of the distance, along the edge
+  Real length;                       ///< m, of the whole edge
+  Real first;                        ///< m, distance of the edge's first end from the facet's plane
+  Real last;                         ///< m, of its other end
+  Real slope;                        ///< of the distance, along the edge
 
   Real distance(const Real& t) const { return first + t * (last - first); }
 };
 std::optional<EdgeOverFacet> above(const Vector& first, const Vector& last,
                                    const std::array<Vector, 3>& facet);
+
+/// An edge by its ends.
+using Edge = std::array<Vector, 2>;
+
+/// Of the angle between the lines of two edges.
+Real cosine_between(const Edge& a, const Edge& b);
+/// Whether they are parallel enough for that, see parallel_share(): cheap.
+bool are_along(const Edge& a, const Edge& b);
 
 /// An edge beside the line of another, as far as it lies beside the other.
 struct EdgeBesideEdge {
@@ -44,8 +52,7 @@ struct EdgeBesideEdge {
   /// Slope of the distance at a place.
   Real slope(const Real& t) const { return separation(t).dot(drift) / separation(t).norm(); }
 };
-std::optional<EdgeBesideEdge> beside(const std::array<Vector, 2>& edge,
-                                     const std::array<Vector, 2>& other);
+std::optional<EdgeBesideEdge> beside(const Edge& edge, const Edge& other);
 
 /// Keeps what of an interval has a nonnegative height, which is linear from one end of the edge
 /// (t = 0) to the other. @returns whether anything is left

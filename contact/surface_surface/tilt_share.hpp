@@ -41,6 +41,11 @@ geometry::Vec3 still(const geometry::PackVec3<Number>& v) {
   return {still(v.x), still(v.y), still(v.z)};
 }
 
+/// A vector without derivatives: formulas of it have the same values, in a twentieth of the time.
+inline geometry::PackVec3<double> now(const Vector& v) {
+  return {v.x.value, v.y.value, v.z.value};
+}
+
 /// Of a vector without length: itself.
 template <class Number>
 geometry::PackVec3<Number> unit(const geometry::PackVec3<Number>& v) {
