@@ -38,7 +38,7 @@ using Edge = std::array<Vector, 2>;
 
 /// Of the angle between the lines of two edges.
 Real cosine_between(const Edge& a, const Edge& b);
-/// Whether they are parallel enough for that, see parallel_share(): cheap.
+/// Whether parallel_share() of it is above 0; without derivatives.
 bool are_along(const Edge& a, const Edge& b);
 
 /// An edge beside the line of another, as far as it lies beside the other.
