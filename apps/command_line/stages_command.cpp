@@ -86,7 +86,6 @@ std::string limits_of(const StageSettings& stage) {
 /// @param simulation  of the stage, its bodies where they are made
 void look_at_step(const Scenario& stage, const dynamics::Simulation& simulation,
                   std::vector<std::string>& warnings) {
-  require_something_free(stage, simulation);
   const double limit = dynamics::kLargestStep * simulation.critical_step().dt;
   if (!stage.simulation.time_step || *stage.simulation.time_step < limit) return;
   warnings.push_back(fmt::format(
@@ -133,8 +132,10 @@ StagesSeen look_at_stages(const Scenario& scenario, const HearSetUp& hear) {
   StagesSeen seen;
   StageBodies bodies;
   std::vector<Vec3> positions;
+  bool knows_what_is_free = true;
   for (const Scenario& stage : scenario.stages) {
     const bool is_first = bodies.empty();
+    knows_what_is_free = knows_what_is_free && !frees_grains_at_places(*stage.stage);
     BuiltScene built =
         is_first ? build_scene(stage, hear) : try_stage(stage, bodies, positions, hear);
     seen.text +=
@@ -145,7 +146,9 @@ StagesSeen look_at_stages(const Scenario& scenario, const HearSetUp& hear) {
       bodies = first_stage(built);
       positions = built.scene.state.position;
     } else {
-      look_at_step(stage, *simulation_of(stage, built), seen.warnings);
+      const auto simulation = simulation_of(stage, built);
+      if (knows_what_is_free) require_something_free(stage, *simulation);
+      look_at_step(stage, *simulation, seen.warnings);
     }
   }
   return seen;

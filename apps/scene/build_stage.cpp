@@ -7,6 +7,7 @@
 #include "apps/scene/rigid_builder.hpp"
 #include "apps/scene/stage_ends.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <variant>
@@ -183,6 +184,10 @@ BuiltScene try_stage(const Scenario& stage, StageBodies& bodies, std::vector<Vec
   const Scenario known = as_far_as_known(stage);
   return begun(build_bodies(known, {bodies.grains, positions, false}, hear), known, bodies,
                positions, 0.0);
+}
+
+bool frees_grains_at_places(const StageSettings& stage) {
+  return std::ranges::any_of(stage.freed, [](const auto& set) { return is_among_grains(set); });
 }
 
 }  // namespace plekton::apps

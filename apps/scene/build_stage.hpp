@@ -32,5 +32,7 @@ BuiltScene begin_stage(const Scenario& stage, StageBodies& bodies, std::vector<V
 /// among them.
 BuiltScene try_stage(const Scenario& stage, StageBodies& bodies, std::vector<Vec3>& positions,
                      const HearSetUp& hear = {});
+/// Whether the stage frees grains in boxes, which try_stage() leaves as they are.
+bool frees_grains_at_places(const StageSettings& stage);
 
 }  // namespace plekton::apps

@@ -553,6 +553,20 @@ TEST_F(Stages, InWhichNothingMovesAreRefusedByCheckAsByTheRun) {
   EXPECT_THAT(run(file, "held").err, HasSubstr(refusal));
 }
 
+TEST_F(Stages, ThatFreeGrainsWhereOnlyARunFindsThemAreNotRefusedByCheck) {
+  const std::string file = write("freed.toml", std::string(kHeld) + R"(simulation.time_step = "10 us"
+fix = [{ grains = "ball", nodes = "all" }]
+[[stages]]
+name = "free"
+end = { duration = "1 ms" }
+simulation.time_step = "auto"
+free = [{ grains = "ball", nodes = { min = [-1, -1, -1], max = [1, 1, 1] } }]
+)");
+
+  EXPECT_EQ(Program({"check", file}).wait().exit_code, 0);
+  EXPECT_EQ(run(file, "freed").exit_code, 0);
+}
+
 TEST_F(Stages, WhoseTimeStepIsTooLongAreToldByCheck) {
   const std::string file =
       write("long.toml", std::string(kHeld) + "simulation.time_step = \"0.9 ms\"\n");
