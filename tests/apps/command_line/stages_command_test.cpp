@@ -554,7 +554,8 @@ TEST_F(Stages, InWhichNothingMovesAreRefusedByCheckAsByTheRun) {
 }
 
 TEST_F(Stages, ThatFreeGrainsWhereOnlyARunFindsThemAreNotRefusedByCheck) {
-  const std::string file = write("freed.toml", std::string(kHeld) + R"(simulation.time_step = "10 us"
+  const std::string file =
+      write("freed.toml", std::string(kHeld) + R"(simulation.time_step = "10 us"
 fix = [{ grains = "ball", nodes = "all" }]
 [[stages]]
 name = "free"
