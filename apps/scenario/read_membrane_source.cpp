@@ -82,7 +82,8 @@ void refuse_repair(Section& section) {
 
 }  // namespace
 
-void read_membrane_source(Section& section, const Known& known, MembraneSettings& membrane) {
+void read_membrane_source(Section& section, const Known& known, MembraneSettings& membrane,
+                          ShapeKinds kinds) {
   const bool has_mesh = section.has("mesh");
   const bool has_shape = section.has("shape");
   const bool has_ondem = section.has("ondem");
@@ -103,7 +104,7 @@ void read_membrane_source(Section& section, const Known& known, MembraneSettings
     membrane.repair_keys = repair_keys(section);
   }
   if (has_shape || !has_ondem)
-    if (const auto shape = section.table("shape")) membrane.shape = read_shape(*shape);
+    if (const auto shape = section.table("shape")) membrane.shape = read_shape(*shape, kinds);
   if (has_ondem) read_ondem_membrane(section, known, membrane);
 }
 

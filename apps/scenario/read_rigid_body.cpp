@@ -71,12 +71,9 @@ void refuse_keys_of_surfaces(Section& section) {
 void read_surface(Section& section, const Known& known, MembraneSettings& surface,
                   RigidBodySettings& body) {
   constexpr std::array<std::string_view, 2> kFillings = {"solid", "shell"};
-  read_membrane_source(section, known, surface);
+  read_membrane_source(section, known, surface, ShapeKinds::of_facets);
   if (surface.shape && has_bars(*surface.shape))
     section.complain("shape", "a rigid body has facets alone; leave the bars out");
-  if (surface.shape && is_net(*surface.shape))
-    section.complain(
-        "shape", "a net has no facets; expected a mesh, or a sheet, polygon, tube, sphere or box");
   section.tell_default("thickness", "required of a mesh or shape");
   surface.thickness = section.quantity("thickness", {kLength, kPositive});
   section.tell_default("filling", "solid where it is closed");

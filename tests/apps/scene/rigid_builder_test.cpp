@@ -171,6 +171,13 @@ TEST(RigidBuilder, RefusesALoadOnAnInnerNode) {
                         "loads of their own"));
 }
 
+TEST(RigidBuilder, RefusesAShapeOfBars) {
+  EXPECT_THAT(
+      error_of({"rigid_bodies.lid.shape={ kind = \"chain\", points = [[0, 0, 0], [0, 0, 1]] }"}),
+      HasSubstr("rigid_bodies.lid.shape.kind: got \"chain\"; expected one of \"sheet\", "
+                "\"polygon\", \"tube\", \"sphere\", \"box\", \"facets\""));
+}
+
 TEST(RigidBuilder, RefusesABodyThatIsCalledLikeGrains) {
   EXPECT_THAT(error_of({"rigid_bodies.clump.name=sand"}),
               HasSubstr("\"sand\" is the name of a membrane or of grains too"));
