@@ -82,8 +82,7 @@ void refuse_repair(Section& section) {
 
 }  // namespace
 
-void read_membrane_source(Section& section, const Known& known, MembraneSettings& membrane,
-                          ShapeKinds kinds) {
+void read_membrane_source(Section& section, const Known& known, MembraneSettings& membrane) {
   const bool has_mesh = section.has("mesh");
   const bool has_shape = section.has("shape");
   const bool has_ondem = section.has("ondem");
@@ -104,7 +103,7 @@ void read_membrane_source(Section& section, const Known& known, MembraneSettings
     membrane.repair_keys = repair_keys(section);
   }
   if (has_shape || !has_ondem)
-    if (const auto shape = section.table("shape")) membrane.shape = read_shape(*shape, kinds);
+    if (const auto shape = section.table("shape")) membrane.shape = read_shape(*shape);
   if (has_ondem) read_ondem_membrane(section, known, membrane);
 }
 

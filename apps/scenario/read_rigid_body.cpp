@@ -71,12 +71,14 @@ void refuse_keys_of_surfaces(Section& section) {
 void read_surface(Section& section, const Known& known, MembraneSettings& surface,
                   RigidBodySettings& body) {
   constexpr std::array<std::string_view, 2> kFillings = {"solid", "shell"};
-  read_membrane_source(section, known, surface, ShapeKinds::of_facets);
+  read_membrane_source(section, known, surface);
   if (surface.shape && has_bars(*surface.shape))
-    section.complain("shape", "a rigid body has facets alone; leave the bars out");
+    section.complain("shape", "a rigid body has facets or bars; leave the bars out");
   section.tell_default("thickness", "required of a mesh or shape");
   surface.thickness = section.quantity("thickness", {kLength, kPositive});
   section.tell_default("filling", "solid where it is closed");
+  if (section.has("filling") && surface.shape && is_net(*surface.shape))
+    section.complain("filling", "goes with facets; bars are solid");
   if (section.has("filling"))
     body.filling =
         section.choice("filling", kFillings) == 0 ? RigidFilling::solid : RigidFilling::shell;

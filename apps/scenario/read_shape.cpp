@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -244,20 +243,17 @@ ShapeSettings read_bars(Section& section) {
   return lattice;
 }
 
-/// Those of facets first.
 constexpr std::array<std::string_view, 12> kShapeKinds = {
-    "sheet",           "polygon",          "tube",          "sphere",   "box",   "facets",
-    "biaxial_geogrid", "uniaxial_geogrid", "hexagonal_net", "ring_net", "chain", "bars"};
+    "sheet",         "polygon",  "tube",  "sphere", "box", "biaxial_geogrid", "uniaxial_geogrid",
+    "hexagonal_net", "ring_net", "chain", "facets", "bars"};
 constexpr std::array<ShapeSettings (*)(Section&), 12> kReaders = {
-    read_sheet,   read_polygon,  read_tube,      read_sphere,   read_box_shell, read_facets,
-    read_biaxial, read_uniaxial, read_hexagonal, read_ring_net, read_chain,     read_bars};
-constexpr std::size_t kKindsOfFacets = 6;
+    read_sheet,    read_polygon,   read_tube,     read_sphere, read_box_shell, read_biaxial,
+    read_uniaxial, read_hexagonal, read_ring_net, read_chain,  read_facets,    read_bars};
 
 }  // namespace
 
-std::optional<ShapeSettings> read_shape(Section section, ShapeKinds kinds) {
-  const std::size_t count = kinds == ShapeKinds::of_facets ? kKindsOfFacets : kShapeKinds.size();
-  const auto kind = section.known_choice("kind", std::span(kShapeKinds).first(count));
+std::optional<ShapeSettings> read_shape(Section section) {
+  const auto kind = section.known_choice("kind", kShapeKinds);
   if (!kind) return std::nullopt;
   ShapeSettings shape = kReaders[*kind](section);
   section.finish();

@@ -52,13 +52,13 @@ std::vector<Obstacle> obstacles_of(const BuiltScene& built, const BodiesThere& t
   std::size_t first = 0;
   for (const BuiltMembrane& membrane : built.membranes) {
     // Where there are facets the cylinders are their sides.
-    for (std::size_t i = first; membrane.facets == 0 && i < first + membrane.beams; ++i) {
+    for (std::size_t i = first; membrane.facets == 0 && i < first + membrane.cylinders; ++i) {
       const geometry::Cylinder& cylinder = scene.elements.cylinders[i];
       if (!scene.is_there(cylinder.nodes[0])) continue;
       const auto [x0, x1] = geometry::core(cylinder, x);
       obstacles.push_back({{x0, x1, x1}, cylinder.radius});
     }
-    first += membrane.beams;
+    first += membrane.cylinders;
   }
   for (const geometry::Sphere& sphere : scene.elements.spheres) {
     const std::size_t node = index_of(sphere.nodes[0]);

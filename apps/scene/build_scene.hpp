@@ -21,9 +21,10 @@ struct BuiltMembrane {
   std::optional<geometry::MeshReport> report;  ///< of the import; nothing for a shape
   std::size_t first_node = 0;
   std::size_t nodes = 0;
-  std::size_t facets = 0;  ///< none in a net
-  std::size_t beams = 0;   ///< or bars: one for each edge of the mesh, with a cylinder of the same
-                           ///< nodes; none in a sheet
+  std::size_t facets = 0;        ///< none in a net
+  std::size_t cylinders = 0;     ///< along every edge of the mesh; none in a sheet, and of a rigid
+                                 ///< body only where it has no facets
+  std::size_t beams = 0;         ///< or bars: one for each cylinder but those of a rigid body
   std::size_t sheet_facets = 0;  ///< facets that resist; none but in a sheet
   std::vector<bool> on_rim;      ///< by node of the membrane, as in MembraneBody
   std::size_t held_nodes = 0;

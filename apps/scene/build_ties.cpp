@@ -251,7 +251,7 @@ class TieBuilder {
   void for_each_bar(const NodeSetSettings& set, const Visit& visit) const {
     const std::size_t membrane = *surface_of(set);
     if (built_.membranes[membrane].facets > 0) return;
-    const auto [first, count] = range_of(membrane, &BuiltMembrane::beams);
+    const auto [first, count] = range_of(membrane, &BuiltMembrane::cylinders);
     for (std::size_t i = first; i < first + count; ++i)
       visit(built_.scene.elements.cylinders[i].nodes);
   }
@@ -281,7 +281,7 @@ class TieBuilder {
   std::optional<std::size_t> cable_of(std::size_t membrane) {
     if (const auto known = cables_.find(membrane); known != cables_.end()) return known->second;
     std::map<NodeId, std::vector<NodeId>> beside;
-    const auto [first, count] = range_of(membrane, &BuiltMembrane::beams);
+    const auto [first, count] = range_of(membrane, &BuiltMembrane::cylinders);
     for (std::size_t i = first; i < first + count; ++i) {
       const auto& [a, b] = built_.scene.elements.cylinders[i].nodes;
       beside[a].push_back(b);

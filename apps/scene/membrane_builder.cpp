@@ -221,7 +221,8 @@ BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) 
   result.first_node = first_node;
   result.nodes = body.membrane.nodes.size();
   result.facets = body.membrane.facets.size();
-  result.beams = settings.mode == MembraneMode::continuum ? 0 : body.membrane.edges.size();
+  result.cylinders = settings.mode == MembraneMode::continuum ? 0 : body.membrane.edges.size();
+  result.beams = result.cylinders;
   result.on_rim = body.on_rim;
   result.area = body.area;
   result.held_nodes = add_nodes(settings, body, built);

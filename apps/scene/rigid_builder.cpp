@@ -4,6 +4,7 @@
 #include "apps/scene/membrane_body.hpp"
 #include "dynamics/loads/surface_pressure_check.hpp"
 #include "dynamics/model/scene_figures.hpp"
+#include "dynamics/rigid/bar_moments.hpp"
 #include "dynamics/rigid/sphere_union.hpp"
 
 #include <fmt/format.h>
@@ -38,8 +39,9 @@ bool is_told(const RigidBodySettings& body) {
   return body.mass && body.inertia && body.centre;
 }
 
+/// @param thickness  m, of facets, and diameter of bars
 BodyVolume volume_of(const RigidBodySettings& body, const geometry::Membrane& surface,
-                     const dynamics::Scene& scene) {
+                     double thickness, const dynamics::Scene& scene) {
   std::vector<std::array<NodeId, 3>> corners;
   for (const geometry::Facet& facet : surface.facets) corners.push_back(facet.nodes);
   const bool is_closed = dynamics::are_closed(surface.facets);
@@ -56,8 +58,12 @@ BodyVolume volume_of(const RigidBodySettings& body, const geometry::Membrane& su
   volume.origin = 0.5 * (lower + upper);
   const geometry::Positions x = scene.state.position;
   if (is_told(body)) return volume;
+  if (surface.facets.empty()) {
+    volume.what = fmt::format("solid bars of {:.4g} m, without their round ends", thickness);
+    volume.moments = dynamics::bar_moments(x, surface.edges, 0.5 * thickness, volume.origin);
+    return volume;
+  }
   if (!is_solid) {
-    const double thickness = 2.0 * surface.facets.front().radius;
     volume.what = fmt::format("a shell of {:.4g} m", thickness);
     volume.moments = dynamics::shell_moments(x, corners, thickness, volume.origin);
     return volume;
@@ -126,8 +132,13 @@ void add_rigid_surface(const RigidBodySettings& body, const MembraneSettings& se
   const auto material = static_cast<contact::MaterialId>(settings.material);
   for (const geometry::Facet& facet : surface.membrane.facets)
     scene.add_facet(facet.nodes[0], facet.nodes[1], facet.nodes[2], facet.radius, material);
-  add_body(body, settings.rigid_body.value(), nodes, volume_of(body, surface.membrane, scene),
-           built);
+  const bool is_of_bars = surface.membrane.facets.empty();
+  if (is_of_bars) {
+    for (const auto& [a, b] : surface.membrane.edges)
+      scene.add_cylinder(a, b, 0.5 * settings.thickness, material);
+  }
+  add_body(body, settings.rigid_body.value(), nodes,
+           volume_of(body, surface.membrane, settings.thickness, scene), built);
 
   BuiltMembrane result;
   result.name = settings.name;
@@ -135,6 +146,7 @@ void add_rigid_surface(const RigidBodySettings& body, const MembraneSettings& se
   result.first_node = first_node;
   result.nodes = nodes.size();
   result.facets = surface.membrane.facets.size();
+  result.cylinders = is_of_bars ? surface.membrane.edges.size() : 0;
   result.on_rim = std::move(surface.on_rim);
   result.held_nodes = nodes.size();
   result.area = surface.area;

@@ -156,9 +156,9 @@ TEST_F(ShapeCommand, NamesAKindThatDoesNotExistWithASuggestion) {
   EXPECT_THAT(
       error_of(""),
       HasSubstr("case.toml:10:9: membranes.m.shape.kind: missing; expected one of "
-                "\"sheet\", \"polygon\", \"tube\", \"sphere\", \"box\", \"facets\", "
-                "\"biaxial_geogrid\", \"uniaxial_geogrid\", \"hexagonal_net\", \"ring_net\", "
-                "\"chain\", \"bars\"\n"));
+                "\"sheet\", \"polygon\", \"tube\", \"sphere\", \"box\", \"biaxial_geogrid\", "
+                "\"uniaxial_geogrid\", \"hexagonal_net\", \"ring_net\", \"chain\", \"facets\", "
+                "\"bars\"\n"));
 }
 
 TEST_F(ShapeCommand, ReportsEveryWrongSizeWithItsPlace) {

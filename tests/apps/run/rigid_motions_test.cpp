@@ -67,6 +67,42 @@ std::map<std::string, double> last_row(const std::string& text) {
   return row;
 }
 
+/// A bar across a slope of 20 degrees, as gravity has it, on which it rolls without slip. The
+/// bounces with which it begins are 0.2 um high.
+constexpr std::string_view kRoller = R"([simulation]
+duration = "0.2 s"
+gravity = [3.355217606, 0, -9.218384668]
+[materials.steel]
+density = "7800 kg/m3"
+young_modulus = "10 GPa"
+friction_angle = "40 deg"
+[[rigid_bodies]]
+name = "roller"
+shape = { kind = "chain", points = [[0, "-10 cm", "5 cm"], [0, "10 cm", "5 cm"]], divisions = 2 }
+thickness = "10 cm"
+material = "steel"
+density = "7800 kg/m3"
+[[planes]]
+name = "floor"
+point = [0, 0, 0]
+material = "steel"
+)";
+
+// A solid cylinder has two thirds of the acceleration of what slides without friction.
+TEST_F(RigidBodyRuns, RollDownAsABarDoes) {
+  const std::string file = (folder_ / "roller.toml").string();
+  test::write_bytes(file, std::string(kRoller));
+  const std::string out = (folder_ / "roller").string();
+  ASSERT_EQ(outcome_of({"run", file, "--quiet", "--out", out}).exit_code, 0);
+
+  const auto row = last_row(test::bytes_of(out + "/rigid_bodies.csv"));
+  const double time = row.at("time (s)");
+  const double speed = 2.0 / 3.0 * 3.355217606 * time;
+  EXPECT_NEAR(row.at("roller.velocity_x (m/s)"), speed, 1e-3 * speed);
+  EXPECT_NEAR(row.at("roller.position_x (m)"), 0.5 * speed * time, 0.5e-3 * speed * time);
+  EXPECT_NEAR(row.at("roller.angular_velocity_y (rad/s)"), speed / 0.05, 1e-3 * speed / 0.05);
+}
+
 TEST_F(RigidBodyRuns, SayWhatTheBodiesWeigh) {
   const Outcome outcome = outcome_of({"check", bodies()});
 

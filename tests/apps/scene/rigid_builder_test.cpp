@@ -171,11 +171,26 @@ TEST(RigidBuilder, RefusesALoadOnAnInnerNode) {
                         "loads of their own"));
 }
 
-TEST(RigidBuilder, RefusesAShapeOfBars) {
+// Two bars of pi r² 0.3 m and 0.4 m at a right angle: the centre from their middles.
+TEST(RigidBuilder, MakesBarsOfANet) {
+  const std::string bars =
+      "rigid_bodies.lid.shape={ kind = \"chain\", points = [[0, 0, 0], [0.3, 0, 0], [0.3, 0.4, 0]] "
+      "}";
+  const BuiltScene scene = built({bars, "rigid_bodies.lid.thickness=\"20 mm\""});
+
+  EXPECT_EQ(scene.scene.elements.cylinders.size(), 2U);
+  EXPECT_TRUE(scene.scene.bonds.empty());
+  const dynamics::MassProperties& mass = body_called("lid", scene).mass;
+  const double expected = 1000.0 * std::numbers::pi * 0.01 * 0.01 * 0.7;
+  EXPECT_NEAR(mass.mass, expected, 1e-13 * expected);
+  const Vec3 middle = (0.3 * Vec3(0.15, 0, 0) + 0.4 * Vec3(0.3, 0.2, 0)) / 0.7;
+  EXPECT_LT((mass.centre - Vec3(-0.05, -0.05, 0.1) - middle).norm(), 1e-15);
+  EXPECT_THAT(error_of({bars, "rigid_bodies.lid.filling=shell"}),
+              HasSubstr("rigid_bodies.lid.filling: goes with facets; bars are solid"));
   EXPECT_THAT(
-      error_of({"rigid_bodies.lid.shape={ kind = \"chain\", points = [[0, 0, 0], [0, 0, 1]] }"}),
-      HasSubstr("rigid_bodies.lid.shape.kind: got \"chain\"; expected one of \"sheet\", "
-                "\"polygon\", \"tube\", \"sphere\", \"box\", \"facets\""));
+      error_of({"rigid_bodies.lid.shape={ kind = \"facets\", points = [[0, 0, 0], [1, 0, 0], "
+                "[0, 1, 0], [0, 0, 1]], facets = [[0, 1, 2]], bars = [[0, 3]] }"}),
+      HasSubstr("rigid_bodies.lid.shape: a rigid body has facets or bars"));
 }
 
 TEST(RigidBuilder, RefusesABodyThatIsCalledLikeGrains) {
