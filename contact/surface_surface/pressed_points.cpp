@@ -21,12 +21,12 @@ geometry::Core core_of(const geometry::FeatureNodes& nodes, Positions x) {
   return core;
 }
 
-/// Of the corners of a, where forces act on them.
-Vec3 weights_of(const std::array<Vec3, 3>& forces, const Vec3& total) {
-  Vec3 weights;
+/// Of the corners of a, as forces act on them along the whole.
+Vec3 parts_of(const std::array<Vec3, 3>& forces, const Vec3& whole) {
+  Vec3 parts;
   for (std::size_t i = 0; i < 3; ++i)
-    weights[static_cast<int>(i)] = std::max(0.0, forces[i].dot(total));
-  return weights / weights.sum();
+    parts[static_cast<int>(i)] = std::max(0.0, forces[i].dot(whole));
+  return parts;
 }
 
 }  // namespace
@@ -39,16 +39,19 @@ PressedPoints pressed_points(const geometry::Surface& surface, const PairTerm& t
                              Positions x) {
   const geometry::Core a = core_of(term.a, x);
   const geometry::Core b = core_of(term.b, x);
-  const Vec3 weights = weights_of(term.forces.on_a, force_on_a(term));
-  const geometry::Core mean{{position(point_on(surface, term.a, weights), x)}, 1};
-  const Vec3 on_b = geometry::closest_points(mean, b).weights_b;
-  const geometry::Core beside{{position(point_on(surface, term.b, on_b), x)}, 1};
-  const geometry::ClosestPoints opposite = geometry::closest_points(a, beside);
-  if (opposite.distance < range)
-    return {point_on(surface, term.a, opposite.weights_a), point_on(surface, term.b, on_b)};
+  const auto points = [&](const Vec3& on_a, const Vec3& on_b) {
+    return PressedPoints{point_on(surface, term.a, on_a), point_on(surface, term.b, on_b)};
+  };
+  const Vec3 parts = parts_of(term.forces.on_a, force_on_a(term));
+  if (const double whole = parts.sum(); whole > 0.0) {
+    const geometry::Core mean{{position(point_on(surface, term.a, parts / whole), x)}, 1};
+    const Vec3 on_b = geometry::closest_points(mean, b).weights_b;
+    const geometry::Core beside{{position(point_on(surface, term.b, on_b), x)}, 1};
+    const geometry::ClosestPoints opposite = geometry::closest_points(a, beside);
+    if (opposite.distance < range) return points(opposite.weights_a, on_b);
+  }
   const geometry::ClosestPoints nearest = geometry::closest_points(a, b);
-  return {point_on(surface, term.a, nearest.weights_a),
-          point_on(surface, term.b, nearest.weights_b)};
+  return points(nearest.weights_a, nearest.weights_b);
 }
 
 }  // namespace plekton::contact::structure

@@ -16,8 +16,8 @@ struct PressedPoints {
 /// Elastic force (N) on feature a of a term.
 Vec3 force_on_a(const PairTerm& term);
 
-/// Of a term of two cells in range that pushes: where its elastic forces act in the mean, or, if
-/// the points there are not within a range (m), where the cells are nearest.
+/// Of a term of two cells in range: where its elastic forces act in the mean, or, if there are none
+/// or the points there are not within a range (m), where the cells are nearest.
 PressedPoints pressed_points(const geometry::Surface& surface, const PairTerm& term, double range,
                              Positions x);
 
