@@ -21,6 +21,7 @@
 #include "apps/command_line/step_advice.hpp"
 #include "apps/command_line/study_command.hpp"
 #include "apps/command_line/summary.hpp"
+#include "apps/command_line/usage_error.hpp"
 #include "apps/command_line/validate_command.hpp"
 #include "apps/command_line/verify_command.hpp"
 #include "apps/command_line/view_command.hpp"
@@ -29,7 +30,6 @@
 #include "apps/run/output_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_warnings.hpp"
-#include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/json_schema.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
@@ -555,23 +555,6 @@ CLI::Option* add_scenario_options(CLI::App& command, CommandLine& line) {
   return scenario;
 }
 
-/// @returns whether the command line begins with a word that is no command, after saying so
-bool is_unknown_command(const CLI::App& app, int argc, const char* const* argv) {
-  if (argc < 2) return false;
-  const std::string_view word = argv[1];
-  const std::vector<CommandEntry> commands = command_table(app);
-  std::vector<std::string_view> names;
-  for (const CommandEntry& command : commands) names.push_back(command.name);
-  if (word.starts_with('-') || word == kGenerate ||
-      std::find(names.begin(), names.end(), word) != names.end())
-    return false;
-  const std::string closest = closest_word(word, names);
-  print_error(fmt::format("unknown command \"{}\"; {}", word,
-                          closest.empty() ? "the commands are " + listed(names)
-                                          : fmt::format("did you mean \"{}\"?", closest)));
-  return true;
-}
-
 // The commands and their options.
 
 CLI::App* add_run(CLI::App& app, CommandLine& line) {
@@ -834,12 +817,12 @@ int dispatch(int argc, const char* const* argv) {
   const CLI::App* const start = add_new(app, line);
   const CLI::App* const generated = add_generate(app, line);
   add_view(app, line);
-  if (is_unknown_command(app, argc, argv)) return kUsage;
-
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);  // help, version
+    print_error(usage_error(app, error, argc < 2 ? "" : argv[1]));
+    return kUsage;
   }
   if (run->parsed()) return run_on_ranks(line);
   if (check->parsed()) return check_command(line);

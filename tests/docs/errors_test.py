@@ -10,8 +10,8 @@ import sys
 from pathlib import Path
 
 LIBRARIES = ("geometry", "contact", "dynamics", "apps")
-OTHERS = ("The following argument was not expected", "No space left on device")
-"""Said by CLI11 and by the system."""
+OTHERS = ("No space left on device",)
+"""Said by the system."""
 
 SPEAKING = ("geometry/mesh/io", "geometry/mesh/repair", "dynamics/checkpoint", "dynamics/distributed", "dynamics/ondem", "dynamics/output", "apps/*")
 """Folders whose messages reach users as they are; those of others are about what a program in C++ has passed."""
