@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # plekton_options(target): how every target of the project is compiled.
+# plekton_computes_little(target): tests, and the program, which reads, checks and writes: what computes is in the libraries.
 # plekton_library(name EXCEPT folder PUBLIC libraries... PRIVATE libraries...): the library plekton::<name> from the sources of
 #   the current folder, without those of a folder in it, static or shared as BUILD_SHARED_LIBS says.
 # plekton_kernels(sources...): those of the current folder that run with the widest vectors of the processor.
@@ -31,34 +32,59 @@ function(plekton_options target)
   endif()
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # GCC 12 reports it for std::string's operator+ at -O3, wrongly (GCC bug 105651)
+    $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>  # below 512 MB GCC looks for what it could free: a tenth of its time
     $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>  # notes on how vectors of lanes are passed; they never leave one file
     $<$<BOOL:${PLEKTON_WARNINGS_AS_ERRORS}>:-Werror> $<$<BOOL:${PLEKTON_NATIVE}>:-march=native>)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
 
+# -O3 would be a tenth to two fifths of the compilation. The bits are the same.
+function(plekton_computes_little target)
+  # GCC 12 then warns, wrongly, of copies within <vector> and <string> (bug 105651).
+  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
+endfunction()
+
 # Most of the time of a small source goes into the headers that its neighbours need too. Batches stay within a folder, so that a new
-# source moves those of its own alone. Sources with options of their own are left out (by CMake). PLEKTON_BATCHES=OFF, as the preset
-# `dev` has it, compiles one by one: less to compile after a change, and a header that is missing shows.
+# source moves those of its own alone. Sources with options of their own are left out. PLEKTON_BATCHES=OFF, as the preset `dev` has it,
+# compiles one by one: less to compile after a change, and a header that is missing shows.
 option(PLEKTON_BATCHES "Compile sources in batches" ON)
+# Not CMake's own (UNITY_BUILD), whose files lie in the build folder: two builds that share these share the compiler cache.
+set(PLEKTON_BATCHES_FOLDER ${PROJECT_BINARY_DIR}/batches CACHE PATH "Where the batches are written")
+mark_as_advanced(PLEKTON_BATCHES_FOLDER)
 
 function(plekton_batches target)
-  if(NOT PLEKTON_BATCHES)
-    return()
+  if(PLEKTON_BATCHES)
+    # GCC takes the sources of a batch for headers, whose classes should have no members of types of their own.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    # When the options of all sources are known.
+    cmake_language(EVAL CODE "cmake_language(DEFER CALL plekton_write_batches ${target})")
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # GCC takes the sources of a batch for headers, whose classes should have no members of types of their own.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
+function(plekton_write_batches target)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
-    cmake_path(GET source PARENT_PATH folder)
-    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE name)
     cmake_path(IS_PREFIX CMAKE_CURRENT_SOURCE_DIR "${source}" is_own)
-    if(is_own)
+    get_source_file_property(options ${source} COMPILE_OPTIONS)
+    get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
+    get_source_file_property(is_alone ${source} PLEKTON_IS_ALONE)
+    if(is_own AND NOT options AND NOT definitions AND NOT is_alone)
+      cmake_path(GET source PARENT_PATH folder)
+      cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE name)
       string(MAKE_C_IDENTIFIER "${name}" name)
       math(EXPR batch "0${count_${name}} / 8")
       math(EXPR count_${name} "0${count_${name}} + 1")
-      set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${name}_${batch})
+      list(APPEND names ${name}_${batch})
+      string(APPEND ${name}_${batch} "#include \"${source}\"\n")
+      set_source_files_properties(${source} PROPERTIES HEADER_FILE_ONLY ON)
     endif()
+  endforeach()
+  list(REMOVE_DUPLICATES names)
+  foreach(name IN LISTS names)
+    set(batch ${PLEKTON_BATCHES_FOLDER}/${target}/${name}.cpp)
+    file(CONFIGURE OUTPUT ${batch} CONTENT "${${name}}" @ONLY)
+    target_sources(${target} PRIVATE ${batch})
   endforeach()
 endfunction()
 
@@ -99,7 +125,7 @@ check_cxx_compiler_flag("-mmove-max=512 -mstore-max=512" PLEKTON_MOVES_WHOLE_VEC
 
 function(plekton_kernels)
   # Each takes as long as a batch.
-  set_property(SOURCE ${ARGV} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
+  set_property(SOURCE ${ARGV} PROPERTY PLEKTON_IS_ALONE ON)
   if(PLEKTON_MOVES_WHOLE_VECTORS)
     set_property(SOURCE ${ARGV} APPEND PROPERTY COMPILE_OPTIONS -mmove-max=512 -mstore-max=512)
   endif()

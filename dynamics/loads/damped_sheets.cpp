@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/damped_sheets.hpp"
 
+#include "dynamics/stiffness/small_eigenvalue.hpp"
+
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -61,7 +62,7 @@ Mat3 mobility(const SheetFacet& facet, const NodeProperties& properties) {
 double highest_frequency_squared(const Mat3& stiffness, const Mat3& mobility) {
   const Mat3 root = stiffness.llt().matrixL();
   const Mat3 symmetric = root.transpose() * mobility * root;
-  return Eigen::SelfAdjointEigenSolver<Mat3>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[2];
+  return largest_eigenvalue(symmetric);
 }
 
 }  // namespace

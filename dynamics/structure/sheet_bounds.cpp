@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/stiffness/small_eigenvalue.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
-
 #include "dynamics/structure/sheet_kernel.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +9,6 @@
 /// How stiff the facets of a sheet are at most, for the critical time step.
 namespace plekton::dynamics {
 namespace {
-
-template <class Matrix>
-double largest_eigenvalue(const Matrix& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(symmetric, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[symmetric.rows() - 1];
-}
 
 /// Stiffness matrix (N/m) against motion in the plane, two displacements a node. To stretching is
 /// added what the springs against turning take of it: 1/2 c (w - u)² <= c w² + c u² for each of the
@@ -91,12 +83,12 @@ void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state,
   const SheetPose pose = pose_of(spring, nodes_[facet], state);
   const auto f = deformation_gradient(spring.shape, pose.x);
   const Eigen::Matrix2d metric = f.transpose() * f;
-  const double stretch = std::max(1.0, largest_eigenvalue(metric));  // squared
+  const double stretch = std::max(1.0, larger_eigenvalue(metric));  // squared
   SheetReaction reaction;
   add_stretching(spring, pose, reaction);
   Eigen::Matrix2d stress;
   stress << reaction.stress[0], reaction.stress[2], reaction.stress[2], reaction.stress[1];
-  const double tension = bounds.tension * std::max(0.0, largest_eigenvalue(stress));
+  const double tension = bounds.tension * std::max(0.0, larger_eigenvalue(stress));
   const double in_plane = stretch * bounds.in_plane + tension;
   const double across = stretch * bounds.across + tension;
 

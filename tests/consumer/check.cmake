@@ -53,7 +53,8 @@ if(HOW STREQUAL "install")
     list(APPEND options -DCMAKE_DISABLE_FIND_PACKAGE_${name}=ON)
   endforeach()
 else()
-  list(APPEND options -DPLEKTON_FOLDER=${SOURCE})
+  # The compiler cache knows what is compiled from the same files.
+  list(APPEND options -DPLEKTON_FOLDER=${SOURCE} -DPLEKTON_BATCHES_FOLDER=${BUILD}/batches)
 endif()
 
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${WORK}/build ${options})

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "tests/support/beam_structure.hpp"
-
-#include <Eigen/Cholesky>
+#include "tests/support/linear_algebra.hpp"
 
 #include <vector>
 
@@ -23,7 +22,7 @@ inline bool is_stable(Scene column, double force) {
     free.push_back(first_entry(i) + 4);
   }
   const Eigen::MatrixXd in_plane = stiffness(free, free);
-  return Eigen::LLT<Eigen::MatrixXd>(in_plane).info() == Eigen::Success;
+  return is_positive_definite(in_plane);
 }
 
 }  // namespace plekton::test

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "contact/counting/ring_basis.hpp"
+#include "tests/support/linear_algebra.hpp"
 #include "tests/support/seeded_random.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -66,15 +67,6 @@ inline std::span<const Filling> fillings_below(const std::vector<Filling>& filli
   const auto end = std::find_if(fillings.begin(), fillings.end(),
                                 [&](const Filling& filling) { return filling.upper >= vertex; });
   return {fillings.begin(), end};
-}
-
-/// Orthonormal basis of what is orthogonal to the rows of a matrix.
-inline Eigen::MatrixXd kernel_of(const Eigen::MatrixXd& rows, Eigen::Index columns) {
-  if (columns == 0) return Eigen::MatrixXd(0, 0);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
-  const double least = 1e-9 * std::max(1e-300, svd.singularValues()[0]);
-  const Eigen::Index rank = (svd.singularValues().array() > least).count();
-  return svd.matrixV().rightCols(columns - rank);
 }
 
 /// An orthonormal basis, in root(resistance) * current, of the currents without sources that are

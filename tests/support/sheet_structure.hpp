@@ -5,8 +5,7 @@
 #include "dynamics/model/scene.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/sheet_kernel.hpp"
-
-#include <Eigen/SparseCholesky>
+#include "tests/support/linear_algebra.hpp"
 
 #include <cmath>
 #include <functional>
@@ -174,9 +173,7 @@ class SheetStatics {
     for (double share = 0.0; share < 1e3; share = std::max(1e-9, 10.0 * share)) {
       Eigen::SparseMatrix<double> trial = matrix;
       trial.diagonal() += share * diagonal;
-      const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(trial);
-      if (solver.info() != Eigen::Success || solver.vectorD().minCoeff() <= 0.0) continue;
-      return solver.solve(residual);
+      if (const auto solution = solve_positive_definite(trial, residual)) return *solution;
     }
     throw std::runtime_error("no matrix of the sheet is positive definite");
   }

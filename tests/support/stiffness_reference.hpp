@@ -3,9 +3,8 @@
 
 #include "dynamics/stiffness/nodal_stiffness.hpp"
 #include "tests/support/beam_structure.hpp"
+#include "tests/support/linear_algebra.hpp"
 #include "tests/support/seeded_random.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +27,8 @@ inline double true_limit(const Eigen::MatrixXd& stiffness, const NodeProperties&
         inertia * dynamics::free_turns(held);
   }
   const Eigen::MatrixXd symmetric = 0.5 * (stiffness + stiffness.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      scale.asDiagonal() * symmetric * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-  return 2.0 / std::sqrt(solver.eigenvalues().maxCoeff());
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * symmetric * scale.asDiagonal();
+  return 2.0 / std::sqrt(eigenvalues_of(scaled).maxCoeff());
 }
 
 /// Of the bonds of a scene.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/damped_sheets.hpp"
 
+#include "tests/support/linear_algebra.hpp"
 #include "tests/support/loaded_scene.hpp"
 #include "tests/support/seeded_random.hpp"
 #include "tests/support/sheet_structure.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -109,9 +109,7 @@ TEST(DampedSheets, AreCriticalForTheFastestStretchingOfAFacetAtARatioOfOne) {
                           std::sqrt(scene.properties.mass[a] * scene.properties.mass[b]);
       }
     }
-    const Eigen::Matrix<double, 9, 9> symmetric = 0.5 * (scaled + scaled.transpose());
-    const double largest =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>>(symmetric).eigenvalues()[8];
+    const double largest = eigenvalues_of(0.5 * (scaled + scaled.transpose()))[8];
     EXPECT_NEAR(dashpot_of(scene.sheet_facets[0], 1.0, scene.properties).relaxation_time,
                 2.0 / std::sqrt(largest), 1e-5 * 2.0 / std::sqrt(largest));
   }

@@ -3,8 +3,8 @@
 
 #include "dynamics/model/scene.hpp"
 #include "tests/support/beam_structure.hpp"
+#include "tests/support/linear_algebra.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -94,7 +94,7 @@ double bending_frequency_squared(int bars, NodalInertia inertia) {
       scaled(i, k) = 0.5 * (whole(row, column) + whole(column, row)) / (root(row) * root(column));
     }
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues()[0];
+  return test::eigenvalues_of(scaled)[0];
 }
 
 // One half wave of n bars: omega² falls by (pi / n)² / 12, to the first order of that.

@@ -2,10 +2,10 @@
 #include "dynamics/structure/sheet_facets.hpp"
 
 #include "dynamics/structure/membrane_force.hpp"
+#include "tests/support/linear_algebra.hpp"
 #include "tests/support/seeded_random.hpp"
 #include "tests/support/sheet_structure.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -254,8 +254,7 @@ double exact_critical_step(const Scene& scene, const NodeState& state) {
         1.0 / std::sqrt(k % 6 < 3 ? scene.properties.mass[node] : scene.properties.inertia[node]);
   }
   const Eigen::MatrixXd scaled = root.asDiagonal() * matrix * root.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (scaled + scaled.transpose()));
-  return 2.0 / std::sqrt(solver.eigenvalues()[size - 1]);
+  return 2.0 / std::sqrt(eigenvalues_of(0.5 * (scaled + scaled.transpose()))[size - 1]);
 }
 
 TEST(SheetFacets, GiveACriticalTimeStepBelowTheTrueOneButNotByHalf) {

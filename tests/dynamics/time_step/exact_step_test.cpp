@@ -4,6 +4,7 @@
 #include "dynamics/simulation.hpp"
 #include "dynamics/time_step/largest_eigenvalue.hpp"
 #include "geometry/mesh/generate/generators.hpp"
+#include "tests/support/linear_algebra.hpp"
 #include "tests/support/loaded_scene.hpp"
 #include "tests/support/sheet_structure.hpp"
 #include "tests/support/stiffness_reference.hpp"
@@ -43,8 +44,7 @@ TEST(LargestEigenvalue, IsThatOfADenseMatrix) {
     const Eigen::MatrixXd half = Eigen::MatrixXd::NullaryExpr(
         size, size, [&](Eigen::Index, Eigen::Index) { return random.uniform(-1.0, 1.0); });
     const Eigen::MatrixXd matrix = half * half.transpose();
-    const double largest =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues()[size - 1];
+    const double largest = eigenvalues_of(matrix)[size - 1];
 
     const dynamics::LargestEigenvalue found = dynamics::largest_eigenvalue(
         {size, [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = matrix * x; }}, 1e-8, 100);
