@@ -46,8 +46,8 @@ function(plekton_computes_little target)
 endfunction()
 
 # Most of the time of a small source goes into the headers that its neighbours need too. Batches stay within a folder, so that a new
-# source moves those of its own alone. Sources with options of their own are left out. PLEKTON_BATCHES=OFF, as the preset `dev` has it,
-# compiles one by one: less to compile after a change, and a header that is missing shows.
+# source moves those of its own alone, and have the same options. PLEKTON_BATCHES=OFF, as the preset `dev` has it, compiles one by one:
+# less to compile after a change, and a header that is missing shows.
 option(PLEKTON_BATCHES "Compile sources in batches" ON)
 # Not CMake's own (UNITY_BUILD), whose files lie in the build folder: two builds that share these share the compiler cache.
 set(PLEKTON_BATCHES_FOLDER ${PROJECT_BINARY_DIR}/batches CACHE PATH "Where the batches are written")
@@ -62,20 +62,34 @@ function(plekton_batches target)
   endif()
 endfunction()
 
+# plekton_alone(sources...): each takes as long as a batch.
+function(plekton_alone)
+  set_property(SOURCE ${ARGV} PROPERTY PLEKTON_IS_ALONE ON)
+endfunction()
+
 function(plekton_write_batches target)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     cmake_path(IS_PREFIX CMAKE_CURRENT_SOURCE_DIR "${source}" is_own)
     get_source_file_property(options ${source} COMPILE_OPTIONS)
+    if(NOT options)
+      set(options "")
+    endif()
     get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
     get_source_file_property(is_alone ${source} PLEKTON_IS_ALONE)
-    if(is_own AND NOT options AND NOT definitions AND NOT is_alone)
+    if(is_own AND NOT definitions AND NOT is_alone)
       cmake_path(GET source PARENT_PATH folder)
       cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE name)
+      if(options)
+        string(MD5 key "${options}")
+        string(SUBSTRING ${key} 0 6 key)
+        string(APPEND name _${key})
+      endif()
       string(MAKE_C_IDENTIFIER "${name}" name)
       math(EXPR batch "0${count_${name}} / 8")
       math(EXPR count_${name} "0${count_${name}} + 1")
       list(APPEND names ${name}_${batch})
+      set(options_${name}_${batch} ${options})
       string(APPEND ${name}_${batch} "#include \"${source}\"\n")
       set_source_files_properties(${source} PROPERTIES HEADER_FILE_ONLY ON)
     endif()
@@ -85,6 +99,9 @@ function(plekton_write_batches target)
     set(batch ${PLEKTON_BATCHES_FOLDER}/${target}/${name}.cpp)
     file(CONFIGURE OUTPUT ${batch} CONTENT "${${name}}" @ONLY)
     target_sources(${target} PRIVATE ${batch})
+    if(options_${name})
+      set_source_files_properties(${batch} PROPERTIES COMPILE_OPTIONS "${options_${name}}")
+    endif()
   endforeach()
 endfunction()
 
@@ -124,8 +141,7 @@ endfunction()
 check_cxx_compiler_flag("-mmove-max=512 -mstore-max=512" PLEKTON_MOVES_WHOLE_VECTORS)
 
 function(plekton_kernels)
-  # Each takes as long as a batch.
-  set_property(SOURCE ${ARGV} PROPERTY PLEKTON_IS_ALONE ON)
+  plekton_alone(${ARGV})
   if(PLEKTON_MOVES_WHOLE_VECTORS)
     set_property(SOURCE ${ARGV} APPEND PROPERTY COMPILE_OPTIONS -mmove-max=512 -mstore-max=512)
   endif()

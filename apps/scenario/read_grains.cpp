@@ -3,6 +3,7 @@
 #include "apps/scenario/read_measure.hpp"
 #include "apps/scenario/read_ondem_source.hpp"
 #include "apps/scenario/read_sections.hpp"
+#include "geometry/base/lexicographic.hpp"
 
 #include <fmt/format.h>
 
@@ -212,10 +213,7 @@ void refuse_placement(Section& section, std::string_view says) {
 
 void refuse_equal(Section& section, std::string_view says, const std::vector<Vec3>& centres) {
   std::vector<Vec3> sorted = centres;
-  const auto before = [](const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-  };
-  std::sort(sorted.begin(), sorted.end(), before);
+  std::sort(sorted.begin(), sorted.end(), geometry::lexicographically_less);
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
   if (twice != sorted.end())
     section.complain(says, fmt::format("two grains are at ({}, {}, {}) m; expected a place of "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/closest/deep.hpp"
 
+#include "geometry/base/lexicographic.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,8 +78,7 @@ class Search {
     const double now = side_.dot(best_.direction);
     const double then = side_.dot(n);
     if (now != then) return then > now;
-    return std::lexicographical_compare(best_.direction.begin(), best_.direction.end(), n.begin(),
-                                        n.end());
+    return lexicographically_less(best_.direction, n);
   }
 
   Corners a_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/repair/triangulate_polygon.hpp"
 
+#include "geometry/base/lexicographic.hpp"
 #include "geometry/mesh/repair/exact_signs.hpp"
 
 #include <algorithm>
@@ -98,10 +99,6 @@ class FlatView {
   std::span<const Vec3> x_;
   Axis along_;
 };
-
-bool lexicographically_less(const Vec3& a, const Vec3& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-}
 
 /// Is the diagonal 0-2 shorter than 1-3? Equal ones are decided by position, so that neither the
 /// first corner nor the direction of the polygon matters.

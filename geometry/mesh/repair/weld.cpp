@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/repair/weld.hpp"
 
+#include "geometry/base/lexicographic.hpp"
 #include "geometry/mesh/disjoint_sets.hpp"
 #include "geometry/mesh/mesh.hpp"
 
@@ -13,10 +14,6 @@
 
 namespace plekton::geometry {
 namespace {
-
-bool lexicographically_less(const Vec3& a, const Vec3& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-}
 
 Weld weld_of(std::span<const Vec3> points, DisjointSets& sets) {
   Weld weld;
