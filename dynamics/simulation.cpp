@@ -83,6 +83,13 @@ const Scene& checked(const Scene& scene, const SimulationOptions& options) {
 /// the contacts, already made, fill what there is.
 constexpr std::size_t kPieces = 16;
 
+/// Whether a scene may ever have a contact.
+bool may_touch(const Scene& scene, const geometry::Surface& surface,
+               const SimulationOptions& options) {
+  return !scene.elements.spheres.empty() || !scene.planes.empty() ||
+         surface.structure_count() > 1 || options.self_contact;
+}
+
 }  // namespace
 
 Simulation::Simulation(Scene scene, const SimulationOptions& options,
@@ -107,6 +114,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       nodes_(scene_.state, forces_),
       furthest_(furthest_in_a_step(scene_)),
       pace_radius_(pace_radius(scene_.elements)),
+      may_touch_(may_touch(scene_, surface_, options)),
       full_gravity_(options.motion.gravity),
       momentum_(scene_.state.position) {
   nodes_.share(contacts_->shared_motion(), acted_on(scene_));
@@ -274,6 +282,7 @@ void Simulation::set_plane_velocity(std::size_t plane, const Vec3& velocity) {
 }
 
 double Simulation::motion_ratio() const {
+  if (!may_touch_) return 0.0;
   nodes_.know_all();
   return largest_speed(scene_.state) * dt_ / pace_radius_;
 }

@@ -243,7 +243,8 @@ class Simulation {
   ExactStep exact_critical_step() const;
   /// How far the fastest node moves in a step over the smallest radius: of the spheres, or of the
   /// structures if there are none. Above kLargestMotion (dynamics/time_step/motion_step.hpp)
-  /// contacts are seen late; a chosen step keeps below that, a given one may not.
+  /// contacts are seen late; a chosen step keeps below that, a given one may not. 0 of one structure
+  /// alone that may not touch itself.
   double motion_ratio() const;
 
   // The state, to go on from later or elsewhere.
@@ -358,6 +359,7 @@ class Simulation {
   std::vector<double> furthest_;  ///< m, by node, what it may move in a step
   double least_furthest_ = 0.0;   ///< m, of all nodes
   double pace_radius_ = 0.0;      ///< m, against which the motion in a chosen step is measured
+  bool may_touch_ = true;
   StepWork work_;                 ///< kinetic: of the last step; the rest: of all steps
   StepWork pending_;  ///< what of damped and external comes after the moment of the last forces
   double initial_energy_ = 0.0;

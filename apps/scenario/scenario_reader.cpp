@@ -134,9 +134,21 @@ Scenario staged_scenario(const Table& table, const Place& start, Problems& probl
   return first;
 }
 
+/// @throws InputError of a file that belongs to another command
+void refuse_study(const Table& table) {
+  const auto* const scenario = table.find("scenario");
+  if (scenario == nullptr || table.find("simulation") != nullptr) return;
+  Problems problems;
+  problems.add(scenario->place,
+               "scenario: this file is a study of a scenario; expected a scenario, or run the "
+               "study by `plekton study`");
+  problems.throw_if_any();
+}
+
 /// @param start  where what is missing is said to be
 Scenario whole_scenario(const Table& table, const Place& start, std::string_view text,
                         std::span<const std::string> overrides) {
+  refuse_study(table);
   Problems problems;
   Scenario scenario = has_stages(table) ? staged_scenario(table, start, problems)
                                         : scenario_of(table, {}, start, problems);

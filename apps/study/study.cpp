@@ -3,9 +3,9 @@
 
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/toml_file.hpp"
-#include "apps/viewer/csv_text.hpp"
 #include "apps/study/sobol.hpp"
 #include "apps/study/value_text.hpp"
+#include "apps/viewer/csv_text.hpp"
 #include "geometry/base/elementary.hpp"
 #include "geometry/base/regular_file.hpp"
 
@@ -70,6 +70,7 @@ class StudyReader {
   }
 
   Study read() {
+    refuse_scenario();
     study_.scenario = named_file(root_.text("scenario"), "scenario", "a scenario (.toml)");
     study_.jobs = static_cast<int>(root_.integer("jobs", 1, 1024, 0));
     study_.threads = static_cast<int>(root_.integer("threads", 1, 1024, 1));
@@ -82,6 +83,15 @@ class StudyReader {
   }
 
  private:
+  void refuse_scenario() {
+    const auto* const simulation = table_.find("simulation");
+    if (simulation == nullptr || table_.find("scenario") != nullptr) return;
+    problems_.add(simulation->place,
+                  "simulation: this file is a scenario; expected a study, which names one, or run "
+                  "the scenario by `plekton run`");
+    problems_.throw_if_any();
+  }
+
   /// Relative to the folder of the study.
   fs::path named_file(const std::string& name, std::string_view key, std::string_view what) {
     if (name.empty()) return {};

@@ -235,6 +235,13 @@ TEST(ScenarioReader, RefusesAScenarioWithNothingInIt) {
   EXPECT_THAT(error_of("[simulation]\nduration = \"1 s\"\n"), HasSubstr("nothing to simulate"));
 }
 
+TEST(ScenarioReader, KnowsAStudyAndNamesItsCommand) {
+  const std::string study = "jobs = 2\nscenario = \"case.toml\"\n[grid]\na = [1]\n";
+  EXPECT_THAT(error_of(study), HasSubstr("case.toml:2:1: scenario: this file is a study"));
+  EXPECT_THAT(error_of(study), HasSubstr("`plekton study`"));
+  EXPECT_THAT(error_of(study), Not(HasSubstr("missing")));
+}
+
 TEST(ScenarioReader, NamesThePlaceOfAnErrorOfSyntax) {
   EXPECT_THAT(error_of(edited("duration = ", "duration ")), HasSubstr("case.toml:2:"));
   EXPECT_THAT(error_of(edited("duration = ", "duration ")), HasSubstr("not TOML"));

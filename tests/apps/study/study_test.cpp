@@ -106,6 +106,16 @@ TEST_F(StudyFile, NamesEveryRowOfATableThatDoesNotFit) {
                     HasSubstr("runs.csv:4:1: got 3 cells")));
 }
 
+TEST_F(StudyFile, KnowsAScenarioAndNamesItsCommand) {
+  try {
+    read_study(folder_ / "case.toml");
+    FAIL() << "a scenario was read as a study";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("case.toml:1:2: simulation: this file is a scenario"),
+                                    HasSubstr("`plekton run`"), Not(HasSubstr("missing"))));
+  }
+}
+
 TEST_F(StudyFile, RefusesMoreRunsThanItCanCount) {
   std::string grid = "[grid]\n";
   for (const char* name : {"a", "b", "c", "d", "e", "f"})

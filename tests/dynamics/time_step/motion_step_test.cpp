@@ -118,5 +118,31 @@ TEST(GivenStep, StaysAsGivenHoweverFastASphereIs) {
   EXPECT_NEAR(simulation.motion_ratio(), 0.5, 0.005);  // gravity adds 0.1 m/s
 }
 
+/// A bar that flies by half its radius in a step.
+Scene fast_bar() {
+  Scene scene;
+  scene.materials = {{1e4, 0.3, 0.4}};
+  const geometry::NodeId a = scene.add_node(Vec3::Zero()), b = scene.add_node(Vec3(1.0, 0.0, 0.0));
+  scene.add_cylinder(a, b, 0.01, kMaterial);
+  for (const std::size_t node : {0U, 1U}) {
+    scene.properties.mass[node] = scene.properties.inertia[node] = 1.0;
+    scene.state.velocity[node] = Vec3(0.0, 50.0, 0.0);
+  }
+  return scene;
+}
+
+TEST(MotionRatio, IsOfWhatMayTouch) {
+  const SimulationOptions alone{.time_step = 1e-4, .motion = {}, .self_contact = false};
+  EXPECT_EQ(Simulation(fast_bar(), alone).motion_ratio(), 0.0);
+
+  EXPECT_NEAR(Simulation(fast_bar(), {.time_step = 1e-4, .motion = {}}).motion_ratio(), 0.5, 1e-15);
+  Scene with_floor = fast_bar();
+  with_floor.planes.push_back({Vec3(0.0, 0.0, -1.0), Vec3::UnitZ(), Vec3::Zero(), kMaterial});
+  EXPECT_NEAR(Simulation(with_floor, alone).motion_ratio(), 0.5, 1e-15);
+  Scene with_sphere = fast_bar();
+  with_sphere.add_sphere(Vec3(0.0, 0.0, 1.0), 0.01, 2500.0, kMaterial);
+  EXPECT_NEAR(Simulation(with_sphere, alone).motion_ratio(), 0.5, 1e-15);
+}
+
 }  // namespace
 }  // namespace plekton::dynamics::motion_step_test
