@@ -61,7 +61,9 @@ std::string lines_of_run(const StateTree& state) {
 
 }  // namespace
 
-std::string text_of_checkpoint(const std::filesystem::path& file) {
+std::string text_of_checkpoint(const std::filesystem::path& path) {
+  const std::filesystem::path file =
+      std::filesystem::is_directory(path) ? last_checkpoint(path).file : path;
   const StateTree state = dynamics::read_checkpoint(file);
   const dynamics::CheckpointWriter writer = dynamics::writer_of_checkpoint(file);
   std::string text = fmt::format("{}: checkpoint of version {}, whole\n",

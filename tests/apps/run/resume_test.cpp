@@ -328,6 +328,7 @@ TEST_F(ResumeErrors, InspectTellsWhatACheckpointHolds) {
   for (const char* told : {": checkpoint of version ", "time 0.005 s, step ", "a.toml", " 5 nodes",
                            " 2 facets", "hash of the state ", "nodes/velocity "})
     EXPECT_NE(outcome.out.find(told), std::string::npos) << told << " in\n" << outcome.out;
+  EXPECT_EQ(Program({"inspect", out()}).wait().out, outcome.out) << "of a folder its last one";
   const Outcome other = Program({"inspect", (folder_ / "two.off").string()}).wait();
   EXPECT_EQ(other.exit_code, kFailed);
   EXPECT_NE(other.err.find("no checkpoint of Plekton"), std::string::npos) << other.err;
