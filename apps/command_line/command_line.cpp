@@ -653,7 +653,9 @@ CLI::App* add_export_ondem(CLI::App& app, CommandLine& line) {
 
 CLI::App* add_inspect(CLI::App& app, CommandLine& line) {
   CLI::App* inspect = app.add_subcommand("inspect", "Say what a checkpoint of a run holds");
-  inspect->add_option("checkpoint", line.checkpoint, "Checkpoint (.h5), or the folder of a run, whose last one is meant")
+  inspect
+      ->add_option("checkpoint", line.checkpoint,
+                   "Checkpoint (.h5), or the folder of a run, whose last one is meant")
       ->required();
   return inspect;
 }

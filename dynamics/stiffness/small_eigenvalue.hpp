@@ -5,11 +5,13 @@
 
 namespace plekton::dynamics {
 
-/// The largest eigenvalue of a symmetric matrix of a few rows, whose lower half is read. One
-/// function for all sizes: Eigen's solver is several seconds of compilation for each.
+/// The largest eigenvalue, in the unit of the entries, of a symmetric matrix of one row or a few,
+/// whose lower half is read. One function for all sizes: Eigen's solver is several seconds of
+/// compilation for each.
 double largest_eigenvalue(const Eigen::MatrixXd& symmetric);
 
-/// The larger one of two, for what is asked of every facet in every step.
+/// The larger one of two, by Mohr's circle, for what is asked of every facet at every look at the
+/// time step.
 double larger_eigenvalue(const Eigen::Matrix2d& symmetric);
 
 }  // namespace plekton::dynamics

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/stiffness/small_eigenvalue.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
+
+#include "dynamics/stiffness/small_eigenvalue.hpp"
 #include "dynamics/structure/sheet_kernel.hpp"
 
 #include <algorithm>
