@@ -4,6 +4,7 @@
 #include "tests/geometry_check/any_surface.hpp"
 #include "tests/geometry_check/force_check.hpp"
 #include "tests/geometry_check/knot_check.hpp"
+#include "tests/geometry_check/slope.hpp"
 #include "tests/geometry_check/spread_check.hpp"
 #include "tests/geometry_check/structure_check.hpp"
 
@@ -308,6 +309,28 @@ TEST(SpreadCheck, FindsForcesThatDoNotChangeInProportion) {
 
   EXPECT_GT(found_with(rattling), kTrials / 3);
   EXPECT_EQ(found_with(push_of_patches), 0);
+}
+
+// Shares turn from pass to pass within 1e-5 of the range, and the node's own force does not see it.
+TEST(SpreadCheck, FollowsForcesThatBendAcrossTheWayAlone) {
+  for (const std::uint64_t seed :
+       {7987925232339517810U, 7987925232339571100U, 7987925232339628542U}) {
+    test::Random random(seed);
+    EXPECT_TRUE(follows(any_spread_touch(random), push_of_patches, random)) << seed;
+  }
+}
+
+TEST(SpreadCheck, FindsForcesThatChangeByAnotherPowerOfTheStepOrLeap) {
+  const Slope smooth{0.0, 1e-2, 1e-8};
+  const auto is_proportional_to = [&](auto force) {
+    return is_proportional([&](double step) { return Forces{force(step) * Vec3::UnitX()}; }, smooth,
+                           1e-15);
+  };
+
+  EXPECT_TRUE(is_proportional_to([](double step) { return step; }));
+  EXPECT_TRUE(is_proportional_to([](double step) { return step + 3e3 * step * step; }));
+  EXPECT_FALSE(is_proportional_to([](double step) { return std::pow(step, 0.9); }));
+  EXPECT_FALSE(is_proportional_to([](double step) { return step > 0.0 ? 1e-3 : 0.0; }));
 }
 
 TEST(SpreadCheck, FindsBumpsOfKnots) {

@@ -84,25 +84,38 @@ inline Forces difference(const Forces& a, const Forces& b, double times = 1.0) {
   return result;
 }
 
-/// Whether forces change in proportion to the step along a way on which the energy is smooth: a
-/// tenth of the step makes a tenth of the change, and so does a hundredth, to a tenth of it or of
-/// what one contact changes by, 1 N/m: of a wire that the way hardly turns the change begins with
-/// the square of the step. And to what the energies cannot tell: a contact that begins within the
-/// step bends them by no more. What is smooth for differences of the fourth order may still bend
-/// much within their step: a tenth of it is looked at.
-/// @param rounding  N, of the sum of all forces
+/// Whether a tenth of a step makes a tenth of the change of forces, and a hundredth a hundredth, to
+/// a tenth of it or of what one contact changes by, 1 N/m: of a wire that the way hardly turns the
+/// change begins with the square of the step.
+/// @param tolerance  N, besides
+/// @param rounding   N, of the sum of all forces
 template <class ForcesAt>
-bool is_proportional(const ForcesAt& forces_at, const Slope& smooth, double rounding) {
+bool is_proportional_within(const ForcesAt& forces_at, double step, double tolerance,
+                            double rounding) {
   constexpr std::array<double, 2> kParts{10.0, 100.0};
-  const double step = 0.1 * smooth.step;
   const Forces here = forces_at(0.0);
   const Forces whole = difference(forces_at(step), here);
   return std::all_of(kParts.begin(), kParts.end(), [&](double times) {
     const Forces part = difference(forces_at(step / times), here);
     // Rounding at both ends, as often as the change is taken.
-    const double tolerance =
-        0.1 * std::max(size_of(whole), step) + smooth.tolerance + 4.0 * times * rounding;
-    return size_of(difference(part, whole, times)) < tolerance;
+    const double off = 0.1 * std::max(size_of(whole), step) + tolerance + 4.0 * times * rounding;
+    return size_of(difference(part, whole, times)) < off;
+  });
+}
+
+/// Whether forces change in proportion to the step along a way on which the energy is smooth, to
+/// what the energies cannot tell: a contact that begins within the step bends them by no more. What
+/// is smooth for differences of the fourth order may still bend much within their step, and forces
+/// across the way may where the energy along it does not: a tenth of the step is looked at, and
+/// where that bends a tenth and a hundredth of that, all to as many parts. A leap, or a change by
+/// another power of the step, shows at any.
+/// @param rounding  N, of the sum of all forces
+template <class ForcesAt>
+bool is_proportional(const ForcesAt& forces_at, const Slope& smooth, double rounding) {
+  constexpr std::array<double, 3> kSteps{0.1, 0.01, 0.001};
+  return std::any_of(kSteps.begin(), kSteps.end(), [&](double part) {
+    return is_proportional_within(forces_at, part * smooth.step, 10.0 * part * smooth.tolerance,
+                                  rounding);
   });
 }
 
