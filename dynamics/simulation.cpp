@@ -125,6 +125,9 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
   least_furthest_ = furthest_.empty() ? 0.0 : *std::min_element(furthest_.begin(), furthest_.end());
   if (options.skin == 0.0 && !scene_.elements.spheres.empty()) contacts_->tune_skin(pace_radius_);
   if (options.skin == 0.0) contacts_->choose_skin_of_structures();
+  // What breaks as it is made goes on to touch: steps are chosen for it too.
+  limits_ = std::make_unique<StepLimits>(resistance());
+  if (options.time_step == 0.0) chooser_ = std::make_unique<StepChooser>(resistance(), *limits_);
   // The first look at the contacts: histories are empty, so nothing is changed by it.
   yielding_bonds_.advance(bonds_, scene_.state, pool_);
   yielding_bonds_.forget_dissipated();
@@ -137,7 +140,6 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
   ties_.forget_dissipated();
   contacts_->advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
   forces_.set_zero();
-  limits_ = std::make_unique<StepLimits>(resistance());
   set_first_step(options.time_step);
   initial_moment_ = free_moment(0.0);
   work_.kinetic = moving_energy();
@@ -149,7 +151,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
 /// @param asked  s; 0: chosen
 /// @throws std::invalid_argument if that is too long
 void Simulation::set_first_step(double asked) {
-  const bool is_chosen = asked == 0.0;
+  const bool is_chosen = chooser_ != nullptr;
   const std::size_t pieces = is_chosen ? 1 : kPieces;
   NodalStiffness space((scene_.state.size() + pieces - 1) / pieces, &scene_.properties,
                        &rigid_nodes_);
@@ -164,7 +166,6 @@ void Simulation::set_first_step(double asked) {
     throw std::invalid_argument(text.str());
   }
   if (!is_chosen) return;
-  chooser_ = std::make_unique<StepChooser>(resistance(), *limits_);
   dt_ = chooser_->first(critical, std::move(space), pace());
 }
 
@@ -363,17 +364,22 @@ Energy Simulation::energy() const {
 /// random walk. The sum over nodes that gives the energy of gravity is rounded by n eps of its
 /// absolute terms, and their change in each step by eps. Work in a step is a sum of terms of either
 /// sign, as that of pressure on a shell that is moved, each rounded by eps; those of the last step
-/// stand for all.
+/// stand for all. And springs that places rounded by eps |x| strain push with k eps |x| against
+/// what is moved.
 double Simulation::rounding_energy() const {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
   double furthest = 0.0;  // m, from the origin
   double weight = 0.0;    // J, sum of m |g.x|
   double power = 0.0;     // W, sum of |f| |v|
+  double moved = 0.0;     // m/s, of what moves as prescribed
   for (std::size_t i = 0; i < scene_.state.size(); ++i) {
     const Vec3& x = scene_.state.position[i];
     furthest = std::max(furthest, x.cwiseAbs().maxCoeff());
     power += forces_.force[i].cwiseAbs().dot(scene_.state.velocity[i].cwiseAbs());
-    if (holds_translation(scene_.properties.held[i])) continue;
+    if (holds_translation(scene_.properties.held[i])) {
+      moved = std::max(moved, scene_.state.velocity[i].norm());
+      continue;
+    }
     weight += scene_.properties.mass[i] * full_gravity_.cwiseAbs().dot(x.cwiseAbs());
   }
   const auto steps = static_cast<double>(steps_);
@@ -381,7 +387,7 @@ double Simulation::rounding_energy() const {
       initial_stiffness_.translation * furthest * furthest + initial_stiffness_.rotation;
   return 0.5 * kEps * kEps * springs * (1.0 + steps) +
          kEps * weight * (static_cast<double>(scene_.state.size()) + steps) +
-         kEps * power * last_drift_ * steps;
+         kEps * (power + initial_stiffness_.translation * furthest * moved) * last_drift_ * steps;
 }
 
 CriticalStep Simulation::critical_step() const {

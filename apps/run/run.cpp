@@ -249,13 +249,14 @@ class Run {
       if (simulation_.steps() % dynamics::kStepsBetweenLooks == 0) watch_motion();
       write_due(simulation_.time());
       report_.states.look(simulation_);
+      // Before any checkpoint of this step: a run that goes on from it does not look again.
+      if (looks && stops()) return stop_status();
+      if (looks && stage_ends()) return RunStatus::finished;
       if (simulation_.time() >= next_checkpoint_) write_checkpoint();
       if (looks && clock_says_checkpoint()) write_checkpoint_by_clock();
       if (looks) progress_.update(simulation_.time(), simulation_.steps());
       if (settings_.is_interrupted()) return RunStatus::interrupted;
       if (is_far_enough()) return RunStatus::finished;
-      if (looks && stops()) return stop_status();
-      if (looks && stage_ends()) return RunStatus::finished;
     }
     return RunStatus::finished;
   }

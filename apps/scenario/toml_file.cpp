@@ -3,6 +3,7 @@
 
 #include "apps/scenario/toml_depth.hpp"
 #include "geometry/base/regular_file.hpp"
+#include "geometry/mesh/io/mesh_file.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -126,6 +127,15 @@ void set_place(Value& value, const Place& place) {
   }
 }
 
+bool is_mesh(const fs::path& path) {
+  try {
+    geometry::mesh_format_of(path);
+    return true;
+  } catch (const geometry::MeshError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 Table parse_toml(std::string_view text, const std::string& source) {
@@ -147,6 +157,12 @@ Table parse_toml(std::string_view text, const std::string& source) {
 
 std::string read_toml_text(const fs::path& path) {
   if (path == kStandardInput) return text_of_standard_input();
+  if (is_mesh(path) && fs::is_regular_file(path))
+    throw InputError(
+        fmt::format("{0}: a mesh; expected a scenario (.toml), which names it as mesh = \"{0}\"; "
+                    "\"plekton import "
+                    "{0}\" says what is in it",
+                    path.string()));
   std::error_code ignored;
   if (const auto size = fs::file_size(path, ignored); !ignored && size > kLongest)
     throw too_long(path.string());

@@ -125,6 +125,7 @@ struct CohesiveFrictional {
                                                    HistoryOf<Real>& history, double dt) noexcept {
     const Real energy_before = bond_energy(p, history);
     const Real pull_before = history.pull;
+    const Real overlap_before = history.overlap;
     const Vec3Of<Real> slip = Real(dt) * motion.slip_velocity;
     const Real& stiffness = p.elastic.tangential_stiffness;
     const StiffnessChangeOf<Real> spring(history.spring.compliance, stiffness);
@@ -136,8 +137,10 @@ struct CohesiveFrictional {
     history.spring.force = trial.limited_to(shear_limit(p, history, pressing));
     history.spring.compliance = spring.compliance_now;
     const Real of_spring = spring.dissipated(force_before, history.spring.force, slip);
-    const Real of_bond = energy_before - bond_energy(p, history) -
-                         Real(0.5) * (pull_before + history.pull) * motion.gap_rate * Real(dt);
+    // By the way that the overlap went, not by its rate times dt, which differs as the normal turns.
+    const Real of_bond =
+        energy_before - bond_energy(p, history) +
+        Real(0.5) * (pull_before + history.pull) * (history.overlap - overlap_before);
     return {total_force(motion.elastic_normal_force, motion.normal, history), of_spring + of_bond};
   }
 

@@ -71,6 +71,18 @@ PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, dou
   return state;
 }
 
+/// Lets a patch that is apart, but still glued, be held where it is nearest alone. The law pulls by
+/// the gap, and that is the slope of the gap: along the mean of several minima, at all of them, a
+/// bond would make energy.
+inline void hold_where_nearest(PatchState& state, std::span<const PatchTerm> terms,
+                               std::span<PatchTermForce> term_forces) {
+  if (state.gap < 0.0 || state.elastic_force != 0.0 || terms.size() < 2) return;
+  for (PatchTermForce& term_force : term_forces) term_force.share = 0.0;
+  term_forces[0].share = 1.0;
+  state.normal = terms[0].normal;
+  state.foot = terms[0].distance * terms[0].normal;
+}
+
 /// From the sphere's centre to the contact point of a term (m): half the gap away from either
 /// surface, on the line to the foot. Any point would balance the momenta, as long as both sides use
 /// the same; but a node takes no more turning than a force near it makes, so that each term of a

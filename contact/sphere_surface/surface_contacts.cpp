@@ -386,6 +386,7 @@ void SurfaceContacts::find_states(const Pair& pair, std::span<const Patch> patch
                                          : elastic;
         },
         term_forces));
+    hold_where_nearest(worker.states.back(), terms, term_forces);
     set_kinematics(worker.states.back(), pair.node, pair.radius, pair.range, terms, term_forces,
                    motion);
   }

@@ -54,12 +54,11 @@ struct Normal {
   }
 };
 
-/// What round-off makes of a point on a plane is below this times the numbers it comes from. Such a
-/// point lies on the side that it would be on if the upper body were moved along kTieBreak a
-/// little: all facets of both bodies then agree which part of one lies over which part of the
-/// other, and the slopes of coinciding edges add up to those of the whole. Source: symbolic
-/// perturbation, Edelsbrunner & Muecke, ACM Transactions on Graphics 9 (1990).
-constexpr double kRoundoff = 1e-12;
+/// A point that is on a plane but for round-off (kPlaneRoundoff) lies on the side that it would be
+/// on if the upper body were moved along this a little: all facets of both bodies then agree which
+/// part of one lies over which part of the other, and the slopes of coinciding edges add up to those
+/// of the whole. Source: symbolic perturbation, Edelsbrunner & Muecke, ACM Transactions on Graphics
+/// 9 (1990).
 const Vec3 kTieBreak(0.533, 0.811, 0.241);  // any direction that meshes do not have
 
 /// The part of facet a that lies over facet b, seen along b's normal.
@@ -147,8 +146,8 @@ double Overlap::height(std::size_t point, std::size_t plane) const {
   const Vec3 up = points_[point].x - b_[plane].x;
   const Vec3& inward = inward_[plane].x;
   const double height = up.dot(inward);
-  const bool is_on_it =
-      height * height <= kRoundoff * kRoundoff * (up.squaredNorm() * inward.squaredNorm());
+  const bool is_on_it = height * height <=
+                        kPlaneRoundoff * kPlaneRoundoff * (up.squaredNorm() * inward.squaredNorm());
   return is_on_it ? std::copysign(0.0, -tie_break_.dot(inward)) : height;
 }
 

@@ -9,6 +9,9 @@ namespace plekton::contact::structure {
 /// Facets whose planes cross at a larger angle than this cosine's have no energy by extent.
 inline constexpr double kCosineOfCrossing = 0.9;
 
+/// What round-off makes of a point on a plane is below this times the numbers it comes from.
+inline constexpr double kPlaneRoundoff = 1e-12;
+
 /// What two facets that face each other add by the extent of their overlap: the integral of the
 /// spring's energy over the overlap, as far as it is in range, times the factor of
 /// parallel_share(), over the square of the range. The overlap is the part of either facet over the

@@ -14,11 +14,8 @@ Point<Number> normal_of(const std::array<Point<Number>, 3>& facet) {
   return unit((facet[1] - facet[0]).cross(facet[2] - facet[0]));
 }
 
-/// What round-off makes of a point on a plane is below this times the numbers it comes from. A line
+/// Height of a point over a plane, in units of the length of its normal; 0 up to round-off: a line
 /// that lies in a plane up to that crosses it nowhere.
-constexpr double kPlaneRoundoff = 1e-12;
-
-/// Height of a point over a plane, in units of the length of its normal; 0 up to round-off.
 template <class Number>
 double height_now(const Point<Number>& point, const Point<Number>& origin,
                   const Point<Number>& normal) {

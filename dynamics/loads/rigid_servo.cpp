@@ -14,40 +14,36 @@ namespace plekton::dynamics {
 void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid, const Way& way,
                      std::span<const contact::Plane> planes, geometry::Positions x) {
   springs_.clear();
-  const auto is_own = [&](NodeId node) { return rigid.body_followed_by(node) == way.body; };
-  // Of a law that gets stiffer with the overlap as stiff as it may get on the way.
-  const auto add = [&](double slope, double gap, double weight, const contact::PairSprings& pair,
-                       double dashpot = 1.0) {
-    const double stiffness =
-        pair.stiffness(std::min(gap, 0.0) - std::abs(slope) * way.longest).normal;
-    const double damping = gap < 0.0 ? dashpot * pair.stiffness(gap).normal_damping : 0.0;
-    springs_.push_back({slope, gap, weight * pair.normal_force(gap), weight * stiffness, damping});
-  };
-  // What a turn drags along the surfaces, by the longer one of two levers.
-  const auto add_dragged = [&](const std::array<Vec3, 2>& places, const Vec3& normal, double gap,
-                               double weight, const contact::PairSprings& pair) {
-    if (!way.turn || !(gap < 0.0)) return;
-    double slope = 0.0;
-    for (const Vec3& place : places) {
-      const Vec3 motion = way.motion_at(place);
-      slope = std::max(slope, Vec3(motion - motion.dot(normal) * normal).norm());
-    }
-    springs_.push_back({slope, 0.0, 0.0, weight * pair.stiffness(gap).tangential, 0.0});
-  };
-  contacts.for_each_near_sphere_pair(
+  const View view{contacts, rigid, way, x};
+  look_at_spheres(view);
+  look_at_surfaces(view);
+  look_at_planes(view, planes);
+  look_at_structures(view);
+}
+
+void BodyPress::look_at_spheres(const View& view) {
+  const Way& way = view.way;
+  const geometry::Positions x = view.x;
+  view.contacts.for_each_near_sphere_pair(
       way.longest_path(), x, [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
-        if (is_own(a) == is_own(b)) return;
-        const Vec3& own = x[index_of(is_own(a) ? a : b)];
+        if (view.is_own(a) == view.is_own(b)) return;
+        const Vec3& own = x[index_of(view.is_own(a) ? a : b)];
         const Vec3 normal = Vec3(x[index_of(b)] - x[index_of(a)]).normalized();
         const double along = way.motion_at(own).dot(normal);
-        add(is_own(a) ? along : -along, gap, 1.0, pair);
-        add_dragged({x[index_of(a)], x[index_of(b)]}, normal, gap, 1.0, pair);
+        add(way,
+            {{x[index_of(a)], x[index_of(b)]}, normal, view.is_own(a) ? along : -along, gap, 1.0},
+            pair);
       });
+}
+
+void BodyPress::look_at_surfaces(const View& view) {
+  const Way& way = view.way;
+  const geometry::Positions x = view.x;
   const auto add_on_surface = [&](NodeId ball, const geometry::CorePoint& core,
                                   const contact::PairSprings& pair, double range,
                                   const contact::TermPart& part) {
-    const bool is_ball = is_own(ball);
-    if (is_ball == is_own(core.nodes[0])) return;
+    const bool is_ball = view.is_own(ball);
+    if (is_ball == view.is_own(core.nodes[0])) return;
     const Vec3 foot = geometry::position(core, x);
     const Vec3 to_core = foot - x[index_of(ball)];
     const double distance = to_core.norm();
@@ -56,25 +52,60 @@ void BodyPress::look(const contact::Contacts& contacts, const RigidNodes& rigid,
     const double along = way.motion_at(is_ball ? x[index_of(ball)] : foot).dot(to_core) / distance;
     const double of_one = pair.normal_force(gap);
     const double weight = of_one > 0.0 && part.elastic != 0.0 ? part.elastic / of_one : 1.0;
-    add(is_ball ? along : -along, gap, weight, pair, part.dashpot);
-    add_dragged({x[index_of(ball)], foot}, to_core / distance, gap, weight, pair);
+    add(way,
+        {{x[index_of(ball)], foot},
+         to_core / distance,
+         is_ball ? along : -along,
+         gap,
+         weight,
+         part.dashpot},
+        pair);
   };
-  contacts.for_each_surface_term(add_on_surface);
-  contacts.for_each_coming_surface_term(way.longest_path(), x, add_on_surface);
-  contacts.for_each_near_plane_pair(
+  view.contacts.for_each_surface_term(add_on_surface);
+  view.contacts.for_each_coming_surface_term(way.longest_path(), x, add_on_surface);
+}
+
+void BodyPress::look_at_planes(const View& view, std::span<const contact::Plane> planes) {
+  const Way& way = view.way;
+  const geometry::Positions x = view.x;
+  view.contacts.for_each_near_plane_pair(
       way.longest_path(), planes, x,
       [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
-        if (!is_own(ball)) return;
+        if (!view.is_own(ball)) return;
+        const Vec3& place = x[index_of(ball)];
         const Vec3& normal = planes[plane].normal;
-        add(-way.motion_at(x[index_of(ball)]).dot(normal), gap, 1.0, pair);
-        add_dragged({x[index_of(ball)], x[index_of(ball)]}, normal, gap, 1.0, pair);
+        add(way, {{place, place}, normal, -way.motion_at(place).dot(normal), gap, 1.0}, pair);
       });
-  contacts.for_each_structure_stiffness(
-      [&](NodeId node, const contact::PairStiffness& stiffness, double) {
-        if (!is_own(node)) return;
-        const double slope = way.turn ? way.motion_at(x[index_of(node)]).norm() : 1.0;
-        springs_.push_back({slope, 0.0, 0.0, stiffness.normal, stiffness.normal_damping});
-      });
+}
+
+void BodyPress::look_at_structures(const View& view) {
+  view.contacts.for_each_structure_stiffness([&](NodeId node,
+                                                 const contact::PairStiffness& stiffness, double) {
+    if (!view.is_own(node)) return;
+    const double slope = view.way.turn ? view.way.motion_at(view.x[index_of(node)]).norm() : 1.0;
+    springs_.push_back({slope, 0.0, 0.0, stiffness.normal, stiffness.normal_damping});
+  });
+}
+
+/// Of a law that gets stiffer with the overlap as stiff as it may get on the way.
+void BodyPress::add(const Way& way, const Touch& touch, const contact::PairSprings& pair) {
+  const double gap = touch.gap;
+  const double stiffness =
+      pair.stiffness(std::min(gap, 0.0) - std::abs(touch.slope) * way.longest).normal;
+  const double damping = gap < 0.0 ? touch.dashpot * pair.stiffness(gap).normal_damping : 0.0;
+  springs_.push_back(
+      {touch.slope, gap, touch.weight * pair.normal_force(gap), touch.weight * stiffness, damping});
+  if (way.turn && gap < 0.0) add_dragged(way, touch, pair);
+}
+
+/// What a turn drags along the surfaces, by the longer one of two levers.
+void BodyPress::add_dragged(const Way& way, const Touch& touch, const contact::PairSprings& pair) {
+  double slope = 0.0;
+  for (const Vec3& place : touch.places) {
+    const Vec3 motion = way.motion_at(place);
+    slope = std::max(slope, Vec3(motion - motion.dot(touch.normal) * touch.normal).norm());
+  }
+  springs_.push_back({slope, 0.0, 0.0, touch.weight * pair.stiffness(touch.gap).tangential, 0.0});
 }
 
 PlanePress BodyPress::at(double way) const noexcept {

@@ -7,6 +7,7 @@
 #include "dynamics/model/scene.hpp"
 #include "dynamics/state/rigid_nodes.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -56,6 +57,30 @@ class BodyPress {
     double stiffness;  ///< N/m
     double damping;    ///< N s/m, of now
   };
+  /// What a look is at.
+  struct View {
+    const contact::Contacts& contacts;
+    const RigidNodes& rigid;
+    const Way& way;
+    geometry::Positions x;
+    bool is_own(NodeId node) const noexcept { return rigid.body_followed_by(node) == way.body; }
+  };
+  /// Two bodies that touch or come to.
+  struct Touch {
+    std::array<Vec3, 2> places;  ///< m, of both; of a plane twice that of the other
+    Vec3 normal;                 ///< unit, either way round
+    double slope;                ///< m of overlap over the way
+    double gap;                  ///< m
+    double weight;               ///< of one contact
+    double dashpot = 1.0;        ///< contacts that damp
+  };
+  void look_at_spheres(const View& view);
+  void look_at_surfaces(const View& view);
+  void look_at_planes(const View& view, std::span<const contact::Plane> planes);
+  void look_at_structures(const View& view);
+  void add(const Way& way, const Touch& touch, const contact::PairSprings& pair);
+  void add_dragged(const Way& way, const Touch& touch, const contact::PairSprings& pair);
+
   std::vector<Spring> springs_;
 };
 

@@ -44,7 +44,7 @@ void require_remeshable(const MeshMeasures& measures, double target_edge) {
             "before they are joined, or wrap the surface";
   else if (measures.inconsistent_edges > 0)
     text << "cannot be remeshed: along " << measures.inconsistent_edges
-         << " edges the facets disagree; orient the mesh";
+         << " edges the facets disagree; orient the mesh, or cut it there if it has one side only";
   else
     return;
   throw MeshError(text.str());

@@ -187,6 +187,29 @@ TEST_F(Stop, EndsARunThatGoesOnFromACheckpointWhereItWouldHaveEnded) {
   EXPECT_EQ(end_of("long"), end_of("run"));
 }
 
+// The checkpoint was written before the look of its step, which a run that went on from it had not.
+TEST_F(Stop, CountsTheLookOfTheStepThatACheckpointIsOf) {
+  std::string text =
+      std::string(kBall) + kMoved +
+      "[stop]\nforce = { reaction = \"floor\", component = \"z\", below = \"-2 N\" }\n";
+  // At every look: each 16 steps of 5 us.
+  text.insert(text.find("[[output.reactions]]"),
+              "[output]\ncheckpoint_interval = \"79.9999 us\"\n");
+  ASSERT_EQ(run(text, "run").exit_code, 0);
+  const double end = end_of("run");
+  // Of the ten looks some are before this step, some after it.
+  const std::string middle = "step_000000002768.h5";
+  ASSERT_TRUE(fs::exists(folder_ / "run" / "checkpoints" / middle));
+  for (const fs::path& file : checkpoints_of(folder_ / "run"))
+    if (file.filename().string() > middle) fs::remove(file);
+
+  const Outcome resumed =
+      Program({"run", "--resume", (folder_ / "run").string(), "--quiet"}).wait();
+
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(end_of("run"), end);
+}
+
 TEST_F(Stop, EndsByATorqueThatAServoReaches) {
   const json turned = ended(kBlade);
   EXPECT_EQ(turned["stopped_by"], "servo");

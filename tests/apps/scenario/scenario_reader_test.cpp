@@ -242,6 +242,20 @@ TEST(ScenarioReader, KnowsAStudyAndNamesItsCommand) {
   EXPECT_THAT(error_of(study), Not(HasSubstr("missing")));
 }
 
+TEST(ScenarioReader, KnowsAMeshAndNamesTheCommandAndTheKeyForIt) {
+  const test::TemporaryFolder folder;
+  const std::string mesh = (folder / "ball.STL").string();
+  test::write_bytes(mesh, "solid ball\nendsolid ball\n");
+  try {
+    read_scenario(mesh);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              mesh + ": a mesh; expected a scenario (.toml), which names it as mesh = \"" + mesh +
+                  "\"; \"plekton import " + mesh + "\" says what is in it");
+  }
+}
+
 TEST(ScenarioReader, NamesThePlaceOfAnErrorOfSyntax) {
   EXPECT_THAT(error_of(edited("duration = ", "duration ")), HasSubstr("case.toml:2:"));
   EXPECT_THAT(error_of(edited("duration = ", "duration ")), HasSubstr("not TOML"));

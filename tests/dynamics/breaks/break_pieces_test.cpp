@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What becomes of structures that fall apart, and of what acts on them.
+#include "dynamics/time_step/motion_step.hpp"
 #include "tests/support/breaking_net.hpp"
 
 #include <gmock/gmock.h>
@@ -252,6 +253,25 @@ TEST(BreakPieces, ABondThatIsStretchedTooFarAtTheStartHoldsNothingFromThen) {
 
   EXPECT_TRUE(simulation.elements().cylinders.empty());
   EXPECT_EQ(simulation.energy().bond_dissipated, 0.0);
+}
+
+// The step was chosen for what was left, which was nothing: 0.6 radii at a time, into the floor.
+TEST(BreakPieces, WhatIsBrokenAtTheStartComesToTheFloorInStepsThatFollowIt) {
+  Scene scene = pulled_wire();
+  scene.state.position[1].x() *= 1.06;
+  scene.planes.push_back({Vec3(0.0, 0.0, -0.05), Vec3::UnitZ(), Vec3::Zero(), kWire});
+  scene.properties.held.assign(2, Held::nothing);
+  scene.state.velocity.assign(2, Vec3(0.0, 0.0, -3.0));
+  BreakingSimulation simulation(scene, weightless());
+  ASSERT_TRUE(simulation.elements().cylinders.empty());
+
+  while (simulation.contacts().counts().with_planes == 0) {
+    ASSERT_LT(simulation.time(), 0.02);
+    ASSERT_LE(simulation.motion_ratio(), 1.000001 * kLargestMotion);
+    simulation.step();
+  }
+  EXPECT_EQ(simulation.contacts().counts().with_planes, 2u);
+  EXPECT_LE(simulation.contacts().largest_overlap_ratio(), kLargestMotion);
 }
 
 /// Spheres fall on a net whose bonds break in turn.
