@@ -46,6 +46,19 @@ std::vector<std::string> differences(const StateTree& a, const StateTree& b, std
   return names;
 }
 
+ScenarioText scenario_text(const StateTree& state) {
+  ScenarioText text;
+  text.exchange(geometry::StateArchive::reader(state).group(kRunGroup));
+  return text;
+}
+
+/// A run as it was when a later checkpoint was written: it may have been given a longer duration.
+ResumedRun resumed_towards(const StateTree& last, FoundCheckpoint first,
+                           std::span<const std::string> overrides) {
+  scenario_text(last).exchange(geometry::StateArchive::writer(first.state).group(kRunGroup));
+  return resumed_from(std::move(first), overrides);
+}
+
 /// The state of a run at that of a later checkpoint, computed from an earlier one.
 StateTree computed_again(const ResumedRun& resumed, const StateTree& last) {
   const ScratchFolder scratch("verify");
@@ -54,7 +67,7 @@ StateTree computed_again(const ResumedRun& resumed, const StateTree& last) {
   const dynamics::Simulation* simulation = nullptr;
   const bool ends_stage = resumed.scenario.stage && stage_of(last).has_ended;
   const auto is_there = [&] {
-    // A stage ends by itself, after this is asked.
+    // A stage ends by itself.
     return guard.interrupted() || (!ends_stage && simulation->steps() >= steps_of(last));
   };
   RunSettings settings{scratch.path(),         silence, ProgressStyle::none, is_there,
@@ -85,7 +98,9 @@ bool verify_run(const VerifyArguments& arguments, std::ostream& out) {
   const FoundCheckpoint last = last_checkpoint(arguments.folder, time_option("--interval", end));
   const std::optional<double> from = time_option("--interval", begin);
   const FoundCheckpoint first = checkpoint_before(arguments.folder, steps_of(last.state), from);
-  const ResumedRun resumed = resumed_from(first, arguments.overrides);
+  const bool is_of_one_scenario =
+      scenario_text(first.state).overrides == scenario_text(last.state).overrides;
+  const ResumedRun resumed = resumed_towards(last.state, first, arguments.overrides);
   const StateTree again = computed_again(resumed, last.state);
   std::size_t count = 0;
   const std::vector<std::string> others = differences(last.state, again, count);
@@ -101,7 +116,10 @@ bool verify_run(const VerifyArguments& arguments, std::ostream& out) {
   for (std::size_t i = 0; i < std::min(kShown, others.size()); ++i)
     out << "  " << others[i] << '\n';
   if (others.size() > kShown) out << "  and more\n";
-  out << "the run was of another version or build of plekton, or its files were changed\n";
+  out << (is_of_one_scenario
+              ? "the run was of another version or build of plekton, or its files were changed\n"
+              : "the run ended between them, in a step that was cut short, and was given a longer "
+                "duration: choose an --interval before or after that\n");
   return false;
 }
 

@@ -47,8 +47,12 @@ decltype(Value::data) data_of(const py::handle& object, const Place& place, int 
   if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object))
     return list_of(object, place, depth);
   // Numbers and arrays of numpy, as the Python objects that they stand for.
-  if (py::hasattr(object, "dtype") && py::hasattr(object, "tolist"))
-    return data_of(object.attr("tolist")(), place, depth);
+  if (py::hasattr(object, "dtype") && py::hasattr(object, "tolist")) {
+    const py::object plain = object.attr("tolist")();
+    // A long double stands for nothing of Python's.
+    if (py::hasattr(plain, "dtype")) return py::float_(plain).cast<double>();
+    return data_of(plain, place, depth);
+  }
   if (PyIndex_Check(object.ptr()) != 0) return whole_number(object);
   if (is_a(object, "os", "PathLike")) return path_of(object).string();
   if (object.is_none()) return apps::OtherKind{"None"};

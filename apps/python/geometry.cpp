@@ -194,6 +194,13 @@ py::array pairs(double largest_gap, const std::optional<Numbers>& centres, const
       x.push_back(places[i]);
     }
   }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i].allFinite()) continue;
+    const std::size_t first = points ? static_cast<std::size_t>(points->shape(0)) : 0;
+    throw std::invalid_argument(
+        i < first ? fmt::format("points[{}]: got no number; expected finite ones", i)
+                  : fmt::format("centres[{}]: got no number; expected finite ones", i - first));
+  }
   std::vector<PairRow> rows;
   {
     const py::gil_scoped_release free;

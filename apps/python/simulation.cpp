@@ -229,25 +229,57 @@ apps::ReactionValue reaction(const Session& session, const std::string& name) {
 
 // Changing it.
 
-void set_velocity(const Session& session, const Whole& nodes, const Numbers& velocity,
+/// Numbers of nodes, from these or from a truth value for each of them.
+/// @param count  of all nodes
+std::vector<std::int64_t> node_numbers(const py::object& nodes, std::size_t count) {
+  const py::array given = py::array::ensure(nodes);
+  if (!given) {
+    PyErr_Clear();
+    throw InputError("set_velocity: got nodes that are no array; expected whole numbers");
+  }
+  const char kind = given.dtype().kind();
+  if (kind == 'b') {
+    const py::array_t<bool, py::array::c_style> mask(given);
+    if (given.ndim() != 1 || static_cast<std::size_t>(mask.size()) != count)
+      throw InputError(
+          fmt::format("set_velocity: got {} truth values; expected one for each of the {} nodes, "
+                      "or whole numbers",
+                      mask.size(), count));
+    std::vector<std::int64_t> numbers;
+    for (std::size_t i = 0; i < count; ++i)
+      if (mask.data()[i]) numbers.push_back(static_cast<std::int64_t>(i));
+    return numbers;
+  }
+  if (kind != 'i' && kind != 'u' && given.size() > 0)
+    throw InputError(
+        fmt::format("set_velocity: got nodes of type {}; expected whole numbers, or a truth value "
+                    "for each node",
+                    std::string(py::str(given.dtype()))));
+  const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> whole(given);
+  return {whole.data(), whole.data() + whole.size()};
+}
+
+void set_velocity(const Session& session, const py::object& given_nodes, const Numbers& velocity,
                   const Numbers& angular_velocity) {
   dynamics::Simulation& simulation = session.simulation();
+  const std::vector<std::int64_t> nodes =
+      node_numbers(given_nodes, simulation.properties().held.size());
   const auto rows_of = [&](const Numbers& given, const char* name) {
     if (given.ndim() == 2) return vectors_of(given, name);
     if (given.ndim() != 1 || given.size() != 3)
       throw InputError(fmt::format("{}: expected three components, or those of every node", name));
     const Vec3 same(given.at(0), given.at(1), given.at(2));
-    return std::vector<Vec3>(static_cast<std::size_t>(nodes.size()), same);
+    return std::vector<Vec3>(nodes.size(), same);
   };
   const auto velocities = rows_of(velocity, "velocity");
   const auto spins = rows_of(angular_velocity, "angular_velocity");
-  const auto count = static_cast<std::size_t>(nodes.size());
+  const std::size_t count = nodes.size();
   if (velocities.size() != count || spins.size() != count)
     throw InputError(fmt::format("set_velocity: got {} nodes, {} velocities and {} angular ones",
                                  count, velocities.size(), spins.size()));
   const auto& held = simulation.properties().held;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::int64_t node = nodes.data()[i];
+    const std::int64_t node = nodes[i];
     if (node < 0 || static_cast<std::size_t>(node) >= held.size())
       throw InputError(
           fmt::format("set_velocity: there is no node {}; there are {}", node, held.size()));
@@ -260,9 +292,8 @@ void set_velocity(const Session& session, const Whole& nodes, const Numbers& vel
       throw InputError(fmt::format("set_velocity: the velocity of node {} is not finite", node));
   }
   for (std::size_t i = 0; i < count; ++i)
-    simulation.set_velocity(
-        geometry::id_at<geometry::NodeId>(static_cast<std::size_t>(nodes.data()[i])), velocities[i],
-        spins[i]);
+    simulation.set_velocity(geometry::id_at<geometry::NodeId>(static_cast<std::size_t>(nodes[i])),
+                            velocities[i], spins[i]);
 }
 
 void bind_energy(py::module_& module) {

@@ -42,6 +42,10 @@ Spheres read_spheres(Section& section) {
     spheres.radii.push_back(row.quantity("radius", {kLength, kPositive}));
     row.finish();
   }
+  if (spheres.centres.empty())
+    section.complain(
+        "spheres",
+        "got none; expected one or more, as [{ centre = [0, 0, 0], radius = \"1 cm\" }]");
   return spheres;
 }
 

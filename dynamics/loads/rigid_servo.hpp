@@ -67,7 +67,7 @@ class BodyPress {
   };
   /// Two bodies that touch or come to.
   struct Touch {
-    std::array<Vec3, 2> places;  ///< m, of both; of a plane twice that of the other
+    std::array<Vec3, 2> places;  ///< m, of both; of a plane twice its nearest point
     Vec3 normal;                 ///< unit, either way round
     double slope;                ///< m of overlap over the way
     double gap;                  ///< m

@@ -64,6 +64,8 @@ std::vector<bool> free_nodes(const Scene& scene) {
   std::vector<bool> is_free(scene.properties.size());
   for (std::size_t i = 0; i < is_free.size(); ++i)
     is_free[i] = !holds_translation(scene.properties.held[i]);
+  for (const BodyServo& servo : scene.loads.body_servos)
+    is_free[index_of(scene.rigid_bodies[servo.body].node)] = true;
   for (const RigidBody& body : scene.rigid_bodies) {
     for (const NodeId node : body.nodes) is_free[index_of(node)] = is_free[index_of(body.node)];
   }

@@ -112,6 +112,13 @@ int opened(const std::filesystem::path& path, CheckedFile::Mode mode) {
   return ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC | at_the_end);
 }
 
+/// Where a file is written that is to have this name.
+std::filesystem::path part_in_place_of(const std::filesystem::path& path) {
+  if (!goes_nowhere(path) && geometry::is_no_file(path))
+    throw OutputError(path, "is a device, pipe or socket, no file; choose another name");
+  return geometry::part_of(path);
+}
+
 }  // namespace
 
 bool goes_nowhere(const std::filesystem::path& file) {
@@ -176,7 +183,7 @@ void CheckedFile::close() {
 }
 
 OutputFile::OutputFile(const std::filesystem::path& path)
-    : path_(path), part_(geometry::part_of(path)), file_(part_, CheckedFile::Mode::create) {}
+    : path_(path), part_(part_in_place_of(path)), file_(part_, CheckedFile::Mode::create) {}
 
 OutputFile::~OutputFile() {
   if (committed_) return;

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <system_error>
 
 namespace plekton::geometry {
 namespace {
@@ -32,6 +33,12 @@ std::filesystem::path part_of(const std::filesystem::path& path) {
   std::filesystem::path part = path;
   part += ".part";
   return part;
+}
+
+bool is_no_file(const std::filesystem::path& path) noexcept {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  return std::filesystem::is_other(status);
 }
 
 int create_new_file(const std::filesystem::path& path) noexcept {

@@ -184,6 +184,8 @@ std::string format_mesh(const Mesh& mesh, MeshFormat format) {
 }
 
 void write_mesh_file(const fs::path& path, const Mesh& mesh, MeshFormat format) {
+  if (is_no_file(path))
+    throw MeshError(path.string() + ": is a device, pipe or socket, no file; choose another name");
   const std::string bytes = format_mesh(mesh, format);
   const fs::path part = part_of(path);
   const int descriptor = create_new_file(part);

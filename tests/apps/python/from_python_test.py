@@ -111,6 +111,15 @@ def test_whole_numbers_of_numpy_are_whole_numbers(number):
     plekton.load(scene)
 
 
+# What numpy makes of a long double for Python is the long double again.
+def test_long_doubles_are_numbers():
+    scene = scenes.small()
+    scene["simulation"]["duration"] = np.longdouble(0.25)
+    scene["grains"][0]["velocity"] = np.array([0, 0.5, -1], np.longdouble)
+
+    plekton.load(scene)
+
+
 def test_bars_from_arrays_become_bars_and_their_ends_are_held():
     points = np.array([[0, 0, 0], [0.1, 0, 0], [0.2, 0, 0.01], [0.3, 0, 0]])
     net = {

@@ -198,6 +198,7 @@ def test_the_first_contact_of_balls_is_that_of_the_quadratic():
         (lambda: plekton.Surface(np.eye(3), [[0, 1, 2]]).nearest(np.eye(3), radius=[1, 2]), "radius: got 2 numbers"),
         (lambda: plekton.Surface(np.eye(3), [[0, 1, 2]]).rays(np.eye(3), [[0, 0, 1]]), "got 3 origins and 1"),
         (lambda: plekton.pairs(-1, centres=np.eye(3), radii=1), "gap"),
+        (lambda: plekton.pairs(1, centres=[[0, 0, 0], [0, np.nan, 0]], radii=1), r"centres\[1\]: got no number"),
         (lambda: plekton.first_contact(np.zeros((4, 3)), np.zeros((4, 3)), 1, np.eye(3), np.eye(3), 1), "4 corners"),
     ],
 )  # fmt: skip

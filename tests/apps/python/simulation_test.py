@@ -224,10 +224,22 @@ def test_held_nodes_can_be_given_a_velocity(simulation):
     assert (simulation.velocities[rim] == 0.0).all()
 
 
+def test_a_truth_value_for_each_node_chooses_nodes(simulation):
+    chosen = np.zeros(len(simulation.positions), bool)
+    chosen[simulation.nodes("membranes.sheet")[1:3]] = True
+
+    simulation.set_velocity(chosen, [0, 0, 0.5])
+    simulation.step(1)
+
+    np.testing.assert_array_equal(simulation.velocities[:, 2] == 0.5, chosen)
+
+
 @pytest.mark.parametrize(
     ("nodes", "velocity", "message"),
     [
         ([12], [0, 0, 1], "node 12 is free"),
+        ([True, False], [0, 0, 1], "got 2 truth values; expected one for each of the 45 nodes"),
+        ([2.9], [0, 0, 1], "got nodes of type float64; expected whole numbers"),
         ([99], [0, 0, 1], "there is no node 99; there are 45"),
         ([-1], [0, 0, 1], "there is no node -1"),
         ([0], [0, 1], "expected three components"),

@@ -343,6 +343,19 @@ TEST_F(ResumeErrors, VerifyComputesARunAgainAndFindsEveryBit) {
   EXPECT_NE(most.out.find("the same to the last bit"), std::string::npos) << most.out << most.err;
 }
 
+// It was said to be of another build.
+TEST_F(ResumeErrors, VerifyComputesWhatALongerDurationAdded) {
+  ASSERT_EQ(run().exit_code, kDone);
+  ASSERT_EQ(resume({"--set", "simulation.duration=8 ms"}).exit_code, kDone);
+
+  const Outcome after = Program({"verify", out(), "--interval", "5 ms", "8 ms"}).wait();
+  const Outcome over = Program({"verify", out(), "--interval", "4 ms", "8 ms"}).wait();
+
+  EXPECT_EQ(after.exit_code, kDone) << after.out;
+  EXPECT_EQ(over.exit_code, kFailed);
+  EXPECT_NE(over.out.find("was given a longer duration"), std::string::npos) << over.out;
+}
+
 /// A checkpoint of one run put into the folder of another.
 TEST_F(ResumeErrors, VerifySeesThatARunIsAnother) {
   ASSERT_EQ(run().exit_code, kDone);

@@ -66,6 +66,53 @@ TEST(RigidServo, PressesWithTheForceThatIsWanted) {
   EXPECT_LT(simulation.energy().closure(), 0.02);
 }
 
+/// A ball of 1 kg beside a floor, driven by a servo.
+Scene driven_ball(double gap, Held held, BodyServo servo) {
+  Scene scene;
+  scene.materials = {{1e7, 0.3, 0.36}};
+  scene.planes.push_back({Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), kMaterial});
+  const Vec3 centre(0.0, 0.0, 0.05 + gap);
+  scene.add_sphere(centre, 0.05, 2000.0, kMaterial);
+  scene.add_rigid_body(std::vector{NodeId{0}}, {1.0, centre, 1e-3 * Mat3::Identity()}, held);
+  scene.loads.body_servos.push_back(servo);
+  return scene;
+}
+
+// All of its translation was prescribed, and what is held did not touch planes: it went through.
+TEST(RigidServo, PressesOnAPlaneWhereTheOtherAxesAreHeld) {
+  BodyServo servo;
+  servo.force = 60.0;
+  servo.largest_speed = 0.5;
+  auto simulation = simulation_of(
+      driven_ball(0.003, Held::along_x | Held::along_y | Held::rotation, servo), 2e-6);
+
+  while (simulation.step_until(0.05)) {
+  }
+
+  EXPECT_NEAR(simulation.plane_reaction(0).force.z(), -60.0, 0.06);
+}
+
+// The floor drags the rim of the ball, not its middle, which does not move: the servo took its
+// torque for one that nothing holds, and swung at its largest speed.
+TEST(TorqueServo, BearsWhatAPlaneDragsOnARoundBody) {
+  BodyServo servo;
+  servo.torque = 0.05;
+  servo.axis = 1;
+  servo.largest_speed = 100.0;
+  // On its weight: E R of a contact.
+  Scene scene = driven_ball(-9.81 / (1e7 * 0.05), Held::along_x | Held::along_y, servo);
+  const std::size_t node = index_of(scene.rigid_bodies[0].node);
+  auto simulation = simulation_of(std::move(scene), 2e-6, Vec3(0.0, 0.0, -9.81));
+  double fastest = 0.0;
+  while (simulation.step_until(0.2)) {
+    if (simulation.time() < 0.1) continue;
+    fastest = std::max(fastest, std::abs(simulation.state().angular_velocity[node].y()));
+  }
+
+  EXPECT_NEAR(std::abs(simulation.gathered_torque(0).y()), 0.05, 1e-3 * 0.05);
+  EXPECT_LT(fastest, 1.0);
+}
+
 // With dashpots as of a restitution of 0.1 a plate that followed what it feels of them would swing
 // from step to step.
 TEST(RigidServo, PressesWithoutHammeringOnStronglyDampedSpheres) {

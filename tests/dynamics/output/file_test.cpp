@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 
@@ -108,6 +109,18 @@ TEST(CheckedFile, SaysThatTheDiskIsFull) {
               ThrowsMessage<OutputError>(AllOf(HasSubstr("/dev/full: cannot write"),
                                                HasSubstr("No space left on device"),
                                                HasSubstr("free some space"))));
+}
+
+TEST(OutputFile, TakesNoNameAwayFromADevice) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink(folder / "pipe", folder / "link");
+
+  for (const std::string name : {"pipe", "link"})
+    EXPECT_THAT([&] { OutputFile file(folder / name); },
+                ThrowsMessage<OutputError>(HasSubstr(name + ": is a device, pipe or socket")));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_THAT(folder.names(), ElementsAre("link", "pipe"));
 }
 
 TEST(OutputFile, LeavesNoFileWhenTheDiskFillsUpWithinAWrite) {
