@@ -3,6 +3,7 @@
 
 #include "geometry/base/elementary.hpp"
 #include "geometry/mesh/repair/measures.hpp"
+#include "geometry/mesh/repair/resolution.hpp"
 #include "geometry/mesh/repair/solid_checks.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -134,6 +135,9 @@ Mesh remeshed(const Mesh& mesh, double target_edge, bool collapse) {
 }  // namespace
 
 Mesh remesh(const Mesh& mesh, double target_edge) {
+  std::ostringstream what;
+  what << "a target edge of " << target_edge << " m";
+  require_resolved(mesh, target_edge, what.str());
   require_remeshable(measure(mesh, false), target_edge);
   Mesh result = remeshed(mesh, target_edge, true);
   const std::size_t crossings = self_intersections(result).size();

@@ -2,6 +2,7 @@
 #include "geometry/mesh/repair/wrap.hpp"
 
 #include "geometry/mesh/repair/measures.hpp"
+#include "geometry/mesh/repair/resolution.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
@@ -89,6 +90,9 @@ void require_few_facets(const Mesh& mesh, double size, double finest) {
 
 Mesh wrap(const Mesh& mesh, double finest) {
   const double size = size_of(mesh);
+  std::ostringstream what;
+  what << "a wrap of " << finest << " m";
+  require_resolved(mesh, finest / kOffsetRatio, what.str());
   require_wrappable(size, finest);
   require_few_facets(mesh, size, finest);
   return from_cgal(wrapped(mesh, finest));

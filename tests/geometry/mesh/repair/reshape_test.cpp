@@ -197,6 +197,29 @@ TEST(Wrap, RefusesADetailThatNoMemoryHolds) {
   EXPECT_THAT(message_of([] { wrap(icosphere(1.0, 1), std::nan("")); }), HasSubstr("at least"));
 }
 
+Mesh moved(Mesh mesh, double scale, const Vec3& by) {
+  for (Vec3& p : mesh.points) p = scale * p + by;
+  return mesh;
+}
+
+// Far away a wrap divided by zero, or had no end, and remeshing took all memory.
+TEST(Reshape, RefusesDetailsThatTheCoordinatesDoNotResolve) {
+  for (const double far : {1e12, 1e15}) {
+    const Mesh mesh = moved(icosphere(1.0, 1), 1.0, Vec3(far, 0.0, 0.0));
+    EXPECT_THAT(message_of([&] { wrap(mesh, 0.1); }), HasSubstr("nearer to the origin"));
+  }
+  const Mesh mesh = moved(icosphere(1.0, 1), 1.0, Vec3(0.0, 1e15, 0.0));
+  EXPECT_THAT(message_of([&] { remesh(mesh, 0.2); }), HasSubstr("nearer to the origin"));
+}
+
+TEST(Reshape, RefusesSizesWhoseProductsAreNoNumbers) {
+  for (const double scale : {1e-200, 1e-100, 1e100}) {
+    const Mesh mesh = moved(icosphere(1.0, 1), scale, Vec3::Zero());
+    EXPECT_THAT(message_of([&] { wrap(mesh, 0.1 * scale); }), HasSubstr("scale it"));
+    EXPECT_THAT(message_of([&] { remesh(mesh, 0.2 * scale); }), HasSubstr("scale it"));
+  }
+}
+
 TEST(Repair, ReshapesOnlyWhenAskedAndReportsAreaVolumeAndDistance) {
   const Mesh open = without_facets(icosphere(1.0, 3), 0, 4);
 
