@@ -364,8 +364,8 @@ Energy Simulation::energy() const {
 /// random walk. The sum over nodes that gives the energy of gravity is rounded by n eps of its
 /// absolute terms, and their change in each step by eps. Work in a step is a sum of terms of either
 /// sign, as that of pressure on a shell that is moved, each rounded by eps; those of the last step
-/// stand for all. And springs that places rounded by eps |x| strain push with k eps |x| against
-/// what is moved.
+/// stand for all. And springs that places rounded by eps |x| strain push with k eps |x|, either way,
+/// against what is moved.
 double Simulation::rounding_energy() const {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
   double furthest = 0.0;  // m, from the origin
@@ -387,7 +387,8 @@ double Simulation::rounding_energy() const {
       initial_stiffness_.translation * furthest * furthest + initial_stiffness_.rotation;
   return 0.5 * kEps * kEps * springs * (1.0 + steps) +
          kEps * weight * (static_cast<double>(scene_.state.size()) + steps) +
-         kEps * (power + initial_stiffness_.translation * furthest * moved) * last_drift_ * steps;
+         kEps * power * last_drift_ * steps +
+         kEps * initial_stiffness_.translation * furthest * moved * last_drift_ * std::sqrt(steps);
 }
 
 CriticalStep Simulation::critical_step() const {
