@@ -48,6 +48,21 @@ void require_within(const Scenario& scenario, double begin, const ResumeArgument
       arguments.from, last));
 }
 
+/// There is nothing to go on with where a run is beyond its end already.
+void require_not_beyond(const ResumedRun& run, const std::string& to) {
+  const double now = time_of(run.checkpoint.state);
+  const double end = run.until.value_or(run.scenario.simulation.duration);
+  constexpr double kRounding = 1e-9;
+  if (!run.scenario.stages.empty() || end >= now * (1.0 - kRounding)) return;
+  throw InputError(
+      to.empty()
+          ? fmt::format("simulation.duration: got {:.6g} s; the run is at {:.6g} s already", end,
+                        now)
+          : fmt::format("--to: got \"{}\"; the run is at {:.6g} s already: give --from with a "
+                        "time before it",
+                        to, now));
+}
+
 }  // namespace
 
 std::optional<double> time_option(const char* name, const std::string& text) {
@@ -76,6 +91,7 @@ ResumedRun find_resumed_run(const ResumeArguments& arguments) {
   if (begin) require_within(run.scenario, *begin, arguments);
   run.from = begin;
   run.until = end;
+  require_not_beyond(run, arguments.to);
   if (end) run.scenario.simulation.duration = *end;
   return run;
 }

@@ -119,35 +119,33 @@ dynamics::SceneChange change_to(const StageOrigins& origins, contact::BodyPlaces
   return {std::move(places), origins.moved_planes};
 }
 
-/// Flags of grains, by those of now.
-void carry_flags(const StateArchive& from, const StateArchive& to, const char* name,
-                 const contact::BodyPlaces& places, std::size_t spheres) {
+/// Flags of grains, by those of now. @returns them
+std::vector<bool> carry_flags(const StateArchive& from, const StateArchive& to, const char* name,
+                              const contact::BodyPlaces& places, std::size_t spheres) {
   std::vector<bool> before, now(spheres, false);
   from(name, before);
   for (std::size_t i = 0; i < places.spheres.size(); ++i)
     if (places.spheres[i] >= 0) now[static_cast<std::size_t>(places.spheres[i])] = before[i];
   to(name, now);
+  return now;
 }
 
 /// Which grains are lost, of those of now. What has come may be outside of where all began.
 void carry_lost_grains(const StateArchive& from, const StateArchive& to,
                        const contact::BodyPlaces& places, const dynamics::Simulation& now) {
-  const std::size_t spheres = now.elements().spheres.size();
-  carry_flags(from, to, "is_through", places, spheres);
-  carry_flags(from, to, "is_out", places, spheres);
+  const std::vector<geometry::Sphere>& spheres = now.elements().spheres;
+  carry_flags(from, to, "is_through", places, spheres.size());
+  const std::vector<bool> is_out = carry_flags(from, to, "is_out", places, spheres.size());
   std::vector<Vec3> positions = now.state().position;
   to("before", positions);
   Vec3 lower, upper;
   from("lower_bounds", lower);
   from("upper_bounds", upper);
-  std::vector<bool> was_there(positions.size(), false);
-  for (const std::int32_t node : places.nodes)
-    if (node >= 0) was_there[static_cast<std::size_t>(node)] = true;
-  for (const geometry::Sphere& grain : now.elements().spheres) {
-    const std::size_t node = index_of(grain.nodes[0]);
-    if (was_there[node]) continue;
-    lower = lower.cwiseMin((positions[node].array() - grain.radius).matrix());
-    upper = upper.cwiseMax((positions[node].array() + grain.radius).matrix());
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    if (is_out[i]) continue;
+    const Vec3& centre = positions[index_of(spheres[i].nodes[0])];
+    lower = lower.cwiseMin((centre.array() - spheres[i].radius).matrix());
+    upper = upper.cwiseMax((centre.array() + spheres[i].radius).matrix());
   }
   to("lower_bounds", lower);
   to("upper_bounds", upper);

@@ -66,6 +66,11 @@ bool can_serve() noexcept {
 
 void serve_run(const ServeSettings& settings) {
   httplib::Server server;
+  // Not as the library does, which lets two servers share a port and answers at random.
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   const Answers answers(settings, server);
   int port = settings.port;
   if (port == 0)

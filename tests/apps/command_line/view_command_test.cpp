@@ -142,6 +142,8 @@ TEST_F(ViewCommand, ServesThisMachineUntilItIsInterrupted) {
   EXPECT_THAT(answer_of(port, "/block/0/99", own), HasSubstr("404"));
   EXPECT_THAT(answer_of(port, "/../run.json", own), Not(HasSubstr("200 OK")));
   EXPECT_THAT(answer_of(port, "/", "elsewhere.example"), HasSubstr("403"));
+  // Two on one port answered in turns.
+  EXPECT_THAT(outcome_of({"view", out(), "--serve", match[1].str()}).err, HasSubstr("is taken"));
   program.send(SIGINT);
   EXPECT_EQ(program.wait().exit_code, kDone);
 }

@@ -291,6 +291,20 @@ TEST_F(ResumeErrors, GoBeyondTheDurationThatWasAskedForAtFirst) {
   EXPECT_EQ(report["resumed_s"], 0.005);
 }
 
+// It went on from its end to an earlier one, and told of success.
+TEST_F(ResumeErrors, RefuseAnEndThatIsOver) {
+  ASSERT_EQ(run().exit_code, kDone);
+
+  const Outcome shorter = resume({"--set", "simulation.duration=2 ms"});
+  const Outcome part = resume({"--to", "2 ms", "--out", (folder_ / "part").string()});
+
+  EXPECT_EQ(shorter.exit_code, kFailed);
+  EXPECT_NE(shorter.err.find("the run is at 0.005 s already"), std::string::npos) << shorter.err;
+  EXPECT_EQ(part.exit_code, kFailed);
+  EXPECT_NE(part.err.find("give --from with a time before it"), std::string::npos) << part.err;
+  EXPECT_FALSE(fs::exists(folder_ / "part"));
+}
+
 /// Output that was not asked for at first: the rows at the same times have the same digits.
 TEST_F(ResumeErrors, ComputeAPartOfARunAgainWithOtherOutput) {
   ASSERT_EQ(run().exit_code, kDone);

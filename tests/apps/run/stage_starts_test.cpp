@@ -251,6 +251,32 @@ materials.stone.friction_angle = "5 deg"
   EXPECT_NEAR(energy("closure_error"), 0.0, 1e-2 * energy("friction"));
 }
 
+// A clump that comes in a stage was lost at once: it lay outside of where all began.
+TEST_F(StageStarts, LoseNoClumpThatComesFarAbove) {
+  const Outcome outcome = run(std::string(kStone) + kFloor + R"(
+[simulation]
+gravity = [0, 0, -9.81]
+[[grains]]
+name = "ball"
+material = "stone"
+radius = "1 cm"
+centres = [[0, 0, "5 cm"]]
+[[stages]]
+name = "a"
+end = { duration = "5 ms" }
+[[stages]]
+name = "b"
+end = { duration = "5 ms" }
+[[stages.rigid_bodies]]
+name = "clump"
+spheres = [{ centre = [0, 0, "60 cm"], radius = "1 cm" }]
+material = "stone"
+density = "2650 kg/m3"
+)");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, Not(HasSubstr("lost")));
+}
+
 TEST_F(StageStarts, GoOnFromAnotherRunWithTheLoadsOfTheirFile) {
   test::write_bytes(folder_ / "case.toml", std::string(kStone) + R"(
 [simulation]
