@@ -35,7 +35,7 @@ namespace plekton::contact::structure {
 /// part (point_share.hpp): 1 where none lie flat on each other, 0 where some do. There the area is
 /// measured and nearest points are anywhere, so rings of them mean nothing. As one g is for all of a
 /// part, the energy leaps where a part with rings comes to touch one that lies partly flat: seen with
-/// 3 of 10 000 pairs of shells that are pressed through each other, by up to 15 % of what they store.
+/// 3 of 10 000 pairs of shells that are pressed through each other, by up to 20 % of what they store.
 /// (With a g for each place, the mean of the product over all levels at which others hang together
 /// with it, none leaps, but rings of all sheets that lie nearly flat have to be found: two sheets of
 /// 10 x 10 squares on each other take more than 30 times as long.)
