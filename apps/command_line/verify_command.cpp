@@ -46,6 +46,7 @@ std::vector<std::string> differences(const StateTree& a, const StateTree& b, std
   return names;
 }
 
+/// What a checkpoint knows of its scenario.
 ScenarioText scenario_text(const StateTree& state) {
   ScenarioText text;
   text.exchange(geometry::StateArchive::reader(state).group(kRunGroup));
@@ -118,8 +119,8 @@ bool verify_run(const VerifyArguments& arguments, std::ostream& out) {
   if (others.size() > kShown) out << "  and more\n";
   out << (is_of_one_scenario
               ? "the run was of another version or build of plekton, or its files were changed\n"
-              : "the run ended between them, in a step that was cut short, and was given a longer "
-                "duration: choose an --interval before or after that\n");
+              : "between them the run was given a longer duration or other output, for which other "
+                "steps are cut short: choose an --interval before or after that\n");
   return false;
 }
 

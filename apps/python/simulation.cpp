@@ -356,7 +356,9 @@ void bind_motion(SessionClass& session) {
            "what they show: ask for new ones.")
       .def("set_velocity", &set_velocity, py::arg("nodes"), py::arg("velocity"),
            py::arg("angular_velocity") = py::make_tuple(0.0, 0.0, 0.0),
-           "Gives nodes that are held a velocity (m/s) and an angular velocity (rad/s), the same "
+           "Gives nodes that are held, by their numbers or a truth value for each of all, a "
+           "velocity "
+           "(m/s) and an angular velocity (rad/s), the same "
            "or one "
            "for each, until they are given another.")
       .def(

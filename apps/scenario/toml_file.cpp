@@ -160,8 +160,7 @@ std::string read_toml_text(const fs::path& path) {
   if (is_mesh(path) && fs::is_regular_file(path))
     throw InputError(
         fmt::format("{0}: a mesh; expected a scenario (.toml), which names it as mesh = \"{0}\"; "
-                    "\"plekton import "
-                    "{0}\" says what is in it",
+                    "\"plekton import {0}\" says what is in it",
                     path.string()));
   std::error_code ignored;
   if (const auto size = fs::file_size(path, ignored); !ignored && size > kLongest)

@@ -37,8 +37,8 @@ namespace plekton::contact::structure {
 /// part, the energy leaps where a part with rings comes to touch one that lies partly flat: seen with
 /// 3 of 10 000 pairs of shells that are pressed through each other, by up to 20 % of what they store.
 /// (With a g for each place, the mean of the product over all levels at which others hang together
-/// with it, none leaps, but rings of all sheets that lie nearly flat have to be found: two sheets of
-/// 10 x 10 squares on each other take more than 30 times as long.)
+/// with it, three that were tried did not leap, but rings of all sheets that lie nearly flat have to
+/// be found: two sheets of 10 x 10 squares on each other take more than 30 times as long.)
 ///
 /// The cost grows with the third power of the rings of a part that something fills. So a part of
 /// more than kMostRings, as of a sheet that lies on a fine net, keeps what its terms add up to: one

@@ -26,7 +26,7 @@ double chosen_skin(const Scene& scene, double asked);
 std::vector<double> node_radii(const Scene& scene, const geometry::Surface& surface);
 
 /// By node. One that is held in place, or follows a rigid body that is, does not have to be kept
-/// out of walls.
+/// out of walls; what a servo drives presses on them, also where its other axes are held.
 std::vector<bool> free_nodes(const Scene& scene);
 
 /// kg, by node, as contacts see it: of what follows a rigid body its whole mass, infinite where its

@@ -331,6 +331,7 @@ TEST(SpreadCheck, FindsForcesThatChangeByAnotherPowerOfTheStepOrLeap) {
   EXPECT_TRUE(is_proportional_to([](double step) { return step + 3e3 * step * step; }));
   EXPECT_FALSE(is_proportional_to([](double step) { return std::pow(step, 0.9); }));
   EXPECT_FALSE(is_proportional_to([](double step) { return step > 0.0 ? 1e-3 : 0.0; }));
+  EXPECT_FALSE(is_proportional_to([](double step) { return step > 5e-4 ? 1e-3 : 0.0; }));
 }
 
 TEST(SpreadCheck, FindsBumpsOfKnots) {

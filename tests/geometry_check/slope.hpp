@@ -103,22 +103,6 @@ bool is_proportional_within(const ForcesAt& forces_at, double step, double toler
   });
 }
 
-/// Whether forces change in proportion to the step along a way on which the energy is smooth, to
-/// what the energies cannot tell: a contact that begins within the step bends them by no more. What
-/// is smooth for differences of the fourth order may still bend much within their step, and forces
-/// across the way may where the energy along it does not: a tenth of the step is looked at, and
-/// where that bends a tenth and a hundredth of that, all to as many parts. A leap, or a change by
-/// another power of the step, shows at any.
-/// @param rounding  N, of the sum of all forces
-template <class ForcesAt>
-bool is_proportional(const ForcesAt& forces_at, const Slope& smooth, double rounding) {
-  constexpr std::array<double, 3> kSteps{0.1, 0.01, 0.001};
-  return std::any_of(kSteps.begin(), kSteps.end(), [&](double part) {
-    return is_proportional_within(forces_at, part * smooth.step, 10.0 * part * smooth.tolerance,
-                                  rounding);
-  });
-}
-
 /// Largest change (N, sum of all forces) in a step, in a thousandth of it, and in a millionth (all
 /// but for 2^10 in place of 1000), as bisection finds it: of two halves it goes on with the one that
 /// changes forces more, which is the one with the jump, if there is any that is larger than what
@@ -140,6 +124,26 @@ std::array<double, 3> steepest_changes(const ForcesAt& forces_at, double step) {
     changes[size] = size_of(difference(at_to, at_from));
   }
   return changes;
+}
+
+/// Whether forces change in proportion to the step along a way on which the energy is smooth, to
+/// what the energies cannot tell: a contact that begins within the step bends them by no more. What
+/// is smooth for differences of the fourth order may still bend much within their step, and forces
+/// across the way may where the energy along it does not: a tenth of the step is looked at, and
+/// where that bends, but no thousandth of it changes by as much as may be off, a tenth and a
+/// hundredth of that. So a leap anywhere in the first one shows, and so does a change by another
+/// power of the step.
+/// @param rounding  N, of the sum of all forces
+template <class ForcesAt>
+bool is_proportional(const ForcesAt& forces_at, const Slope& smooth, double rounding) {
+  const double step = 0.1 * smooth.step;
+  if (is_proportional_within(forces_at, step, smooth.tolerance, rounding)) return true;
+  const auto [whole, thousandth, millionth] = steepest_changes(forces_at, step);
+  if (!(thousandth < 0.1 * std::max(whole, step) + smooth.tolerance)) return false;
+  constexpr std::array<double, 2> kParts{0.1, 0.01};
+  return std::any_of(kParts.begin(), kParts.end(), [&](double part) {
+    return is_proportional_within(forces_at, part * step, part * smooth.tolerance, rounding);
+  });
 }
 
 }  // namespace plekton::geometry_check

@@ -183,17 +183,13 @@ class Examination {
   void judge(const RunReport& report) const {
     tell_(fmt::format("broken {}\nclosure {}\n", report.broken_bonds + report.torn_facets,
                       report.energy_closure));
-    if (report.energy_closure > kStatedClosure && !is_attracted() && !is_strained())
+    if (report.energy_closure > kStatedClosure && !is_attracted())
       find(Fault::energy, fmt::format("the balance is off by {:.3g} % of what went through",
                                       100.0 * report.energy_closure));
   }
 
   /// A force that jumps as bodies come to touch is not in the balance: apps/scenario.md.
   bool is_attracted() const { return text_.find("work_of_adhesion") != std::string::npos; }
-
-  /// What springs apart swings as fast as the step allows, 1.3 / omega: each time that the step
-  /// changes, to end at a frame, the energy that the leapfrog keeps is up to 1.3^2 / 4 another.
-  bool is_strained() const { return text_.find("prestrain") != std::string::npos; }
 
   void compare_threads(const RunReport& base, Part part, int threads, std::int64_t last) const {
     begin(fmt::format("run on {} threads", threads));
