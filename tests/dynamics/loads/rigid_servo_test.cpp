@@ -66,30 +66,30 @@ TEST(RigidServo, PressesWithTheForceThatIsWanted) {
   EXPECT_LT(simulation.energy().closure(), 0.02);
 }
 
-/// A ball of 1 kg beside a floor, driven by a servo.
-Scene driven_ball(double gap, Held held, BodyServo servo) {
+/// A ball of 1 kg that lies on a floor with its weight, held along it.
+Scene driven_ball(BodyServo servo) {
+  constexpr double kModulus = 1e7, kBall = 0.05;
   Scene scene;
-  scene.materials = {{1e7, 0.3, 0.36}};
+  scene.materials = {{kModulus, 0.3, 0.36}};
   scene.planes.push_back({Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), kMaterial});
-  const Vec3 centre(0.0, 0.0, 0.05 + gap);
-  scene.add_sphere(centre, 0.05, 2000.0, kMaterial);
-  scene.add_rigid_body(std::vector{NodeId{0}}, {1.0, centre, 1e-3 * Mat3::Identity()}, held);
+  const Vec3 centre(0.0, 0.0, kBall - 9.81 / (kModulus * kBall));  // stiffness E R
+  scene.add_sphere(centre, kBall, 2000.0, kMaterial);
+  scene.add_rigid_body(std::vector{NodeId{0}}, {1.0, centre, 1e-3 * Mat3::Identity()},
+                       Held::along_x | Held::along_y);
   scene.loads.body_servos.push_back(servo);
   return scene;
 }
 
 // All of its translation was prescribed, and what is held did not touch planes: it went through.
 TEST(RigidServo, PressesOnAPlaneWhereTheOtherAxesAreHeld) {
-  BodyServo servo;
-  servo.force = 60.0;
-  servo.largest_speed = 0.5;
-  auto simulation = simulation_of(
-      driven_ball(0.003, Held::along_x | Held::along_y | Held::rotation, servo), 2e-6);
+  Scene scene = plate_over_spheres(Held::along_x | Held::along_y | Held::rotation);
+  for (std::size_t i = 0; i < 9; ++i) scene.state.position[i].x() += 1.0;
+  auto simulation = simulation_of(std::move(scene), 2e-6);
 
-  while (simulation.step_until(0.05)) {
+  while (simulation.step_until(0.5)) {
   }
 
-  EXPECT_NEAR(simulation.plane_reaction(0).force.z(), -60.0, 0.06);
+  EXPECT_NEAR(simulation.plane_reaction(0).force.z(), -90.0, 0.09);
 }
 
 // The floor drags the rim of the ball, not its middle, which does not move: the servo took its
@@ -99,8 +99,7 @@ TEST(TorqueServo, BearsWhatAPlaneDragsOnARoundBody) {
   servo.torque = 0.05;
   servo.axis = 1;
   servo.largest_speed = 100.0;
-  // On its weight: E R of a contact.
-  Scene scene = driven_ball(-9.81 / (1e7 * 0.05), Held::along_x | Held::along_y, servo);
+  Scene scene = driven_ball(servo);
   const std::size_t node = index_of(scene.rigid_bodies[0].node);
   auto simulation = simulation_of(std::move(scene), 2e-6, Vec3(0.0, 0.0, -9.81));
   double fastest = 0.0;
