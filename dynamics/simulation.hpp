@@ -78,8 +78,10 @@ class Simulation {
 
   /// One time step. @throws Diverged; std::logic_error if none was given where nothing sets one
   void step() { advance(std::numeric_limits<double>::infinity()); }
-  /// One time step, shorter where it would end after a time; the next step() is as long as chosen
-  /// or given again. A rest of a thousandth of a step, as rounding leaves it, is left out.
+  /// One time step on the way to a time. The last kStepsBetweenLooks before it are equally long, as
+  /// long as ends there: what swings fast would change its energy by as much as a single step
+  /// differs from those before it. The next step() is as long as chosen or given again. A rest of a
+  /// thousandth of a step, as rounding leaves it, is left out.
   /// @param end  s
   /// @returns whether there was any time left; nothing is done without
   bool step_until(double end);
@@ -360,7 +362,7 @@ class Simulation {
   double least_furthest_ = 0.0;   ///< m, of all nodes
   double pace_radius_ = 0.0;      ///< m, against which the motion in a chosen step is measured
   bool may_touch_ = true;
-  StepWork work_;                 ///< kinetic: of the last step; the rest: of all steps
+  StepWork work_;     ///< kinetic: of the last step; the rest: of all steps
   StepWork pending_;  ///< what of damped and external comes after the moment of the last forces
   double initial_energy_ = 0.0;
   double most_kinetic_ = 0.0;    ///< J, at the last looks at the ledger

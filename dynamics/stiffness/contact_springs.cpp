@@ -29,7 +29,7 @@ void ContactSprings::add_pair(NodeId a, NodeId b, const ContactStiffness& contac
   add_spring(contact,
              std::array{on_body({a, -1.0, contact.arm_a}, rigid_),
                         on_body({b, 1.0, -contact.arm_b}, rigid_)},
-             Kind::of_ball);
+             Kind::of_balls);
 }
 
 void ContactSprings::add_on_surface(NodeId ball, const geometry::CorePoint& core,
@@ -45,7 +45,7 @@ void ContactSprings::add_on_surface(NodeId ball, const geometry::CorePoint& core
 }
 
 void ContactSprings::add_to_wall(NodeId ball, const ContactStiffness& contact) {
-  add_spring(contact, std::array{on_body({ball, -1.0, contact.arm_a}, rigid_)}, Kind::of_ball);
+  add_spring(contact, std::array{on_body({ball, -1.0, contact.arm_a}, rigid_)}, Kind::on_wall);
 }
 
 void ContactSprings::add(NodeId node, const IsotropicStiffness& springs) {

@@ -55,6 +55,13 @@ class ContactSprings {
         visit(spring.contact, ends().subspan(spring.first_end, spring.end_count));
     }
   }
+  /// Calls visit(contact, its end) for those on walls.
+  template <class Visit>
+  void for_each_on_wall(Visit&& visit) const {
+    for (const Spring& spring : springs_) {
+      if (spring.kind == Kind::on_wall) visit(spring.contact, ends_[spring.first_end]);
+    }
+  }
 
   /// Ends of all springs but the single ones, spring by spring.
   std::span<const SpringEnd> ends() const noexcept { return ends_; }
@@ -88,7 +95,7 @@ class ContactSprings {
               NodeForces& forces) const;
 
  private:
-  enum class Kind : std::uint8_t { of_ball, on_surface, turning };
+  enum class Kind : std::uint8_t { of_balls, on_surface, on_wall, turning };
   struct Spring {
     ContactStiffness contact;
     std::size_t first_end;

@@ -63,9 +63,10 @@ struct ContactStiffness {
   double arm_a;                 ///< m, from the core point of a to the contact point
   double arm_b;                 ///< m, likewise of b
   double overlap = 0.0;         ///< m, of now
-  double weight = 1.0;   ///< of the force of one contact; the stiffness has its magnitude, at
-                         ///< least 1
-  double dashpot = 0.0;  ///< N/m, part of the normal stiffness that stands for a dashpot
+  double weight = 1.0;      ///< of the force of one contact; the stiffness has its magnitude, at
+                            ///< least 1
+  double dashpot = 0.0;     ///< N/m, part of the normal stiffness that stands for a dashpot
+  double wall_speed = 0.0;  ///< m/s, of a wall along the normal
 
   /// N/m, without what stands for a dashpot.
   double elastic_stiffness() const noexcept { return normal_stiffness - dashpot; }

@@ -35,7 +35,7 @@ struct PresentContacts {
     add_on_surfaces_to(springs, further, x);
     contacts.for_each_plane_pair(
         [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
-          add_to_plane(springs, ball, plane, pair, gap - further);
+          add_to_plane(springs, {ball, plane, gap}, pair, further);
         });
   }
 
@@ -57,11 +57,18 @@ struct PresentContacts {
     contacts.for_each_near_plane_pair(
         margin, planes, x,
         [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
-          add_to_plane(springs, ball, plane, pair, gap - margin);
+          add_to_plane(springs, {ball, plane, gap}, pair, margin);
         });
   }
 
  private:
+  /// A contact of a ball with a plane.
+  struct OnPlane {
+    NodeId ball;
+    std::size_t plane;
+    double gap;  ///< m
+  };
+
   /// A part of a contact of a ball with a surface.
   struct OnSurface {
     NodeId ball;
@@ -90,9 +97,13 @@ struct PresentContacts {
   }
 
   template <class Springs>
-  void add_to_plane(Springs& springs, NodeId ball, std::size_t plane,
-                    const contact::PairSprings& pair, double gap) const {
-    springs.add_to_wall(ball, stiffness_of(planes[plane].normal, pair, gap, ball, ball));
+  void add_to_plane(Springs& springs, const OnPlane& of, const contact::PairSprings& pair,
+                    double further) const {
+    const contact::Plane& plane = planes[of.plane];
+    ContactStiffness contact = stiffness_of(plane.normal, pair, of.gap - further, of.ball, of.ball);
+    contact.overlap = std::max(0.0, -of.gap);
+    contact.wall_speed = plane.normal.dot(plane.velocity);
+    springs.add_to_wall(of.ball, contact);
   }
 
   /// Those with surfaces and between structures.

@@ -16,6 +16,10 @@ namespace plekton::dynamics {
 /// way it turned (Diverged). The step is chosen for half of it, so that a node which spins ever
 /// faster is not looked at in every step.
 constexpr double kLargestTurn = 1.0;
+/// Of the critical step, where structures touch at the start: omega dt = 1/2. What begins in each
+/// other flies apart, and as its contact ends within a step it is off by (omega dt)² / 4 of what was
+/// stored in it at most.
+constexpr double kReleaseStep = 0.25;
 
 StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
     : of_(of),
@@ -23,7 +27,8 @@ StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
       pace_radius_(pace_radius(of.scene.elements)),
       springs_(&of.rigid),
       spread_(of.surface, of.rigid),
-      structures_(of.rigid) {
+      structures_(of.rigid),
+      walls_(of.rigid) {
   const ExpectedContacts expected(of.scene, of.surface, of.contacts);
   collision_step_ = expected.collision_step();
   if (of.surface.structure_count() == 0) return;
@@ -36,7 +41,16 @@ double StepChooser::first(double critical, NodalStiffness space, const Pace& pac
   // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
   if (!std::isfinite(critical)) return critical;
   const double dt = choose(kSafety * critical, pace);
-  return std::isfinite(dt) ? dt : stable_step_ = kSafety * critical;
+  if (!std::isfinite(dt)) step_ = kSafety * critical;
+  if (structures_touch()) step_ = std::min(step_, kReleaseStep * critical);
+  return step_;
+}
+
+bool StepChooser::structures_touch() const {
+  bool is_any = false;
+  of_.contacts.for_each_structure_stiffness(
+      [&](NodeId, const contact::PairStiffness&, double) { is_any = true; });
+  return is_any;
 }
 
 bool StepChooser::is_due(std::int64_t steps, double dt, double spin) const noexcept {
@@ -62,15 +76,20 @@ double StepChooser::choose(double dt, const Pace& pace) {
   // First, as it collects the springs.
   const double near = stable_near(2.0 * look_.longest_way, dt);
   const double stable =
-      std::min(near, springs_.collision_step(of_.scene.state, of_.scene.properties));
+      std::min({near, springs_.collision_step(of_.scene.state, of_.scene.properties),
+                walls_.step(springs_, of_.scene.state, of_.scene.properties)});
   const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
-  stable_step_ = std::min({stable, collision_step_, (may_grow ? kGrowth : 1.0) * stable_step_});
-  double chosen = std::min(stable_step_, motion);
-  double spin = 0.0;  // rad²/s²
+  step_ = std::min(
+      {stable, collision_step_, motion, step_of_spin(), (may_grow ? kGrowth : 1.0) * step_});
+  return step_;
+}
+
+/// s, in which the node that spins fastest turns by half of kLargestTurn; infinite if none does.
+double StepChooser::step_of_spin() const {
+  double squared = 0.0;  // rad²/s²
   for (const Vec3& turning : of_.scene.state.angular_velocity)
-    spin = std::max(spin, turning.squaredNorm());
-  if (spin > 0.0) chosen = std::min(chosen, 0.5 * kLargestTurn / std::sqrt(spin));
-  return chosen;
+    squared = std::max(squared, turning.squaredNorm());
+  return 0.5 * kLargestTurn / std::sqrt(squared);
 }
 
 /// A stable step (s) with the contacts of now and those that are nearer than a margin (m): kSafety
@@ -117,7 +136,7 @@ void StepChooser::exchange(const geometry::StateArchive& archive) {
   archive("way", look_.way);
   archive("longest_way", look_.longest_way);
   archive("way_in_a_step", way_in_a_step_);
-  archive("stable_step", stable_step_);
+  archive("step", step_);
   // Of the scene as it was when steps began to be chosen, which may have gone on from another.
   archive("collision_step", collision_step_);
   archive("pace_radius", pace_radius_);

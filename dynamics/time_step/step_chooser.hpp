@@ -5,6 +5,7 @@
 #include "dynamics/stiffness/spring_shares.hpp"
 #include "dynamics/time_step/spread_stiffness.hpp"
 #include "dynamics/time_step/step_limits.hpp"
+#include "dynamics/time_step/wall_collisions.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -33,7 +34,7 @@ class StateArchive;
 /// was used.
 ///
 /// Beside what is stable a chosen step follows collisions (ContactSprings::collision_step(),
-/// ExpectedContacts::collision_step()), motion (motion_step.hpp) and spin.
+/// WallCollisions, ExpectedContacts::collision_step()), motion (motion_step.hpp) and spin.
 namespace plekton::dynamics {
 
 /// A chosen step grows by no more than this in kStepsBetweenLooks steps: the leapfrog keeps
@@ -79,6 +80,8 @@ class StepChooser {
 
  private:
   double stable_near(double margin, double last);
+  double step_of_spin() const;
+  bool structures_touch() const;
   void add_near_structures(double margin, double rate);
 
   Resistance of_;
@@ -89,6 +92,7 @@ class StepChooser {
   SpringShares shares_;            ///< working space of a look
   SpreadStiffness spread_;         ///< likewise; goes on from look to look
   StructureStiffness structures_;  ///< likewise
+  WallCollisions walls_;           ///< likewise
   std::vector<ExpectedOfNode> of_structures_;  ///< by node, of a contact with another structure
   std::vector<char> is_counted_;               ///< by node, working space of a look
   /// What is known from the last look to the next one.
@@ -98,9 +102,9 @@ class StepChooser {
     double longest_way = 0.0;  ///< m, for which it is good
   };
   LastLook look_;
-  double way_in_a_step_ = 0.0;                                    ///< m, the last one
-  double stable_step_ = std::numeric_limits<double>::infinity();  ///< s, see choose()
-  double collision_step_;                                         ///< s, ExpectedContacts
+  double way_in_a_step_ = 0.0;                             ///< m, the last one
+  double step_ = std::numeric_limits<double>::infinity();  ///< s, the last one chosen
+  double collision_step_;                                  ///< s, ExpectedContacts
 };
 
 }  // namespace plekton::dynamics

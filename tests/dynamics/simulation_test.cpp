@@ -61,6 +61,16 @@ TEST(Simulation, EndsAtTheTimeThatItIsAskedForAndGoesOnWithItsOwnStep) {
   EXPECT_EQ(simulation.time_step(), step);
 }
 
+TEST(Simulation, GoesToATimeInEqualSteps) {
+  Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {.motion = {.gravity = kGravity}});
+  const double step = simulation.time_step();
+
+  for (int i = 1; simulation.step_until(8.1 * step); ++i)
+    EXPECT_NEAR(simulation.time(), 0.9 * i * step, 1e-13 * step);
+
+  EXPECT_EQ(simulation.steps(), 9);
+}
+
 TEST(Simulation, LeavesOutTheRestThatRoundingLeavesBeforeAnEnd) {
   Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {.motion = {.gravity = kGravity}});
   const double step = simulation.time_step();
