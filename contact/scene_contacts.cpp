@@ -56,7 +56,7 @@ std::vector<char> rigid_structures(const geometry::Surface& surface,
   for (std::size_t n = 0; n < surface.node_count(); ++n) {
     const auto node = geometry::id_at<NodeId>(n);
     const auto structure = surface.structure_of(node);
-    if (structure != geometry::StructureId{-1} && groups.exclude({&node, 1}, {&node, 1}))
+    if (structure != geometry::StructureId{-1} && groups.group_of(node) >= 0)
       are_rigid[index_of(structure)] = 1;
   }
   return are_rigid;
@@ -82,8 +82,8 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
   between_structures_.set_rigid(rigid_structures(surface, groups));
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const NodeId node = spheres[i].nodes[0];
-    spheres_.push_back(
-        {node, spheres[i].radius, materials_.of_spheres[i], materials_.mass_of(node)});
+    spheres_.push_back({node, spheres[i].radius, materials_.of_spheres[i], materials_.mass_of(node),
+                        groups.group_of(node)});
     structure_of_sphere_.push_back(geometry::StructureId{-1});
   }
   for (std::size_t n = 0; n < surface.node_count(); ++n) {
@@ -92,7 +92,8 @@ SceneContacts::SceneContacts(std::span<const geometry::Sphere> spheres,
       continue;
     const NodeId node = geometry::id_at<NodeId>(n);
     spheres_.push_back({node, surface.radius(structure),
-                        materials_.of_structures[index_of(structure)], materials_.mass_of(node)});
+                        materials_.of_structures[index_of(structure)], materials_.mass_of(node),
+                        groups.group_of(node)});
     structure_of_sphere_.push_back(structure);
   }
 }

@@ -5,6 +5,7 @@
 #include "contact/base/motion.hpp"
 #include "geometry/primitives/elements.hpp"
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct SphereBody {
   double radius;  ///< m
   MaterialId material;
   double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
+  std::int32_t rigid_body = -1;  ///< that it is a part of, with the mass of all; -1: none
 };
 
 /// A rigid half-space: a wall, a floor, a plate. It moves with a velocity of its own and does not

@@ -3,7 +3,26 @@
 
 #include "contact/tracking/contact_state.hpp"
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 namespace plekton::contact {
+namespace {
+
+/// m, of a place.
+double height_over(const Plane& plane, const Vec3& x) noexcept {
+  return (x - plane.point).dot(plane.normal);
+}
+
+BodyPart part_of(const SphereBody& sphere) noexcept {
+  return {sphere.material, sphere.radius, sphere.mass};
+}
+BodyPart part_of(const Plane& plane, const SphereBody& sphere) noexcept {
+  return {.material = plane.material, .radius = sphere.radius, .shape = Shape::flat};
+}
+
+}  // namespace
 
 double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
                               std::span<const SphereBody> spheres, std::span<const Plane> planes,
@@ -12,9 +31,7 @@ double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
   const auto make = [&](std::size_t i, const Slot* old) {
     const SphereBody& sphere = spheres[static_cast<std::size_t>(keys[i].a)];
     const auto plane = static_cast<std::size_t>(keys[i].b);
-    const auto parameters = materials.combine(
-        {sphere.material, sphere.radius, sphere.mass},
-        {.material = planes[plane].material, .radius = sphere.radius, .shape = Shape::flat});
+    const auto parameters = materials.combine(part_of(sphere), part_of(planes[plane], sphere));
     if (old) {
       Slot kept = *old;
       kept.parameters = parameters;
@@ -25,7 +42,47 @@ double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
   rekey_(slots_, keys, make,
          [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.memory, 0.0); });
   sphere_count_ = slots_.empty() ? 0 : spheres.size();
+  materials_ = &materials;
+  find_bodies(keys, spheres, planes);
+  share_masses([](const Slot& slot) { return !slot.memory.is_new(); });
   return lost;
+}
+
+void PlaneContacts::find_bodies(std::span<const geometry::IndexPair> keys,
+                                std::span<const SphereBody> spheres,
+                                std::span<const Plane> planes) {
+  on_bodies_.clear();
+  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> places;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const SphereBody& sphere = spheres[static_cast<std::size_t>(keys[i].a)];
+    if (sphere.rigid_body < 0) continue;
+    const auto place = places.try_emplace({sphere.rigid_body, keys[i].b}, places.size()).first;
+    const Plane& plane = planes[static_cast<std::size_t>(keys[i].b)];
+    on_bodies_.push_back({i, place->second, part_of(sphere), part_of(plane, sphere)});
+  }
+  touching_on_bodies_.resize(places.size());
+}
+
+/// @param touches  (slot) -> whether it does; what does not has the mass of its body for itself
+template <class Touches>
+void PlaneContacts::share_masses(const Touches& touches) {
+  std::fill(touching_on_bodies_.begin(), touching_on_bodies_.end(), std::size_t{0});
+  for (const OnBody& on : on_bodies_)
+    if (touches(slots_[on.slot])) ++touching_on_bodies_[on.place];
+  for (OnBody& on : on_bodies_) {
+    Slot& slot = slots_[on.slot];
+    const std::size_t sharing = touches(slot) ? touching_on_bodies_[on.place] : 1;
+    if (sharing == on.sharing) continue;
+    on.sharing = sharing;
+    BodyPart part = on.sphere;
+    part.mass /= static_cast<double>(sharing);
+    slot.parameters = materials_->combine(part, on.plane);
+  }
+}
+
+bool PlaneContacts::touches(const Slot& slot, double height) const {
+  return height < slot.radius ||
+         goes_on<AnyLaw>(slot.parameters, slot.memory.history, height - slot.radius);
 }
 
 /// Threads share out the spheres, not the contacts: those of a sphere are all of one thread, which
@@ -34,6 +91,9 @@ double PlaneContacts::advance(const Motion& motion, std::span<const Plane> plane
                               geometry::ThreadPool& pool, NodeForces& forces) {
   records_.reset(pool.thread_count());
   if (slots_.empty()) return 0.0;
+  share_masses([&](const Slot& slot) {
+    return touches(slot, height_over(planes[slot.plane], motion.position[index_of(slot.node)]));
+  });
   return sum_(sphere_count_, pool, [&](std::size_t begin, std::size_t end, int worker) {
     Records& records = records_.of_worker(worker);
     const std::size_t old = records.count;
@@ -55,10 +115,8 @@ double PlaneContacts::advance_spheres(std::size_t begin, std::size_t end, const 
   const std::size_t last = rekey_.first_of(end);
   for (std::size_t i = rekey_.first_of(begin); i < last; ++i) {
     Slot& slot = slots_[i];
-    const Plane& plane = planes[slot.plane];
-    const double height = (motion.position[index_of(slot.node)] - plane.point).dot(plane.normal);
-    if (height < slot.radius ||
-        goes_on<AnyLaw>(slot.parameters, slot.memory.history, height - slot.radius)) {
+    const double height = height_over(planes[slot.plane], motion.position[index_of(slot.node)]);
+    if (touches(slot, height)) {
       if (slot.parameters.law != touching.law || touching.count == kBatchLanes) flush();
       touching.law = slot.parameters.law;
       touching.slot[touching.count] = i;
@@ -224,6 +282,7 @@ void PlaneContacts::exchange(const geometry::StateArchive& archive,
     if (row.is_reading()) keep(kept, place, overlap_ratio);
     ++place;  // each pair touches once
   });
+  if (archive.is_reading()) share_masses([](const Slot& slot) { return !slot.memory.is_new(); });
 }
 
 /// Of pairs that do not touch.
@@ -248,6 +307,7 @@ void PlaneContacts::take_over(const PlaneContacts& before, std::span<const std::
     require_same_law(kept.memory.history, slots_[place].parameters.law);
     keep(kept, place, before.largest_overlap_ratio());
   }
+  share_masses([](const Slot& slot) { return !slot.memory.is_new(); });
 }
 
 std::vector<PlaneContacts::KeptPair> PlaneContacts::kept_pairs() const {

@@ -20,10 +20,13 @@
 namespace plekton::contact {
 
 /// Contacts of spheres (a) with planes (b): one slot for each pair that may touch. A plane has the
-/// stiffness of a sphere of its material and of the radius of the sphere that touches it.
+/// stiffness of a sphere of its material and of the radius of the sphere that touches it. Spheres of
+/// one rigid body that touch a plane carry its mass together, and so do their dashpots: each has an
+/// equal part of it.
 class PlaneContacts {
  public:
   /// Takes a new list of pairs (sphere, plane), sorted; pairs in both lists keep their memory.
+  /// @param materials  must outlive this
   /// @returns the energy (J) lost with contacts that left the list
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const SphereBody> spheres,
                  std::span<const Plane> planes, const MaterialPairs& materials);
@@ -110,6 +113,15 @@ class PlaneContacts {
     std::int64_t id = 0;  ///< 0: none yet
   };
 
+  /// A slot of a sphere of a rigid body.
+  struct OnBody {
+    std::size_t slot;
+    std::size_t place;  ///< of this body and plane in touching_on_bodies_
+    BodyPart sphere;    ///< with the mass of the body
+    BodyPart plane;
+    std::size_t sharing = 1;  ///< how many share the mass in the parameters of the slot
+  };
+
   using Records = typename ForceRecords<PlaneForce>::List;
 
   /// A touching pair in a state.
@@ -131,6 +143,11 @@ class PlaneContacts {
     bool all_have_images = true;             ///< none is so deep that it is beyond its mirror image
   };
 
+  bool touches(const Slot& slot, double height) const;
+  void find_bodies(std::span<const geometry::IndexPair> keys, std::span<const SphereBody> spheres,
+                   std::span<const Plane> planes);
+  template <class Touches>
+  void share_masses(const Touches& touches);
   /// One step of slots that touch, of one law, side by side if it allows. @returns the energy (J)
   /// dissipated
   double advance_touching(const Touching& touching, const Motion& motion,
@@ -149,6 +166,9 @@ class PlaneContacts {
   void keep(const KeptPair& kept, std::size_t place, double overlap_ratio);
 
   std::vector<Slot> slots_;
+  std::vector<OnBody> on_bodies_;
+  std::vector<std::size_t> touching_on_bodies_;  ///< how many, by body and plane
+  const MaterialPairs* materials_ = nullptr;
   std::size_t sphere_count_ = 0;
   ForceRecords<PlaneForce> records_;
   Rekey<Slot> rekey_;

@@ -21,6 +21,11 @@ class ExclusionGroups {
 
   bool empty() const noexcept { return group_of_node_.empty(); }
 
+  /// -1: in no group.
+  std::int32_t group_of(NodeId node) const noexcept {
+    return empty() ? -1 : group_of_node_[index_of(node)];
+  }
+
   /// Whether two elements have nodes in the same group.
   bool exclude(std::span<const NodeId> a, std::span<const NodeId> b) const noexcept {
     if (empty()) return false;
