@@ -25,6 +25,7 @@
 #include "apps/command_line/validate_command.hpp"
 #include "apps/command_line/verify_command.hpp"
 #include "apps/command_line/view_command.hpp"
+#include "apps/command_line/warnings.hpp"
 #include "apps/programs/shell_word.hpp"
 #include "apps/run/first_rank.hpp"
 #include "apps/run/output_folder.hpp"
@@ -186,8 +187,7 @@ void print_failure(const std::exception& error) {
 /// Says how a run has ended. @returns the exit code
 int conclude(const CommandLine& line, const fs::path& out, const RunReport& report) {
   if (line.quiet) {
-    for (const std::string& warning : report.warnings)
-      std::cerr << "plekton: warning: " << warning << '\n';
+    print_warnings(report.warnings, std::cerr);
   } else {
     std::cout << summary_of(report) << "wrote " << out.string() << ": " << files_in(out) << '\n'
               << "look at it: plekton view " << shell_word(out.string()) << '\n';
@@ -256,8 +256,7 @@ int resume_command(const CommandLine& line) {
   share_among(line.ranks, resumed.scenario);
   if (!same_folder)
     by_first_rank(line.ranks, [&] { check_output_folder(line.out, line.overwrite); });
-  for (const std::string& warning : warnings_about(resumed))
-    std::cerr << "plekton: warning: " << geometry::printable(warning) << '\n';
+  print_warnings(warnings_about(resumed), std::cerr);
   const double time = time_of(resumed.checkpoint.state);
   if (!line.quiet)
     std::cout << fmt::format("{}: goes on at {:.6g} s, step {}\n", resumed.checkpoint.file.string(),
@@ -451,13 +450,14 @@ int generate_command(const CommandLine& line, const CLI::App& app) {
 }
 
 int inspect_command(const CommandLine& line) {
-  std::cout << text_of_checkpoint(line.checkpoint);
+  inspect_checkpoint(line.checkpoint, std::cout, std::cerr);
   flush_output();
   return kDone;
 }
 
 int verify_command(const CommandLine& line) {
-  const bool is_same = verify_run({line.resume, line.interval, overrides_of(line)}, std::cout);
+  const bool is_same =
+      verify_run({line.resume, line.interval, overrides_of(line)}, std::cout, std::cerr);
   flush_output();
   return is_same ? kDone : kFailed;
 }
@@ -523,7 +523,7 @@ int render_command(const CommandLine& line) {
 }
 
 int export_ondem_command(const CommandLine& line) {
-  export_ondem({line.run, line.at, line.out}, std::cout);
+  export_ondem({line.run, line.at, line.out}, std::cout, std::cerr);
   flush_output();
   return kDone;
 }

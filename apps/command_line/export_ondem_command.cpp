@@ -2,6 +2,7 @@
 #include "apps/command_line/export_ondem_command.hpp"
 
 #include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/warnings.hpp"
 #include "apps/run/stage_change.hpp"
 #include "apps/takeover/ondem_export.hpp"
 #include "dynamics/ondem/write_ondem.hpp"
@@ -40,7 +41,8 @@ std::string summary_of(const dynamics::OndemScene& scene) {
 
 }  // namespace
 
-void export_ondem(const ExportOndemArguments& arguments, std::ostream& out) {
+void export_ondem(const ExportOndemArguments& arguments, std::ostream& out,
+                  std::ostream& problems) {
   const std::filesystem::path file =
       arguments.out.empty() ? arguments.run / "ondem.vtkhdf" : arguments.out;
   if (file.extension() != ".vtkhdf")
@@ -49,6 +51,7 @@ void export_ondem(const ExportOndemArguments& arguments, std::ostream& out) {
         file.string()));
   const FoundCheckpoint checkpoint =
       last_checkpoint(arguments.run, time_option("--at", arguments.at));
+  print_warnings(warnings_about(checkpoint), problems);
   const dynamics::OndemScene scene = scene_in(checkpoint);
   dynamics::write_ondem(file, scene);
   out << fmt::format("wrote {}: {}\n", file.string(), summary_of(scene));

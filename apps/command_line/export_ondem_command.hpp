@@ -14,8 +14,9 @@ struct ExportOndemArguments {
   std::filesystem::path out;  ///< empty: ondem.vtkhdf in the folder
 };
 
-/// Writes what a checkpoint of a run holds as a file of the ON-DEM network. @throws InputError,
-/// dynamics::OutputError
-void export_ondem(const ExportOndemArguments& arguments, std::ostream& out);
+/// Writes what a checkpoint of a run holds as a file of the ON-DEM network.
+/// @param problems  told of later checkpoints that are damaged
+/// @throws InputError, dynamics::OutputError
+void export_ondem(const ExportOndemArguments& arguments, std::ostream& out, std::ostream& problems);
 
 }  // namespace plekton::apps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/inspect_command.hpp"
 
+#include "apps/command_line/warnings.hpp"
 #include "apps/run/checkpoints.hpp"
 #include "apps/run/run_state.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
@@ -10,6 +11,8 @@
 
 #include <array>
 #include <cstddef>
+#include <ostream>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -59,12 +62,13 @@ std::string lines_of_run(const StateTree& state) {
   return text;
 }
 
-}  // namespace
+FoundCheckpoint checkpoint_at(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) return last_checkpoint(path);
+  return {path, dynamics::read_checkpoint(path), {}};
+}
 
-std::string text_of_checkpoint(const std::filesystem::path& path) {
-  const std::filesystem::path file =
-      std::filesystem::is_directory(path) ? last_checkpoint(path).file : path;
-  const StateTree state = dynamics::read_checkpoint(file);
+std::string text_of_checkpoint(const FoundCheckpoint& checkpoint) {
+  const auto& [file, state, damaged] = checkpoint;
   const dynamics::CheckpointWriter writer = dynamics::writer_of_checkpoint(file);
   std::string text = fmt::format("{}: checkpoint of version {}, whole\n",
                                  geometry::printable(file.string()), dynamics::kCheckpointVersion);
@@ -81,6 +85,15 @@ std::string text_of_checkpoint(const std::filesystem::path& path) {
     text += fmt::format("  {:<52} {:>9} x {:<3} {}\n", geometry::printable(name), array.rows(),
                         array.columns, kind_of(array));
   return text;
+}
+
+}  // namespace
+
+void inspect_checkpoint(const std::filesystem::path& path, std::ostream& out,
+                        std::ostream& problems) {
+  const FoundCheckpoint checkpoint = checkpoint_at(path);
+  print_warnings(warnings_about(checkpoint), problems);
+  out << text_of_checkpoint(checkpoint);
 }
 
 }  // namespace plekton::apps

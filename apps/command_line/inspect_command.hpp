@@ -2,13 +2,15 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <iosfwd>
 
 namespace plekton::apps {
 
-/// What a checkpoint holds, as text: of which run and when, how much of what, and its arrays.
-/// @param path  of a checkpoint, or of the folder of a run, whose last one is meant
+/// Says what a checkpoint holds: of which run and when, how much of what, and its arrays.
+/// @param path      of a checkpoint, or of the folder of a run, whose last one is meant
+/// @param problems  told of later checkpoints that are damaged
 /// @throws dynamics::CheckpointError, geometry::StateMismatch; InputError of a folder without one
-std::string text_of_checkpoint(const std::filesystem::path& path);
+void inspect_checkpoint(const std::filesystem::path& path, std::ostream& out,
+                        std::ostream& problems);
 
 }  // namespace plekton::apps

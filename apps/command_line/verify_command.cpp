@@ -4,6 +4,7 @@
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/resume_command.hpp"
 #include "apps/command_line/stages_command.hpp"
+#include "apps/command_line/warnings.hpp"
 #include "apps/programs/scratch_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_state.hpp"
@@ -93,12 +94,14 @@ StateTree computed_again(const ResumedRun& resumed, const StateTree& last) {
 
 }  // namespace
 
-bool verify_run(const VerifyArguments& arguments, std::ostream& out) {
+bool verify_run(const VerifyArguments& arguments, std::ostream& out, std::ostream& problems) {
   const std::string begin = arguments.interval.empty() ? "" : arguments.interval[0];
   const std::string end = arguments.interval.empty() ? "" : arguments.interval[1];
   const FoundCheckpoint last = last_checkpoint(arguments.folder, time_option("--interval", end));
   const std::optional<double> from = time_option("--interval", begin);
   const FoundCheckpoint first = checkpoint_before(arguments.folder, steps_of(last.state), from);
+  print_warnings(warnings_about(last), problems);
+  print_warnings(warnings_about(first), problems);
   const bool is_of_one_scenario =
       scenario_text(first.state).overrides == scenario_text(last.state).overrides;
   const ResumedRun resumed = resumed_towards(last.state, first, arguments.overrides);

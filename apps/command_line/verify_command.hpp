@@ -17,9 +17,10 @@ struct VerifyArguments {
 
 /// Computes a run again from one of its checkpoints to a later one, and compares both states.
 /// Nothing in its folder is changed.
-/// @param out  told what was compared, and whether every bit is the same
+/// @param out       told what was compared, and whether every bit is the same
+/// @param problems  told of later checkpoints that are damaged
 /// @returns whether it is
 /// @throws InputError if there are no two checkpoints for that interval
-bool verify_run(const VerifyArguments& arguments, std::ostream& out);
+bool verify_run(const VerifyArguments& arguments, std::ostream& out, std::ostream& problems);
 
 }  // namespace plekton::apps

@@ -2,6 +2,7 @@
 #include "apps/run/checkpoints.hpp"
 
 #include "apps/run/build_info.hpp"
+#include "apps/run/output_folder.hpp"
 #include "apps/run/run_state.hpp"
 #include "apps/scenario/problems.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
@@ -141,8 +142,10 @@ std::optional<FoundCheckpoint> last_of(std::vector<fs::path> files,
                  [](const fs::path&, const geometry::StateTree&) { return std::string(); });
 }
 
-/// @throws InputError
+/// @throws InputError if there are none, or no folder
 std::vector<fs::path> some_checkpoints_of(const fs::path& folder) {
+  if (const std::string problem = problem_with_run_folder(folder); !problem.empty())
+    throw InputError(problem);
   std::vector<fs::path> files = checkpoints_of(folder);
   if (files.empty())
     throw InputError(
@@ -153,6 +156,14 @@ std::vector<fs::path> some_checkpoints_of(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::vector<std::string> warnings_about(const FoundCheckpoint& checkpoint) {
+  std::vector<std::string> warnings = checkpoint.damaged;
+  if (!warnings.empty())
+    warnings.push_back(
+        fmt::format("{}: is taken instead, an earlier checkpoint", checkpoint.file.string()));
+  return warnings;
+}
 
 FoundCheckpoint last_checkpoint_with_files(const fs::path& folder) {
   // Nothing only if there are none: whatever is wrong with those that there are is thrown.

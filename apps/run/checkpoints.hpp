@@ -47,6 +47,10 @@ struct FoundCheckpoint {
   /// What is wrong with later ones: they cannot be read, or go on with files that are not there.
   std::vector<std::string> damaged;
 };
+/// What is wrong with later checkpoints, and that this one is taken instead; empty if it is the
+/// last.
+std::vector<std::string> warnings_about(const FoundCheckpoint& checkpoint);
+
 /// The last one of a run, or the last one not after a time (s).
 /// @throws InputError if there is none, with what is wrong with those that cannot be read
 FoundCheckpoint last_checkpoint(const std::filesystem::path& folder,

@@ -39,6 +39,15 @@ void refuse_results(const fs::path& folder, std::string_view maker,
   }
 }
 
+std::string problem_with_run_folder(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::is_directory(folder, ignored)) return "";
+  return folder.string() + (fs::exists(folder, ignored)
+                                ? ": is no folder; name the folder of a run"
+                                : ": there is no such folder; name the folder of a run, as plekton "
+                                  "run says it at its end");
+}
+
 void remove_parts(const fs::path& folder) {
   std::vector<fs::path> parts;
   for (const fs::path& place : {folder, folder / "frames", folder / kCheckpointFolder}) {

@@ -27,6 +27,9 @@ inline constexpr std::array<std::string_view, 13> kResultFiles = {
 void refuse_results(const std::filesystem::path& folder, std::string_view maker,
                     std::span<const std::string_view> files);
 
+/// What keeps a path from being the folder of a run; empty: it is a folder.
+std::string problem_with_run_folder(const std::filesystem::path& folder);
+
 /// Removes what a run that was killed has left of files that it was writing. The folder has to be
 /// locked.
 void remove_parts(const std::filesystem::path& folder);

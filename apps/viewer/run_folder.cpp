@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/viewer/run_folder.hpp"
 
+#include "apps/run/output_folder.hpp"
 #include "apps/run/written_files.hpp"
 #include "apps/viewer/csv_text.hpp"
 #include "apps/viewer/view_error.hpp"
@@ -121,11 +122,8 @@ std::vector<std::string> measure_files(const fs::path& folder) {
 
 RunFolder open_run_folder(const fs::path& folder) {
   std::error_code ignored;
-  if (!fs::is_directory(folder, ignored))
-    throw ViewError(folder.string() + (fs::exists(folder, ignored)
-                                           ? ": is no folder; name the folder of a run"
-                                           : ": there is no such folder; name the folder of a run, "
-                                             "as plekton run says it at its end"));
+  if (const std::string problem = problem_with_run_folder(folder); !problem.empty())
+    throw ViewError(problem);
   RunFolder run;
   run.folder = folder;
   const fs::path whole = fs::absolute(folder).lexically_normal();

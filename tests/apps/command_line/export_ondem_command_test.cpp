@@ -91,7 +91,7 @@ TEST_F(ExportOndemCommand, SaysInOneLineWhatIsWrong) {
     EXPECT_THAT(outcome.err, HasSubstr(message));
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   };
-  expect_refused(exported(), "has no checkpoints");
+  expect_refused(exported(), "there is no such folder");
   expect_refused(exported({"--out", "a.vtk"}), "expected a file that ends in .vtkhdf");
   run();
   expect_refused(exported({"--at", "soon"}), "--at");

@@ -274,7 +274,43 @@ TEST_F(ResumeErrors, RefuseWhatWouldMakeItAnotherRun) {
   EXPECT_NE(outcome.err.find("would make it another run"), std::string::npos) << outcome.err;
 }
 
+// It was said to have no checkpoints.
+TEST_F(ResumeErrors, TellThatAFolderIsNotThere) {
+  for (const std::string& file : {out(), (folder_ / "a.toml").string()}) {
+    const std::string problem =
+        file == out() ? "there is no such folder; name the folder of a run" : "is no folder";
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"run", "--resume", file},
+          {"verify", file},
+          {"export-ondem", file}}) {
+      const Outcome outcome = Program(command).wait();
+
+      EXPECT_EQ(outcome.exit_code, kFailed);
+      EXPECT_NE(outcome.err.find(file + ": " + problem), std::string::npos) << outcome.err;
+    }
+  }
+}
+
+// Only a run that goes on told so.
+TEST_F(ResumeErrors, TellThatAnEarlierCheckpointIsTakenThanADamagedOne) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const std::vector<fs::path> checkpoints = checkpoints_of(out());
+  test::write_bytes(checkpoints.back(), test::bytes_of(checkpoints.back()).substr(0, 2000));
+  const std::string taken = "plekton: warning: " + checkpoints[checkpoints.size() - 2].string() +
+                            ": is taken instead, an earlier checkpoint\n";
+
+  for (const char* command : {"inspect", "verify", "export-ondem"}) {
+    const Outcome outcome = Program({command, out()}).wait();
+
+    EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+    EXPECT_NE(outcome.err.find(checkpoints.back().string() + ": is damaged"), std::string::npos)
+        << command << ": " << outcome.err;
+    EXPECT_NE(outcome.err.find(taken), std::string::npos) << command << ": " << outcome.err;
+  }
+}
+
 TEST_F(ResumeErrors, TellThatAFolderHasNoCheckpoints) {
+  fs::create_directory(out());
   const Outcome outcome = resume();
 
   EXPECT_EQ(outcome.exit_code, kFailed);
