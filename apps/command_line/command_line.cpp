@@ -644,8 +644,8 @@ CLI::App* add_export_ondem(CLI::App& app, CommandLine& line) {
       "Write what a checkpoint of a run holds as an ON-DEM file (VTKHDF), for other codes");
   command->add_option("run", line.run, "Folder that plekton run wrote to")->required();
   command->add_option("--at", line.at,
-                      "Time, as in \"20 ms\", of the last checkpoint not after it; the last one "
-                      "if not given");
+                      "Time, as in \"20 ms\", of the checkpoint of its step or else the last one "
+                      "before it; the last one of all if not given");
   command->add_option("--out", line.out,
                       "File to write, .vtkhdf; ondem.vtkhdf in that folder if not given");
   return command;
@@ -665,9 +665,10 @@ CLI::App* add_verify(CLI::App& app, CommandLine& line) {
       "verify", "Compute a part of a run again, between two of its checkpoints, and compare bits");
   verify->add_option("run", line.resume, "Folder of the run")->required();
   verify
-      ->add_option("--interval", line.interval,
-                   "Begin and end, as in \"0.1 s\" \"0.2 s\"; from the checkpoint before the begin "
-                   "to the one before the end")
+      ->add_option(
+          "--interval", line.interval,
+          "Begin and end, as in \"0.1 s\" \"0.2 s\": from the checkpoint of the step of the "
+          "begin, or else the last one before it, to that of the end")
       ->expected(2);
   verify->add_option("--threads", line.threads, "Threads; the result does not depend on it")
       ->check(CLI::Range(1, 1024));

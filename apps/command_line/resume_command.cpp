@@ -63,6 +63,19 @@ void require_not_beyond(const ResumedRun& run, const std::string& to) {
                         to, now));
 }
 
+ResumedRun resumed_at(const ResumeArguments& arguments, const std::optional<double>& begin) {
+  return resumed_from(arguments.same_folder ? last_checkpoint_with_files(arguments.folder)
+                                            : last_checkpoint(arguments.folder, begin),
+                      arguments.overrides);
+}
+
+/// Whether nothing is left of what is asked for: the checkpoint is that of its last step.
+bool is_over(const ResumedRun& run, const std::optional<double>& to) {
+  const double now = time_of(run.checkpoint.state);
+  return (to && now >= *to) ||
+         (run.scenario.stages.empty() && now >= run.scenario.simulation.duration);
+}
+
 }  // namespace
 
 std::optional<double> time_option(const char* name, const std::string& text) {
@@ -85,9 +98,10 @@ ResumedRun find_resumed_run(const ResumeArguments& arguments) {
   if (begin && end && !(*begin < *end))
     throw InputError(fmt::format("--to: got \"{}\"; expected a time after --from \"{}\"",
                                  arguments.to, arguments.from));
-  ResumedRun run = resumed_from(arguments.same_folder ? last_checkpoint_with_files(arguments.folder)
-                                                      : last_checkpoint(arguments.folder, begin),
-                                arguments.overrides);
+  ResumedRun run = resumed_at(arguments, begin);
+  if (begin && is_over(run, end))
+    run = resumed_from(checkpoint_before(arguments.folder, steps_of(run.checkpoint.state), begin),
+                       arguments.overrides);
   if (begin) require_within(run.scenario, *begin, arguments);
   run.from = begin;
   run.until = end;

@@ -111,18 +111,29 @@ std::string problem_with_files(const fs::path& folder, const fs::path& checkpoin
   return "";
 }
 
-/// The last one of some files that can be read and is not after a time.
+/// Whether a state comes after the step in which a time lies.
+bool is_after(const geometry::StateTree& state, double time) {
+  double step = 0.0;  // s
+  geometry::StateArchive::reader(state).group("step")("time_step", step);
+  return time_of(state) > time && time_of(state) - step >= time;
+}
+
+/// The last one of some files that can be read and is not after the step in which a time lies.
 /// @param problem_with  (file, state), what is wrong with one that can be read; empty: nothing
-/// @throws InputError naming what is wrong with those that cannot be read
+/// @returns nothing if there is none, or all are later
+/// @throws InputError naming what is wrong with those that cannot be read, if no other is left
 template <class ProblemWith>
 std::optional<FoundCheckpoint> last_of(std::vector<fs::path> files,
-                                       const std::optional<double>& not_after,
+                                       const std::optional<double>& time,
                                        const ProblemWith& problem_with) {
   std::vector<std::string> damaged;
   for (; !files.empty(); files.pop_back()) {
     try {
       geometry::StateTree state = dynamics::read_checkpoint(files.back());
-      if (not_after && time_of(state) > *not_after) continue;
+      if (time && is_after(state, *time)) {
+        damaged.clear();  // those are later still
+        continue;
+      }
       if (std::string problem = problem_with(files.back(), state); !problem.empty()) {
         damaged.push_back(std::move(problem));
         continue;
@@ -137,8 +148,8 @@ std::optional<FoundCheckpoint> last_of(std::vector<fs::path> files,
 }
 
 std::optional<FoundCheckpoint> last_of(std::vector<fs::path> files,
-                                       const std::optional<double>& not_after) {
-  return last_of(std::move(files), not_after,
+                                       const std::optional<double>& time) {
+  return last_of(std::move(files), time,
                  [](const fs::path&, const geometry::StateTree&) { return std::string(); });
 }
 
@@ -173,20 +184,21 @@ FoundCheckpoint last_checkpoint_with_files(const fs::path& folder) {
                             }));
 }
 
-FoundCheckpoint last_checkpoint(const fs::path& folder, const std::optional<double>& not_after) {
-  if (auto found = last_of(some_checkpoints_of(folder), not_after)) return std::move(*found);
-  throw InputError(
-      fmt::format("{}: its first checkpoint comes after {:.6g} s; ask for a later time",
-                  folder.string(), *not_after));
+FoundCheckpoint last_checkpoint(const fs::path& folder, const std::optional<double>& time) {
+  const std::vector<fs::path> files = some_checkpoints_of(folder);
+  if (auto found = last_of(files, time)) return std::move(*found);
+  throw InputError(fmt::format(
+      "{}: its first checkpoint comes after {:.6g} s, at {:.6g} s; ask for a later time",
+      folder.string(), *time, time_of(dynamics::read_checkpoint(files.front()))));
 }
 
 FoundCheckpoint checkpoint_before(const fs::path& folder, std::int64_t step,
-                                  const std::optional<double>& not_after) {
+                                  const std::optional<double>& time) {
   std::vector<fs::path> files = checkpoints_of(folder);
   std::erase_if(files, [&](const fs::path& file) {
     return file.filename() >= fs::path(name_of_checkpoint(step));
   });
-  if (auto found = last_of(std::move(files), not_after)) return std::move(*found);
+  if (auto found = last_of(std::move(files), time)) return std::move(*found);
   throw InputError(
       fmt::format("{}: there is no other checkpoint before step {}, to compute it from; expected "
                   "two of them: checkpoint_interval in [output] makes them",

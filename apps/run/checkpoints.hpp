@@ -51,19 +51,20 @@ struct FoundCheckpoint {
 /// last.
 std::vector<std::string> warnings_about(const FoundCheckpoint& checkpoint);
 
-/// The last one of a run, or the last one not after a time (s).
+/// The last one of a run, or the last one not after the step in which a time (s) lies: checkpoints
+/// are written at the first step after the time that they are due.
 /// @throws InputError if there is none, with what is wrong with those that cannot be read
 FoundCheckpoint last_checkpoint(const std::filesystem::path& folder,
-                                const std::optional<double>& not_after = std::nullopt);
+                                const std::optional<double>& time = std::nullopt);
 
 /// The last one of a run with whose histories it can go on: each has as many bytes as it had then.
 /// @throws InputError if there is none, with what is wrong with those that there are
 FoundCheckpoint last_checkpoint_with_files(const std::filesystem::path& folder);
 
-/// The last one before a step, and not after a time (s).
+/// The last one before a step, and not after that in which a time (s) lies.
 /// @throws InputError if there is none
 FoundCheckpoint checkpoint_before(const std::filesystem::path& folder, std::int64_t step,
-                                  const std::optional<double>& not_after);
+                                  const std::optional<double>& time);
 
 /// s, of a state.
 double time_of(const geometry::StateTree& state);

@@ -367,6 +367,55 @@ TEST_F(ResumeErrors, ComputeAPartOfARunAgainWithOtherOutput) {
       2);
 }
 
+// The checkpoint that is due at 1 ms is of the first step after it, and was refused as later.
+TEST_F(ResumeErrors, GoOnFromTheCheckpointOfTheStepInWhichATimeLies) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const geometry::StateTree first = dynamics::read_checkpoint(checkpoints_of(out()).front());
+  ASSERT_GT(time_of(first), 0.001);
+  const std::string steps = ", steps " + std::to_string(steps_of(first)) + " to ";
+  const auto again = [&](const char* from, const char* to) {
+    return resume(
+        {"--out", (folder_ / "part").string(), "--overwrite", "--from", from, "--to", to});
+  };
+
+  const Outcome verified = Program({"verify", out(), "--interval", "1 ms", "2 ms"}).wait();
+  const Outcome exported = Program({"export-ondem", out(), "--at", "1 ms"}).wait();
+  const Outcome resumed = again("1 ms", "2 ms");
+  const Outcome early = again("0.9 ms", "2 ms");
+  const Outcome short_one = again("2 ms", "2.001 ms");
+
+  EXPECT_EQ(verified.exit_code, kDone) << verified.err;
+  EXPECT_NE(verified.out.find(steps), std::string::npos) << verified.out;
+  EXPECT_EQ(exported.exit_code, kDone) << exported.err;
+  EXPECT_EQ(resumed.exit_code, kDone) << resumed.err;
+  EXPECT_EQ(early.exit_code, kFailed);
+  EXPECT_NE(early.err.find("its first checkpoint comes after 0.0009 s, at 0.0010"),
+            std::string::npos)
+      << early.err;
+  EXPECT_EQ(short_one.exit_code, kDone) << short_one.err;
+}
+
+// Only the damaged one was told.
+TEST_F(ResumeErrors, TellOfATimeBeforeAllCheckpointsThoughOneIsDamaged) {
+  ASSERT_EQ(run().exit_code, kDone);
+  test::write_bytes(checkpoints_of(out()).back(), "");
+  const Outcome outcome = Program({"export-ondem", out(), "--at", "0.5 ms"}).wait();
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_NE(outcome.err.find("its first checkpoint comes after 0.0005 s"), std::string::npos)
+      << outcome.err;
+}
+
+/// Where its step is the last one there would be nothing to compute.
+TEST_F(ResumeErrors, GoOnFromBeforeTheCheckpointInWhoseStepTheRunEnds) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const fs::path part = folder_ / "part";
+  const Outcome outcome = resume({"--out", part.string(), "--from", "4.999 ms"});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_GE(test::bytes_of(part / "energy.csv").size(), 100U);
+}
+
 TEST_F(ResumeErrors, InspectTellsWhatACheckpointHolds) {
   ASSERT_EQ(run().exit_code, kDone);
   const fs::path last = checkpoints_of(out()).back();
