@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/grain_table.hpp"
 
+#include "apps/scenario/byte_order_mark.hpp"
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/units.hpp"
 #include "geometry/base/printable.hpp"
@@ -114,6 +115,7 @@ std::array<double, kColumns> numbers_in(const std::vector<std::string_view>& cel
 }  // namespace
 
 GrainTable parse_grain_table(std::string_view text, const std::string& source) {
+  text = without_byte_order_mark(text);
   GrainTable table;
   std::optional<Columns> columns;
   for (std::size_t line = 1; !text.empty(); ++line) {

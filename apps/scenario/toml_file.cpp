@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/toml_file.hpp"
 
+#include "apps/scenario/byte_order_mark.hpp"
 #include "apps/scenario/toml_depth.hpp"
 #include "geometry/base/regular_file.hpp"
 #include "geometry/mesh/io/mesh_file.hpp"
@@ -140,7 +141,7 @@ bool is_mesh(const fs::path& path) {
 
 Table parse_toml(std::string_view text, const std::string& source) {
   try {
-    return converted_table(parsed(text, source), source, 0);
+    return converted_table(parsed(without_byte_order_mark(text), source), source, 0);
   } catch (const toml::parse_error& error) {
     Problems problems;
     problems.add(place_of(error.source(), source),
@@ -156,7 +157,7 @@ Table parse_toml(std::string_view text, const std::string& source) {
 }
 
 std::string read_toml_text(const fs::path& path) {
-  if (path == kStandardInput) return text_of_standard_input();
+  if (path == kStandardInput) return std::string(without_byte_order_mark(text_of_standard_input()));
   if (is_mesh(path) && fs::is_regular_file(path))
     throw InputError(
         fmt::format("{0}: a mesh; expected a scenario (.toml), which names it as mesh = \"{0}\"; "
@@ -166,7 +167,9 @@ std::string read_toml_text(const fs::path& path) {
   if (const auto size = fs::file_size(path, ignored); !ignored && size > kLongest)
     throw too_long(path.string());
   try {
-    return geometry::read_regular_file(path, "a scenario (.toml)");
+    // What is put before it in a copy would make the mark a character beyond ASCII.
+    return std::string(
+        without_byte_order_mark(geometry::read_regular_file(path, "a scenario (.toml)")));
   } catch (const geometry::UnreadableFile& error) {
     throw InputError(error.what());
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/viewer/csv_text.hpp"
 
+#include "apps/scenario/byte_order_mark.hpp"
+
 #include <algorithm>
 
 namespace plekton::apps {
@@ -83,7 +85,7 @@ class CsvParser {
 }  // namespace
 
 std::vector<CsvRow> parse_csv(std::string_view text) {
-  return CsvParser(text).parse();
+  return CsvParser(without_byte_order_mark(text)).parse();
 }
 
 std::string csv_cell(std::string_view text) {

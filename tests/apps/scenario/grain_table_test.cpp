@@ -30,6 +30,16 @@ TEST(GrainTable, HasFourNumbersInMetresWithoutAHead) {
   EXPECT_THAT(table.radii, ElementsAre(0.5, 0.25));
 }
 
+TEST(GrainTable, MayBeginWithAByteOrderMark) {
+  for (const char* text : {"\xEF\xBB\xBFx (m),y (m),z (m),r (m)\n1,2,3,0.5\n",
+                           "\xEF\xBB\xBF"
+                           "1,2,3,0.5\n"}) {
+    const GrainTable table = parse_grain_table(text, "soil.csv");
+
+    EXPECT_THAT(table.centres, ElementsAre(Vec3(1, 2, 3)));
+  }
+}
+
 TEST(GrainTable, TakesColumnsByTheirNamesAndUnits) {
   const GrainTable table = parse_grain_table(
       "\n# a packing\n\"radius (mm)\",id,z (cm),y (m),x (mm)\r\n5,7,1,2,3\r\n", "soil.csv");

@@ -76,6 +76,16 @@ TEST(ScenarioReader, ReadsValuesInSiUnits) {
   EXPECT_EQ(scenario.planes[0].normal, Vec3(0.0, 0.0, 1.0));
 }
 
+// The mark was a character beyond ASCII, also in the copy of a run, where something is before it.
+TEST(ScenarioReader, TakesATextWithAByteOrderMarkForTheSameWithout) {
+  const std::string marked = "\xEF\xBB\xBF" + std::string(kGood);
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "case.toml", marked);
+
+  EXPECT_EQ(error_of(marked), "");
+  EXPECT_EQ(read_scenario(folder / "case.toml", {}).text, kGood);
+}
+
 TEST(ScenarioReader, HasDefaultsThatFollowTheDuration) {
   const Scenario scenario = parse_scenario(kGood, "case.toml");
 

@@ -20,6 +20,13 @@ TEST(CsvText, HoldsCommasQuotesAndLineBreaksInQuotes) {
   EXPECT_EQ(rows[2].line, 5);
 }
 
+TEST(CsvText, MayBeginWithAByteOrderMark) {
+  const auto rows = parse_csv("\xEF\xBB\xBF\"a\",b\n1,2\n");
+
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_THAT(rows[0].cells, ElementsAre("a", "b"));
+}
+
 TEST(CsvText, IsReadAsItWasWritten) {
   for (const std::string cell : {"plain", "a,b", "a \"quote\"", "two\nlines", "[0, 0, 1]"}) {
     const auto rows = parse_csv(csv_cell(cell) + ",x\n");
