@@ -88,6 +88,7 @@ struct CommandLine {
   bool power_iteration = false;
   fs::path resume;
   fs::path checkpoint;
+  bool all = false;
   std::vector<std::string> from;
   std::string until;
   std::vector<std::string> interval;
@@ -450,7 +451,7 @@ int generate_command(const CommandLine& line, const CLI::App& app) {
 }
 
 int inspect_command(const CommandLine& line) {
-  inspect_checkpoint(line.checkpoint, std::cout, std::cerr);
+  inspect_checkpoint({line.checkpoint, line.all}, std::cout, std::cerr);
   flush_output();
   return kDone;
 }
@@ -657,6 +658,7 @@ CLI::App* add_inspect(CLI::App& app, CommandLine& line) {
       ->add_option("checkpoint", line.checkpoint,
                    "Checkpoint (.h5), or the folder of a run, whose last one is meant")
       ->required();
+  inspect->add_flag("--all", line.all, "Also list its arrays, with their sizes");
   return inspect;
 }
 

@@ -80,7 +80,11 @@ std::string text_of_checkpoint(const FoundCheckpoint& checkpoint) {
     if (const std::size_t rows = rows_of(state, count.array); rows > 0)
       text += fmt::format("{:>9} {}\n", rows, count.name);
   }
-  text += fmt::format("hash of the state {:016x}\narrays:\n", state.hash());
+  return text + fmt::format("hash of the state {:016x}\n", state.hash());
+}
+
+std::string list_of_arrays(const StateTree& state) {
+  std::string text;
   for (const auto& [name, array] : state.arrays)
     text += fmt::format("  {:<52} {:>9} x {:<3} {}\n", geometry::printable(name), array.rows(),
                         array.columns, kind_of(array));
@@ -89,11 +93,15 @@ std::string text_of_checkpoint(const FoundCheckpoint& checkpoint) {
 
 }  // namespace
 
-void inspect_checkpoint(const std::filesystem::path& path, std::ostream& out,
+void inspect_checkpoint(const InspectArguments& arguments, std::ostream& out,
                         std::ostream& problems) {
-  const FoundCheckpoint checkpoint = checkpoint_at(path);
+  const FoundCheckpoint checkpoint = checkpoint_at(arguments.checkpoint);
   print_warnings(warnings_about(checkpoint), problems);
   out << text_of_checkpoint(checkpoint);
+  if (arguments.all)
+    out << "arrays:\n" << list_of_arrays(checkpoint.state);
+  else
+    out << fmt::format("{} arrays, which --all lists\n", checkpoint.state.arrays.size());
 }
 
 }  // namespace plekton::apps

@@ -425,9 +425,12 @@ TEST_F(ResumeErrors, InspectTellsWhatACheckpointHolds) {
   const std::string revision = ", revision " + std::string(build_info().revision) + "\n";
   EXPECT_NE(outcome.out.find(revision), std::string::npos) << outcome.out;
   for (const char* told : {": checkpoint of version ", "time 0.005 s, step ", "a.toml", " 5 nodes",
-                           " 2 facets", "hash of the state ", "nodes/velocity "})
+                           " 2 facets", "hash of the state ", " arrays, which --all lists\n"})
     EXPECT_NE(outcome.out.find(told), std::string::npos) << told << " in\n" << outcome.out;
   EXPECT_EQ(Program({"inspect", out()}).wait().out, outcome.out) << "of a folder its last one";
+  const Outcome all = Program({"inspect", last.string(), "--all"}).wait();
+  EXPECT_LT(std::ranges::count(outcome.out, '\n'), 24) << "more than a screen:\n" << outcome.out;
+  EXPECT_NE(all.out.find("nodes/velocity "), std::string::npos) << all.out;
   const Outcome other = Program({"inspect", (folder_ / "two.off").string()}).wait();
   EXPECT_EQ(other.exit_code, kFailed);
   EXPECT_NE(other.err.find("no checkpoint of Plekton"), std::string::npos) << other.err;
