@@ -40,13 +40,20 @@ int jobs_of(const StudyArguments& arguments, const Study& study) {
   return std::max(1, processors / threads_of(arguments, study));
 }
 
+/// The command that goes on with it.
+std::string command_again(const StudyArguments& arguments) {
+  std::string command = "plekton study " + shell_word(arguments.study.string());
+  if (!arguments.out.empty()) command += " --out " + shell_word(arguments.out.string());
+  return command;
+}
+
 /// What others make the runs by: printed, nothing is written.
 void print_jobs(const StudyArguments& arguments, StudyRuns& study, std::ostream& out) {
   const std::vector<PlannedRun> runs = study.plan_all();
   const std::vector<std::size_t> missing = missing_among(study, runs);
   if (missing.empty())
-    throw InputError(fmt::format("{}: nothing is missing; the table is made by: plekton study {}",
-                                 arguments.study.string(), shell_word(arguments.study.string())));
+    throw InputError(fmt::format("{}: nothing is missing; the table is made by: {}",
+                                 arguments.study.string(), command_again(arguments)));
   const JobSettings settings{program(), fs::absolute(arguments.study), fs::absolute(study.out()),
                              threads_of(arguments, study.study())};
   out << (arguments.slurm ? slurm_script(settings, missing) : parallel_lines(settings, missing));
@@ -78,9 +85,9 @@ int write_table(const StudyArguments& arguments, StudyRuns& study, std::vector<P
     if (run.problem.empty()) continue;
     throw InputError(fmt::format(
         "{} of {} runs failed, the first of them run {}: {}\n  the others went on; the column "
-        "problem of {} has the rest, and plekton study {} tries them again",
+        "problem of {} has the rest, and {} tries them again",
         count.failed, count.all, run.point + 1, run.problem, (study.out() / kStudyTable).string(),
-        shell_word(arguments.study.string())));
+        command_again(arguments)));
   }
   throw InputError(fmt::format("{} of {} runs are missing", count.missing, count.all));
 }
@@ -98,11 +105,15 @@ int make_all(const StudyArguments& arguments, StudyRuns& study, std::ostream& pr
   progress << fmt::format("{}: {} runs, {} to make, {} at a time\n", arguments.study.string(),
                           runs.size(), missing, settings.jobs)
            << std::flush;
-  make_missing(study, runs, settings);
-  if (!guard.interrupted()) return write_table(arguments, study, runs, progress);
+  const std::string unknown = make_missing(study, runs, settings);
+  if (!guard.interrupted() && unknown.empty()) return write_table(arguments, study, runs, progress);
   write_study_table(study, runs);
-  progress << "interrupted; go on with: plekton study " << shell_word(arguments.study.string())
-           << '\n';
+  if (!unknown.empty())
+    throw InputError(fmt::format(
+        "{}; no more runs were begun: correct [results] of {} and go on with: {}\n  what is done "
+        "stays",
+        unknown, arguments.study.string(), command_again(arguments)));
+  progress << "interrupted; go on with: " << command_again(arguments) << '\n';
   return kInterrupted;
 }
 

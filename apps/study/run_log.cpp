@@ -11,15 +11,17 @@
 
 #include <cerrno>
 #include <sstream>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 namespace plekton::apps {
 namespace {
 
+constexpr std::string_view kProgram = "plekton: ";
+
 /// The first problem that `plekton run` has printed; empty if there is none.
 std::string problem_in(const std::string& log) {
-  constexpr std::string_view kProgram = "plekton: ";
   std::istringstream lines(log);
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with(kProgram) || line.starts_with("plekton: warning: ")) continue;
@@ -50,13 +52,23 @@ void RunLog::clear() const {
 }
 
 std::string RunLog::reason(const ProgramEnd& end) const {
-  try {
-    const std::string problem = problem_in(geometry::read_regular_file(file_, "a log"));
-    if (!problem.empty()) return problem;
-  } catch (const geometry::UnreadableFile&) {
-    // Then there is no more to tell than how it ended.
-  }
+  const std::string problem = problem_in_log(file_);
+  if (!problem.empty()) return problem;
   return fmt::format("ended with {}; see {}", text_of(end), file_.string());
+}
+
+void RunLog::record(const std::string& problem) const {
+  if (!problem_in_log(file_).empty()) return;
+  const std::string line = fmt::format("{}{}\n", kProgram, problem);
+  std::ignore = ::write(descriptor_, line.data(), line.size());
+}
+
+std::string problem_in_log(const std::filesystem::path& file) {
+  try {
+    return problem_in(geometry::read_regular_file(file, "a log"));
+  } catch (const geometry::UnreadableFile&) {
+    return "";
+  }
 }
 
 }  // namespace plekton::apps

@@ -25,11 +25,17 @@ class RunLog {
   void clear() const;
   /// What it says was wrong, in a line; or how the run ended.
   std::string reason(const ProgramEnd& end) const;
+  /// Adds what was wrong, if it says nothing of it, for those who read it later.
+  void record(const std::string& problem) const;
 
  private:
   std::filesystem::path file_;
   int descriptor_;
   bool is_ours_ = false;
 };
+
+/// What a run that has ended says was wrong; empty if there is no log, or nothing of it in there:
+/// the run was never begun, was interrupted, or goes on.
+std::string problem_in_log(const std::filesystem::path& file);
 
 }  // namespace plekton::apps

@@ -4,10 +4,12 @@
 #include "apps/programs/child_process.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/study/run_log.hpp"
+#include "apps/study/run_results.hpp"
 #include "geometry/base/printable.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <memory>
@@ -45,21 +47,26 @@ class Maker {
     const std::vector<std::size_t> missing = missing_among(study, runs);
     waiting_.assign(missing.begin(), missing.end());
     count_ = missing.size();
+    const auto whole = std::find_if(runs.begin(), runs.end(), [&](const PlannedRun& run) {
+      return run.problem.empty() && study.is_complete(run);
+    });
+    if (!waiting_.empty() && whole != runs.end()) look_for_results(*whole);
   }
 
-  void make() {
-    while (!going_.empty() || (!waiting_.empty() && !is_interrupted_)) {
+  /// @returns the result that no run will have; empty: all runs were begun
+  const std::string& make() {
+    while (!going_.empty() || can_begin()) {
       if (!is_interrupted_ && settings_.is_interrupted()) {
         is_interrupted_ = true;
         for (const auto& job : going_) job->process->interrupt();
       }
-      while (!is_interrupted_ && !waiting_.empty() &&
-             going_.size() < static_cast<std::size_t>(settings_.jobs))
-        start_next();
+      while (can_begin() && going_.size() < static_cast<std::size_t>(settings_.jobs)) start_next();
       look_at_all();
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    for (const std::size_t run : waiting_) runs_[run].problem = "interrupted before it began";
+    if (is_interrupted_)
+      for (const std::size_t run : waiting_) runs_[run].problem = "interrupted before it began";
+    return unknown_;
   }
 
  private:
@@ -71,6 +78,21 @@ class Maker {
 
     Job(std::size_t run_, const std::filesystem::path& log_file) : run(run_), output(log_file) {}
   };
+
+  bool can_begin() const { return !is_interrupted_ && unknown_.empty() && !waiting_.empty(); }
+
+  /// Of one run that is whole, and no further than to the first that has all of them.
+  void look_for_results(const PlannedRun& run) {
+    if (has_results_) return;
+    try {
+      results_of(study_.folder_of(run), study_.study().results);
+      has_results_ = true;
+    } catch (const UnknownResult& error) {
+      unknown_ = error.what();
+    } catch (const NoResult&) {
+      // That of another run may be there.
+    }
+  }
 
   void start_next() {
     const std::size_t index = waiting_.front();
@@ -106,7 +128,9 @@ class Maker {
   void finish(const Job& job, const ProgramEnd& end) {
     PlannedRun& run = runs_[job.run];
     if (study_.is_complete(run)) {
-      tell(run, fmt::format("done in {:.3g} s", seconds_since(job.began)));
+      look_for_results(run);
+      tell(run, fmt::format("done in {:.3g} s{}", seconds_since(job.began),
+                            unknown_.empty() ? "" : ", and no more runs are begun: " + unknown_));
       return;
     }
     if (is_interrupted_) {
@@ -115,6 +139,7 @@ class Maker {
       run.problem = "the scenario or the program was changed while it ran; start the study again";
     } else {
       run.problem = job.output.reason(end);
+      job.output.record(run.problem);
     }
     tell(run, run.problem);
   }
@@ -136,6 +161,8 @@ class Maker {
   std::deque<std::size_t> waiting_;
   std::vector<std::unique_ptr<Job>> going_;
   bool is_interrupted_ = false;
+  bool has_results_ = false;  ///< a run that is whole
+  std::string unknown_;       ///< a result that no run has; empty: none is known
   std::size_t count_ = 0;
   std::size_t told_ = 0;
   Clock::time_point began_ = Clock::now();
@@ -154,9 +181,10 @@ std::vector<std::size_t> missing_among(StudyRuns& study, const std::vector<Plann
   return missing;
 }
 
-void make_missing(StudyRuns& study, std::vector<PlannedRun>& runs, const MakeSettings& settings) {
+std::string make_missing(StudyRuns& study, std::vector<PlannedRun>& runs,
+                         const MakeSettings& settings) {
   make_output_folder(study.out() / "runs");
-  Maker(study, runs, settings).make();
+  return Maker(study, runs, settings).make();
 }
 
 }  // namespace plekton::apps

@@ -20,10 +20,13 @@ struct MakeSettings {
 };
 
 /// Makes those runs that are not complete, each by a process of its own. What ended badly gets its
-/// problem; the others go on. After an interruption the runs that go on are asked to end.
+/// problem; the others go on. After an interruption the runs that go on are asked to end. Where the
+/// first run that is whole has no result of a name that is asked for, no more are begun.
 /// @param runs  whose key is not empty, or that have a problem already
+/// @returns which result that is; empty: all runs were begun
 /// @throws dynamics::OutputError if nothing can be written to the folder of the study
-void make_missing(StudyRuns& study, std::vector<PlannedRun>& runs, const MakeSettings& settings);
+std::string make_missing(StudyRuns& study, std::vector<PlannedRun>& runs,
+                         const MakeSettings& settings);
 
 /// Those that are not complete and could be, each key once; positions among the runs.
 std::vector<std::size_t> missing_among(StudyRuns& study, const std::vector<PlannedRun>& runs);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/study/run_results.hpp"
 
+#include "apps/run/history.hpp"
+#include "apps/run/run_report.hpp"
+#include "apps/run/written_files.hpp"
 #include "apps/scenario/closest_word.hpp"
 #include "apps/viewer/run_folder.hpp"
 #include "apps/viewer/view_error.hpp"
@@ -14,6 +17,7 @@
 #include <iterator>
 #include <map>
 #include <string_view>
+#include <system_error>
 
 namespace plekton::apps {
 namespace {
@@ -23,6 +27,10 @@ using Json = nlohmann::json;
 
 [[noreturn]] void refuse(const ResultSettings& result, const std::string& what) {
   throw NoResult(fmt::format("results.{}: {}", result.name, what));
+}
+
+[[noreturn]] void refuse_name(const ResultSettings& result, const std::string& what) {
+  throw UnknownResult(fmt::format("results.{}: {}", result.name, what));
 }
 
 /// What is under a key of an object, or at a number (from 0) of a list; null if there is none.
@@ -44,23 +52,53 @@ std::string keys_near(const Json& json, const std::string& key) {
   return did_you_mean(key, std::vector<std::string_view>(keys.begin(), keys.end()));
 }
 
-std::string report_value(const Json& report, const ResultSettings& result) {
+/// A value of run.json, or what is wrong with its path.
+struct Found {
+  const Json* value = nullptr;
+  std::string problem;
+};
+
+/// @param is_sketch  of a run that was not made: what is in its lists is not known
+Found value_at(const Json& report, std::string_view path, bool is_sketch) {
   const Json* value = &report;
-  std::string_view rest = result.report;
-  while (true) {
+  for (std::string_view rest = path;;) {
     const std::string key(rest.substr(0, rest.find('.')));
     const Json* const next = below(*value, key);
     if (next == nullptr)
-      refuse(result, fmt::format("run.json has no \"{}\": there is no \"{}\"{}", result.report, key,
-                                 keys_near(*value, key)));
+      return {nullptr, fmt::format("run.json has no \"{}\": there is no \"{}\"{}", path, key,
+                                   keys_near(*value, key))};
     value = next;
     if (key.size() == rest.size()) break;
+    if (is_sketch && value->is_array()) return {value, ""};
     rest.remove_prefix(key.size() + 1);
   }
   if (value->is_object() || value->is_array())
-    refuse(result,
-           fmt::format("\"{}\" of run.json is no single value; name one in it", result.report));
+    return {value, fmt::format("\"{}\" of run.json is no single value; name one in it", path)};
+  return {value, ""};
+}
+
+/// With all that the report of a run can have.
+const Json& sketch_of_report() {
+  static const Json kSketch = [] {
+    RunReport report;
+    report.message = report.stopped_by = "?";
+    report.resumed = 0.0;
+    report.deepest_overlap.emplace();
+    report.stages = {"{}"};
+    return Json::parse(to_json(report));
+  }();
+  return kSketch;
+}
+
+std::string report_value(const Json& report, const ResultSettings& result) {
+  const auto [value, problem] = value_at(report, result.report, false);
+  if (!problem.empty()) refuse(result, problem);
   return value->is_string() ? value->get<std::string>() : value->dump();
+}
+
+std::string no_column(const std::string& file, const std::string& column,
+                      std::span<const std::string_view> known) {
+  return fmt::format("{} has no column \"{}\"{}", file, column, did_you_mean(column, known));
 }
 
 const RecordedHistory::Column& column_of(const RecordedHistory& history,
@@ -70,13 +108,12 @@ const RecordedHistory::Column& column_of(const RecordedHistory& history,
     if (column.name == result.column) return column;
     names.push_back(column.name);
   }
-  refuse(result, fmt::format("{} has no column \"{}\"{}", history.file, result.column,
-                             did_you_mean(result.column, names)));
+  refuse_name(result, no_column(history.file, result.column, names));
 }
 
 /// Linear between two rows. @param times  rising
-double value_at(const std::vector<double>& times, const std::vector<double>& values, double time,
-                const ResultSettings& result) {
+double value_then(const std::vector<double>& times, const std::vector<double>& values, double time,
+                  const ResultSettings& result) {
   const auto after = std::lower_bound(times.begin(), times.end(), time);
   if (after == times.end() || (after == times.begin() && *after > time))
     refuse(result, fmt::format("{} has no row at {} s; it goes from {} s to {} s", result.file,
@@ -122,7 +159,7 @@ double history_value(const RecordedHistory& history, const ResultSettings& resul
   const std::vector<double>& times = history.columns.front().values;
   const std::vector<double>& values = column_of(history, result).values;
   if (times.empty()) refuse(result, result.file + " has no rows");
-  if (result.at) return value_at(times, values, *result.at, result);
+  if (result.at) return value_then(times, values, *result.at, result);
   const auto begin =
       result.from ? std::lower_bound(times.begin(), times.end(), *result.from) : times.begin();
   const auto end =
@@ -165,6 +202,8 @@ class RunReader {
     try {
       if (is_new) found->second = read_history(folder_ / result.file);
     } catch (const ViewError& error) {
+      if (std::error_code ignored; !fs::exists(folder_ / result.file, ignored))
+        refuse_name(result, error.what());
       refuse(result, error.what());
     }
     return found->second;
@@ -176,6 +215,27 @@ class RunReader {
 };
 
 }  // namespace
+
+std::string problem_with_report(std::string_view path) {
+  return value_at(sketch_of_report(), path, true).problem;
+}
+
+std::string problem_with_column(const std::string& file, const std::string& column) {
+  if (file != kHistoryFile) return "";
+  std::vector<std::string_view> names;
+  for (const dynamics::OutputField& field : history_fields()) names.push_back(field.name);
+  return std::find(names.begin(), names.end(), column) == names.end()
+             ? no_column(file, column, names)
+             : "";
+}
+
+std::string problem_with_file(const std::string& file) {
+  std::vector<std::string_view> names(kHistories.begin(), kHistories.end());
+  names.insert(names.end(), {kPlanesFile, kContactsFile});
+  return std::find(names.begin(), names.end(), file) == names.end()
+             ? fmt::format("no run writes \"{}\"{}", file, did_you_mean(file, names))
+             : "";
+}
 
 std::vector<RunResult> results_of(const fs::path& folder,
                                   std::span<const ResultSettings> settings) {

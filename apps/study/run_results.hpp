@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plekton::apps {
@@ -16,6 +17,18 @@ struct NoResult : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A result whose name is that of nothing in the run: a file, or a column of it.
+struct UnknownResult : NoResult {
+  using NoResult::NoResult;
+};
+
+/// Why no run can have a result of this name, as far as that is known before any; empty: one may.
+/// @param path  in run.json, as in "timing.steps"
+std::string problem_with_report(std::string_view path);
+/// @param file  a history; only of energy.csv the columns are known
+std::string problem_with_column(const std::string& file, const std::string& column);
+std::string problem_with_file(const std::string& file);
+
 /// One number, or text of run.json, of a run.
 struct RunResult {
   std::string text;  ///< as it goes into a table
@@ -23,7 +36,7 @@ struct RunResult {
 };
 
 /// The results of a run that has ended, from its folder, in the order of the settings.
-/// @throws NoResult
+/// @throws NoResult, UnknownResult
 std::vector<RunResult> results_of(const std::filesystem::path& folder,
                                   std::span<const ResultSettings> settings);
 

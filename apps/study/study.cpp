@@ -3,6 +3,7 @@
 
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/toml_file.hpp"
+#include "apps/study/run_results.hpp"
 #include "apps/study/sobol.hpp"
 #include "apps/study/value_text.hpp"
 #include "apps/viewer/csv_text.hpp"
@@ -320,6 +321,10 @@ class StudyReader {
                     "in steps = { report = \"timing.steps\" }");
   }
 
+  static void complain_if(Section& section, std::string_view key, const std::string& problem) {
+    if (!problem.empty()) section.complain(key, problem);
+  }
+
   ResultSettings read_result(const std::string& name, Section& section) {
     constexpr std::array<std::string_view, 6> kTakes = {"last", "first", "max",
                                                         "min",  "mean",  "change"};
@@ -329,6 +334,7 @@ class StudyReader {
     result.place = section.place();
     if (section.has("report")) {
       result.report = section.text("report");
+      complain_if(section, "report", problem_with_report(result.report));
       section.finish();
       return result;
     }
@@ -338,7 +344,11 @@ class StudyReader {
       section.complain("file", fmt::format("got \"{}\"; expected a CSV file of the run, as in "
                                            "\"reactions.csv\"",
                                            result.file));
+    else
+      complain_if(section, "file", problem_with_file(result.file));
     result.column = section.text("column");
+    if (!result.column.empty())
+      complain_if(section, "column", problem_with_column(result.file, result.column));
     result.take = static_cast<Take>(section.choice("take", kTakes, std::size_t{0}));
     if (section.has("at")) result.at = section.quantity("at", kMoment);
     if (section.has("from")) result.from = section.quantity("from", kMoment);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/study/study_table.hpp"
 
-#include "apps/viewer/csv_text.hpp"
+#include "apps/study/run_log.hpp"
 #include "apps/study/run_results.hpp"
+#include "apps/viewer/csv_text.hpp"
 #include "dynamics/output/file.hpp"
 
 #include <fmt/format.h>
@@ -64,7 +65,12 @@ class TableWriter {
     // Of runs with the same key one alone was made.
     if (const auto found = problems_.find(run.key); found != problems_.end())
       run.problem = found->second;
-    if (!run.problem.empty() || !study_.is_complete(run)) return {};
+    if (!run.problem.empty()) return {};
+    if (!study_.is_complete(run)) {
+      // Of an earlier time, or made by another process.
+      run.problem = problem_in_log(study_.log_of(run));
+      return {};
+    }
     try {
       auto results = results_of(study_.folder_of(run), study_.study().results);
       for (std::size_t i = 0; i < units_.size(); ++i) units_[i] = results[i].unit;

@@ -274,16 +274,72 @@ TEST_F(StudyCommand, SaysWithItsPlaceWhatIsWrongWithAStudyAndMakesNothing) {
   EXPECT_TRUE(reports().empty());
 }
 
-TEST_F(StudyCommand, SaysWhichResultARunDoesNotHave) {
-  write_study(
-      "[grid]\nsimulation.damping = [0]\n"
-      "[results]\nsteps = { report = \"timing.step\" }\n");
-  EXPECT_THAT(plekton_study().err,
-              AllOf(HasSubstr("results.steps: run.json has no \"timing.step\""),
-                    HasSubstr("did you mean \"steps\"?")));
-  write_study("[grid]\nsimulation.damping = [0]\n[results]\nforce = { column = \"kinetik\" }\n");
-  EXPECT_THAT(plekton_study().err, HasSubstr("energy.csv has no column \"kinetik\"; did you mean "
-                                             "\"kinetic\"?"));
+// It was found after the last run.
+TEST_F(StudyCommand, SaysBeforeTheFirstRunWhichResultNoRunHas) {
+  const std::string grid = "[grid]\nsimulation.damping = [0]\n[results]\n";
+  const auto expect_refused = [&](const std::string& result, const std::string& problem) {
+    write_study(grid + result);
+    const Outcome outcome = plekton_study();
+    EXPECT_EQ(outcome.exit_code, kFailed);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("many.toml:"), HasSubstr(problem)));
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  };
+
+  expect_refused("steps = { report = \"timing.step\" }\n",
+                 "results.steps.report: run.json has no \"timing.step\": there is no \"step\"; did "
+                 "you mean \"steps\"?");
+  expect_refused("force = { column = \"kinetik\" }\n",
+                 "results.force.column: energy.csv has no column \"kinetik\"; did you mean "
+                 "\"kinetic\"?");
+  expect_refused("force = { file = \"reaction.csv\", column = \"floor.force_z\" }\n",
+                 "results.force.file: no run writes \"reaction.csv\"; did you mean "
+                 "\"reactions.csv\"?");
+}
+
+TEST_F(StudyCommand, BeginsNoMoreRunsWhenTheFirstOneDoesNotHaveAResult) {
+  write_study(R"(output.reactions = [{ name = "floor", kind = "plane", plane = "floor" }]
+[grid]
+simulation.seed = [1, 2, 3, 4, 5, 6]
+[results]
+push = { file = "reactions.csv", column = "floor.force_u" }
+)");
+
+  const Outcome first = plekton_study({"--jobs", "1"});
+  const Outcome second = plekton_study({"--jobs", "1"});
+
+  for (const Outcome& outcome : {first, second}) {
+    EXPECT_EQ(outcome.exit_code, kFailed);
+    EXPECT_THAT(outcome.err,
+                AllOf(HasSubstr("results.push: reactions.csv has no column \"floor.force_u\""),
+                      HasSubstr("no more runs were begun: correct [results] of " + study()),
+                      HasSubstr("plekton study " + study() + " --out " + out())));
+  }
+  EXPECT_EQ(reports().size(), 1U);
+  ASSERT_EQ(table().size(), 7U);
+  EXPECT_EQ(table()[1].cells[3], "failed");
+  EXPECT_EQ(table()[2].cells[3], "missing");
+}
+
+// They were missing, without a word of why, as soon as the study that had made them was over.
+TEST_F(StudyCommand, CollectsRunsThatFailedBeforeAsFailed) {
+  write_study(R"([grid]
+simulation.time_step = ["auto", "0.4 ms"]
+[results]
+steps = { report = "timing.steps" }
+)");
+  ASSERT_EQ(plekton_study({"--only", "1"}).exit_code, kDone);
+  ASSERT_EQ(plekton_study({"--only", "2"}).exit_code, kFailed);
+
+  const Outcome outcome = plekton_study({"--collect"});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.out, HasSubstr("2 runs, 1 complete, 1 failed, 0 missing"));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("1 of 2 runs failed, the first of them run 2: "),
+                                 HasSubstr("plekton study " + study() + " --out " + out() +
+                                           " tries them again")));
+  ASSERT_EQ(table().size(), 3U);
+  EXPECT_EQ(table()[2].cells[3], "failed");
+  EXPECT_THAT(table()[2].cells[4], HasSubstr("time_step"));
 }
 
 TEST_F(StudyCommand, RefusesANumberThatIsNoRun) {

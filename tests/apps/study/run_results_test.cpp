@@ -48,6 +48,20 @@ class RunResults : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
+TEST_F(RunResults, OfAPathThatARunMayHaveAreNotRefusedBeforeThereIsOne) {
+  for (const char* path :
+       {"timing.steps", "energy.kinetic_J", "deepest_overlap.depth_m", "resumed_s", "stopped_by",
+        "message", "stages.0.end_s", "certificate.3.value", "energy_closure", "warnings.0",
+        "states.chain", "names.grains.0"})
+    EXPECT_EQ(problem_with_report(path), "") << path;
+  EXPECT_THAT(problem_with_report("energy.kinetik_J"), HasSubstr("did you mean \"kinetic_J\"?"));
+  EXPECT_THAT(problem_with_report("energy_closure.x"), HasSubstr("there is no \"x\""));
+  EXPECT_THAT(problem_with_report("timing"), HasSubstr("is no single value"));
+  EXPECT_EQ(problem_with_column("energy.csv", "time_step"), "");
+  EXPECT_EQ(problem_with_column("reactions.csv", "what the scenario names"), "");
+  EXPECT_EQ(problem_with_file("ties.csv"), "");
+}
+
 TEST_F(RunResults, AreTheValuesOfAColumnThatWereAskedFor) {
   EXPECT_EQ(result(force(Take::last)).text, "5");
   EXPECT_EQ(result(force(Take::last)).unit, "N");
