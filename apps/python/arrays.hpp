@@ -10,6 +10,7 @@
 #include <array>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,8 +22,24 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double), "positions are rows of an arra
 
 /// What is handed in: numbers of any kind, copied only where they are no doubles side by side.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-/// Whole numbers alone: no fraction is cut off.
-using Whole = py::array_t<std::int64_t, py::array::c_style>;
+using Whole = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+/// Whole numbers alone: no fraction is cut off, in an array or in a list.
+/// @throws std::invalid_argument
+inline Whole whole_numbers(const py::object& given, const char* name,
+                           const char* expected = "whole numbers") {
+  const py::array array = py::array::ensure(given);
+  if (!array) {
+    PyErr_Clear();
+    throw std::invalid_argument(
+        fmt::format("{}: got what is no array; expected {}", name, expected));
+  }
+  const char kind = array.dtype().kind();
+  if (kind != 'i' && kind != 'u' && array.size() > 0)
+    throw std::invalid_argument(fmt::format("{}: got numbers of type {}; expected {}", name,
+                                            std::string(py::str(array.dtype())), expected));
+  return Whole(array);
+}
 
 /// A new array of rows.
 template <class Row>

@@ -49,19 +49,19 @@ struct PairRow {
 
 // What is handed in.
 
-/// Elements by rows of node numbers. @throws std::invalid_argument for numbers that no node can
-/// have
+/// Elements by rows of node numbers; of None none.
+/// @throws std::invalid_argument for numbers that no node can have
 template <class Element>
-std::vector<Element> elements_of(const std::optional<Whole>& rows, double radius,
-                                 const char* name) {
+std::vector<Element> elements_of(const py::object& given, double radius, const char* name) {
   std::vector<Element> elements;
-  if (!rows) return elements;
+  if (given.is_none()) return elements;
   constexpr std::size_t kCorners = std::tuple_size_v<decltype(Element::nodes)>;
-  require_rows(*rows, static_cast<py::ssize_t>(kCorners), name);
-  for (py::ssize_t i = 0; i < rows->shape(0); ++i) {
+  const Whole rows = whole_numbers(given, name);
+  require_rows(rows, static_cast<py::ssize_t>(kCorners), name);
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
     Element element{{}, radius};
     for (std::size_t k = 0; k < kCorners; ++k) {
-      const std::int64_t node = rows->at(i, static_cast<py::ssize_t>(k));
+      const std::int64_t node = rows.at(i, static_cast<py::ssize_t>(k));
       if (node < 0 || node > std::numeric_limits<std::int32_t>::max())
         throw std::invalid_argument(fmt::format("{}[{}]: there is no node {}", name, i, node));
       element.nodes[k] = NodeId{static_cast<std::int32_t>(node)};
@@ -83,8 +83,7 @@ std::vector<Probe> balls_of(const Numbers& centres, const Numbers& radius) {
 /// Facets and bars over points, and what can be asked of them.
 class PySurface {
  public:
-  PySurface(const Numbers& points, const std::optional<Whole>& facets,
-            const std::optional<Whole>& bars, double radius)
+  PySurface(const Numbers& points, const py::object& facets, const py::object& bars, double radius)
       : surface_(elements_of<geometry::Cylinder>(bars, radius, "bars"),
                  elements_of<geometry::Facet>(facets, radius, "facets"),
                  static_cast<std::size_t>(points.ndim() > 0 ? points.shape(0) : 0)),
@@ -178,9 +177,8 @@ std::pair<std::uint8_t, std::int32_t> name_of(const geometry::ElementId& element
 }
 
 py::array pairs(double largest_gap, const std::optional<Numbers>& centres, const Numbers& radii,
-                const std::optional<Numbers>& points, const std::optional<Whole>& facets,
-                const std::optional<Whole>& bars, double radius, bool within_structures,
-                int threads) {
+                const std::optional<Numbers>& points, const py::object& facets,
+                const py::object& bars, double radius, bool within_structures, int threads) {
   std::vector<Vec3> x;
   if (points) x = vectors_of(*points, "points");
   geometry::Elements elements;
@@ -249,8 +247,7 @@ void bind_geometry(py::module_& module) {
       module, "Surface",
       "Thick facets and bars over shared points, and what is nearest to something, what a ray "
       "hits, what is inside. Cells are the facets, then the bars that are no sides of facets.")
-      .def(py::init<const Numbers&, const std::optional<Whole>&, const std::optional<Whole>&,
-                    double>(),
+      .def(py::init<const Numbers&, const py::object&, const py::object&, double>(),
            py::arg("points"), py::arg("facets") = py::none(), py::arg("bars") = py::none(),
            py::arg("radius") = 0.0,
            "points in m, (N, 3); facets (M, 3) and bars (K, 2) by the numbers of their points; "

@@ -51,8 +51,9 @@ geometry::PolygonSoup soup_of(const Numbers& points, const Whole& polygons) {
   return soup;
 }
 
-py::tuple repair_mesh(const Numbers& points, const Whole& facets, const RepairOptions& repair) {
-  geometry::PolygonSoup soup = soup_of(points, facets);
+py::tuple repair_mesh(const Numbers& points, const py::object& facets,
+                      const RepairOptions& repair) {
+  geometry::PolygonSoup soup = soup_of(points, whole_numbers(facets, "facets"));
   geometry::ImportedMesh imported;
   {
     const py::gil_scoped_release free;
@@ -61,7 +62,8 @@ py::tuple repair_mesh(const Numbers& points, const Whole& facets, const RepairOp
   return tuple_of(imported);
 }
 
-void write_mesh(const std::filesystem::path& path, const Numbers& points, const Whole& facets) {
+void write_mesh(const std::filesystem::path& path, const Numbers& points, const py::object& given) {
+  const Whole facets = whole_numbers(given, "facets");
   require_rows(facets, 3, "facets");
   geometry::Mesh mesh;
   mesh.points = vectors_of(points, "points");

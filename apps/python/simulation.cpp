@@ -233,12 +233,8 @@ apps::ReactionValue reaction(const Session& session, const std::string& name) {
 /// @param count  of all nodes
 std::vector<std::int64_t> node_numbers(const py::object& nodes, std::size_t count) {
   const py::array given = py::array::ensure(nodes);
-  if (!given) {
-    PyErr_Clear();
-    throw InputError("set_velocity: got nodes that are no array; expected whole numbers");
-  }
-  const char kind = given.dtype().kind();
-  if (kind == 'b') {
+  if (!given) PyErr_Clear();
+  if (given && given.dtype().kind() == 'b') {
     const py::array_t<bool, py::array::c_style> mask(given);
     if (given.ndim() != 1 || static_cast<std::size_t>(mask.size()) != count)
       throw InputError(
@@ -250,12 +246,8 @@ std::vector<std::int64_t> node_numbers(const py::object& nodes, std::size_t coun
       if (mask.data()[i]) numbers.push_back(static_cast<std::int64_t>(i));
     return numbers;
   }
-  if (kind != 'i' && kind != 'u' && given.size() > 0)
-    throw InputError(
-        fmt::format("set_velocity: got nodes of type {}; expected whole numbers, or a truth value "
-                    "for each node",
-                    std::string(py::str(given.dtype()))));
-  const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> whole(given);
+  const Whole whole =
+      whole_numbers(nodes, "set_velocity: nodes", "whole numbers, or a truth value for each node");
   return {whole.data(), whole.data() + whole.size()};
 }
 

@@ -207,6 +207,18 @@ def test_what_cannot_be_asked_is_refused(call, message):
         call()
 
 
-def test_numbers_of_nodes_are_whole():
-    with pytest.raises(TypeError):
-        plekton.Surface(np.eye(3), np.array([[0.0, 1.0, 2.5]]))
+@pytest.mark.parametrize("facets", [[[0.2, 1.0, 2.5]], np.array([[0.2, 1.0, 2.5]]), [["0", "1", "2"]], [[0, 1, 2], [0]]])
+def test_numbers_of_nodes_are_whole(facets, tmp_path):
+    """Of lists fractions were cut off without a word."""
+    points = np.eye(3)
+    for call in (
+        lambda: plekton.Surface(points, facets),
+        lambda: plekton.pairs(1, points=points, facets=facets),
+        lambda: plekton.repair_mesh(points, facets),
+        lambda: plekton.write_mesh(tmp_path / "a.off", points, facets),
+    ):
+        with pytest.raises(plekton.InputError, match="^facets: got .*; expected whole numbers$"):
+            call()
+    assert not list(tmp_path.iterdir())
+    with pytest.raises(plekton.InputError, match="^bars: got numbers of type float64; expected whole numbers$"):
+        plekton.Surface(points, bars=[[0.2, 1.0]])

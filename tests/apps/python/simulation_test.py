@@ -239,7 +239,7 @@ def test_a_truth_value_for_each_node_chooses_nodes(simulation):
     [
         ([12], [0, 0, 1], "node 12 is free"),
         ([True, False], [0, 0, 1], "got 2 truth values; expected one for each of the 45 nodes"),
-        ([2.9], [0, 0, 1], "got nodes of type float64; expected whole numbers"),
+        ([2.9], [0, 0, 1], "nodes: got numbers of type float64; expected whole numbers"),
         ([99], [0, 0, 1], "there is no node 99; there are 45"),
         ([-1], [0, 0, 1], "there is no node -1"),
         ([0], [0, 1], "expected three components"),
