@@ -3,6 +3,7 @@
 
 #include "apps/command_line/resume_command.hpp"
 #include "apps/command_line/warnings.hpp"
+#include "apps/run/other_file.hpp"
 #include "apps/run/stage_change.hpp"
 #include "apps/takeover/ondem_export.hpp"
 #include "dynamics/ondem/write_ondem.hpp"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace plekton::apps {
 namespace {
@@ -39,6 +41,11 @@ std::string summary_of(const dynamics::OndemScene& scene) {
   return text + fmt::format(" at {:.6g} s, step {}", scene.time, scene.iteration);
 }
 
+/// The name of the group of our additions stands in the first block.
+bool is_ondem_of_ours(std::string_view head) {
+  return head.starts_with("\x89HDF\r\n\x1a\n") && head.find("Plekton") != std::string_view::npos;
+}
+
 }  // namespace
 
 void export_ondem(const ExportOndemArguments& arguments, std::ostream& out,
@@ -49,6 +56,7 @@ void export_ondem(const ExportOndemArguments& arguments, std::ostream& out,
     throw InputError(fmt::format(
         "--out: got \"{}\"; expected a file that ends in .vtkhdf, by which ParaView knows it",
         file.string()));
+  refuse_other_file(file, "ON-DEM file of plekton export-ondem", is_ondem_of_ours);
   const FoundCheckpoint checkpoint =
       last_checkpoint(arguments.run, time_option("--at", arguments.at));
   print_warnings(warnings_about(checkpoint), problems);

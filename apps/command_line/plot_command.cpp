@@ -2,6 +2,7 @@
 #include "apps/command_line/plot_command.hpp"
 
 #include "apps/pictures/draw_plot.hpp"
+#include "apps/pictures/other_picture.hpp"
 #include "apps/scenario/problems.hpp"
 #include "dynamics/output/file.hpp"
 
@@ -25,6 +26,7 @@ void plot_run(const PlotArguments& arguments, std::ostream& out) {
   std::vector<fs::path> files = {arguments.out};
   if (arguments.out.empty()) files = {arguments.run / "plot.svg", arguments.run / "plot.png"};
   for (const fs::path& file : files) kind_of(file);
+  for (const fs::path& file : files) refuse_other_picture(file);
   const RunFolder run = open_run_folder(arguments.run);
   const std::vector<RecordedHistory> histories = read_histories(arguments.run);
   const std::vector<PlotPanel> panels = panels_of(histories, arguments.columns, arguments.x);

@@ -2,6 +2,7 @@
 #include "apps/command_line/render_command.hpp"
 
 #include "apps/command_line/resume_command.hpp"
+#include "apps/pictures/other_picture.hpp"
 #include "apps/pictures/render.hpp"
 #include "apps/scenario/problems.hpp"
 #include "dynamics/output/file.hpp"
@@ -16,6 +17,7 @@ void render_run(const RenderArguments& arguments, std::ostream& out) {
   if (file.extension() != ".png")
     throw InputError(
         fmt::format("--out: got \"{}\"; expected a file that ends in .png", file.string()));
+  refuse_other_picture(file);
   const RunFolder run = open_run_folder(arguments.run);
   const FrameFiles& frame = frame_at(run, time_option("--at", arguments.at));
   const std::string picture = rendered_frame(run, frame);

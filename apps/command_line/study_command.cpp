@@ -93,6 +93,7 @@ int write_table(const StudyArguments& arguments, StudyRuns& study, std::vector<P
 }
 
 int make_all(const StudyArguments& arguments, StudyRuns& study, std::ostream& progress) {
+  refuse_other_table(study.out());
   make_output_folder(study.out());
   const OutputFolderLock lock(study.out());
   std::vector<PlannedRun> runs = study.plan_all();

@@ -5,6 +5,7 @@
 #include "apps/python/from_python.hpp"
 #include "apps/run/body_tables.hpp"
 #include "apps/run/frames.hpp"
+#include "apps/run/other_file.hpp"
 #include "apps/run/plane_places.hpp"
 #include "apps/run/run_state.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
@@ -157,6 +158,7 @@ void Session::stop() noexcept {
 }
 
 void Session::save(const fs::path& file) const {
+  apps::refuse_other_file(file, "checkpoint of Plekton", dynamics::is_checkpoint);
   geometry::StateTree state = simulation().snapshot();
   const auto archive = geometry::StateArchive::writer(state).group(apps::kRunGroup);
   apps::text_of(scenario_).exchange(archive);

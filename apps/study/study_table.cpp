@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/study/study_table.hpp"
 
+#include "apps/run/other_file.hpp"
 #include "apps/study/run_log.hpp"
 #include "apps/study/run_results.hpp"
 #include "apps/viewer/csv_text.hpp"
@@ -95,7 +96,15 @@ class TableWriter {
   StudyCount count_;
 };
 
+bool is_table_of_study(std::string_view head) {
+  return head.starts_with("run,");
+}
+
 }  // namespace
+
+void refuse_other_table(const std::filesystem::path& folder) {
+  refuse_other_file(folder / kStudyTable, "table of plekton study", is_table_of_study);
+}
 
 StudyCount write_study_table(StudyRuns& study, std::vector<PlannedRun>& runs) {
   TableWriter table(study, runs);

@@ -3,6 +3,7 @@
 
 #include "apps/study/study_runs.hpp"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct StudyCount {
 /// its number, values and results, its status (complete, failed or missing), what was wrong, and its
 /// key. A run whose results cannot be had has failed. @throws dynamics::OutputError
 StudyCount write_study_table(StudyRuns& study, std::vector<PlannedRun>& runs);
+
+/// Refuses a folder in which another table has that name. @throws InputError
+void refuse_other_table(const std::filesystem::path& folder);
 
 inline constexpr const char* kStudyTable = "results.csv";
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/viewer/page.hpp"
 
+#include "apps/run/other_file.hpp"
 #include "apps/viewer/view_error.hpp"
 #include "apps/viewer/viewer_files.hpp"
 #include "dynamics/output/file.hpp"
@@ -8,9 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
-#include <system_error>
 #include <utility>
 
 namespace plekton::apps {
@@ -51,18 +49,8 @@ std::string without_tags(std::string json) {
   return json;
 }
 
-/// Somebody's file of that name is not replaced.
-void refuse_other_file(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::exists(fs::symlink_status(file, ignored))) return;
-  if (fs::is_regular_file(file, ignored)) {
-    std::array<char, 512> head{};
-    std::ifstream(file, std::ios::binary).read(head.data(), head.size());
-    const std::string_view text(head.data(), head.size());
-    if (text.starts_with(kFirstLine) && text.find(kOurs) != std::string_view::npos) return;
-  }
-  throw ViewError(file.string() +
-                  ": is there already and no page of plekton view; choose another with --out");
+bool is_page(std::string_view head) {
+  return head.starts_with(kFirstLine) && head.find(kOurs) != std::string_view::npos;
 }
 
 /// Every so many frames, and the last one.
@@ -125,7 +113,7 @@ PageData pack_run(const RunFolder& run, std::size_t limit,
 }
 
 std::size_t write_page(const fs::path& file, const RunFolder& run, const PageData& data) {
-  refuse_other_file(file);
+  refuse_other_file(file, "page of plekton view", is_page);
   const auto [before, behind] = page_halves();
   const auto header = data.packed.header(run, data.notes);
   std::size_t size = 0;

@@ -27,7 +27,7 @@ PageData pack_run(const RunFolder& run, std::size_t limit,
 
 /// The page of a run that ended or was stopped: one file that needs no other and no network.
 /// @returns its size in bytes
-/// @throws dynamics::OutputError; ViewError for a file that is there and is no such page
+/// @throws dynamics::OutputError; InputError for a file that is there and is no such page
 std::size_t write_page(const std::filesystem::path& file, const RunFolder& run,
                        const PageData& data);
 

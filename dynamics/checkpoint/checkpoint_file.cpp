@@ -270,6 +270,10 @@ void write_checkpoint(const std::filesystem::path& file, const StateTree& state,
   sync_folder(file.parent_path());
 }
 
+bool is_checkpoint(std::string_view head) {
+  return parsed_head(head).has_value();
+}
+
 CheckpointWriter writer_of_checkpoint(const std::filesystem::path& file) {
   std::string bytes(kHeadSize, '\0');
   std::ifstream in(file, std::ios::binary);

@@ -36,6 +36,9 @@ inline constexpr std::string_view kUnknownRevision = "unknown";
 void write_checkpoint(const std::filesystem::path& file, const geometry::StateTree& state,
                       std::string_view revision = kUnknownRevision);
 
+/// Whether a file that begins so is a checkpoint, of any version.
+bool is_checkpoint(std::string_view head);
+
 /// Who wrote a checkpoint.
 struct CheckpointWriter {
   std::string version;   ///< of Plekton

@@ -85,6 +85,20 @@ TEST_F(ExportOndemCommand, MakesAFileThatAScenarioTakesWithTheSameBits) {
   EXPECT_EQ(check.exit_code, kDone) << check.err;
 }
 
+TEST_F(ExportOndemCommand, ReplacesNoFileButOneOfItsOwn) {
+  run();
+  test::write_bytes(file(), "mine");
+
+  const Outcome refused = exported({"--out", file()});
+  EXPECT_EQ(refused.exit_code, kFailed);
+  EXPECT_THAT(refused.err, HasSubstr("a.vtkhdf: is there already and no ON-DEM file"));
+  EXPECT_EQ(test::bytes_of(file()), "mine");
+
+  std::filesystem::remove(file());
+  EXPECT_EQ(exported({"--out", file()}).exit_code, kDone);
+  EXPECT_EQ(exported({"--out", file()}).exit_code, kDone);
+}
+
 TEST_F(ExportOndemCommand, SaysInOneLineWhatIsWrong) {
   const auto expect_refused = [](const Outcome& outcome, const std::string& message) {
     EXPECT_EQ(outcome.exit_code, kFailed);

@@ -57,6 +57,32 @@ TEST_F(PicturesCommand, PlotsOneColumnOverAnother) {
               AllOf(HasSubstr("gravity (J)"), testing::Not(HasSubstr("time (s)"))));
 }
 
+TEST_F(PicturesCommand, ReplaceNoFileThatIsNoPicture) {
+  run();
+  for (const char* name : {"mine.svg", "mine.png"}) {
+    test::write_bytes(file(name), "<?xml version=\"1.0\"?><svg>drawn by hand</svg>");
+    const std::string before = test::bytes_of(file(name));
+    for (const char* command : {"plot", "render"}) {
+      if (std::string_view(name).ends_with("svg") && command == std::string_view("render"))
+        continue;
+      const Outcome outcome = outcome_of({command, out(), "--out", file(name)});
+      EXPECT_EQ(outcome.exit_code, kFailed) << command;
+      EXPECT_THAT(outcome.err, HasSubstr(std::string(name) + ": is there already and no p"));
+      EXPECT_EQ(test::bytes_of(file(name)), before);
+    }
+  }
+}
+
+TEST_F(PicturesCommand, PlotReplacesAnEarlierPlot) {
+  if (!find_program("gnuplot")) GTEST_SKIP() << "gnuplot is not installed";
+  run();
+
+  for (int i = 0; i < 2; ++i) {
+    const Outcome outcome = outcome_of({"plot", out()});
+    EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  }
+}
+
 TEST_F(PicturesCommand, SayInOneLineWhatIsMissingOrWrong) {
   run();
   const auto lines = [](const std::string& text) {

@@ -342,6 +342,19 @@ steps = { report = "timing.steps" }
   EXPECT_THAT(table()[2].cells[4], HasSubstr("time_step"));
 }
 
+TEST_F(StudyCommand, ReplacesNoTableOfSomebodyElse) {
+  write_grid_of_64();
+  fs::create_directory(out());
+  test::write_bytes(folder_ / "out" / "results.csv", "time,force\n0,1\n");
+
+  const Outcome outcome = plekton_study();
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("is there already and no table of plekton study"));
+  EXPECT_EQ(test::bytes_of(folder_ / "out" / "results.csv"), "time,force\n0,1\n");
+  EXPECT_TRUE(reports().empty());
+}
+
 TEST_F(StudyCommand, RefusesANumberThatIsNoRun) {
   write_grid_of_64();
 

@@ -143,6 +143,19 @@ def test_a_resumed_run_can_go_on_without_results(tmp_path):
     assert rest.hash == whole.hash
 
 
+def test_a_state_replaces_no_file_but_an_earlier_state(simulation, tmp_path):
+    file = tmp_path / "state.h5"
+    file.write_text("mine")
+
+    with pytest.raises(plekton.InputError, match="is there already and no checkpoint of Plekton"):
+        simulation.save(file)
+
+    assert file.read_text() == "mine"
+    file.unlink()
+    simulation.save(file)
+    simulation.save(file)
+
+
 def test_a_saved_state_has_no_results_to_go_on_with(simulation, tmp_path):
     simulation.step(5)
     simulation.save(tmp_path / "state.h5")
