@@ -4,6 +4,7 @@
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/units.hpp"
+#include "geometry/base/printable.hpp"
 
 #include <fmt/format.h>
 
@@ -119,6 +120,14 @@ std::vector<std::string> overrides_of(const py::handle& values) {
   std::vector<std::string> overrides;
   for (const py::handle value : values) overrides.push_back(value.cast<std::string>());
   return overrides;
+}
+
+apps::ResumedRun resumed_run(const apps::ResumeArguments& arguments) {
+  apps::ResumedRun run = apps::find_resumed_run(arguments);
+  for (const std::string& warning : apps::warnings_about(run))
+    if (PyErr_WarnEx(PyExc_UserWarning, geometry::printable(warning).c_str(), 1) != 0)
+      throw py::error_already_set();
+  return run;
 }
 
 void check_signals() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/command_line/resume_command.hpp"
 #include "apps/python/bindings.hpp"
 #include "apps/scenario/config_tree.hpp"
 #include "apps/scenario/scenario.hpp"
@@ -31,6 +32,10 @@ std::filesystem::path path_of(const py::handle& value);
 
 /// "path=value" each, as --set takes them.
 std::vector<std::string> overrides_of(const py::handle& values);
+
+/// Finds a run that is to go on, and gives a UserWarning of what the program warns of.
+/// @throws InputError as find_resumed_run()
+apps::ResumedRun resumed_run(const apps::ResumeArguments& arguments);
 
 /// Ctrl-C while a scene is built. To be called without the lock.
 void check_signals();

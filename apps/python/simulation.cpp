@@ -36,8 +36,7 @@ std::unique_ptr<Session> load(const py::object& scenario, const py::iterable& ov
 std::unique_ptr<Session> resume(const fs::path& path, const py::iterable& overrides) {
   const auto all = overrides_of(overrides);
   if (fs::is_directory(path))
-    return std::make_unique<Session>(apps::find_resumed_run({.folder = path, .overrides = all}),
-                                     path);
+    return std::make_unique<Session>(resumed_run({.folder = path, .overrides = all}), path);
   apps::FoundCheckpoint checkpoint{path, dynamics::read_checkpoint(path), {}};
   return std::make_unique<Session>(apps::resumed_from(std::move(checkpoint), all), std::nullopt);
 }

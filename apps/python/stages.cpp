@@ -69,7 +69,7 @@ py::object run_stages(const py::object& scenario, const fs::path& out,
 py::object resume_stages(const fs::path& out, const py::iterable& overrides) {
   const std::vector<std::string> all = overrides_of(overrides);
   const apps::ResumedRun resumed =
-      apps::find_resumed_run({.folder = out, .overrides = all, .same_folder = true});
+      resumed_run({.folder = out, .overrides = all, .same_folder = true});
   if (!resumed.scenario.stage)
     throw apps::InputError(fmt::format(
         "{}: is of a scenario without [[stages]]; resume() goes on with it", out.string()));

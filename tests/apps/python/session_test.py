@@ -156,6 +156,19 @@ def test_a_state_replaces_no_file_but_an_earlier_state(simulation, tmp_path):
     simulation.save(file)
 
 
+def test_a_run_that_goes_on_from_before_a_damaged_checkpoint_warns(simulation, tmp_path):
+    simulation.run(out=tmp_path / "out")
+    assert plekton.resume(tmp_path / "out").steps > 0  # without a warning
+    last = sorted((tmp_path / "out" / "checkpoints").iterdir())[-1]
+    (last.parent / "step_999999999999.h5").write_bytes(last.read_bytes()[:2000])
+
+    with pytest.warns(UserWarning) as told:
+        plekton.resume(tmp_path / "out")
+
+    assert "step_999999999999.h5: is damaged" in str(told[0].message)
+    assert "goes on from an earlier checkpoint" in str(told[1].message)
+
+
 def test_a_saved_state_has_no_results_to_go_on_with(simulation, tmp_path):
     simulation.step(5)
     simulation.save(tmp_path / "state.h5")
