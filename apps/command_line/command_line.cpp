@@ -212,12 +212,14 @@ RunSettings settings_of(const CommandLine& line, const fs::path& out, const Inte
 
 /// Runs a scenario, from its beginning or from a state.
 int run_aloud(const CommandLine& line, const Scenario& scenario, const fs::path& out,
-              const Resumption* resume, Progress::Clock::time_point began) {
+              const Resumption* resume, const std::optional<double>& until,
+              Progress::Clock::time_point began) {
   PreparedRun prepared = prepared_aloud(scenario, line.quiet);
   if (!line.quiet) std::cout << summary_of(prepared) << std::flush;
   const InterruptGuard guard;
   RunSettings settings = settings_of(line, out, guard, began);
   settings.resume = resume;
+  settings.until = until;
   return conclude(line, out, run(scenario, prepared, settings));
 }
 
@@ -268,7 +270,7 @@ int resume_command(const CommandLine& line) {
   try {
     if (resumed.scenario.stage)
       return run_stages_aloud(line, resumed.scenario, out, &from, resumed.until, began);
-    return run_aloud(line, resumed.scenario, out, &from, began);
+    return run_aloud(line, resumed.scenario, out, &from, resumed.until, began);
   } catch (const geometry::StateMismatch& error) {
     throw InputError(
         fmt::format("{}: {}; nothing was changed: the meshes and tables that the scenario names "
@@ -310,7 +312,7 @@ int run_command(const CommandLine& line) {
   // Before the scene is built, which may take long.
   by_first_rank(line.ranks, [&] { check_output_folder(out, line.overwrite); });
   if (scenario.stage) return run_stages_aloud(line, scenario, out, nullptr, std::nullopt, began);
-  return run_aloud(line, scenario, out, nullptr, began);
+  return run_aloud(line, scenario, out, nullptr, std::nullopt, began);
 }
 
 /// The same on all ranks that were started together.

@@ -106,7 +106,9 @@ ResumedRun find_resumed_run(const ResumeArguments& arguments) {
   run.from = begin;
   run.until = end;
   require_not_beyond(run, arguments.to);
-  if (end) run.scenario.simulation.duration = *end;
+  // Steps are those of the whole run; beyond its end there is no other.
+  double& duration = run.scenario.simulation.duration;
+  if (end) duration = std::max(duration, *end);
   return run;
 }
 

@@ -60,7 +60,7 @@ struct RunSettings {
   const RunReport* stages_before = nullptr;     ///< of the same run of the program
   geometry::StateTree* end_of_stage = nullptr;  ///< set to the state at its end, if it is given
   bool has_next_stage = false;                  ///< which will write run.json
-  /// s, after which a run of stages goes on no more, within one; nothing: to its end.
+  /// s, at which a run or a stage ends with the step that is nearest; nothing: at its own end.
   std::optional<double> until = std::nullopt;
 };
 

@@ -110,8 +110,7 @@ struct SpreadContact {
     const double pushing =
         pushing_part(bodies.parameters, extent.energy, normal_force, term.overlap);
     const double range = bodies.radius_first + bodies.radius_second;
-    gap = -std::min(range,
-                    mean_overlap(bodies.parameters, extent.energy, pushing * normal_force));
+    gap = -std::min(range, mean_overlap(bodies.parameters, extent.energy, pushing * normal_force));
     const double part = (1.0 - term.point_share) * pushing;
     if (!(part > 0.0)) return false;
     elastic_force *= part;
@@ -149,8 +148,9 @@ struct SpreadContact {
     normal_force = pressed.force;
     elastic_force = normal_force * direction.normalized();
     // Bars of a wrap have a whole spring each, whatever the share of their push: a short bar beside
-    // a long one slips no earlier for it.
-    count = (1.0 - pressed.own) * normal_force / one + pressed.own;
+    // a long one slips no earlier for it. Others add up to the contacts that their patch counts.
+    const double whole = is_wrapped ? pressed.own : 0.0;
+    count = (1.0 - whole) * normal_force / one + whole;
     a.nodes = term.a.ids;
     b.nodes = term.b.ids;
     const Vec3 per_force = force / (size * size);
@@ -190,8 +190,8 @@ struct SpreadContact {
   /// @param contacts  of the patch
   void apply_law(const StructurePair& bodies, double contacts, double free_part,
                  const Motion& motion, double dt) {
-    const auto of_all = AnyLaw::unbonded_part(
-        AnyLaw::scaled(bodies.of_part(count / contacts), count), free_part);
+    const auto of_all =
+        AnyLaw::unbonded_part(AnyLaw::scaled(bodies.of_part(count / contacts), count), free_part);
     memory.normal = normal();
     const Vec3 velocity =
         b.velocity_at(lever_b(bodies), motion) - a.velocity_at(lever_a(bodies), motion);
