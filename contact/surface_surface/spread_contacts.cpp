@@ -262,6 +262,7 @@ std::vector<SpreadContacts::Sum> SpreadContacts::sums(const StructurePatches& pa
     sum.moment += sign * spread.moment + (point - about).cross(force);
     const Vec3 along =
         spread.other_force - spread.other_force.dot(spread.memory.normal) * spread.memory.normal;
+    sum.is_empty = false;
     sum.sticks =
         sum.sticks || !is_at_limit<AnyLaw>(spread.parameters(structure_pair, patch.free_part),
                                            spread.memory.history, spread.normal_force, along);

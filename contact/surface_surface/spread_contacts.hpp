@@ -21,7 +21,8 @@ class SpreadContacts {
   struct Sum {
     Vec3 force = Vec3::Zero();
     Vec3 moment = Vec3::Zero();
-    bool sticks = false;  ///< one of them at least
+    bool is_empty = true;  ///< there is none
+    bool sticks = false;   ///< one of them at least
   };
 
   /// Finds the pairs of the last step in a new list.

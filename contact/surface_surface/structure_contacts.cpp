@@ -145,7 +145,9 @@ ContactRecord StructureContacts::row_of(const StructurePatch& patch,
   const double point_force = patch.point_part * patch.normal_force;
   set_force(row, patch.other_force);
   set_state<AnyLaw>(row, patch.parameters(structure_pair), patch.memory.history, point_force);
-  row.is_slipping = row.is_slipping && !spread.sticks;
+  // What spread contacts carry all of has no friction of its own.
+  const bool is_spread = !(patch.point_part > 0.0) && !spread.is_empty;
+  row.is_slipping = (is_spread || row.is_slipping) && !spread.sticks;
   row.elastic_force = patch.normal_force;
   set_force(row, patch.elastic_force + patch.second.total_attraction() + patch.other_force +
                      spread.force);

@@ -226,5 +226,45 @@ TEST(ContactRecord, SaysWhetherAContactSlips) {
   EXPECT_FALSE(ball.rows().at(0).is_bonded);
 }
 
+/// Friction of bars, and of sheets that lie on each other, is that of their spread contacts alone.
+TEST(ContactRecord, SaysWhetherBarsThatCrossSlip) {
+  const double friction = 0.3;
+  const double overlap = 0.01;  // of two radii of 0.1
+  Complex bars;
+  bars.node(Vec3(-1, 0, 0));
+  bars.node(Vec3(1, 0, 0));
+  bars.node(Vec3(0.1, -1, 0.2 - overlap));
+  bars.node(Vec3(0.1, 1, 0.2 - overlap));
+  bars.cylinder(0, 1);
+  bars.cylinder(2, 3);
+  const Surface surface = bars.surface();
+  SceneContacts contacts(
+      std::span<const Sphere>(), surface,
+      ContactMaterials{
+          MaterialPairs({Material{1e6, 0.5, friction}}), {}, {MaterialId{0}, MaterialId{0}}},
+      0.05);
+  geometry::ThreadPool pool;
+  const auto slips_after = [&](double way) {
+    std::vector<Vec3> velocity(bars.x.size(), Vec3::Zero());
+    velocity[2] = velocity[3] = Vec3(way, 0, 0);
+    bars.x[2] += velocity[2];
+    bars.x[3] += velocity[3];
+    const std::vector<Vec3> still(bars.x.size(), Vec3::Zero());
+    NodeForces forces(bars.x.size());
+    contacts.advance({bars.x, velocity, still}, {}, 1.0, pool, forces);
+    std::vector<ContactRecord> rows;
+    contacts.for_each_record(bars.x, [&](const ContactRecord& row) { rows.push_back(row); });
+    EXPECT_EQ(rows.size(), 1U);
+    return rows.at(0).is_slipping;
+  };
+  // k_s = k_n / 2, so they slip beyond twice the friction times the overlap.
+  const double limit = 2.0 * friction * overlap;
+
+  EXPECT_FALSE(slips_after(0.0));
+  EXPECT_FALSE(slips_after(0.9 * limit));
+  EXPECT_TRUE(slips_after(0.2 * limit));
+  EXPECT_FALSE(slips_after(-0.1 * limit));
+}
+
 }  // namespace
 }  // namespace plekton::test::contact_numbers_test
