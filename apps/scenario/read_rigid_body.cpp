@@ -88,6 +88,25 @@ void read_surface(Section& section, const Known& known, MembraneSettings& surfac
         section.choice("filling", kFillings) == 0 ? RigidFilling::solid : RigidFilling::shell;
 }
 
+/// Of every body each principal moment is at most the sum of the other two: I_x + I_y - I_z is twice
+/// the integral of z² over the mass.
+bool is_possible(const Vec3& inertia) {
+  constexpr double kRounding = 1e-9;  // of a flat body, whose moments are equal to that sum
+  return !(2.0 * inertia.maxCoeff() > (1.0 + kRounding) * inertia.sum());
+}
+
+void read_inertia(Section& section, RigidBodySettings& body) {
+  const Vec3 inertia = section.vector("inertia", {kInertia, kPositive});
+  body.inertia = inertia;
+  if (is_possible(inertia)) return;
+  const double largest = inertia.maxCoeff();
+  section.complain(
+      "inertia", fmt::format("got [{:.6g}, {:.6g}, {:.6g}] kg m2; expected none above the sum of "
+                             "the other two, as of every body, and {:.6g} is above {:.6g}; check "
+                             "units and order",
+                             inertia[0], inertia[1], inertia[2], largest, inertia.sum() - largest));
+}
+
 void read_mass(Section& section, RigidBodySettings& body) {
   const bool has_density = section.has("density");
   const bool has_mass = section.has("mass");
@@ -98,7 +117,7 @@ void read_mass(Section& section, RigidBodySettings& body) {
   if (has_density) body.density = section.quantity("density", {kDensity, kPositive});
   if (has_mass) body.mass = section.quantity("mass", {kMass, kPositive});
   if (section.has("inertia")) {
-    body.inertia = section.vector("inertia", {kInertia, kPositive});
+    read_inertia(section, body);
     if (!has_mass) section.complain("inertia", "goes with mass; a density gives both");
   }
   if (section.has("centre")) body.centre = section.vector("centre", {kLength});

@@ -165,6 +165,19 @@ TEST(RigidBuilder, RefusesABodyWithoutVolumeOrMass) {
               IsEmpty());
 }
 
+// I_x + I_y - I_z is twice the integral of z² over the mass; 0 of a flat body.
+TEST(RigidBuilder, RefusesAnInertiaThatNoBodyHas) {
+  const auto with = [](const std::string& inertia) {
+    return error_of({"rigid_bodies.tray.mass=1", "rigid_bodies.tray.inertia=" + inertia});
+  };
+
+  EXPECT_THAT(with("[1, 2.5, 1]"),
+              HasSubstr("rigid_bodies.tray.inertia: got [1, 2.5, 1] kg m2; expected none above the "
+                        "sum of the other two, as of every body, and 2.5 is above 2"));
+  EXPECT_THAT(with("[0.1, 0.2, 0.3]"), IsEmpty());
+  EXPECT_THAT(with("[0.4, 0.4, 0.4]"), IsEmpty());
+}
+
 TEST(RigidBuilder, RefusesALoadOnAnInnerNode) {
   EXPECT_THAT(error_of({"loads.press.nodes=z_max"}),
               HasSubstr("loads.press.nodes: a rigid body moves as one, and its inner nodes bear no "
