@@ -234,4 +234,12 @@ MembraneBody make_membrane_body(const MembraneSettings& settings, std::size_t fi
   return body;
 }
 
+void tell_warnings(const std::string& name, const MembraneBody& body,
+                   std::vector<std::string>& warnings) {
+  for (const std::string& warning : body.membrane.warnings)
+    warnings.push_back(name + ": " + warning);
+  if (!body.report) return;
+  for (const std::string& reason : body.report->reasons) warnings.push_back(name + ": " + reason);
+}
+
 }  // namespace plekton::apps

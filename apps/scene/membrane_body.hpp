@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace plekton::apps {
@@ -26,5 +27,9 @@ struct MembraneBody {
 /// @param first_node  Number of its first node in the scene.
 /// @throws geometry::MeshError for a mesh or shape that cannot be used.
 MembraneBody make_membrane_body(const MembraneSettings& settings, std::size_t first_node);
+
+/// Adds what is doubtful about the geometry of a body, and about the import of its mesh.
+void tell_warnings(const std::string& name, const MembraneBody& body,
+                   std::vector<std::string>& warnings);
 
 }  // namespace plekton::apps

@@ -208,12 +208,7 @@ void add_elements(const MembraneSettings& settings, const MembraneBody& body,
 BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) {
   const std::size_t first_node = built.scene.state.size();
   MembraneBody body = make_membrane_body(settings, first_node);
-  for (const std::string& warning : body.membrane.warnings)
-    built.warnings.push_back(settings.name + ": " + warning);
-  if (body.report) {
-    for (const std::string& reason : body.report->reasons)
-      built.warnings.push_back(settings.name + ": " + reason);
-  }
+  tell_warnings(settings.name, body, built.warnings);
 
   BuiltMembrane result;
   result.name = settings.name;

@@ -124,8 +124,7 @@ void add_rigid_surface(const RigidBodySettings& body, const MembraneSettings& se
   dynamics::Scene& scene = built.scene;
   const std::size_t first_node = scene.state.size();
   MembraneBody surface = make_membrane_body(settings, first_node);
-  for (const std::string& warning : surface.membrane.warnings)
-    built.warnings.push_back(settings.name + ": " + warning);
+  tell_warnings(settings.name, surface, built.warnings);
   std::vector<NodeId> nodes;
   for (const Vec3& place : surface.membrane.nodes)
     nodes.push_back(scene.add_node(place, dynamics::Held::everything));

@@ -4,7 +4,10 @@
 
 #include "apps/scenario/scenario_reader.hpp"
 #include "dynamics/simulation.hpp"
+#include "geometry/mesh/generate/generators.hpp"
+#include "tests/support/temporary_folder.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -176,6 +179,34 @@ TEST(RigidBuilder, RefusesAnInertiaThatNoBodyHas) {
                         "sum of the other two, as of every body, and 2.5 is above 2"));
   EXPECT_THAT(with("[0.1, 0.2, 0.3]"), IsEmpty());
   EXPECT_THAT(with("[0.4, 0.4, 0.4]"), IsEmpty());
+}
+
+TEST(RigidBuilder, TellsWhatIsDoubtfulAboutAMesh) {
+  const test::TemporaryFolder folder;
+  geometry::Mesh nested = geometry::box_shell({0.1, 0.1, 0.1}, {1, 1, 1});
+  const geometry::Mesh inner = geometry::box_shell({0.05, 0.05, 0.05}, {1, 1, 1});
+  const std::size_t outer = nested.points.size();
+  for (const Vec3& point : inner.points) nested.points.push_back(point + Vec3::Constant(0.025));
+  for (std::array<geometry::NodeId, 3> facet : inner.facets) {
+    for (geometry::NodeId& node : facet)
+      node = geometry::id_at<geometry::NodeId>(index_of(node) + outer);
+    nested.facets.push_back(facet);
+  }
+  std::string text = fmt::format("OFF\n{} {} 0\n", nested.points.size(), nested.facets.size());
+  for (const Vec3& x : nested.points) text += fmt::format("{} {} {}\n", x[0], x[1], x[2]);
+  for (const auto& facet : nested.facets)
+    text += fmt::format("3 {} {} {}\n", index_of(facet[0]), index_of(facet[1]), index_of(facet[2]));
+  test::write_bytes(folder / "nested.off", text);
+  const std::string body =
+      "\n[[rigid_bodies]]\nname = \"nested\"\nmesh = \"nested.off\"\n"
+      "thickness = \"1 mm\"\nmaterial = \"steel\"\ndensity = 1000\n"
+      "translate = [1, 0, 0]\n";
+
+  const BuiltScene scene =
+      build_scene(parse_scenario(std::string(kScenario) + body, folder / "case.toml", {}));
+
+  EXPECT_THAT(scene.warnings,
+              testing::Contains(HasSubstr("nested: the mesh is closed but bounds no volume")));
 }
 
 TEST(RigidBuilder, RefusesALoadOnAnInnerNode) {
