@@ -129,6 +129,13 @@ ForceSettings read_force(Section& section, const Scenario& scenario) {
   settings.is_total = section.has("total_force");
   const bool has_torque = section.has("torque");
   if (has_torque) settings.load.torque = section.vector("torque", {kTorque});
+  const bool turns = (settings.load.torque.array().abs() > 0.0).any();
+  if (turns && !are_turned(settings.nodes, scenario))
+    section.complain("torque",
+                     fmt::format("the nodes of \"{}\" do not turn, since nothing in it resists "
+                                 "bending, and a torque on them does nothing; expected a force, or "
+                                 "a membrane in mode lattice, or continuum with bending stiffness",
+                                 scenario.membranes[settings.nodes.body].name));
   if (!has_torque || settings.is_total || section.has("force"))
     has_one_of(section, "force", "total_force", "the force on each node, or on all together");
   if (section.has("force")) settings.load.force = section.vector("force", {kForce});

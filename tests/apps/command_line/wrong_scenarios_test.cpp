@@ -92,6 +92,14 @@ const std::vector<Mistake>& mistakes() {
        "[[loads]]\nkind = \"gravity\"\nfactor = [[\"0 s\", 0], [\"2 ms\", 1], [\"1 ms\", 2]]\n",
        "[\"1 ms\"", "loads[0].factor[2]: 0.001 s is not above 0.002 s of the row before",
        "list the rows by increasing time"},
+      {"TorqueOnNodesThatDoNotTurn",
+       "[[membranes]]\nname = \"cloth\"\nthickness = \"2 mm\"\nmaterial = \"stone\"\n"
+       "shape = { kind = \"sheet\", width = 1, length = 1, cells = [2, 2] }\nmode = \"truss\"\n"
+       "translate = [0, 0, -1]\nyoung_modulus = \"50 MPa\"\nareal_mass = \"300 g/m2\"\n"
+       "[[loads]]\nkind = \"force\"\nmembrane = \"cloth\"\nnodes = \"x_max\"\n"
+       "torque = [0, 0, 2]\n",
+       "[0, 0, 2]", "loads[0].torque: the nodes of \"cloth\" do not turn",
+       "expected a force, or a membrane in mode lattice, or continuum with bending stiffness"},
       {"UnknownSetOfNodes",
        "[[loads]]\nkind = \"force\"\nmembrane = \"sheet\"\nnodes = \"x_mx\"\nforce = [0, 0, 1]\n",
        "\"x_mx\"", "loads[0].nodes: got \"x_mx\"",
