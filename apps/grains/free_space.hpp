@@ -2,8 +2,8 @@
 #pragma once
 
 #include "contact/base/bodies.hpp"
-#include "geometry/primitives/box.hpp"
 #include "geometry/base/types.hpp"
+#include "geometry/primitives/box.hpp"
 
 #include <array>
 #include <span>
@@ -22,6 +22,8 @@ using geometry::Vec3;
 struct Obstacle {
   std::array<Vec3, 3> core;  ///< m; three times the same point for a ball
   double radius;             ///< m
+  double spring = 0.0;  ///< m, E R of its side of a contact over E of the grains, for a packing;
+                        ///< 0: as that of the grain
 };
 
 /// Distance (m) from a point to a triangle, which may be collinear or a point.

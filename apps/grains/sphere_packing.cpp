@@ -39,20 +39,46 @@ double cube(double x) {
   return x * x * x;
 }
 
-std::vector<contact::Plane> all_planes(const Container& container, const PackingWalls& walls) {
-  std::vector<contact::Plane> planes(walls.planes.begin(), walls.planes.end());
-  if (container.is_inside) return planes;
+std::vector<contact::Plane> sides_of(const Container& container) {
+  std::vector<contact::Plane> sides;
+  if (container.is_inside) return sides;
   if (container.cylinder) {
     const Vec3 axis = (container.cylinder->to - container.cylinder->from).normalized();
-    planes.push_back({container.cylinder->from, axis});
-    planes.push_back({container.cylinder->to, -axis});
-    return planes;
+    sides.push_back({container.cylinder->from, axis});
+    sides.push_back({container.cylinder->to, -axis});
+    return sides;
   }
   for (int axis = 0; axis < 3; ++axis) {
-    planes.push_back({container.bounds.lower, Vec3::Unit(axis)});
-    planes.push_back({container.bounds.upper, -Vec3::Unit(axis)});
+    sides.push_back({container.bounds.lower, Vec3::Unit(axis)});
+    sides.push_back({container.bounds.upper, -Vec3::Unit(axis)});
+  }
+  return sides;
+}
+
+/// Whether two planes are the same wall, to rounding.
+/// @param size  m, of the container
+bool are_one(const contact::Plane& a, const contact::Plane& b, double size) {
+  constexpr double kSame = 1e-9;
+  return (a.normal - b.normal).norm() < kSame &&
+         std::abs(a.normal.dot(b.point - a.point)) < kSame * size;
+}
+
+/// Those that are there, then the sides of the container along which there is none: a wall counts
+/// once.
+std::vector<contact::Plane> all_planes(const Container& container, const PackingWalls& walls) {
+  std::vector<contact::Plane> planes(walls.planes.begin(), walls.planes.end());
+  const double size = (container.bounds.upper - container.bounds.lower).norm();
+  for (const contact::Plane& side : sides_of(container)) {
+    if (!std::ranges::any_of(
+            walls.planes, [&](const contact::Plane& plane) { return are_one(plane, side, size); }))
+      planes.push_back(side);
   }
   return planes;
+}
+
+/// Springs of both sides of a contact, in series.
+double in_series(double a, double b) {
+  return 2.0 * a * b / (a + b);
 }
 
 /// A grid of cells over a box, each with the things in it.
@@ -104,11 +130,13 @@ SpherePacking::SpherePacking(std::vector<Vec3> centres, std::vector<double> radi
     : container_(container),
       obstacles_(walls.obstacles.begin(), walls.obstacles.end()),
       planes_(all_planes(container, walls)),
+      plane_moduli_(walls.plane_moduli.begin(), walls.plane_moduli.end()),
       radii_(std::move(radii)),
       factor_(factor),
       x_(std::move(centres)),
       v_(x_.size(), Vec3::Zero()),
       f_(x_.size(), Vec3::Zero()) {
+  plane_moduli_.resize(planes_.size(), 1.0);
   const auto [least, most] = std::minmax_element(radii_.begin(), radii_.end());
   smallest_ = *least;
   largest_ = *most;
@@ -193,7 +221,7 @@ void SpherePacking::push_apart(const Pair& pair, Forces& sum) {
   if (squared >= (ra + rb) * (ra + rb) || squared == 0.0) return;
   const double distance = std::sqrt(squared);
   const double overlap = ra + rb - distance;
-  const double force = 2.0 * ra * rb / (ra + rb) * overlap;
+  const double force = in_series(ra, rb) * overlap;
   const Vec3 on_b = force / distance * way;
   f_[pair.a] -= on_b;
   f_[pair.b] += on_b;
@@ -205,11 +233,13 @@ void SpherePacking::push_apart(const Pair& pair, Forces& sum) {
 
 /// @param outward   unit, out of the wall
 /// @param distance  m, of the centre from it
-void SpherePacking::push(std::size_t sphere, const Vec3& outward, double distance, Forces& sum) {
+/// @param spring    m, of the wall
+void SpherePacking::push(std::size_t sphere, const Vec3& outward, double distance, double spring,
+                         Forces& sum) {
   const double radius = radii_[sphere] * factor_;
   const double overlap = radius - distance;
   if (overlap <= 0.0) return;
-  const double force = radius * overlap;
+  const double force = in_series(radius, spring) * overlap;
   f_[sphere] += force * outward;
   sum.deepest = std::max(sum.deepest, overlap / radius);
   sum.carried += force;
@@ -224,13 +254,16 @@ SpherePacking::Forces SpherePacking::add_forces() {
   for (const Pair& pair : pairs_) push_apart(pair, sum);
   for (const auto& [sphere, wall] : near_planes_) {
     const contact::Plane& plane = planes_[wall];
-    push(sphere, plane.normal, plane.normal.dot(x_[sphere] - plane.point), sum);
+    push(sphere, plane.normal, plane.normal.dot(x_[sphere] - plane.point),
+         plane_moduli_[wall] * radii_[sphere] * factor_, sum);
   }
   for (const auto& [sphere, wall] : near_obstacles_) {
     const Obstacle& obstacle = obstacles_[wall];
     const geometry::ClosestPoints closest = geometry::point_triangle(x_[sphere], obstacle.core);
+    const double spring = obstacle.spring > 0.0 ? obstacle.spring : radii_[sphere] * factor_;
     if (closest.distance > 0.0)
-      push(sphere, -closest.separation / closest.distance, closest.distance - obstacle.radius, sum);
+      push(sphere, -closest.separation / closest.distance, closest.distance - obstacle.radius,
+           spring, sum);
   }
   for (const std::uint32_t sphere : near_side_) {
     const geometry::CylinderRegion& cylinder = *container_.cylinder;
@@ -238,7 +271,8 @@ SpherePacking::Forces SpherePacking::add_forces() {
     const Vec3 from = x_[sphere] - cylinder.from;
     const Vec3 across = from - axis.dot(from) * axis;
     const double distance = across.norm();
-    if (distance > 0.0) push(sphere, -across / distance, cylinder.radius - distance, sum);
+    if (distance > 0.0)
+      push(sphere, -across / distance, cylinder.radius - distance, radii_[sphere] * factor_, sum);
   }
   pressure_ = sum.moment / (3.0 * container_.volume);
   return sum;

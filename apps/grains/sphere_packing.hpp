@@ -17,6 +17,7 @@ namespace plekton::apps {
 struct PackingWalls {
   std::span<const Obstacle> obstacles;
   std::span<const contact::Plane> planes;
+  std::span<const double> plane_moduli = {};  ///< by plane, over that of the spheres; empty: all 1
 };
 
 /// Spheres without friction that grow in a container until they are as dense, or press on each
@@ -31,8 +32,9 @@ struct PackingWalls {
 /// porosity of about 0.36 of equal spheres far from walls; anything looser is reached without
 /// contacts, and is uniform, as all spheres grow at the same time.
 ///
-/// Springs are those of the default contact law for a modulus E: 2 E r_a r_b / (r_a + r_b), and E r
-/// at walls; lengths and pressures here are for E = 1. One thread, one order: the same bits on
+/// Springs are those of the default contact law for a modulus E: 2 E r_a r_b / (r_a + r_b), E r at
+/// the sides of the container, and at planes and obstacles that of E r and their own in series. A
+/// plane along a side of the container is that side. Lengths and pressures here are for E = 1. One thread, one order: the same bits on
 /// every machine. A step of relaxation is linear in the number of spheres.
 class SpherePacking {
  public:
@@ -85,13 +87,14 @@ class SpherePacking {
   bool has_moved_far() const;
   Forces add_forces();
   void push_apart(const Pair& pair, Forces& sum);
-  void push(std::size_t sphere, const Vec3& outward, double distance, Forces& sum);
+  void push(std::size_t sphere, const Vec3& outward, double distance, double spring, Forces& sum);
   double sum_of_resultants() const;
   Relaxed relax(bool to_balance);
 
   const Container& container_;
   std::vector<Obstacle> obstacles_;
   std::vector<contact::Plane> planes_;  // of the container too
+  std::vector<double> plane_moduli_;    // by plane
   std::vector<double> radii_;           // m, as they shall be
   std::vector<double> mass_;            // for relaxation alone
   double factor_;

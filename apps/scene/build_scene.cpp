@@ -39,15 +39,22 @@ void add_materials_and_planes(const Scenario& scenario, dynamics::Scene& scene) 
 }
 
 /// Everything in the scene that has a place, for the grains to keep clear of.
-/// @param there  what of it is elsewhere than where it was made
-std::vector<Obstacle> obstacles_of(const BuiltScene& built, const BodiesThere& there) {
+/// @param there          what of it is elsewhere than where it was made
+/// @param young_modulus  Pa, of the grains
+std::vector<Obstacle> obstacles_of(const BuiltScene& built, const BodiesThere& there,
+                                   double young_modulus) {
   const dynamics::Scene& scene = built.scene;
+  const auto spring_of = [&](contact::MaterialId material, double radius) {
+    return scene.materials[index_of(material)].young_modulus * radius / young_modulus;
+  };
   std::vector<Vec3> x = scene.state.position;
   std::copy(there.positions.begin(), there.positions.end(), x.begin());
   std::vector<Obstacle> obstacles;
-  for (const geometry::Facet& facet : scene.elements.facets) {
+  for (std::size_t i = 0; i < scene.elements.facets.size(); ++i) {
+    const geometry::Facet& facet = scene.elements.facets[i];
     if (scene.is_there(facet.nodes[0]))
-      obstacles.push_back({geometry::core(facet, x), facet.radius});
+      obstacles.push_back({geometry::core(facet, x), facet.radius,
+                           spring_of(scene.facet_materials[i], facet.radius)});
   }
   std::size_t first = 0;
   for (const BuiltMembrane& membrane : built.membranes) {
@@ -56,15 +63,19 @@ std::vector<Obstacle> obstacles_of(const BuiltScene& built, const BodiesThere& t
       const geometry::Cylinder& cylinder = scene.elements.cylinders[i];
       if (!scene.is_there(cylinder.nodes[0])) continue;
       const auto [x0, x1] = geometry::core(cylinder, x);
-      obstacles.push_back({{x0, x1, x1}, cylinder.radius});
+      obstacles.push_back(
+          {{x0, x1, x1}, cylinder.radius, spring_of(scene.cylinder_materials[i], cylinder.radius)});
     }
     first += membrane.cylinders;
   }
-  for (const geometry::Sphere& sphere : scene.elements.spheres) {
+  for (std::size_t i = 0; i < scene.elements.spheres.size(); ++i) {
+    const geometry::Sphere& sphere = scene.elements.spheres[i];
     const std::size_t node = index_of(sphere.nodes[0]);
     if (!there.are_in_the_way && node < there.positions.size()) continue;
     const Vec3& centre = x[node];
-    obstacles.push_back({{centre, centre, centre}, sphere.radius});
+    obstacles.push_back({{centre, centre, centre},
+                         sphere.radius,
+                         spring_of(scene.sphere_materials[i], sphere.radius)});
   }
   return obstacles;
 }
@@ -173,7 +184,11 @@ Container container_inside(const std::string& name, const BuiltScene& built,
 std::vector<PlacedGrain> made_grains(const GrainSettings& settings, double young_modulus,
                                      const BodiesThere& there, const BuiltScene& built,
                                      const HearSetUp& hear) {
-  const std::vector<Obstacle> obstacles = obstacles_of(built, there);
+  const std::vector<Obstacle> obstacles = obstacles_of(built, there, young_modulus);
+  std::vector<double> plane_moduli;
+  for (const contact::Plane& plane : built.scene.planes)
+    plane_moduli.push_back(built.scene.materials[index_of(plane.material)].young_modulus /
+                           young_modulus);
   Enclosure enclosure;
   std::optional<Container> container;
   if (!settings.inside.empty()) {
@@ -185,9 +200,11 @@ std::vector<PlacedGrain> made_grains(const GrainSettings& settings, double young
   const auto tell = [&](double share) {
     if (hear) hear((packs ? "packing grains " : "placing grains ") + settings.name, share);
   };
-  return in_order_of_space(generate_grains(
-      settings, {obstacles, built.scene.planes, container ? &*container : nullptr, young_modulus},
-      tell));
+  return in_order_of_space(
+      generate_grains(settings,
+                      {obstacles, built.scene.planes, container ? &*container : nullptr,
+                       young_modulus, plane_moduli},
+                      tell));
 }
 
 /// Where it is told, in that order; or in their space.

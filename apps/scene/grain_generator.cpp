@@ -219,7 +219,7 @@ std::vector<PlacedGrain> pack(const Task& task, std::span<const double> diameter
     radii.push_back(0.5 * diameters[i]);
   }
   SpherePacking packing(std::move(centres), radii, factor, task.container,
-                        {surroundings.obstacles, surroundings.planes});
+                        {surroundings.obstacles, surroundings.planes, surroundings.plane_moduli});
   constexpr double kAnySize = 4.0;  // where the growth ends by itself
   const bool has_grown = packing.grow_to(task.settings.stress ? kAnySize : 1.0, tell);
   if (!has_grown && !task.settings.stress) {

@@ -25,6 +25,7 @@ struct Surroundings {
   std::span<const contact::Plane> planes;
   const Container* container = nullptr;  ///< that is to hold the grains; nothing: box or cylinder
   double young_modulus = 0.0;            ///< Pa, of the grains, for a packing to a stress
+  std::span<const double> plane_moduli = {};  ///< by plane, over that of the grains; empty: all 1
 };
 
 /// Grains that do not fit the space they are given. The message names both volumes, how far it

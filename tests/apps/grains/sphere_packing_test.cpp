@@ -106,6 +106,53 @@ TEST(SpherePacking, PressesOneSphereInACubeAsTheSpringsSay) {
   EXPECT_NEAR(packing.pressure(), r * (r - 1.0) / 4.0, 1e-9);
 }
 
+TEST(SpherePacking, CountsAPlaneAlongASideOfItsContainerOnce) {
+  const Container container = container_of(Box{Vec3::Zero(), Vec3::Constant(2.0)});
+  std::vector<contact::Plane> planes;
+  for (int axis = 0; axis < 3; ++axis) {
+    planes.push_back({Vec3(7.0, 7.0, 7.0) - 7.0 * Vec3::Unit(axis), Vec3::Unit(axis)});
+    planes.push_back({Vec3::Constant(2.0), -Vec3::Unit(axis)});
+  }
+  SpherePacking alone({Vec3::Constant(1.0)}, {1.0}, 0.5, container, {});
+  SpherePacking walled({Vec3::Constant(1.0)}, {1.0}, 0.5, container, {{}, planes, {}});
+
+  alone.grow_to(2.0);
+  walled.grow_to(2.0);
+  ASSERT_TRUE(alone.press_to(1e-3));
+  ASSERT_TRUE(walled.press_to(1e-3));
+
+  EXPECT_DOUBLE_EQ(walled.factor(), alone.factor());
+}
+
+// Springs of both sides in series: 2 e r / (1 + e) of a plane with e times the modulus, and
+// 2 r s / (r + s) of an obstacle with a spring s; here 1.5 r and 0.5 r.
+TEST(SpherePacking, HasTheSpringsOfItsWalls) {
+  const Container container = container_of(Box{Vec3::Constant(-9.0), Vec3::Constant(9.0)});
+  const double size = 2.0;
+  std::vector<contact::Plane> planes;
+  std::vector<Obstacle> obstacles;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 normal = Vec3::Unit(axis);
+    planes.push_back({Vec3::Zero(), normal});
+    const Vec3 u = Vec3::Unit((axis + 1) % 3), v = Vec3::Unit((axis + 2) % 3);
+    const Vec3 corner = (size + 0.1) * normal - 9.0 * (u + v);
+    obstacles.push_back({{corner, corner + 40.0 * u, corner + 40.0 * v}, 0.1, 1.0 / 3.0});
+  }
+  const std::vector<double> moduli(3, 3.0);
+  SpherePacking packing({Vec3::Constant(1.0)}, {1.0}, 0.5, container, {obstacles, planes, moduli});
+
+  packing.grow_to(2.0);
+  ASSERT_TRUE(packing.press_to(1e-6));
+
+  // 3 forces on each side, equal in balance: k_a (r - d) = k_b (r - size + d), moments F size.
+  const double r = packing.factor();
+  const double of_planes = 1.5 * r, of_obstacles = 2.0 * r / (3.0 * r + 1.0);
+  const double d = (of_planes * r - of_obstacles * (r - size)) / (of_planes + of_obstacles);
+  const double force = of_planes * (r - d);
+  EXPECT_NEAR(packing.pressure(), 3.0 * force * size / (3.0 * container.volume), 1e-3 * 1e-6);
+  EXPECT_NEAR(packing.centres()[0][0], d, 1e-6);
+}
+
 TEST(SpherePacking, PressesSpheresToAPressureInEquilibrium) {
   const Container container = cube(150, 0.6);
   SpherePacking packing = packing_of(sparse(150, 0.6, container), container);
