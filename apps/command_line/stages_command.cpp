@@ -110,6 +110,7 @@ RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
   stages.begins = [&](const Scenario& stage, const PreparedRun& prepared) {
     if (asked.begins) asked.begins(*prepared.simulation);
     if (aloud != nullptr)
+    if (hear) hear("", 0.0);
       *aloud << fmt::format("stage {} ({} of {}), from {:.6g} s\n", stage.stage->name,
                             stage.stage->number + 1, scenario.stages.size(),
                             prepared.simulation->time())

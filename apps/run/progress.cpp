@@ -34,9 +34,13 @@ std::string duration_text(double seconds) {
 }
 
 SetUpProgress::SetUpProgress(std::ostream& out, ProgressStyle style, Clock::time_point start)
-    : out_(out), style_(style), start_(start), last_(start) {}
+    : out_(out), style_(style), start_(start), last_(start) {
+  if (style == ProgressStyle::lines)
+    teller_ = std::jthread([this](const std::stop_token& stop) { tell_now_and_then(stop); });
+}
 
 SetUpProgress::~SetUpProgress() {
+  const std::lock_guard lock(mutex_);
   if (width_ > 0) write_over(out_, "", width_);
   if (width_ > 0) out_ << '\r' << std::flush;
 }
@@ -47,11 +51,27 @@ bool SetUpProgress::is_due(bool begins, Clock::time_point now) const {
 }
 
 void SetUpProgress::update(const std::string& what, double share, Clock::time_point now) {
-  if (style_ == ProgressStyle::none || !is_due(what != what_, now)) return;
-  what_ = what;
+  if (style_ == ProgressStyle::none) return;
+  const std::lock_guard lock(mutex_);
+  now_ = what;
+  share_ = share;
+  tell(now);
+}
+
+void SetUpProgress::tell_now_and_then(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    ends_.wait_for(lock, stop, kQuietStart, [] { return false; });
+    if (!stop.stop_requested()) tell(Clock::now());
+  }
+}
+
+void SetUpProgress::tell(Clock::time_point now) {
+  if (now_.empty() || !is_due(now_ != what_, now)) return;
+  what_ = now_;
   last_ = now;
-  std::string line = "setting up: " + what;
-  if (share > 0.0) line += fmt::format(", {:.0f} %", 100.0 * share);
+  std::string line = "setting up: " + what_;
+  if (share_ > 0.0) line += fmt::format(", {:.0f} %", 100.0 * share_);
   if (style_ == ProgressStyle::one_line)
     width_ = write_over(out_, line, width_);
   else

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 #include <ostream>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 namespace plekton::apps {
 
@@ -18,7 +22,8 @@ enum class ProgressStyle : std::uint8_t {
 /// "1 h 02 min", "3 min 05 s" or "12 s".
 std::string duration_text(double seconds);
 
-/// Tells what is being set up before a run, where that takes longer than a second.
+/// Tells what is being set up before a run, where that takes longer than a second: in lines every few
+/// seconds, also while nothing calls it.
 class SetUpProgress {
  public:
   using Clock = std::chrono::steady_clock;
@@ -31,19 +36,26 @@ class SetUpProgress {
 
   /// Call it as often as convenient. On a terminal it writes at once where something else begins,
   /// and several times a second; in lines once the first second is over, and every few seconds.
-  /// @param what   as in "placing grains sand"
+  /// @param what   as in "placing grains sand"; empty: all is set up
   /// @param share  of it that is done, 0 to 1
   void update(const std::string& what, double share, Clock::time_point now = Clock::now());
 
  private:
   bool is_due(bool begins, Clock::time_point now) const;
+  void tell(Clock::time_point now);
+  void tell_now_and_then(const std::stop_token& stop);
 
   std::ostream& out_;
   ProgressStyle style_;
   Clock::time_point start_;
   Clock::time_point last_;  // of the last text
-  std::string what_;
+  std::string what_;        // that was told last
+  std::string now_;         // what is done now; empty: nothing
+  double share_ = 0.0;
   std::size_t width_ = 0;  // of the line that is written over
+  std::mutex mutex_;       // of all above
+  std::condition_variable_any ends_;
+  std::jthread teller_;  // of lines; last, so that it ends first
 };
 
 /// Tells how far a run is: percent, simulated time, steps per second, time left.

@@ -685,8 +685,36 @@ std::unique_ptr<dynamics::Simulation> simulation_of(const Scenario& scenario, Bu
 
 PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   PreparedRun prepared;
+namespace {
+
+/// "looking for contacts", and why that may take long: where a membrane is much thicker than its
+/// facets or bars are wide, all of those within its thickness touch what touches one of them, and
+/// the work goes with the square of their number.
+std::string looking_for_contacts(const Scenario& scenario, const BuiltScene& built) {
+  constexpr double kThick = 4.0;  // some fifty facets within the thickness around each
+  std::string what = "looking for contacts";
+  double most = kThick;
+  for (std::size_t i = 0; i < built.membranes.size(); ++i) {
+    const BuiltMembrane& membrane = built.membranes[i];
+    const double width = membrane.facets > 0
+                             ? std::sqrt(2.0 * membrane.area / static_cast<double>(membrane.facets))
+                             : membrane.mean_edge;
+    const double thickness = scenario.membranes[i].thickness;
+    if (!(thickness > most * width)) continue;
+    most = thickness / width;
+    what = fmt::format(
+        "looking for contacts, which takes long where membranes are much thicker than their facets "
+        "or bars are wide: the thickness of \"{}\" is {:.3g} m, {:.3g} times the width of one; "
+        "make it thinner, or its mesh coarser",
+        membrane.name, thickness, most);
+  }
+  return what;
+}
+
+}  // namespace
+
   prepared.built = build_scene(scenario, hear);
-  if (hear) hear("looking for contacts", 0.0);
+  if (hear) hear(looking_for_contacts(scenario, prepared.built), 0.0);
   if (scenario.stage) prepared.bodies = first_stage(prepared.built);
   prepared.simulation = simulation_of(scenario, prepared.built);
   prepared.duration = scenario.simulation.duration;

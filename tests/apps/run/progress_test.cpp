@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <thread>
 
 namespace plekton::apps::progress_test {
 namespace {
@@ -84,6 +85,27 @@ TEST(SetUpProgress, SpeaksAtOnceOnATerminalAndLeavesAnEmptyLine) {
   const std::string last = text.substr(text.rfind("98 %") + 5);
   EXPECT_EQ(last,
             std::string(std::string("setting up: placing grains g, 98 %").size(), ' ') + '\r');
+}
+
+TEST(SetUpProgress, SpeaksInLinesAlsoWhileNothingCallsIt) {
+  std::ostringstream out;
+  {
+    SetUpProgress progress(out, ProgressStyle::lines);
+    progress.update("looking for contacts", 0.0);
+    std::this_thread::sleep_for(milliseconds(1600));
+  }
+  EXPECT_EQ(out.str(), "setting up: looking for contacts\n");
+}
+
+TEST(SetUpProgress, IsSilentWhenAllIsSetUp) {
+  std::ostringstream out;
+  {
+    SetUpProgress progress(out, ProgressStyle::lines);
+    progress.update("looking for contacts", 0.0);
+    progress.update("", 0.0);
+    std::this_thread::sleep_for(milliseconds(1600));
+  }
+  EXPECT_EQ(out.str(), "");
 }
 
 TEST(DurationText, ShowsTwoUnits) {
