@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace plekton::apps {
@@ -108,9 +110,9 @@ RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
     throw InputError(
         fmt::format("--until {}: that stage has ended where this run begins", asked.until));
   stages.begins = [&](const Scenario& stage, const PreparedRun& prepared) {
+    if (hear) hear("", 0.0);
     if (asked.begins) asked.begins(*prepared.simulation);
     if (aloud != nullptr)
-    if (hear) hear("", 0.0);
       *aloud << fmt::format("stage {} ({} of {}), from {:.6g} s\n", stage.stage->name,
                             stage.stage->number + 1, scenario.stages.size(),
                             prepared.simulation->time())
@@ -131,26 +133,29 @@ RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
 
 StagesSeen look_at_stages(const Scenario& scenario, const HearSetUp& hear) {
   StagesSeen seen;
-  StageBodies bodies;
-  std::vector<Vec3> positions;
-  bool knows_what_is_free = true;
-  for (const Scenario& stage : scenario.stages) {
-    const bool is_first = bodies.empty();
-    knows_what_is_free = knows_what_is_free && !frees_grains_at_places(*stage.stage);
-    BuiltScene built =
-        is_first ? build_scene(stage, hear) : try_stage(stage, bodies, positions, hear);
+  const auto tell = [&](const Scenario& stage, std::size_t grains) {
     seen.text +=
         fmt::format("stage {} ({} of {}): {}; {} grains, {} planes, {} loads\n", stage.stage->name,
                     stage.stage->number + 1, scenario.stages.size(), limits_of(*stage.stage),
-                    built.scene.elements.spheres.size(), stage.planes.size(), stage.loads.size());
-    if (is_first) {
-      bodies = first_stage(built);
-      positions = built.scene.state.position;
-    } else {
-      const auto simulation = simulation_of(stage, built);
-      if (knows_what_is_free) require_something_free(stage, *simulation);
-      look_at_step(stage, *simulation, seen.warnings);
+                    grains, stage.planes.size(), stage.loads.size());
+  };
+  const Scenario& first = scenario.stages.front();
+  const BuiltScene built = build_scene(first, hear);
+  tell(first, built.scene.elements.spheres.size());
+  std::vector<std::string> told = built.warnings;
+  StagesAhead ahead(first, built);
+  bool knows_what_is_free = !frees_grains_at_places(*first.stage);
+  for (const Scenario& stage : std::span(scenario.stages).subspan(1)) {
+    knows_what_is_free = knows_what_is_free && !frees_grains_at_places(*stage.stage);
+    const StageAhead next = ahead.next(stage, hear);
+    tell(stage, next.simulation->elements().spheres.size());
+    for (const std::string& warning : next.warnings) {
+      if (std::find(told.begin(), told.end(), warning) != told.end()) continue;
+      told.push_back(warning);
+      seen.warnings.push_back(warning);
     }
+    if (knows_what_is_free) require_something_free(stage, *next.simulation);
+    look_at_step(stage, *next.simulation, seen.warnings);
   }
   return seen;
 }

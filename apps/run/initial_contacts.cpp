@@ -111,7 +111,7 @@ std::vector<std::string> warnings_about(const InitialContacts& contacts, const S
   return warnings;
 }
 
-void require_possible_start(const InitialContacts& contacts, const Scenario& scenario) {
+Problems impossible_starts(const InitialContacts& contacts, const Scenario& scenario) {
   struct Impossible {
     std::size_t count = 0;
     const BodyOverlap* deepest = nullptr;
@@ -128,7 +128,11 @@ void require_possible_start(const InitialContacts& contacts, const Scenario& sce
   for (const auto& [tables, all] : by_tables)
     problems.add(place_of(tables[0], scenario),
                  stage + refusal_of(all.count, *all.deepest, scenario));
-  problems.throw_if_any();
+  return problems;
+}
+
+void require_possible_start(const InitialContacts& contacts, const Scenario& scenario) {
+  impossible_starts(contacts, scenario).throw_if_any();
 }
 
 }  // namespace plekton::apps

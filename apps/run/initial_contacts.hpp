@@ -28,7 +28,10 @@ InitialContacts initial_contacts(const Scenario& scenario, const BuiltScene& bui
 /// Bonds that were asked for and of which there are none, and overlaps that are deep.
 std::vector<std::string> warnings_about(const InitialContacts& contacts, const Scenario& scenario);
 
-/// @throws InputError listing who is in whom, if any overlap is impossible
+/// Who is in whom, where overlaps are impossible.
+Problems impossible_starts(const InitialContacts& contacts, const Scenario& scenario);
+
+/// @throws InputError listing these, if there are any
 void require_possible_start(const InitialContacts& contacts, const Scenario& scenario);
 
 }  // namespace plekton::apps

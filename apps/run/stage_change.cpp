@@ -12,6 +12,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace plekton::apps {
 namespace {
@@ -25,57 +26,22 @@ bool is_removed(const RemovalSettings& removal, const Vec3& centre) {
                           (centre.array() <= removal.box->upper.array()).all());
 }
 
+/// By table of grains: whether they are none of a rigid body.
+std::vector<bool> tables_of_grains(const Scenario& stage) {
+  std::vector<bool> tables;
+  for (const GrainSettings& grains : stage.grains) tables.push_back(!grains.rigid_body);
+  return tables;
+}
+
 /// The bodies of a stage without those that the next one takes out.
-class KeptBodies {
- public:
-  KeptBodies(const StageSettings& stage, const PreparedRun& before) {
-    const dynamics::Simulation& simulation = *before.simulation;
-    const auto& spheres = simulation.elements().spheres;
-    places_.nodes.assign(simulation.state().size(), 0);
-    std::size_t sphere = 0;
-    for (std::size_t table = 0; table < before.bodies.grains.size(); ++table) {
-      bodies_.grains.emplace_back();
-      for (const double radius : before.bodies.grains[table]) {
-        const std::size_t node = index_of(spheres[sphere++].nodes[0]);
-        const Vec3& centre = simulation.state().position[node];
-        const bool is_out = std::any_of(
-            stage.removals.begin(), stage.removals.end(), [&](const RemovalSettings& removal) {
+KeptBodies kept_bodies(const Scenario& stage, const PreparedRun& before) {
+  return {before.bodies, tables_of_grains(stage), before.simulation->state().position,
+          [&](std::size_t table, const Vec3& centre) {
+            return std::ranges::any_of(stage.stage->removals, [&](const RemovalSettings& removal) {
               return removal.grains == table && is_removed(removal, centre);
             });
-        if (is_out)
-          places_.nodes[node] = -1;
-        else
-          bodies_.grains.back().push_back(radius);
-      }
-    }
-    std::int32_t next = 0;
-    for (std::int32_t& node : places_.nodes)
-      if (node == 0) node = next++;
-    bodies_.stage = before.bodies.stage;
-    bodies_.held = kept(before.bodies.held);
-    bodies_.is_absent = before.bodies.is_absent;
-    for (const StageStart& start : before.bodies.starts)
-      bodies_.starts.push_back({start.time, kept(start.positions), start.planes});
-    positions_ = kept(simulation.state().position);
-  }
-
-  template <class Thing>
-  std::vector<Thing> kept(const std::vector<Thing>& of_nodes) const {
-    std::vector<Thing> left;
-    for (std::size_t i = 0; i < of_nodes.size(); ++i)
-      if (places_.nodes[i] >= 0) left.push_back(of_nodes[i]);
-    return left;
-  }
-
-  StageBodies& bodies() noexcept { return bodies_; }
-  std::vector<Vec3>& positions() noexcept { return positions_; }
-  const contact::BodyPlaces& places() const noexcept { return places_; }
-
- private:
-  contact::BodyPlaces places_;
-  StageBodies bodies_;
-  std::vector<Vec3> positions_;
-};
+          }};
+}
 
 /// A stage with its planes where they are.
 Scenario with_planes_of_now(Scenario stage, const dynamics::Simulation& before) {
@@ -178,33 +144,67 @@ bool moves_planes(const Scenario& stage, const dynamics::Simulation& before) {
   return false;
 }
 
-/// Contacts of what comes with a stage, and of grains with planes that come or are moved by it: what
-/// was there before may be as deep in each other as it has been pressed.
-std::vector<contact::ContactRecord> contacts_of_new(const dynamics::SceneChange& change,
-                                                    dynamics::Simulation& now) {
-  std::vector<bool> is_new_node(now.state().size(), true);
+/// What comes with a stage: nodes, and planes that come or are moved by it.
+struct Arrivals {
+  std::vector<bool> nodes;
+  std::vector<bool> planes;
+
+  bool has(const contact::ContactBody& body, const dynamics::Simulation& simulation) const {
+    if (body.feature.id < 0) return false;
+    const geometry::FeatureNodes of = geometry::nodes_of(simulation.surface(), body.feature);
+    return std::any_of(of.begin(), of.end(),
+                       [&](geometry::NodeId node) { return nodes[index_of(node)]; });
+  }
+  bool are_any() const {
+    const auto is_any = [](const std::vector<bool>& all) {
+      return std::find(all.begin(), all.end(), true) != all.end();
+    };
+    return is_any(nodes) || is_any(planes);
+  }
+};
+
+Arrivals arrivals_of(const dynamics::SceneChange& change, const dynamics::Simulation& now) {
+  Arrivals arrivals{std::vector<bool>(now.state().size(), true),
+                    std::vector<bool>(now.planes().size(), true)};
   for (const std::int32_t node : change.places.nodes)
-    if (node >= 0) is_new_node[static_cast<std::size_t>(node)] = false;
-  std::vector<bool> is_new_plane(now.planes().size(), true);
+    if (node >= 0) arrivals.nodes[static_cast<std::size_t>(node)] = false;
   for (const std::int32_t plane : change.places.planes) {
     if (plane < 0) continue;
     const auto i = static_cast<std::size_t>(plane);
-    is_new_plane[i] = !change.moved_planes.empty() && change.moved_planes[i];
+    arrivals.planes[i] = !change.moved_planes.empty() && change.moved_planes[i];
   }
-  const auto is_any = [](const std::vector<bool>& all) {
-    return std::find(all.begin(), all.end(), true) != all.end();
-  };
-  if (!is_any(is_new_node) && !is_any(is_new_plane)) return {};
-  const auto is_new = [&](const contact::ContactBody& body) {
-    if (body.feature.id < 0) return false;
-    const geometry::FeatureNodes nodes = geometry::nodes_of(now.surface(), body.feature);
-    return std::any_of(nodes.begin(), nodes.end(),
-                       [&](geometry::NodeId node) { return is_new_node[index_of(node)]; });
-  };
-  return now.next_contact_rows([&](const contact::ContactRecord& row) {
-    if (row.b.kind != contact::BodyKind::plane) return is_new(row.a) || is_new(row.b);
-    return is_new(row.a) || (row.a.kind == contact::BodyKind::sphere &&
-                             is_new_plane[static_cast<std::size_t>(row.b.index)]);
+  return arrivals;
+}
+
+/// Contacts of what comes with a stage, and of grains with planes that come or are moved by it: what
+/// was there before may be as deep in each other as it has been pressed.
+bool is_of_new(const contact::ContactRecord& row, const Arrivals& arrivals,
+               const dynamics::Simulation& now) {
+  if (row.b.kind != contact::BodyKind::plane)
+    return arrivals.has(row.a, now) || arrivals.has(row.b, now);
+  return arrivals.has(row.a, now) || (row.a.kind == contact::BodyKind::sphere &&
+                                      arrivals.planes[static_cast<std::size_t>(row.b.index)]);
+}
+
+std::vector<contact::ContactRecord> contacts_of_new(const Arrivals& arrivals,
+                                                    dynamics::Simulation& now) {
+  if (!arrivals.are_any()) return {};
+  return now.next_contact_rows(
+      [&](const contact::ContactRecord& row) { return is_of_new(row, arrivals, now); });
+}
+
+bool takes_all(const RemovalSettings& removal) {
+  return !std::isfinite(removal.above) && !std::isfinite(removal.below) && !removal.box;
+}
+
+/// Whether the stage moves a plane.
+bool moves(const Scenario& stage, std::size_t plane) {
+  if (!stage.planes[plane].velocity.isZero(0.0)) return true;
+  return std::ranges::any_of(stage.loads, [&](const LoadSettings& load) {
+    const auto* const motion = std::get_if<dynamics::PlaneMotion>(&load.load);
+    const auto* const servo = std::get_if<dynamics::PlaneServo>(&load.load);
+    return (motion != nullptr && motion->plane == plane) ||
+           (servo != nullptr && servo->plane == plane);
   });
 }
 
@@ -243,14 +243,15 @@ PreparedRun prepare_stage(const Scenario& stage, const geometry::StateTree& stat
 
 StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry::StateTree& state,
                       const HearSetUp& hear) {
-  KeptBodies kept(*stage.stage, before);
+  KeptBodies kept = kept_bodies(stage, before);
   dynamics::Simulation& ended = *before.simulation;
   const Scenario now = with_planes_of_now(stage, ended);
   StageBegin begin;
   PreparedRun& next = begin.prepared;
   next.bodies = std::move(kept.bodies());
   next.built = begin_stage(now, next.bodies, kept.positions(), ended.time(), hear);
-  contact::BodyPlaces places = kept.places();
+  contact::BodyPlaces places;
+  places.nodes = kept.nodes();
   places.spheres = sphere_places(places.nodes, ended, next.built.scene);
   if (hear) hear("looking for contacts", 0.0);
   next.simulation = simulation_of(now, next.built);
@@ -263,7 +264,8 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
           change_to(stage.stage->origins, places, ended, next.simulation->scene());
       next.simulation->go_on_from(ended, change);
       require_possible_start(initial_contacts(now, next.built, *next.simulation,
-                                              contacts_of_new(change, *next.simulation)),
+                                              contacts_of_new(arrivals_of(change, *next.simulation),
+                                                              *next.simulation)),
                              now);
       require_something_free(stage, *next.simulation);
       choose_time_step(stage.simulation, *next.simulation);
@@ -273,6 +275,74 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
   }
   begin.run = run_state(state, places, *next.simulation);
   return begin;
+}
+
+StagesAhead::StagesAhead(const Scenario& first, const BuiltScene& built)
+    : bodies_(first_stage(built)), positions_(built.scene.state.position) {
+  for (std::size_t i = 0; i < first.planes.size(); ++i) has_stayed_.push_back(!moves(first, i));
+}
+
+StageAhead StagesAhead::next(const Scenario& stage, const HearSetUp& hear) {
+  KeptBodies kept(
+      bodies_, tables_of_grains(stage), positions_, [&](std::size_t table, const Vec3&) {
+        return std::ranges::any_of(stage.stage->removals, [&](const RemovalSettings& removal) {
+          return removal.grains == table && takes_all(removal);
+        });
+      });
+  bodies_ = std::move(kept.bodies());
+  positions_ = std::move(kept.positions());
+  const std::size_t nodes_before = positions_.size();
+  const std::vector<bool> was_absent = bodies_.is_absent;
+  StageAhead ahead;
+  ahead.built = try_stage(stage, bodies_, positions_, hear);
+  ahead.warnings = ahead.built.warnings;
+  ahead.simulation = simulation_of(stage, ahead.built);
+  find_planes(stage);
+  look_at_arrivals(stage, nodes_before, was_absent, ahead);
+  for (std::size_t i = 0; i < has_stayed_.size(); ++i)
+    has_stayed_[i] = has_stayed_[i] && !moves(stage, i);
+  return ahead;
+}
+
+void StagesAhead::find_planes(const Scenario& stage) {
+  const StageOrigins& origins = stage.stage->origins;
+  const std::vector<bool> before = std::exchange(has_stayed_, {});
+  for (std::size_t i = 0; i < stage.planes.size(); ++i)
+    has_stayed_.push_back(origins.planes[i] < 0 || origins.moved_planes[i] ||
+                          before[static_cast<std::size_t>(origins.planes[i])]);
+}
+
+/// Nobody knows where the grains of earlier stages will be; other bodies may have moved.
+void StagesAhead::look_at_arrivals(const Scenario& stage, std::size_t nodes_before,
+                                   const std::vector<bool>& was_absent, StageAhead& ahead) const {
+  using contact::BodyKind;
+  const dynamics::Simulation& now = *ahead.simulation;
+  Arrivals arrivals{std::vector<bool>(positions_.size(), true),
+                    std::vector<bool>(stage.planes.size(), false)};
+  for (std::size_t node = 0; node < nodes_before; ++node)
+    arrivals.nodes[node] = node < was_absent.size() && was_absent[node] &&
+                           now.scene().is_there(geometry::id_at<geometry::NodeId>(node));
+  if (!arrivals.are_any()) return;
+  const auto is_known = [&](const contact::ContactBody& body) {
+    return body.kind == BodyKind::plane ? bool{has_stayed_[static_cast<std::size_t>(body.index)]}
+                                        : arrivals.has(body, now);
+  };
+  const auto is_old_grain = [&](const contact::ContactBody& body) {
+    return body.kind == BodyKind::sphere && !arrivals.has(body, now);
+  };
+  std::vector<contact::ContactRecord> known, doubtful;
+  for (const contact::ContactRecord& row : ahead.simulation->contact_rows()) {
+    if (!is_of_new(row, arrivals, now)) continue;
+    if (is_known(row.a) && is_known(row.b))
+      known.push_back(row);
+    else if (!is_old_grain(row.a) && !is_old_grain(row.b))
+      doubtful.push_back(row);
+  }
+  require_possible_start(initial_contacts(stage, ahead.built, now, known), stage);
+  const InitialContacts others = initial_contacts(stage, ahead.built, now, doubtful);
+  for (const std::string& line : impossible_starts(others, stage).lines())
+    ahead.warnings.push_back(line +
+                             "; if it still is so when the stage begins, the run ends there");
 }
 
 }  // namespace plekton::apps

@@ -4,6 +4,9 @@
 #include "apps/run/run.hpp"
 #include "geometry/base/state_tree.hpp"
 
+#include <cstddef>
+#include <memory>
+#include <string>
 #include <vector>
 
 /// From the end of a stage to the start of the next one.
@@ -35,5 +38,35 @@ struct StageBegin {
 /// @throws InputError also where no grain is left for a load, or new ones do not fit
 StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry::StateTree& state,
                       const HearSetUp& hear = {});
+
+/// A stage before anything is run.
+struct StageAhead {
+  BuiltScene built;  ///< without its scene, which is the simulation's
+  std::unique_ptr<dynamics::Simulation> simulation;
+  std::vector<std::string> warnings;
+};
+
+/// The stages of a scenario as far as they can be known before any is run: bodies where they are
+/// made, without grains that are taken out wherever they are.
+class StagesAhead {
+ public:
+  StagesAhead(const Scenario& first, const BuiltScene& built);
+
+  /// The next one, from the second on.
+  /// @throws InputError as next_stage() would, where what comes begins behind a plane that has not
+  ///         moved, or in what comes with it; where it begins in what may have moved is a warning
+  StageAhead next(const Scenario& stage, const HearSetUp& hear = {});
+
+ private:
+  void find_planes(const Scenario& stage);
+  /// @param nodes_before  how many there were in the stage before
+  /// @param was_absent    by node, in the stage before
+  void look_at_arrivals(const Scenario& stage, std::size_t nodes_before,
+                        const std::vector<bool>& was_absent, StageAhead& ahead) const;
+
+  StageBodies bodies_;
+  std::vector<Vec3> positions_;   // m
+  std::vector<bool> has_stayed_;  // by plane: it is where its keys put it
+};
 
 }  // namespace plekton::apps

@@ -170,15 +170,7 @@ class LoadBuilder {
 
   std::vector<NodeId> nodes_of_set(const NodeSetSettings& set) {
     std::vector<NodeId> nodes = nodes_of(set, built_);
-    if (nodes.empty())
-      complain(set.place, "nodes",
-               set.which == SetWhich::rim
-                   ? fmt::format("\"{}\" is closed and has no rim; expected a side such as "
-                                 "\"x_min\", or a box {{ min = [...], max = [...] }}",
-                                 name_of(set, built_))
-                   : fmt::format("\"{}\" has no node there; the box counts in the scene, after "
-                                 "scale, rotate and translate",
-                                 name_of(set, built_)));
+    if (nodes.empty()) complain(set.place, "nodes", nothing_of(set, built_));
     return nodes;
   }
 

@@ -62,8 +62,8 @@ void find_moved_nodes(const Scenario& scenario, BuiltScene& built, const StageBo
   const AtStart at_start(built, bodies ? &bodies->starts.back() : nullptr);
   built.moved_nodes = nodes_of(*nodes, built);
   if (built.moved_nodes.empty())
-    problems.add(nodes->place, fmt::format("{}.displacement: \"{}\" has no node there at the start",
-                                           end_path(scenario), name_of(*nodes, built)));
+    problems.add(nodes->place,
+                 fmt::format("{}.displacement: {}", end_path(scenario), nothing_of(*nodes, built)));
 }
 
 /// Those whose distance is to change have to be apart.

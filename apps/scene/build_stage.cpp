@@ -136,11 +136,17 @@ bool is_among_grains(const NodeSetSettings& set) {
   return set.of_grains && set.which != SetWhich::all;
 }
 
-/// Whether a load acts on nodes that only a run can find.
-bool is_among_grains(const LoadSettings& settings) {
+/// Whether only a run can find the nodes: of grains that are gone there are none.
+bool is_unknown(const NodeSetSettings& set, const StageBodies& bodies) {
+  const bool are_gone = set.body < bodies.grains.size() && bodies.grains[set.body].empty();
+  return is_among_grains(set) && !are_gone;
+}
+
+/// Whether a load acts on such nodes.
+bool is_unknown(const LoadSettings& settings, const StageBodies& bodies) {
   return std::visit(
-      [](const auto& load) {
-        if constexpr (requires { load.nodes.of_grains; }) return is_among_grains(load.nodes);
+      [&](const auto& load) {
+        if constexpr (requires { load.nodes.of_grains; }) return is_unknown(load.nodes, bodies);
         return false;
       },
       settings.load);
@@ -156,18 +162,18 @@ void erase(std::vector<Thing>& things, std::vector<Origin>& origins, IsOut is_ou
 }
 
 /// Without what looks for grains at places.
-Scenario as_far_as_known(Scenario scenario) {
+Scenario as_far_as_known(Scenario scenario, const StageBodies& bodies) {
   StageSettings& stage = *scenario.stage;
-  const auto among_grains = [](const auto& thing) { return is_among_grains(thing); };
-  erase(scenario.loads, stage.origins.loads, among_grains);
-  erase(scenario.output.reactions, stage.origins.reactions, [](const ReactionSettings& reaction) {
-    return reaction.kind != ReactionKind::plane && is_among_grains(reaction.nodes);
+  const auto unknown = [&](const auto& thing) { return is_unknown(thing, bodies); };
+  erase(scenario.loads, stage.origins.loads, unknown);
+  erase(scenario.output.reactions, stage.origins.reactions, [&](const ReactionSettings& reaction) {
+    return reaction.kind != ReactionKind::plane && unknown(reaction.nodes);
   });
   if (stage.end.displacement && stage.end.displacement->nodes &&
-      is_among_grains(*stage.end.displacement->nodes))
+      unknown(*stage.end.displacement->nodes))
     stage.end.displacement.reset();
-  std::erase_if(stage.fixed, among_grains);
-  std::erase_if(stage.freed, among_grains);
+  std::erase_if(stage.fixed, unknown);
+  std::erase_if(stage.freed, unknown);
   return scenario;
 }
 
@@ -181,7 +187,7 @@ BuiltScene begin_stage(const Scenario& stage, StageBodies& bodies, std::vector<V
 
 BuiltScene try_stage(const Scenario& stage, StageBodies& bodies, std::vector<Vec3>& positions,
                      const HearSetUp& hear) {
-  const Scenario known = as_far_as_known(stage);
+  const Scenario known = as_far_as_known(stage, bodies);
   return begun(build_bodies(known, {bodies.grains, positions, false}, hear), known, bodies,
                positions, 0.0);
 }

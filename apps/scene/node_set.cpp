@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/node_set.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace plekton::apps {
@@ -71,6 +73,24 @@ const BuiltRigidBody& rigid_body_of(std::size_t table, const BuiltScene& built) 
 const std::string& name_of(const NodeSetSettings& set, const BuiltScene& built) {
   if (set.rigid_body) return rigid_body_of(*set.rigid_body, built).name;
   return set.of_grains ? built.grains[set.body].name : built.membranes[set.body].name;
+}
+
+std::string nothing_of(const NodeSetSettings& set, const BuiltScene& built) {
+  const std::string& name = name_of(set, built);
+  if (set.of_grains && built.grains[set.body].count == 0)
+    return fmt::format(
+        "\"{}\" has no node there: all of its grains have been taken out; take this "
+        "out with them, or leave some of them",
+        name);
+  if (set.which == SetWhich::rim)
+    return fmt::format(
+        "\"{}\" is closed and has no rim; expected a side such as \"x_min\", or a "
+        "box {{ min = [...], max = [...] }}",
+        name);
+  return fmt::format(
+      "\"{}\" has no node there; the box counts in the scene, after scale, rotate "
+      "and translate",
+      name);
 }
 
 }  // namespace plekton::apps

@@ -3,6 +3,7 @@
 
 #include "apps/scene/build_scene.hpp"
 
+#include <string>
 #include <vector>
 
 namespace plekton::apps {
@@ -17,5 +18,8 @@ const BuiltRigidBody& rigid_body_of(std::size_t table, const BuiltScene& built);
 
 /// The name of the body whose nodes are meant.
 const std::string& name_of(const NodeSetSettings& set, const BuiltScene& built);
+
+/// What is wrong with a set that has no nodes, and what to do.
+std::string nothing_of(const NodeSetSettings& set, const BuiltScene& built);
 
 }  // namespace plekton::apps

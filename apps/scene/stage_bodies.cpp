@@ -26,4 +26,32 @@ void StageBodies::exchange(const geometry::StateArchive& archive) {
   archive("is_absent", is_absent);
 }
 
+KeptBodies::KeptBodies(const StageBodies& before, const std::vector<bool>& tables,
+                       std::span<const geometry::Vec3> positions, const IsOut& is_out)
+    : nodes_(positions.size(), 0) {
+  std::size_t node = positions.size();
+  for (std::size_t table = 0; table < before.grains.size(); ++table)
+    if (tables[table]) node -= before.grains[table].size();
+  for (std::size_t table = 0; table < before.grains.size(); ++table) {
+    bodies_.grains.emplace_back();
+    for (const double radius : before.grains[table]) {
+      const bool is_gone = tables[table] && is_out(table, positions[node]);
+      if (is_gone)
+        nodes_[node] = -1;
+      else
+        bodies_.grains.back().push_back(radius);
+      if (tables[table]) ++node;
+    }
+  }
+  std::int32_t next = 0;
+  for (std::int32_t& number : nodes_)
+    if (number == 0) number = next++;
+  bodies_.stage = before.stage;
+  bodies_.held = kept(std::span(before.held));
+  bodies_.is_absent = before.is_absent;
+  for (const StageStart& start : before.starts)
+    bodies_.starts.push_back({start.time, kept(std::span(start.positions)), start.planes});
+  positions_ = kept(positions);
+}
+
 }  // namespace plekton::apps

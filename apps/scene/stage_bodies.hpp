@@ -5,6 +5,9 @@
 #include "geometry/base/types.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace plekton::geometry {
@@ -31,6 +34,36 @@ struct StageBodies {
 
   bool empty() const noexcept { return starts.empty(); }
   void exchange(const geometry::StateArchive& archive);
+};
+
+/// The bodies of a stage without grains that the next one takes out.
+class KeptBodies {
+ public:
+  /// Whether a grain of a table is taken out, by its centre (m).
+  using IsOut = std::function<bool(std::size_t table, const geometry::Vec3& centre)>;
+
+  /// @param tables     of grains that are none of rigid bodies, by table: whose nodes come last
+  /// @param positions  m, of all nodes
+  KeptBodies(const StageBodies& before, const std::vector<bool>& tables,
+             std::span<const geometry::Vec3> positions, const IsOut& is_out);
+
+  template <class Thing>
+  std::vector<Thing> kept(std::span<const Thing> of_nodes) const {
+    std::vector<Thing> left;
+    for (std::size_t i = 0; i < of_nodes.size(); ++i)
+      if (nodes_[i] >= 0) left.push_back(of_nodes[i]);
+    return left;
+  }
+
+  StageBodies& bodies() noexcept { return bodies_; }
+  std::vector<geometry::Vec3>& positions() noexcept { return positions_; }
+  /// By node of before: its number now; -1: it is gone.
+  const std::vector<std::int32_t>& nodes() const noexcept { return nodes_; }
+
+ private:
+  std::vector<std::int32_t> nodes_;
+  StageBodies bodies_;
+  std::vector<geometry::Vec3> positions_;
 };
 
 }  // namespace plekton::apps

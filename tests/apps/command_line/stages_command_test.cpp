@@ -581,5 +581,88 @@ TEST_F(Stages, WhoseTimeStepIsTooLongAreToldByCheck) {
   EXPECT_THAT(run(file, "long").err, HasSubstr("0.0009 s is not below 0.8 of the critical"));
 }
 
+/// A block above a floor, with a stage after the first.
+constexpr const char* kBlock = R"([materials.stone]
+density = "2650 kg/m3"
+young_modulus = "10 MPa"
+friction_angle = "30 deg"
+[[planes]]
+name = "floor"
+point = [0, 0, 0]
+material = "stone"
+[[rigid_bodies]]
+name = "block"
+shape = { kind = "box", size = [0.1, 0.1, 0.1] }
+translate = [0, 0, 0.2]
+thickness = "2 mm"
+density = "1000 kg/m3"
+material = "stone"
+[[grains]]
+name = "first"
+material = "stone"
+radius = "5 mm"
+centres = [[0.5, 0, "5 mm"]]
+[[stages]]
+name = "a"
+end = { duration = "1 ms" }
+[[stages]]
+name = "b"
+end = { duration = "1 ms" }
+)";
+
+std::string ball_at(const std::string& place) {
+  return "[[stages.rigid_bodies]]\nname = \"ball\"\nshape = { kind = \"sphere\", radius = \"10 "
+         "mm\", subdivisions = 2 }\nthickness = \"1 mm\"\nmaterial = \"stone\"\n"
+         "density = \"1000 kg/m3\"\ntranslate = " +
+         place + "\n";
+}
+
+TEST_F(Stages, InWhichABodyComesBehindAPlaneAreRefusedByCheckAsByTheRun) {
+  const std::string file = write("behind.toml", kBlock + ball_at("[0.3, 0, -0.1]"));
+  const std::string refusal =
+      "stages.b: at its start rigid_bodies.ball: 162 of its nodes begin behind planes.floor";
+
+  const Outcome checked = Program({"check", file}).wait();
+  EXPECT_EQ(checked.exit_code, 1);
+  EXPECT_THAT(checked.err, HasSubstr(refusal));
+  EXPECT_THAT(run(file, "behind").err, HasSubstr(refusal));
+  EXPECT_EQ(
+      Program({"check", write("above.toml", kBlock + ball_at("[0.3, 0, 0.1]"))}).wait().exit_code,
+      0);
+}
+
+TEST_F(Stages, InWhichABodyComesInAnotherAreToldByCheck) {
+  const std::string file = write("within.toml", kBlock + ball_at("[0.05, 0.05, 0.2]"));
+
+  const Outcome checked = Program({"check", file}).wait();
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_THAT(checked.out,
+              AllOf(HasSubstr("stages.b: at its start rigid_bodies.block: begins in "
+                              "rigid_bodies.ball"),
+                    HasSubstr("if it still is so when the stage begins, the run ends there")));
+  EXPECT_EQ(run(file, "within").exit_code, 1);
+}
+
+TEST_F(Stages, ThatAskForGrainsWhichAreGoneAreRefusedByCheckAsByTheRun) {
+  const std::string load =
+      "[[stages.loads]]\nname = \"pull\"\nkind = \"force\"\ngrains = \"first\"\n"
+      "nodes = \"z_max\"\nforce = [0, 0, 1]\n";
+  const std::string gone = std::string(kBlock) + "remove = [{ grains = \"first\" }]\n";
+  const std::string loaded = write("loaded.toml", gone + load);
+  const std::string ended =
+      write("ended.toml", gone +
+                              "[[stages]]\nname = \"c\"\nmax_duration = 1\n"
+                              "end = { displacement = { grains = \"first\", distance = 1 } }\n");
+  const std::string refusal = "\"first\" has no node there: all of its grains have been taken out";
+
+  for (const std::string& file : {loaded, ended}) {
+    const Outcome checked = Program({"check", file}).wait();
+    EXPECT_EQ(checked.exit_code, 1);
+    EXPECT_THAT(checked.err, HasSubstr(refusal));
+    EXPECT_THAT(run(file, "gone").err, HasSubstr(refusal));
+    fs::remove_all(folder_ / "gone");
+  }
+}
+
 }  // namespace
 }  // namespace plekton::apps::stages_command_test
