@@ -5,27 +5,70 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace plekton::apps {
+namespace {
 
 using dynamics::Held;
 
+/// What a stage fixes or frees, found where it begins.
+struct FoundSet {
+  const NodeSetSettings* settings;
+  std::vector<geometry::NodeId> nodes;  ///< in the order of their numbers
+};
+
+/// @param sets  under the key fix or free
+std::vector<FoundSet> find_all(const std::vector<NodeSetSettings>& sets, const char* key,
+                               const StageSettings& stage, const BuiltScene& there,
+                               Problems& problems) {
+  std::vector<FoundSet> found;
+  for (const NodeSetSettings& set : sets) {
+    found.push_back({&set, nodes_of(set, there)});
+    std::sort(found.back().nodes.begin(), found.back().nodes.end());
+    if (found.back().nodes.empty())
+      problems.add(set.place, fmt::format("{}.{}: {}", stage.path, key, nothing_of(set, there)));
+  }
+  return found;
+}
+
+/// A node cannot be held and free.
+void require_apart(const std::vector<FoundSet>& fixed, const std::vector<FoundSet>& freed,
+                   const StageSettings& stage, const BuiltScene& there, Problems& problems) {
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    for (std::size_t j = 0; j < freed.size(); ++j) {
+      std::vector<geometry::NodeId> both;
+      std::set_intersection(fixed[i].nodes.begin(), fixed[i].nodes.end(), freed[j].nodes.begin(),
+                            freed[j].nodes.end(), std::back_inserter(both));
+      if (both.empty()) continue;
+      problems.add(fixed[i].settings->place,
+                   fmt::format("{}: fix[{}] and free[{}] both name {} of \"{}\", which cannot be "
+                               "held and free; take other nodes for one of them",
+                               stage.path, i, j,
+                               both.size() == 1 ? "a node" : fmt::format("{} nodes", both.size()),
+                               name_of(*fixed[i].settings, there)));
+    }
+  }
+}
+
+}  // namespace
+
 void fix_and_free(const StageSettings& stage, const BuiltScene& there, std::vector<Held>& held) {
   Problems problems;
-  const auto set_all = [&](const std::vector<NodeSetSettings>& sets, Held all) {
-    for (const NodeSetSettings& set : sets) {
-      const std::vector<geometry::NodeId> nodes = nodes_of(set, there);
-      if (nodes.empty())
-        problems.add(set.place,
-                     fmt::format("{}: has no node there at the start of the stage", stage.path));
-      for (const geometry::NodeId node : nodes) {
+  const std::vector<FoundSet> freed = find_all(stage.freed, "free", stage, there, problems);
+  const std::vector<FoundSet> fixed = find_all(stage.fixed, "fix", stage, there, problems);
+  require_apart(fixed, freed, stage, there, problems);
+  problems.throw_if_any();
+  const auto set_all = [&](const std::vector<FoundSet>& sets, Held all) {
+    for (const FoundSet& set : sets) {
+      for (const geometry::NodeId node : set.nodes) {
         Held& own = held[geometry::index_of(node)];
         own = all | (own & Held::by_body);
       }
     }
   };
-  set_all(stage.freed, Held::nothing);
-  set_all(stage.fixed, Held::everything);
-  problems.throw_if_any();
+  set_all(freed, Held::nothing);
+  set_all(fixed, Held::everything);
 }
 
 }  // namespace plekton::apps

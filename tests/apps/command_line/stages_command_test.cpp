@@ -664,5 +664,18 @@ TEST_F(Stages, ThatAskForGrainsWhichAreGoneAreRefusedByCheckAsByTheRun) {
   }
 }
 
+TEST_F(Stages, ThatFixAndFreeTheSameNodesAreRefused) {
+  const std::string text = std::string(kBodies) +
+                           "[[stages]]\nname = \"a\"\nend = { duration = \"1 ms\" }\n"
+                           "fix = [{ grains = \"first\", nodes = \"z_min\" },\n"
+                           "       { membrane = \"sheet\", nodes = \"x_min\" }]\n"
+                           "free = [{ membrane = \"sheet\", nodes = \"y_min\" }]\n";
+
+  const Outcome checked = Program({"check", write("both.toml", text)}).wait();
+  EXPECT_EQ(checked.exit_code, 1);
+  EXPECT_THAT(checked.err, HasSubstr("stages.a: fix[1] and free[0] both name a node of \"sheet\", "
+                                     "which cannot be held and free"));
+}
+
 }  // namespace
 }  // namespace plekton::apps::stages_command_test
