@@ -350,7 +350,9 @@ class Run {
   /// The simulation has the state already.
   void go_on_from(const Resumption& from) {
     const auto archive = geometry::StateArchive::reader(from.state).group(kRunGroup);
+    const std::vector<std::string> warnings = report_.warnings;  // of this stage
     exchange(archive);
+    for (const std::string& warning : warnings) warn(warning);
     if (stage_) exchange_stage(archive.group(kStageGroup));
     report_.resumed = simulation_.time();
     report_.resumed_step = simulation_.steps();
@@ -683,8 +685,6 @@ std::unique_ptr<dynamics::Simulation> simulation_of(const Scenario& scenario, Bu
   }
 }
 
-PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
-  PreparedRun prepared;
 namespace {
 
 /// "looking for contacts", and why that may take long: where a membrane is much thicker than its
@@ -713,6 +713,8 @@ std::string looking_for_contacts(const Scenario& scenario, const BuiltScene& bui
 
 }  // namespace
 
+PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
+  PreparedRun prepared;
   prepared.built = build_scene(scenario, hear);
   if (hear) hear(looking_for_contacts(scenario, prepared.built), 0.0);
   if (scenario.stage) prepared.bodies = first_stage(prepared.built);

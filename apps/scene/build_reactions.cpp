@@ -22,31 +22,61 @@ const std::vector<geometry::NodeId>& followers_of(geometry::NodeId reference,
       ->nodes;
 }
 
+bool holds_any(Held held) {
+  return (held & Held::everything) != Held::nothing;
+}
+
+bool is_any_held(const std::vector<geometry::NodeId>& nodes, const std::vector<Held>& held) {
+  return std::any_of(nodes.begin(), nodes.end(), [&](geometry::NodeId node) {
+    return holds_any(held[geometry::index_of(node)]);
+  });
+}
+
 /// Why there is nothing to add up; empty if there is.
 std::string problem_of(const ReactionSettings& settings, const BuiltReaction& reaction,
                        const std::vector<Held>& held, const BuiltScene& built) {
-  const std::string& name = name_of(settings.nodes, built);
-  if (reaction.nodes.empty())
-    return settings.nodes.which == SetWhich::rim
-               ? fmt::format(
-                     "\"{}\" is closed and has no rim; expected a side such as \"x_min\", "
-                     "or a box {{ min = [...], max = [...] }}",
-                     name)
-               : fmt::format(
-                     "\"{}\" has no node there; the box counts in the scene, after scale, "
-                     "rotate and translate",
-                     name);
-  if (settings.kind == ReactionKind::nodes) return {};
-  const bool any_is_held =
-      std::any_of(reaction.nodes.begin(), reaction.nodes.end(), [&](geometry::NodeId node) {
-        return (held[geometry::index_of(node)] & Held::everything) != Held::nothing;
-      });
-  if (any_is_held) return {};
+  if (reaction.nodes.empty()) return nothing_of(settings.nodes, built);
+  if (settings.kind == ReactionKind::nodes || is_any_held(reaction.nodes, held)) return {};
   return fmt::format(
       "none of these nodes of \"{}\" is held or moved, so nothing supports them; "
       "expected nodes of its `hold` or of a load of kind \"motion\", or kind = "
       "\"contacts\"",
-      name);
+      name_of(settings.nodes, built));
+}
+
+/// How many of some nodes a stage frees at its start.
+/// @param held   by node, with what loads hold
+std::size_t count_freed(const std::vector<geometry::NodeId>& nodes, const StageSettings& stage,
+                        const std::vector<Held>& held, const BuiltScene& built) {
+  std::size_t count = 0;
+  for (const NodeSetSettings& set : stage.freed) {
+    const std::vector<geometry::NodeId> freed = nodes_of(set, built);
+    count += static_cast<std::size_t>(
+        std::count_if(nodes.begin(), nodes.end(), [&](geometry::NodeId node) {
+          return !holds_any(held[geometry::index_of(node)]) &&
+                 std::binary_search(freed.begin(), freed.end(), node);
+        }));
+  }
+  return count;
+}
+
+/// Of supports that were there in an earlier stage, what this one has taken from them; else empty.
+/// @param built  its nodes where they are at the start of the stage
+std::string warning_about_freed(const StageSettings& stage, const ReactionSettings& settings,
+                                const BuiltReaction& reaction, const std::vector<Held>& held,
+                                const BuiltScene& built) {
+  if (!is_any_held(reaction.nodes, held))
+    return fmt::format(
+        "{}: holds none of the nodes of {} any more, of kind \"support\", which is 0 from there "
+        "on; "
+        "kind \"nodes\" or \"contacts\" tells what acts on them",
+        stage.path, settings.path);
+  const std::size_t freed = count_freed(reaction.nodes, stage, held, built);
+  if (freed == 0) return {};
+  return fmt::format(
+      "{}.free: frees {} of the {} nodes of {}, of kind \"support\", which adds up "
+      "what the others bear from there on",
+      stage.path, freed, reaction.nodes.size(), settings.path);
 }
 
 /// What messages call that which ends the stage or the run.
@@ -103,7 +133,13 @@ void add_reactions(const Scenario& scenario, BuiltScene& built, const StageBodie
     if (settings.kind != ReactionKind::plane) reaction.nodes = nodes_of(settings.nodes, built);
     if (settings.kind == ReactionKind::contacts && settings.nodes.rigid_body)
       reaction.nodes = followers_of(reaction.nodes.front(), built.scene);
-    if (settings.kind == ReactionKind::support || settings.kind == ReactionKind::nodes) {
+    const bool is_later =
+        bodies != nullptr && scenario.stage->origins.reactions[i] < scenario.stage->number;
+    if (is_later && settings.kind == ReactionKind::support && !reaction.nodes.empty()) {
+      const AtStart of_stage(built, &bodies->starts.back());
+      std::string warning = warning_about_freed(*scenario.stage, settings, reaction, held, built);
+      if (!warning.empty()) built.warnings.push_back(std::move(warning));
+    } else if (settings.kind == ReactionKind::support || settings.kind == ReactionKind::nodes) {
       const std::string problem = problem_of(settings, reaction, held, built);
       if (!problem.empty())
         problems.add(settings.nodes.place, fmt::format("{}.nodes: {}", settings.path, problem));

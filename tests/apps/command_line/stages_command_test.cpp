@@ -677,5 +677,23 @@ TEST_F(Stages, ThatFixAndFreeTheSameNodesAreRefused) {
                                      "which cannot be held and free"));
 }
 
+TEST_F(Stages, SayWhichSupportsTheyFree) {
+  const std::string text =
+      std::string(kBodies) +
+      "[[output.reactions]]\nname = \"edge\"\nkind = \"support\"\nmembrane = \"sheet\"\n"
+      "nodes = \"rim\"\n[[stages]]\nname = \"a\"\nend = { duration = \"0.2 ms\" }\n"
+      "[[stages]]\nname = \"b\"\nend = { duration = \"0.2 ms\" }\n"
+      "free = [{ membrane = \"sheet\", nodes = ";
+  const std::string some = write("some.toml", text + "\"x_min\" }]\n");
+  const std::string all = write("all.toml", text + "\"all\" }]\n");
+  const std::string of_some = "stages.b.free: frees ";
+  const std::string of_all = "stages.b: holds none of the nodes of output.reactions.edge any more";
+
+  EXPECT_THAT(Program({"check", some}).wait().out, HasSubstr("warning: " + of_some));
+  EXPECT_THAT(Program({"check", all}).wait().out, HasSubstr("warning: " + of_all));
+  ASSERT_EQ(run(all, "freed").exit_code, 0);
+  EXPECT_THAT(report("freed")["warnings"].dump(), HasSubstr(of_all));
+}
+
 }  // namespace
 }  // namespace plekton::apps::stages_command_test
