@@ -44,12 +44,15 @@ class SizeCurve {
   /// well.
   std::vector<double> draw(std::size_t count, Random& random) const;
 
+  bool operator==(const SizeCurve&) const = default;
+
  private:
   /// The grains between two sieves.
   struct Bin {
     double low;    ///< m
     double high;   ///< m
     double share;  ///< by number
+    bool operator==(const Bin&) const = default;
   };
   void normalise();
 

@@ -5,6 +5,7 @@
 #include "apps/run/run_state.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/staged_scenario.hpp"
+#include "apps/scene/build_scene.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "geometry/base/state_archive.hpp"
 
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -44,7 +46,17 @@ bool tie_the_same(const TieSettings& a, const TieSettings& b) {
          are_same_nodes(a.from, b.from) && are_same_nodes(a.to, b.to);
 }
 
-/// What goes on by its number has to be the same by its name.
+/// Whether the grains of a table, or the spheres of a rigid body, are those of the other scenario.
+bool are_same_grains(const Scenario& then, const Scenario& now, std::size_t table) {
+  const GrainSettings& a = then.grains[table];
+  const GrainSettings& b = now.grains[table];
+  if (b.is_absent) return a.centres.size() == b.centres.size();  // It comes as this one says.
+  return a.sizes == b.sizes && a.amount == b.amount && a.porosity == b.porosity &&
+         a.stress == b.stress && a.centres == b.centres && a.radii == b.radii &&
+         then.materials[a.material].density == now.materials[b.material].density;
+}
+
+/// What goes on by its number has to be the same by its name, and of the same size.
 void require_same_tables(const Scenario& then, const Scenario& now) {
   const auto require = [&](const char* what, const auto& before, const auto& after) {
     if (names_of_tables(before) == names_of_tables(after)) return;
@@ -66,11 +78,95 @@ void require_same_tables(const Scenario& then, const Scenario& now) {
         "have to be the same",
         now.stage->path, now.ties[i].path));
   }
-  if (then.stage->number != now.stage->number)
-    throw InputError(
-        fmt::format("{}: is stage {} here and was stage {} in the run that it is to go "
-                    "on from; the stages up to there have to be the same",
-                    now.stage->path, now.stage->number + 1, then.stage->number + 1));
+  for (std::size_t i = 0; i < now.grains.size(); ++i) {
+    if (are_same_grains(then, now, i)) continue;
+    throw InputError(fmt::format(
+        "{}: {}.{} has other sizes, numbers or density than in the run that it is to go on from, "
+        "which has made these grains; leave its keys, and those of its material, as they are there",
+        now.stage->path, now.grains[i].rigid_body ? "rigid_bodies" : "grains", now.grains[i].name));
+  }
+}
+
+/// What has ended is what this scenario says it is.
+void require_same_stages(const Scenario& then, const Scenario& now, const Scenario& ended) {
+  for (std::size_t i = 0; i <= ended.stage->number; ++i) {
+    const std::string& here = now.stages[i].stage->name;
+    if (i < then.stages.size() && then.stages[i].stage->name == here) continue;
+    throw InputError(fmt::format(
+        "{}: stage {} is \"{}\" here and {} in the run that it is to go on from; the stages up to "
+        "there have to be the same",
+        ended.stage->path, i + 1, here,
+        i < then.stages.size() ? fmt::format("\"{}\"", then.stages[i].stage->name) : "none"));
+  }
+}
+
+/// The membranes and rigid bodies of a stage, as they are made.
+BuiltScene surfaces_of(Scenario stage, const HearSetUp& hear) {
+  std::erase_if(stage.grains, [](const GrainSettings& grains) { return !grains.rigid_body; });
+  stage.ties.clear();
+  return build_bodies(stage, {}, hear);
+}
+
+/// Where facets and bars of each membrane begin in a scene.
+struct FirstElements {
+  std::size_t facet = 0;
+  std::size_t cylinder = 0;
+};
+
+template <class Element>
+bool are_same(const std::vector<Element>& a, const std::vector<Element>& b, std::size_t first,
+              std::size_t count) {
+  for (std::size_t i = first; i < first + count; ++i)
+    if (a[i].nodes != b[i].nodes || a[i].radius != b[i].radius) return false;
+  return true;
+}
+
+/// @param first  element of both, of membranes before which there is no other difference
+bool are_same_surfaces(const BuiltScene& then, const BuiltScene& now, std::size_t membrane,
+                       const FirstElements& first) {
+  const BuiltMembrane& a = then.membranes[membrane];
+  const BuiltMembrane& b = now.membranes[membrane];
+  // One that is still to come does so as this scenario says: its number of nodes is known.
+  if (!now.scene.is_there(geometry::id_at<geometry::NodeId>(b.first_node)))
+    return a.nodes == b.nodes && a.facets == b.facets && a.cylinders == b.cylinders;
+  if (a.nodes != b.nodes || a.facets != b.facets || a.cylinders != b.cylinders) return false;
+  const auto nodes = std::views::iota(a.first_node, a.first_node + a.nodes);
+  return std::ranges::all_of(nodes,
+                             [&](std::size_t node) {
+                               return then.scene.state.position[node] ==
+                                      now.scene.state.position[node];
+                             }) &&
+         are_same(then.scene.elements.facets, now.scene.elements.facets, first.facet, a.facets) &&
+         are_same(then.scene.elements.cylinders, now.scene.elements.cylinders, first.cylinder,
+                  a.cylinders);
+}
+
+/// @param thickness  m
+std::string size_of(const BuiltMembrane& membrane, double thickness, const BuiltScene& built) {
+  const Vec3& first = built.scene.state.position[membrane.first_node];
+  return fmt::format(
+      "{} nodes, the first at ({:.6g}, {:.6g}, {:.6g}) m, {} facets, {} bars, {:.6g} m thick",
+      membrane.nodes, first[0], first[1], first[2], membrane.facets, membrane.cylinders, thickness);
+}
+
+/// @param now  the stage that has ended, as it is in the scenario that is to go on
+void require_same_surfaces(const Scenario& then, const Scenario& now, const HearSetUp& hear) {
+  if (now.membranes.empty()) return;
+  const BuiltScene before = surfaces_of(then, hear), after = surfaces_of(now, hear);
+  FirstElements first;
+  for (std::size_t i = 0; i < after.membranes.size(); ++i) {
+    const BuiltMembrane& membrane = after.membranes[i];
+    if (!are_same_surfaces(before, after, i, first))
+      throw InputError(fmt::format(
+          "{}: {}.{} has another mesh, place or thickness than in the run that it is to go on "
+          "from: "
+          "there {}, here {}; leave its keys as they are there",
+          now.stage->path, membrane.is_rigid ? "rigid_bodies" : "membranes", membrane.name,
+          size_of(before.membranes[i], then.membranes[i].thickness, before),
+          size_of(membrane, now.membranes[i].thickness, after)));
+    first.facet += membrane.facets;
+    first.cylinder += membrane.cylinders;
+  }
 }
 
 /// @param fail  what is done before an error is thrown on: the stages before are told of
@@ -143,7 +239,9 @@ PreparedRun ended_stage(const Scenario& scenario, const Scenario& stage,
                         const geometry::StateTree& state, const HearSetUp& hear) {
   const Scenario all = scenario_in(state);
   Scenario then = all.stages.at(stage_of(state).bodies.stage);
+  require_same_stages(all, scenario, stage);
   require_same_tables(then, stage);
+  require_same_surfaces(then, stage, hear);
   then.simulation.threads = scenario.simulation.threads;
   PreparedRun prepared = prepare_stage(then, state, hear);
   prepared.simulation->restore(state);

@@ -7,6 +7,7 @@
 #include "tests/apps/command_line/program_fixture.hpp"
 #include "tests/support/temporary_folder.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -453,6 +454,65 @@ TEST_F(Stages, GoOnOnlyWithTheTiesOfBefore) {
   EXPECT_THAT(run(write("side.toml", tied("rope", "x_max")), "wrong", from).err,
               HasSubstr("stages.a: ties.rope ties other nodes than in the run"));
   EXPECT_FALSE(fs::exists(folder_ / "wrong"));
+}
+
+/// The scene of kBodies, with a lid that comes in the last of three stages.
+std::string in_three(std::string_view first, std::string_view second, std::string_view third) {
+  std::string text = kBodies;
+  for (const std::string_view name : {first, second, third})
+    text += fmt::format("[[stages]]\nname = \"{}\"\nend = {{ duration = \"0.2 ms\" }}\n", name);
+  return text + R"([[stages.rigid_bodies]]
+name = "lid"
+shape = { kind = "box", size = [0.04, 0.04, 0.005] }
+translate = [-0.02, -0.02, 0.05]
+thickness = "1 mm"
+material = "sand"
+density = "1000 kg/m3"
+)";
+}
+
+TEST_F(Stages, GoOnOnlyWithTheBodiesOfBefore) {
+  const std::string file = write("bodies.toml", in_three("a", "b", "c"));
+  ASSERT_EQ(run(file, "first", {"--until", "b"}).exit_code, 0);
+  const auto going_on = [&](const std::string& set) {
+    return run(file, "wrong", {"--from", "b", in("first"), "--set", set});
+  };
+
+  EXPECT_THAT(
+      going_on("membranes.sheet.thickness=\"1.5 mm\"").err,
+      HasSubstr("stages.b: membranes.sheet has another mesh, place or thickness than in the "
+                "run that it is to go on from: there"));
+  EXPECT_THAT(going_on("membranes.sheet.shape.cells=[5, 6]").err,
+              HasSubstr("membranes.sheet has another mesh"));
+  EXPECT_THAT(going_on("grains.first.radius=\"3 mm\"").err,
+              HasSubstr("stages.b: grains.first has other sizes, numbers or density"));
+  EXPECT_THAT(going_on("materials.sand.density=\"2000 kg/m3\"").err,
+              HasSubstr("stages.b: grains.first has other sizes, numbers or density"));
+  EXPECT_FALSE(fs::exists(folder_ / "wrong"));
+}
+
+TEST_F(Stages, GoOnWithOtherKeysOfBodiesThatAreStillToCome) {
+  const std::string file = write("bodies.toml", in_three("a", "b", "c"));
+  ASSERT_EQ(run(file, "first", {"--until", "b"}).exit_code, 0);
+
+  const Outcome higher = run(file, "higher",
+                             {"--from", "b", in("first"), "--set",
+                              "stages.c.rigid_bodies.lid.translate=[-0.02, -0.02, 0.06]", "--set",
+                              "stages.c.rigid_bodies.lid.thickness=\"2 mm\""});
+
+  EXPECT_EQ(higher.exit_code, 0) << higher.err;
+}
+
+TEST_F(Stages, GoOnOnlyAfterStagesOfTheSameNames) {
+  ASSERT_EQ(run(write("first.toml", in_three("a", "b", "c")), "first", {"--until", "b"}).exit_code,
+            0);
+
+  const Outcome outcome =
+      run(write("other.toml", in_three("x", "b", "c")), "wrong", {"--from", "b", in("first")});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("stages.b: stage 1 is \"x\" here and \"a\" in the run that it "
+                                     "is to go on from"));
 }
 
 TEST_F(Stages, ThatWriteLessKeepTheFramesOfThoseBefore) {
