@@ -23,15 +23,18 @@ struct Begin {
 };
 
 /// The stage after one that has ended.
-std::unique_ptr<Begin> after(const Scenario& scenario, const Scenario& ended, PreparedRun& there,
-                             const geometry::StateTree& state, bool same_folder,
-                             const HearSetUp& hear) {
-  if (ended.stage->is_last)
-    throw InputError(
-        fmt::format("{}: is the last one, and has ended; there is nothing to go on "
-                    "with",
-                    ended.stage->path));
-  StageBegin next = next_stage(scenario.stages[ended.stage->number + 1], there, state, hear);
+const Scenario& stage_after(const Scenario& scenario, const Scenario& ended) {
+  if (!ended.stage->is_last) return scenario.stages[ended.stage->number + 1];
+  throw InputError(
+      fmt::format("{}: is the last one, and has ended; there is nothing to go on "
+                  "with",
+                  ended.stage->path));
+}
+
+std::unique_ptr<Begin> begin_of_next(const Scenario& stage, PreparedRun& there,
+                                     const geometry::StateTree& state, bool same_folder,
+                                     const HearSetUp& hear) {
+  StageBegin next = next_stage(stage, there, state, hear);
   auto begin = std::make_unique<Begin>(Begin{std::move(next.prepared), std::move(next.run)});
   const double time = begin->prepared.simulation->time();
   begin->from.emplace(Resumption{begin->state, same_folder,
@@ -50,7 +53,8 @@ std::unique_ptr<Begin> begin_of(const Scenario& scenario, const StagesAsked& ask
       return begin;
     }
     begin->prepared.simulation->restore(*asked.resume);
-    begin = after(scenario, stage, begin->prepared, *asked.resume, asked.same_folder, hear);
+    begin = begin_of_next(stage_after(scenario, stage), begin->prepared, *asked.resume,
+                          asked.same_folder, hear);
     begin->from->from = asked.written_from;  // nothing: what is written goes on
     return begin;
   }
@@ -58,7 +62,9 @@ std::unique_ptr<Begin> begin_of(const Scenario& scenario, const StagesAsked& ask
   const Scenario& stage = stage_called(scenario, asked.from[0]);
   const geometry::StateTree state = end_of_stage(asked.from[1], asked.from[0]);
   PreparedRun there = ended_stage(scenario, stage, state, hear);
-  return after(scenario, stage, there, state, false, hear);
+  Scenario next = stage_after(scenario, stage);
+  if (!is_same_but_for_output(scenario, state)) next.stage->origins.changes_nothing = false;
+  return begin_of_next(next, there, state, false, hear);
 }
 
 std::string limits_of(const StageSettings& stage) {

@@ -235,6 +235,16 @@ geometry::StateTree end_of_stage(const fs::path& folder, const std::string& stag
                     : fmt::format("it has those of \"{}\"", fmt::join(ended, "\", \""))));
 }
 
+bool is_same_but_for_output(const Scenario& scenario, const geometry::StateTree& state) {
+  ScenarioText then;
+  then.exchange(geometry::StateArchive::reader(state).group(kRunGroup));
+  ScenarioText now = text_of(scenario);
+  for (ScenarioText* const text : {&then, &now})
+    std::erase_if(text->overrides,
+                  [](const std::string& set) { return set.starts_with("output."); });
+  return then.text == now.text && then.overrides == now.overrides;
+}
+
 PreparedRun ended_stage(const Scenario& scenario, const Scenario& stage,
                         const geometry::StateTree& state, const HearSetUp& hear) {
   const Scenario all = scenario_in(state);

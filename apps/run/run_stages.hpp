@@ -30,6 +30,9 @@ RunReport run_stages(const Scenario& scenario, PreparedRun first, const RunSetti
 /// @throws InputError if it has none, with the stages of which it has one
 geometry::StateTree end_of_stage(const std::filesystem::path& folder, const std::string& stage);
 
+/// Whether a scenario says the same as that of a state, but for what is written.
+bool is_same_but_for_output(const Scenario& scenario, const geometry::StateTree& state);
+
 /// A simulation of a stage of an earlier run, as it ended.
 /// @param scenario  whose later stages are to go on from it: it has the same bodies up to there
 /// @throws InputError if it has others

@@ -503,6 +503,18 @@ TEST_F(Stages, GoOnWithOtherKeysOfBodiesThatAreStillToCome) {
   EXPECT_EQ(higher.exit_code, 0) << higher.err;
 }
 
+/// Though the stage itself changes nothing.
+TEST_F(Stages, GoOnWithOtherMaterialsFromAnotherRun) {
+  const std::string file = write("bodies.toml", in_three("a", "b", "c"));
+  ASSERT_EQ(run(file, "first", {"--until", "a"}).exit_code, 0);
+
+  const Outcome other = run(file, "other",
+                            {"--from", "a", in("first"), "--set",
+                             "materials.sand.friction_angle=\"10 deg\"", "--until", "b"});
+
+  EXPECT_EQ(other.exit_code, 0) << other.err;
+}
+
 TEST_F(Stages, GoOnOnlyAfterStagesOfTheSameNames) {
   ASSERT_EQ(run(write("first.toml", in_three("a", "b", "c")), "first", {"--until", "b"}).exit_code,
             0);
