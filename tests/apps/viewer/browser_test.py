@@ -243,13 +243,6 @@ class Pages(unittest.TestCase):
         files = [self.picture(f"net-{frame}", self.page("net") + f"#frame={frame}") for frame in (0, 20, "last")]
         self.assertEqual(len({file.read_bytes() for file in files}), 3)
 
-    def test_an_address_that_is_not_understood_leaves_the_page_as_it_is(self):
-        for address in ("frame=abc", "frame=", "frame=1,2", "log=gravel&slice=w&look=up&zoom=0&grains=thin&membranes=&pick=here"):
-            said = browse(self.page("net") + f"#{address}&self-check", "--virtual-time-budget=20000", "--dump-dom")
-            result = told_by(said, "self-check")
-            self.assertTrue(result.get("ok"), (address, result))
-            self.assertIn(f"· 1 / {self.frames('net')}", html.unescape(said), address)
-
     def test_keys_do_what_the_help_says(self):
         told = self.probed("pull-out", KEYS)
         last = self.frames("pull-out") - 1

@@ -625,28 +625,21 @@ function usualRange({ field, usual, typical }) {
 
 const isParallel = (stage) => stage.camera === stage.orthographic;
 
-/** Settings after # in the address, as in #frame=12&contacts&slice=x: a picture can be told by its address. One that is not understood is left out. */
+/** Settings after # in the address, as in #frame=12&contacts&slice=x: a picture can be told by its address. */
 async function applyAddress(page) {
   const options = new URLSearchParams(location.hash.slice(1));
   const flag = (key) => options.has(key) && options.get(key) !== '0';
-  const numbers = (key, count) => {
-    const all = (options.get(key) ?? '').split(',').map((text) => (text.trim() === '' ? NaN : Number(text)));
-    return all.length === count && all.every(Number.isFinite) ? all : null;
-  };
-  const number = (key) => numbers(key, 1)?.[0] ?? null;
-  const opacity = (part) => { const share = number(part); if (share !== null) page.view.settings[part].opacity = Math.min(Math.max(share, 0), 1); };
   if (flag('dark')) page.dark(true);
   if (flag('parallel')) page.parallel();
   for (const part of kParts) if (options.has(part + '-by')) page.colours[part].key = options.get(part + '-by');
-  opacity('grains');
-  opacity('membranes');
-  if (flag('contacts')) { page.view.settings.contacts.shown = true; if (number('grains') === null) page.view.settings.grains.opacity = 0.06; }
-  if (options.has('log')) for (const part of options.get('log').split(',')) if (kParts.includes(part)) page.colours[part].mode = 'log';
-  if (options.has('slice')) { const s = page.view.settings.slice; s.on = true; s.axis = Math.max(['x', 'y', 'z'].indexOf(options.get('slice')), 0); }
-  const look = numbers('look', 3), zoom = number('zoom');
-  if (look?.some((x) => x !== 0)) page.look(new THREE.Vector3(...look));
-  if (zoom > 0) {
-    page.stage.camera.position.sub(page.stage.controls.target).divideScalar(zoom).add(page.stage.controls.target);
+  if (options.has('grains')) page.view.settings.grains.opacity = Number(options.get('grains'));
+  if (options.has('membranes')) page.view.settings.membranes.opacity = Number(options.get('membranes'));
+  if (flag('contacts')) { page.view.settings.contacts.shown = true; if (!options.has('grains')) page.view.settings.grains.opacity = 0.06; }
+  if (options.has('log')) for (const part of options.get('log').split(',')) page.colours[part].mode = 'log';
+  if (options.has('slice')) { const s = page.view.settings.slice; s.on = true; s.axis = 'xyz'.indexOf(options.get('slice')); }
+  if (options.has('look')) page.look(new THREE.Vector3(...options.get('look').split(',').map(Number)));
+  if (options.has('zoom')) {
+    page.stage.camera.position.sub(page.stage.controls.target).divideScalar(Number(options.get('zoom'))).add(page.stage.controls.target);
     page.stage.controls.update();
     page.stage.framed = null;
   }
@@ -654,12 +647,13 @@ async function applyAddress(page) {
   page.panel();
   if (options.has('slice')) page.startSlice();
   await page.reload();
-  await page.goTo(options.get('frame') === 'last' ? Infinity : number('frame') ?? (page.run.live ? Infinity : 0));
+  const frame = options.get('frame');
+  await page.goTo(frame === null ? (page.run.live ? Infinity : 0) : frame === 'last' ? Infinity : Number(frame));
   page.legends();
-  const pick = numbers('pick', 2);
+  const pick = options.get('pick');
   // A window without a screen gets its size late.
   if (pick) await new Promise((done) => setTimeout(done, 300));
-  if (pick) { page.stage.fitCamera(); await page.pickAt(...pick); if (options.has('history') && page.view.selected) await page.elementHistory(options.get('history')); }
+  if (pick) { const [x, y] = pick.split(',').map(Number); page.stage.fitCamera(); await page.pickAt(x, y); if (options.has('history') && page.view.selected) await page.elementHistory(options.get('history')); }
   return options;
 }
 
