@@ -118,6 +118,18 @@ SHORTER = """
   told.message = document.getElementById('message').textContent;
 """
 
+WRONG_SETTINGS = {
+    "frame=abc": "frame=abc, expected a number or last",
+    "slice=1": "slice=1, expected x, y or z",
+    "look=1,2": "look=1,2, expected a direction, three numbers",
+    "zoom=0": "zoom=0, expected a number above 0",
+    "pick=5": "pick=5, expected two numbers",
+    "log=colours": "log=colours, expected some of grains, membranes, contacts",
+    "grains=solid": "grains=solid, expected a number from 0 to 1",
+    "grains-by=colour": "grains-by=colour, expected one of ",
+}
+"""Settings in an address that no page has, and what it says of each."""
+
 arguments = None
 folder = None
 
@@ -289,6 +301,15 @@ class Pages(unittest.TestCase):
         result = told_by(dumped, "self-check")
         self.assertTrue(result.get("ok"), result)
         self.assertEqual(result["frames"], self.frames("net"))
+
+    def test_settings_in_the_address_that_are_none_are_told_and_left_out(self):
+        address = self.page("pull-out") + "#" + "&".join(WRONG_SETTINGS)
+
+        said = html.unescape(browse(address, "--virtual-time-budget=10000", "--dump-dom"))
+
+        self.assertIn('data-ready="yes"', said)
+        for told in WRONG_SETTINGS.values():
+            self.assertIn("The address says " + told, said)
 
     def test_a_page_that_is_cut_off_says_so(self):
         whole = (folder / "net" / "view.html").read_bytes()

@@ -37,6 +37,7 @@ class Page {
     for (const part of kParts)
       Object.assign(this.colours[part], { key: this.firstKey(part), mode: 'linear', range: part === 'contacts' ? 'frame' : 'run', lo: null, hi: null });
     this.frame = 0;
+    this.notes = [];   // of the page itself, beside those of the run
     this.playing = null;
     this.chosen = { file: null, columns: new Set(), logarithmic: false, element: null };
     this.histories = new Histories($('plot'), (time) => this.goTo(this.frameAt(time)));
@@ -562,7 +563,7 @@ class Page {
     const parts = run ? [states[run.status] ?? run.status, `${short(run.timing?.simulated_time_s ?? 0)} s in ${Number(run.timing?.steps ?? 0).toLocaleString('en').replaceAll(',', ' ')} steps`, `Plekton ${run.plekton}`, String(run.date ?? '').replace('T', ' ').replace(/:\d\dZ$/, ' UTC')].filter(Boolean)
       : [this.run.live ? 'running' : 'not ended'];
     $('subtitle').textContent = parts.join(' · ');
-    $('notes').replaceChildren(...(header.notes ?? []).map((note) => el('div', {}, note)));
+    $('notes').replaceChildren(...[...(header.notes ?? []), ...this.notes].map((note) => el('div', {}, note)));
     $('slider').max = this.run.frames.length - 1;
   }
 
@@ -625,9 +626,41 @@ function usualRange({ field, usual, typical }) {
 
 const isParallel = (stage) => stage.camera === stage.orthographic;
 
+/** What settings in the address are to be, and whether a text is that. */
+function kindsOfSettings(page) {
+  const isNumber = (text) => text.trim() !== '' && Number.isFinite(Number(text));
+  const areNumbers = (text, count) => text.split(',').length === count && text.split(',').every(isNumber);
+  const share = ['a number from 0 to 1', (text) => isNumber(text) && Number(text) >= 0 && Number(text) <= 1];
+  const fields = (part) => page.choices[part].map((c) => c.key);
+  return {
+    frame: ['a number or last', (text) => text === 'last' || isNumber(text)],
+    slice: ['x, y or z', (text) => ['', 'x', 'y', 'z'].includes(text)],
+    look: ['a direction, three numbers', (text) => areNumbers(text, 3) && text.split(',').some(Number)],
+    zoom: ['a number above 0', (text) => isNumber(text) && Number(text) > 0],
+    pick: ['two numbers', (text) => areNumbers(text, 2)],
+    log: [`some of ${kParts.join(', ')}`, (text) => text.split(',').every((part) => kParts.includes(part))],
+    grains: share,
+    membranes: share,
+    ...Object.fromEntries(kParts.map((part) => [part + '-by', [`one of ${fields(part).join(', ')}`, (text) => fields(part).includes(text)]])),
+  };
+}
+
+/** Settings of the address without those that are not what they are to be; these are told in the notes. */
+function settingsOfAddress(page) {
+  const options = new URLSearchParams(location.hash.slice(1));
+  for (const [key, [expected, isRight]] of Object.entries(kindsOfSettings(page))) {
+    const text = options.get(key);
+    if (text === null || isRight(text)) continue;
+    page.notes.push(`The address says ${key}=${text}, expected ${expected}; left out.`);
+    options.delete(key);
+  }
+  return options;
+}
+
 /** Settings after # in the address, as in #frame=12&contacts&slice=x: a picture can be told by its address. */
 async function applyAddress(page) {
-  const options = new URLSearchParams(location.hash.slice(1));
+  const options = settingsOfAddress(page);
+  if (page.notes.length) page.describeRun();
   const flag = (key) => options.has(key) && options.get(key) !== '0';
   if (flag('dark')) page.dark(true);
   if (flag('parallel')) page.parallel();
@@ -636,7 +669,7 @@ async function applyAddress(page) {
   if (options.has('membranes')) page.view.settings.membranes.opacity = Number(options.get('membranes'));
   if (flag('contacts')) { page.view.settings.contacts.shown = true; if (!options.has('grains')) page.view.settings.grains.opacity = 0.06; }
   if (options.has('log')) for (const part of options.get('log').split(',')) page.colours[part].mode = 'log';
-  if (options.has('slice')) { const s = page.view.settings.slice; s.on = true; s.axis = 'xyz'.indexOf(options.get('slice')); }
+  if (options.has('slice')) { const s = page.view.settings.slice; s.on = true; s.axis = Math.max('xyz'.indexOf(options.get('slice')), 0); }
   if (options.has('look')) page.look(new THREE.Vector3(...options.get('look').split(',').map(Number)));
   if (options.has('zoom')) {
     page.stage.camera.position.sub(page.stage.controls.target).divideScalar(Number(options.get('zoom'))).add(page.stage.controls.target);
