@@ -2,10 +2,13 @@
 #include "apps/command_line/view_command.hpp"
 
 #include "apps/command_line/interrupt.hpp"
+#include "apps/scenario/problems.hpp"
 #include "apps/viewer/page.hpp"
 #include "apps/viewer/server.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace plekton::apps {
 namespace {
@@ -34,6 +37,9 @@ void serve(const ViewArguments& arguments, std::size_t limit, std::ostream& out)
 }  // namespace
 
 void view_run(const ViewArguments& arguments, std::ostream& out) {
+  // The command line has checked the range, which a number that is none passes.
+  if (std::isnan(arguments.limit))
+    throw InputError("--limit: got nan; expected a number from 0.1 to 4000, MB");
   const auto limit = static_cast<std::size_t>(1e6 * arguments.limit);
   arguments.port ? serve(arguments, limit, out) : write(arguments, limit, out);
 }

@@ -44,6 +44,16 @@ TEST_F(ViewCommand, WritesOnePageThatLoadsNothing) {
     EXPECT_THAT(text, Not(HasSubstr(loads)));
 }
 
+TEST_F(ViewCommand, RefusesALimitThatIsNoNumber) {
+  run();
+
+  const Outcome outcome = outcome_of({"view", out(), "--limit", "nan"});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("--limit: got nan; expected a number from 0.1 to 4000"));
+  EXPECT_FALSE(std::filesystem::exists(page()));
+}
+
 TEST_F(ViewCommand, ReplacesItsOwnPageButNoOtherFile) {
   run();
   ASSERT_EQ(outcome_of({"view", out()}).exit_code, kDone);
