@@ -15,7 +15,9 @@ constexpr std::array kArguments = std::to_array<std::pair<std::string_view, std:
     {"scenario", "_plekton_files toml"},
     {"mesh", "_plekton_files off obj stl ply msh vtp"},
     {"checkpoint", "_plekton_files h5"},
+    {"script", "_plekton_files py"},
     {"run", "_plekton_files"},
+    {"study", "_plekton_files toml"},
     {"file", "_plekton_files toml"},
     {"name", "_plekton_words \"$(plekton generate example-names 2> /dev/null)\""},
 });
