@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/import_yade_command.hpp"
 
+#include "apps/run/initial_contacts.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scenario/problems.hpp"
@@ -21,7 +22,8 @@ namespace fs = std::filesystem;
 /// What is wrong with a scenario as it stands; empty if nothing is.
 std::string problem_of(const std::string& text, const fs::path& file) {
   try {
-    const PreparedRun prepared = prepare_run(parse_scenario(text, file));
+    const Scenario scenario = parse_scenario(text, file);
+    require_possible_start(prepare_run(scenario).start, scenario);
     return "";
   } catch (const InputError& error) {
     return error.what();

@@ -43,6 +43,22 @@ TEST_F(ImportYadeCommand, WritesAScenarioThatRunsAndAReport) {
   EXPECT_THAT(again.err, HasSubstr("--overwrite"));
 }
 
+TEST_F(ImportYadeCommand, ReportsThatBodiesBeginTooDeepInEachOther) {
+  if (!find_program("yade")) GTEST_SKIP() << "yade is not installed";
+  test::write_bytes(folder_ / "deep.py",
+                    "O.bodies.append(sphere((0, 0, 0), 0.1))\n"
+                    "O.bodies.append(sphere((0, 0, 0.01), 0.15))\n"
+                    "O.dt = 1e-6\n");
+
+  const Outcome outcome =
+      outcome_of({"import-yade", (folder_ / "deep.py").string(), "--out", out()});
+
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("plekton refuses the scenario as it stands"));
+  EXPECT_THAT(outcome.out, HasSubstr("deeper than both radii"));
+  EXPECT_EQ(outcome_of({"check", out() + "/deep.toml"}).exit_code, kFailed);
+}
+
 TEST_F(ImportYadeCommand, SaysInOneLineWhatIsMissingOrWrong) {
   const Outcome missing = outcome_of({"import-yade", script()}, without_programs);
   EXPECT_EQ(missing.exit_code, kFailed);
