@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace plekton::python {
 namespace {
 
@@ -101,9 +103,10 @@ double seconds_of(const py::handle& value, const char* name) {
                                    apps::kTime.units));
     }
   }
-  if (apps::kNotNegative.holds(time) && time < apps::kInfinity) return time;
+  if (apps::kNotNegative.holds(time) && std::isfinite(time)) return time;
   throw InputError(fmt::format("{}: got {}; expected {}{}", name, std::string(py::repr(value)),
-                               apps::kTime.name, apps::kNotNegative.text));
+                               apps::kTime.name,
+                               std::isfinite(time) ? apps::kNotNegative.text : ", finite"));
 }
 
 std::filesystem::path path_of(const py::handle& value) {

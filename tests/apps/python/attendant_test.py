@@ -111,6 +111,7 @@ def test_a_function_cannot_move_the_simulation_that_calls_it(simulation, move):
         ({"1 kg": len}, 'every: got "1 kg", a mass; expected a time'),
         ({0: len}, "every: got 0; expected a time above 0"),
         ({-1: len}, "every: got -1; expected a time of at least 0"),
+        ({float("inf"): len}, "every: got inf; expected a time, finite"),
         ({None: len}, "every: got None; expected a time"),
         ({"1 ms": 3}, "every '1 ms': got 3; expected a function"),
     ],
