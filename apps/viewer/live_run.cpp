@@ -68,7 +68,7 @@ std::string LiveRun::header() const {
   if (step_ > 1)
     notes.push_back(
         fmt::format("every {}th frame is shown: all would be more than the limit of "
-                    "{:.0f} MB (--limit)",
+                    "{:g} MB (--limit)",
                     step_, 1e-6 * static_cast<double>(limit_)));
   if (!problem_.empty()) notes.push_back(problem_);
   auto header = packed_.header(run_, notes);

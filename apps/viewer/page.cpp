@@ -103,7 +103,7 @@ PageData pack_run(const RunFolder& run, std::size_t limit,
   if (step > 1)
     data.notes.push_back(fmt::format(
         "{} of {} frames are shown, {} and the last: all would be more than the limit of "
-        "{:.0f} MB (--limit)",
+        "{:g} MB (--limit)",
         data.packed.frames(), count, every(step), 1e-6 * static_cast<double>(limit)));
   if (const std::size_t rows = data.packed.history_step(); rows > 1)
     data.notes.push_back(fmt::format("of the longest history {} row is shown", every(rows)));

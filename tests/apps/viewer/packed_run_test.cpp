@@ -142,6 +142,7 @@ TEST_F(PackedRunOf, ThinsWhatIsAboveALimitKeepsTheLastFrameAndSaysSo) {
   EXPECT_EQ(header["frames"].back()["time"].get<double>(), run_.frames.back().time);
   ASSERT_FALSE(data.notes.empty());
   EXPECT_THAT(data.notes[0], HasSubstr("of 5 frames are shown"));
+  EXPECT_THAT(data.notes[0], testing::Not(HasSubstr("the limit of 0 MB")));
 }
 
 TEST_F(PackedRunOf, RefusesFramesThatAreCutOffOrSomethingElse) {
