@@ -74,7 +74,7 @@ KEYS = """
   }
 """
 
-PICK = """
+CLICK_ON_NEAREST = """
   await page.goTo(Infinity);
   page.stage.fitCamera();
   const camera = page.stage.camera, box = document.getElementById('canvas').getBoundingClientRect();
@@ -92,6 +92,10 @@ PICK = """
   canvas.dispatchEvent(new PointerEvent('pointerdown', event));
   canvas.dispatchEvent(new PointerEvent('pointerup', event));
   await wait(500);
+"""
+"""Picks the grain that is nearest to the camera."""
+
+PICK = CLICK_ON_NEAREST + """
   told.nearest = best.id;
   told.picked = page.picked.innerText;
   told.legend_before = document.getElementById('plot').innerText;
@@ -102,6 +106,17 @@ PICK = """
   told.values = page.histories.plot.data[1].filter((v) => v !== null).length;
   key('Escape'); await wait(200);
   told.after = page.view.selected;
+"""
+
+NARROW = CLICK_ON_NEAREST + """
+  const main = document.querySelector('main'), shown = () => !main.classList.contains('no-panel');
+  const row = page.picked.getBoundingClientRect();
+  told.width = window.innerWidth;
+  told.picked = [shown(), page.picked.innerText.includes('Grain ' + best.id), row.top >= 0 && row.top < window.innerHeight];
+  document.getElementById('close-panel').click();
+  told.closed = shown();
+  document.getElementById('open-panel').click();
+  told.opened = shown();
 """
 
 SHORTER = """
@@ -221,12 +236,12 @@ class Pages(unittest.TestCase):
             shutil.copy(file, arguments.pictures)
         return file
 
-    def probed(self, name, script):
+    def probed(self, name, script, *options):
         """What a script tells that runs beside a page."""
         page = folder / name / "probed.html"
         text = (folder / name / "view.html").read_text(encoding="utf-8")
         page.write_text(text.replace("</body>", PROBE % script + "</body>"), encoding="utf-8")
-        told = told_by(browse(page.as_uri(), "--virtual-time-budget=20000", "--dump-dom"), "probe")
+        told = told_by(browse(page.as_uri(), *options, "--virtual-time-budget=20000", "--dump-dom"), "probe")
         self.assertNotIn("error", told)
         return told
 
@@ -272,6 +287,14 @@ class Pages(unittest.TestCase):
         self.assertEqual(told["rows"], self.frames("pull-out"))
         self.assertEqual(told["values"], told["rows"])
         self.assertIsNone(told["after"])
+
+    def test_on_a_narrow_screen_what_is_picked_shows_its_numbers_which_close_without_a_key(self):
+        told = self.probed("pull-out", NARROW, "--window-size=500,800")
+
+        self.assertEqual(told["width"], 500)
+        self.assertEqual(told["picked"], [True, True, True])
+        self.assertFalse(told["closed"])
+        self.assertTrue(told["opened"])
 
     def test_histories_of_measures_can_be_chosen(self):
         told = self.probed("pull-out", "told.files = page.files.map((f) => f.file);")

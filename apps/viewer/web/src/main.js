@@ -238,7 +238,7 @@ class Page {
   panel() {
     const panel = $('panel');
     this.panelShape = this.shape();
-    panel.replaceChildren();
+    panel.replaceChildren(el('button', { id: 'close-panel', title: 'Hide settings (h)', ariaLabel: 'Hide settings', onclick: () => this.togglePanel(true) }, '✕'));
     this.sections = {};
     const last = this.run.frames.at(-1);
     const present = { grains: this.run.frames.some((f) => f.grains), membranes: this.run.frames.some((f) => f.nodes), contacts: this.run.frames.some((f) => f.contacts) };
@@ -366,6 +366,8 @@ class Page {
     this.chosen.element = null;
     await this.showPicked();
     if (!hit && this.chosen.wasElement) this.choosePlot();
+    // On a narrow screen the numbers would be beside it.
+    if (hit && isNarrow()) { this.togglePanel(false); this.picked.scrollIntoView(); }
   }
 
   async followSelected() {
@@ -552,7 +554,7 @@ class Page {
     act();
   }
 
-  togglePanel() { document.querySelector('main').classList.toggle('no-panel'); }
+  togglePanel(hidden) { document.querySelector('main').classList.toggle('no-panel', hidden); }
   togglePlot() { document.querySelector('footer').classList.toggle('no-plot'); $('toggle-plot').textContent = document.querySelector('footer').classList.contains('no-plot') ? '⌃' : '⌄'; }
 
   describeRun() {
@@ -624,6 +626,8 @@ function usualRange({ field, usual, typical }) {
   return [Math.max(usual[0], 2.5 * Math.min(typical[0], 0)), Math.min(usual[1], 2.5 * Math.max(typical[1], 0) || usual[1])];
 }
 
+/** Whether the settings lie on the scene instead of beside it. */
+const isNarrow = () => window.matchMedia('(max-width: 760px)').matches;
 const isParallel = (stage) => stage.camera === stage.orthographic;
 
 /** What settings in the address are to be, and whether a text is that. */
@@ -676,7 +680,7 @@ async function applyAddress(page) {
     page.stage.controls.update();
     page.stage.framed = null;
   }
-  if (flag('no-panel')) page.togglePanel();
+  if (flag('no-panel')) page.togglePanel(true);
   page.panel();
   if (options.has('slice')) page.startSlice();
   await page.reload();
@@ -706,7 +710,7 @@ async function main() {
     } catch (error) {
       throw new Error('this browser has no WebGL 2, which draws the scene; switch on hardware acceleration or use another browser');
     }
-    if (window.innerWidth < 760) document.querySelector('main').classList.add('no-panel');
+    if (isNarrow()) document.querySelector('main').classList.add('no-panel');
     const page = new Page(run, stage);
     window.plekton = page;
     page.describeRun();
