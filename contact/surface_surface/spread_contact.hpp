@@ -117,7 +117,7 @@ struct SpreadContact {
     normal_force *= part;
     const double one = AnyLaw::elastic_normal_force(bodies.parameters, gap);
     if (!(one > 0.0)) return false;
-    count = normal_force / one;
+    count = normal_force / one;  // all add up to the contacts that their patch counts
     a.nodes = term.a.ids;
     b.nodes = term.b.ids;
     const Vec3 per_force = elastic_force / (normal_force * normal_force);
@@ -147,10 +147,7 @@ struct SpreadContact {
     gap = -pressed.mean_overlap;
     normal_force = pressed.force;
     elastic_force = normal_force * direction.normalized();
-    // Bars of a wrap have a whole spring each, whatever the share of their push: a short bar beside
-    // a long one slips no earlier for it. Others add up to the contacts that their patch counts.
-    const double whole = is_wrapped ? pressed.own : 0.0;
-    count = (1.0 - whole) * normal_force / one + whole;
+    count = normal_force / one;
     a.nodes = term.a.ids;
     b.nodes = term.b.ids;
     const Vec3 per_force = force / (size * size);

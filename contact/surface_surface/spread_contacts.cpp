@@ -295,7 +295,7 @@ void SpreadContacts::for_each_stiffness(
   for (const SpreadContact& spread : contacts_) {
     if (!spread.is_of_bar) continue;
     const StructurePair& structure_pair = patches.structure_pairs()[spread.structure_pair];
-    // Joints in a wrap move one by one, against the whole spring of a bar.
+    // Joints in a wrap move one by one, each against a contact of its own.
     const double contacts = spread.is_wrapped ? std::max(1.0, spread.count) : spread.count;
     const auto parameters = AnyLaw::scaled(structure_pair.parameters, contacts);
     const PairStiffness stiffness = PairSprings(parameters).stiffness(spread.gap);

@@ -387,7 +387,7 @@ TEST(SpreadFriction, OfBarsIsHandedOverWithoutAJumpOrEnergyWherePatchesSplitAndM
   const Path merges = [&](double part) { return at(0.15 - 0.25 * part); };
 
   for (const Path& path : {splits, merges})
-    expect_continuous_force(fork(), path, {0.5 * kStretch, 0.0, 0.0}, 1000);
+    expect_continuous_force(fork(), path, {0.5 * kStretch, 0.0, 0.0}, 4000);
 }
 
 TEST(SpreadFriction, OfBarsThatCrossKeepsItsForceOverJoints) {
