@@ -337,14 +337,16 @@ class Run {
     return state;
   }
 
-  void exchange_stage(const geometry::StateArchive& archive) {
+  /// @returns whether the stage begins
+  bool exchange_stage(const geometry::StateArchive& archive) {
     bool has_ended = !ended_by_.empty();
     archive("has_ended", has_ended);
     exchange_texts(archive, "ended", report_.stages);
     // A stage that begins has seen nothing yet.
-    if (archive.is_reading() && has_ended) return;
+    if (archive.is_reading() && has_ended) return true;
     bodies_of_stage_.exchange(archive);
     stage_->exchange(archive);
+    return false;
   }
 
   /// The simulation has the state already.
@@ -352,8 +354,8 @@ class Run {
     const auto archive = geometry::StateArchive::reader(from.state).group(kRunGroup);
     const std::vector<std::string> warnings = report_.warnings;  // of this stage
     exchange(archive);
-    for (const std::string& warning : warnings) warn(warning);
-    if (stage_) exchange_stage(archive.group(kStageGroup));
+    if (stage_ && exchange_stage(archive.group(kStageGroup)))
+      for (const std::string& warning : warnings) warn(warning);
     report_.resumed = simulation_.time();
     report_.resumed_step = simulation_.steps();
     if (settings_.stages_before != nullptr) take_timing(*settings_.stages_before);

@@ -210,6 +210,33 @@ TEST_F(ResumeErrors, NameAChangedMeshAndLoseNothing) {
   EXPECT_TRUE(fs::exists(folder_ / "out/run.json"));
 }
 
+// A run knows its file by its whole path once it goes on.
+TEST_F(ResumeErrors, WarnOnceOfAScenarioThatWasNamedFromTheCurrentFolder) {
+  test::write_bytes(folder_ / "a.toml", std::string(kOnFacets) + R"(
+[[contacts]]
+between = "soil"
+and = "soil"
+law = "cohesive_frictional"
+)");
+  const std::string file = fs::relative(folder_ / "a.toml").string();
+  ASSERT_EQ(Program({"run", file, "--quiet", "--out", out()}).wait().exit_code, kDone);
+  const fs::path last = checkpoints_of(out()).back();
+  const std::string bytes = test::bytes_of(last);
+  fs::remove(last);
+  ASSERT_EQ(resume().exit_code, kDone);
+
+  const auto report = nlohmann::json::parse(test::bytes_of(folder_ / "out/run.json"));
+  const auto& warnings = report["warnings"];
+  EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                          [](const nlohmann::json& warning) {
+                            return warning.get<std::string>().find("glue nothing") !=
+                                   std::string::npos;
+                          }),
+            1)
+      << warnings;
+  EXPECT_TRUE(test::bytes_of(last) == bytes);
+}
+
 TEST_F(ResumeErrors, GoOnFromTheCheckpointBeforeADamagedOne) {
   ASSERT_EQ(run().exit_code, kDone);
   const std::vector<fs::path> checkpoints = checkpoints_of(out());
