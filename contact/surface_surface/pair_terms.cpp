@@ -216,8 +216,7 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
   const TermForces pushing = term_forces(term, found, share, spring, x);
   term.point_share = share.share;
   term.forces = pushing.forces;
-  if (term.a.count == 3 && term.b.count == 3)
-    extents_[holders(term).front().pair] = pushing.extent;
+  if (term.a.count == 3 && term.b.count == 3) extents_[holders(term).front().pair] = pushing.extent;
   shared_[candidate][0] = pushing.shared;
   term.push = push_of(term, found.cores.normal);
   term.push += joints_.evaluate(i, term, found, spring, x, false, term.forces);

@@ -86,8 +86,8 @@ class PairTerms {
     return &extents_[holders(of).front().pair];
   }
 
-  /// Whether a joint of a chain that wraps around something is in a term in range.
-  bool wraps(std::size_t term) const noexcept { return joints_.acts(term); }
+  /// How many contacts a term in range gets back at joints of chains that wrap around something.
+  double wrapped(std::size_t term) const noexcept { return joints_.contacts(term); }
   /// What joints of bars do to the other ends of these, besides the forces of a term of two cells
   /// in range; null if nothing does anything.
   const PairForces* at_ends(std::size_t term) const noexcept {

@@ -117,7 +117,7 @@ struct SpreadContact {
     normal_force *= part;
     const double one = AnyLaw::elastic_normal_force(bodies.parameters, gap);
     if (!(one > 0.0)) return false;
-    count = normal_force / one;  // all add up to the contacts that their patch counts
+    count = normal_force / one;
     a.nodes = term.a.ids;
     b.nodes = term.b.ids;
     const Vec3 per_force = elastic_force / (normal_force * normal_force);
@@ -132,6 +132,7 @@ struct SpreadContact {
     double mean_overlap;  ///< m
     Vec3 towards;         ///< from a to b: direction of the patch, as far as it is the pair's too
     double own;           ///< as far as its own direction is, from 0 to 1
+    double whole;         ///< how much it has a whole spring, from 0 to 1
   };
   /// Sets where a term with a bar in it presses.
   /// @returns whether it does
@@ -147,7 +148,10 @@ struct SpreadContact {
     gap = -pressed.mean_overlap;
     normal_force = pressed.force;
     elastic_force = normal_force * direction.normalized();
-    count = normal_force / one;
+    // All add up to the contacts that their patch counts. But bars of a wrap have a whole spring
+    // each, whatever the share of their push: of long ones and short ones the belt around a drum
+    // would chatter.
+    count = (1.0 - pressed.whole) * normal_force / one + pressed.whole;
     a.nodes = term.a.ids;
     b.nodes = term.b.ids;
     const Vec3 per_force = force / (size * size);

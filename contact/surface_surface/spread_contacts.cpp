@@ -71,7 +71,7 @@ void SpreadContacts::share_pushes(const StructurePatches& patches) {
     pressing.deepest = std::max(pressing.deepest, spring.force(spring.range() - term.overlap));
     pressing.bars += of_bars * term.push;
     pressing.energy += of_bars * term.forces.energy;
-    pressing.wraps = pressing.wraps || terms.wraps(terms.acting()[i]);
+    pressing.wrapped += terms.wrapped(terms.acting()[i]);
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (bar_push_[i] > 0.0)
@@ -98,14 +98,15 @@ bool SpreadContacts::locate_bar(const StructurePatches& patches, const PairTerm&
   const StructurePatch& patch = patches.patches()[spread.patch];
   const double push = bar_push_[spread.pair];
   if (!(push > 0.0) || !(patch.bar_part > 0.0)) return false;
-  spread.is_wrapped = of.wraps;
+  spread.is_wrapped = of.wrapped > 0.0;
   const double own = of.spread();
   Vec3 towards = (spread.is_turned ? -1.0 : 1.0) * (1.0 - own) * patch.elastic_force;
   if (patch.pushes()) towards /= patch.normal_force;
   const StructurePair& bodies = patches.structure_pairs()[term.spring];
   const double overlap = mean_overlap(bodies.parameters, of.energy, of.bars);
   return spread.locate_bar(
-      term, {push * std::min(1.0, of.bars / of.positive), overlap, towards, own}, bodies, x);
+      term, {push * std::min(1.0, of.bars / of.positive), overlap, towards, own, of.whole()},
+      bodies, x);
 }
 
 // What those of the last step leave to those of this one.
@@ -295,7 +296,7 @@ void SpreadContacts::for_each_stiffness(
   for (const SpreadContact& spread : contacts_) {
     if (!spread.is_of_bar) continue;
     const StructurePair& structure_pair = patches.structure_pairs()[spread.structure_pair];
-    // Joints in a wrap move one by one, each against a contact of its own.
+    // Joints in a wrap move one by one, against the whole spring of a bar.
     const double contacts = spread.is_wrapped ? std::max(1.0, spread.count) : spread.count;
     const auto parameters = AnyLaw::scaled(structure_pair.parameters, contacts);
     const PairStiffness stiffness = PairSprings(parameters).stiffness(spread.gap);

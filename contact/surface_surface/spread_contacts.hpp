@@ -69,13 +69,16 @@ class SpreadContacts {
     double bars = 0.0;      ///< N, of pairs of cells with a bar in them
     double positive = 0.0;  ///< N, of those of these that push
     double energy = 0.0;    ///< J, of the pairs with a bar
-    bool wraps = false;     ///< around a bend of a chain
+    double wrapped = 0.0;   ///< contacts that it gets back around bends of chains
 
     /// How much its bars press in directions of their own: 0 where they are one contact, as at a
     /// joint that passes over another cylinder, 1 from two contacts on.
     double spread() const noexcept {
       return deepest > 0.0 ? std::clamp(all / deepest - 1.0, 0.0, 1.0) : 0.0;
     }
+    /// How much each of its bars has a whole spring, whatever its share of the push: 0 where none
+    /// wraps, 1 from one contact on.
+    double whole() const noexcept { return std::clamp(wrapped, 0.0, 1.0); }
   };
   /// Of a history, between spread contacts.
   struct Transfer {

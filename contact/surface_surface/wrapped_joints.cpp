@@ -161,7 +161,7 @@ double WrappedJoints::evaluate(std::size_t term, const PairTerm& features,
     for (std::uint32_t m = 0; m < joint.count; ++m)
       bars[m].bar = x[index_of(arms_[joint.first + m].end)] - at;
     const WrapShare wrap = wrap_share(foot.separation, spring.range(), bars);
-    if (!pulls) joint.acts = wrap.contacts > 0.0;
+    if (!pulls) joint.contacts = wrap.contacts;
     if (!(wrap.contacts > 0.0)) continue;
     const double distance = foot.separation.norm();
     const double energy = spring.energy(distance);
@@ -190,7 +190,7 @@ void WrappedJoints::gather(std::span<const std::uint32_t> acting) {
   if (joints_.empty()) return;
   for (const std::uint32_t term : acting) {
     for (std::uint32_t j = first_joints_[term]; j < first_joints_[term + 1]; ++j) {
-      if (!joints_[j].acts) continue;
+      if (!(joints_[j].contacts > 0.0)) continue;
       for (std::uint32_t m = 0; m < joints_[j].count; ++m) {
         const Arm& arm = arms_[joints_[j].first + m];
         if (has_ends_[arm.pair] == 0) {

@@ -46,11 +46,12 @@ class WrappedJoints {
   /// @param acting  terms in range
   void gather(std::span<const std::uint32_t> acting);
 
-  /// Whether a term in range gets anything back.
-  bool acts(std::size_t term) const noexcept {
+  /// How many contacts a term in range gets back.
+  double contacts(std::size_t term) const noexcept {
+    double sum = 0.0;
     for (std::uint32_t j = first_joints_[term]; j < first_joints_[term + 1]; ++j)
-      if (joints_[j].acts) return true;
-    return false;
+      sum += joints_[j].weight * joints_[j].contacts;
+    return sum;
   }
 
   /// On the nodes of both cells of a pair, as the other ends of bars: a, b as of its term. Null if
@@ -67,7 +68,7 @@ class WrappedJoints {
     double weight;        ///< of the features opposite
     std::uint32_t first;  ///< of its arms
     std::uint32_t count;
-    bool acts = false;  ///< in the present step, it gave something back
+    double contacts = 0.0;  ///< that it gave back in the present step
   };
   struct Arm {
     NodeId end;

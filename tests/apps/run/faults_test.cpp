@@ -104,7 +104,8 @@ TEST_P(RemovedFolder, EndsARunWithOneMessageAndIsNotMadeAgain) {
 
   EXPECT_EQ(outcome.exit_code, kFailed);
   EXPECT_THAT(outcome.err,
-              testing::AnyOf(HasSubstr("No such file or directory"), HasSubstr("does not exist")));
+              testing::AnyOf(HasSubstr("No such file or directory"), HasSubstr("does not exist"),
+                             HasSubstr("there is no such file")));
   EXPECT_THAT(outcome.err, HasSubstr(out.string()));
   expect_one_message(outcome);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"gone"});
