@@ -188,7 +188,7 @@ struct SpreadContact {
   }
 
   /// One step of the law.
-  /// @param contacts  of the patch
+  /// @param contacts  between its structures, in all patches
   void apply_law(const StructurePair& bodies, double contacts, double free_part,
                  const Motion& motion, double dt) {
     const auto of_all =

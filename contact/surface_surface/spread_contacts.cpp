@@ -240,8 +240,8 @@ double SpreadContacts::apply_law(const StructurePatches& patches, const Motion& 
     for (std::size_t i = begin; i < end; ++i) {
       SpreadContact& spread = contacts_[i];
       const StructurePatch& patch = patches.patches()[spread.patch];
-      spread.apply_law(patches.structure_pairs()[spread.structure_pair], patch.count,
-                       patch.free_part, motion, dt);
+      spread.apply_law(patches.structure_pairs()[spread.structure_pair],
+                       patches.count_beside(patch), patch.free_part, motion, dt);
     }
   });
   double dissipated = 0.0;

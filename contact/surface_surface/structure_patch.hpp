@@ -135,8 +135,9 @@ struct StructurePatch {
     return AnyLaw::history_energy(parameters(bodies), memory.history);
   }
 
+  /// @param contacts  between its structures, in all patches
   /// @returns the energy (J) dissipated
-  double apply_law(const StructurePair& bodies, const Motion& motion, double dt) {
+  double apply_law(const StructurePair& bodies, double contacts, const Motion& motion, double dt) {
     if (!pushes()) return 0.0;
     memory.normal = normal();
     if (!(point_part > 0.0)) return 0.0;
@@ -146,7 +147,7 @@ struct StructurePatch {
         relative_motion(memory.normal, gap, point_part * normal_force, velocity,
                         second.angular_velocity(motion) - first.angular_velocity(motion));
     const auto of_part = AnyLaw::unbonded_part(
-        AnyLaw::scaled(bodies.of_part(point_part), point_count()), free_part);
+        AnyLaw::scaled(bodies.of_part(point_count() / contacts), point_count()), free_part);
     const ContactForce result = AnyLaw::force(of_part, relative, memory.history, dt);
     other_force = result.force - point_part * elastic_force;
     moment = result.moment;

@@ -63,17 +63,14 @@ std::vector<StructurePair> StructurePatches::find_structure_pairs(
   for (std::size_t i = 0; i < surface_->structure_count(); ++i) {
     for (std::size_t k = i; k < surface_->structure_count(); ++k) {
       const AnyLaw::Parameters parameters = materials.pairs.combine(part(i), part(k));
-      StructurePair pair{AnyLaw::without_attraction(parameters),
-                         part(i).radius,
-                         part(k).radius,
-                         AnyLaw::attraction(parameters),
-                         nullptr};
+      StructurePair pair{AnyLaw::without_attraction(parameters), part(i).radius, part(k).radius,
+                         AnyLaw::attraction(parameters), nullptr};
       if ((is_rigid(i) || is_rigid(k)) &&
           AnyLaw::normal_damping(pair.parameters, -pair.radius_first) > 0.0) {
-        pair.damped = std::make_shared<const StructurePair::Damped>(StructurePair::Damped{
-            materials.pairs.properties(part(i).material, part(k).material),
-            {body(part(i)), body(part(k))},
-            {is_rigid(i), is_rigid(k)}});
+        pair.damped = std::make_shared<const StructurePair::Damped>(
+            StructurePair::Damped{materials.pairs.properties(part(i).material, part(k).material),
+                                  {body(part(i)), body(part(k))},
+                                  {is_rigid(i), is_rigid(k)}});
       }
       structure_pairs.push_back(std::move(pair));
     }
@@ -385,9 +382,11 @@ double StructurePatches::normal_energy(const geometry::Surface& surface, const M
 }
 
 double StructurePatches::apply_law(const Motion& motion, double dt) {
+  counts_.assign(structure_pairs_.size(), 0.0);
+  for (const StructurePatch& patch : patches_) counts_[patch.structure_pair] += patch.count;
   double dissipated = 0.0;
   for (StructurePatch& patch : patches_)
-    dissipated += patch.apply_law(structure_pair_of(patch), motion, dt);
+    dissipated += patch.apply_law(structure_pair_of(patch), count_beside(patch), motion, dt);
   return dissipated;
 }
 

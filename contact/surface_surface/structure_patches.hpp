@@ -89,6 +89,11 @@ class StructurePatches {
 
   /// One step of the law. @returns the energy (J) dissipated
   double apply_law(const Motion& motion, double dt);
+  /// How many contacts all patches between the structures of a patch count for in that step: the
+  /// feet of a rigid table carry its mass together.
+  double count_beside(const StructurePatch& patch) const noexcept {
+    return counts_[patch.structure_pair];
+  }
 
   void add_forces(NodeForces& forces) const;
   double elastic_energy() const;
@@ -171,6 +176,7 @@ class StructurePatches {
   std::vector<TermPlaces> places_;
   TouchingPatches connected_;
   std::vector<StructurePatch> patches_;
+  std::vector<double> counts_;  ///< by structure pair, in the last step of the law
   std::vector<Predecessor> previous_;
   std::vector<PatchSuccessor> successors_;
   double largest_overlap_ratio_ = 0.0;

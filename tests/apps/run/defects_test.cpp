@@ -158,6 +158,16 @@ TEST(Defects, FlatBarsReboundAlikeHoweverTheyAndThePlateAreCut) {
   }
 }
 
+// Each foot had a dashpot for the mass of the whole table: 0.29.
+TEST(Defects, ATableReboundsFromItsFeetAsItsLawSays) {
+  const Defect defect("table", {});
+
+  ASSERT_EQ(defect.outcome().exit_code, 0) << defect.outcome().err;
+  const std::vector<Row> rows = defect.rows("rigid_bodies.csv");
+  const double before = rows.front().at("b.velocity_z (m/s)");
+  EXPECT_NEAR(rows.back().at("b.velocity_z (m/s)"), -0.5 * before, 0.005);
+}
+
 // A contact between bars whose energy is 0 but for rounding still has a force of rounding.
 TEST(Defects, BarsThatRestDoNotEndAtNoNumber) {
   const Defect defect("tilted_y", {});
