@@ -11,28 +11,16 @@ import json
 import re
 import shutil
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
-import zlib
 from pathlib import Path
 
-SKIPPED = 77
-BROWSER = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-dev-shm-usage",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--hide-scrollbars",
-    "--window-size=1000,760",
-    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
-]
-"""Software rendering, and no name is found: a page that loads something from a network fails."""
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+import browser
 
+SKIPPED = 77
 SCENES = {
     "catch": ["apps/examples/catch/catch.toml", "--set", "grains.gravel.count=150", "--set", "simulation.duration=300 ms"],
     "net": ["apps/examples/net/net.toml", "--set", "simulation.duration=80 ms"],
@@ -151,52 +139,12 @@ folder = None
 
 def browse(address, *options):
     """What the browser says of a page."""
-    with tempfile.TemporaryDirectory() as profile:
-        done = subprocess.run(
-            [arguments.browser, *BROWSER, f"--user-data-dir={profile}", *options, address],
-            capture_output=True, text=True, timeout=300, check=True,
-        )
-    return done.stdout
-
-
-def pixels(file):
-    """Width and rows of RGB bytes of a PNG as the browser writes it: 8 bits, not interlaced."""
-    data = file.read_bytes()
-    at, packed = 8, b""
-    while at < len(data):
-        length, kind = struct.unpack_from(">I4s", data, at)
-        body = data[at + 8 : at + 8 + length]
-        if kind == b"IHDR":
-            width, _, depth, colour = struct.unpack_from(">IIBB", body)
-            assert depth == 8 and colour in (2, 6), "an unknown kind of PNG"
-            size = 3 if colour == 2 else 4
-        if kind == b"IDAT":
-            packed += body
-        at += 12 + length
-    raw, rows, before = zlib.decompress(packed), [], bytearray(width * size)
-    for start in range(0, len(raw), width * size + 1):
-        row, line = raw[start], bytearray(raw[start + 1 : start + 1 + width * size])
-        for i in range(len(line)):
-            left = line[i - size] if i >= size else 0
-            up, corner = before[i], before[i - size] if i >= size else 0
-            if row == 1:
-                line[i] = (line[i] + left) & 255
-            elif row == 2:
-                line[i] = (line[i] + up) & 255
-            elif row == 3:
-                line[i] = (line[i] + (left + up) // 2) & 255
-            elif row == 4:
-                p = left + up - corner
-                near = min((abs(p - left), 0, left), (abs(p - up), 1, up), (abs(p - corner), 2, corner))[2]
-                line[i] = (line[i] + near) & 255
-        rows.append(line)
-        before = line
-    return width, size, rows
+    return browser.browse(arguments.browser, address, *options)
 
 
 def coloured_share(file):
     """The share of the scene (left and top of the page) that is clearly coloured."""
-    _, size, rows = pixels(file)
+    _, size, rows = browser.pixels(file)
     count = total = 0
     for line in rows[60:440:4]:
         for x in range(120 * size, 700 * size, 4 * size):
