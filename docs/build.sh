@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds the site, without a network and without warnings, and with Doxygen the interface in C++ as its folder api.
+# Pictures of the tutorials are those that the test docs.tutorials of this build has made, if it has, or the copies that are kept.
 # Usage: sh docs/build.sh [PROGRAM [FOLDER]]: of build/release/apps/plekton, to build/site
 set -eu
 cd "$(dirname "$0")/.."
@@ -15,7 +16,7 @@ if [ ! -x "$program" ]; then
 fi
 PLEKTON_VERSION=$("$program" --version)
 export PLEKTON_VERSION
-"$python" -B docs/gather.py "$program" . "$pages"
+"$python" -B docs/gather.py "$program" . "$pages" "$(dirname "$program")/../tutorials"
 "$python" -m sphinx -W --keep-going -q -b html -d "$site.doctrees" "$pages" "$site"
 if command -v doxygen > /dev/null; then
   sh docs/api.sh "$site/api" "$PLEKTON_VERSION"

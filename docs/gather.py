@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Puts the pages of the site together: those of this folder, what other folders have, and what the program writes.
 
-Usage: python3 gather.py PROGRAM ROOT FOLDER; FOLDER is made anew
+Usage: python3 gather.py PROGRAM ROOT FOLDER [PICTURES]; FOLDER is made anew. PICTURES has pictures that the tests of the tutorials have made,
+which take the place of the copies that are kept beside the tutorials
 """
 
 import os
@@ -43,7 +44,7 @@ def place_of(path, root):
         return f"applications/{application[1]}.md"
     if picture := PICTURE.fullmatch(relative):
         return "pictures/" + picture[1]
-    return relative[len("docs/") :] if relative.startswith("docs/") and relative.endswith(".md") else None
+    return relative[len("docs/") :] if relative.startswith("docs/") and relative.endswith((".md", ".png", ".svg")) else None
 
 
 def with_links_of_the_site(text, page, root, target):
@@ -73,6 +74,15 @@ def pages_of_the_site(root):
             yield page, place_of(page, root)
 
 
+def fresh_pictures(program, tutorials, made):
+    """Pictures that were made after the program and the page were, and their places below the tutorials; others are of another page or program."""
+    for copy in sorted(tutorials.glob("*/*")):
+        picture = made / copy.relative_to(tutorials)
+        sources = (Path(program), copy.parent.with_suffix(".md"))
+        if picture.is_file() and all(picture.stat().st_mtime >= source.stat().st_mtime for source in sources):
+            yield picture, copy.relative_to(tutorials)
+
+
 def main():
     program, root, folder = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3])
     shutil.rmtree(folder, ignore_errors=True)
@@ -82,6 +92,9 @@ def main():
             copy.unlink(missing_ok=True)
         text = with_links_of_the_site(page.read_text(encoding="utf-8"), page, root, target)
         (folder / target).write_text(text, encoding="utf-8")
+    if len(sys.argv) > 4:
+        for picture, place in fresh_pictures(program, root / "docs" / "tutorials", Path(sys.argv[4])):
+            shutil.copy(picture, folder / "tutorials" / place)
     for what, target in WRITTEN.items():
         text = subprocess.run([program, "generate", what], capture_output=True, text=True, check=True).stdout
         (folder / target).write_text(text, encoding="utf-8")

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iostream>
 
 using namespace plekton;
@@ -62,20 +63,28 @@ struct WaltonBraun {
   }
 };
 
-int main() {
+/// With the name of a file: writes the overlap and the force on the floor there, while they touch.
+int main(int argc, char** argv) {
   dynamics::Scene scene;
   const contact::MaterialId stone{0};
   scene.materials = {{.young_modulus = 1e9, .stiffness_ratio = 0.0, .friction = 0.0}};
   scene.add_sphere({0, 0, 0.15}, 0.05, 2650.0, stone);  // centre, radius, density
   scene.planes.push_back({{0, 0, 0}, {0, 0, 1}, {0, 0, 0}, stone});
 
-  dynamics::Simulation run(scene, {.motion = {.gravity = {0, 0, -9.81}}},
+  dynamics::Simulation run(scene, {.time_step = 5e-6, .motion = {.gravity = {0, 0, -9.81}}},
                            contact::model_of<WaltonBraun>());
+  std::ofstream table;
+  if (argc > 1) table.open(argv[1]);
+  table << "overlap (m),force (N)\n";
   double highest = 0.0;
   bool has_touched = false;
   while (run.time() < 0.28) {
     run.step();
-    has_touched |= run.contacts().counts().with_planes > 0;
+    const bool touches = run.contacts().counts().with_planes > 0;
+    has_touched |= touches;
+    if (touches)
+      table << 0.05 - run.force_positions()[0].z() << ',' << -run.plane_reaction(0).force.z()
+            << '\n';
     if (has_touched) highest = std::max(highest, run.state().position[0].z() - 0.05);
   }
   std::cout << "fell 0.1 m, rebounds " << highest << " m: restitution " << std::sqrt(highest / 0.1)

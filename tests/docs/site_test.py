@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The site builds without warnings, loads nothing from outside, has formulas and every page of the tree, and links only to what is there.
+"""The site builds without warnings, loads nothing from outside, has formulas, every page of the tree and the pictures of the tutorials, and
+links only to what is there.
 
 Usage: python3 site_test.py PROGRAM ROOT; ends 77 where Sphinx, MyST, its theme or KaTeX are missing (cmake/debian-packages.txt, doc)
 """
@@ -9,6 +10,8 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from pictures import SHOWN
 
 SKIPPED = 77
 PYTHON = "/usr/bin/python3"
@@ -35,6 +38,15 @@ def broken_links(site):
                 yield f"{page.relative_to(site)}: links to {link}, which is not there"
 
 
+def missing_pictures(site, tutorials):
+    """Pictures of the tutorials that the site does not show."""
+    for page in sorted(tutorials.glob("*.md")):
+        shown = (site / "tutorials" / page.name).with_suffix(".html").read_text(encoding="utf-8")
+        for picture in SHOWN.finditer(page.read_text(encoding="utf-8")):
+            if f"_images/{Path(picture['link']).name}" not in shown:
+                yield f"tutorials/{page.stem}.html: does not show {picture['link']}"
+
+
 def main():
     program, root = sys.argv[1:3]
     if not is_installed():
@@ -48,6 +60,7 @@ def main():
             return 1
         failures = [f"{part}.html is missing" for part in PARTS if not (site / f"{part}.html").is_file()]
         failures += broken_links(site)
+        failures += missing_pictures(site, Path(root, "docs/tutorials"))
         if "katex.min.js" not in (site / "theory/laws.html").read_text(encoding="utf-8"):
             failures.append("theory/laws.html does not load KaTeX")
     for failure in failures:
