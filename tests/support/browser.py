@@ -19,13 +19,15 @@ OPTIONS = [
 """Software rendering, and no name is found: a page that loads something from a network fails."""
 
 
+def command(browser, profile, size="1000,760"):
+    """How a browser is started that keeps what it has to keep in a folder."""
+    return [browser, *OPTIONS, f"--window-size={size}", f"--user-data-dir={profile}"]
+
+
 def browse(browser, address, *options, size="1000,760"):
     """What the browser says of a page."""
     with tempfile.TemporaryDirectory() as profile:
-        done = subprocess.run(
-            [browser, *OPTIONS, f"--window-size={size}", f"--user-data-dir={profile}", *options, address],
-            capture_output=True, text=True, timeout=300, check=True,
-        )
+        done = subprocess.run([*command(browser, profile, size), *options, address], capture_output=True, text=True, timeout=300, check=True)
     return done.stdout
 
 

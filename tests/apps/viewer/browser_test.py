@@ -6,7 +6,9 @@ Usage: python3 browser_test.py PROGRAM ROOT [--pictures FOLDER]; ends 77 where c
 """
 
 import argparse
+import contextlib
 import html
+import http.server
 import json
 import re
 import shutil
@@ -14,7 +16,10 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 import unittest
+import urllib.request
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
@@ -121,6 +126,26 @@ SHORTER = """
   told.message = document.getElementById('message').textContent;
 """
 
+FOLLOWED = """<script>
+(async () => {
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  const told = { frames: [], shown: [], histories: [], live: [] };
+  try {
+    while (document.documentElement.dataset.ready !== 'yes') await wait(50);
+    const page = window.plekton, frames = () => page.run.frames.length;
+    for (const from = performance.now(); told.frames.length < 3 && performance.now() - from < 60000; await wait(50)) {
+      if (told.frames.length && frames() <= told.frames.at(-1)) continue;
+      await wait(1000);  // until it is shown
+      told.frames.push(frames()); told.shown.push(page.frame); told.histories.push(page.histories.plot.data[0].length);
+      told.live.push(page.run.live);
+    }
+    told.message = document.getElementById('message').textContent;
+  } catch (error) { told.error = String(error); }
+  await fetch('/told', { method: 'POST', body: JSON.stringify(told) });
+})();
+</script>"""
+"""Beside a page that follows a run: how many frames it has had, three times as they grow, is told to the server."""
+
 WRONG_SETTINGS = {
     "frame=abc": "frame=abc, expected a number or last",
     "slice=1": "slice=1, expected x, y or z",
@@ -158,6 +183,62 @@ def told_by(said, name):
     """What a page that was dumped has in a <pre>, as JSON."""
     found = re.search(rf'<pre id="{name}"[^>]*>(.*?)</pre>', said, re.DOTALL)
     return json.loads(html.unescape(found[1]) or "{}")
+
+
+@contextlib.contextmanager
+def started(*command, **more):
+    """A program that is asked to end, as Ctrl-C does, when it is not needed any more."""
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
+    try:
+        yield process
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+
+
+def address_of(server):
+    """Where plekton view --serve says that it serves; nothing if it cannot."""
+    said = ""
+    while not (address := re.search(r"http://127\.0\.0\.1:\d+/", said)):
+        line = server.stdout.readline()
+        said += line
+        if "cpp-httplib" in said:
+            return None
+        assert line, said
+    return address[0]
+
+
+class Between(http.server.ThreadingHTTPServer):
+    """Hands on what another server says, with a script at the end of its page, and keeps what that tells."""
+
+    def __init__(self, server, script):
+        super().__init__(("127.0.0.1", 0), Handler)
+        self.server, self.script, self.told, self.has_told = server, script, None, threading.Event()
+
+
+class Handler(http.server.BaseHTTPRequestHandler):
+    def do_GET(self):
+        try:
+            with urllib.request.urlopen(self.server.server + self.path.lstrip("/")) as answer:
+                code, kind, body = answer.status, answer.headers["Content-Type"], answer.read()
+        except urllib.error.HTTPError as error:
+            code, kind, body = error.code, error.headers["Content-Type"], error.read()
+        if self.path == "/":
+            body = body.replace(b"</body>", self.server.script.encode() + b"</body>")
+        self.send_response(code)
+        self.send_header("Content-Type", kind or "text/plain")
+        self.send_header("Content-Length", str(len(body)))
+        self.end_headers()
+        self.wfile.write(body)
+
+    def do_POST(self):
+        self.server.told = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
+        self.send_response(204)
+        self.end_headers()
+        self.server.has_told.set()
+
+    def log_message(self, *_):
+        pass
 
 
 class Pages(unittest.TestCase):
@@ -254,24 +335,39 @@ class Pages(unittest.TestCase):
         self.assertEqual(told["message"], "")
 
     def test_a_served_page_shows_the_run(self):
-        server = subprocess.Popen(
-            [arguments.program, "view", folder / "net", "--serve", "0"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-        )
-        try:
-            said = ""
-            while not (address := re.search(r"http://127\.0\.0\.1:\d+/", said)):
-                line = server.stdout.readline()
-                said += line
-                if "cpp-httplib" in said:
-                    self.skipTest("compiled without cpp-httplib")
-                self.assertTrue(line, said)
-            dumped = browse(address[0] + "#self-check", "--virtual-time-budget=20000", "--dump-dom")
-        finally:
-            server.send_signal(signal.SIGINT)
-            server.communicate(timeout=60)
+        with started(arguments.program, "view", folder / "net", "--serve", "0") as server:
+            if not (address := address_of(server)):
+                self.skipTest("compiled without cpp-httplib")
+            dumped = browse(address + "#self-check", "--virtual-time-budget=20000", "--dump-dom")
         result = told_by(dumped, "self-check")
         self.assertTrue(result.get("ok"), result)
         self.assertEqual(result["frames"], self.frames("net"))
+
+    def test_a_served_page_that_stays_open_grows_with_the_run(self):
+        out = folder / "growing"
+        catch = [Path(arguments.root) / SCENES["catch"][0], "--set", "grains.gravel.count=60", "--set", "output.interval=5 ms"]
+        with contextlib.ExitStack() as stack:
+            stack.enter_context(started(arguments.program, "run", *catch, "--out", out, "--quiet", "--threads", "1"))
+            for _ in range(600):
+                if (out / "grains.pvd").exists():
+                    break
+                time.sleep(0.1)
+            if not (address := address_of(stack.enter_context(started(arguments.program, "view", out, "--serve", "0")))):
+                self.skipTest("compiled without cpp-httplib")
+            between = stack.enter_context(Between(address, FOLLOWED))
+            stack.callback(between.shutdown)
+            threading.Thread(target=between.serve_forever, daemon=True).start()
+            profile = stack.enter_context(tempfile.TemporaryDirectory(ignore_cleanup_errors=True))
+            stack.enter_context(started(*browser.command(arguments.browser, profile), "--remote-debugging-port=0",
+                                        f"http://127.0.0.1:{between.server_port}/"))
+            self.assertTrue(between.has_told.wait(120), "the page tells nothing")
+        told = between.told
+        self.assertNotIn("error", told)
+        self.assertEqual(len(told["frames"]), 3, told)
+        self.assertEqual(sorted(set(told["frames"])), told["frames"])
+        self.assertEqual(told["shown"], [count - 1 for count in told["frames"]])
+        self.assertEqual(sorted(set(told["histories"])), told["histories"])
+        self.assertEqual((told["live"], told["message"]), ([True] * 3, ""))
 
     def test_settings_in_the_address_that_are_none_are_told_and_left_out(self):
         address = self.page("pull-out") + "#" + "&".join(WRONG_SETTINGS)
