@@ -61,7 +61,9 @@ def with_links_of_the_site(text, page, root, target):
             return match[0]
         place = place_of(path, root)
         if place is None:
-            return f"{words} (`{path.relative_to(root).as_posix()}`)"
+            in_sources = path.relative_to(root).as_posix()
+            named = words.strip("`")
+            return f"`{in_sources}`" if in_sources.endswith(named) else f"{words} (`{in_sources}`)"
         return f"{mark}[{words}]({os.path.relpath(place, os.path.dirname(target))}{'#' + anchor if anchor else ''})"
 
     return LINK.sub(replaced, text)

@@ -61,6 +61,8 @@ def main():
         failures = [f"{part}.html is missing" for part in PARTS if not (site / f"{part}.html").is_file()]
         failures += broken_links(site)
         failures += missing_pictures(site, Path(root, "docs/tutorials"))
+        if "(apps/examples/catch/catch.toml)" in re.sub("<[^>]*>", "", (site / "reference/scenario.html").read_text(encoding="utf-8")):
+            failures.append("reference/scenario.html names a file twice")
         if "katex.min.js" not in (site / "theory/laws.html").read_text(encoding="utf-8"):
             failures.append("theory/laws.html does not load KaTeX")
     for failure in failures:
