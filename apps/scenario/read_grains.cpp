@@ -305,8 +305,10 @@ GrainSettings read_grains(Section section, const Known& known, std::size_t numbe
     refuse_placement(section, "centres");
     grains.centres = section.vectors("centres", {kLength}, 1);
     refuse_equal(section, "centres", grains.centres);
+    // Of centres that are wrong it is not known how many there are.
+    const auto count = grains.centres.empty() ? std::nullopt : std::optional(grains.centres.size());
     if (section.has("radii"))
-      grains.radii = section.quantities("radii", {kLength, kPositive}, grains.centres.size());
+      grains.radii = section.quantities("radii", {kLength, kPositive}, count);
   } else if (!has_file) {
     grains.placement = read_grain_placement(section);
     grains.amount = read_amount(section, density, grains.sizes);

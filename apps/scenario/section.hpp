@@ -56,8 +56,9 @@ class Section {
   /// A list of vectors. Empty after a problem.
   std::vector<geometry::Vec3> vectors(std::string_view key, const Quantity& expected,
                                       std::size_t least);
-  /// A list of so many quantities. Empty after a problem.
-  std::vector<double> quantities(std::string_view key, const Quantity& expected, std::size_t count);
+  /// A list of so many quantities, or of any number. Empty after a problem.
+  std::vector<double> quantities(std::string_view key, const Quantity& expected,
+                                 std::optional<std::size_t> count);
   /// A list of rows of so many different places in a table, numbered from 0, one row after the
   /// other; at least one row. Empty after a problem.
   std::vector<std::int32_t> places(std::string_view key, std::size_t columns, std::size_t size);

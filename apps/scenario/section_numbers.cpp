@@ -138,14 +138,15 @@ std::vector<geometry::Vec3> Section::vectors(std::string_view key, const Quantit
 }
 
 std::vector<double> Section::quantities(std::string_view key, const Quantity& expected,
-                                        std::size_t count) {
+                                        std::optional<std::size_t> count) {
   if (records(key, ValueType::of(Kind::quantities, expected), {})) return {};
   const Value* value = require(key);
   if (value == nullptr) return {};
   const auto* array = std::get_if<Array>(&value->data);
   const std::size_t problems = problems_->count();
-  if (array == nullptr || array->size() != count)
-    complain(key, fmt::format("got {}; expected a list of {}", shown(*value), count));
+  if (array == nullptr || (count && array->size() != *count))
+    complain(key, fmt::format("got {}; expected a list{}", shown(*value),
+                              count ? fmt::format(" of {}", *count) : ""));
   std::vector<double> numbers;
   for (std::size_t i = 0; array != nullptr && i < array->size(); ++i)
     numbers.push_back(read_quantity((*array)[i], fmt::format("{}[{}]", path_of(key), i), expected));

@@ -15,6 +15,7 @@ namespace {
 using dynamics::Held;
 using geometry::NodeId;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::string_view kScenario = R"([simulation]
 duration = "1 s"
@@ -177,6 +178,16 @@ TEST(PlacedBodies, HaveRadiiOfTheirOwn) {
   EXPECT_EQ(scene.grains.at(0).smallest, 0.03);
   EXPECT_THAT(error_of(overrides),
               HasSubstr("grains.pair.radius: radii says how large each grain is"));
+}
+
+TEST(PlacedBodies, ComplainOfWrongCentresAlone) {
+  const std::string error =
+      error_of({"grains.pair.centres=[[0, 0, 1], [0, 1]]", "grains.pair.radii=[\"4 cm\", 0.03]"});
+
+  EXPECT_THAT(error, HasSubstr("grains.pair.centres[1]: got a list of 2"));
+  EXPECT_THAT(error, Not(HasSubstr("grains.pair.radii")));
+  EXPECT_THAT(error_of({"grains.pair.radii=[\"4 cm\"]"}),
+              HasSubstr("grains.pair.radii: got a list of 1; expected a list of 2"));
 }
 
 TEST(PlacedBodies, HaveBarsBesideFacetsOnTheSameNodes) {
