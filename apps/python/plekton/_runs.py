@@ -11,10 +11,14 @@ class History(Mapping):
     """A CSV file of a run: its columns as arrays, by their names; `units` has their units ("" of a number)."""
 
     def __init__(self, file):
+        self._file = file
         self._columns, self.units = _core._read_history(file)
 
     def __getitem__(self, name):
-        return self._columns[name]
+        if name in self._columns:
+            return self._columns[name]
+        there = f"there are {', '.join(self._columns)}" if self._columns else "its first line, the names of all, has no end: it is cut off or just begun"
+        raise KeyError(f"{self._file}: has no column {name!r}; {there}")
 
     def __iter__(self):
         return iter(self._columns)

@@ -2,6 +2,7 @@
 """What a run has written, as arrays."""
 
 import csv
+import shutil
 
 import numpy as np
 import plekton
@@ -70,8 +71,17 @@ def test_what_is_not_there_is_named(written, tmp_path):
         print(run.pressures)
     with pytest.raises(plekton.InputError, match="holds no run"):
         plekton.open_run(tmp_path)
-    with pytest.raises(KeyError):
+    with pytest.raises(KeyError, match="energy.csv: has no column 'nothing'; there are time, kinetic, "):
         run.energy["nothing"]
+
+
+def test_a_history_that_is_cut_in_its_first_line_says_so(written, tmp_path):
+    folder, _ = written
+    cut = shutil.copytree(folder, tmp_path / "cut")
+    (cut / "energy.csv").write_bytes((folder / "energy.csv").read_bytes()[:30])
+
+    with pytest.raises(KeyError, match="energy.csv: has no column 'kinetic'; its first line.*is cut off or just begun"):
+        plekton.open_run(cut).energy["kinetic"]
 
 
 def test_a_run_is_shown_as_a_page(written, tmp_path):
