@@ -20,6 +20,7 @@ constexpr std::array kArguments = std::to_array<std::pair<std::string_view, std:
     {"study", "_plekton_files toml"},
     {"file", "_plekton_files toml"},
     {"name", "_plekton_words \"$(plekton generate example-names 2> /dev/null)\""},
+    {"names", "_plekton_words \"$(plekton validate --list 2> /dev/null | cut -d ' ' -f 1)\""},
 });
 
 constexpr std::string_view kFunctions =

@@ -38,6 +38,7 @@ def completion_failures(program, root):
         (["run", str(Path(root, "apps/examples/catch/ca"))], {catch}),
         (["run", "--threads", ""], set()),
         (["examples", "ca"], {"catch"}),
+        (["validate", "ca"], {"cantilever", "cable"}),
         (["study", str(Path(root, "apps/examples/shear_test/cal"))], {str(Path(root, "apps/examples/shear_test/calibration.toml"))}),
         (["import-yade", str(Path(root, "apps/takeover/export_s"))], {str(Path(root, "apps/takeover/export_scene.py"))}),
     ]
