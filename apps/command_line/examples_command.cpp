@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/examples_command.hpp"
 
+#include "apps/programs/shell_word.hpp"
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/section.hpp"
@@ -149,8 +150,9 @@ void copy_example(const std::string& name, fs::path target, std::ostream& out) {
         "add_executable({} {}), target_link_libraries({} plekton::dynamics)\n",
         name, main.string(), name);
   else
-    out << fmt::format("run it:  plekton run {}\nlook at: plekton view {}\n", main.string(),
-                       (fs::path("out") / main.stem()).string());
+    out << fmt::format("run it:  plekton run {}\nlook at: plekton view {}\n",
+                       shell_word(main.string()),
+                       shell_word((fs::path("out") / main.stem()).string()));
 }
 
 }  // namespace plekton::apps

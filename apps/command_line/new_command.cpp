@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/new_command.hpp"
 
+#include "apps/programs/shell_word.hpp"
 #include "apps/scenario/problems.hpp"
 #include "dynamics/output/file.hpp"
 
@@ -84,10 +85,11 @@ void write_starting_scenario(const std::filesystem::path& file, std::ostream& ou
   writer.write(kScenario);
   writer.commit();
   const std::filesystem::path folder = std::filesystem::path("out") / file.stem();
+  out << "wrote " << file.string() << '\n';
   out << fmt::format(
-      "wrote {0}\ncheck it: plekton check {0}\nrun it:   plekton run {0}\nlook at:  "
+      "check it: plekton check {0}\nrun it:   plekton run {0}\nlook at:  "
       "plekton view {1}\n",
-      file.string(), folder.string());
+      shell_word(file.string()), shell_word(folder.string()));
 }
 
 }  // namespace plekton::apps

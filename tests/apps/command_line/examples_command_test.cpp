@@ -36,6 +36,13 @@ TEST_F(Examples, AreCopiedWithAllTheirFilesAndStillRead) {
   EXPECT_NO_THROW(read_scenario(target / "catch.toml"));
 }
 
+TEST_F(Examples, TellCommandsThatCanBeTypedForAnyFolder) {
+  const fs::path target = folder_ / "my own";
+  const Outcome outcome = outcome_of({"examples", "catch", "--out", target.string()});
+
+  EXPECT_THAT(outcome.out, HasSubstr("plekton run '" + (target / "catch.toml").string() + "'\n"));
+}
+
 TEST_F(Examples, AllAreScenariosThatCanBeRead) {
   int scenarios = 0;
   for (const Example& example : find_examples(examples_folder())) {

@@ -27,6 +27,14 @@ TEST_F(New, WritesAScenarioThatRunsWithoutAWarning) {
   EXPECT_EQ(run.err, "");
 }
 
+TEST_F(New, TellsCommandsThatCanBeTypedForAnyName) {
+  const std::string file = (folder_ / "a b.toml").string();
+
+  EXPECT_EQ(outcome_of({"new", file}).out, "wrote " + file + "\ncheck it: plekton check '" + file +
+                                               "'\nrun it:   plekton run '" + file +
+                                               "'\nlook at:  plekton view 'out/a b'\n");
+}
+
 TEST_F(New, DoesNotReplaceAFile) {
   test::write_bytes(folder_ / "first.toml", "mine");
 
