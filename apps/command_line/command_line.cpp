@@ -632,7 +632,9 @@ CLI::App* add_import_yade(CLI::App& app, CommandLine& line) {
   CLI::App* import = app.add_subcommand(
       "import-yade", "Run a script of YADE to an iteration, and write what is there as a scenario");
   import->add_option("script", line.yade.script, "Script of YADE (.py)")->required();
-  import->add_option("--iteration", line.yade.iteration, "To run to; 0 is what the script makes")
+  import
+      ->add_option("--iteration", line.yade.iteration,
+                   "To run to; 0 is what the script makes, end where it ends")
       ->capture_default_str();
   import->add_option("--out", line.yade.out,
                      "Folder for the scenario and report.txt; out/<script>-yade if not given");

@@ -13,6 +13,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <charconv>
+#include <optional>
 
 namespace plekton::apps {
 namespace {
@@ -62,11 +64,22 @@ std::string report_of(const yade::Takeover& takeover, const yade::Scene& scene,
   return text;
 }
 
+/// Nothing for the end of the script.
+std::optional<long> iteration_of(const std::string& text) {
+  if (text == "end") return std::nullopt;
+  long iteration = -1;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, iteration);
+  if (read.ec != std::errc() || read.ptr != end || iteration < 0)
+    throw InputError(fmt::format(
+        "--iteration: got {}; expected at least 0, or end for where the script ends", text));
+  return iteration;
+}
+
 }  // namespace
 
 void import_yade(const ImportYadeArguments& arguments, std::ostream& out) {
-  if (arguments.iteration < 0)
-    throw InputError(fmt::format("--iteration: got {}; expected at least 0", arguments.iteration));
+  const std::optional<long> iteration = iteration_of(arguments.iteration);
   const std::string stem = arguments.script.stem().string();
   const fs::path folder =
       arguments.out.empty() ? fs::path("out") / (stem + "-yade") : arguments.out;
@@ -74,7 +87,7 @@ void import_yade(const ImportYadeArguments& arguments, std::ostream& out) {
   if (!arguments.overwrite)
     refuse_results(folder, "import-yade",
                    std::array<std::string_view, 2>{scenario_name, "report.txt"});
-  const yade::Scene scene = yade::run_to(arguments.script, arguments.iteration);
+  const yade::Scene scene = yade::run_to(arguments.script, iteration);
   const yade::Takeover takeover = tried(scene, arguments.script, folder / scenario_name);
   if (takeover.counts.empty())
     throw InputError(

@@ -3,14 +3,15 @@
 
 #include <filesystem>
 #include <ostream>
+#include <string>
 
 namespace plekton::apps {
 
 /// What `plekton import-yade` was asked for.
 struct ImportYadeArguments {
   std::filesystem::path script;
-  long iteration = 0;
-  std::filesystem::path out;  ///< folder; empty: out/<script>-yade
+  std::string iteration = "0";  ///< to run to, or end: where the script ends
+  std::filesystem::path out;    ///< folder; empty: out/<script>-yade
   bool overwrite = false;
 };
 

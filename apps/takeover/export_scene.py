@@ -2,6 +2,7 @@
 """Runs a script in YADE to an iteration and writes what is there then, as JSON in SI units.
 
 Usage, from plekton import-yade: yade -n -x -j1 export_scene.py SCRIPT ITERATION OUT [LATER_ITERATION OUT]...
+The first iteration may be "end": where the script ends.
 """
 
 import json
@@ -13,7 +14,7 @@ import traceback
 import types
 
 script = os.path.abspath(sys.argv[1])
-stops = [(int(at), os.path.abspath(out)) for at, out in zip(sys.argv[2::2], sys.argv[3::2])]
+stops = [(None if at == "end" else int(at), os.path.abspath(out)) for at, out in zip(sys.argv[2::2], sys.argv[3::2])]
 
 
 class Anything:
@@ -64,7 +65,7 @@ def run_script():
     os.chdir(os.path.dirname(file_name))
     sys.argv = [file_name]
     sys.path.insert(0, os.path.dirname(file_name))
-    if target > 0:
+    if target:
         omega.stopAtIter = target
     with open(file_name, encoding="utf-8") as file:
         code = compile(file.read(), file_name, "exec")
@@ -74,6 +75,8 @@ def run_script():
         exec(code, globals())
     except SystemExit:
         pass
+    if target is None:
+        target = end_of_script(omega)
     if omega.running:
         omega.pause() if omega.iter >= target else omega.wait()
     reached = omega.iter
@@ -81,7 +84,19 @@ def run_script():
         omega.run(target - reached, True)
     globals().update(ours)  # what the script calls by the same names
     if reached > target:
-        raise SystemExit(f"error: the script has run to iteration {reached} by itself; --iteration has to be at least that")
+        raise SystemExit(
+            f"error: the script has run to iteration {reached} by itself; --iteration has to be at least that, "
+            "and --iteration end takes what is there then"
+        )
+
+
+def end_of_script(omega):
+    """The iteration at which a script that has been run ends, which it may have told YADE only."""
+    if not omega.running:
+        return omega.iter
+    if omega.stopAtIter <= 0:
+        raise SystemExit("error: the script leaves YADE running without an end; name an --iteration")
+    return omega.stopAtIter
 
 
 def vector(v):
@@ -255,6 +270,29 @@ def engine_facts():
     return facts
 
 
+WORDS = {"x": "position", "v": "velocity", "w": "angular velocity", "r": "radius"}
+"""Of what is told of bodies in short."""
+
+
+def numbers_in(told, path=""):
+    """All numbers with a point, each with what it is; bodies by their numbers."""
+    if isinstance(told, dict):
+        path = f"body {told['id']}:" if "id" in told else path
+        for name, value in told.items():
+            yield from numbers_in(value, f"{path} {WORDS.get(name, name)}")
+    elif isinstance(told, list):
+        for value in told:
+            yield from numbers_in(value, path)
+    elif isinstance(told, float):
+        yield path.strip(), told
+
+
+def refuse_what_is_not_finite(told):
+    for what, number in numbers_in(told):
+        if not math.isfinite(number):
+            raise SystemExit(f"error: {what} is {number} at iteration {told['iteration']}, expected a finite number; is there one earlier?")
+
+
 def export(out):
     scene = Export()
     for body in O.bodies:
@@ -269,6 +307,7 @@ def export(out):
     if told["stepper"]:
         O.step()  # it knows its step only then
         told["dt"] = float(O.dt)
+    refuse_what_is_not_finite(told)
     with open(out, "w", encoding="utf-8") as file:
         json.dump(told, file, allow_nan=False)
 
@@ -280,7 +319,7 @@ def main():
     try:
         run_script()
         for at, out in stops:
-            O.run(at - O.iter, True) if at > O.iter else None
+            O.run(at - O.iter, True) if at is not None and at > O.iter else None
             export(out)
     except SystemExit as stop:
         print(stop)

@@ -15,7 +15,7 @@ namespace plekton::apps::yade {
 
 namespace fs = std::filesystem;
 
-Scene run_to(const fs::path& script, long iteration) {
+Scene run_to(const fs::path& script, std::optional<long> iteration) {
   if (std::error_code ignored; !fs::is_regular_file(script, ignored))
     throw InputError(
         fmt::format("{}: there is no such file; expected a script of YADE (.py)", script.string()));
@@ -31,7 +31,7 @@ Scene run_to(const fs::path& script, long iteration) {
   file.commit();
   // -j1: the same input gives the same scene each time.
   run_to_end({yade->string(), "-n", "-x", "-j1", exporter.string(), fs::absolute(script).string(),
-              fmt::format("{}", iteration), told.string()},
+              iteration ? fmt::format("{}", *iteration) : "end", told.string()},
              scratch.path() / "log");
   try {
     return parse_scene(geometry::read_regular_file(told, "a scene"));

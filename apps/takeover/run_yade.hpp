@@ -4,11 +4,14 @@
 #include "apps/takeover/yade_scene.hpp"
 
 #include <filesystem>
+#include <optional>
 
 namespace plekton::apps::yade {
 
 /// Runs a script in YADE, without its windows, to an iteration, and reads what is there then.
-/// @throws InputError if YADE is not installed, or the script fails or goes on beyond the iteration
-Scene run_to(const std::filesystem::path& script, long iteration);
+/// @param iteration  nothing: where the script ends
+/// @throws InputError if YADE is not installed, or the script fails or goes on beyond the iteration,
+///         or without an end
+Scene run_to(const std::filesystem::path& script, std::optional<long> iteration);
 
 }  // namespace plekton::apps::yade

@@ -66,8 +66,11 @@ TEST_F(ImportYadeCommand, SaysInOneLineWhatIsMissingOrWrong) {
   EXPECT_EQ(std::count(missing.err.begin(), missing.err.end(), '\n'), 1) << missing.err;
 
   EXPECT_EQ(outcome_of({"import-yade", "/no/such.py"}).exit_code, kFailed);
-  EXPECT_THAT(outcome_of({"import-yade", script(), "--iteration", "-1"}).err,
-              HasSubstr("--iteration: got -1; expected at least 0"));
+  EXPECT_THAT(
+      outcome_of({"import-yade", script(), "--iteration", "-1"}).err,
+      HasSubstr("--iteration: got -1; expected at least 0, or end for where the script ends"));
+  EXPECT_THAT(outcome_of({"import-yade", script(), "--iteration", "9x"}).err,
+              HasSubstr("--iteration: got 9x; expected at least 0, or end"));
   EXPECT_EQ(outcome_of({"import-yade"}).exit_code, kUsage);
 }
 

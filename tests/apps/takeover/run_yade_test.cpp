@@ -12,6 +12,7 @@
 namespace plekton::apps::yade::run_yade_test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr std::string_view kScript = R"(from yade import qt
@@ -32,7 +33,7 @@ O.dt = 1e-5
 qt.View().ortho = True
 )";
 
-std::string problem_of(const std::string& script, long iteration) {
+std::string problem_of(const std::string& script, std::optional<long> iteration) {
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "case.py", script);
   try {
@@ -67,7 +68,27 @@ TEST(RunYade, TellsWhyAScriptFails) {
 
   EXPECT_THAT(problem_of("no_such_name", 0), HasSubstr("no_such_name"));
   EXPECT_THAT(problem_of(std::string(kScript) + "O.run(50, True)\n", 20),
-              HasSubstr("has run to iteration 50 by itself"));
+              AllOf(HasSubstr("has run to iteration 50 by itself"), HasSubstr("--iteration end")));
+  EXPECT_THAT(problem_of(std::string(kScript) + "O.run()\n", std::nullopt),
+              HasSubstr("leaves YADE running without an end; name an --iteration"));
+}
+
+TEST(RunYade, TakesWhatIsThereWhereAScriptEnds) {
+  if (!find_program("yade")) GTEST_SKIP() << "yade is not installed";
+  const test::TemporaryFolder folder;
+  for (const char* const run : {"O.run(50, True)\n", "O.run(50)\n"}) {
+    test::write_bytes(folder / "case.py", std::string(kScript) + run);
+
+    EXPECT_EQ(run_to(folder / "case.py", std::nullopt).iteration, 50) << run;
+  }
+}
+
+TEST(RunYade, NamesTheBodyThatIsNowhere) {
+  if (!find_program("yade")) GTEST_SKIP() << "yade is not installed";
+
+  EXPECT_THAT(
+      problem_of(std::string(kScript) + "O.bodies[3].state.pos = (0, 0, float('nan'))\n", 0),
+      HasSubstr("body 3: position is nan at iteration 0, expected a finite number"));
 }
 
 TEST(RunYade, NamesAScriptThatIsMissing) {
