@@ -217,8 +217,9 @@ def test_held_nodes_can_be_given_a_velocity(simulation):
     simulation.set_velocity(rim, [0, 0, 0.5])
     simulation.run(until=0.002)
 
-    # A motion at constant velocity, summed over steps that rounding leaves a little of.
-    np.testing.assert_allclose(simulation.positions[rim] - before, [[0, 0, 0.001]] * 5, rtol=1e-9, atol=1e-15)
+    # A motion at constant velocity, summed over steps, to an end that is met to a thousandth of a step.
+    assert abs(simulation.time - 0.002) <= 1e-3 * simulation.time_step
+    np.testing.assert_allclose(simulation.positions[rim] - before, [[0, 0, 0.5 * simulation.time]] * 5, rtol=1e-9, atol=1e-15)
     simulation.set_velocity(rim, np.zeros((5, 3)))
     simulation.step(1)
     assert (simulation.velocities[rim] == 0.0).all()
