@@ -453,7 +453,7 @@ bool Simulation::step_until(double end) {
   require_time_step();
   const double left = end - time_;
   if (!(left > kRest * dt_)) return false;
-  const double steps = std::ceil(left / dt_ - kRest);
+  const double steps = std::max(1.0, std::ceil(left / dt_ - kRest));
   const bool is_whole = std::abs(left - steps * dt_) <= kRest * dt_;
   const bool is_near = steps <= static_cast<double>(kStepsBetweenLooks);
   advance(is_near && !is_whole ? left / steps : dt_);

@@ -3,6 +3,7 @@
 
 #include "apps/run/build_info.hpp"
 #include "apps/run/run_state.hpp"
+#include "apps/run/stage_change.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/units.hpp"
@@ -72,8 +73,10 @@ ResumedRun resumed_at(const ResumeArguments& arguments, const std::optional<doub
 /// Whether nothing is left of what is asked for: the checkpoint is that of its last step.
 bool is_over(const ResumedRun& run, const std::optional<double>& to) {
   const double now = time_of(run.checkpoint.state);
-  return (to && now >= *to) ||
-         (run.scenario.stages.empty() && now >= run.scenario.simulation.duration);
+  if (to && now >= *to) return true;
+  if (run.scenario.stages.empty()) return now >= run.scenario.simulation.duration;
+  const StageOfState of = stage_of(run.checkpoint.state);
+  return of.has_ended && of.bodies.stage + 1 == run.scenario.stages.size();
 }
 
 }  // namespace

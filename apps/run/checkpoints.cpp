@@ -114,7 +114,7 @@ std::string problem_with_files(const fs::path& folder, const fs::path& checkpoin
 /// Whether a state comes after the step in which a time lies.
 bool is_after(const geometry::StateTree& state, double time) {
   double step = 0.0;  // s
-  geometry::StateArchive::reader(state).group("step")("time_step", step);
+  geometry::StateArchive::reader(state).group("step")("last_drift", step);
   return time_of(state) > time && time_of(state) - step >= time;
 }
 

@@ -33,7 +33,7 @@ constexpr std::array<dynamics::OutputField, 22> kFields = {{
     {"broken_bonds", "", "how many so far"},
     {"torn_facets", "", "of sheets, how many so far"},
     {"largest_overlap_ratio", "", "overlap over the radius of the smaller ball"},
-    {"time_step", "s", "chosen or given; the last step of a run may be shorter"},
+    {"time_step", "s", "chosen or given; the last 64 steps of a run may be shorter"},
     {"lost_grains", "", "how many"},
     {"unbalanced_force_ratio", "",
      "mean resultant force on free nodes over the mean force that contacts, bonds and sheets "

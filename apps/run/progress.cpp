@@ -17,6 +17,9 @@ double seconds(Progress::Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
+/// Characters, of a line of a narrow terminal.
+constexpr std::size_t kTerminal = 80;
+
 /// Writes a line over another one. @returns its width
 std::size_t write_over(std::ostream& out, const std::string& line, std::size_t width) {
   out << '\r' << line << std::string(width > line.size() ? width - line.size() : 0, ' ')
@@ -68,14 +71,20 @@ void SetUpProgress::tell_now_and_then(const std::stop_token& stop) {
 
 void SetUpProgress::tell(Clock::time_point now) {
   if (now_.empty() || !is_due(now_ != what_, now)) return;
+  const bool is_new = now_ != what_;
   what_ = now_;
   last_ = now;
   std::string line = "setting up: " + what_;
   if (share_ > 0.0) line += fmt::format(", {:.0f} %", 100.0 * share_);
-  if (style_ == ProgressStyle::one_line)
-    width_ = write_over(out_, line, width_);
-  else
+  if (style_ != ProgressStyle::one_line) {
     out_ << line << std::endl;
+  } else if (line.size() < kTerminal) {
+    width_ = write_over(out_, line, width_);
+  } else if (is_new) {  // what takes more than a line of it cannot be written over
+    write_over(out_, "", width_);
+    out_ << '\r' << line << std::endl;
+    width_ = 0;
+  }
 }
 
 Progress::Progress(std::ostream& out, ProgressStyle style, double duration)

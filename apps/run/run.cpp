@@ -439,7 +439,8 @@ class Run {
 
   /// Frames and rows whose time has come.
   void write_due(double time) {
-    // Before a last step that is short nothing is due at the end already.
+    // Before a last step that is short (where a run goes on just before its end) nothing is due at the
+    // end already.
     const bool ends_soon = !stage_ && end_time_ - time < 0.5 * simulation_.time_step();
     const double soon = ends_soon ? 0.0 : 0.5 * simulation_.time_step();
     if (time < std::min({next_row_, next_reactions_, next_frame_}) - soon) return;

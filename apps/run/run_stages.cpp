@@ -87,6 +87,36 @@ void require_same_tables(const Scenario& then, const Scenario& now) {
   }
 }
 
+/// The masses of membranes and rigid bodies that are there are those of the state.
+void require_same_masses(const Scenario& then, const Scenario& now) {
+  const auto refuse = [&](const std::string& path) {
+    throw InputError(
+        fmt::format("{}: {} has another mass, density or inertia than in the run that it is to go "
+                    "on from; leave "
+                    "these keys, and those of its material, as they are there",
+                    now.stage->path, path));
+  };
+  const auto density_of = [](const Scenario& scenario, std::size_t material) {
+    return scenario.materials[material].density;
+  };
+  for (std::size_t i = 0; i < now.membranes.size(); ++i) {
+    const MembraneSettings &a = then.membranes[i], &b = now.membranes[i];
+    if (b.is_absent) continue;  // it comes as this one says; surfaces of rigid bodies have no mass
+    if (a.mass_mode != b.mass_mode || a.density != b.density || a.areal_mass != b.areal_mass)
+      refuse("membranes." + b.name);
+  }
+  for (std::size_t i = 0; i < now.rigid_bodies.size(); ++i) {
+    const RigidBodySettings &a = then.rigid_bodies[i], &b = now.rigid_bodies[i];
+    if (b.is_absent) continue;
+    const bool is_same_material =
+        !b.membrane || density_of(then, then.membranes[*b.membrane].material) ==
+                           density_of(now, now.membranes[*b.membrane].material);
+    if (!is_same_material || a.mass != b.mass || a.density != b.density || a.inertia != b.inertia ||
+        a.centre != b.centre || a.filling != b.filling)
+      refuse(b.path);
+  }
+}
+
 /// What has ended is what this scenario says it is.
 void require_same_stages(const Scenario& then, const Scenario& now, const Scenario& ended) {
   for (std::size_t i = 0; i <= ended.stage->number; ++i) {
@@ -251,6 +281,7 @@ PreparedRun ended_stage(const Scenario& scenario, const Scenario& stage,
   Scenario then = all.stages.at(stage_of(state).bodies.stage);
   require_same_stages(all, scenario, stage);
   require_same_tables(then, stage);
+  require_same_masses(then, stage);
   require_same_surfaces(then, stage, hear);
   then.simulation.threads = scenario.simulation.threads;
   PreparedRun prepared = prepare_stage(then, state, hear);

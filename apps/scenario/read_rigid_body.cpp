@@ -91,8 +91,8 @@ void read_surface(Section& section, const Known& known, MembraneSettings& surfac
 /// Of every body each principal moment is at most the sum of the other two: I_x + I_y - I_z is twice
 /// the integral of z² over the mass.
 bool is_possible(const Vec3& inertia) {
-  constexpr double kRounding = 1e-9;  // of a flat body, whose moments are equal to that sum
-  return !(2.0 * inertia.maxCoeff() > (1.0 + kRounding) * inertia.sum());
+  constexpr double kDigits = 0.01;  // of a flat body, whose moments are equal to that sum, as typed
+  return !(2.0 * inertia.maxCoeff() > (1.0 + kDigits) * inertia.sum());
 }
 
 void read_inertia(Section& section, RigidBodySettings& body) {

@@ -42,9 +42,9 @@ void require_apart(const std::vector<FoundSet>& fixed, const std::vector<FoundSe
                             freed[j].nodes.end(), std::back_inserter(both));
       if (both.empty()) continue;
       problems.add(fixed[i].settings->place,
-                   fmt::format("{}: fix[{}] and free[{}] both name {} of \"{}\", which cannot be "
+                   fmt::format("{}: fix and free both name {} of \"{}\", which cannot be "
                                "held and free; take other nodes for one of them",
-                               stage.path, i, j,
+                               stage.path,
                                both.size() == 1 ? "a node" : fmt::format("{} nodes", both.size()),
                                name_of(*fixed[i].settings, there)));
     }

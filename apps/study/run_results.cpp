@@ -202,9 +202,10 @@ class RunReader {
     try {
       if (is_new) found->second = read_history(folder_ / result.file);
     } catch (const ViewError& error) {
-      if (std::error_code ignored; !fs::exists(folder_ / result.file, ignored))
-        refuse_name(result, error.what());
-      refuse(result, error.what());
+      std::error_code ignored;
+      refuse(result, fs::exists(folder_ / result.file, ignored)
+                         ? error.what()
+                         : fmt::format("the run has written no {}", result.file));
     }
     return found->second;
   }

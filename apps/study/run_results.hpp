@@ -17,7 +17,7 @@ struct NoResult : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A result whose name is that of nothing in the run: a file, or a column of it.
+/// A result whose name is that of no column of its file. The file may be one that some runs have.
 struct UnknownResult : NoResult {
   using NoResult::NoResult;
 };

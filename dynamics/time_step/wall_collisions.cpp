@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/time_step/wall_collisions.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -37,17 +36,17 @@ double WallCollisions::answer(NodeId node, const NodeProperties& properties) con
 double WallCollisions::step(const ContactSprings& springs, const NodeState& state,
                             const NodeProperties& properties) {
   collect(springs, state);
-  double energy = 0.0;  // J
-  double rated = 0.0;   // J/s², of what is about to begin or end, times omega²
+  double energy = 0.0;  // J, of what is about to begin or end
+  double rated = 0.0;   // J/s², of what is more than stored, times omega²
   for (std::size_t i = 0; i < falls_.size(); ++i) {
     const Fall& fall = falls_[i];
-    energy += fall.stored;
     if (!(fall.power > 0.0)) continue;
     const double squared = answer(geometry::id_at<NodeId>(i), properties) / fall.power;
     if (!(squared > 0.0)) continue;
     const double moving = 0.5 * fall.power / squared;
-    energy += moving;
-    rated += std::max(0.0, moving - fall.stored) * squared;
+    if (!(moving > fall.stored)) continue;
+    energy += moving + fall.stored;
+    rated += (moving - fall.stored) * squared;
   }
   return rated > 0.0 ? 0.5 * std::sqrt(energy / rated) : std::numeric_limits<double>::infinity();
 }

@@ -24,8 +24,8 @@ class WallCollisions {
   /// on a node or rigid body of mass M, v the speed at which each gets deeper, and P that of k v².
   /// Then omega² = f M^-1 f / P: k / m of a ball on one wall, n k / m of a plate that falls flat on
   /// n balls. The energy is that of the motion, P / (2 omega²), and what is stored. What is held
-  /// deeper than its motion reaches neither begins nor ends: only what the first part has more than
-  /// the second is about to.
+  /// deeper than its motion reaches neither begins nor ends, and does not count; of the others what
+  /// the first part has more than the second is about to.
   double step(const ContactSprings& springs, const NodeState& state,
               const NodeProperties& properties);
 

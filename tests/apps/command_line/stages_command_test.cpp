@@ -493,6 +493,8 @@ TEST_F(Stages, GoOnOnlyWithTheBodiesOfBefore) {
               HasSubstr("stages.b: grains.first has other sizes, numbers or density"));
   EXPECT_THAT(going_on("materials.sand.density=\"2000 kg/m3\"").err,
               HasSubstr("stages.b: grains.first has other sizes, numbers or density"));
+  EXPECT_THAT(going_on("membranes.sheet.areal_mass=\"2 kg/m2\"").err,
+              HasSubstr("stages.b: membranes.sheet has another mass, density or inertia"));
   EXPECT_FALSE(fs::exists(folder_ / "wrong"));
 }
 
@@ -750,7 +752,7 @@ TEST_F(Stages, ThatFixAndFreeTheSameNodesAreRefused) {
 
   const Outcome checked = Program({"check", write("both.toml", text)}).wait();
   EXPECT_EQ(checked.exit_code, 1);
-  EXPECT_THAT(checked.err, HasSubstr("stages.a: fix[1] and free[0] both name a node of \"sheet\", "
+  EXPECT_THAT(checked.err, HasSubstr("stages.a: fix and free both name a node of \"sheet\", "
                                      "which cannot be held and free"));
 }
 

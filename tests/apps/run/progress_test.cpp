@@ -87,6 +87,21 @@ TEST(SetUpProgress, SpeaksAtOnceOnATerminalAndLeavesAnEmptyLine) {
             std::string(std::string("setting up: placing grains g, 98 %").size(), ' ') + '\r');
 }
 
+TEST(SetUpProgress, DoesNotWriteOverWhatIsLongerThanALineOfATerminal) {
+  std::ostringstream out;
+  const std::string long_text(100, 'x');
+  {
+    SetUpProgress progress(out, ProgressStyle::one_line);
+    progress.update(long_text, 0.0);
+    progress.update(long_text, 0.5);
+    progress.update("short", 0.0);
+  }
+
+  EXPECT_NE(out.str().find("setting up: " + long_text + "\n"), std::string::npos);
+  EXPECT_EQ(out.str().find(", 50 %"), std::string::npos);
+  EXPECT_NE(out.str().find("\rsetting up: short"), std::string::npos);
+}
+
 TEST(SetUpProgress, SpeaksInLinesAlsoWhileNothingCallsIt) {
   std::ostringstream out;
   {

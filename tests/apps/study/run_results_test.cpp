@@ -102,7 +102,7 @@ TEST_F(RunResults, SayWhichFileIsMissing) {
   ResultSettings settings = force(Take::last);
   settings.file = "pressures.csv";
 
-  EXPECT_THAT(problem(settings), HasSubstr("pressures.csv: no such file"));
+  EXPECT_THAT(problem(settings), HasSubstr("the run has written no pressures.csv"));
 }
 
 }  // namespace

@@ -79,6 +79,16 @@ TEST(WallCollisions, AreNoneWhereBallsRestDeeperThanTheirMotionReaches) {
   EXPECT_TRUE(std::isfinite(resting.step()));
 }
 
+TEST(WallCollisions, AreFollowedHoweverMuchRestsBesideThem) {
+  Falling alone;
+  alone.add(NodeId{0}, 0.0);
+  alone.state.velocity[0] = Vec3(0.0, 0.0, -1.0);
+  Falling beside = alone;
+  beside.add(NodeId{1}, 0.1);
+
+  EXPECT_EQ(beside.step(), alone.step());
+}
+
 TEST(WallCollisions, AreNoneOfABallThatIsHeldAcrossTheWall) {
   Falling held;
   held.add(NodeId{0}, 0.0);
