@@ -166,6 +166,13 @@ std::vector<fs::path> some_checkpoints_of(const fs::path& folder) {
   return files;
 }
 
+/// @param first  checkpoint that can be read
+[[noreturn]] void throw_too_early(const fs::path& folder, const fs::path& first, double time) {
+  throw InputError(fmt::format(
+      "{}: its first checkpoint comes after {:.6g} s, at {:.6g} s; ask for a later time",
+      folder.string(), time, time_of(dynamics::read_checkpoint(first))));
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_about(const FoundCheckpoint& checkpoint) {
@@ -187,9 +194,7 @@ FoundCheckpoint last_checkpoint_with_files(const fs::path& folder) {
 FoundCheckpoint last_checkpoint(const fs::path& folder, const std::optional<double>& time) {
   const std::vector<fs::path> files = some_checkpoints_of(folder);
   if (auto found = last_of(files, time)) return std::move(*found);
-  throw InputError(fmt::format(
-      "{}: its first checkpoint comes after {:.6g} s, at {:.6g} s; ask for a later time",
-      folder.string(), *time, time_of(dynamics::read_checkpoint(files.front()))));
+  throw_too_early(folder, files.front(), *time);
 }
 
 FoundCheckpoint checkpoint_before(const fs::path& folder, std::int64_t step,
@@ -198,7 +203,8 @@ FoundCheckpoint checkpoint_before(const fs::path& folder, std::int64_t step,
   std::erase_if(files, [&](const fs::path& file) {
     return file.filename() >= fs::path(name_of_checkpoint(step));
   });
-  if (auto found = last_of(std::move(files), time)) return std::move(*found);
+  if (auto found = last_of(files, time)) return std::move(*found);
+  if (time && !files.empty()) throw_too_early(folder, files.front(), *time);
   throw InputError(
       fmt::format("{}: there is no other checkpoint before step {}, to compute it from; expected "
                   "two of them: checkpoint_interval in [output] makes them",
