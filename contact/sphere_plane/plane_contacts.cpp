@@ -44,7 +44,7 @@ double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
   sphere_count_ = slots_.empty() ? 0 : spheres.size();
   materials_ = &materials;
   find_bodies(keys, spheres, planes);
-  share_masses([](const Slot& slot) { return !slot.memory.is_new(); });
+  share_masses_as_kept();
   return lost;
 }
 
@@ -78,6 +78,11 @@ void PlaneContacts::share_masses(const Touches& touches) {
     part.mass /= static_cast<double>(sharing);
     slot.parameters = materials_->combine(part, on.plane);
   }
+}
+
+/// As what touched in the last step.
+void PlaneContacts::share_masses_as_kept() {
+  share_masses([](const Slot& slot) { return !slot.memory.is_new(); });
 }
 
 bool PlaneContacts::touches(const Slot& slot, double height) const {
@@ -282,7 +287,7 @@ void PlaneContacts::exchange(const geometry::StateArchive& archive,
     if (row.is_reading()) keep(kept, place, overlap_ratio);
     ++place;  // each pair touches once
   });
-  if (archive.is_reading()) share_masses([](const Slot& slot) { return !slot.memory.is_new(); });
+  if (archive.is_reading()) share_masses_as_kept();
 }
 
 /// Of pairs that do not touch.
@@ -307,7 +312,7 @@ void PlaneContacts::take_over(const PlaneContacts& before, std::span<const std::
     require_same_law(kept.memory.history, slots_[place].parameters.law);
     keep(kept, place, before.largest_overlap_ratio());
   }
-  share_masses([](const Slot& slot) { return !slot.memory.is_new(); });
+  share_masses_as_kept();
 }
 
 std::vector<PlaneContacts::KeptPair> PlaneContacts::kept_pairs() const {

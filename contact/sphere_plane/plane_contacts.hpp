@@ -148,6 +148,7 @@ class PlaneContacts {
                    std::span<const Plane> planes);
   template <class Touches>
   void share_masses(const Touches& touches);
+  void share_masses_as_kept();
   /// One step of slots that touch, of one law, side by side if it allows. @returns the energy (J)
   /// dissipated
   double advance_touching(const Touching& touching, const Motion& motion,
