@@ -146,17 +146,31 @@ class SceneProblems {
                                << "; it must be zero or positive, and finite\n";
   }
 
-  void list_planes() {
+  void expect_unit(std::string_view kind, std::size_t id, std::string_view what,
+                   const Vec3& vector) {
     constexpr double kTolerance = 1e-9;
+    if (std::abs(vector.squaredNorm() - 1.0) < kTolerance) return;
+    line(kind, id) << "its " << what << " (" << vector.transpose()
+                   << ") is not a unit vector; normalise it\n";
+  }
+
+  void list_planes() {
     for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
       const contact::Plane& plane = scene_.planes[i];
       expect_finite("plane", i, "point", plane.point);
       expect_finite("plane", i, "velocity", plane.velocity);
-      if (!(std::abs(plane.normal.squaredNorm() - 1.0) < kTolerance)) {
-        line("plane", i) << "its normal (" << plane.normal.transpose()
-                         << ") is not a unit vector; normalise it\n";
-      }
       expect_material("plane", i, plane.material);
+      if (plane.form == contact::Plane::Form::flat) {
+        expect_unit("plane", i, "normal", plane.normal);
+      } else if (!(plane.radius > 0.0 && std::isfinite(plane.radius))) {
+        line("plane", i) << "the radius of its cylinder or ball is " << plane.radius
+                         << "; it must be positive and finite\n";
+      }
+      if (plane.form == contact::Plane::Form::cylinder || plane.turns())
+        expect_unit("plane", i, "axis", plane.axis);
+      if (!std::isfinite(plane.angular_velocity))
+        line("plane", i) << "its angular velocity is " << plane.angular_velocity
+                         << "; it must be finite\n";
     }
   }
 

@@ -313,6 +313,7 @@ void Simulation::account(const StepWork& work, const StepLengths& lengths) {
     if (!velocity.isZero(0.0))
       step.external -= lengths.kick * contacts_->force_on_plane(i).dot(velocity);
   }
+  step.external -= lengths.kick * power_on_turning_;
   // The part of the kick that comes after the moment of the forces: all of the first one, half of
   // one between drifts of equal lengths.
   const double later = 0.5 * lengths.drift / lengths.kick;
@@ -410,7 +411,20 @@ ExactStep Simulation::exact_critical_step() const {
 void Simulation::find_contacts() {
   if (contacts_->may_make_lists(motion(), scene_.planes)) nodes_.know_all();
   contacts_->advance(motion(), scene_.planes, last_drift_, pool_, forces_);
+  power_on_turning_ = power_on_turning_planes();
   nodes_.found_forces();
+}
+
+/// W, what bodies do to planes that turn about their axes. While nodes are where forces were found.
+double Simulation::power_on_turning_planes() const {
+  if (std::ranges::none_of(scene_.planes, &contact::Plane::turns)) return 0.0;
+  double power = 0.0;
+  contacts_->for_each_plane_record(scene_.state.position, [&](const contact::ContactRecord& row) {
+    const contact::Plane& plane = scene_.planes[static_cast<std::size_t>(row.b.index)];
+    const Vec3 lever = row.point - plane.point;
+    power += plane.turning().dot(lever.cross(row.force()) + row.moment);
+  });
+  return power;
 }
 
 void Simulation::choose_step() {
@@ -480,14 +494,24 @@ void Simulation::watch_energy() {
   check_energy();
 }
 
+/// m/s, of the planes: of one that turns, the fastest where the nodes are.
+double Simulation::fastest_on_planes() const {
+  double fastest = 0.0;
+  for (const contact::Plane& plane : scene_.planes) {
+    fastest = std::max(fastest, plane.velocity.norm());
+    if (!plane.turns()) continue;
+    for (const Vec3& x : scene_.state.position)
+      fastest = std::max(fastest, plane.velocity_at(x).norm());
+  }
+  return fastest;
+}
+
 void Simulation::check_energy() {
   const Energy now = energy();
   const double made = std::max(now.made(), -now.kinetic);
   most_kinetic_ = std::max(most_kinetic_, std::abs(now.kinetic));
   most_accounted_ = std::max(most_accounted_, now.accounted());
-  double plane_speed = driven_planes_.largest_speed();
-  for (const contact::Plane& plane : scene_.planes)
-    plane_speed = std::max(plane_speed, plane.velocity.norm());
+  const double plane_speed = std::max(driven_planes_.largest_speed(), fastest_on_planes());
   // What starts from rest under a load has its first kinetic energy, a negative one, as initial.
   const double there = most_accounted_ + std::abs(now.initial) +
                        prescribed_energy(scene_.state, scene_.properties, plane_speed);

@@ -281,6 +281,8 @@ class Simulation {
  private:
   void advance(double longest);
   void find_contacts();
+  double power_on_turning_planes() const;
+  double fastest_on_planes() const;
   void choose_step();
   contact::Motion motion() const noexcept;
   void follow_breaks();
@@ -344,6 +346,7 @@ class Simulation {
   DrivenBodies driven_bodies_;
   BodyPress body_press_;               ///< working space, to drive bodies
   std::vector<Vec3> plane_reactions_;  ///< N, to drive planes
+  double power_on_turning_ = 0.0;      ///< W, what bodies do to planes that turn, at the last forces
   BrokenParts broken_;                 ///< asked for, in the next step
   double broken_energy_ = 0.0;         ///< J, of bonds that were asked for
   double taken_out_ = 0.0;             ///< J, that contacts had stored on what was taken out

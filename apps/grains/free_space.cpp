@@ -89,7 +89,7 @@ bool FreeSpace::has_room(const Vec3& centre, double radius) const {
       return false;
   }
   for (const contact::Plane& plane : planes_) {
-    if (plane.normal.dot(centre - plane.point) < radius) return false;
+    if (plane.height(centre) < radius) return false;
   }
   for (const std::uint32_t number : cells_[index_of_cell(cell_of(centre))]) {
     const Obstacle& obstacle = obstacles_[number];

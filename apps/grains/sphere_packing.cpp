@@ -46,6 +46,11 @@ std::vector<contact::Plane> sides_of(const Container& container) {
     const Vec3 axis = (container.cylinder->to - container.cylinder->from).normalized();
     sides.push_back({container.cylinder->from, axis});
     sides.push_back({container.cylinder->to, -axis});
+    sides.push_back({.point = container.cylinder->from,
+                     .normal = Vec3::Zero(),
+                     .form = contact::Plane::Form::cylinder,
+                     .radius = container.cylinder->radius,
+                     .axis = axis});
     return sides;
   }
   for (int axis = 0; axis < 3; ++axis) {
@@ -59,8 +64,17 @@ std::vector<contact::Plane> sides_of(const Container& container) {
 /// @param size  m, of the container
 bool are_one(const contact::Plane& a, const contact::Plane& b, double size) {
   constexpr double kSame = 1e-9;
-  return (a.normal - b.normal).norm() < kSame &&
-         std::abs(a.normal.dot(b.point - a.point)) < kSame * size;
+  if (a.form != b.form || std::abs(a.radius - b.radius) > kSame * size) return false;
+  const Vec3 way = b.point - a.point;
+  switch (a.form) {
+    case contact::Plane::Form::flat:
+      return (a.normal - b.normal).norm() < kSame && std::abs(a.normal.dot(way)) < kSame * size;
+    case contact::Plane::Form::cylinder:
+      return a.axis.cross(b.axis).norm() < kSame && a.axis.cross(way).norm() < kSame * size;
+    case contact::Plane::Form::sphere:
+      return way.norm() < kSame * size;
+  }
+  return false;
 }
 
 /// Those that are there, then the sides of the container along which there is none: a wall counts
@@ -185,7 +199,6 @@ void SpherePacking::find_pairs() {
 void SpherePacking::find_walls() {
   const double margin = kSkin * smallest_ * listed_factor_;
   near_planes_.clear();
-  near_side_.clear();
   near_obstacles_.clear();
   Cells cells(container_.bounds, 2.0 * largest_ * listed_factor_ + margin);
   for (std::uint32_t wall = 0; wall < obstacles_.size(); ++wall) {
@@ -199,18 +212,12 @@ void SpherePacking::find_walls() {
   for (std::uint32_t i = 0; i < x_.size(); ++i) {
     const double near = radii_[i] * listed_factor_ + margin;
     for (std::uint32_t wall = 0; wall < planes_.size(); ++wall)
-      if (planes_[wall].normal.dot(x_[i] - planes_[wall].point) < near)
-        near_planes_.push_back({i, wall});
+      if (planes_[wall].height(x_[i]) < near) near_planes_.push_back({i, wall});
     cells.for_each_in(x_[i], x_[i], [&](const auto& walls) {
       for (const std::uint32_t wall : walls)
         if (distance_to_triangle(x_[i], obstacles_[wall].core) < obstacles_[wall].radius + near)
           near_obstacles_.push_back({i, wall});
     });
-    if (!container_.cylinder) continue;
-    const geometry::CylinderRegion& cylinder = *container_.cylinder;
-    const Vec3 axis = (cylinder.to - cylinder.from).normalized();
-    const Vec3 from = x_[i] - cylinder.from;
-    if ((from - axis.dot(from) * axis).norm() + near > cylinder.radius) near_side_.push_back(i);
   }
 }
 
@@ -254,7 +261,7 @@ SpherePacking::Forces SpherePacking::add_forces() {
   for (const Pair& pair : pairs_) push_apart(pair, sum);
   for (const auto& [sphere, wall] : near_planes_) {
     const contact::Plane& plane = planes_[wall];
-    push(sphere, plane.normal, plane.normal.dot(x_[sphere] - plane.point),
+    push(sphere, plane.normal_at(x_[sphere]), plane.height(x_[sphere]),
          plane_moduli_[wall] * radii_[sphere] * factor_, sum);
   }
   for (const auto& [sphere, wall] : near_obstacles_) {
@@ -264,15 +271,6 @@ SpherePacking::Forces SpherePacking::add_forces() {
     if (closest.distance > 0.0)
       push(sphere, -closest.separation / closest.distance, closest.distance - obstacle.radius,
            spring, sum);
-  }
-  for (const std::uint32_t sphere : near_side_) {
-    const geometry::CylinderRegion& cylinder = *container_.cylinder;
-    const Vec3 axis = (cylinder.to - cylinder.from).normalized();
-    const Vec3 from = x_[sphere] - cylinder.from;
-    const Vec3 across = from - axis.dot(from) * axis;
-    const double distance = across.norm();
-    if (distance > 0.0)
-      push(sphere, -across / distance, cylinder.radius - distance, radii_[sphere] * factor_, sum);
   }
   pressure_ = sum.moment / (3.0 * container_.volume);
   return sum;

@@ -110,7 +110,6 @@ class SpherePacking {
   std::vector<Pair> pairs_;
   std::vector<Near> near_planes_;
   std::vector<Near> near_obstacles_;
-  std::vector<std::uint32_t> near_side_;  // of the cylinder
 };
 
 }  // namespace plekton::apps

@@ -4,7 +4,8 @@ pale. plekton render writes this file and calls it with
 
     PICTURE GRAINS MEMBRANES PLANES TITLE
 
-GRAINS and MEMBRANES are frames (.vtp) or empty, PLANES six numbers for each plane: a point and the normal.
+GRAINS and MEMBRANES are frames (.vtp) or empty, PLANES seven numbers for each plane, as in planes.csv: a point,
+the normal (of a cylinder its axis, 0 of a sphere), the radius (0 of a flat one).
 """
 import sys
 
@@ -82,14 +83,32 @@ def show_plane(point, normal):
     corner = [f - 0.75 * size * (a + b) for f, a, b in zip(foot, side, other)]
     plane = pv.Plane(Origin=corner, Point1=[c + 1.5 * size * a for c, a in zip(corner, side)],
                      Point2=[c + 1.5 * size * b for c, b in zip(corner, other)])
-    shown = pv.Show(plane, view)
-    shown.Opacity = 0.25
+    show_pale(plane, 0.25)
+
+
+def show_container(point, axis, radius):
+    """A cylinder as long as what is to be seen, or a sphere."""
+    if not any(axis):
+        show_pale(pv.Sphere(Center=point, Radius=radius, ThetaResolution=96, PhiResolution=96), 0.12)
+        return
+    along = sum((m - p) * a for m, p, a in zip(middle, point, axis))
+    ends = [[p + (along + reach) * a for p, a in zip(point, axis)] for reach in (-0.6 * size, 0.6 * size)]
+    show_pale(pv.Tube(Input=pv.Line(Point1=ends[0], Point2=ends[1]), Radius=radius, NumberofSides=96, Capping=0), 0.12)
+
+
+def show_pale(surface, opacity):
+    shown = pv.Show(surface, view)
+    shown.Opacity = opacity
     shown.DiffuseColor = shown.AmbientColor = [0.6, 0.62, 0.65]
 
 
 numbers = [float(word) for word in planes.split()]
-for i in range(0, len(numbers), 6):
-    show_plane(numbers[i : i + 3], numbers[i + 3 : i + 6])
+for i in range(0, len(numbers), 7):
+    point, direction, radius = numbers[i : i + 3], numbers[i + 3 : i + 6], numbers[i + 6]
+    if radius > 0.0:
+        show_container(point, direction, radius)
+    else:
+        show_plane(point, direction)
 
 text = pv.Show(pv.Text(Text=title), view)
 text.Color = INK

@@ -39,11 +39,6 @@ double smallest_radius(const geometry::Elements& elements) noexcept {
   return smallest;
 }
 
-/// The point of a plane that is nearest to a point.
-Vec3 foot_on(const contact::Plane& plane, const Vec3& point) {
-  return point - (point - plane.point).dot(plane.normal) * plane.normal;
-}
-
 geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positions x,
                            std::span<const contact::Plane> planes) {
   geometry::Box bounds{Vec3::Constant(std::numeric_limits<double>::max()),
@@ -61,7 +56,7 @@ geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positio
   const geometry::Box of_elements = bounds;
   for (const contact::Plane& plane : planes) {
     for (const Vec3& corner : {of_elements.lower, of_elements.upper}) {
-      const Vec3 foot = foot_on(plane, corner);
+      const Vec3 foot = plane.foot(corner);
       bounds.lower = bounds.lower.cwiseMin(foot);
       bounds.upper = bounds.upper.cwiseMax(foot);
     }

@@ -12,13 +12,14 @@
 namespace plekton::apps {
 namespace {
 
-constexpr std::array<dynamics::OutputField, 6> kPlaceFields = {{
+constexpr std::array<dynamics::OutputField, 7> kPlaceFields = {{
     {"point_x", "m", "of a point of the plane, which moves with it"},
     {"point_y", "m", "likewise"},
     {"point_z", "m", "likewise"},
-    {"normal_x", "", "of the unit normal into the space of the bodies"},
-    {"normal_y", "", "likewise"},
+    {"normal_x", "", "of the unit normal into the space of the bodies; of a cylinder its axis"},
+    {"normal_y", "", "likewise; all of them 0 of a sphere"},
     {"normal_z", "", "likewise"},
+    {"radius", "m", "of the inside of a cylinder or sphere; 0 of a flat plane"},
 }};
 
 }  // namespace
@@ -46,7 +47,8 @@ void PlanePlaces::add(const dynamics::Simulation& simulation) {
     const contact::Plane& plane = simulation.planes()[i];
     double* const at = &row[1 + kPlaceFields.size() * places_[i]];
     std::copy_n(plane.point.data(), 3, at);
-    std::copy_n(plane.normal.data(), 3, at + 3);
+    std::copy_n(plane.direction().data(), 3, at + 3);
+    at[6] = plane.radius;
   }
   add_row(row);
 }

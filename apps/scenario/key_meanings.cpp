@@ -154,9 +154,12 @@ constexpr std::array kOfGrains = std::to_array<KeyMeaning>({
     {"grains[].angular_velocities", "likewise"},
     {"grains[].seed", "of the random numbers that place them"},
     {"planes[].name", "what loads and outputs call it"},
-    {"planes[].point", "any point of the plane"},
+    {"planes[].point", "any point of a flat one, on the axis of a cylinder, centre of a sphere"},
     {"planes[].normal", "into the space of the bodies; any length"},
+    {"planes[].axis", "of a cylinder, and about which a container turns; any length"},
+    {"planes[].radius", "of the inside"},
     {"planes[].velocity", "constant"},
+    {"planes[].angular_velocity", "constant, about the axis, or the normal, through the point"},
     {"planes[].material", "of its contacts"},
 });
 

@@ -225,7 +225,14 @@ void read_torque(Section& section, dynamics::BodyServo& servo) {
 
 dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
   dynamics::PlaneServo servo;
-  servo.plane = read_plane_name(section, scenario).value_or(0);
+  if (const auto plane = read_plane_name(section, scenario)) {
+    servo.plane = *plane;
+    if (!scenario.planes[*plane].is_flat())
+      section.complain("plane",
+                       fmt::format("\"{}\" is a container, which does not press; expected "
+                                   "a flat plane, or a load of kind pressure on a membrane",
+                                   scenario.planes[*plane].name));
+  }
   read_pressing(section, scenario, servo);
   servo.largest_speed = section.quantity("speed", {kVelocity, kPositive});
   servo.gain = section.quantity("gain", {kNumber, kGain}, servo.gain);

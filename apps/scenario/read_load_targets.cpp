@@ -93,10 +93,11 @@ void require_parallel(Section& section, const Scenario& scenario,
                       const std::array<std::size_t, 2>& of) {
   if (std::max(of[0], of[1]) >= scenario.planes.size()) return;  // complained of already
   const PlaneSettings &a = scenario.planes[of[0]], &b = scenario.planes[of[1]];
-  if (a.normal.cross(b.normal).norm() < kParallel) return;
+  const bool are_flat = a.is_flat() && b.is_flat();
+  if (are_flat && a.normal.cross(b.normal).norm() < kParallel) return;
   section.complain("between",
-                   fmt::format("planes \"{}\" and \"{}\" are not parallel, so that they have no "
-                               "distance; expected two that are",
+                   fmt::format("planes \"{}\" and \"{}\" are not flat and parallel, so that they "
+                               "have no distance; expected two that are",
                                a.name, b.name));
 }
 
@@ -144,7 +145,8 @@ std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
     const auto a = find_name(section, "between", names[i], scenario.planes);
     const auto b = find_name(section, "between", names[i + 1], scenario.planes);
     if (!a || !b) continue;
-    if ((scenario.planes[*a].normal + scenario.planes[*b].normal).norm() < kParallel)
+    if (scenario.planes[*a].is_flat() && scenario.planes[*b].is_flat() &&
+        (scenario.planes[*a].normal + scenario.planes[*b].normal).norm() < kParallel)
       pairs.push_back({*a, *b});
     else
       section.complain("between", fmt::format("\"{}\" and \"{}\" do not face each other: their "

@@ -70,6 +70,11 @@ void read_planes_between(Section& section, const Scenario& scenario, MeasureSett
   measure.planes = read_plane_names(section, "between", scenario);
   for (const std::size_t plane : measure.planes) {
     const PlaneSettings& settings = scenario.planes[plane];
+    if (!settings.is_flat()) {
+      section.complain("between", fmt::format("plane \"{}\" is a container; expected flat planes",
+                                              settings.name));
+      continue;
+    }
     if (can_cut(measure, settings.normal)) continue;
     section.complain(
         "between",

@@ -8,6 +8,7 @@
 #include "apps/scenario/shape_settings.hpp"
 #include "apps/scenario/stage_settings.hpp"
 #include "apps/scenario/tie_settings.hpp"
+#include "contact/base/plane.hpp"
 #include "contact/law_list.hpp"
 #include "dynamics/structure/bond_strength.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
@@ -158,12 +159,19 @@ struct GrainSettings {
   std::uint64_t seed = 0;
 };
 
+/// As contact::Plane; without a name it is called by its number.
 struct PlaneSettings {
   std::string name;
   Vec3 point = Vec3::Zero();     ///< m
-  Vec3 normal{0.0, 0.0, 1.0};    ///< unit, into the space of the bodies
+  Vec3 normal{0.0, 0.0, 1.0};    ///< unit, into the space of the bodies; of a flat one
   Vec3 velocity = Vec3::Zero();  ///< m/s
   std::size_t material = 0;
+  contact::Plane::Form form = contact::Plane::Form::flat;
+  double radius = 0.0;            ///< m, of a cylinder or sphere
+  Vec3 axis{0.0, 0.0, 1.0};       ///< unit
+  double angular_velocity = 0.0;  ///< rad/s, about the axis through the point
+
+  bool is_flat() const noexcept { return form == contact::Plane::Form::flat; }
 };
 
 /// What forces a reaction adds up: those of bodies on a plane; those on supports of nodes; those of

@@ -34,7 +34,8 @@ void add_materials_and_planes(const Scenario& scenario, dynamics::Scene& scene) 
   }
   for (const PlaneSettings& plane : scenario.planes) {
     scene.planes.push_back({plane.point, plane.normal, plane.velocity,
-                            static_cast<contact::MaterialId>(plane.material)});
+                            static_cast<contact::MaterialId>(plane.material), plane.form,
+                            plane.radius, plane.axis, plane.angular_velocity});
   }
 }
 

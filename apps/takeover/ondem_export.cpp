@@ -221,8 +221,8 @@ class Export {
   void add_planes() {
     for (std::size_t i = 0; i < simulation_.planes().size(); ++i) {
       const contact::Plane& plane = simulation_.planes()[i];
-      scene_.planes.push_back({scenario_.planes[i].name, plane.point, plane.normal, plane.velocity,
-                               whole(scenario_.planes[i].material)});
+      scene_.planes.push_back({scenario_.planes[i].name, plane.point, plane.direction(),
+                               plane.velocity, whole(scenario_.planes[i].material), plane.radius});
     }
   }
 

@@ -275,7 +275,7 @@ void PackedRun::add_contacts(Block& block, const Results& results) {
       add_array(block, "contacts", magnitudes(array), "contacts");
 }
 
-void PackedRun::add(const FrameFiles& files, const std::vector<std::array<double, 6>>& planes) {
+void PackedRun::add(const FrameFiles& files, const std::vector<PlaneNumbers>& planes) {
   std::array<std::optional<Results>, kSeries.size()> results;
   for (std::size_t series = 0; series < kSeries.size(); ++series)
     if (!files.of[series].empty()) results[series] = read_results(files.of[series]);

@@ -45,7 +45,7 @@ class PackedRun {
  public:
   /// Adds a frame, later than those before.
   /// @throws ViewError if it cannot be read; the run is then as before
-  void add(const FrameFiles& files, const std::vector<std::array<double, 6>>& planes);
+  void add(const FrameFiles& files, const std::vector<PlaneNumbers>& planes);
 
   /// Replaces the histories. Of more rows than a plot can show every so many are kept.
   void set_histories(const std::vector<RecordedHistory>& histories);

@@ -147,17 +147,20 @@ RunFolder open_run_folder(const fs::path& folder) {
   return run;
 }
 
-std::vector<std::array<double, 6>> planes_at(const RunFolder& run, double time) {
-  std::vector<std::array<double, 6>> planes;
+std::vector<PlaneNumbers> planes_at(const RunFolder& run, double time) {
+  std::vector<PlaneNumbers> planes;
   if (!run.planes || run.planes->rows() == 0) return planes;
   const auto& columns = run.planes->columns;
   const std::vector<double>& times = columns.front().values;
   std::size_t row = 0;
   for (std::size_t i = 1; i < times.size(); ++i)
     if (std::abs(times[i] - time) < std::abs(times[row] - time)) row = i;
-  for (std::size_t first = 1; first + 6 <= columns.size(); first += 6) {
-    std::array<double, 6> plane;
-    for (std::size_t k = 0; k < 6; ++k) plane[k] = columns[first + k].values[row];
+  // Runs of before have no column of the radius: all of their planes are flat.
+  const bool have_radius = columns.size() > 7 && columns[7].name.ends_with(".radius");
+  const std::size_t numbers = have_radius ? 7 : 6;
+  for (std::size_t first = 1; first + numbers <= columns.size(); first += numbers) {
+    PlaneNumbers plane{};
+    for (std::size_t k = 0; k < numbers; ++k) plane[k] = columns[first + k].values[row];
     if (std::none_of(plane.begin(), plane.end(), [](double x) { return std::isnan(x); }))
       planes.push_back(plane);
   }

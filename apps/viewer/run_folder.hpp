@@ -49,9 +49,11 @@ struct RunFolder {
 /// it, or files of that name that are something else
 RunFolder open_run_folder(const std::filesystem::path& folder);
 
-/// Point (m) and unit normal of every plane that is there at a time: one that comes in a later stage
-/// is not.
-std::vector<std::array<double, 6>> planes_at(const RunFolder& run, double time);
+/// Point (m), direction and radius (m) of a plane, as in planes.csv.
+using PlaneNumbers = std::array<double, 7>;
+
+/// Those of every plane that is there at a time: one that comes in a later stage is not.
+std::vector<PlaneNumbers> planes_at(const RunFolder& run, double time);
 
 /// The histories of a run: those of kHistories that are there, then those of its measures by name
 /// ("measures/NAME.csv").

@@ -3,6 +3,7 @@
 
 #include "contact/base/material.hpp"
 #include "contact/base/motion.hpp"
+#include "contact/base/plane.hpp"
 #include "geometry/primitives/elements.hpp"
 
 #include <cstdint>
@@ -18,15 +19,6 @@ struct SphereBody {
   MaterialId material;
   double mass = std::numeric_limits<double>::infinity();  ///< kg, see Body
   std::int32_t rigid_body = -1;  ///< that it is a part of, with the mass of all; -1: none
-};
-
-/// A rigid half-space: a wall, a floor, a plate. It moves with a velocity of its own and does not
-/// turn.
-struct Plane {
-  Vec3 point;                    ///< m, any point of the plane
-  Vec3 normal;                   ///< unit, out of the solid, into the space of the bodies
-  Vec3 velocity = Vec3::Zero();  ///< m/s
-  MaterialId material{};
 };
 
 /// Of a structure.

@@ -10,11 +10,6 @@
 namespace plekton::contact {
 namespace {
 
-/// m, of a place.
-double height_over(const Plane& plane, const Vec3& x) noexcept {
-  return (x - plane.point).dot(plane.normal);
-}
-
 BodyPart part_of(const SphereBody& sphere) noexcept {
   return {sphere.material, sphere.radius, sphere.mass};
 }
@@ -97,7 +92,7 @@ double PlaneContacts::advance(const Motion& motion, std::span<const Plane> plane
   records_.reset(pool.thread_count());
   if (slots_.empty()) return 0.0;
   share_masses([&](const Slot& slot) {
-    return touches(slot, height_over(planes[slot.plane], motion.position[index_of(slot.node)]));
+    return touches(slot, planes[slot.plane].height(motion.position[index_of(slot.node)]));
   });
   return sum_(sphere_count_, pool, [&](std::size_t begin, std::size_t end, int worker) {
     Records& records = records_.of_worker(worker);
@@ -120,7 +115,7 @@ double PlaneContacts::advance_spheres(std::size_t begin, std::size_t end, const 
   const std::size_t last = rekey_.first_of(end);
   for (std::size_t i = rekey_.first_of(begin); i < last; ++i) {
     Slot& slot = slots_[i];
-    const double height = height_over(planes[slot.plane], motion.position[index_of(slot.node)]);
+    const double height = planes[slot.plane].height(motion.position[index_of(slot.node)]);
     if (touches(slot, height)) {
       if (slot.parameters.law != touching.law || touching.count == kBatchLanes) flush();
       touching.law = slot.parameters.law;
@@ -128,7 +123,8 @@ double PlaneContacts::advance_spheres(std::size_t begin, std::size_t end, const 
       touching.height[touching.count++] = height;
       touching.all_have_images &= height + slot.radius > 0.0;
     } else if (!slot.memory.is_new()) {
-      const Vec3 velocity = planes[slot.plane].velocity - motion.velocity[index_of(slot.node)];
+      const Vec3 velocity = planes[slot.plane].velocity_at(motion.position[index_of(slot.node)]) -
+                            motion.velocity[index_of(slot.node)];
       const double parting = dt * velocity.dot(slot.memory.normal);
       dissipated += forget<AnyLaw>(slot.parameters, slot.memory, parting);
       slot.id = 0;
@@ -152,17 +148,19 @@ double PlaneContacts::advance_touching(const Touching& touching, const Motion& m
   return dissipated;
 }
 
-/// To the kernel a plane is the mirror image of the sphere, moving with the plane and without spin.
+/// To the kernel a plane is the mirror image of the sphere, moving and turning with the plane.
 void PlaneContacts::gather(const Touching& touching, const Motion& motion,
                            std::span<const Plane> planes, SphereBatch& batch) const {
   for (std::size_t k = 0; k < touching.count; ++k) {
     const Slot& slot = slots_[touching.slot[k]];
     const Plane& plane = planes[slot.plane];
     const std::size_t node = index_of(slot.node);
-    batch.separation.set(k, Vec3(-(touching.height[k] + slot.radius) * plane.normal));
-    batch.velocity.set(k, Vec3(plane.velocity - motion.velocity[node]));
+    const Vec3& x = motion.position[node];
+    const Vec3 separation = -(touching.height[k] + slot.radius) * plane.normal_at(x);
+    batch.separation.set(k, separation);
+    batch.velocity.set(k, Vec3(plane.velocity_at(x + separation) - motion.velocity[node]));
     batch.spin_a.set(k, motion.angular_velocity[node]);
-    batch.spin_b.set(k, Vec3(Vec3::Zero()));
+    batch.spin_b.set(k, plane.turning());
     batch.radius_a.set(k, slot.radius);
     batch.radius_b.set(k, slot.radius);
     batch.parameters().set_numbers(k, slot.parameters.numbers.data(),
@@ -201,17 +199,18 @@ double PlaneContacts::advance_one(std::size_t i, double height, const Motion& mo
   Slot& slot = slots_[i];
   const Plane& plane = planes[slot.plane];
   const std::size_t node = index_of(slot.node);
-  const Vec3 separation = -(height + slot.radius) * plane.normal;
+  const Vec3& x = motion.position[node];
+  const Vec3 normal = plane.normal_at(x);
+  const Vec3 separation = -(height + slot.radius) * normal;
   const bool is_before = height + slot.radius > 0.0;
   const double distance = is_before ? separation.norm() : height + slot.radius;
-  const SpherePairOf<double> pair{
-      is_before ? Vec3((1.0 / distance) * separation) : Vec3(-plane.normal),
-      distance,
-      plane.velocity - motion.velocity[node],
-      motion.angular_velocity[node],
-      Vec3::Zero(),
-      slot.radius,
-      slot.radius};
+  const SpherePairOf<double> pair{is_before ? Vec3((1.0 / distance) * separation) : Vec3(-normal),
+                                  distance,
+                                  plane.velocity_at(x + separation) - motion.velocity[node],
+                                  motion.angular_velocity[node],
+                                  plane.turning(),
+                                  slot.radius,
+                                  slot.radius};
   slot.memory = {carried_history<AnyLaw>(slot.memory, pair.normal, dt * pair.twist_rate()),
                  pair.normal};
   const SphereStepOf<double> step =

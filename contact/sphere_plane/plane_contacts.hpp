@@ -66,7 +66,7 @@ class PlaneContacts {
                      Visit&& visit) const {
     for (const Slot& slot : slots_) {
       const Plane& plane = planes[slot.plane];
-      const double gap = (x[index_of(slot.node)] - plane.point).dot(plane.normal) - slot.radius;
+      const double gap = plane.height(x[index_of(slot.node)]) - slot.radius;
       if (gap < margin + AnyLaw::interaction_range(slot.parameters))
         visit(slot.node, slot.plane, slot.parameters, gap);
     }

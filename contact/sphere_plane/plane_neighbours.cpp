@@ -7,6 +7,7 @@ namespace plekton::contact {
 
 bool PlaneNeighbours::is_due(std::span<const Plane> planes) const noexcept {
   const auto has_moved = [this](const Plane& now, const Plane& then) {
+    if (now.form != Plane::Form::flat) return 2.0 * (now.point - then.point).norm() >= skin_;
     return now.normal != then.normal ||
            2.0 * std::abs((now.point - then.point).dot(then.normal)) >= skin_;
   };
@@ -21,7 +22,7 @@ bool PlaneNeighbours::update(std::span<const SphereBody> spheres, std::span<cons
   pairs_.clear();
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     for (std::size_t p = 0; p < planes.size(); ++p) {
-      const double height = (x[index_of(spheres[i].node)] - planes[p].point).dot(planes[p].normal);
+      const double height = planes[p].height(x[index_of(spheres[i].node)]);
       if (height < spheres[i].radius + reach_ + 1.5 * skin_) {
         pairs_.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(p)});
       }

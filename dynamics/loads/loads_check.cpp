@@ -92,6 +92,8 @@ class LoadProblems {
 
   void list(const std::string& name, const PlaneServo& servo) {
     expect_plane(name, servo.plane);
+    if (servo.plane < scene_.planes.size())
+      expect(is_flat(servo.plane), name, "a servo presses with a flat plane, not with a container");
     for (const auto& pair : servo.between) expect_facing(name, pair);
     expect(servo.force >= 0.0 && servo.pressure >= 0.0 && servo.force + servo.pressure > 0.0, name,
            "has no target; give a force (N) or a pressure (Pa) above 0");
@@ -159,13 +161,17 @@ class LoadProblems {
     if (!holds) text_ << name << ": " << problem << '\n';
   }
 
+  bool is_flat(std::size_t plane) const {
+    return scene_.planes[plane].form == contact::Plane::Form::flat;
+  }
+
   /// Two planes whose normals are opposite.
   void expect_facing(const std::string& name, const std::array<std::size_t, 2>& pair) {
     constexpr double kTolerance = 1e-9;  // of unit normals
     for (const std::size_t plane : pair) expect_plane(name, plane);
     if (std::max(pair[0], pair[1]) >= scene_.planes.size()) return;
     const Vec3 sum = scene_.planes[pair[0]].normal + scene_.planes[pair[1]].normal;
-    if (sum.norm() < kTolerance) return;
+    if (sum.norm() < kTolerance && is_flat(pair[0]) && is_flat(pair[1])) return;
     text_ << name << ": planes " << pair[0] << " and " << pair[1]
           << " do not face each other; the distance of planes bounds an area only where their "
              "normals are opposite\n";

@@ -73,8 +73,8 @@ void BodyPress::look_at_planes(const View& view, std::span<const contact::Plane>
       [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
         if (!view.is_own(ball)) return;
         const Vec3& place = x[index_of(ball)];
-        const Vec3& normal = planes[plane].normal;
-        const Vec3 foot = place - (place - planes[plane].point).dot(normal) * normal;
+        const Vec3 normal = planes[plane].normal_at(place);
+        const Vec3 foot = planes[plane].foot(place);
         add(way, {{foot, foot}, normal, -way.motion_at(place).dot(normal), gap, 1.0}, pair);
       });
 }

@@ -104,6 +104,10 @@ std::uint64_t scene_hash(const Scene& scene) {
   for (const contact::Plane& plane : scene.planes) {
     hash.add(plane.normal);
     add_number(plane.material, hash);
+    if (plane.form == contact::Plane::Form::flat) continue;
+    add_number(plane.form, hash);
+    hash.add(plane.radius);
+    hash.add(plane.axis);
   }
   return hash.value();
 }

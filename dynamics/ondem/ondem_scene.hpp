@@ -91,9 +91,10 @@ struct OndemMembrane {
 struct OndemPlane {
   std::string name;
   geometry::Vec3 point = geometry::Vec3::Zero();     ///< m
-  geometry::Vec3 normal = geometry::Vec3::UnitZ();   ///< unit, into the space of the bodies
+  geometry::Vec3 normal = geometry::Vec3::UnitZ();   ///< contact::Plane::direction()
   geometry::Vec3 velocity = geometry::Vec3::Zero();  ///< m/s
   std::int64_t material = kNone;
+  double radius = 0.0;  ///< m, of the inside of a cylinder or sphere; 0: flat
 };
 
 /// Numbers of all contacts of a run, by the name of the field: ours.

@@ -35,7 +35,7 @@ struct PresentContacts {
     add_on_surfaces_to(springs, further, x);
     contacts.for_each_plane_pair(
         [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
-          add_to_plane(springs, {ball, plane, gap}, pair, further);
+          add_to_plane(springs, {ball, plane, gap}, pair, further, x);
         });
   }
 
@@ -57,7 +57,7 @@ struct PresentContacts {
     contacts.for_each_near_plane_pair(
         margin, planes, x,
         [&](NodeId ball, std::size_t plane, const contact::PairSprings& pair, double gap) {
-          add_to_plane(springs, {ball, plane, gap}, pair, margin);
+          add_to_plane(springs, {ball, plane, gap}, pair, margin, x);
         });
   }
 
@@ -98,12 +98,16 @@ struct PresentContacts {
 
   template <class Springs>
   void add_to_plane(Springs& springs, const OnPlane& of, const contact::PairSprings& pair,
-                    double further) const {
+                    double further, geometry::Positions x) const {
     const contact::Plane& plane = planes[of.plane];
-    ContactStiffness contact = stiffness_of(plane.normal, pair, of.gap - further, of.ball, of.ball);
+    const Vec3& place = x[index_of(of.ball)];
+    const Vec3 normal = plane.normal_at(place);
+    ContactStiffness contact = stiffness_of(normal, pair, of.gap - further, of.ball, of.ball);
     contact.overlap = std::max(0.0, -of.gap);
-    contact.wall_speed = plane.normal.dot(plane.velocity);
+    contact.wall_speed = normal.dot(plane.velocity);
     springs.add_to_wall(of.ball, contact);
+    const double turning = plane.turning_stiffness(place, pair.normal_force(of.gap - further));
+    if (turning > 0.0) springs.add(of.ball, {turning, 0.0});
   }
 
   /// Those with surfaces and between structures.

@@ -52,7 +52,7 @@ struct Shape {
 
 class Maker {
  public:
-  explicit Maker(std::uint64_t seed) : random_(seed) {}
+  explicit Maker(std::uint64_t seed) : random_(seed), of_containers_(seed + 1) {}
 
   SceneText make() {
     is_free_ = chance(0.35);
@@ -64,6 +64,7 @@ class Maker {
     add_contacts();
     add_loads();
     add_output();
+    if (!is_free_ && of_containers_.unit() < 0.2) add_container();
     return std::move(scene_);
   }
 
@@ -462,6 +463,22 @@ class Maker {
     if (chance(0.15)) add_plane("right", {0.2, 0, 0}, {-1, 0, 0});
   }
 
+  /// Around all that there is; from numbers of its own, so that scenes without one are as before.
+  void add_container() {
+    const bool is_sphere = of_containers_.unit() < 0.4;
+    const Vec3 half(0.2, 0.2, 0.5 * top_);
+    TextTable& t = table("[[planes]]");
+    set(t, "name", word("container"));
+    set(t, "kind", word(is_sphere ? "sphere" : "cylinder"));
+    set(t, "point", vec({0.0, 0.0, half.z()}));
+    set(t, "axis", vec(of_containers_.direction()));
+    set(t, "radius", num(of_containers_.uniform(0.5, 1.2) * half.norm()));
+    set(t, "material", material());
+    if (of_containers_.unit() < 0.3) set(t, "velocity", vec(of_containers_.in_cube(0.3)));
+    if (of_containers_.unit() < 0.5)
+      set(t, "angular_velocity", num(of_containers_.uniform(-20.0, 20.0)));
+  }
+
   std::string factor() {
     return fmt::format("[[0, {}], [{:.4g}, {}], [{:.4g}, {:.3g}]]", random_.integer(0, 1),
                        0.3 * duration_, random_.integer(0, 2), duration_,
@@ -635,6 +652,7 @@ class Maker {
   }
 
   Random random_;
+  Random of_containers_;
   SceneText scene_;
   bool is_free_ = false;
   double duration_ = 0.0;  // s

@@ -124,6 +124,31 @@ TEST(SpherePacking, CountsAPlaneAlongASideOfItsContainerOnce) {
   EXPECT_DOUBLE_EQ(walled.factor(), alone.factor());
 }
 
+TEST(SpherePacking, CountsAContainerAlongItsSideOnce) {
+  const geometry::CylinderRegion region{Vec3::Zero(), Vec3(0.0, 0.0, 6.0), 3.0};
+  const Container container = container_of(region);
+  const std::vector<contact::Plane> planes = {{.point = Vec3(0.0, 0.0, 99.0),
+                                               .normal = Vec3::Zero(),
+                                               .form = contact::Plane::Form::cylinder,
+                                               .radius = 3.0,
+                                               .axis = -Vec3::UnitZ()}};
+  std::vector<Vec3> centres;
+  for (const double z : {1.5, 4.5}) {
+    centres.push_back(Vec3(1.0, 0.5, z));
+    centres.push_back(Vec3(-1.0, -0.5, z));
+  }
+  const std::vector<double> radii(4, 1.0);
+  SpherePacking alone(centres, radii, 0.5, container, {});
+  SpherePacking walled(centres, radii, 0.5, container, {{}, planes, {}});
+
+  alone.grow_to(3.0);
+  walled.grow_to(3.0);
+  ASSERT_TRUE(alone.press_to(1e-3));
+  ASSERT_TRUE(walled.press_to(1e-3));
+
+  EXPECT_NEAR(walled.factor(), alone.factor(), 1e-9);
+}
+
 // Springs of both sides in series: 2 e r / (1 + e) of a plane with e times the modulus, and
 // 2 r s / (r + s) of an obstacle with a spring s; here 1.5 r and 0.5 r.
 TEST(SpherePacking, HasTheSpringsOfItsWalls) {

@@ -38,8 +38,10 @@ TEST(ScenarioSchema, AsksForADurationWhereThereAreNoStages) {
 TEST(ScenarioSchema, TakesAnyPartOfATableInAStage) {
   const Json stage = property(scenario_schema(), "stages").at("items");
 
-  EXPECT_FALSE(property(stage, "planes").at("items").contains("required"));
-  EXPECT_EQ(property(stage, "planes").at("items").at("additionalProperties"), false);
+  for (const Json& plane : property(stage, "planes").at("items").at("anyOf")) {
+    EXPECT_FALSE(plane.contains("required"));
+    EXPECT_EQ(plane.at("additionalProperties"), false);
+  }
   EXPECT_TRUE(property(stage, "loads").at("items").contains("anyOf"));
 }
 
@@ -51,6 +53,13 @@ TEST(ScenarioSchema, HasOneAlternativeForEachKindOfATable) {
     EXPECT_TRUE(property(load, "kind").contains("const"));
     EXPECT_THAT(load.at("required"), testing::Contains("kind"));
   }
+}
+
+TEST(ScenarioSchema, TakesAPlaneAsFlatWhereNoKindIsNamed) {
+  const Json planes = property(scenario_schema(), "planes").at("items").at("oneOf");
+
+  EXPECT_THAT(planes.at(0).at("required"), testing::Not(testing::Contains("kind")));
+  EXPECT_THAT(planes.at(1).at("required"), testing::Contains("kind"));
 }
 
 TEST(ScenarioSchema, TakesTheFirstLawWhereNoneIsNamed) {

@@ -226,6 +226,53 @@ TEST(ScenarioReader, RefusesValuesOfAnotherKind) {
   EXPECT_THAT(error_of(edited("\"2 s\"", "true")), HasSubstr("got true; expected a time"));
 }
 
+TEST(ScenarioReader, ReadsContainersAsPlanes) {
+  const Scenario scenario =
+      parse_scenario(edited("normal = [0, 0, 2]",
+                            "kind = \"cylinder\"\naxis = [0, 2, 0]\nradius = \"5 cm\"\n"
+                            "angular_velocity = \"180 deg/s\""),
+                     "case.toml");
+
+  const PlaneSettings& drum = scenario.planes[0];
+  EXPECT_EQ(drum.form, contact::Plane::Form::cylinder);
+  EXPECT_EQ(drum.axis, Vec3(0.0, 1.0, 0.0));
+  EXPECT_DOUBLE_EQ(drum.radius, 0.05);
+  EXPECT_NEAR(drum.angular_velocity, std::numbers::pi, 1e-15);
+}
+
+TEST(ScenarioReader, KnowsWhatBelongsToEachKindOfPlane) {
+  EXPECT_THAT(error_of(edited("normal = [0, 0, 2]", "kind = \"sphere\"")),
+              HasSubstr("planes.floor.radius: missing"));
+  EXPECT_THAT(error_of(edited("normal = [0, 0, 2]",
+                              "kind = \"sphere\"\nnormal = [0, 0, 1]\n"
+                              "radius = 1")),
+              HasSubstr("planes.floor.normal: unknown key"));
+  EXPECT_THAT(error_of(edited("normal = [0, 0, 2]", "radius = 1")),
+              HasSubstr("planes.floor.radius: unknown key"));
+  EXPECT_THAT(error_of(edited("normal = [0, 0, 2]",
+                              "kind = \"cylinder\"\naxis = [0, 0, 0]\n"
+                              "radius = 1")),
+              HasSubstr("planes.floor.axis: got a vector of no length; expected the direction"));
+  EXPECT_THAT(error_of(edited("normal = [0, 0, 2]", "kind = \"cone\"")),
+              HasSubstr("planes.floor.kind"));
+}
+
+TEST(ScenarioReader, RefusesServosDistancesAndMeasuresOfContainers) {
+  const std::string text =
+      edited("normal = [0, 0, 2]", "kind = \"cylinder\"\nradius = 1") +
+      "[[planes]]\nname = \"lid\"\npoint = [0, 0, 1]\nnormal = [0, 0, -1]\nmaterial = "
+      "\"gravel\"\n";
+
+  EXPECT_THAT(error_of(text + "[[loads]]\nkind = \"servo\"\nplane = \"floor\"\nforce = \"1 "
+                              "N\"\nspeed = \"1 m/s\"\n"),
+              HasSubstr("\"floor\" is a container, which does not press"));
+  EXPECT_THAT(
+      error_of(text + "[stop]\nstrain = { between = [\"floor\", \"lid\"], strain = 0.1 }\n"),
+      HasSubstr("planes \"floor\" and \"lid\" are not flat and parallel"));
+  EXPECT_THAT(error_of(text + "[[output.measures]]\nname = \"m\"\nbetween = [\"floor\"]\n"),
+              HasSubstr("plane \"floor\" is a container; expected flat planes"));
+}
+
 TEST(ScenarioReader, RefusesTwoOfTheSameName) {
   const std::string text =
       std::string(kGood) +

@@ -269,7 +269,7 @@ TEST(StageTable, EndsByAStrainBetweenTwoThatHaveADistance) {
       ThrowsMessage<InputError>(HasSubstr("stages.a.end.strain.between: names \"floor\" twice")));
   EXPECT_THAT(
       [&] { with(R"("floor", "wall")"); },
-      ThrowsMessage<InputError>(HasSubstr("planes \"floor\" and \"wall\" are not parallel")));
+      ThrowsMessage<InputError>(HasSubstr("planes \"floor\" and \"wall\" are not flat and parallel")));
   EXPECT_THAT([&] { with(R"("floor", "lidd")"); },
               ThrowsMessage<InputError>(HasSubstr("\"lidd\"")));
 }

@@ -100,7 +100,7 @@ TEST_F(PackedRunOf, TellsWhereThePlanesAre) {
   const auto header = packed().header(run_, {});
 
   EXPECT_EQ(header["frames"][2]["planes"],
-            (nlohmann::ordered_json{{0.0, 0.0, -0.05, 0.0, 0.0, 1.0}}));
+            (nlohmann::ordered_json{{0.0, 0.0, -0.05, 0.0, 0.0, 1.0, 0.0}}));
 }
 
 TEST_F(PackedRunOf, HasUnitsAndRangesOfFields) {

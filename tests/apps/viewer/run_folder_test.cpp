@@ -111,7 +111,7 @@ TEST(RunFolder, FindsThePlanesAtTheTimeOfAFrame) {
                                 {"lid.normal_y", "", {0, 0}},
                                 {"lid.normal_z", "", {-1, -1}}}};
 
-  EXPECT_EQ(planes_at(run, 0.999), (std::vector<std::array<double, 6>>{{0, 0, 2, 0, 0, -1}}));
+  EXPECT_EQ(planes_at(run, 0.999), (std::vector<PlaneNumbers>{{0, 0, 2, 0, 0, -1, 0}}));
 }
 
 TEST(RunFolder, LeavesOutPlanesThatComeInALaterStage) {
@@ -125,9 +125,27 @@ TEST(RunFolder, LeavesOutPlanesThatComeInALaterStage) {
   run.planes->columns.insert(run.planes->columns.begin() + 6, {"floor.normal_z", "", {1, 1}});
   run.planes->columns.push_back({"lid.normal_z", "", {none, -1}});
 
-  EXPECT_EQ(planes_at(run, 0.0), (std::vector<std::array<double, 6>>{{0, 0, 0, 0, 0, 1}}));
+  EXPECT_EQ(planes_at(run, 0.0), (std::vector<PlaneNumbers>{{0, 0, 0, 0, 0, 1, 0}}));
   EXPECT_EQ(planes_at(run, 1.0),
-            (std::vector<std::array<double, 6>>{{0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, -1}}));
+            (std::vector<PlaneNumbers>{{0, 0, 0, 0, 0, 1, 0}, {0, 0, 0, 0, 0, -1, 0}}));
+}
+
+TEST(RunFolder, KnowsContainersByTheirRadius) {
+  RunFolder run;
+  run.planes = RecordedHistory{"planes.csv", {{"time", "s", {0}}}};
+  const std::array<double, 7> drum = {1, 2, 3, 0, 1, 0, 0.25};
+  for (const char* name : {"floor", "drum"}) {
+    std::size_t i = 0;
+    for (const char* field :
+         {".point_x", ".point_y", ".point_z", ".normal_x", ".normal_y", ".normal_z", ".radius"}) {
+      const double of_floor = i == 5 ? 1.0 : 0.0;
+      run.planes->columns.push_back(
+          {std::string(name) + field, "", {name[0] == 'd' ? drum[i] : of_floor}});
+      ++i;
+    }
+  }
+
+  EXPECT_EQ(planes_at(run, 0.0), (std::vector<PlaneNumbers>{{0, 0, 0, 0, 0, 1, 0}, drum}));
 }
 
 TEST(RunFolder, ReadsHistoriesOfBodiesTiesAndMeasuresInTheOrderOfTheirNames) {

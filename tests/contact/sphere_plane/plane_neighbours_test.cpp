@@ -17,7 +17,7 @@ std::vector<geometry::IndexPair> touching(std::span<const SphereBody> balls,
   std::vector<geometry::IndexPair> pairs;
   for (std::size_t i = 0; i < balls.size(); ++i) {
     for (std::size_t p = 0; p < planes.size(); ++p) {
-      if ((x[index_of(balls[i].node)] - planes[p].point).dot(planes[p].normal) < balls[i].radius) {
+      if (planes[p].height(x[index_of(balls[i].node)]) < balls[i].radius) {
         pairs.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(p)});
       }
     }
@@ -37,6 +37,12 @@ TEST(PlaneNeighbours, ListEveryPairThatTouchesWhileBallsAndPlanesMove) {
   std::vector<Plane> planes;
   for (int p = 0; p < 4; ++p)
     planes.push_back({random.in_cube(0.5), random.direction(), Vec3::Zero(), MaterialId{0}});
+  for (const Plane::Form form : {Plane::Form::cylinder, Plane::Form::sphere})
+    planes.push_back({.point = random.in_cube(0.2),
+                      .normal = Vec3::Zero(),
+                      .form = form,
+                      .radius = 1.0,
+                      .axis = random.direction()});
   PlaneNeighbours neighbours(skin);
   auto built_at = x;
   int rebuilds = 0;

@@ -127,7 +127,8 @@ TEST(ReadOndem, GivesBackMembranesPlanesAndTheState) {
   EXPECT_EQ(net.cylinder_radius, expected.cylinder_radius);
   EXPECT_EQ(net.blocked_dofs, expected.blocked_dofs);
   ASSERT_EQ(read.planes.size(), 1U);
-  EXPECT_EQ(read.planes.front().name, "floor");
+  EXPECT_EQ(read.planes.front().name, "drum");
+  EXPECT_EQ(read.planes.front().radius, 0.25);
   EXPECT_EQ(read.planes.front().point, scene.planes.front().point);
   EXPECT_EQ(read.state.arrays.size(), scene.state.arrays.size());
   EXPECT_EQ(read.state.hash(), scene.state.hash());

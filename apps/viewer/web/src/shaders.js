@@ -248,13 +248,16 @@ uniform mat4 modelMatrix;
 out vec3 in_view;
 out vec2 on_plane;
 out vec2 rim;
+in vec2 uv;
 uniform vec2 size;
 uniform vec2 shift;
+uniform vec2 ends;          // 1 where it ends, across and along; 0 where it goes all the way round
 void main() {
   vec4 x = modelViewMatrix * vec4(position, 1.0);
   in_view = x.xyz;
-  rim = position.xy;
-  on_plane = position.xy * size + shift;
+  vec2 place = 2.0 * uv - 1.0;
+  rim = ends * place;
+  on_plane = place * size + shift;
   gl_Position = projectionMatrix * x;
 }`;
 
@@ -264,6 +267,9 @@ uniform float spacing;
 uniform vec3 grid;
 uniform vec4 walls[12];     // the other planes: what is behind one of them is not shown
 uniform int wall_count;
+uniform vec4 middles[4];    // containers: a point of the axis, or the centre, and the radius
+uniform vec3 axes[4];       // 0 of spheres
+uniform int container_count;
 uniform float slack;
 in vec3 in_view;
 in vec2 on_plane;
@@ -277,8 +283,12 @@ void main() {
   if (is_cut_off(in_view)) discard;
   for (int i = 0; i < wall_count; i++)
     if (dot(walls[i].xyz, in_view) + walls[i].w < -slack) discard;
+  for (int i = 0; i < container_count; i++) {
+    vec3 way = in_view - middles[i].xyz;
+    if (length(way - dot(way, axes[i]) * axes[i]) > middles[i].w + slack) discard;
+  }
   float line = max(lines(spacing), 0.45 * lines(spacing / 5.0));
-  vec2 d = (1.0 - abs(rim)) / (fwidth(rim) * 1.2);
+  vec2 d = (1.0 - abs(rim)) / (fwidth(rim) * 1.2 + 1e-6);
   line = max(line, 1.0 - min(min(d.x, d.y), 1.0));
   gl_FragDepth = gl_FragCoord.z;
 #ifdef BACK

@@ -332,7 +332,7 @@ export class View {
     this.planes.forEach((plane, i) => {
       plane.group.visible = this.settings.planes.shown && i < planes.length;
       if (!plane.group.visible) return;
-      plane.place(planes[i].slice(0, 3), planes[i].slice(3, 6), this.stage.box, spacing);
+      plane.place(planes[i], this.stage.box, spacing);
       plane.uniforms.plain.value.setRGB(...(this.dark ? [0.20, 0.22, 0.25] : [0.86, 0.87, 0.885]));
       plane.uniforms.grid.value.setRGB(...(this.dark ? [0.45, 0.48, 0.52] : [0.52, 0.55, 0.6]));
     });

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/material.hpp"
+#include "geometry/primitives/elements.hpp"
+
+#include <cstdint>
+
+namespace plekton::contact {
+
+using geometry::Vec3;
+
+/// A rigid wall: a half-space (a floor, a plate), or the inside of a cylinder without ends or of a
+/// ball (a container, a drum). The space that it leaves to the bodies is convex, so that a bar or a
+/// facet touches it with the balls of its nodes first. It moves with a velocity of its own, and may
+/// turn about its axis of symmetry.
+struct Plane {
+  enum class Form : std::uint8_t { flat, cylinder, sphere };
+
+  Vec3 point;   ///< m, any point of a flat one, on the axis of a cylinder, the centre of a ball
+  Vec3 normal;  ///< unit, of a flat one: out of the solid, into the space of the bodies
+  Vec3 velocity = Vec3::Zero();  ///< m/s
+  MaterialId material{};
+  Form form = Form::flat;
+  double radius = 0.0;       ///< m, of a cylinder or ball
+  Vec3 axis = Vec3::Zero();  ///< unit, of a cylinder; of others that about which they turn
+  double angular_velocity =
+      0;  ///< rad/s, about the axis through the point; of flat ones the normal
+
+  /// m, of a place over the wall; negative beyond it.
+  double height(const Vec3& x) const noexcept {
+    return form == Form::flat ? (x - point).dot(normal) : radius - from_middle(x).norm();
+  }
+  /// Unit, into the space of the bodies, at the point of the wall that is nearest to a place; any
+  /// one of those that are at the middle of a container.
+  Vec3 normal_at(const Vec3& x) const noexcept {
+    if (form == Form::flat) return normal;
+    const Vec3 way = from_middle(x);
+    const double distance = way.norm();
+    if (distance > 0.0) return way / -distance;
+    return form == Form::cylinder ? Vec3(axis.unitOrthogonal()) : Vec3(Vec3::UnitZ());
+  }
+  /// m, the point of the wall that is nearest to a place.
+  Vec3 foot(const Vec3& x) const noexcept { return x - height(x) * normal_at(x); }
+
+  /// Of a flat one its normal, of a cylinder its axis, 0 of a sphere: in files, beside the radius.
+  Vec3 direction() const noexcept {
+    if (form == Form::sphere) return Vec3::Zero();
+    return form == Form::flat ? normal : axis;
+  }
+
+  /// Whether the wall turns.
+  bool turns() const noexcept { return angular_velocity != 0.0; }
+  /// rad/s.
+  Vec3 turning() const noexcept { return angular_velocity * axis; }
+  /// m/s, of the solid at a place.
+  Vec3 velocity_at(const Vec3& x) const noexcept {
+    return turns() ? Vec3(velocity + turning().cross(x - point)) : velocity;
+  }
+
+  /// N/m, how a force (N) along the normal resists a motion across it: the wall comes nearer on
+  /// both sides of the lowest place of a bowl.
+  double turning_stiffness(const Vec3& x, double force) const noexcept {
+    if (form == Form::flat) return 0.0;
+    const double distance = from_middle(x).norm();
+    return distance > 0.0 ? force / distance : 0.0;
+  }
+
+ private:
+  /// m, from the axis of a cylinder or the centre of a ball.
+  Vec3 from_middle(const Vec3& x) const noexcept {
+    const Vec3 way = x - point;
+    return form == Form::cylinder ? Vec3(way - way.dot(axis) * axis) : way;
+  }
+};
+
+}  // namespace plekton::contact

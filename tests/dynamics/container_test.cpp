@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/base/plane.hpp"
+#include "dynamics/simulation.hpp"
+#include "tests/support/named_laws.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+/// Balls and sheets in containers, against the mechanics of a point on a circle.
+namespace plekton::dynamics::container_test {
+namespace {
+
+using contact::Plane;
+using geometry::NodeId;
+
+constexpr contact::MaterialId kMaterial{0};
+constexpr double kBall = 0.01;     // m
+constexpr double kInside = 0.1;    // m
+constexpr double kGravity = 9.81;  // m/s²
+constexpr double kDensity = 2500.0;
+
+Plane cylinder() {
+  return {.point = Vec3(0.3, -0.2, 0.5),
+          .normal = Vec3::Zero(),
+          .material = kMaterial,
+          .form = Plane::Form::cylinder,
+          .radius = kInside,
+          .axis = Vec3::UnitX()};
+}
+Plane sphere() {
+  Plane plane = cylinder();
+  plane.form = Plane::Form::sphere;
+  return plane;
+}
+
+/// m, of a centre that touches at an angle from the lowest place, about the x-axis.
+Vec3 place_at(const Plane& plane, double angle, double gap = 0.0) {
+  return plane.point + (kInside - kBall - gap) * Vec3(0.0, std::sin(angle), -std::cos(angle));
+}
+double angle_of(const Plane& plane, const Vec3& centre) {
+  const Vec3 way = centre - plane.point;
+  return std::atan2(way.y(), -way.z());
+}
+
+/// @param friction  tangent of the friction angle
+Scene with(const Plane& plane, double friction, double stiffness) {
+  Scene scene;
+  scene.materials = {{stiffness, 0.5, friction}};
+  scene.planes = {plane};
+  return scene;
+}
+Simulation run_of(const Scene& scene, double step) {
+  return {scene, {.time_step = step, .motion = {.gravity = Vec3(0, 0, -kGravity)}}};
+}
+
+struct Swing {
+  const char* name;
+  Plane plane;
+  double friction;  ///< tangent of its angle
+  double moved;     ///< mass that swings, in parts of that which falls
+};
+class SwingIn : public testing::TestWithParam<Swing> {};
+
+/// A ball that slides is a pendulum of the length R - r; one that rolls has 2/5 of its mass more
+/// to move (Goldstein, Poole and Safko, Classical Mechanics, 2002, section 1.4).
+TEST_P(SwingIn, TakesThePeriodOfAPendulum) {
+  const Swing& swing = GetParam();
+  constexpr double kAmplitude = 0.05;  // rad
+  constexpr double kStep = 2e-5;       // s
+  Scene scene = with(swing.plane, swing.friction, 1e7);
+  scene.add_sphere(place_at(swing.plane, kAmplitude), kBall, kDensity, kMaterial);
+  Simulation simulation = run_of(scene, kStep);
+
+  // From the first passage through the lowest place to the third: one period.
+  double first = 0.0, third = 0.0, before = kAmplitude;
+  for (int passages = 0; passages < 3;) {
+    simulation.step();
+    const double now = angle_of(swing.plane, simulation.state().position[0]);
+    if (now * before < 0.0) {
+      ++passages;
+      const double time = simulation.time() - kStep * now / (now - before);
+      (passages == 1 ? first : third) = time;
+    }
+    before = now;
+  }
+
+  const double period = 2.0 * std::numbers::pi *
+                        std::sqrt(swing.moved * (kInside - kBall) / kGravity) *
+                        (1.0 + kAmplitude * kAmplitude / 16.0);
+  // The overlap is m g / k, 1e-5 of the length; the rest is the fourth power of the amplitude
+  // and that the ball bounces as it is let go.
+  EXPECT_NEAR(third - first, period, 1e-4 * period);
+  EXPECT_LT(simulation.energy().closure(), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SwingIn,
+                         testing::Values(Swing{"ACylinderWithoutFriction", cylinder(), 0.0, 1.0},
+                                         Swing{"ASphereWithoutFriction", sphere(), 0.0, 1.0},
+                                         Swing{"ACylinderRolling", cylinder(), 0.8, 1.4},
+                                         Swing{"ASphereRolling", sphere(), 0.8, 1.4}),
+                         [](const auto& swing) { return std::string(swing.param.name); });
+
+/// A ball that begins at the lowest place of a drum that turns.
+class BallInDrum : public testing::Test {
+ protected:
+  static constexpr double kTurning = 3.0;   // rad/s
+  static constexpr double kFriction = 0.4;  // tangent of its angle
+  static constexpr double kModulus = 1e7;   // Pa
+  static constexpr double kStep = 2e-5;     // s
+
+  /// As deep in the wall as its weight presses it: E r as stiffness of both sides in series.
+  BallInDrum() : scene_(with(drum(), kFriction, kModulus)) {
+    scene_.add_sphere(place_at(drum(), 0.0, -overlap()), kBall, kDensity, kMaterial);
+  }
+
+  NodeState after(double time, double damping = 0.0) const {
+    SimulationOptions options{.time_step = kStep, .motion = {.gravity = Vec3(0, 0, -kGravity)}};
+    options.motion.damping = damping;
+    Simulation simulation(scene_, options);
+    while (simulation.time() < time) simulation.step();
+    return simulation.state();
+  }
+  static double overlap() {
+    const double volume = 4.0 / 3.0 * std::numbers::pi * kBall * kBall * kBall;
+    return kDensity * volume * kGravity / (kModulus * kBall);
+  }
+  static Plane drum() {
+    Plane plane = cylinder();
+    plane.angular_velocity = kTurning;
+    return plane;
+  }
+
+  Scene scene_;
+};
+
+/// What does not turn slides on the wall, which carries it up to where its weight along the wall is
+/// the friction. About x the lowest place of a drum goes from y = 0 towards +y. Each swing of 0.6 s
+/// takes away more than a third: 1e-8 of the first one is left.
+TEST_F(BallInDrum, IsCarriedToItsFrictionAngleWhileItSlides) {
+  scene_.properties.held[0] = Held::rotation;
+  EXPECT_NEAR(angle_of(drum(), after(20.0, 0.3).position[0]), std::atan(kFriction), 1e-6);
+}
+
+/// A sliding ball has the spin 5/2 mu g t / r (Coriolis, Theorie mathematique des effets du jeu de
+/// billard, 1835); meanwhile it has gone mu g t² / 2, which is 5e-4 rad.
+TEST_F(BallInDrum, IsTurnedByTheFrictionOfTheWall) {
+  constexpr double kTime = 5e-3;
+  const double spin = 2.5 * kFriction * kGravity * kTime / kBall;
+
+  EXPECT_NEAR(after(kTime).angular_velocity[0].x(), spin, 0.01 * spin);
+}
+
+/// Both touch in the middle of their overlap, where they are as fast.
+TEST_F(BallInDrum, GoesOnRollingAtTheLowestPlace) {
+  const double spin = kTurning * (kInside + 0.5 * overlap()) / (kBall - 0.5 * overlap());
+  scene_.state.angular_velocity[0] = Vec3(spin, 0, 0);
+  const NodeState state = after(2.0);
+
+  EXPECT_NEAR(angle_of(drum(), state.position[0]), 0.0, 1e-8);
+  EXPECT_NEAR(state.angular_velocity[0].x(), spin, 1e-8 * spin);
+}
+
+/// What the motor of a drum does is what bodies do to it about its axis, times its turn.
+TEST(Drum, IsTurnedByWorkAgainstTheMomentOfItsBodies) {
+  constexpr double kTurning = 3.0;
+  constexpr double kStep = 2e-5;
+  Plane drum = cylinder();
+  drum.angular_velocity = kTurning;
+  Scene scene = with(drum, 0.4, 1e7);
+  for (const double angle : {-0.3, 0.0, 0.3})
+    scene.add_sphere(place_at(drum, angle), kBall, kDensity, kMaterial);
+  Simulation simulation = run_of(scene, kStep);
+  double work = 0.0;
+  for (int i = 0; i < 5000; ++i) {
+    simulation.step();
+    work -= kStep * kTurning * simulation.plane_reaction(0).moment.dot(drum.axis);
+  }
+
+  EXPECT_NEAR(simulation.energy().external_work, work, 1e-3 * work);
+  EXPECT_LT(simulation.energy().closure(), 2e-3);
+}
+
+/// Of the bodies in a container, moved and turned with it, nothing is different.
+TEST(Container, PushesASheetByItsNodesWhereverItLies) {
+  const Plane plane = cylinder();
+  Scene scene = with(plane, 0.4, 1e6);
+  const auto node = [&](double angle, double along) {
+    return scene.add_node(place_at(plane, angle) + along * plane.axis, Held::nothing);
+  };
+  scene.add_facet(node(0.4, 0.0), node(-0.4, 0.0), node(0.0, 0.05), kBall, kMaterial);
+  for (std::size_t i = 0; i < 3; ++i) {
+    scene.properties.mass[i] = 0.01;
+    scene.properties.inertia[i] = 1e-6;
+  }
+  Simulation simulation = run_of(scene, 1e-5);
+
+  for (int i = 0; i < 2000; ++i) simulation.step();
+
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_GT(plane.height(simulation.state().position[i]), 0.99 * kBall);
+  EXPECT_EQ(simulation.contacts().counts().with_planes, 3U);
+}
+
+TEST(Container, DoesNotPressAsAServo) {
+  Scene scene = with(cylinder(), 0.4, 1e6);
+  PlaneServo servo;
+  servo.force = 1.0;
+  servo.largest_speed = 0.1;
+  scene.loads.servos = {servo};
+  try {
+    run_of(scene, 1e-5);
+    FAIL();
+  } catch (const std::invalid_argument& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("a flat plane, not with a container"),
+              std::string::npos)
+        << refusal.what();
+  }
+}
+
+}  // namespace
+}  // namespace plekton::dynamics::container_test
