@@ -150,9 +150,9 @@ class Contacts {
 
   /// Force (N) of all bodies on a plane in the last step.
   virtual Vec3 force_on_plane(std::size_t plane) const = 0;
-  /// Calls visit(plane, force (N) on it) for every contact of the last step with a plane, in a
-  /// fixed order.
-  virtual void for_each_plane_force(Visit<std::size_t, const Vec3&> visit) const = 0;
+  /// Calls visit(plane, force (N) on it, how much of it (N) is out of the space of the bodies) for
+  /// every contact of the last step with a plane, in a fixed order.
+  virtual void for_each_plane_force(Visit<std::size_t, const Vec3&, double> visit) const = 0;
 
   /// Bonds between structures that hold.
   virtual std::size_t structure_bond_count() const = 0;

@@ -96,7 +96,7 @@ class SceneContacts final : public Contacts {
     with_surfaces_.add_forces(forces, pool);
   }
   Vec3 force_on_plane(std::size_t plane) const override { return with_planes_.force_on(plane); }
-  void for_each_plane_force(Visit<std::size_t, const Vec3&> visit) const override {
+  void for_each_plane_force(Visit<std::size_t, const Vec3&, double> visit) const override {
     with_planes_.for_each_force(visit);
   }
   std::size_t structure_bond_count() const override { return between_structures_.bond_count(); }

@@ -164,6 +164,12 @@ bool take_table(const Scene& before, const std::vector<Element>& there,
   return others;
 }
 
+/// Moves a plane as another one is moved.
+void set_pace(contact::Plane& plane, const contact::Plane& as) {
+  plane.velocity = as.velocity;
+  plane.widening = as.widening;
+}
+
 std::vector<bool> driven_planes(const Scene& scene) {
   std::vector<bool> are_driven(scene.planes.size());
   for (const PlaneMotion& motion : scene.loads.plane_motions) are_driven[motion.plane] = true;
@@ -218,7 +224,7 @@ void Simulation::take_state(Simulation& before, const SceneChange& change) {
     if (!change.moved_planes.empty() && change.moved_planes[i])
       scene_.planes[i] = planes[i];
     else if (!are_driven[i])
-      scene_.planes[i].velocity = planes[i].velocity;
+      set_pace(scene_.planes[i], planes[i]);
   }
 }
 
@@ -240,7 +246,10 @@ void Simulation::look_ahead(double ago, const Look& look) {
   NodeState state = scene_.state;
   for (std::size_t i = 0; i < state.size(); ++i) state.position[i] -= ago * state.velocity[i];
   std::vector<contact::Plane> planes = scene_.planes;
-  for (contact::Plane& plane : planes) plane.point -= ago * plane.velocity;
+  for (contact::Plane& plane : planes) {
+    plane.point -= ago * plane.velocity;
+    plane.radius -= ago * plane.widening;
+  }
   NodeForces forces(state.size());
   contacts_->advance(state.motion(), planes, 0.0, pool_, forces);
   look();

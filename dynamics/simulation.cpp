@@ -314,6 +314,8 @@ void Simulation::account(const StepWork& work, const StepLengths& lengths) {
       step.external -= lengths.kick * contacts_->force_on_plane(i).dot(velocity);
   }
   step.external -= lengths.kick * power_on_turning_;
+  for (std::size_t i = 0; i < plane_reactions_.size(); ++i)
+    step.external -= lengths.kick * plane_reactions_[i].push * scene_.planes[i].widening;
   // The part of the kick that comes after the moment of the forces: all of the first one, half of
   // one between drifts of equal lengths.
   const double later = 0.5 * lengths.drift / lengths.kick;
@@ -334,7 +336,8 @@ void Simulation::move_planes() {
   double squared = fastest_ * fastest_;
   for (contact::Plane& plane : scene_.planes) {
     plane.point += drift_ * plane.velocity;
-    squared = std::max(squared, plane.velocity.squaredNorm());
+    plane.radius += drift_ * plane.widening;
+    squared = std::max({squared, plane.velocity.squaredNorm(), plane.widening * plane.widening});
   }
   if (chooser_ != nullptr) chooser_->moved(std::sqrt(squared) * drift_);
 }
@@ -592,9 +595,11 @@ void Simulation::drive_bodies(const LoadStep& step) {
 }
 
 void Simulation::drive_planes() {
-  plane_reactions_.assign(scene_.planes.size(), Vec3::Zero());
-  contacts_->for_each_plane_force(
-      [&](std::size_t plane, const Vec3& force) { plane_reactions_[plane] += force; });
+  plane_reactions_.assign(scene_.planes.size(), PlaneReaction{});
+  contacts_->for_each_plane_force([&](std::size_t plane, const Vec3& force, double push) {
+    plane_reactions_[plane].force += force;
+    plane_reactions_[plane].push += push;
+  });
   const auto press = [this](std::size_t plane, double way) { return plane_press(plane, way); };
   work_.external +=
       driven_planes_.act({time_, last_drift_, drift_}, plane_reactions_, press, scene_.planes);

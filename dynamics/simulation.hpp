@@ -179,6 +179,8 @@ class Simulation {
   std::vector<Vec3> force_positions() const;
   /// m, where the point of a plane was then.
   Vec3 force_point(std::size_t plane) const;
+  /// m, the radius of a container then.
+  double force_radius(std::size_t plane) const;
   /// All contacts of the last step with all that they did to the nodes. Those that have no number
   /// get one (contact::Contacts::number).
   std::vector<contact::ContactRecord> list_contacts();
@@ -190,6 +192,8 @@ class Simulation {
   /// @throws std::logic_error before the first step, whose contacts are those of contact_rows()
   std::vector<contact::ContactRecord> next_contact_rows(
       geometry::FunctionRef<bool(const contact::ContactRecord&)> wants);
+  /// N, how hard bodies press on a flat plane against its normal, or on a container all around.
+  double pressing_on(std::size_t plane) const;
   /// What bodies do to a plane, about force_point(plane).
   ForceAndMoment plane_reaction(std::size_t plane) const;
   /// What the supports of nodes bear: measures/reactions.hpp. Of grains, membranes and any other
@@ -344,12 +348,12 @@ class Simulation {
   AppliedLoads loads_;
   DrivenPlanes driven_planes_;
   DrivenBodies driven_bodies_;
-  BodyPress body_press_;               ///< working space, to drive bodies
-  std::vector<Vec3> plane_reactions_;  ///< N, to drive planes
-  double power_on_turning_ = 0.0;      ///< W, what bodies do to planes that turn, at the last forces
-  BrokenParts broken_;                 ///< asked for, in the next step
-  double broken_energy_ = 0.0;         ///< J, of bonds that were asked for
-  double taken_out_ = 0.0;             ///< J, that contacts had stored on what was taken out
+  BodyPress body_press_;                        ///< working space, to drive bodies
+  std::vector<PlaneReaction> plane_reactions_;  ///< to drive planes
+  double power_on_turning_ = 0.0;  ///< W, what bodies do to planes that turn, at the last forces
+  BrokenParts broken_;             ///< asked for, in the next step
+  double broken_energy_ = 0.0;     ///< J, of bonds that were asked for
+  double taken_out_ = 0.0;         ///< J, that contacts had stored on what was taken out
   NodeForces forces_;
   NodesOfRanks nodes_;
   std::unique_ptr<StepLimits> limits_;

@@ -20,6 +20,11 @@ Vec3 Simulation::force_point(std::size_t plane) const {
   return scene_.planes[plane].point - last_drift_ * scene_.planes[plane].velocity;
 }
 
+double Simulation::force_radius(std::size_t plane) const {
+  require_index("force_radius", "plane", plane, scene_.planes.size());
+  return scene_.planes[plane].radius - last_drift_ * scene_.planes[plane].widening;
+}
+
 std::vector<contact::ContactRecord> Simulation::list_contacts() {
   contacts_->assign_ids();
   return contact_rows();
@@ -41,6 +46,15 @@ ForceAndMoment Simulation::plane_reaction(std::size_t plane) const {
       sum.add(row.point - about, row.force(), row.moment);
   });
   return sum;
+}
+
+double Simulation::pressing_on(std::size_t plane) const {
+  require_index("pressing_on", "plane", plane, scene_.planes.size());
+  PlaneReaction sum{plane_reaction(plane).force, 0.0};
+  contacts_->for_each_plane_force([&](std::size_t other, const Vec3&, double push) {
+    if (other == plane) sum.push += push;
+  });
+  return sum.pressing(scene_.planes[plane]);
 }
 
 ForceAndMoment Simulation::support_reaction(std::span<const NodeId> nodes,

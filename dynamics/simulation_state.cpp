@@ -70,16 +70,23 @@ void Simulation::exchange_motion(const geometry::StateArchive& archive) {
   nodes.fixed("force", forces_.force, "nodes");
   nodes.fixed("torque", forces_.torque, "nodes");
   std::vector<Vec3> points, velocities;
+  std::vector<double> radii, widenings;
   for (const contact::Plane& plane : scene_.planes) {
     points.push_back(plane.point);
     velocities.push_back(plane.velocity);
+    radii.push_back(plane.radius);
+    widenings.push_back(plane.widening);
   }
   const geometry::StateArchive planes = archive.group("planes");
   planes.fixed("point", points, "planes");
   planes.fixed("velocity", velocities, "planes");
+  planes.fixed("radius", radii, "planes");
+  planes.fixed("widening", widenings, "planes");
   for (std::size_t i = 0; i < points.size(); ++i) {
     scene_.planes[i].point = points[i];
     scene_.planes[i].velocity = velocities[i];
+    scene_.planes[i].radius = radii[i];
+    scene_.planes[i].widening = widenings[i];
   }
   archive("gravity", motion_.gravity);
 }

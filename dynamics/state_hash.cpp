@@ -23,6 +23,9 @@ void add_planes(const std::vector<contact::Plane>& planes, BitHash& hash) {
   for (const contact::Plane& plane : planes) {
     hash.add(plane.point);
     hash.add(plane.velocity);
+    if (plane.form == contact::Plane::Form::flat) continue;
+    hash.add(plane.radius);
+    hash.add(plane.widening);
   }
 }
 

@@ -60,6 +60,14 @@ void remove_files(const fs::path& folder) {
   fs::remove(folder, ignored);
 }
 
+/// Takes away what is outside a container about the same middle.
+void narrow(geometry::Region& region, double radius) {
+  if (auto* const cylinder = std::get_if<geometry::CylinderRegion>(&region))
+    cylinder->radius = std::min(cylinder->radius, radius);
+  if (auto* const ball = std::get_if<geometry::BallRegion>(&region))
+    ball->radius = std::min(ball->radius, radius);
+}
+
 /// Takes away what is behind a plane, on the side of its solid.
 void cut(geometry::Box& box, const Vec3& point, const Vec3& normal) {
   Eigen::Index axis = 0;
@@ -119,6 +127,10 @@ geometry::Region region_of(const MeasureSettings& settings, const dynamics::Simu
     box->upper[2] = std::min(box->upper[2], settings.top);
   }
   for (const std::size_t plane : settings.planes) {
+    if (simulation.planes()[plane].form != contact::Plane::Form::flat) {
+      narrow(region, simulation.force_radius(plane));
+      continue;
+    }
     const Vec3 point = simulation.force_point(plane);
     const Vec3& normal = simulation.planes()[plane].normal;
     if (auto* const box = std::get_if<geometry::Box>(&region)) cut(*box, point, normal);

@@ -29,8 +29,7 @@ ServoForce force_of(const dynamics::BodyServo& servo, const dynamics::Simulation
 template <class FactorOf>
 ServoForce force_of(const dynamics::PlaneServo& servo, const dynamics::Simulation& simulation,
                     const FactorOf& factor_of) {
-  const contact::Plane& plane = simulation.planes()[servo.plane];
-  return {0.0 - simulation.plane_reaction(servo.plane).force.dot(plane.normal),
+  return {simulation.pressing_on(servo.plane),
           factor_of(servo.factor) * dynamics::full_target(servo, simulation.planes()), "N"};
 }
 

@@ -47,8 +47,10 @@ KeptBodies kept_bodies(const Scenario& stage, const PreparedRun& before) {
 Scenario with_planes_of_now(Scenario stage, const dynamics::Simulation& before) {
   const StageOrigins& origins = stage.stage->origins;
   for (std::size_t i = 0; i < stage.planes.size(); ++i) {
-    if (origins.planes[i] >= 0 && !origins.moved_planes[i])
-      stage.planes[i].point = before.planes()[static_cast<std::size_t>(origins.planes[i])].point;
+    if (origins.planes[i] < 0 || origins.moved_planes[i]) continue;
+    const contact::Plane& then = before.planes()[static_cast<std::size_t>(origins.planes[i])];
+    stage.planes[i].point = then.point;
+    stage.planes[i].radius = then.radius;
   }
   return stage;
 }
@@ -139,7 +141,9 @@ bool moves_planes(const Scenario& stage, const dynamics::Simulation& before) {
   for (std::size_t i = 0; i < stage.planes.size(); ++i) {
     if (!origins.moved_planes[i] || origins.planes[i] < 0) continue;
     const auto then = static_cast<std::size_t>(origins.planes[i]);
-    if (stage.planes[i].point != before.planes()[then].point) return true;
+    if (stage.planes[i].point != before.planes()[then].point ||
+        stage.planes[i].radius != before.planes()[then].radius)
+      return true;
   }
   return false;
 }

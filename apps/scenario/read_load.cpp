@@ -223,17 +223,27 @@ void read_torque(Section& section, dynamics::BodyServo& servo) {
   servo.largest_speed = section.quantity("angular_speed", {kAngularVelocity, kPositive});
 }
 
+/// Planes bound the side of a cylinder in its length alone, and no sphere.
+void require_side(Section& section, const Scenario& scenario, const dynamics::PlaneServo& servo) {
+  if (servo.between.empty() || servo.plane >= scenario.planes.size()) return;
+  constexpr double kAlong = 1e-9;  // of unit vectors
+  const PlaneSettings& plane = scenario.planes[servo.plane];
+  const Vec3& of_end = scenario.planes[servo.between[0][0]].normal;
+  if (plane.form == contact::Plane::Form::sphere)
+    section.complain("between", fmt::format("\"{}\" is a sphere; expected its area", plane.name));
+  if (plane.form == contact::Plane::Form::cylinder &&
+      (servo.between.size() > 1 || of_end.cross(plane.axis).norm() > kAlong))
+    section.complain("between",
+                     fmt::format("\"{}\" is a cylinder; expected the names of the two planes at "
+                                 "its ends, across its axis",
+                                 plane.name));
+}
+
 dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
   dynamics::PlaneServo servo;
-  if (const auto plane = read_plane_name(section, scenario)) {
-    servo.plane = *plane;
-    if (!scenario.planes[*plane].is_flat())
-      section.complain("plane",
-                       fmt::format("\"{}\" is a container, which does not press; expected "
-                                   "a flat plane, or a load of kind pressure on a membrane",
-                                   scenario.planes[*plane].name));
-  }
+  servo.plane = read_plane_name(section, scenario).value_or(0);
   read_pressing(section, scenario, servo);
+  require_side(section, scenario, servo);
   servo.largest_speed = section.quantity("speed", {kVelocity, kPositive});
   servo.gain = section.quantity("gain", {kNumber, kGain}, servo.gain);
   servo.factor = read_factor(section);

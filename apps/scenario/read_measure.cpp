@@ -65,14 +65,30 @@ bool can_cut(const MeasureSettings& measure, const Vec3& normal) {
          normal.cross((cylinder->to - cylinder->from).normalized()).norm() < kTolerance;
 }
 
+/// Whether a container and the region are cylinders about one axis, or balls about one centre.
+bool surrounds(const PlaneSettings& plane, const MeasureSettings& measure) {
+  if (!measure.region) return false;
+  const double near = 1e-9 * plane.radius;
+  if (const auto* const cylinder = std::get_if<geometry::CylinderRegion>(&*measure.region))
+    return plane.form == contact::Plane::Form::cylinder &&
+           (cylinder->from - plane.point).cross(plane.axis).norm() < near &&
+           (cylinder->to - plane.point).cross(plane.axis).norm() < near;
+  const auto* const ball = std::get_if<geometry::BallRegion>(&*measure.region);
+  return ball != nullptr && plane.form == contact::Plane::Form::sphere &&
+         (ball->centre - plane.point).norm() < near;
+}
+
 void read_planes_between(Section& section, const Scenario& scenario, MeasureSettings& measure) {
   if (!section.has("between")) return;
   measure.planes = read_plane_names(section, "between", scenario);
   for (const std::size_t plane : measure.planes) {
     const PlaneSettings& settings = scenario.planes[plane];
     if (!settings.is_flat()) {
-      section.complain("between", fmt::format("plane \"{}\" is a container; expected flat planes",
-                                              settings.name));
+      if (!surrounds(settings, measure))
+        section.complain("between",
+                         fmt::format("container \"{}\" and the region differ in shape or "
+                                     "middle; expected a region of the same of both",
+                                     settings.name));
       continue;
     }
     if (can_cut(measure, settings.normal)) continue;

@@ -326,7 +326,8 @@ class Stages {
     if (list == "reactions") note(origins_.reactions, number_);
     if (list != "planes") return;
     if (place == origins_.planes.size()) origins_.planes.push_back(-1);
-    note(origins_.moved_planes, table != nullptr && table->find("point") != nullptr);
+    note(origins_.moved_planes,
+         table != nullptr && (table->find("point") != nullptr || table->find("radius") != nullptr));
   }
 
   void change_contacts(const Entry& entry) {

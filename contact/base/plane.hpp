@@ -13,7 +13,7 @@ using geometry::Vec3;
 /// A rigid wall: a half-space (a floor, a plate), or the inside of a cylinder without ends or of a
 /// ball (a container, a drum). The space that it leaves to the bodies is convex, so that a bar or a
 /// facet touches it with the balls of its nodes first. It moves with a velocity of its own, and may
-/// turn about its axis of symmetry.
+/// turn about its axis of symmetry; a container may get wider or narrower.
 struct Plane {
   enum class Form : std::uint8_t { flat, cylinder, sphere };
 
@@ -22,10 +22,10 @@ struct Plane {
   Vec3 velocity = Vec3::Zero();  ///< m/s
   MaterialId material{};
   Form form = Form::flat;
-  double radius = 0.0;       ///< m, of a cylinder or ball
-  Vec3 axis = Vec3::Zero();  ///< unit, of a cylinder; of others that about which they turn
-  double angular_velocity =
-      0;  ///< rad/s, about the axis through the point; of flat ones the normal
+  double radius = 0.0;            ///< m, of a cylinder or ball
+  Vec3 axis = Vec3::Zero();       ///< unit, of a cylinder, and about which the others turn
+  double angular_velocity = 0.0;  ///< rad/s, about the axis through the point
+  double widening = 0.0;          ///< m/s, of the radius
 
   /// m, of a place over the wall; negative beyond it.
   double height(const Vec3& x) const noexcept {
@@ -55,7 +55,10 @@ struct Plane {
   Vec3 turning() const noexcept { return angular_velocity * axis; }
   /// m/s, of the solid at a place.
   Vec3 velocity_at(const Vec3& x) const noexcept {
-    return turns() ? Vec3(velocity + turning().cross(x - point)) : velocity;
+    Vec3 sum = velocity;
+    if (turns()) sum += turning().cross(x - point);
+    if (widening != 0.0) sum -= widening * normal_at(x);
+    return sum;
   }
 
   /// N/m, how a force (N) along the normal resists a motion across it: the wall comes nearer on

@@ -72,11 +72,13 @@ class PlaneContacts {
     }
   }
 
-  /// Calls visit(plane, force (N) on it) for every touching pair of the last step, in a fixed
-  /// order.
+  /// Calls visit(plane, force (N) on it, how much of it (N) is out of the space of the bodies) for
+  /// every touching pair of the last step, in a fixed order.
   template <class Visit>
   void for_each_force(Visit&& visit) const {
-    records_.for_each([&](const PlaneForce& record) { visit(record.plane, record.force); });
+    records_.for_each([&](const PlaneForce& record) {
+      visit(record.plane, record.force, record.force.dot(slots_[record.contact].memory.normal));
+    });
   }
 
   /// Gives a number after the last one to every contact that has none.

@@ -7,7 +7,8 @@ namespace plekton::contact {
 
 bool PlaneNeighbours::is_due(std::span<const Plane> planes) const noexcept {
   const auto has_moved = [this](const Plane& now, const Plane& then) {
-    if (now.form != Plane::Form::flat) return 2.0 * (now.point - then.point).norm() >= skin_;
+    if (now.form != Plane::Form::flat)
+      return 2.0 * ((now.point - then.point).norm() + std::abs(now.radius - then.radius)) >= skin_;
     return now.normal != then.normal ||
            2.0 * std::abs((now.point - then.point).dot(then.normal)) >= skin_;
   };
@@ -41,6 +42,7 @@ void PlaneNeighbours::exchange(const geometry::StateArchive& archive, std::size_
   archive.rows("built_for", built_for_, [](geometry::RowFields& row, Plane& plane) {
     row("point", plane.point);
     row("normal", plane.normal);
+    row("radius", plane.radius);
   });
   archive.rows("pairs", pairs_, [&](geometry::RowFields& row, geometry::IndexPair& pair) {
     row("sphere", pair.a);

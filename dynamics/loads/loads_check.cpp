@@ -92,8 +92,6 @@ class LoadProblems {
 
   void list(const std::string& name, const PlaneServo& servo) {
     expect_plane(name, servo.plane);
-    if (servo.plane < scene_.planes.size())
-      expect(is_flat(servo.plane), name, "a servo presses with a flat plane, not with a container");
     for (const auto& pair : servo.between) expect_facing(name, pair);
     expect(servo.force >= 0.0 && servo.pressure >= 0.0 && servo.force + servo.pressure > 0.0, name,
            "has no target; give a force (N) or a pressure (Pa) above 0");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace plekton::dynamics {
 
@@ -18,7 +19,10 @@ double plate_area(double area, std::span<const std::array<std::size_t, 2>> betwe
 }
 
 double full_target(const PlaneServo& servo, std::span<const Plane> planes) {
-  return servo.force + servo.pressure * plate_area(servo.area, servo.between, planes);
+  const Plane& plane = planes[servo.plane];
+  const bool is_side = plane.form == Plane::Form::cylinder && !servo.between.empty();
+  const double around = is_side ? 2.0 * std::numbers::pi * plane.radius : 1.0;  // m, or 1
+  return servo.force + servo.pressure * around * plate_area(servo.area, servo.between, planes);
 }
 
 double full_target(const BodyServo& servo, std::span<const Plane> planes) {
@@ -91,12 +95,16 @@ DrivenPlanes::DrivenPlanes(const Loads& loads, std::span<const Plane> at_start)
     start_.push_back(motion.start.value_or(at_start[motion.plane].point));
 }
 
-double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,
+double DrivenPlanes::act(const LoadStep& step, std::span<const PlaneReaction> reactions,
                          const PlanePressAt& press, std::vector<Plane>& planes) {
   double power = 0.0;  // W, at the new velocities more than at the old ones
   const auto set = [&](std::size_t plane, const Vec3& velocity) {
-    power += reactions[plane].dot(velocity - planes[plane].velocity);
+    power += reactions[plane].force.dot(velocity - planes[plane].velocity);
     planes[plane].velocity = velocity;
+  };
+  const auto close = [&](std::size_t plane, double speed) {
+    power += reactions[plane].push * (-speed - planes[plane].widening);
+    planes[plane].widening = -speed;
   };
   for (const auto& [plane, velocity] : set_velocities_) set(plane, velocity);
   set_velocities_.clear();
@@ -108,11 +116,17 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const Vec3> reactions,
   for (const PlaneServo& servo : servos_) {
     const Plane& plane = planes[servo.plane];
     const double wanted = servo.factor.at(step.time) * full_target(servo, planes);
-    const double pressing = -reactions[servo.plane].dot(plane.normal);
+    const bool is_flat = plane.form == Plane::Form::flat;
+    const double pressing = reactions[servo.plane].pressing(plane);
     const auto press_here = [&](double way) { return press(servo.plane, way); };
-    const ServoPlate now{wanted, pressing, plane.velocity.dot(plane.normal)};
+    const ServoPlate now{wanted, pressing,
+                         is_flat ? plane.velocity.dot(plane.normal) : -plane.widening};
     const double speed =
         servo_speed({servo.largest_speed, servo.gain}, now, press_here, step.after);
+    if (!is_flat) {
+      close(servo.plane, speed);
+      continue;
+    }
     const Vec3 across = plane.velocity - plane.velocity.dot(plane.normal) * plane.normal;
     set(servo.plane, across + speed * plane.normal);
   }

@@ -79,6 +79,17 @@ double full_target(const BodyServo& servo, std::span<const contact::Plane> plane
 double servo_speed(const ServoPace& pace, const ServoPlate& plate,
                    const std::function<PlanePress(double way)>& press, double dt);
 
+/// What all bodies do to a plane.
+struct PlaneReaction {
+  Vec3 force = Vec3::Zero();  ///< N
+  double push = 0.0;          ///< N, out of their space, wherever it acts
+
+  /// N, of a flat plane against its normal, of a container all around.
+  double pressing(const contact::Plane& plane) const noexcept {
+    return plane.form == contact::Plane::Form::flat ? 0.0 - force.dot(plane.normal) : push;
+  }
+};
+
 /// Planes that move by a table or under servo control.
 class DrivenPlanes {
  public:
@@ -102,11 +113,11 @@ class DrivenPlanes {
   }
 
   /// Sets the velocities of the drift that begins now. No allocation.
-  /// @param reactions  N, by plane, of all forces on it
+  /// @param reactions  by plane
   /// @returns the work (J) done on the bodies over half of the drift before, as far as the velocity
   ///          there was another one: who counts the whole kick does it with the new velocity
-  double act(const LoadStep& step, std::span<const Vec3> reactions, const PlanePressAt& press,
-             std::vector<contact::Plane>& planes);
+  double act(const LoadStep& step, std::span<const PlaneReaction> reactions,
+             const PlanePressAt& press, std::vector<contact::Plane>& planes);
 
   /// Targets that have been set, and velocities that wait for the next act(). @throws geometry::StateMismatch
   void exchange(const geometry::StateArchive& archive, std::size_t plane_count);

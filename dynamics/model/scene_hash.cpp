@@ -106,7 +106,6 @@ std::uint64_t scene_hash(const Scene& scene) {
     add_number(plane.material, hash);
     if (plane.form == contact::Plane::Form::flat) continue;
     add_number(plane.form, hash);
-    hash.add(plane.radius);
     hash.add(plane.axis);
   }
   return hash.value();

@@ -336,8 +336,10 @@ class Reader {
   }
 
   OndemPlane plane_in(const std::string& group) const {
-    return {text_in(file_, group + "name"), vector_in(file_, group + "point"),
-            vector_in(file_, group + "normal"), vector_in(file_, group + "velocity"),
+    return {text_in(file_, group + "name"),
+            vector_in(file_, group + "point"),
+            vector_in(file_, group + "normal"),
+            vector_in(file_, group + "velocity"),
             whole_number_in(file_, group + "material_id"),
             file_.has(group + "radius") ? number_in(file_, group + "radius") : 0.0};
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/base/plane.hpp"
 #include "dynamics/simulation.hpp"
+#include "dynamics/state_hash.hpp"
 #include "tests/support/named_laws.hpp"
 
 #include <gtest/gtest.h>
@@ -204,21 +205,84 @@ TEST(Container, PushesASheetByItsNodesWhereverItLies) {
   EXPECT_EQ(simulation.contacts().counts().with_planes, 3U);
 }
 
-TEST(Container, DoesNotPressAsAServo) {
-  Scene scene = with(cylinder(), 0.4, 1e6);
-  PlaneServo servo;
-  servo.force = 1.0;
-  servo.largest_speed = 0.1;
-  scene.loads.servos = {servo};
-  try {
-    run_of(scene, 1e-5);
-    FAIL();
-  } catch (const std::invalid_argument& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("a flat plane, not with a container"),
-              std::string::npos)
-        << refusal.what();
+/// Balls around the axis of a cylinder, or the centre of a sphere, between the wall and a held ball.
+class ServoOn : public testing::TestWithParam<Plane::Form> {
+ protected:
+  static constexpr double kModulus = 1e6;  // Pa
+  static constexpr double kWanted = 8.0;   // N, of all together
+  static constexpr int kBalls = 4;
+
+  /// A held ball in the middle, and others around it that touch it and not quite the container.
+  static Scene scene() {
+    Plane plane = cylinder();
+    plane.form = GetParam();
+    plane.radius = 3.0 * kBall + kGap;
+    Scene scene = with(plane, 0.3, kModulus);
+    scene.add_sphere(plane.point, kBall, kDensity, kMaterial);
+    scene.properties.held[0] = Held::everything;
+    for (int i = 0; i < kBalls; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kBalls;
+      scene.add_sphere(plane.point + 2.0 * kBall * Vec3(0, std::cos(angle), std::sin(angle)), kBall,
+                       kDensity, kMaterial);
+    }
+    PlaneServo servo;
+    servo.force = kWanted;
+    servo.largest_speed = 0.05;
+    scene.loads.servos = {servo};
+    return scene;
   }
+  static constexpr double kGap = 1e-4;  // m
+};
+
+/// Each ball bears its share k u between two springs k in a row: the container and the middle.
+TEST_P(ServoOn, ClosesAContainerUntilAllThatItHoldsBearsTheForce) {
+  SimulationOptions options{.time_step = 2e-5, .motion = {.gravity = Vec3::Zero()}};
+  options.motion.damping = 0.3;
+  Simulation simulation(scene(), options);
+
+  for (int i = 0; i < 20000; ++i) simulation.step();
+
+  const double stiffness = kModulus * kBall;
+  const double overlap = kWanted / kBalls / stiffness;
+  const Plane& plane = simulation.planes()[0];
+  EXPECT_NEAR(simulation.pressing_on(0), kWanted, 1e-6 * kWanted);
+  EXPECT_NEAR(plane.radius, 3.0 * kBall - 2.0 * overlap, 1e-6 * overlap);
+  EXPECT_NEAR(plane.widening, 0.0, 1e-9);
+  EXPECT_LT(simulation.energy().closure(), 1e-3);
 }
+
+/// Both springs of each ball hold what the servo has put in, but for what damping took.
+TEST_P(ServoOn, DoesTheWorkThatItsContentsTakeUp) {
+  Simulation simulation(scene(), {.time_step = 5e-6, .motion = {.gravity = Vec3::Zero()}});
+
+  for (int i = 0; i < 20000; ++i) {
+    simulation.step();
+    ASSERT_LT(simulation.energy().closure(), 2e-3) << i;
+  }
+
+  EXPECT_GT(simulation.energy().external_work, 0.0);
+}
+
+TEST_P(ServoOn, GoesOnFromAStateAsIfItHadNotBeenStopped) {
+  const SimulationOptions options{.time_step = 2e-5, .motion = {.gravity = Vec3::Zero()}};
+  Simulation whole(scene(), options);
+  for (int i = 0; i < 200; ++i) whole.step();
+  const geometry::StateTree kept = whole.snapshot();
+  Simulation next(scene(), options);
+  next.restore(kept);
+  for (int i = 0; i < 300; ++i) {
+    whole.step();
+    next.step();
+  }
+
+  EXPECT_EQ(state_hash(next), state_hash(whole));
+  EXPECT_NE(whole.planes()[0].radius, scene().planes[0].radius);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ServoOn, testing::Values(Plane::Form::cylinder, Plane::Form::sphere),
+                         [](const auto& form) {
+                           return form.param == Plane::Form::cylinder ? "ACylinder" : "ASphere";
+                         });
 
 }  // namespace
 }  // namespace plekton::dynamics::container_test

@@ -175,6 +175,87 @@ TEST_F(Measured, StressIsThatOfTheWallsAndPorosityWhatWasAskedFor) {
   EXPECT_LT(whole.last("stress_asymmetry"), 5e-3 * lid);
 }
 
+/// A sample in a cell of a floor, a lid and a smooth side, which all press with 20 kPa.
+constexpr std::string_view kCell = R"([simulation]
+damping = 0.4
+[materials.sand]
+density = "2650 kg/m3"
+young_modulus = "10 MPa"
+friction_angle = "25 deg"
+[materials.wall]
+young_modulus = "10 MPa"
+friction_angle = 0
+[[grains]]
+name = "sand"
+material = "sand"
+radius = "4 mm"
+porosity = 0.45
+cylinder = { from = [0, 0, 0], to = [0, 0, "60 mm"], radius = "30 mm" }
+placement = "packed"
+[[planes]]
+name = "side"
+kind = "cylinder"
+point = [0, 0, 0]
+radius = "30 mm"
+material = "wall"
+[[planes]]
+name = "floor"
+point = [0, 0, 0]
+material = "wall"
+[[planes]]
+name = "lid"
+point = [0, 0, "60 mm"]
+normal = [0, 0, -1]
+material = "wall"
+[[loads]]
+name = "lid"
+kind = "servo"
+plane = "lid"
+force = "56.5 N"
+speed = "0.1 m/s"
+[[loads]]
+name = "side"
+kind = "servo"
+plane = "side"
+pressure = "20 kPa"
+between = ["floor", "lid"]
+speed = "0.1 m/s"
+[output]
+interval = "50 ms"
+history_interval = "5 ms"
+[[output.measures]]
+name = "whole"
+between = ["side", "floor", "lid"]
+cylinder = { from = [0, 0, -1], to = [0, 0, 1], radius = 1 }
+[[stages]]
+name = "press"
+end = { servo = { load = "side", tolerance = "1 %" }, after = "5 ms" }
+max_duration = "200 ms"
+[[stages]]
+name = "rest"
+end = { unbalanced_force = 1e-4 }
+max_duration = "400 ms"
+)";
+
+// The stress across the axis is what the side presses with, times its radius where forces act, half
+// an overlap (some 1e-3 of a radius of 4 mm) beyond the wall.
+TEST_F(Measured, StressInACellIsThatOfItsSideAndEnds) {
+  test::write_bytes(folder_ / "cell.toml", std::string(kCell));
+  const Outcome outcome =
+      outcome_of({"run", (folder_ / "cell.toml").string(), "--out", out(), "--quiet"});
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+
+  const Csv whole = csv("out", "measures/whole.csv");
+  const Csv planes = csv("out", "planes.csv");
+  const double radius = planes.last("side.radius");
+  const double height = planes.last("lid.point_z");
+  const double area = std::acos(-1.0) * radius * radius;
+  EXPECT_LT(radius, 0.03);
+  EXPECT_NEAR(whole.last("volume"), area * height, 1e-9 * area * height);
+  EXPECT_NEAR(-0.5 * (whole.last("stress_xx") + whole.last("stress_yy")), 20e3, 0.005 * 20e3);
+  EXPECT_NEAR(-whole.last("stress_zz"), 56.5 / area, 0.005 * 20e3);
+}
+
 TEST_F(Measured, HasOneRowForEachRowOfTheEnergiesFromWhereItBegins) {
   ASSERT_EQ(outcome_of({"run", box(), "--out", out(), "--quiet"}).exit_code, kDone);
 

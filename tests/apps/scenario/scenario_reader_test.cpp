@@ -226,6 +226,37 @@ TEST(ScenarioReader, RefusesValuesOfAnotherKind) {
   EXPECT_THAT(error_of(edited("\"2 s\"", "true")), HasSubstr("got true; expected a time"));
 }
 
+/// A cell of two ends and a side, two planes more, and a ball, behind kGood with its floor.
+constexpr const char* kContainer = R"(
+[[planes]]
+name = "cell"
+kind = "cylinder"
+point = [0, 0, 0]
+radius = 1
+material = "gravel"
+[[planes]]
+name = "ball"
+kind = "sphere"
+point = [0, 0, 0]
+radius = 1
+material = "gravel"
+[[planes]]
+name = "lid"
+point = [0, 0, 1]
+normal = [0, 0, -1]
+material = "gravel"
+[[planes]]
+name = "left"
+point = [-1, 0, 0]
+normal = [1, 0, 0]
+material = "gravel"
+[[planes]]
+name = "right"
+point = [1, 0, 0]
+normal = [-1, 0, 0]
+material = "gravel"
+)";
+
 TEST(ScenarioReader, ReadsContainersAsPlanes) {
   const Scenario scenario =
       parse_scenario(edited("normal = [0, 0, 2]",
@@ -257,20 +288,36 @@ TEST(ScenarioReader, KnowsWhatBelongsToEachKindOfPlane) {
               HasSubstr("planes.floor.kind"));
 }
 
-TEST(ScenarioReader, RefusesServosDistancesAndMeasuresOfContainers) {
-  const std::string text =
-      edited("normal = [0, 0, 2]", "kind = \"cylinder\"\nradius = 1") +
-      "[[planes]]\nname = \"lid\"\npoint = [0, 0, 1]\nnormal = [0, 0, -1]\nmaterial = "
-      "\"gravel\"\n";
+TEST(ScenarioReader, RefusesDistancesAndMeasuresOfContainers) {
+  const std::string text = std::string(kGood) + kContainer;
 
-  EXPECT_THAT(error_of(text + "[[loads]]\nkind = \"servo\"\nplane = \"floor\"\nforce = \"1 "
-                              "N\"\nspeed = \"1 m/s\"\n"),
-              HasSubstr("\"floor\" is a container, which does not press"));
+  EXPECT_THAT(error_of(text + "[stop]\nstrain = { between = [\"cell\", \"lid\"], strain = 0.1 }\n"),
+              HasSubstr("planes \"cell\" and \"lid\" are not flat and parallel"));
+  EXPECT_THAT(error_of(text + "[[output.measures]]\nname = \"m\"\nbetween = [\"cell\"]\n"),
+              HasSubstr("container \"cell\" and the region differ in shape or middle"));
+  const std::string around = text + "[[output.measures]]\nname = \"m\"\nbetween = [\"cell\"]\n";
+  EXPECT_EQ(error_of(around + "cylinder = { from = [0, 0, 0], to = [0, 0, 1], radius = 2 }\n"), "");
+  EXPECT_THAT(error_of(around + "cylinder = { from = [0, 0, 0], to = [0, 1, 1], radius = 2 }\n"),
+              HasSubstr("container \"cell\" and the region differ in shape or middle"));
+}
+
+TEST(ScenarioReader, BoundsTheSideOfACylinderByThePlanesAtItsEnds) {
+  const auto servo = [](const std::string& plane, const std::string& rest) {
+    return std::string(kGood) + kContainer + "[[loads]]\nkind = \"servo\"\nplane = \"" + plane +
+           "\"\npressure = \"1 kPa\"\nspeed = \"1 m/s\"\n" + rest;
+  };
+
+  EXPECT_EQ(error_of(servo("cell", "between = [\"floor\", \"lid\"]\n")), "");
+  EXPECT_EQ(error_of(servo("cell", "area = \"1 m2\"\n")), "");
+  EXPECT_EQ(error_of(servo("ball", "area = \"1 m2\"\n")), "");
   EXPECT_THAT(
-      error_of(text + "[stop]\nstrain = { between = [\"floor\", \"lid\"], strain = 0.1 }\n"),
-      HasSubstr("planes \"floor\" and \"lid\" are not flat and parallel"));
-  EXPECT_THAT(error_of(text + "[[output.measures]]\nname = \"m\"\nbetween = [\"floor\"]\n"),
-              HasSubstr("plane \"floor\" is a container; expected flat planes"));
+      error_of(servo("cell", "between = [\"floor\", \"lid\", \"left\", \"right\"]\n")),
+      HasSubstr("\"cell\" is a cylinder; expected the names of the two planes at its ends"));
+  EXPECT_THAT(
+      error_of(servo("cell", "between = [\"left\", \"right\"]\n")),
+      HasSubstr("\"cell\" is a cylinder; expected the names of the two planes at its ends"));
+  EXPECT_THAT(error_of(servo("ball", "between = [\"floor\", \"lid\"]\n")),
+              HasSubstr("\"ball\" is a sphere; expected its area"));
 }
 
 TEST(ScenarioReader, RefusesTwoOfTheSameName) {

@@ -83,6 +83,8 @@ const std::vector<Call>& calls() {
       {"bond_forces", "bond", 3, [](auto& s, auto i) { s.bond_forces(index(i)); }},
       {"bond_stress", "bond", 3, [](auto& s, auto i) { s.bond_stress(index(i)); }},
       {"force_point", "plane", 2, [](auto& s, auto i) { s.force_point(index(i)); }},
+      {"force_radius", "plane", 2, [](auto& s, auto i) { s.force_radius(index(i)); }},
+      {"pressing_on", "plane", 2, [](auto& s, auto i) { s.pressing_on(index(i)); }},
       {"plane_reaction", "plane", 2, [](auto& s, auto i) { s.plane_reaction(index(i)); }},
       {"add_force", "node", 3,
        [](auto& s, auto i) {
