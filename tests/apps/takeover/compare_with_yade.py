@@ -6,8 +6,8 @@ than the fastest body goes in a step. That is twice what the integrator explains
 one, so its velocities are those of half a step later, and its places half a step's way ahead.
 
 Run on request, with YADE and Plekton's module for Python: PYTHONPATH=build/release/python /usr/bin/python3
-compare_with_yade.py PROGRAM SCRIPT... [--steps 1000] [--iteration 0] [--mend-shear] [--record FOLDER]. Ends 1 if a script is not as
-it should be.
+compare_with_yade.py PROGRAM SCRIPT... [--steps 1000] [--iteration 0] [--mend-shear] [--append CODE] [--record FOLDER]. Ends 1 if a script
+is not as it should be.
 """
 
 import argparse
@@ -45,11 +45,11 @@ def exported(script, stops, folder):
     return [json.loads(file.read_text()) for file in files]
 
 
-def mended(script, folder):
-    """A copy with what it reads beside it."""
-    shutil.copytree(script.parent, folder / "mended")
-    copy = folder / "mended" / script.name
-    copy.write_text(copy.read_text() + MEND_SHEAR)
+def appended(script, code, folder):
+    """A copy that ends with this code, with what it reads beside it."""
+    shutil.copytree(script.parent, folder / "appended")
+    copy = folder / "appended" / script.name
+    copy.write_text(f"{copy.read_text()}\n{code}\n")
     return copy
 
 
@@ -114,13 +114,14 @@ def main():
     parser.add_argument("--steps", type=int, default=1000)
     parser.add_argument("--iteration", type=int, default=0)
     parser.add_argument("--mend-shear", action="store_true", help="with the whole shear stiffness of beams in YADE")
+    parser.add_argument("--append", default="", metavar="CODE", help="Python that each script ends with, to try what a difference comes from")
     parser.add_argument("--record", type=Path, help="folder to keep what YADE has told in, a file for each script")
     arguments = parser.parse_args()
     failed = 0
     for script in arguments.scripts:
         with tempfile.TemporaryDirectory() as folder:
-            if arguments.mend_shear:
-                script = mended(script, Path(folder))
+            if code := MEND_SHEAR * arguments.mend_shear + arguments.append:
+                script = appended(script, code, Path(folder))
             try:
                 failed += not compare(arguments.program, script, arguments.iteration, arguments.steps, Path(folder), arguments.record)
             except (RuntimeError, plekton.Error) as error:
