@@ -134,6 +134,7 @@ class GridMaker {
     sides.insert(told.begin(), told.end());
     set_beams(grid, sides, number);
     set_density(grid, sides, number);
+    note_material_of_nodes(grid, number);
     return grid;
   }
 
@@ -245,6 +246,25 @@ class GridMaker {
     if (inertia > kSame && grid.bends)
       note(number, fmt::format("moments of inertia of nodes differ by up to {:.2g} % from 2/5 m r²",
                                100.0 * inertia));
+  }
+
+  /// Walls touch nodes in YADE, also below PFacets, and nodes have a material of their own.
+  void note_material_of_nodes(const Grid& grid, std::size_t number) {
+    if (scene_.walls.empty() || grid.material < 0) return;
+    const Material& here = scene_.materials[static_cast<std::size_t>(grid.material)];
+    for (const std::size_t node : grid.nodes) {
+      if (scene_.nodes[node].material < 0) continue;
+      const Material& there =
+          scene_.materials[static_cast<std::size_t>(scene_.nodes[node].material)];
+      if (there.young == here.young && there.poisson == here.poisson &&
+          there.friction_angle == here.friction_angle)
+        continue;
+      note(number,
+           fmt::format("in YADE walls touch its nodes, which are of the material \"{}\"; here "
+                       "its surface, of \"{}\"",
+                       there.label, here.label));
+      return;
+    }
   }
 
   void note_bonds_without_connection() {

@@ -11,6 +11,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(YadeGrid, JoinsWhatConnectionsAndFacetsJoin) {
   std::vector<std::string> notes;
@@ -76,6 +77,27 @@ TEST(YadeGrid, SaysWhatAMembraneCannotSay) {
   EXPECT_THAT(notes, Contains(HasSubstr("radii differ by up to 10 %")));
   EXPECT_THAT(notes, Contains(HasSubstr("1 grid nodes without a connection: left out")));
   EXPECT_THAT(notes, Contains(HasSubstr("1 of 6 sides have no beam in YADE")));
+}
+
+TEST(YadeGrid, SaysThatWallsTouchNodesOfAnotherMaterial) {
+  Scene scene = grid_scene();
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].label = "cord";
+  for (GridNode& node : scene.nodes) node.material = 1;
+  scene.walls.emplace_back();
+  std::vector<std::string> of_the_same, of_others, without_a_wall;
+
+  grids_of(scene, of_the_same);
+  scene.materials[1].friction_angle = 0.1;
+  grids_of(scene, of_others);
+  scene.walls.clear();
+  grids_of(scene, without_a_wall);
+
+  const auto touches =
+      Contains(HasSubstr("walls touch its nodes, which are of the material \"cord\""));
+  EXPECT_THAT(of_the_same, Not(touches));
+  EXPECT_THAT(of_others, touches);
+  EXPECT_THAT(without_a_wall, Not(touches));
 }
 
 }  // namespace
