@@ -104,7 +104,7 @@ struct PresentContacts {
     const Vec3 normal = plane.normal_at(place);
     ContactStiffness contact = stiffness_of(normal, pair, of.gap - further, of.ball, of.ball);
     contact.overlap = std::max(0.0, -of.gap);
-    contact.wall_speed = normal.dot(plane.velocity);
+    contact.wall_speed = normal.dot(plane.velocity_at(place));
     springs.add_to_wall(of.ball, contact);
     const double turning = plane.turning_stiffness(place, pair.normal_force(of.gap - further));
     if (turning > 0.0) springs.add(of.ball, {turning, 0.0});

@@ -477,6 +477,11 @@ class Maker {
     if (of_containers_.unit() < 0.3) set(t, "velocity", vec(of_containers_.in_cube(0.3)));
     if (of_containers_.unit() < 0.5)
       set(t, "angular_velocity", num(of_containers_.uniform(-20.0, 20.0)));
+    if (of_containers_.unit() > 0.3) return;
+    TextTable& servo = load("servo");
+    set(servo, "plane", word("container"));
+    set(servo, "force", num(of_containers_.uniform(0.1, 100.0)));
+    set(servo, "speed", num(of_containers_.uniform(0.1, 2.0)));
   }
 
   std::string factor() {
