@@ -14,7 +14,6 @@ import zlib
 from pathlib import Path
 
 CELL = 25e3  # Pa, that the scenario says
-AROUND, ALONG = 24, 17  # nodes of the membrane
 HALF_THICKNESS = 1e-3  # m
 SHEET = 300.0  # N/m
 POISSON = 0.45
@@ -27,11 +26,11 @@ def columns(path):
     return {head.split(" (")[0]: [float(row[i]) for row in rows[1:]] for i, head in enumerate(rows[0])}
 
 
-def membrane_points(path):
-    """Positions (m) of the nodes of the membrane in a frame; it comes first in the file."""
+def numbers(path, name):
+    """Numbers of an array of a frame, one after the other."""
     data = path.read_bytes()
-    offset = int(re.search(rb'Name="Points"[^>]*offset="(\d+)"', data).group(1))
-    begin = data.index(b"_", data.index(b'<AppendedData encoding="raw"')) + 1 + offset
+    head = re.search(rb'type="(Float32|Float64)" Name="%b"[^>]*offset="(\d+)"' % name.encode(), data)
+    begin = data.index(b"_", data.index(b'<AppendedData encoding="raw"')) + 1 + int(head.group(2))
     blocks, _, _ = struct.unpack_from("<3Q", data, begin)
     sizes = struct.unpack_from(f"<{blocks}Q", data, begin + 24)
     begin += 24 + 8 * blocks
@@ -39,24 +38,38 @@ def membrane_points(path):
     for size in sizes:
         raw += zlib.decompress(data[begin : begin + size])
         begin += size
-    numbers = struct.unpack(f"<{len(raw) // 8}d", raw)
-    return [numbers[i : i + 3] for i in range(0, len(numbers), 3)]
+    letter, width = {b"Float32": ("f", 4), b"Float64": ("d", 8)}[head.group(1)]
+    return struct.unpack(f"<{len(raw) // width}{letter}", raw)
 
 
-def rings(points):
-    """(height, area inside of the membrane) of each ring of nodes, m and m2."""
+def membrane_points(path):
+    """Positions (m) of the nodes of the membrane in a frame; it comes first in the file."""
+    flat = numbers(path, "Points")
+    return [flat[i : i + 3] for i in range(0, len(flat), 3)]
+
+
+def nodes_around(points):
+    """Nodes of a ring of the membrane as it was drawn: those of the first one are level."""
+    return next(i for i, point in enumerate(points) if point[2] != points[0][2])
+
+
+def rings(points, around):
+    """(height, area inside of the membrane) of each ring of nodes, m and m2. What follows it in the file begins lower, with the lower platen."""
     result = []
-    for k in range(ALONG):
-        ring = points[k * AROUND : (k + 1) * AROUND]
+    for begin in range(0, len(points), around):
+        ring = points[begin : begin + around]
         double = sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1]))
-        around = sum(math.dist(a, b) for a, b in zip(ring, ring[1:] + ring[:1]))
-        result.append((sum(p[2] for p in ring) / AROUND, 0.5 * double - HALF_THICKNESS * around))
+        length = sum(math.dist(a, b) for a, b in zip(ring, ring[1:] + ring[:1]))
+        height = sum(p[2] for p in ring) / around
+        if result and height < result[-1][0]:
+            break
+        result.append((height, 0.5 * double - HALF_THICKNESS * length))
     return result
 
 
-def frames(run):
-    """Times and files of the frames of the membrane."""
-    text = (run / "membranes.pvd").read_text()
+def frames(run, what="membranes"):
+    """Times and files of the frames of the membrane, or of the grains."""
+    text = (run / f"{what}.pvd").read_text()
     return [(float(t), run / file) for t, file in re.findall(r'timestep="([^"]+)"[^>]*file="([^"]+)"', text)]
 
 
@@ -74,12 +87,13 @@ class Test:
         times = force["time"]
         self.strain, self.volume, self.axial, self.radial, self.bulge, self.balance, self.inside = ([] for _ in range(7))
         first = None
+        around = nodes_around(membrane_points(frames(run)[0][1]))
         for moment, file in frames(run):
             rows = [i for i, t in enumerate(times) if abs(t - moment) < 2.5e-3]
             if moment < begin or not rows:
                 continue
             of = lambda history, name: mean([history[name][i] for i in rows])
-            section = rings(membrane_points(file))
+            section = rings(membrane_points(file), around)
             height = section[-1][0] - section[0][0]
             volume = sum(0.5 * (a[1] + b[1]) * (b[0] - a[0]) for a, b in zip(section, section[1:]))
             share = [(z - section[0][0]) / height for z, _ in section]
