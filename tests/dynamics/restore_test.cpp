@@ -206,6 +206,19 @@ TEST(RestoreErrors, TellThatASimulationHasBegun) {
   EXPECT_THROW(simulation.restore(state), std::logic_error);
 }
 
+TEST(RestoreErrors, TellThatTheStepWasChosen) {
+  const auto with_step = [](double step) {
+    SimulationOptions options;
+    options.time_step = step;
+    return Simulation(scene_of_loads(), options);
+  };
+  const StateTree state = with_step(0.0).snapshot();
+  Simulation given = with_step(2e-6);
+
+  EXPECT_THAT([&] { given.restore(state); },
+              ThrowsMessage<StateMismatch>(HasSubstr("chooses its time step; give none here")));
+}
+
 /// Any number of a state may be another one: the answer is a message or a simulation, no crash.
 TEST(RestoreErrors, DoNotCrashOnAStateWithAWrongNumber) {
   const ReportedScene scene;

@@ -7,6 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
 namespace plekton::dynamics::simulation_test {
 namespace {
 
@@ -105,6 +109,30 @@ TEST(Simulation, RefusesAStepAboveTheCriticalOneAndNamesIt) {
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("time step 1 s: the critical time step of this"));
   }
+}
+
+TEST(Simulation, RefusesOptionsThatCannotBeAndNamesAllOfThem) {
+  const SimulationOptions options = {
+      .time_step = -1.0,
+      .motion = {.gravity = Vec3(0.0, 0.0, std::nan("")), .damping = 1.0},
+      .skin = -0.5};
+
+  EXPECT_THAT([&] { Simulation(ball_over_sheet(0.002, 0.03, 5e6), options); },
+              testing::ThrowsMessage<std::invalid_argument>(
+                  testing::AllOf(testing::HasSubstr("time step -1 s: must be 0 (choose) or more"),
+                                 testing::HasSubstr("numerical damping 1: must be at least 0"),
+                                 testing::HasSubstr("skin -0.5 m: must be 0 (choose) or more"),
+                                 testing::HasSubstr("gravity is not finite"))));
+}
+
+TEST(Simulation, RefusesAStepThatIsNoneWhileItRuns) {
+  Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {.motion = {.gravity = kGravity}});
+  const double step = simulation.time_step();
+
+  for (const double none : {0.0, -1e-6, std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(simulation.set_time_step(none), std::invalid_argument) << none;
+
+  EXPECT_EQ(simulation.time_step(), step);
 }
 
 TEST(Simulation, KeepsItsEnergyBalanceWhenTheStepIsChanged) {

@@ -191,6 +191,18 @@ TEST(SurfacePressure, ByVolumeDoesTheWorkOfItsIntegralOverTheVolume) {
   EXPECT_LT(fine.closure, 1.5 / 16.0 * coarse.closure);
 }
 
+TEST(SurfacePressure, ByVolumeIsNotSetWhileItRuns) {
+  SurfacePressure load;
+  Scene scene = rough_ball(load.facets, Vec3::Zero());
+  load.by_volume = {{{{1e-3, 9e3}, {1e-2, 0.0}}}};
+  scene.loads.pressures.push_back(load);
+  LoadedSimulation simulation = simulation_of(std::move(scene), 1e-7);
+
+  EXPECT_THAT([&] { simulation.set_pressure(0, 5e3); },
+              testing::ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("pressure 0 follows the volume by a table")));
+}
+
 TEST(SurfacePressure, ByVolumeFollowsStraightLinesBetweenRowsWithoutForceOrMomentInAll) {
   SurfacePressure load;
   Scene scene = rough_ball(load.facets, Vec3(0.2, 0.0, 0.0));

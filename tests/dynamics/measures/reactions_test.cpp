@@ -97,5 +97,22 @@ TEST(UnbalancedForceRatio, IsSmallAtRestOneInFreeLoadAndZeroWhereNothingActs) {
   EXPECT_EQ(floating.unbalanced_force_ratio(), 0.0);
 }
 
+/// A node moved from the middle of two equal bars: one pulls it and the other pushes it with F, so
+/// that 2 F are left on it, and each bar carries F. Bars are asked where the node is after the step,
+/// (omega dt)² / 2 = 2.5e-6 of its way nearer to the middle than where the resultant was.
+TEST(UnbalancedForceRatio, CountsWhatBondsCarry) {
+  Scene scene;
+  for (const double x : {-0.2, 0.0, 0.2}) scene.add_node(Vec3(x, 0, 0), dynamics::Held::everything);
+  scene.properties.held[1] =
+      dynamics::Held::rotation | dynamics::Held::along_y | dynamics::Held::along_z;
+  for (const int a : {0, 1})
+    scene.add_beam(NodeId{a}, NodeId{a + 1}, dynamics::bar_section(0.01, 1e8), 1000.0);
+  scene.state.position[1].x() = 1e-4;
+  LoadedSimulation simulation = simulation_of(std::move(scene), 1e-6);
+  simulation.step();
+
+  EXPECT_NEAR(simulation.unbalanced_force_ratio(), 2.0 * (1.0 + 2.5e-6), 1e-9);
+}
+
 }  // namespace
 }  // namespace plekton::test::reactions_test

@@ -13,6 +13,7 @@ namespace {
 
 using geometry::NodeId;
 using test::problems_of;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -49,6 +50,29 @@ TEST(RigidCheck, RefusesANodeOfTwoBodies) {
   scene.add_rigid_body(std::vector{NodeId{1}}, mass_of_one());
 
   EXPECT_THAT(problems_of(scene), HasSubstr("rigid body 1: node 1 follows rigid body 0 already"));
+}
+
+TEST(RigidCheck, NamesNodesThatAreNotThere) {
+  Scene scene = body();
+  scene.rigid_bodies[0].nodes.push_back(NodeId{7});
+  EXPECT_THAT(problems_of(scene), HasSubstr("rigid body 0: there is no node 7, only 3 nodes"));
+
+  scene.rigid_bodies[0].nodes.clear();
+  scene.rigid_bodies[0].node = NodeId{-1};
+  EXPECT_THAT(problems_of(scene), AllOf(HasSubstr("rigid body 0: has no nodes"),
+                                        HasSubstr("rigid body 0: there is no node -1")));
+}
+
+TEST(RigidCheck, NamesTheCallThatMakesABodyWhereOneWasPutTogetherByHand) {
+  Scene scene = body();
+  scene.properties.held[0] = Held::nothing;
+  scene.rigid_bodies[0].node = NodeId{1};
+
+  EXPECT_THAT(problems_of(scene),
+              AllOf(HasSubstr("rigid body 0: node 0 is not held; make the body with "
+                              "Scene::add_rigid_body"),
+                    HasSubstr("rigid body 0: node 1 is no reference node; make the body with "
+                              "Scene::add_rigid_body")));
 }
 
 TEST(RigidCheck, RefusesABondWithinABody) {

@@ -135,5 +135,44 @@ TEST(CsvWriter, TellsOfAFullDiskAtFlushAndNotInItsDestructor) {
   EXPECT_EQ(bytes_of(folder / "energy.csv"), kHead);
 }
 
+TEST(CsvWriter, GoesOnAfterTheRowsThatItKeepsAndCutsOffWhatCameAfterThem) {
+  const TemporaryFolder folder;
+  CsvWriter first(folder / "energy.csv", kColumns);
+  first.add({0.0, 1.0});
+  const std::uint64_t kept = first.size();
+  first.add({1.0, 2.0});
+  first.close();
+
+  CsvWriter second(folder / "energy.csv", kColumns, CsvWriter::Flush::every_row, kept);
+  EXPECT_EQ(bytes_of(folder / "energy.csv"), kHead + "0,1\n");
+  second.add({1.0, 3.0});
+
+  EXPECT_EQ(bytes_of(folder / "energy.csv"), kHead + "0,1\n1,3\n");
+  EXPECT_EQ(second.size(), kHead.size() + 8);
+}
+
+TEST(CsvWriter, RefusesToGoOnWithAnotherFileAndLeavesThatAsItIs) {
+  const TemporaryFolder folder;
+  const std::uint64_t kept = kHead.size() + 4;
+  test::write_bytes(folder / "short.csv", kHead + "0,");
+  test::write_bytes(folder / "other.csv", "time (s),kinetic energy (N)\n0,1\n");
+  const auto go_on = [&](const char* name, std::uint64_t bytes) {
+    return [path = folder / name, bytes] {
+      CsvWriter(path, kColumns, CsvWriter::Flush::every_row, bytes);
+    };
+  };
+  const auto is_refused = [](const char* name) {
+    return ThrowsMessage<OutputError>(
+        AllOf(HasSubstr(name), HasSubstr("is not the file that the run has written so far")));
+  };
+
+  EXPECT_THAT(go_on("short.csv", kept), is_refused("short.csv"));
+  EXPECT_THAT(go_on("short.csv", kHead.size() - 1), is_refused("short.csv"));  // within the head
+  EXPECT_THAT(go_on("other.csv", kept), is_refused("other.csv"));
+  EXPECT_THAT(go_on("missing.csv", kept), is_refused("missing.csv"));
+  EXPECT_EQ(bytes_of(folder / "short.csv"), kHead + "0,");
+  EXPECT_THAT(folder.names(), testing::ElementsAre("other.csv", "short.csv"));
+}
+
 }  // namespace
 }  // namespace plekton::dynamics::csv_writer_test

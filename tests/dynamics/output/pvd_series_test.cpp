@@ -196,6 +196,28 @@ TEST(PvdSeries, IsWrittenAnewWhereItWasRemoved) {
               AllOf(HasSubstr("timestep=\"0\""), HasSubstr("timestep=\"1\"")));
 }
 
+TEST(PvdSeries, GoesOnToTheBytesOfASeriesThatWasNotStopped) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.vtp", "");
+  const std::filesystem::path file = folder / "all.pvd";
+  std::vector<SeriesEntry> entries;  // more than the first file has room for
+  for (int i = 0; i < 300; ++i) entries.push_back({0.5 * i, "a", folder / "a.vtp"});
+  PvdSeries whole(file);
+  std::string in_the_middle;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i == 200) in_the_middle = bytes_of(file);
+    whole.add({entries[i]});
+  }
+  const std::string at_the_end = bytes_of(file);
+
+  PvdSeries resumed(file);
+  resumed.go_on({entries.begin(), entries.begin() + 200});
+  EXPECT_EQ(bytes_of(file), in_the_middle);
+  for (std::size_t i = 200; i < entries.size(); ++i) resumed.add({entries[i]});
+
+  EXPECT_EQ(bytes_of(file), at_the_end);
+}
+
 /// The data sets that a text names, if it is XML in which every reference is whole; -1 if not.
 std::ptrdiff_t data_sets_in(const std::string& text) {
   for (std::size_t at = text.find('&'); at != std::string::npos; at = text.find('&', at + 1))

@@ -2,6 +2,7 @@
 #include "dynamics/structure/yielding_bonds.hpp"
 
 #include "dynamics/simulation.hpp"
+#include "dynamics/state_hash.hpp"
 #include "dynamics/structure/beam_stiffness.hpp"
 #include "tests/support/yielding_lattice.hpp"
 
@@ -114,6 +115,27 @@ TEST(YieldingBonds, GiveTheSameBitsForAnyNumberOfThreads) {
       EXPECT_EQ(one.energy().bond_dissipated, other.energy().bond_dissipated);
       EXPECT_GT(broken_bonds(other), 0U);
     }
+  }
+}
+
+/// What has yielded and what it has taken is in the state, of beams and of wires.
+TEST(YieldingBonds, GoOnFromAStateToTheLastBit) {
+  for (const Scene& scene : {yielding_beams(), yielding_wires()}) {
+    Simulation whole = simulation_of(scene), resumed = simulation_of(scene);
+    for (int i = 0; i < 500; ++i) whole.step();
+    EXPECT_GT(whole.energy().bond_dissipated, 0.0);  // some have yielded
+    resumed.restore(whole.snapshot());
+    EXPECT_EQ(resumed.energy().bond_dissipated, whole.energy().bond_dissipated);
+
+    for (Simulation* const simulation : {&whole, &resumed})
+      for (int i = 0; i < 1000; ++i) simulation->step();
+
+    EXPECT_EQ(dynamics::state_hash(resumed), dynamics::state_hash(whole));
+    EXPECT_GT(broken_bonds(whole), 0U);
+    for (std::size_t i = 0; i < whole.bonds().size(); ++i)
+      EXPECT_EQ(resumed.yielding_bonds().plastic_strain(i),
+                whole.yielding_bonds().plastic_strain(i))
+          << i;
   }
 }
 
