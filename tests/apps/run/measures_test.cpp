@@ -177,6 +177,7 @@ TEST_F(Measured, StressIsThatOfTheWallsAndPorosityWhatWasAskedFor) {
 
 /// A sample in a cell of a floor, a lid and a smooth side, which all press with 20 kPa.
 constexpr std::string_view kCell = R"([simulation]
+gravity = [0, 0, 0]
 damping = 0.4
 [materials.sand]
 density = "2650 kg/m3"
@@ -238,7 +239,7 @@ max_duration = "400 ms"
 )";
 
 // The stress across the axis is what the side presses with, times its radius where forces act, half
-// an overlap (some 1e-3 of a radius of 4 mm) beyond the wall.
+// an overlap (some 1e-3 of a radius of 4 mm) beyond the wall. Walls go on for a drift after forces.
 TEST_F(Measured, StressInACellIsThatOfItsSideAndEnds) {
   test::write_bytes(folder_ / "cell.toml", std::string(kCell));
   const Outcome outcome =
@@ -251,7 +252,7 @@ TEST_F(Measured, StressInACellIsThatOfItsSideAndEnds) {
   const double height = planes.last("lid.point_z");
   const double area = std::acos(-1.0) * radius * radius;
   EXPECT_LT(radius, 0.03);
-  EXPECT_NEAR(whole.last("volume"), area * height, 1e-9 * area * height);
+  EXPECT_NEAR(whole.last("volume"), area * height, 1e-6 * area * height);
   EXPECT_NEAR(-0.5 * (whole.last("stress_xx") + whole.last("stress_yy")), 20e3, 0.005 * 20e3);
   EXPECT_NEAR(-whole.last("stress_zz"), 56.5 / area, 0.005 * 20e3);
 }
