@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/stiffness/contact_springs.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -52,34 +53,52 @@ void ContactSprings::add(NodeId node, const IsotropicStiffness& springs) {
   single_.push_back({node, springs});
 }
 
+ContactSprings::Approach ContactSprings::approach_of(const Spring& spring, const NodeState& state,
+                                                     const NodeProperties& properties) const {
+  Approach approach;
+  const Vec3& n = spring.contact.normal;
+  for (const SpringEnd& end : ends().subspan(spring.first_end, spring.end_count)) {
+    const std::size_t node = index_of(end.node);
+    approach.speed += end.weight * n.dot(state.velocity[node]);
+    if (rigid_ != nullptr && rigid_->body_at(end.node) >= 0) {
+      const Mat3 of_point = rigid_->point_mobility(rigid_->body_at(end.node), end.lever);
+      approach.speed += end.weight * n.dot(state.angular_velocity[node].cross(end.lever));
+      approach.mobility += end.weight * end.weight * n.dot(of_point * n);
+    } else if (!holds_translation(properties.held[node])) {
+      approach.mobility += end.weight * end.weight / properties.mass[node];
+    }
+  }
+  if (!(approach.mobility > 0.0)) return approach;
+  const double overlap = spring.contact.overlap;
+  approach.energy = 0.5 * (spring.contact.elastic_stiffness() * overlap * overlap +
+                           approach.speed * approach.speed / approach.mobility);
+  return approach;
+}
+
 double ContactSprings::collision_step(const NodeState& state,
                                       const NodeProperties& properties) const {
   double energy = 0.0;  // J
   double rated = 0.0;   // J/s², energy times omega²
   for (const Spring& spring : springs_) {
     if (spring.kind != Kind::on_surface) continue;
-    double mobility = 0.0;  // 1/kg, sum of w² / m
-    double speed = 0.0;     // m/s
-    for (const SpringEnd& end : ends().subspan(spring.first_end, spring.end_count)) {
-      const std::size_t node = index_of(end.node);
-      const Vec3& n = spring.contact.normal;
-      speed += end.weight * n.dot(state.velocity[node]);
-      if (rigid_ != nullptr && rigid_->body_at(end.node) >= 0) {
-        const Mat3 of_point = rigid_->point_mobility(rigid_->body_at(end.node), end.lever);
-        speed += end.weight * n.dot(state.angular_velocity[node].cross(end.lever));
-        mobility += end.weight * end.weight * n.dot(of_point * n);
-      } else if (!holds_translation(properties.held[node])) {
-        mobility += end.weight * end.weight / properties.mass[node];
-      }
-    }
-    if (!(mobility > 0.0)) continue;
-    const double stiffness = spring.contact.elastic_stiffness();
-    const double overlap = spring.contact.overlap;
-    const double own = 0.5 * (stiffness * overlap * overlap + speed * speed / mobility);
-    energy += own;
-    rated += own * stiffness * mobility;
+    const Approach approach = approach_of(spring, state, properties);
+    energy += approach.energy;
+    rated += approach.energy * spring.contact.elastic_stiffness() * approach.mobility;
   }
   return rated > 0.0 ? 0.5 * std::sqrt(energy / rated) : std::numeric_limits<double>::infinity();
+}
+
+double ContactSprings::crossing_step(const NodeState& state,
+                                     const NodeProperties& properties) const {
+  double energy = 0.0;  // J
+  double power = 0.0;   // W
+  for (const Spring& spring : springs_) {
+    if (!(spring.contact.core_force > 0.0)) continue;
+    const Approach approach = approach_of(spring, state, properties);
+    energy += approach.energy;
+    power += spring.contact.core_force * std::max(0.0, -approach.speed);
+  }
+  return power > 0.0 ? energy / (16.0 * power) : std::numeric_limits<double>::infinity();
 }
 
 void ContactSprings::resist(const std::vector<Vec3>& shift, const std::vector<Vec3>& turn,

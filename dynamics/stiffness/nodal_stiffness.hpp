@@ -67,6 +67,7 @@ struct ContactStiffness {
                             ///< least 1
   double dashpot = 0.0;     ///< N/m, part of the normal stiffness that stands for a dashpot
   double wall_speed = 0.0;  ///< m/s, of a wall along the normal
+  double core_force = 0.0;  ///< N, elastic, where the cores meet, if they may before the next look
 
   /// N/m, without what stands for a dashpot.
   double elastic_stiffness() const noexcept { return normal_stiffness - dashpot; }

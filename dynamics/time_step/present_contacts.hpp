@@ -30,7 +30,7 @@ struct PresentContacts {
   void add_to(Springs& springs, double further, geometry::Positions x) const {
     contacts.for_each_sphere_pair(
         [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
-          add_spheres(springs, a, b, pair, gap - further, x);
+          add_spheres(springs, {a, b, gap}, pair, further, x);
         });
     add_on_surfaces_to(springs, further, x);
     contacts.for_each_plane_pair(
@@ -45,7 +45,7 @@ struct PresentContacts {
   void add_near_to(Springs& springs, double margin, geometry::Positions x) const {
     contacts.for_each_near_sphere_pair(
         margin, x, [&](NodeId a, NodeId b, const contact::PairSprings& pair, double gap) {
-          add_spheres(springs, a, b, pair, gap - margin, x);
+          add_spheres(springs, {a, b, gap}, pair, margin, x);
         });
     add_on_surfaces_to(springs, margin, x);
     contacts.for_each_coming_surface_term(
@@ -62,6 +62,13 @@ struct PresentContacts {
   }
 
  private:
+  /// A contact of two balls.
+  struct OfSpheres {
+    NodeId a;
+    NodeId b;
+    double gap;  ///< m
+  };
+
   /// A contact of a ball with a plane.
   struct OnPlane {
     NodeId ball;
@@ -89,11 +96,20 @@ struct PresentContacts {
             .dashpot = dashpot};
   }
 
+  /// N, of cores that meet if they come nearer by so much (m); 0 of others.
+  static double core_force(const contact::PairSprings& pair, double gap, double distance,
+                           double further) {
+    return distance < further ? pair.normal_force(gap - distance) : 0.0;
+  }
+
   template <class Springs>
-  void add_spheres(Springs& springs, NodeId a, NodeId b, const contact::PairSprings& pair,
-                   double gap, geometry::Positions x) const {
-    const Vec3 normal = (x[index_of(b)] - x[index_of(a)]).normalized();
-    springs.add_pair(a, b, stiffness_of(normal, pair, gap, a, b));
+  void add_spheres(Springs& springs, const OfSpheres& of, const contact::PairSprings& pair,
+                   double further, geometry::Positions x) const {
+    const Vec3 apart = x[index_of(of.b)] - x[index_of(of.a)];
+    ContactStiffness contact = stiffness_of(apart.normalized(), pair, of.gap - further, of.a, of.b);
+    contact.overlap = std::max(0.0, -of.gap);
+    contact.core_force = core_force(pair, of.gap, apart.norm(), further);
+    springs.add_pair(of.a, of.b, contact);
   }
 
   template <class Springs>
@@ -145,6 +161,7 @@ struct PresentContacts {
     contact.dashpot *= part.of.dashpot;
     contact.normal_stiffness = std::max(1.0, std::abs(weight)) * elastic + contact.dashpot;
     contact.overlap = std::max(0.0, -gap);
+    contact.core_force = std::max(0.0, weight) * core_force(pair, gap, distance, further);
     const double deeper = weight * pair.normal_force(gap - further);
     springs.add_on_surface(part.ball, part.core, contact,
                            surface_turning(part.core, deeper, distance, x));

@@ -77,6 +77,7 @@ double StepChooser::choose(double dt, const Pace& pace) {
   const double near = stable_near(2.0 * look_.longest_way, dt);
   const double stable =
       std::min({near, springs_.collision_step(of_.scene.state, of_.scene.properties),
+                springs_.crossing_step(of_.scene.state, of_.scene.properties),
                 walls_.step(springs_, of_.scene.state, of_.scene.properties)});
   const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
   step_ = std::min(

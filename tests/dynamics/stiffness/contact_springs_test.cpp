@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-/// The step that follows collisions with surfaces: omega dt = 1/2 for the energy in them.
+/// The steps that follow collisions with surfaces, omega dt = 1/2 for the energy in them, and centres
+/// that go through cores.
 namespace plekton::test::contact_springs_test {
 namespace {
 
@@ -22,12 +23,14 @@ struct Collisions {
   ContactSprings springs;
 
   Collisions() { state.position = state.velocity = state.angular_velocity = {3, Vec3::Zero()}; }
-  void add(NodeId node, double stiffness, double overlap) {
+  void add(NodeId node, double stiffness, double overlap, double core_force = 0.0) {
     ContactStiffness contact{Vec3::UnitZ(), stiffness, 0.0, 0.1, 0.1};
     contact.overlap = overlap;
+    contact.core_force = core_force;
     springs.add_on_surface(NodeId{0}, geometry::core_point(node), contact);
   }
   double step() const { return springs.collision_step(state, properties); }
+  double crossing_step() const { return springs.crossing_step(state, properties); }
 };
 
 TEST(CollisionStep, OfOneContactIsHalfOfTheInverseOfItsFrequency) {
@@ -57,6 +60,28 @@ TEST(CollisionStep, IsInfiniteWhereNothingCollides) {
   EXPECT_TRUE(std::isinf(still.step()));
   still.add(NodeId{1}, 30.0, 0.0);
   EXPECT_TRUE(std::isinf(still.step()));
+}
+
+// E = 1/2 30 N/m (0.1 m)² + 1/2 (1 m/s)² 0.4 kg = 0.35 J.
+TEST(CrossingStep, TakesTheForceAtTheCoreOverASixteenthOfTheEnergy) {
+  Collisions crossing;
+  crossing.state.velocity[0] = Vec3(3.0, 0.0, 0.25);
+  crossing.state.velocity[1] = Vec3(0.0, 5.0, -0.75);
+  crossing.add(NodeId{1}, 30.0, 0.1, 3.6);
+
+  EXPECT_NEAR(crossing.crossing_step() * 3.6 * 1.0, 0.35 / 16.0, 1e-15);
+}
+
+TEST(CrossingStep, IsInfiniteWhereNothingComesNearerToACore) {
+  Collisions far;
+  far.state.velocity[0] = Vec3(0.0, 0.0, 1.0);
+  far.add(NodeId{1}, 30.0, 0.1);
+  Collisions parting;
+  parting.state.velocity[0] = Vec3(0.0, 0.0, -1.0);
+  parting.add(NodeId{1}, 30.0, 0.1, 3.6);
+
+  EXPECT_TRUE(std::isinf(far.crossing_step()));
+  EXPECT_TRUE(std::isinf(parting.crossing_step()));
 }
 
 }  // namespace
