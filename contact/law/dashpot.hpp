@@ -76,7 +76,10 @@ struct Dashpot {
   }
 
   template <class Real>
-  PLEKTON_INLINE static void rotate(HistoryOf<Real>&, const FrameRotationOf<Real>&) noexcept {}
+  PLEKTON_INLINE static void rotate(HistoryOf<Real>& history,
+                                    const FrameRotationOf<Real>& rotation) noexcept {
+    history.push = rotation.along_normal(history.push);
+  }
   static void accumulate_history(History& history, const History& other, double share) noexcept {
     history.push += share * other.push;
   }

@@ -121,6 +121,7 @@ struct RollingTwisting {
   PLEKTON_INLINE static void rotate(HistoryOf<Real>& history,
                                     const FrameRotationOf<Real>& rotation) noexcept {
     history.rolling = rotation(history.rolling);
+    history.twisting = rotation.along_normal(history.twisting);
   }
   static void accumulate_history(History& history, const History& other, double share) noexcept {
     history.rolling += share * other.rolling;

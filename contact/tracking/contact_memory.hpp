@@ -14,18 +14,12 @@ struct ContactMemory {
   bool is_new() const noexcept { return normal.isZero(0.0); }
 };
 
-/// Whether a normal turned by more than 120 degrees in one step: it belongs to another contact.
-inline bool is_turned_over(const Vec3& last, const Vec3& normal) noexcept {
-  return last.dot(normal) < -0.5;
-}
-
-/// The history of a contact, turned from its last normal into a new contact frame. Of a normal that
-/// is turned over nothing is carried over.
+/// The history of a contact, turned from its last normal into a new contact frame.
 /// @param twist  rad, rotation of both bodies about the new normal during the step (mean)
 template <ContactLaw Law>
 typename Law::History carried_history(const ContactMemory<Law>& memory, const Vec3& normal,
                                       double twist) noexcept {
-  if (memory.is_new() || is_turned_over(memory.normal, normal)) return {};
+  if (memory.is_new()) return {};
   typename Law::History history = memory.history;
   Law::rotate(history, FrameRotation{memory.normal, normal, twist});
   return history;

@@ -54,6 +54,38 @@ double largest_closure(const MakeScene& make_scene, double duration, int& passed
   return largest;
 }
 
+// A plane presses it onto a facet that slopes by less than the friction angle: when it goes through,
+// the tangential spring has two thirds of what the normal force has stored.
+TEST(PressedThroughAFacet, FrictionIsNotLostUnderAPlane) {
+  const auto pressed = [](double offset) {
+    Scene scene = facet(0.7, 0.5, dynamics::Held::everything);
+    add_grain(scene, {0.0, 0.0, 0.0125 + offset}, Vec3::Zero());
+    scene.planes.push_back(
+        {{0.0, 0.0, 0.023 + offset}, -Vec3::UnitZ(), {0.0, 0.0, -1.0}, kMaterial});
+    return scene;
+  };
+  int passed = 0;
+
+  const double closure = largest_closure(pressed, 0.05, passed);
+
+  EXPECT_EQ(passed, 10);
+  EXPECT_LT(closure, kPromised);
+}
+
+TEST(PressedThroughAFacet, FrictionIsNotLostAtSpeed) {
+  const auto thrown = [](double offset) {
+    Scene scene = facet(0.7, 0.5, dynamics::Held::everything);
+    add_grain(scene, {0.0, 0.0, 0.0125 + offset}, {0.0, 0.0, -7.0});
+    return scene;
+  };
+  int passed = 0;
+
+  const double closure = largest_closure(thrown, 0.02, passed);
+
+  EXPECT_EQ(passed, 10);
+  EXPECT_LT(closure, kPromised);
+}
+
 // Both move towards each other, with the mass of the grain each: the nearer they come in a step, the
 // more the mean of the forces at its ends differs from what the way between them takes.
 TEST(PressedThroughAFacet, AChosenStepFollowsTheForceThatTurnsOver) {
@@ -75,6 +107,23 @@ TEST(PressedThroughAFacet, AChosenStepFollowsTheForceThatTurnsOver) {
     EXPECT_EQ(passed, 10) << speed;
     EXPECT_LT(closure, kPromised) << speed;
   }
+}
+
+// Both are moved. They pass each other by a thousandth of their radius, which turns the normal over
+// within a step; one spins, so that it slips across the plane in which the normal turns.
+TEST(PressedThroughAGrain, FrictionIsNotLost) {
+  constexpr double kSpeed = 1.0;  // m/s
+  Scene scene;
+  scene.materials = {{1e6, 0.5, 0.7}};
+  add_grain(scene, Vec3::Zero(), Vec3::Zero());
+  add_grain(scene, {2.05 * kRadius, 1e-3 * kRadius, 0.0}, {-kSpeed, 0.0, 0.0});
+  scene.state.angular_velocity.back() = {0.0, 2.0 * kSpeed / kRadius, 0.0};
+  for (dynamics::Held& held : scene.properties.held) held = dynamics::Held::everything;
+  LoadedSimulation simulation = simulation_of(scene, 0.02 * kRadius / kSpeed);
+
+  const double closure = closure_until(simulation, 3.0 * kRadius / kSpeed);
+
+  EXPECT_LT(closure, 0.01);
 }
 
 }  // namespace

@@ -219,13 +219,48 @@ TYPED_TEST(LawProperties, TheHistoryTurnsWithTheTwistOfThePair) {
               1e-14 * before.norm());
 }
 
-TYPED_TEST(LawProperties, TheHistoryIsNotCarriedToANormalOfTheOtherSide) {
+// As a centre goes through a facet: the contact plane stays as it is.
+TYPED_TEST(LawProperties, TheHistoryGoesOnWhereTheNormalTurnsOver) {
   using Law = TypeParam;
   const auto p = this->random_parameters();
   const Vec3 normal = this->random_.direction();
   const ContactMemory<Law> memory{this->random_history(p, normal), normal};
 
-  EXPECT_EQ(Law::history_energy(p, carried_history<Law>(memory, -normal, 0.1)), 0.0);
+  const auto behind = carried_history<Law>(memory, -normal, 0.0);
+
+  const Vec3 before = this->tangential_force(p, normal, memory.history);
+  EXPECT_NEAR((this->tangential_force(p, -normal, behind) - before).norm(), 0.0,
+              1e-14 * before.norm());
+  EXPECT_NEAR(Law::history_energy(p, behind), Law::history_energy(p, memory.history),
+              1e-14 * std::abs(Law::history_energy(p, memory.history)));
+  if constexpr (HasMoments<Law>) {
+    const Vec3 moment = Law::moment(memory.history, normal);
+    EXPECT_NEAR((Law::moment(behind, -normal) - moment).norm(), 0.0, 1e-14 * moment.norm());
+  }
+}
+
+TYPED_TEST(LawProperties, ANormalThatNearlyTurnsOverKeepsTheLengthOfTheTangentialForce) {
+  using Law = TypeParam;
+  const auto p = this->random_parameters();
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vec3 normal = this->random_.direction();
+    const ContactMemory<Law> memory{this->random_history(p, normal), normal};
+    const Vec3 other = Eigen::AngleAxisd(this->random_.uniform(2.0 / 3.0, 1.0) * std::numbers::pi,
+                                         normal.unitOrthogonal()) *
+                       normal;
+
+    const auto behind = carried_history<Law>(memory, other, this->random_.uniform(-1.0, 1.0));
+
+    const double before = this->tangential_force(p, normal, memory.history).norm();
+    EXPECT_NEAR(this->tangential_force(p, other, behind).norm(), before, 1e-14 * before);
+  }
+}
+
+TYPED_TEST(LawProperties, ANewContactHasNoHistory) {
+  using Law = TypeParam;
+  const auto p = this->random_parameters();
+  const Vec3 normal = this->random_.direction();
+
   EXPECT_EQ(Law::history_energy(p, carried_history<Law>(ContactMemory<Law>{}, normal, 0.1)), 0.0);
 }
 
