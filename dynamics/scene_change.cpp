@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -164,17 +165,37 @@ bool take_table(const Scene& before, const std::vector<Element>& there,
   return others;
 }
 
-/// Moves a plane as another one is moved.
-void set_pace(contact::Plane& plane, const contact::Plane& as) {
-  plane.velocity = as.velocity;
-  plane.widening = as.widening;
+/// What moves a plane.
+enum class Driver : std::uint8_t { none, motion, servo };
+
+std::vector<Driver> drivers_of(const Scene& scene) {
+  std::vector<Driver> drivers(scene.planes.size(), Driver::none);
+  for (const PlaneMotion& motion : scene.loads.plane_motions)
+    drivers[motion.plane] = Driver::motion;
+  for (const PlaneServo& servo : scene.loads.servos) drivers[servo.plane] = Driver::servo;
+  return drivers;
 }
 
-std::vector<bool> driven_planes(const Scene& scene) {
-  std::vector<bool> are_driven(scene.planes.size());
-  for (const PlaneMotion& motion : scene.loads.plane_motions) are_driven[motion.plane] = true;
-  for (const PlaneServo& servo : scene.loads.servos) are_driven[servo.plane] = true;
-  return are_driven;
+/// Of the planes of a scene, who drove them in the one before.
+std::vector<Driver> drivers_before(const Scene& before, const Scene& now,
+                                   const std::vector<std::int32_t>& places) {
+  const std::vector<Driver> then = drivers_of(before);
+  std::vector<Driver> drivers(now.planes.size(), Driver::none);
+  for_each_kept(places, [&](std::size_t i, std::size_t k) { drivers[k] = then[i]; });
+  return drivers;
+}
+
+/// What the driver of a plane does not set of its pace is as it is made: a motion sets the velocity,
+/// a servo that along the normal, or the widening of a container.
+void set_rest_of_pace(contact::Plane& plane, const contact::Plane& made, Driver driver,
+                      Driver before) {
+  const bool is_flat = plane.form == contact::Plane::Form::flat;
+  if (driver != Driver::servo) plane.widening = made.widening;
+  if (driver == Driver::none || (driver == Driver::servo && !is_flat))
+    plane.velocity = made.velocity;
+  if (driver == Driver::servo && is_flat && before == Driver::motion)
+    plane.velocity =
+        made.velocity + (plane.velocity - made.velocity).dot(plane.normal) * plane.normal;
 }
 
 }  // namespace
@@ -219,12 +240,13 @@ void Simulation::take_state(Simulation& before, const SceneChange& change) {
   const StateTree state = carried(there, std::move(here), groups);
   exchange_kept(StateArchive::reader(state));
   if (has_new_nodes) fastest_ = std::max(fastest_, largest_speed(scene_.state));
-  const std::vector<bool> are_driven = driven_planes(scene_);
+  const std::vector<Driver> drivers = drivers_of(scene_);
+  const std::vector<Driver> then = drivers_before(before.scene_, scene_, change.places.planes);
   for (std::size_t i = 0; i < planes.size(); ++i) {
     if (!change.moved_planes.empty() && change.moved_planes[i])
       scene_.planes[i] = planes[i];
-    else if (!are_driven[i])
-      set_pace(scene_.planes[i], planes[i]);
+    else
+      set_rest_of_pace(scene_.planes[i], planes[i], drivers[i], then[i]);
   }
 }
 

@@ -121,8 +121,12 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const PlaneReaction> re
     const auto press_here = [&](double way) { return press(servo.plane, way); };
     const ServoPlate now{wanted, pressing,
                          is_flat ? plane.velocity.dot(plane.normal) : -plane.widening};
-    const double speed =
-        servo_speed({servo.largest_speed, servo.gain}, now, press_here, step.after);
+    // A container closes by a part of what is left, never altogether.
+    constexpr double kLargestPart = 0.5;  // of the radius, in a drift
+    const double largest =
+        is_flat ? servo.largest_speed
+                : std::min(servo.largest_speed, kLargestPart * plane.radius / step.after);
+    const double speed = servo_speed({largest, servo.gain}, now, press_here, step.after);
     if (!is_flat) {
       close(servo.plane, speed);
       continue;

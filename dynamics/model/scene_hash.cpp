@@ -104,6 +104,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   for (const contact::Plane& plane : scene.planes) {
     hash.add(plane.normal);
     add_number(plane.material, hash);
+    if (plane.turns()) hash.add(plane.turning());
     if (plane.form == contact::Plane::Form::flat) continue;
     add_number(plane.form, hash);
     hash.add(plane.axis);

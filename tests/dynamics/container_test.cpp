@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/base/plane.hpp"
+#include "dynamics/scene_change.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/state_hash.hpp"
 #include "tests/support/named_laws.hpp"
@@ -185,6 +186,22 @@ TEST(Drum, IsTurnedByWorkAgainstTheMomentOfItsBodies) {
   EXPECT_LT(simulation.energy().closure(), 2e-3);
 }
 
+/// A state of another turn is that of another scene, as its velocity would be that of the state.
+TEST(Drum, IsNotGoneOnWithAtAnotherPace) {
+  const SimulationOptions options{.time_step = 2e-5, .motion = {.gravity = Vec3::Zero()}};
+  const auto turning = [&](double pace) {
+    Plane drum = cylinder();
+    drum.angular_velocity = pace;
+    Scene scene = with(drum, 0.4, 1e7);
+    scene.add_sphere(place_at(drum, 0.0), kBall, kDensity, kMaterial);
+    return Simulation(scene, options);
+  };
+  Simulation slow = turning(3.0), fast = turning(4.0);
+
+  EXPECT_THROW(fast.restore(slow.snapshot()), geometry::StateMismatch);
+  EXPECT_NO_THROW(turning(3.0).restore(slow.snapshot()));
+}
+
 /// Of the bodies in a container, moved and turned with it, nothing is different.
 TEST(Container, PushesASheetByItsNodesWhereverItLies) {
   const Plane plane = cylinder();
@@ -232,6 +249,8 @@ class ServoOn : public testing::TestWithParam<Plane::Form> {
     scene.loads.servos = {servo};
     return scene;
   }
+  /// Of a scene of the same bodies.
+  static SceneChange nothing_else() { return {{{0, 1, 2, 3, 4}, {0, 1, 2, 3, 4}, {0}}, {}}; }
   static constexpr double kGap = 1e-4;  // m
 };
 
@@ -281,6 +300,58 @@ TEST_P(ServoOn, GoesOnFromAStateAsIfItHadNotBeenStopped) {
 
   EXPECT_EQ(state_hash(next), state_hash(whole));
   EXPECT_NE(whole.planes()[0].radius, scene().planes[0].radius);
+}
+
+/// What drives it from now on says all of how it moves.
+TEST_P(ServoOn, LeavesNothingOfItsPaceToAMotionThatFollows) {
+  const SimulationOptions options{.time_step = 2e-5, .motion = {.gravity = Vec3::Zero()}};
+  Simulation before(scene(), options);
+  for (int i = 0; i < 50; ++i) before.step();
+  ASSERT_LT(before.planes()[0].widening, 0.0);
+  Scene moved = scene();
+  moved.loads.servos.clear();
+  moved.loads.plane_motions = {{0, Vec3(0.01, 0, 0), {}}};
+  Simulation next(moved, options);
+  next.go_on_from(before, nothing_else());
+  const double radius = next.planes()[0].radius;
+
+  for (int i = 0; i < 50; ++i) next.step();
+
+  EXPECT_EQ(radius, before.planes()[0].radius);
+  EXPECT_EQ(next.planes()[0].radius, radius);
+}
+
+TEST_P(ServoOn, TakesNothingOfTheVelocityOfAMotionBefore) {
+  const SimulationOptions options{.time_step = 2e-5, .motion = {.gravity = Vec3::Zero()}};
+  Scene moved = scene();
+  moved.loads.servos.clear();
+  moved.loads.plane_motions = {{0, Vec3(0.01, 0, 0), {}}};
+  Simulation before(moved, options);
+  for (int i = 0; i < 50; ++i) before.step();
+  Simulation next(scene(), options);
+  next.go_on_from(before, nothing_else());
+
+  for (int i = 0; i < 50; ++i) next.step();
+
+  EXPECT_EQ(next.planes()[0].point, before.planes()[0].point);
+  EXPECT_LT(next.planes()[0].radius, before.planes()[0].radius);
+}
+
+/// A held ball bears 1e4 N/m times what it is deep in the wall: far less than the force.
+TEST_P(ServoOn, NeverClosesAContainerAltogether) {
+  Plane plane = cylinder();
+  plane.form = GetParam();
+  Scene pressed = with(plane, 0.3, kModulus);
+  pressed.add_sphere(plane.point, kBall, kDensity, kMaterial);
+  pressed.properties.held[0] = Held::everything;
+  pressed.loads.servos = scene().loads.servos;
+  pressed.loads.servos[0].force = 1e6;
+  pressed.loads.servos[0].largest_speed = 10.0;
+  Simulation simulation(pressed, {.time_step = 1e-4, .motion = {.gravity = Vec3::Zero()}});
+
+  for (int i = 0; i < 1000; ++i) simulation.step();
+
+  EXPECT_GT(simulation.planes()[0].radius, 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ServoOn, testing::Values(Plane::Form::cylinder, Plane::Form::sphere),

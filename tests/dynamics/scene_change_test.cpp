@@ -91,6 +91,30 @@ TEST_P(SceneGoesOn, ToTheLastBitWhereNothingChangesWithAnyThreads) {
   EXPECT_EQ(next.energy().closure_error(), whole.energy().closure_error());
 }
 
+/// A plate that was moved along and across itself; its servo moves it along its normal alone.
+TEST(PlateGoesOn, WithoutTheMotionAlongItselfWhereAServoTakesIt) {
+  Scene scene;
+  scene.materials = {{1e6, 0.5, 0.3}};
+  scene.planes = {{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), contact::MaterialId{0}}};
+  scene.add_sphere(Vec3(0, 0, 1), 0.1, 2500.0, contact::MaterialId{0});
+  const SimulationOptions options{.time_step = 1e-4, .motion = {.gravity = Vec3::Zero()}};
+  Scene moved = scene;
+  moved.loads.plane_motions = {{0, Vec3(0.1, 0, 0.2), {}}};
+  Simulation before(moved, options);
+  advance(before, 10);
+  PlaneServo servo;
+  servo.force = 1.0;
+  servo.largest_speed = 0.5;
+  scene.loads.servos = {servo};
+  Simulation next(scene, options);
+  next.go_on_from(before, nothing_moves(scene));
+
+  advance(next, 10);
+
+  EXPECT_EQ(next.planes()[0].velocity, Vec3(0, 0, 0.5));
+  EXPECT_EQ(next.planes()[0].point.x(), before.planes()[0].point.x());
+}
+
 TEST_P(SceneGoesOn, ToTheLastBitWhereAPlaneComesThatNothingTouches) {
   Simulation whole = before_.simulation(GetParam());
   advance(whole, 40);
