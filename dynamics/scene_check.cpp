@@ -154,6 +154,15 @@ class SceneProblems {
                    << ") is not a unit vector; normalise it\n";
   }
 
+  void expect_turning_in_itself(std::size_t id, const contact::Plane& plane) {
+    constexpr double kTolerance = 1e-9;  // of unit vectors
+    if (plane.form != contact::Plane::Form::flat || !plane.turns()) return;
+    if (plane.axis.cross(plane.normal).norm() < kTolerance) return;
+    line("plane", id) << "it is flat and turns about (" << plane.axis.transpose()
+                      << "), which is not along its normal (" << plane.normal.transpose()
+                      << "); it turns in its own plane alone\n";
+  }
+
   void list_planes() {
     for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
       const contact::Plane& plane = scene_.planes[i];
@@ -171,6 +180,7 @@ class SceneProblems {
       if (!std::isfinite(plane.angular_velocity))
         line("plane", i) << "its angular velocity is " << plane.angular_velocity
                          << "; it must be finite\n";
+      expect_turning_in_itself(i, plane);
     }
   }
 

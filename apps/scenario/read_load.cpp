@@ -241,9 +241,10 @@ void require_side(Section& section, const Scenario& scenario, const dynamics::Pl
 
 dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
   dynamics::PlaneServo servo;
-  servo.plane = read_plane_name(section, scenario).value_or(0);
+  const std::optional<std::size_t> plane = read_plane_name(section, scenario);
+  servo.plane = plane.value_or(0);
   read_pressing(section, scenario, servo);
-  require_side(section, scenario, servo);
+  if (plane) require_side(section, scenario, servo);
   servo.largest_speed = section.quantity("speed", {kVelocity, kPositive});
   servo.gain = section.quantity("gain", {kNumber, kGain}, servo.gain);
   servo.factor = read_factor(section);

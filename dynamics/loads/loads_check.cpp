@@ -93,6 +93,7 @@ class LoadProblems {
   void list(const std::string& name, const PlaneServo& servo) {
     expect_plane(name, servo.plane);
     for (const auto& pair : servo.between) expect_facing(name, pair);
+    expect_side(name, servo);
     expect(servo.force >= 0.0 && servo.pressure >= 0.0 && servo.force + servo.pressure > 0.0, name,
            "has no target; give a force (N) or a pressure (Pa) above 0");
     expect(servo.area > 0.0, name, "its area must be above 0");
@@ -173,6 +174,22 @@ class LoadProblems {
     text_ << name << ": planes " << pair[0] << " and " << pair[1]
           << " do not face each other; the distance of planes bounds an area only where their "
              "normals are opposite\n";
+  }
+
+  /// Planes bound the side of a cylinder in its length alone, and no ball.
+  void expect_side(const std::string& name, const PlaneServo& servo) {
+    if (servo.between.empty() || servo.plane >= scene_.planes.size() || is_flat(servo.plane))
+      return;
+    constexpr double kTolerance = 1e-9;  // of unit vectors
+    const contact::Plane& plane = scene_.planes[servo.plane];
+    const std::size_t end = servo.between[0][0];
+    if (plane.form == contact::Plane::Form::sphere)
+      text_ << name << ": plane " << servo.plane << " is a ball; give its area\n";
+    else if (servo.between.size() > 1 ||
+             (end < scene_.planes.size() &&
+              scene_.planes[end].normal.cross(plane.axis).norm() > kTolerance))
+      text_ << name << ": plane " << servo.plane
+            << " is a cylinder; give the two planes at its ends, across its axis\n";
   }
 
   void list_planes_driven_twice() {

@@ -320,6 +320,16 @@ TEST(ScenarioReader, BoundsTheSideOfACylinderByThePlanesAtItsEnds) {
               HasSubstr("\"ball\" is a sphere; expected its area"));
 }
 
+TEST(ScenarioReader, SaysNothingMoreOfAServoOnAPlaneThatIsNotThere) {
+  const std::string error =
+      error_of(edited("normal = [0, 0, 2]", "kind = \"cylinder\"\nradius = 1") + kContainer +
+               "[[loads]]\nkind = \"servo\"\nplane = \"cel\"\npressure = \"1 kPa\"\n"
+               "speed = \"1 m/s\"\nbetween = [\"left\", \"right\"]\n");
+
+  EXPECT_THAT(error, HasSubstr("there is none called \"cel\""));
+  EXPECT_THAT(error, testing::Not(HasSubstr("is a cylinder")));
+}
+
 TEST(ScenarioReader, RefusesTwoOfTheSameName) {
   const std::string text =
       std::string(kGood) +

@@ -400,5 +400,32 @@ TEST(PlaneServo, IsRefusedWithoutATargetOrWithAPlaneThatIsDrivenAlready) {
   EXPECT_THAT(problems, HasSubstr("motion of a plane 0: plane 0 has a velocity of its own"));
 }
 
+/// Two planes bound the side of a cylinder across its axis, and no sphere.
+TEST(PlaneServo, IsRefusedWithPlanesBetweenWhichItsContainerHasNoArea) {
+  Scene scene = grain_under_a_plate();
+  scene.planes = {{Vec3::Zero(), Vec3::UnitZ()}, {Vec3::UnitZ(), -Vec3::UnitZ()}};
+  for (const auto form : {contact::Plane::Form::cylinder, contact::Plane::Form::sphere})
+    scene.planes.push_back({.point = Vec3::Zero(),
+                            .normal = Vec3::Zero(),
+                            .form = form,
+                            .radius = 9.0,
+                            .axis = Vec3::UnitZ()});
+  const auto with_servo = [&](std::size_t plane, std::vector<std::array<std::size_t, 2>> between) {
+    PlaneServo servo = servo_of(1.0);
+    servo.plane = plane;
+    servo.between = std::move(between);
+    scene.loads.servos = {servo};
+    return problems_of(scene);
+  };
+  EXPECT_EQ(with_servo(2, {{0, 1}}), "");
+
+  EXPECT_THAT(with_servo(3, {{0, 1}}), HasSubstr("servo 0: plane 3 is a ball; give its area"));
+  EXPECT_THAT(with_servo(2, {{0, 1}, {1, 0}}),
+              HasSubstr("servo 0: plane 2 is a cylinder; give the two planes at its ends"));
+  scene.planes[2].axis = Vec3::UnitX();
+  EXPECT_THAT(with_servo(2, {{0, 1}}),
+              HasSubstr("servo 0: plane 2 is a cylinder; give the two planes at its ends"));
+}
+
 }  // namespace
 }  // namespace plekton::test::plane_servo_test

@@ -108,6 +108,20 @@ TEST(Scene, ListsEveryProblemAtOnce) {
   }
 }
 
+/// It would have to move where it touches.
+TEST(Scene, RefusesAFlatPlaneThatTurnsAboutAnotherAxisThanItsNormal) {
+  Scene scene = sound_scene();
+  scene.planes[0].normal = Vec3::UnitZ();
+  scene.planes[0].angular_velocity = 2.0;
+  scene.planes[0].axis = -Vec3::UnitZ();
+  EXPECT_EQ(problems_of(scene), "");
+
+  scene.planes[0].axis = Vec3::UnitX();
+
+  EXPECT_THAT(problems_of(scene), HasSubstr("plane 0: it is flat and turns about (1 0 0), which is "
+                                            "not along its normal (0 0 1)"));
+}
+
 TEST(Scene, RefusesAFacetWithoutAreaByExactSigns) {
   Scene scene = sound_scene();
   scene.state.position[3] = Vec3(0.3, 0.0, 0.0);
