@@ -70,6 +70,13 @@ void require_same_tables(const Scenario& then, const Scenario& now) {
   require("membranes", then.membranes, now.membranes);
   require("rigid bodies", then.rigid_bodies, now.rigid_bodies);
   require("planes", then.planes, now.planes);
+  for (std::size_t i = 0; i < now.planes.size(); ++i) {
+    if (then.planes[i].form == now.planes[i].form) continue;
+    throw InputError(fmt::format(
+        "{}: planes.{} is of another kind than in the run that it is to go on from; leave its kind "
+        "as it is there",
+        now.stage->path, now.planes[i].name.empty() ? std::to_string(i) : now.planes[i].name));
+  }
   require("ties", then.ties, now.ties);
   for (std::size_t i = 0; i < now.ties.size(); ++i) {
     if (tie_the_same(then.ties[i], now.ties[i])) continue;

@@ -47,10 +47,10 @@ KeptBodies kept_bodies(const Scenario& stage, const PreparedRun& before) {
 Scenario with_planes_of_now(Scenario stage, const dynamics::Simulation& before) {
   const StageOrigins& origins = stage.stage->origins;
   for (std::size_t i = 0; i < stage.planes.size(); ++i) {
-    if (origins.planes[i] < 0 || origins.moved_planes[i]) continue;
+    if (origins.planes[i] < 0) continue;
     const contact::Plane& then = before.planes()[static_cast<std::size_t>(origins.planes[i])];
-    stage.planes[i].point = then.point;
-    stage.planes[i].radius = then.radius;
+    if (!origins.says_point[i]) stage.planes[i].point = then.point;
+    if (!origins.says_radius[i]) stage.planes[i].radius = then.radius;
   }
   return stage;
 }
@@ -261,7 +261,7 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
   next.simulation = simulation_of(now, next.built);
   next.duration = stage.simulation.duration;
   try {
-    if (stage.stage->origins.changes_nothing && !moves_planes(stage, ended)) {
+    if (stage.stage->origins.changes_nothing && !moves_planes(now, ended)) {
       next.simulation->restore(ended.snapshot());
     } else {
       const dynamics::SceneChange change =
@@ -310,9 +310,12 @@ StageAhead StagesAhead::next(const Scenario& stage, const HearSetUp& hear) {
 
 void StagesAhead::find_planes(const Scenario& stage) {
   const StageOrigins& origins = stage.stage->origins;
+  const auto is_placed = [&](std::size_t i) {
+    return origins.says_point[i] && (stage.planes[i].is_flat() || origins.says_radius[i]);
+  };
   const std::vector<bool> before = std::exchange(has_stayed_, {});
   for (std::size_t i = 0; i < stage.planes.size(); ++i)
-    has_stayed_.push_back(origins.planes[i] < 0 || origins.moved_planes[i] ||
+    has_stayed_.push_back(origins.planes[i] < 0 || is_placed(i) ||
                           before[static_cast<std::size_t>(origins.planes[i])]);
 }
 

@@ -70,12 +70,15 @@ struct RemovalSettings {
 };
 
 /// What of a stage is that of the stage before. A load begins in the stage that names it, and goes
-/// on until one names it again; a plane goes on from where it is, unless a stage says its point.
+/// on until one names it again; a plane goes on from where it is, unless a stage says its point, and
+/// as wide as it is, unless one says its radius.
 struct StageOrigins {
   std::vector<std::size_t> loads;         ///< by load: the stage in which it began
   std::vector<std::size_t> reactions;     ///< by reaction, likewise
   std::vector<int> planes;                ///< by plane: its number in the stage before; -1: new
-  std::vector<bool> moved_planes;         ///< by plane: whether the stage says where it is
+  std::vector<bool> moved_planes;         ///< by plane: whether the stage says where or how it is
+  std::vector<bool> says_point;           ///< by plane: whether the stage says its point
+  std::vector<bool> says_radius;          ///< by plane: likewise
   std::vector<bool> absent_membranes;     ///< by membrane: it is not there yet, or any more
   std::vector<bool> absent_rigid_bodies;  ///< likewise
   std::vector<bool> says_hold;            ///< by rigid body: whether the stage says what is held

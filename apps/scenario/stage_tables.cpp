@@ -152,8 +152,13 @@ class Stages {
     origins_.planes.clear();
     for (std::size_t i = 0; i < count("planes"); ++i)
       origins_.planes.push_back(number_ == 0 ? -1 : static_cast<int>(i));
-    origins_.moved_planes.assign(count("planes"), false);
+    for (std::vector<bool>* const said : flags_of_planes()) said->assign(count("planes"), false);
     origins_.says_hold.assign(count("rigid_bodies"), false);
+  }
+
+  /// What the stage says of each plane.
+  std::array<std::vector<bool>*, 3> flags_of_planes() {
+    return {&origins_.moved_planes, &origins_.says_point, &origins_.says_radius};
   }
 
   /// All but what is written.
@@ -326,8 +331,12 @@ class Stages {
     if (list == "reactions") note(origins_.reactions, number_);
     if (list != "planes") return;
     if (place == origins_.planes.size()) origins_.planes.push_back(-1);
-    note(origins_.moved_planes,
-         table != nullptr && (table->find("point") != nullptr || table->find("radius") != nullptr));
+    const auto says = [table](std::string_view key) {
+      return table != nullptr && table->find(key) != nullptr;
+    };
+    note(origins_.says_point, says("point"));
+    note(origins_.says_radius, says("radius"));
+    note(origins_.moved_planes, says("point") || says("radius") || says("kind") || says("axis"));
   }
 
   void change_contacts(const Entry& entry) {
@@ -498,7 +507,7 @@ class Stages {
     if (list == "loads") origins_.loads.erase(origins_.loads.begin() + at);
     if (list != "planes") return;
     origins_.planes.erase(origins_.planes.begin() + at);
-    origins_.moved_planes.erase(origins_.moved_planes.begin() + at);
+    for (std::vector<bool>* const said : flags_of_planes()) said->erase(said->begin() + at);
     remove_reactions_of(key, removal);
     leave_out_of_measures(*text_of(removal, key));
   }

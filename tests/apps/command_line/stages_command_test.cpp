@@ -461,6 +461,24 @@ TEST_F(Stages, GoOnOnlyWithTheTiesOfBefore) {
   EXPECT_FALSE(fs::exists(folder_ / "wrong"));
 }
 
+TEST_F(Stages, GoOnOnlyWithPlanesOfTheKindsOfBefore) {
+  const std::string stages =
+      "[[stages]]\nname = \"a\"\nend = { duration = \"0.2 ms\" }\n"
+      "[[stages]]\nname = \"b\"\nend = { duration = \"0.2 ms\" }\n";
+  const auto around = [&](const std::string& how) {
+    return kBodies + ("[[planes]]\nname = \"cell\"\npoint = [0, 0, -1]\nmaterial = \"sand\"\n" +
+                      how + stages);
+  };
+  const std::string cylinder = around("kind = \"cylinder\"\nradius = 1\n");
+  ASSERT_EQ(run(write("first.toml", cylinder), "first").exit_code, 0);
+  const std::vector<std::string> from = {"--from", "a", in("first")};
+
+  EXPECT_EQ(run(write("same.toml", cylinder), "same", from).exit_code, 0);
+  EXPECT_THAT(run(write("flat.toml", around("")), "wrong", from).err,
+              HasSubstr("stages.a: planes.cell is of another kind than in the run"));
+  EXPECT_FALSE(fs::exists(folder_ / "wrong"));
+}
+
 /// The scene of kBodies, with a lid that comes in the last of three stages.
 std::string in_three(std::string_view first, std::string_view second, std::string_view third) {
   std::string text = kBodies;

@@ -156,6 +156,64 @@ point = [0, 0, "100 mm"]
   EXPECT_EQ(height_of("planes/point", 0), 0.1);
 }
 
+/// A container goes on as wide as it is where a stage says its point, and where it is where one says
+/// its radius.
+TEST_F(StageStarts, MoveAContainerInWhatTheySayOfIt) {
+  const Outcome outcome = run(std::string(kStone) + R"(
+[simulation]
+gravity = [0, 0, 0]
+[[planes]]
+name = "cell"
+kind = "cylinder"
+point = [0, 0, 0]
+radius = "50 mm"
+material = "stone"
+[[grains]]
+name = "one"
+material = "stone"
+radius = "5 mm"
+centres = [[0, 0, "50 mm"]]
+[[stages]]
+name = "close"
+end = { duration = "5 ms" }
+[[stages.loads]]
+name = "close"
+kind = "servo"
+plane = "cell"
+force = "1 N"
+speed = 1
+[[stages]]
+name = "up"
+end = { duration = "5 ms" }
+remove = [{ load = "close" }]
+[[stages.planes]]
+name = "cell"
+point = [0, 0, "30 mm"]
+[[stages.loads]]
+name = "go"
+kind = "motion"
+plane = "cell"
+velocity = [0, 0, 1]
+[[stages]]
+name = "open"
+end = { duration = "5 ms" }
+remove = [{ load = "go" }]
+[[stages.planes]]
+name = "cell"
+radius = "60 mm"
+)");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto radius_after = [&](std::size_t stages) {
+    const geometry::StateTree state = dynamics::read_checkpoint(checkpoints_of(out()).at(stages));
+    return std::get<std::vector<double>>(state.arrays.at("planes/radius").numbers).at(0);
+  };
+  const std::size_t last = checkpoints_of(out()).size() - 1;
+  EXPECT_NEAR(radius_after(last - 2), 0.045, 1e-3);
+  EXPECT_EQ(radius_after(last - 1), radius_after(last - 2));
+  EXPECT_EQ(radius_after(last), 0.06);
+  EXPECT_NEAR(height_of("planes/point", 0), 0.035, 1e-3);
+}
+
 /// A grain that comes 0.1 mm deep in the floor flies off with what that has stored: with k = E r of a
 /// sphere on a plane, 1/2 E r d² = 2.5e-4 J.
 TEST_F(StageStarts, CountWhatComesTouchingAsWorkFromOutside) {
