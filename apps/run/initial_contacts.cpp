@@ -44,11 +44,14 @@ std::string refusal_of(std::size_t count, const BodyOverlap& deepest, const Scen
   const std::string b = path_of(deepest.of[1], scenario);
   const std::string which = count == 1 ? "" : "the deepest ";
   if (deepest.of[1].kind == BodyTable::Kind::plane) {
-    return fmt::format(
-        "{}: {} of its {} begin behind {}, {}by {}; move them to the side that the normal of the "
-        "plane points to, or move or turn the plane",
-        a, count, deepest.of[0].kind == BodyTable::Kind::grains ? "grains" : "nodes", b, which,
-        text_of(deepest));
+    const char* const way_out =
+        scenario.planes[deepest.of[1].number].is_flat()
+            ? "move them to the side that the normal of the plane points to, or move or turn the "
+              "plane"
+            : "move them inside, or move or widen it";
+    return fmt::format("{}: {} of its {} begin behind {}, {}by {}; {}", a, count,
+                       deepest.of[0].kind == BodyTable::Kind::grains ? "grains" : "nodes", b, which,
+                       text_of(deepest), way_out);
   }
   return fmt::format("{}: begins in {} at {} {}, deeper than both radii, {}by {}; move them apart",
                      a, b, count, count == 1 ? "place" : "places", which, text_of(deepest));

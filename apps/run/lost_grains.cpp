@@ -39,6 +39,15 @@ double smallest_radius(const geometry::Elements& elements) noexcept {
   return smallest;
 }
 
+/// Of a wall the point that is nearest to a place, or of a container all around the middle there.
+geometry::Box wall_beside(const contact::Plane& plane, const Vec3& place) {
+  if (plane.form == contact::Plane::Form::flat) return {plane.foot(place), plane.foot(place)};
+  const Vec3 axis = plane.direction();
+  const Vec3 middle = plane.point + (place - plane.point).dot(axis) * axis;
+  const Vec3 reach = plane.radius * (1.0 - axis.array().square()).max(0.0).sqrt().matrix();
+  return {middle - reach, middle + reach};
+}
+
 geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positions x,
                            std::span<const contact::Plane> planes) {
   geometry::Box bounds{Vec3::Constant(std::numeric_limits<double>::max()),
@@ -56,9 +65,9 @@ geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positio
   const geometry::Box of_elements = bounds;
   for (const contact::Plane& plane : planes) {
     for (const Vec3& corner : {of_elements.lower, of_elements.upper}) {
-      const Vec3 foot = plane.foot(corner);
-      bounds.lower = bounds.lower.cwiseMin(foot);
-      bounds.upper = bounds.upper.cwiseMax(foot);
+      const geometry::Box wall = wall_beside(plane, corner);
+      bounds.lower = bounds.lower.cwiseMin(wall.lower);
+      bounds.upper = bounds.upper.cwiseMax(wall.upper);
     }
   }
   const double margin = (bounds.upper - bounds.lower).maxCoeff();

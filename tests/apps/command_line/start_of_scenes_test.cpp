@@ -147,6 +147,16 @@ TEST_F(StartOfScenes, AreRefusedWhereGrainsBeginBehindAPlane) {
   EXPECT_THAT(error, HasSubstr("move them to the side that the normal of the plane points to"));
 }
 
+TEST_F(StartOfScenes, AreRefusedWhereGrainsBeginOutsideOfAContainer) {
+  const std::string error = refusal_of(
+      grains("g", "[0, 0, 0], [0.06, 0, 0]") +
+      "[[planes]]\nname = \"cell\"\nkind = \"cylinder\"\npoint = [0, 0, 0]\nradius = \"5 cm\"\n"
+      "material = \"stone\"\n");
+
+  EXPECT_THAT(error, HasSubstr("grains.g: 1 of its grains begin behind planes.cell, by 20 mm"));
+  EXPECT_THAT(error, HasSubstr("; move them inside, or move or widen it"));
+}
+
 TEST_F(StartOfScenes, AreRefusedWhereNodesOfMembranesBeginBehindAPlane) {
   const std::string error = refusal_of(sheet("m", "translate = [0, 0, -0.1]") + kFloor);
 

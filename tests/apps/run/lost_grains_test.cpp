@@ -99,6 +99,24 @@ TEST(LostGrains, CountNoneThatFallsOnAPlaneFarBelow) {
   EXPECT_EQ(scene.lost().total(), 0U);
 }
 
+/// Near the wall at one side, from where it rolls to the other.
+TEST(LostGrains, CountNoneThatIsAnywhereInAContainer) {
+  using Form = contact::Plane::Form;
+  for (const Form form : {Form::cylinder, Form::sphere}) {
+    const contact::Plane wall{.point = {-20.0, 0.0, 0.0},
+                              .normal = Vec3::Zero(),
+                              .form = form,
+                              .radius = 22.0,
+                              .axis = Vec3::UnitZ()};
+    Scene scene({0.2, 0.2, 0.3}, {wall});
+
+    scene.move_to({-41.5, 0.2, 0.3});
+    scene.move_to({-20.0, -21.5, 0.3});
+
+    EXPECT_EQ(scene.lost().total(), 0U);
+  }
+}
+
 TEST(LostGrains, WantToBeLookedAtTheMoreOftenTheFasterAnythingMoves) {
   const Scene scene({0.2, 0.2, 0.3});  // its grain has a radius of 0.1 m
   const auto steps_at = [&](double speed) {
