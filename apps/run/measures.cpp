@@ -60,12 +60,21 @@ void remove_files(const fs::path& folder) {
   fs::remove(folder, ignored);
 }
 
-/// Takes away what is outside a container about the same middle.
-void narrow(geometry::Region& region, double radius) {
-  if (auto* const cylinder = std::get_if<geometry::CylinderRegion>(&region))
+/// Takes away what is outside a container, and moves the middle of what is left to its own.
+/// @param middle  m, a point of its axis, or its centre
+void narrow(geometry::Region& region, const Vec3& middle, double radius) {
+  if (auto* const cylinder = std::get_if<geometry::CylinderRegion>(&region)) {
+    const Vec3 axis = (cylinder->to - cylinder->from).normalized();
+    const Vec3 way = middle - cylinder->from;
+    const Vec3 across = way - way.dot(axis) * axis;
+    cylinder->from += across;
+    cylinder->to += across;
     cylinder->radius = std::min(cylinder->radius, radius);
-  if (auto* const ball = std::get_if<geometry::BallRegion>(&region))
+  }
+  if (auto* const ball = std::get_if<geometry::BallRegion>(&region)) {
+    ball->centre = middle;
     ball->radius = std::min(ball->radius, radius);
+  }
 }
 
 /// Takes away what is behind a plane, on the side of its solid.
@@ -128,7 +137,7 @@ geometry::Region region_of(const MeasureSettings& settings, const dynamics::Simu
   }
   for (const std::size_t plane : settings.planes) {
     if (simulation.planes()[plane].form != contact::Plane::Form::flat) {
-      narrow(region, simulation.force_radius(plane));
+      narrow(region, simulation.force_point(plane), simulation.force_radius(plane));
       continue;
     }
     const Vec3 point = simulation.force_point(plane);

@@ -257,6 +257,44 @@ TEST_F(Measured, StressInACellIsThatOfItsSideAndEnds) {
   EXPECT_NEAR(-whole.last("stress_zz"), 56.5 / area, 0.005 * 20e3);
 }
 
+/// A grain that rests in a cell that is moved past the place where the region was.
+TEST_F(Measured, GoesWithAContainerThatMoves) {
+  test::write_bytes(folder_ / "moved.toml", R"([simulation]
+gravity = [0, 0, 0]
+duration = "10 ms"
+[materials.sand]
+density = "2650 kg/m3"
+young_modulus = "10 MPa"
+friction_angle = 0
+[[grains]]
+name = "sand"
+material = "sand"
+radius = "4 mm"
+velocity = ["4 m/s", 0, 0]
+centres = [[0, 0, "30 mm"]]
+[[planes]]
+name = "side"
+kind = "cylinder"
+point = [0, 0, "5 mm"]
+radius = "10 mm"
+velocity = ["4 m/s", 0, 0]
+material = "sand"
+[output]
+interval = "10 ms"
+history_interval = "1 ms"
+[[output.measures]]
+name = "inside"
+between = ["side"]
+cylinder = { from = [0, 0, 0], to = [0, 0, "60 mm"], radius = 1 }
+)");
+  const Outcome outcome =
+      outcome_of({"run", (folder_ / "moved.toml").string(), "--out", out(), "--quiet"});
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+
+  EXPECT_GT(csv("out", "planes.csv").last("side.point_x"), 0.03);
+  EXPECT_EQ(csv("out", "measures/inside.csv").last("grains"), 1.0);
+}
+
 TEST_F(Measured, HasOneRowForEachRowOfTheEnergiesFromWhereItBegins) {
   ASSERT_EQ(outcome_of({"run", box(), "--out", out(), "--quiet"}).exit_code, kDone);
 
