@@ -222,7 +222,8 @@ class Export {
     for (std::size_t i = 0; i < simulation_.planes().size(); ++i) {
       const contact::Plane& plane = simulation_.planes()[i];
       scene_.planes.push_back({scenario_.planes[i].name, plane.point, plane.direction(),
-                               plane.velocity, whole(scenario_.planes[i].material), plane.radius});
+                               plane.velocity, whole(scenario_.planes[i].material), plane.radius,
+                               plane.turning()});
     }
   }
 

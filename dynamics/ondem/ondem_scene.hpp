@@ -95,6 +95,7 @@ struct OndemPlane {
   geometry::Vec3 velocity = geometry::Vec3::Zero();  ///< m/s
   std::int64_t material = kNone;
   double radius = 0.0;  ///< m, of the inside of a cylinder or sphere; 0: flat
+  geometry::Vec3 angular_velocity = geometry::Vec3::Zero();  ///< rad/s, about the point
 };
 
 /// Numbers of all contacts of a run, by the name of the field: ours.

@@ -341,7 +341,9 @@ class Reader {
             vector_in(file_, group + "normal"),
             vector_in(file_, group + "velocity"),
             whole_number_in(file_, group + "material_id"),
-            file_.has(group + "radius") ? number_in(file_, group + "radius") : 0.0};
+            file_.has(group + "radius") ? number_in(file_, group + "radius") : 0.0,
+            file_.has(group + "angular_velocity") ? vector_in(file_, group + "angular_velocity")
+                                                  : Vec3(Vec3::Zero())};
   }
 
   OndemMembrane membrane_in(const std::string& group) const {

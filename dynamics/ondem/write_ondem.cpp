@@ -304,6 +304,8 @@ void write_additions(Hdf5Writer& file, const OndemScene& scene) {
     file.numbers(group + "/normal", std::span<const double>(plane.normal.data(), 3));
     file.numbers(group + "/velocity", std::span<const double>(plane.velocity.data(), 3));
     file.number(group + "/radius", plane.radius);
+    file.numbers(group + "/angular_velocity",
+                 std::span<const double>(plane.angular_velocity.data(), 3));
   }
   file.group("/Plekton/Contacts");
   for (const OndemField& field : scene.contact_fields) {

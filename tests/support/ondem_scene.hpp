@@ -68,7 +68,8 @@ inline dynamics::OndemScene ondem_scene() {
   net.cylinders = {{0, 1}, {2, 3}};
   net.cylinder_radius = {0.001, 0.002};
   scene.membranes.push_back(net);
-  scene.planes.push_back({"drum", {0.0, 0.0, -1.0}, Vec3::UnitZ(), Vec3::UnitX(), 1, 0.25});
+  scene.planes.push_back(
+      {"drum", {0.0, 0.0, -1.0}, Vec3::UnitZ(), Vec3::UnitX(), 1, 0.25, {0.0, 0.0, 3.0}});
   scene.contact_lines.push_back({Vec3::Zero(), Vec3::UnitX()});
   scene.contact_fields.push_back({"gap", "m", {std::vector<double>{-1e-6}, 1}});
   scene.contact_fields.push_back({"normal", "", {std::vector<double>{1.0, 0.0, 0.0}, 3}});

@@ -129,6 +129,7 @@ TEST(ReadOndem, GivesBackMembranesPlanesAndTheState) {
   ASSERT_EQ(read.planes.size(), 1U);
   EXPECT_EQ(read.planes.front().name, "drum");
   EXPECT_EQ(read.planes.front().radius, 0.25);
+  EXPECT_EQ(read.planes.front().angular_velocity, geometry::Vec3(0.0, 0.0, 3.0));
   EXPECT_EQ(read.planes.front().point, scene.planes.front().point);
   EXPECT_EQ(read.state.arrays.size(), scene.state.arrays.size());
   EXPECT_EQ(read.state.hash(), scene.state.hash());
