@@ -83,7 +83,7 @@ struct SingleFeatureAnswerOf {
   Vec3Of<Real> normal;    ///< unit
   Vec3Of<Real> foot;      ///< m, from the sphere's centre
   Real gap;               ///< m
-  Real dissipated;  ///< J, by the law, and what of the history's energy was lost in turning it
+  Real dissipated;        ///< J, by the law
   /// Positive if these are the answers; else another feature may be in range, the sphere has left,
   /// or the normal has turned by more than 90 degrees, or the frame twisted too far for lanes.
   Real is_right;
@@ -235,8 +235,6 @@ PLEKTON_INLINE void SingleFeatureBatch::advance_lanes(const std::uint8_t* chosen
   const FrameRotationOf<Real> rotation{last_normal, at.direction, Real(dt) * state.twist_rate};
   History history = last;
   Law::rotate(history, rotation);
-  const Real lost =
-      Law::history_energy(parameters, last) - Law::history_energy(parameters, history);
 
   const Real elastic = Law::elastic_normal_force(parameters, state.gap);
   const RelativeMotionOf<Real> relative =
@@ -249,12 +247,9 @@ PLEKTON_INLINE void SingleFeatureBatch::advance_lanes(const std::uint8_t* chosen
   const Vector elastic_force = elastic * at.direction;
   const Vector other = answer.force - elastic_force;
   const Vector turning = state.lever_a.cross(other);
-  Vector torque_a{-turning.x, -turning.y, -turning.z};
-  Vector torque_b = state.lever_b.cross(other);
-  if constexpr (HasMoments<Law>) {
-    torque_a = torque_a - answer.moment;
-    torque_b = torque_b + answer.moment;
-  }
+  // A moment of 0 is added too: as in the general way, a zero may get another sign by it.
+  const Vector torque_a = Vector{-turning.x, -turning.y, -turning.z} - answer.moment;
+  const Vector torque_b = state.lever_b.cross(other) + answer.moment;
   const Real has_lever = bodies.range + state.gap;
   const Real unturned = last_normal.dot(at.direction);
   const Real untwisted = Real(geometry::kSmallAngleSquared) - rotation.twist * rotation.twist;
@@ -266,7 +261,7 @@ PLEKTON_INLINE void SingleFeatureBatch::advance_lanes(const std::uint8_t* chosen
       at.direction,
       state.foot,
       state.gap,
-      lost + answer.dissipated,
+      answer.dissipated,
       geometry::detail::smallest_of(has_lever, unturned, untwisted, is_certain),
       history};
   geometry::scatter_numbers<W>(
