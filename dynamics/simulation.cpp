@@ -289,7 +289,8 @@ double Simulation::motion_ratio() const {
 }
 
 Resistance Simulation::resistance() const noexcept {
-  return {scene_, surface_, *contacts_, bonds_, sheet_facets_, ties_, loads_, rigid_nodes_};
+  return {scene_,        surface_, *contacts_, bonds_,      yielding_bonds_,
+          sheet_facets_, ties_,    loads_,     rigid_nodes_};
 }
 
 Pace Simulation::pace() const noexcept {

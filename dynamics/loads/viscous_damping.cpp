@@ -54,8 +54,8 @@ DampedBeams::DampedBeams(const BeamDamping& damping, std::span<const BeamBond> b
 }
 
 void DampedBeams::look_at(const YieldingBonds& bonds) noexcept {
-  bonds.for_each_wire([&](std::size_t bond, double tension) {
-    if (group_of_[bond] < tensions_.size()) tensions_[group_of_[bond]] = tension;
+  bonds.for_each_wire([&](std::size_t bond, const WireYield& wire) {
+    if (group_of_[bond] < tensions_.size()) tensions_[group_of_[bond]] = wire.force;
   });
 }
 

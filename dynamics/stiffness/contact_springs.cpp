@@ -70,8 +70,8 @@ ContactSprings::Approach ContactSprings::approach_of(const Spring& spring, const
   }
   if (!(approach.mobility > 0.0)) return approach;
   const double overlap = spring.contact.overlap;
-  approach.energy = 0.5 * (spring.contact.elastic_stiffness() * overlap * overlap +
-                           approach.speed * approach.speed / approach.mobility);
+  approach.stored = 0.5 * spring.contact.elastic_stiffness() * overlap * overlap;
+  approach.moving = 0.5 * approach.speed * approach.speed / approach.mobility;
   return approach;
 }
 
@@ -82,8 +82,8 @@ double ContactSprings::collision_step(const NodeState& state,
   for (const Spring& spring : springs_) {
     if (spring.kind != Kind::on_surface) continue;
     const Approach approach = approach_of(spring, state, properties);
-    energy += approach.energy;
-    rated += approach.energy * spring.contact.elastic_stiffness() * approach.mobility;
+    energy += approach.energy();
+    rated += approach.energy() * spring.contact.elastic_stiffness() * approach.mobility;
   }
   return rated > 0.0 ? 0.5 * std::sqrt(energy / rated) : std::numeric_limits<double>::infinity();
 }
@@ -95,10 +95,27 @@ double ContactSprings::crossing_step(const NodeState& state,
   for (const Spring& spring : springs_) {
     if (!(spring.contact.core_force > 0.0)) continue;
     const Approach approach = approach_of(spring, state, properties);
-    energy += approach.energy;
+    energy += approach.energy();
     power += spring.contact.core_force * std::max(0.0, -approach.speed);
   }
   return power > 0.0 ? energy / (16.0 * power) : std::numeric_limits<double>::infinity();
+}
+
+double ContactSprings::ending_step(const NodeState& state, const NodeProperties& properties) const {
+  double energy = 0.0;   // J
+  double rated = 0.0;    // J/s², of what motion has more than is stored, times omega²
+  double squares = 0.0;  // J²/s⁴, of the same
+  for (const Spring& spring : springs_) {
+    const Approach approach = approach_of(spring, state, properties);
+    energy += approach.energy();
+    const double more = std::max(0.0, approach.moving - approach.stored) *
+                        spring.contact.elastic_stiffness() * approach.mobility;
+    rated += more;
+    squares += more * more;
+  }
+  const double largest = std::max(rated, 16.0 * std::sqrt(squares));
+  return largest > 0.0 ? 0.5 * std::sqrt(energy / largest)
+                       : std::numeric_limits<double>::infinity();
 }
 
 void ContactSprings::resist(const std::vector<Vec3>& shift, const std::vector<Vec3>& turn,

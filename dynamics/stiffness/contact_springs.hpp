@@ -96,6 +96,18 @@ class ContactSprings {
   /// E as above this is the step at which that is 1/16 of the energy of all of them.
   double crossing_step(const NodeState& state, const NodeProperties& properties) const;
 
+  /// Step (s) that follows springs which are about to begin or to end, again and again, as wires that
+  /// become taut and slack; infinite if none is.
+  ///
+  /// Where more is stored than the motion has, nothing begins or ends (as in WallCollisions). With
+  /// e_i what it has more, what all lose and gain at once is at most 1/16 of the energy E in all
+  /// springs, those that go on included, where dt² sum(omega_i² e_i) = E / 4. One time after the
+  /// other, k (v dt)² u (1 - u) / 2 with u at random in [0, 1], whose deviation is 1 / sqrt(180) of
+  /// (omega dt)² e, adds up like the steps of a random walk: in 180 times to a deviation of E / 64, of
+  /// which four are 1/16, where dt² sqrt(sum(omega_i⁴ e_i²)) = E / 64. The shorter of both steps:
+  /// omega dt = 1/8 for one spring, and 1/2 for 256 alike or more.
+  double ending_step(const NodeState& state, const NodeProperties& properties) const;
+
   /// Takes from the forces (N, N m) what the springs do against small motions.
   /// @param shift  m, by NodeId
   /// @param turn   rad, by NodeId
@@ -107,7 +119,10 @@ class ContactSprings {
   struct Approach {
     double mobility = 0.0;  ///< 1/kg, sum of w² / m; 0: all of it is held
     double speed = 0.0;     ///< m/s, at which it parts
-    double energy = 0.0;    ///< J, stored and of that motion; 0 where all is held
+    double stored = 0.0;    ///< J; 0 where all is held
+    double moving = 0.0;    ///< J, of that motion; likewise
+
+    double energy() const noexcept { return stored + moving; }
   };
   enum class Kind : std::uint8_t { of_balls, on_surface, on_wall, turning };
   struct Spring {

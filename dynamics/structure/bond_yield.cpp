@@ -211,9 +211,12 @@ bool is_broken(const BondLimits& limits, const BeamYield& memory) noexcept {
 
 bool yield(double length, double at_first, const WireCurve& curve, BeamSpringOf<double>& spring,
            WireYield& memory) noexcept {
-  memory.loss = 0.0;
   const double strain = (length - at_first) / at_first;
-  if (strain > curve.breaking_strain()) return true;
+  if (strain > curve.breaking_strain()) {
+    memory.dissipated += 0.5 * memory.force * (length - memory.rest_length);
+    memory.force = 0.0;
+    return true;
+  }
   const double elastic = spring.axial * (length - memory.rest_length);
   const double first = memory.force;
   if (elastic <= 0.0) {
@@ -224,8 +227,7 @@ bool yield(double length, double at_first, const WireCurve& curve, BeamSpringOf<
   memory.force = std::min(elastic, curve.force_at(strain));
   if (memory.force < elastic) {
     const double rest_length = length - memory.force / spring.axial;
-    memory.loss = 0.5 * (first + memory.force) * (rest_length - memory.rest_length);
-    memory.dissipated += memory.loss;
+    memory.dissipated += 0.5 * (first + memory.force) * (rest_length - memory.rest_length);
     memory.rest_length = rest_length;
   }
   spring.length = memory.rest_length;

@@ -41,13 +41,17 @@ bool is_broken(const BondLimits& limits, const BeamYield& memory) noexcept;
 /// What a wire remembers.
 struct WireYield {
   double rest_length;       ///< m, below which it is slack
-  double force = 0.0;       ///< N, when it was last looked at
-  double loss = 0.0;        ///< J, by the last look
-  double dissipated = 0.0;  ///< J, by all of them
+  double force = 0.0;       ///< N, when it was last looked at; 0 if it is slack or broken
+  double dissipated = 0.0;  ///< J, by all looks
 };
 
 /// Moves the state at rest of a wire to where its force is that of its curve: to where its ends are
 /// if it is slack.
+///
+/// The loss is half the sum of the forces before and after, times the plastic change; one that
+/// breaks yields to no force. With what is stored that is the work of the leapfrog, to rounding,
+/// but where the wire becomes taut or slack within a step: there it is off by k times the taut and
+/// the slack part of the way over two (ContactSprings::ending_step()).
 /// @param length  m, between its ends now
 /// @param at_first  m, L0
 /// @returns whether it breaks

@@ -66,18 +66,27 @@ void YieldingBonds::yield_all(std::vector<Bond>& all, BeamBonds& bonds, const No
   });
 }
 
-/// The leapfrog lets the forces of before act for half of the way to where a bond breaks, and none
+/// The leapfrog lets the forces of before act for half of the way to where a beam breaks, and none
 /// for the other half. So of what it would have stored and lost on that way only half is there to
 /// be lost: to the second order of the step the balance closes.
+void YieldingBonds::break_one(Beam& beam, BeamBonds& bonds, const NodeState& state) noexcept {
+  const double after =
+      any_beam_reaction(bonds.spring(beam.bond), bonds.ends(beam.bond, state)).energy;
+  beam.memory.dissipated += 0.5 * (bonds.break_bond(beam.bond) + after - beam.memory.loss);
+}
+
+/// What it had stored is in what it lost as it yielded to no force.
+void YieldingBonds::break_one(Wire& wire, BeamBonds& bonds, const NodeState&) noexcept {
+  bonds.break_bond(wire.bond);
+}
+
 template <class Bond>
 void YieldingBonds::break_all(std::vector<Bond>& all, BeamBonds& bonds,
                               const NodeState& state) noexcept {
   for (Bond& one : all) {
     if (breaks_[one.bond] == 0) continue;
     breaks_[one.bond] = 0;
-    const double after =
-        any_beam_reaction(bonds.spring(one.bond), bonds.ends(one.bond, state)).energy;
-    one.memory.dissipated += 0.5 * (bonds.break_bond(one.bond) + after - one.memory.loss);
+    break_one(one, bonds, state);
     broken_.push_back(one.bond);
   }
 }
@@ -154,7 +163,6 @@ void YieldingBonds::exchange(const geometry::StateArchive& archive) {
   archive.rows("wires", wires, [](geometry::RowFields& row, WireYield& memory) {
     row("rest_length", memory.rest_length);
     row("force", memory.force);
-    row("loss", memory.loss);
     row("dissipated", memory.dissipated);
   });
   if (beams.size() != beams_.size() || wires.size() != wires_.size())

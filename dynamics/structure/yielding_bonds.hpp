@@ -30,11 +30,10 @@ class YieldingBonds {
   BondForces forces_of(std::size_t bond, const BeamBonds& bonds,
                        const NodeState& state) const noexcept;
 
-  /// Calls visit(bond, tension (N) at the last advance) for every wire, ascending by bond; the
-  /// tension of one that is slack is 0.
+  /// Calls visit(bond, what it remembers) for every wire, ascending by bond.
   template <class Visit>
   void for_each_wire(const Visit& visit) const {
-    for (const Wire& wire : wires_) visit(wire.bond, wire.memory.force);
+    for (const Wire& wire : wires_) visit(wire.bond, wire.memory);
   }
 
   /// The bonds that broke in the last advance, ascending.
@@ -72,6 +71,8 @@ class YieldingBonds {
   template <class Bond>
   void yield_all(std::vector<Bond>& all, BeamBonds& bonds, const NodeState& state,
                  geometry::ThreadPool& pool);
+  void break_one(Beam& beam, BeamBonds& bonds, const NodeState& state) noexcept;
+  void break_one(Wire& wire, BeamBonds& bonds, const NodeState& state) noexcept;
   template <class Bond>
   void break_all(std::vector<Bond>& all, BeamBonds& bonds, const NodeState& state) noexcept;
 

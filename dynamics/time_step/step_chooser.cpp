@@ -26,6 +26,7 @@ StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
       limits_(&limits),
       pace_radius_(pace_radius(of.scene.elements)),
       springs_(&of.rigid),
+      wires_(&of.rigid),
       spread_(of.surface, of.rigid),
       structures_(of.rigid),
       walls_(of.rigid) {
@@ -74,15 +75,23 @@ double StepChooser::choose(double dt, const Pace& pace) {
   look_ = {of_.contacts.list_count(), 0.0,
            std::max(std::min(usual, kLongestWay * pace_radius_), pace.speed * step)};
   // First, as it collects the springs.
-  const double near = stable_near(2.0 * look_.longest_way, dt);
-  const double stable =
-      std::min({near, springs_.collision_step(of_.scene.state, of_.scene.properties),
-                springs_.crossing_step(of_.scene.state, of_.scene.properties),
-                walls_.step(springs_, of_.scene.state, of_.scene.properties)});
+  const double margin = 2.0 * look_.longest_way;
+  const double near = stable_near(margin, dt);
+  const double stable = std::min(
+      {near, springs_.collision_step(of_.scene.state, of_.scene.properties),
+       springs_.crossing_step(of_.scene.state, of_.scene.properties),
+       walls_.step(springs_, of_.scene.state, of_.scene.properties), step_of_wires(margin)});
   const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
   step_ = std::min(
       {stable, collision_step_, motion, step_of_spin(), (may_grow ? kGrowth : 1.0) * step_});
   return step_;
+}
+
+/// s, that follows wires which become taut or slack until the next look.
+double StepChooser::step_of_wires(double margin) {
+  wires_.clear();
+  limits_->add_near_wires(wires_, margin);
+  return wires_.ending_step(of_.scene.state, of_.scene.properties);
 }
 
 /// s, in which the node that spins fastest turns by half of kLargestTurn; infinite if none does.

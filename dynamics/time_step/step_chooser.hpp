@@ -34,7 +34,8 @@ class StateArchive;
 /// was used.
 ///
 /// Beside what is stable a chosen step follows collisions (ContactSprings::collision_step(),
-/// WallCollisions, ExpectedContacts::collision_step()), motion (motion_step.hpp) and spin.
+/// WallCollisions, ExpectedContacts::collision_step()), wires that become taut or slack
+/// (ContactSprings::ending_step()), motion (motion_step.hpp) and spin.
 namespace plekton::dynamics {
 
 /// A chosen step grows by no more than this in kStepsBetweenLooks steps: the leapfrog keeps
@@ -80,6 +81,7 @@ class StepChooser {
 
  private:
   double stable_near(double margin, double last);
+  double step_of_wires(double margin);
   double step_of_spin() const;
   bool structures_touch() const;
   void add_near_structures(double margin, double rate);
@@ -89,6 +91,7 @@ class StepChooser {
   double pace_radius_;             ///< m, against which the motion in a chosen step is measured
   NodalStiffness space_{0};        ///< of all nodes, so that no look allocates
   ContactSprings springs_;         ///< of the last look
+  ContactSprings wires_;           ///< likewise, that are taut or may be
   SpringShares shares_;            ///< working space of a look
   SpreadStiffness spread_;         ///< likewise; goes on from look to look
   StructureStiffness structures_;  ///< likewise

@@ -66,6 +66,25 @@ void StepLimits::add_near_contacts(ContactSprings& springs, double margin, doubl
   contacts(rate).add_near_to(springs, margin, of_.scene.state.position);
 }
 
+void StepLimits::add_near_wires(ContactSprings& springs, double margin) const {
+  const NodeState& state = of_.scene.state;
+  of_.yielding_bonds.for_each_wire([&](std::size_t bond, const WireYield& wire) {
+    if (of_.bonds.is_broken(bond)) return;
+    const auto [a, b] = of_.bonds.nodes(bond);
+    const Vec3 chord = state.position[index_of(b)] - state.position[index_of(a)];
+    const double length = chord.norm();
+    if (!(length > 0.0) || length + margin < wire.rest_length) return;
+    const double stiffness = of_.bonds.spring(bond).axial;
+    springs.add_pair(a, b,
+                     {.normal = chord / length,
+                      .normal_stiffness = stiffness,
+                      .tangential_stiffness = 0.0,
+                      .arm_a = 0.0,
+                      .arm_b = 0.0,
+                      .overlap = wire.force / stiffness});
+  });
+}
+
 void StepLimits::add_between_structures(ContactSprings& springs, StructureStiffness& structures,
                                         geometry::Positions x, double moved) const {
   if (of_.surface.structure_count() == 0) return;

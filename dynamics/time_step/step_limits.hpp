@@ -7,6 +7,7 @@
 #include "dynamics/stiffness/nodal_stiffness.hpp"
 #include "dynamics/structure/beam_bond.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
+#include "dynamics/structure/yielding_bonds.hpp"
 #include "dynamics/ties/ties.hpp"
 #include "dynamics/time_step/exact_step.hpp"
 #include "dynamics/time_step/expected_contacts.hpp"
@@ -25,6 +26,7 @@ struct Resistance {
   const geometry::Surface& surface;
   const contact::Contacts& contacts;
   const BeamBonds& bonds;
+  const YieldingBonds& yielding_bonds;
   const SheetFacets& sheet_facets;
   const Ties& ties;
   const AppliedLoads& loads;
@@ -59,6 +61,8 @@ class StepLimits {
   /// (m), go into the springs.
   /// @param rate  1/s, dashpot_rate() of the step in question
   void add_near_contacts(ContactSprings& springs, double margin, double rate) const;
+  /// Wires that are taut, or may be once their ends are further apart by a margin (m).
+  void add_near_wires(ContactSprings& springs, double margin) const;
   /// Whether any contact that may come has a dashpot.
   bool is_damped() const noexcept { return is_damped_; }
   void add_structures(NodalStiffness& stiffness) const;

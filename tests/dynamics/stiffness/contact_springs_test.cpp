@@ -31,6 +31,7 @@ struct Collisions {
   }
   double step() const { return springs.collision_step(state, properties); }
   double crossing_step() const { return springs.crossing_step(state, properties); }
+  double ending_step() const { return springs.ending_step(state, properties); }
 };
 
 TEST(CollisionStep, OfOneContactIsHalfOfTheInverseOfItsFrequency) {
@@ -82,6 +83,41 @@ TEST(CrossingStep, IsInfiniteWhereNothingComesNearerToACore) {
 
   EXPECT_TRUE(std::isinf(far.crossing_step()));
   EXPECT_TRUE(std::isinf(parting.crossing_step()));
+}
+
+// Both have 1/2 (1 m/s)² 0.4 kg of motion; the second one stores 1/2 30 N/m (0.1 m)² besides.
+TEST(EndingStep, TakesWhatMotionHasMoreThanIsStored) {
+  Collisions ending;
+  ending.state.velocity[0] = Vec3(3.0, 0.0, 0.25);
+  ending.state.velocity[1] = Vec3(0.0, 5.0, -0.75);
+  ending.add(NodeId{1}, 30.0, 0.0);
+  const double omega = std::sqrt(30.0 / 0.4);
+  EXPECT_NEAR(ending.ending_step(), 0.125 / omega, 1e-15);
+
+  ending.add(NodeId{1}, 30.0, 0.1);
+
+  EXPECT_NEAR(ending.ending_step(), 0.125 / omega * std::sqrt(0.55 / std::hypot(0.2, 0.05)), 1e-15);
+}
+
+// What goes up in one goes down in another, unless all begin at once.
+TEST(EndingStep, IsLongerWhereManyShareInTheEnergy) {
+  Collisions ending;
+  ending.state.velocity[0] = Vec3(0.0, 0.0, 1.0);
+  const double omega = std::sqrt(30.0 / 0.4);
+  for (int i = 0; i < 16; ++i) ending.add(NodeId{1}, 30.0, 0.0);
+  EXPECT_NEAR(ending.ending_step(), 0.25 / omega, 1e-15);
+
+  for (int i = 16; i < 300; ++i) ending.add(NodeId{1}, 30.0, 0.0);
+
+  EXPECT_NEAR(ending.ending_step(), 0.5 / omega, 1e-15);
+}
+
+TEST(EndingStep, IsInfiniteWhereMoreIsStoredThanMotionTakes) {
+  Collisions pulled;
+  pulled.state.velocity[0] = Vec3(0.0, 0.0, 1.0);
+  pulled.add(NodeId{1}, 50.0, 0.1);
+
+  EXPECT_TRUE(std::isinf(pulled.ending_step()));
 }
 
 }  // namespace
