@@ -52,7 +52,9 @@ struct Plane {
   /// Whether the wall turns.
   bool turns() const noexcept { return angular_velocity != 0.0; }
   /// rad/s.
-  Vec3 turning() const noexcept { return angular_velocity * axis; }
+  Vec3 turning() const noexcept {
+    return turns() ? Vec3(angular_velocity * axis) : Vec3(Vec3::Zero());
+  }
   /// m/s, of the solid at a place.
   Vec3 velocity_at(const Vec3& x) const noexcept {
     Vec3 sum = velocity;
