@@ -5,6 +5,8 @@
 #   the current folder, without those of a folder in it, static or shared as BUILD_SHARED_LIBS says.
 # plekton_kernels(sources...): those of the current folder that run with the widest vectors of the processor.
 # plekton_batches(target): its sources are compiled in fewer, larger units, eight of a folder in each.
+# plekton_together(batch sources...): those of the current folder make a batch of their own.
+# plekton_precompiled(target headers...): headers that most of its sources need.
 
 # GCC 12 makes fused operations of sums and differences side by side (vfmaddsub) where the processor has them, -ffp-contract=off
 # or not: its vectoriser of straight code does not ask.
@@ -67,6 +69,18 @@ function(plekton_alone)
   set_property(SOURCE ${ARGV} PROPERTY PLEKTON_IS_ALONE ON)
 endfunction()
 
+function(plekton_together batch)
+  set_property(SOURCE ${ARGN} PROPERTY PLEKTON_BATCH ${batch})
+endfunction()
+
+# With the batches, for the same reason. Not for libraries: what is precompiled is of one build folder, and a build within another
+# project would share nothing with ours in the compiler cache.
+function(plekton_precompiled target)
+  if(PLEKTON_BATCHES)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
 function(plekton_write_batches target)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
@@ -84,6 +98,10 @@ function(plekton_write_batches target)
         string(MD5 key "${options}")
         string(SUBSTRING ${key} 0 6 key)
         string(APPEND name _${key})
+      endif()
+      get_source_file_property(together ${source} PLEKTON_BATCH)
+      if(together)
+        set(name ${together})
       endif()
       string(MAKE_C_IDENTIFIER "${name}" name)
       math(EXPR batch "0${count_${name}} / 8")

@@ -13,7 +13,7 @@
 
 #include <algorithm>
 #include <exception>
-#include <ranges>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -167,12 +167,10 @@ bool are_same_surfaces(const BuiltScene& then, const BuiltScene& now, std::size_
   if (!now.scene.is_there(geometry::id_at<geometry::NodeId>(b.first_node)))
     return a.nodes == b.nodes && a.facets == b.facets && a.cylinders == b.cylinders;
   if (a.nodes != b.nodes || a.facets != b.facets || a.cylinders != b.cylinders) return false;
-  const auto nodes = std::views::iota(a.first_node, a.first_node + a.nodes);
-  return std::ranges::all_of(nodes,
-                             [&](std::size_t node) {
-                               return then.scene.state.position[node] ==
-                                      now.scene.state.position[node];
-                             }) &&
+  const auto points_of = [&](const BuiltScene& built) {
+    return std::span(built.scene.state.position).subspan(a.first_node, a.nodes);
+  };
+  return std::ranges::equal(points_of(then), points_of(now)) &&
          are_same(then.scene.elements.facets, now.scene.elements.facets, first.facet, a.facets) &&
          are_same(then.scene.elements.cylinders, now.scene.elements.cylinders, first.cylinder,
                   a.cylinders);

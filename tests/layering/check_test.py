@@ -110,6 +110,14 @@ class SeededTree(unittest.TestCase):
         self.assert_clean("geometry/base/predicates.cpp", TAG + "#include <CGAL/Interval_nt.h>\n")
         self.assert_clean("geometry/mesh/repair/repair.cpp", TAG + "#include <CGAL/Surface_mesh.h>\n")
 
+    def test_the_header_with_cgal_is_for_sources_beside_it(self):
+        name = "geometry/mesh/repair/cgal_mesh.hpp"
+        self.write(name, TAG + "#pragma once\n#include <CGAL/Surface_mesh.h>\n")
+        self.assert_clean("geometry/mesh/repair/wrap.cpp", TAG + f'#include "{name}"\n')
+        self.assert_flagged("geometry/mesh/repair/wrap.hpp", TAG + f'#include "{name}"\n', "only sources beside it")
+        self.write("geometry/mesh/repair/wrap.hpp", TAG)
+        self.assert_flagged("apps/main.cpp", TAG + f'#include "{name}"\n', "only sources beside it")
+
     def test_a_gpl_header_in_the_core_is_flagged(self):
         self.assert_flagged("geometry/base/predicates.cpp", TAG + "#include <CGAL/Surface_mesh.h>\n", "only LGPL headers")
 

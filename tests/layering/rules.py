@@ -21,6 +21,9 @@ ONLY_HOME = {"fcl": "geometry/neighbor/broad_phase.cpp", "ccd": "geometry/closes
 CGAL_HOMES = ("geometry/base/predicates.cpp", "geometry/neighbor/space_order.cpp")
 """The only files outside geometry/mesh that may include CGAL."""
 
+CGAL_HEADER = "geometry/mesh/repair/cgal_mesh.hpp"
+"""The only header that may: sources beside it include it, headers do not."""
+
 CGAL_CORE_HEADERS = {
     "CGAL/FPU.h",
     "CGAL/Gmpq.h",
@@ -130,11 +133,13 @@ def packages_stay_home(source, root):
             yield f"{where}; only {ONLY_HOME[package]} may"
         if package == "CGAL":
             yield from _cgal_violations(source, include.header, where)
+        elif include.header == CGAL_HEADER and not (source.path.endswith(".cpp") and source.directory == CGAL_HEADER.rpartition("/")[0]):
+            yield f"{where}, which includes CGAL; only sources beside it may"
 
 
 def _cgal_violations(source, header, where):
     in_mesh = source.path.startswith("geometry/mesh/")
-    if not source.path.endswith(".cpp"):
+    if not source.path.endswith(".cpp") and source.path != CGAL_HEADER:
         yield f"{where}; CGAL belongs in .cpp files, out of sight of a user's compiler"
     elif not in_mesh and source.path not in CGAL_HOMES:
         yield f"{where}; outside geometry/mesh only {' and '.join(CGAL_HOMES)} may"

@@ -2,18 +2,15 @@
 #include "geometry/mesh/repair/remesh.hpp"
 
 #include "geometry/base/elementary.hpp"
+#include "geometry/mesh/repair/cgal_mesh.hpp"
 #include "geometry/mesh/repair/measures.hpp"
 #include "geometry/mesh/repair/resolution.hpp"
 #include "geometry/mesh/repair/solid_checks.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
-#include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
-#include <CGAL/Surface_mesh.h>
 
-#include <array>
 #include <cmath>
 #include <sstream>
 #include <vector>
@@ -22,11 +19,8 @@ namespace plekton::geometry {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Triangle = std::array<std::size_t, 3>;
 
-constexpr double kMostFacets = 2e7;
+constexpr double kMostRemeshedFacets = 2e7;
 constexpr unsigned kRounds = 5;
 
 void require_remeshable(const MeshMeasures& measures, double target_edge) {
@@ -35,7 +29,7 @@ void require_remeshable(const MeshMeasures& measures, double target_edge) {
   const double facets = measures.area / (0.25 * std::sqrt(3.0) * target_edge * target_edge);
   if (!(target_edge > 0.0) || !std::isfinite(target_edge))
     text << "a target edge of " << target_edge << " m; expected a positive length";
-  else if (!(facets < kMostFacets))
+  else if (!(facets < kMostRemeshedFacets))
     text << "a target edge of " << target_edge << " m would make about " << facets
          << " facets; expected at most 2e7; use a longer edge";
   else if (measures.many_facet_edges + measures.non_manifold_nodes > 0)
@@ -49,28 +43,6 @@ void require_remeshable(const MeshMeasures& measures, double target_edge) {
   else
     return;
   throw MeshError(text.str());
-}
-
-SurfaceMesh to_cgal(const Mesh& mesh) {
-  std::vector<Kernel::Point_3> points;
-  for (const Vec3& p : mesh.points) points.emplace_back(p[0], p[1], p[2]);
-  std::vector<Triangle> triangles;
-  for (const auto& [a, b, c] : mesh.facets)
-    triangles.push_back({index_of(a), index_of(b), index_of(c)});
-  SurfaceMesh surface;
-  PMP::polygon_soup_to_polygon_mesh(points, triangles, surface);
-  return surface;
-}
-
-Mesh from_cgal(const SurfaceMesh& surface) {
-  std::vector<Kernel::Point_3> points;
-  std::vector<Triangle> triangles;
-  PMP::polygon_mesh_to_polygon_soup(surface, points, triangles);
-  Mesh mesh;
-  for (const auto& p : points) mesh.points.emplace_back(p.x(), p.y(), p.z());
-  for (const auto& [a, b, c] : triangles)
-    mesh.facets.push_back({id_at<NodeId>(a), id_at<NodeId>(b), id_at<NodeId>(c)});
-  return mesh;
 }
 
 /// Edges and nodes that remeshing has to respect.
@@ -107,7 +79,9 @@ void mark_lines(SurfaceMesh& surface, Features& features) {
 
 /// @param collapse  whether short edges of features go, too
 Mesh remeshed(const Mesh& mesh, double target_edge, bool collapse) {
-  SurfaceMesh surface = to_cgal(mesh);
+  const CgalSoup soup = to_cgal(mesh);
+  SurfaceMesh surface;
+  PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
   Features features{
       surface.add_property_map<SurfaceMesh::Edge_index, bool>("e:kept", false).first,
       surface.add_property_map<SurfaceMesh::Vertex_index, bool>("v:fixed", false).first};
@@ -129,7 +103,7 @@ Mesh remeshed(const Mesh& mesh, double target_edge, bool collapse) {
                                .protect_constraints(!collapse)
                                .collapse_constraints(collapse));
   surface.collect_garbage();
-  return from_cgal(surface);
+  return to_mesh(surface);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/repair/solid_checks.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "geometry/mesh/repair/cgal_mesh.hpp"
+
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
@@ -12,15 +12,7 @@
 namespace plekton::geometry {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Facet3 = std::array<NodeId, 3>;
-
-std::vector<Kernel::Point_3> cgal_points(const Mesh& mesh) {
-  std::vector<Kernel::Point_3> points;
-  points.reserve(mesh.points.size());
-  for (const Vec3& p : mesh.points) points.emplace_back(p[0], p[1], p[2]);
-  return points;
-}
 
 /// Two facets, and whether they meet beyond what they share.
 class FacetPair {
@@ -81,7 +73,7 @@ std::vector<FacetBox> boxes_of(const Mesh& mesh, const std::vector<Kernel::Point
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 2>> self_intersections(const Mesh& mesh) {
-  const auto points = cgal_points(mesh);
+  const auto points = to_cgal(mesh).points;
   auto boxes = boxes_of(mesh, points);
   std::vector<std::array<std::uint32_t, 2>> pairs;
   CGAL::box_self_intersection_d(
@@ -97,13 +89,12 @@ std::vector<std::array<std::uint32_t, 2>> self_intersections(const Mesh& mesh) {
 
 std::optional<bool> bounds_volume(const Mesh& mesh) {
   namespace PMP = CGAL::Polygon_mesh_processing;
-  std::vector<std::array<std::size_t, 3>> triangles;
-  for (const auto& [a, b, c] : mesh.facets)
-    triangles.push_back({index_of(a), index_of(b), index_of(c)});
-  if (triangles.empty() || !PMP::is_polygon_soup_a_polygon_mesh(triangles)) return std::nullopt;
+  const CgalSoup soup = to_cgal(mesh);
+  if (soup.triangles.empty() || !PMP::is_polygon_soup_a_polygon_mesh(soup.triangles))
+    return std::nullopt;
 
-  CGAL::Surface_mesh<Kernel::Point_3> surface;
-  PMP::polygon_soup_to_polygon_mesh(cgal_points(mesh), triangles, surface);
+  SurfaceMesh surface;
+  PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
   // does_bound_a_volume of CGAL 5.5 reads a wild index for a vertex without facets.
   std::vector<CGAL::SM_Vertex_index> unused;
   for (const auto vertex : surface.vertices())

@@ -16,10 +16,10 @@
 namespace plekton::geometry {
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using Doubles = CGAL::Simple_cartesian<double>;
+using Triangles = std::vector<Doubles::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Doubles, Triangles::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Doubles, Primitive>>;
 
 constexpr double kSamples = 2e5;
 
@@ -29,7 +29,7 @@ std::array<Vec3, 3> corners_of(const Mesh& mesh, const std::array<NodeId, 3>& fa
 }
 
 Triangles triangles_of(const Mesh& mesh) {
-  const auto point = [](const Vec3& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
+  const auto point = [](const Vec3& p) { return Doubles::Point_3(p[0], p[1], p[2]); };
   Triangles triangles;
   triangles.reserve(mesh.facets.size());
   for (const auto& facet : mesh.facets) {
@@ -56,7 +56,7 @@ double spacing_of(const Mesh& mesh) {
 }
 
 double distance_from(const Tree& tree, const Vec3& p) {
-  const Kernel::Point_3 point(p[0], p[1], p[2]);
+  const Doubles::Point_3 point(p[0], p[1], p[2]);
   return std::sqrt(CGAL::squared_distance(point, tree.closest_point(point)));
 }
 

@@ -1,32 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/repair/wrap.hpp"
 
+#include "geometry/mesh/repair/cgal_mesh.hpp"
 #include "geometry/mesh/repair/measures.hpp"
 #include "geometry/mesh/repair/resolution.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
-#include <array>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
-#include <vector>
 
 namespace plekton::geometry {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Triangle = std::array<std::size_t, 3>;
 
 constexpr double kOffsetRatio =
     30.0;  // Recommended by CGAL's manual for meshes: alpha over offset.
 constexpr double kFinestRatio = 2000.0;
 constexpr double kCoarseRatio = 30.0;  // A wrap of this part of the size takes about a second.
-constexpr double kMostFacets = 1e6;
+constexpr double kMostWrapFacets = 1e6;
 
 double size_of(const Mesh& mesh) {
   Vec3 lower = mesh.points.front(), upper = lower;
@@ -46,25 +38,10 @@ void require_wrappable(double size, double finest) {
   throw MeshError(text.str());
 }
 
-Mesh from_cgal(const SurfaceMesh& surface) {
-  std::vector<Kernel::Point_3> points;
-  std::vector<Triangle> triangles;
-  CGAL::Polygon_mesh_processing::polygon_mesh_to_polygon_soup(surface, points, triangles);
-  Mesh mesh;
-  for (const auto& p : points) mesh.points.emplace_back(p.x(), p.y(), p.z());
-  for (const auto& [a, b, c] : triangles)
-    mesh.facets.push_back({id_at<NodeId>(a), id_at<NodeId>(b), id_at<NodeId>(c)});
-  return mesh;
-}
-
 SurfaceMesh wrapped(const Mesh& mesh, double finest) {
-  std::vector<Kernel::Point_3> points;
-  for (const Vec3& p : mesh.points) points.emplace_back(p[0], p[1], p[2]);
-  std::vector<Triangle> triangles;
-  for (const auto& [a, b, c] : mesh.facets)
-    triangles.push_back({index_of(a), index_of(b), index_of(c)});
+  const CgalSoup soup = to_cgal(mesh);
   SurfaceMesh surface;
-  CGAL::alpha_wrap_3(points, triangles, finest, finest / kOffsetRatio, surface);
+  CGAL::alpha_wrap_3(soup.points, soup.triangles, finest, finest / kOffsetRatio, surface);
   return surface;
 }
 
@@ -74,15 +51,15 @@ void require_few_facets(const Mesh& mesh, double size, double finest) {
   constexpr double kMostOfSquare = 16.0;  // on both sides of a sheet
   const double coarse = size / kCoarseRatio;
   if (finest >= coarse ||
-      kMostOfSquare * measure(mesh, false).area <= kMostFacets * finest * finest)
+      kMostOfSquare * measure(mesh, false).area <= kMostWrapFacets * finest * finest)
     return;
   const auto coarse_facets = static_cast<double>(wrapped(mesh, coarse).number_of_faces());
   const double facets = coarse_facets * (coarse / finest) * (coarse / finest);
-  if (facets <= kMostFacets) return;
+  if (facets <= kMostWrapFacets) return;
   std::ostringstream text;
   text << "a wrap of " << finest << " m would make about " << facets << " facets; expected at most "
-       << kMostFacets << "; use a length of at least " << std::setprecision(3)
-       << 1.005 * coarse * std::sqrt(coarse_facets / kMostFacets) << " m";  // rounded up
+       << kMostWrapFacets << "; use a length of at least " << std::setprecision(3)
+       << 1.005 * coarse * std::sqrt(coarse_facets / kMostWrapFacets) << " m";  // rounded up
   throw MeshError(text.str());
 }
 
@@ -95,7 +72,7 @@ Mesh wrap(const Mesh& mesh, double finest) {
   require_resolved(mesh, finest / kOffsetRatio, what.str());
   require_wrappable(size, finest);
   require_few_facets(mesh, size, finest);
-  return from_cgal(wrapped(mesh, finest));
+  return to_mesh(wrapped(mesh, finest));
 }
 
 }  // namespace plekton::geometry
