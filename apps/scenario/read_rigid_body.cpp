@@ -76,8 +76,6 @@ void read_surface(Section& section, const Known& known, MembraneSettings& surfac
                   RigidBodySettings& body) {
   constexpr std::array<std::string_view, 2> kFillings = {"solid", "shell"};
   read_membrane_source(section, known, surface);
-  if (surface.shape && has_bars(*surface.shape))
-    section.complain("shape", "a rigid body has facets or bars; leave the bars out");
   section.tell_default("thickness", "required of a mesh or shape");
   surface.thickness = section.quantity("thickness", {kLength, kPositive});
   section.tell_default("filling", "solid where it is closed");

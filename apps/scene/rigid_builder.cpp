@@ -39,9 +39,23 @@ bool is_told(const RigidBodySettings& body) {
   return body.mass && body.inertia && body.centre;
 }
 
-/// @param thickness  m, of facets, and diameter of bars
-BodyVolume volume_of(const RigidBodySettings& body, const geometry::Membrane& surface,
-                     double thickness, const dynamics::Scene& scene) {
+using Bars = std::vector<std::array<NodeId, 2>>;
+
+/// What is bars of a body of bars, or of facets and bars beside them.
+Bars bars_of(const MembraneSettings& settings, const geometry::Membrane& surface,
+             std::size_t first_node) {
+  if (surface.facets.empty()) return surface.edges;
+  Bars bars;
+  if (!settings.shape || !has_bars(*settings.shape)) return bars;
+  for (const auto& [a, b] : std::get<FacetShape>(*settings.shape).bars)
+    bars.push_back({geometry::id_at<NodeId>(index_of(a) + first_node),
+                    geometry::id_at<NodeId>(index_of(b) + first_node)});
+  return bars;
+}
+
+/// Of facets, without the bars beside them.
+BodyVolume volume_of_facets(const RigidBodySettings& body, const geometry::Membrane& surface,
+                            double thickness, const dynamics::Scene& scene) {
   std::vector<std::array<NodeId, 3>> corners;
   for (const geometry::Facet& facet : surface.facets) corners.push_back(facet.nodes);
   const bool is_closed = dynamics::are_closed(surface.facets);
@@ -57,12 +71,7 @@ BodyVolume volume_of(const RigidBodySettings& body, const geometry::Membrane& su
   }
   volume.origin = 0.5 * (lower + upper);
   const geometry::Positions x = scene.state.position;
-  if (is_told(body)) return volume;
-  if (surface.facets.empty()) {
-    volume.what = fmt::format("solid bars of {:.4g} m, without their round ends", thickness);
-    volume.moments = dynamics::bar_moments(x, surface.edges, 0.5 * thickness, volume.origin);
-    return volume;
-  }
+  if (is_told(body) || surface.facets.empty()) return volume;
   if (!is_solid) {
     volume.what = fmt::format("a shell of {:.4g} m", thickness);
     volume.moments = dynamics::shell_moments(x, corners, thickness, volume.origin);
@@ -79,6 +88,18 @@ BodyVolume volume_of(const RigidBodySettings& body, const geometry::Membrane& su
     throw InputError(
         "its mesh encloses no volume, so that it has no mass; expected a closed surface around "
         "one, or mass, inertia and centre, or filling = \"shell\"");
+  return volume;
+}
+
+/// @param thickness  m, of facets, and diameter of bars
+BodyVolume volume_of(const RigidBodySettings& body, const geometry::Membrane& surface,
+                     const Bars& bars, double thickness, const dynamics::Scene& scene) {
+  BodyVolume volume = volume_of_facets(body, surface, thickness, scene);
+  if (is_told(body) || bars.empty()) return volume;
+  volume.what += fmt::format("{}solid bars of {:.4g} m, without their round ends",
+                             volume.what.empty() ? "" : ", and ", thickness);
+  volume.moments +=
+      dynamics::bar_moments(scene.state.position, bars, 0.5 * thickness, volume.origin);
   return volume;
 }
 
@@ -131,13 +152,10 @@ void add_rigid_surface(const RigidBodySettings& body, const MembraneSettings& se
   const auto material = static_cast<contact::MaterialId>(settings.material);
   for (const geometry::Facet& facet : surface.membrane.facets)
     scene.add_facet(facet.nodes[0], facet.nodes[1], facet.nodes[2], facet.radius, material);
-  const bool is_of_bars = surface.membrane.facets.empty();
-  if (is_of_bars) {
-    for (const auto& [a, b] : surface.membrane.edges)
-      scene.add_cylinder(a, b, 0.5 * settings.thickness, material);
-  }
+  const Bars bars = bars_of(settings, surface.membrane, first_node);
+  for (const auto& [a, b] : bars) scene.add_cylinder(a, b, 0.5 * settings.thickness, material);
   add_body(body, settings.rigid_body.value(), nodes,
-           volume_of(body, surface.membrane, settings.thickness, scene), built);
+           volume_of(body, surface.membrane, bars, settings.thickness, scene), built);
 
   BuiltMembrane result;
   result.name = settings.name;
@@ -145,7 +163,7 @@ void add_rigid_surface(const RigidBodySettings& body, const MembraneSettings& se
   result.first_node = first_node;
   result.nodes = nodes.size();
   result.facets = surface.membrane.facets.size();
-  result.cylinders = is_of_bars ? surface.membrane.edges.size() : 0;
+  result.cylinders = bars.size();
   result.on_rim = std::move(surface.on_rim);
   result.held_nodes = nodes.size();
   result.area = surface.area;

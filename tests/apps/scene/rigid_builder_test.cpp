@@ -231,10 +231,33 @@ TEST(RigidBuilder, MakesBarsOfANet) {
   EXPECT_LT((mass.centre - Vec3(-0.05, -0.05, 0.1) - middle).norm(), 1e-15);
   EXPECT_THAT(error_of({bars, "rigid_bodies.lid.filling=shell"}),
               HasSubstr("rigid_bodies.lid.filling: goes with facets; bars are solid"));
-  EXPECT_THAT(
-      error_of({"rigid_bodies.lid.shape={ kind = \"facets\", points = [[0, 0, 0], [1, 0, 0], "
-                "[0, 1, 0], [0, 0, 1]], facets = [[0, 1, 2]], bars = [[0, 3]] }"}),
-      HasSubstr("rigid_bodies.lid.shape: a rigid body has facets or bars"));
+}
+
+// A tetrahedron of 1/6 m³ a quarter of its height up, and a bar of pi r² 1 m on its tip, 1.5 m up.
+// Of a plate of 1/2 m² times its thickness instead, and a bar of 1 m that stands on a corner.
+TEST(RigidBuilder, AddsBarsBesideFacets) {
+  const std::string tetrahedron =
+      "rigid_bodies.lid.shape={ kind = \"facets\", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, "
+      "0, "
+      "1], [0, 0, 2]], facets = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], bars = [[3, 4]] }";
+  const std::string triangle =
+      "rigid_bodies.lid.shape={ kind = \"facets\", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, "
+      "0, "
+      "1]], facets = [[0, 1, 2]], bars = [[0, 3]] }";
+  constexpr double kBar = std::numbers::pi * 0.01 * 0.01;  // m³, as thick as the facets
+  const auto expect_mass = [](const std::string& shape, double volume, const Vec3& first) {
+    const BuiltScene scene = built({shape, "rigid_bodies.lid.thickness=\"20 mm\""});
+    const dynamics::MassProperties& mass = body_called("lid", scene).mass;
+    EXPECT_NEAR(mass.mass, 1000.0 * volume, 1e-13 * mass.mass);
+    EXPECT_LT((mass.centre - Vec3(-0.05, -0.05, 0.1) - first / volume).norm(), 1e-15);
+    EXPECT_EQ(scene.scene.elements.cylinders.size(), 1U);
+    EXPECT_TRUE(scene.scene.bonds.empty());
+  };
+
+  expect_mass(tetrahedron, 1.0 / 6.0 + kBar,
+              Vec3::Constant(1.0 / 24.0) + kBar * Vec3(0.0, 0.0, 1.5));
+  expect_mass(triangle, 0.01 + kBar,
+              0.01 * Vec3(1.0 / 3.0, 1.0 / 3.0, 0.0) + kBar * Vec3(0.0, 0.0, 0.5));
 }
 
 TEST(RigidBuilder, RefusesABodyThatIsCalledLikeGrains) {
