@@ -336,7 +336,8 @@ class Stages {
     };
     note(origins_.says_point, says("point"));
     note(origins_.says_radius, says("radius"));
-    note(origins_.moved_planes, says("point") || says("radius") || says("kind") || says("axis"));
+    note(origins_.moved_planes,
+         says("point") || says("radius") || says("kind") || says("axis") || says("normal"));
   }
 
   void change_contacts(const Entry& entry) {

@@ -404,7 +404,7 @@ TEST_F(StageStarts, AreRefusedWhereWhatComesIsBehindAPlaneOrInAnother) {
 name = "first"
 material = "stone"
 radius = "5 mm"
-centres = [[0, 0, "5 mm"]]
+centres = [[0, 0, "5 mm"], ["-50 mm", 0, "5 mm"]]
 [[stages]]
 name = "a"
 end = { duration = "1 ms" }
@@ -435,6 +435,15 @@ point = [0, 0, "20 mm"]
 )");
   EXPECT_EQ(within.exit_code, 1);
   EXPECT_THAT(within.err, HasSubstr("stages.b: at its start "));
+  std::filesystem::remove_all(out());
+  // The grain at the origin stays in front of a floor that turns about it, one 50 mm beside does not.
+  const Outcome turned = run(text + R"([[stages.planes]]
+name = "floor"
+normal = [1, 0, 1]
+)");
+  EXPECT_EQ(turned.exit_code, 1);
+  EXPECT_THAT(turned.err, HasSubstr("stages.b: at its start grains.first: 1 of its grains begin "
+                                    "behind planes.floor"));
 }
 
 TEST_F(StageStarts, NameTheStageThatHasAProblemAndTheDurationOnce) {
