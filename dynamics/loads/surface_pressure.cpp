@@ -44,6 +44,11 @@ double volume_under(std::span<const Corners> facets, Positions x) {
   return sum / 6.0;
 }
 
+Vec3 area_share(const Corners& facet, Positions x) noexcept {
+  const Vec3& origin = x[index_of(facet[0])];
+  return (x[index_of(facet[1])] - origin).cross(x[index_of(facet[2])] - origin) / 6.0;
+}
+
 PressedSurface::PressedSurface(const SurfacePressure& load, std::span<const geometry::Facet> facets,
                                const NodeState& at_start)
     : load_(load),
@@ -95,12 +100,6 @@ double PressedSurface::largest_pressure() const noexcept {
   return std::max(std::abs(load_.factor.largest() * full), std::abs(pressure_));
 }
 
-Vec3 PressedSurface::area_share(std::size_t facet, Positions x) const noexcept {
-  const Corners& corners = members_.groups()[facet];
-  const Vec3& origin = x[index_of(corners[0])];
-  return (x[index_of(corners[1])] - origin).cross(x[index_of(corners[2])] - origin) / 6.0;
-}
-
 LoadedNodes& PressedSurface::act(const LoadStep& step, const NodeState& state,
                                  geometry::ThreadPool& pool) {
   if (shares_.empty()) return nodes_;  // all are gone
@@ -109,7 +108,7 @@ LoadedNodes& PressedSurface::act(const LoadStep& step, const NodeState& state,
   const double six = sum_(shares_.size(), pool, [&](std::size_t begin, std::size_t end, int) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-      shares_[i] = area_share(i, x);
+      shares_[i] = area_share(members_.groups()[i], x);
       if (follows_volume()) sum += six_volumes(members_.groups()[i], origin, x);
     }
     return sum;
@@ -131,7 +130,8 @@ double PressedSurface::gas_frequency_squared(Positions x, const NodeProperties& 
     const std::size_t node = index_of(members_.nodes()[i]);
     if (holds_translation(properties.held[node])) continue;
     Vec3 area = Vec3::Zero();
-    for (const auto& member : members_.of(i)) area += area_share(member.group, x);
+    for (const auto& member : members_.of(i))
+      area += area_share(members_.groups()[member.group], x);
     sum += area.squaredNorm() / properties.mass[node];
   }
   // A pressure that grows with the volume only makes the surface softer.

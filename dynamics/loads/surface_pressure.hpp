@@ -20,6 +20,10 @@ namespace plekton::dynamics {
 /// and face outward. 0 without facets.
 double volume_under(std::span<const std::array<NodeId, 3>> facets, geometry::Positions x);
 
+/// m², a third of the area of a facet along its normal: times a pressure it is the force on each
+/// corner.
+Vec3 area_share(const std::array<NodeId, 3>& facet, geometry::Positions x) noexcept;
+
 /// Facets under pressure. With A = (x1 - x0) x (x2 - x0) / 2 the force on each corner is p A / 3.
 ///
 /// The volume over any point o is V = sum (x0 - o).((x1 - o) x (x2 - o)) / 6, and dV/dx of a corner
@@ -81,7 +85,6 @@ class PressedSurface {
   double pressure_at(double time, double volume) const;
   double largest_pressure() const noexcept;
   bool follows_volume() const noexcept { return load_.gas || by_volume_; }
-  Vec3 area_share(std::size_t facet, geometry::Positions x) const noexcept;
 
   SurfacePressure load_;
   std::optional<TimeTable> by_volume_;  // Pa, with m³ in place of the time

@@ -43,6 +43,17 @@ double WireCurve::force_at(double strain) const noexcept {
   return before.force + part * (next->force - before.force);
 }
 
+std::optional<double> WireCurve::strain_at(double force) const noexcept {
+  Point before{0.0, 0.0};
+  for (const Point& point : points) {
+    if (point.force >= force)
+      return before.strain + (point.strain - before.strain) * (force - before.force) /
+                                 (point.force - before.force);
+    before = point;
+  }
+  return std::nullopt;
+}
+
 BeamSection wire_section(double radius, const WireCurve& curve) noexcept {
   const double area = std::numbers::pi * radius * radius;
   return bar_section(radius, curve.first_slope() / area);

@@ -4,6 +4,7 @@
 #include "dynamics/structure/beam_bond.hpp"
 
 #include <iosfwd>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +40,9 @@ struct WireCurve {
   double breaking_strain() const noexcept { return points.back().strain; }
   /// N. Beyond the last point that of the last, below 0 along the first piece.
   double force_at(double strain) const noexcept;
+  /// The smallest strain at which a wire that is pulled for the first time carries a force (N), >= 0;
+  /// nothing where it breaks before.
+  std::optional<double> strain_at(double force) const noexcept;
 };
 
 /// Section of a bar that is as stiff as the first piece of a curve: E = first slope / (pi r²).

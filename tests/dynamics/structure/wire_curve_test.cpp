@@ -64,6 +64,14 @@ TEST(WireCurve, IsStraightBetweenItsPoints) {
   EXPECT_EQ(kCurve.force_at(1.0), 1900.0);
 }
 
+TEST(WireCurve, TellsTheSmallestStrainWithAForce) {
+  EXPECT_EQ(kCurve.strain_at(0.0), 0.0);
+  EXPECT_NEAR(*kCurve.strain_at(500.0), 0.001, 4.0 * kEpsilon);
+  EXPECT_NEAR(*kCurve.strain_at(1250.0), 0.006, 4.0 * kEpsilon);
+  EXPECT_NEAR(*kCurve.strain_at(2200.0), 0.06, 4.0 * kEpsilon);
+  EXPECT_FALSE(kCurve.strain_at(2201.0));
+}
+
 TEST(Wire, FollowsItsCurvePointByPoint) {
   PulledWire wire(kCurve);
   for (int i = 0; i < 800; ++i) {
