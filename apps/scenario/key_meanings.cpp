@@ -81,6 +81,8 @@ constexpr std::array kOfMembranes = std::to_array<KeyMeaning>({
     {"membranes[].poisson_ratio", "of a sheet; of beams for their torsion"},
     {"membranes[].prestrain",
      "by which it is stretched at the start, all ways; below 0 it is slack"},
+    {"membranes[].rest_pressure",
+     "inside minus outside, under which it stands at the start as it is drawn"},
     {"membranes[].bending_stiffness", "of a continuum; E t^3 / (12 (1 - nu^2)) if not given"},
     {"membranes[].mass_mode", "mass from the edges, or from the facets"},
     {"membranes[].nodal_inertia", "of a ball of the wire's radius, or of the length of the edges"},

@@ -31,6 +31,20 @@ HoldSettings read_hold(Section& section) {
   return hold;
 }
 
+/// How it is stretched at the start.
+void read_rest(Section& section, MembraneSettings& membrane) {
+  membrane.prestrain = section.quantity("prestrain", {kStrain, kPrestrain}, membrane.prestrain);
+  membrane.rest_pressure = section.quantity("rest_pressure", {kPressure}, membrane.rest_pressure);
+  if (!section.has("rest_pressure")) return;
+  if (section.has("prestrain"))
+    section.complain("rest_pressure",
+                     "prestrain says already how it is stretched at the start; leave one of them "
+                     "out");
+  if (membrane.shape && is_net(*membrane.shape))
+    section.complain("rest_pressure",
+                     "a net has no facets for a pressure to act on; give a prestrain");
+}
+
 /// Reads one of two keys that say the same in two ways. @returns the first, or nothing if the
 /// second is given
 std::optional<double> read_either(Section& section, std::pair<std::string_view, Quantity> first,
@@ -130,7 +144,7 @@ MembraneSettings read_membrane(Section section, const Known& known) {
   }
   membrane.poisson_ratio =
       section.quantity("poisson_ratio", {kNumber, kPoisson}, membrane.poisson_ratio);
-  membrane.prestrain = section.quantity("prestrain", {kStrain, kPrestrain}, membrane.prestrain);
+  read_rest(section, membrane);
   if (section.has("bending_stiffness"))
     membrane.bending_stiffness =
         section.quantity("bending_stiffness", {kBendingStiffness, kNotNegative});

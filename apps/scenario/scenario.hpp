@@ -113,6 +113,7 @@ struct MembraneSettings {
   double sheet_stiffness = 0.0;             ///< N/m, of the membrane as a sheet
   double poisson_ratio = 0.3;               ///< of the sheet, or of the beams, for their torsion
   double prestrain = 0.0;                   ///< > -1, by which it is stretched at the start
+  double rest_pressure = 0.0;               ///< Pa, under which it stands at the start as drawn
   std::optional<double> bending_stiffness;  ///< N m, of a sheet; else that of a solid plate
   std::optional<dynamics::BondStrength> strength;  ///< of the beams or bars, if they yield or break
   std::optional<double> tear_strength;             ///< Pa, of a sheet, if it tears

@@ -2,6 +2,7 @@
 #include "apps/scene/membrane_builder.hpp"
 
 #include "apps/scene/membrane_body.hpp"
+#include "dynamics/loads/pressed_rest_state.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <tuple>
 
 namespace plekton::apps {
@@ -203,6 +205,27 @@ void add_elements(const MembraneSettings& settings, const MembraneBody& body,
   }
 }
 
+/// Of what was added last. The nodes that the membrane holds are its supports: what loads and stages
+/// hold and free comes later, and every stage builds the membrane as it was drawn.
+/// @throws InputError where it cannot stand so
+void stand_under_pressure(const MembraneSettings& settings, const dynamics::PressedPart& part,
+                          BuiltScene& built) {
+  if (settings.rest_pressure == 0.0) return;
+  try {
+    const dynamics::PressedRest rest =
+        dynamics::rest_under_pressure(settings.rest_pressure, part, built.scene);
+    if (rest.compressed == 0.0) return;
+    built.warnings.push_back(fmt::format(
+        "{}: under its rest_pressure {:.3g} % of its {} are pushed together at the start, where it "
+        "may buckle or wrinkle; other curvatures, or a stage with damping that lets it settle, "
+        "would have it stretched all over",
+        settings.name, 100.0 * rest.compressed,
+        settings.mode == MembraneMode::continuum ? "area" : "beams or bars, by length,"));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("rest_pressure: {}", error.what()));
+  }
+}
+
 }  // namespace
 
 BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) {
@@ -221,9 +244,11 @@ BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) 
   result.on_rim = body.on_rim;
   result.area = body.area;
   result.held_nodes = add_nodes(settings, body, built);
-  const std::size_t sheet_facets = built.scene.sheet_facets.size();
+  const dynamics::PressedPart part{built.scene.elements.facets.size(),
+                                   built.scene.sheet_facets.size(), built.scene.bonds.size()};
   add_elements(settings, body, built.scene, result);
-  result.sheet_facets = built.scene.sheet_facets.size() - sheet_facets;
+  stand_under_pressure(settings, part, built);
+  result.sheet_facets = built.scene.sheet_facets.size() - part.first_sheet;
   return result;
 }
 
