@@ -216,11 +216,11 @@ void stand_under_pressure(const MembraneSettings& settings, const dynamics::Pres
         dynamics::rest_under_pressure(settings.rest_pressure, part, built.scene);
     if (rest.compressed == 0.0) return;
     built.warnings.push_back(fmt::format(
-        "{}: under its rest_pressure {:.3g} % of its {} are pushed together at the start, where it "
+        "{}: under its rest_pressure {:.3g} % of {} is pushed together at the start, where it "
         "may buckle or wrinkle; other curvatures, or a stage with damping that lets it settle, "
         "would have it stretched all over",
         settings.name, 100.0 * rest.compressed,
-        settings.mode == MembraneMode::continuum ? "area" : "beams or bars, by length,"));
+        settings.mode == MembraneMode::continuum ? "its area" : "the length of its beams or bars"));
   } catch (const std::invalid_argument& error) {
     throw InputError(fmt::format("rest_pressure: {}", error.what()));
   }

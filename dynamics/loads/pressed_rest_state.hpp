@@ -41,7 +41,7 @@ struct PressedRest {
 /// which tells that it cannot stand.
 ///
 /// Translations held by the scene's properties are supports. Time of a sparse direct solution: for n
-/// nodes about n^1.5.
+/// nodes n^1.5 to n^2 (0.45 s for 10 000).
 /// @param pressure  Pa, not 0, along the normals of the facets
 /// @param part      bonds and sheets that carry; the facets that are pressed
 /// @throws std::invalid_argument where it cannot stand so: no facets, neighbours that face opposite

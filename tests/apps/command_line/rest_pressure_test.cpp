@@ -141,7 +141,7 @@ TEST_F(RestPressure, WarnsOfWhatIsPushedTogether) {
   const Outcome outcome = outcome_of({"check", scenario()});
   EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
   EXPECT_THAT(outcome.out + outcome.err,
-              HasSubstr("body: under its rest_pressure 100 % of its area are pushed together"));
+              HasSubstr("body: under its rest_pressure 100 % of its area is pushed together"));
 
   write("mesh = \"torus.off\"\nmode = \"continuum\"\nrest_pressure = 200\n");
   const Outcome pulled = outcome_of({"check", scenario()});
