@@ -48,6 +48,7 @@ constexpr std::int64_t kStepsBetweenLooks = 16;  // at the clock and for rest
 constexpr std::int64_t kStepsBetweenCriticalSteps =
     512;                             // the critical step costs about as much as a few steps
 constexpr double kMostSteps = 1e12;  // years, and time still advances by full steps
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double seconds_since(Progress::Clock::time_point start) {
   return std::chrono::duration<double>(Progress::Clock::now() - start).count();
@@ -148,9 +149,10 @@ class Run {
         clock_checkpoints_(settings.out, scenario.output.checkpoint_wall_interval),
         progress_(settings.progress, settings.style, end_time_),
         report_(std::move(start.report)) {
-    if (reactions_.empty()) next_reactions_ = std::numeric_limits<double>::infinity();
+    if (reactions_.empty()) next_reactions_ = kNever;
     next_checkpoint_ = checkpoint_interval();
     if (settings.resume != nullptr) go_on_from(*settings.resume);
+    if (before_) keep_other_files();
   }
 
   /// For its report, once, however often it goes on. @param warning  may be empty
@@ -219,7 +221,7 @@ class Run {
     // Stages end with a whole step, so that where they are cut changes nothing.
     constexpr double kRest = 1e-3;  // of a step
     if (end_time_ - simulation_.time() > kRest * simulation_.time_step())
-      return simulation_.step_until(std::numeric_limits<double>::infinity());
+      return simulation_.step_until(kNever);
     ended_by_ = stage_->end_in_time(simulation_);
     return false;
   }
@@ -287,23 +289,42 @@ class Run {
   }
   const WrittenFiles* before() const noexcept { return before_ ? &*before_ : nullptr; }
 
+  /// Files that an earlier part of the run has written, and this one does not, as they were then:
+  /// a later part may go on with them.
+  void keep_other_files() {
+    const WrittenFiles now = written_files();
+    for (const auto& [name, size] : before_->sizes) {
+      if (now.sizes.contains(name)) continue;
+      dynamics::cut_back(settings_.out / name, size);
+      other_files_.sizes[name] = size;
+    }
+  }
+
+  WrittenFiles written_files() const {
+    WrittenFiles files = other_files_;
+    frames_.tell(files);
+    for_each_history(*this, [&](const auto& history) { history.tell(files); });
+    return files;
+  }
+
   double checkpoint_interval() const noexcept {
-    return scenario_.output.checkpoint_interval.value_or(std::numeric_limits<double>::infinity());
+    return scenario_.output.checkpoint_interval.value_or(kNever);
   }
 
-  template <class Visit>
-  void for_each_history(const Visit& visit) {
-    visit(history_);
-    visit(reactions_);
-    visit(pressures_);
-    visit(measures_);
-    visit(rigid_bodies_);
-    visit(ties_);
-    visit(planes_);
+  static void for_each_history(auto& run, const auto& visit) {
+    visit(run.history_);
+    visit(run.reactions_);
+    visit(run.pressures_);
+    visit(run.measures_);
+    visit(run.rigid_bodies_);
+    visit(run.ties_);
+    visit(run.planes_);
   }
 
+  /// One that nobody has to wait for moves none of those that come.
   void write_checkpoint() {
-    next_checkpoint_ = std::max(next_checkpoint_ + checkpoint_interval(), simulation_.time());
+    if (simulation_.time() >= next_checkpoint_)
+      next_checkpoint_ = std::max(next_checkpoint_ + checkpoint_interval(), simulation_.time());
     geometry::StateTree state = written_state(CheckpointKind::stays);
     last_checkpoint_step_ = simulation_.steps();
     clock_checkpoints_.replaced();
@@ -321,13 +342,11 @@ class Run {
   /// Histories are on the disk before the checkpoint that goes on with them.
   geometry::StateTree written_state(CheckpointKind kind) {
     const TimeInto output(report_.output_time);
-    for_each_history([](auto& history) { history.flush(); });
+    for_each_history(*this, [](auto& history) { history.flush(); });
     geometry::StateTree state = simulation_.snapshot();
     const auto archive = geometry::StateArchive::writer(state).group(kRunGroup);
     exchange(archive);
-    WrittenFiles files;
-    frames_.tell(files);
-    for_each_history([&](const auto& history) { history.tell(files); });
+    WrittenFiles files = written_files();
     exchange_files(archive, files);
     ScenarioText text = text_of(scenario_);
     text.exchange(archive);
@@ -359,11 +378,7 @@ class Run {
     report_.resumed = simulation_.time();
     report_.resumed_step = simulation_.steps();
     if (settings_.stages_before != nullptr) take_timing(*settings_.stages_before);
-    if (!scenario_.output.checkpoint_interval)
-      next_checkpoint_ = std::numeric_limits<double>::infinity();
-    else if (!std::isfinite(next_checkpoint_))
-      next_checkpoint_ = simulation_.time() + checkpoint_interval();
-    if (from.is_there) follow_new_intervals();
+    follow_new_intervals();
     if (from.same_folder) {
       if (!from.by_clock) last_checkpoint_step_ = simulation_.steps();
       return;
@@ -377,15 +392,23 @@ class Run {
     last_row_step_ = last_reactions_step_ = last_frame_step_ = -1;
   }
 
-  /// A stage may be written more often than the one before.
+  /// What goes on may be written more often than before, what began with nothing due has something
+  /// now, or nothing any more.
   void follow_new_intervals() {
-    const double now = simulation_.time();
     const OutputSettings& output = scenario_.output;
-    next_row_ = std::min(next_row_, now + output.history_interval);
-    next_frame_ = std::min(next_frame_, now + output.interval);
-    next_reactions_ = reactions_.empty()
-                          ? std::numeric_limits<double>::infinity()
-                          : std::min(next_reactions_, now + output.reactions_interval);
+    if (!output.checkpoint_interval) next_checkpoint_ = kNever;
+    if (reactions_.empty()) next_reactions_ = kNever;
+    bring_forward(next_row_, output.history_interval);
+    bring_forward(next_frame_, output.interval);
+    if (!reactions_.empty()) bring_forward(next_reactions_, output.reactions_interval);
+    bring_forward(next_checkpoint_, checkpoint_interval());
+  }
+
+  /// With the same interval as before nothing changes: what is due within half a step is written, and
+  /// the next one comes an interval after it was due.
+  void bring_forward(double& next, double interval) const {
+    const double soonest = simulation_.time() + interval;
+    if (next > soonest + simulation_.time_step()) next = soonest;
   }
 
   /// Of stages that the same run of the program has made before.
@@ -480,7 +503,7 @@ class Run {
   void write_frame() {
     frames_.write(simulation_);
     planes_.add(simulation_);
-    for_each_history([](auto& history) { history.flush(); });
+    for_each_history(*this, [](auto& history) { history.flush(); });
     last_frame_step_ = simulation_.steps();
   }
 
@@ -500,7 +523,7 @@ class Run {
   }
 
   void close_files() {
-    for_each_history([](auto& history) { history.close(); });
+    for_each_history(*this, [](auto& history) { history.close(); });
   }
 
   void watch_time_step() {
@@ -588,6 +611,7 @@ class Run {
   EndWatch stop_;  // of a run without stages
   ServoWatch servos_;
   std::optional<WrittenFiles> before_;
+  WrittenFiles other_files_;  // of parts of the run before
   Frames frames_;
   History history_;
   Reactions reactions_;
@@ -749,11 +773,13 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
     // What came after is computed again, now perhaps with other intervals.
     goes_on ? remove_checkpoints_after(settings.out, prepared.simulation->steps())
             : remove_checkpoints(settings.out);
-    std::error_code ignored;
-    std::filesystem::remove(settings.out / "run.json", ignored);
-    if (!goes_on) write_scenario_copy(settings.out, scenario);
+    if (goes_on) return;
+    remove_report(settings.out);
+    write_scenario_copy(settings.out, scenario);
   });
   Run all(scenario, prepared, settings, start);
+  // Of a run that goes on when it is known that it can: its files are those that it had.
+  by_first_rank(scenario.simulation.ranks, [&] { remove_report(settings.out); });
   if (lock) all.warn(lock->warning());
   return all.execute();
 }

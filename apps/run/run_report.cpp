@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <system_error>
 #include <utility>
 
 namespace plekton::apps {
@@ -187,6 +188,11 @@ void write_run_report(const std::filesystem::path& folder, const RunReport& repo
   dynamics::OutputFile file(folder / "run.json");
   file.write(to_json(report));
   file.commit();
+}
+
+void remove_report(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::filesystem::remove(folder / "run.json", ignored);
 }
 
 }  // namespace plekton::apps

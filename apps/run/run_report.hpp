@@ -138,5 +138,7 @@ std::string to_json(const EndedStage& stage, const RunReport& report);
 
 /// Writes run.json into a folder, complete or not at all. @throws dynamics::OutputError
 void write_run_report(const std::filesystem::path& folder, const RunReport& report);
+/// Removes that, as far as it is there.
+void remove_report(const std::filesystem::path& folder);
 
 }  // namespace plekton::apps

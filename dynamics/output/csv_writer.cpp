@@ -55,8 +55,7 @@ CsvWriter::CsvWriter(const std::filesystem::path& file, std::span<const CsvColum
     throw OutputError(file,
                       "is not the file that the run has written so far, with the same columns; put "
                       "it back, or go on in another folder");
-  std::filesystem::resize_file(file, kept, error);
-  if (error) throw OutputError(file, "cut the file back to where the run goes on", error.value());
+  cut_back(file, kept);
   file_.emplace(file, CheckedFile::Mode::append);
 }
 

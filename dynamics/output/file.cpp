@@ -207,6 +207,12 @@ void overwrite(const std::filesystem::path& path, std::span<const PlacedBytes> w
   file.close();
 }
 
+void cut_back(const std::filesystem::path& file, std::uint64_t kept) {
+  std::error_code error;
+  std::filesystem::resize_file(file, kept, error);
+  if (error) throw OutputError(file, "cut the file back to where the run goes on", error.value());
+}
+
 void ensure_output_folder(const std::filesystem::path& folder) {
   if (goes_nowhere(folder)) return;
   if (folder.empty()) throw OutputError(folder, "the output folder has no name; choose one");

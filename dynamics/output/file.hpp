@@ -105,6 +105,9 @@ struct PlacedBytes {
 /// written
 void overwrite(const std::filesystem::path& path, std::span<const PlacedBytes> writes);
 
+/// Cuts a file back to its first bytes. @throws OutputError
+void cut_back(const std::filesystem::path& file, std::uint64_t kept);
+
 /// Creates a folder if absent (not its parents) and makes sure that it takes files, by writing one
 /// and removing it. A folder created in vain is removed again.
 /// @throws OutputError if it has no name, is a file, its parent is missing, or it cannot be written
