@@ -6,7 +6,7 @@
 # plekton_kernels(sources...): those of the current folder that run with the widest vectors of the processor.
 # plekton_batches(target): its sources are compiled in fewer, larger units, eight of a folder in each.
 # plekton_together(batch sources...): those of the current folder make a batch of their own.
-# plekton_precompiled(target headers...): headers that most of its sources need.
+# plekton_precompiled(target headers...): headers of packages that most of its sources need.
 
 # GCC 12 makes fused operations of sums and differences side by side (vfmaddsub) where the processor has them, -ffp-contract=off
 # or not: its vectoriser of straight code does not ask.
@@ -74,7 +74,8 @@ function(plekton_together batch)
 endfunction()
 
 # With the batches, for the same reason. Not for libraries: what is precompiled is of one build folder, and a build within another
-# project would share nothing with ours in the compiler cache.
+# project would share nothing with ours in the compiler cache. None of our own headers: GCC knows a header with `#pragma once` by its
+# time too, and would take it for another one where what is precompiled comes out of the cache of an older copy.
 function(plekton_precompiled target)
   if(PLEKTON_BATCHES)
     target_precompile_headers(${target} PRIVATE ${ARGN})
