@@ -242,6 +242,16 @@ int run_stages_aloud(const CommandLine& line, const Scenario& scenario, const fs
                   }));
 }
 
+/// Refuses to write results over those of the run that they begin from.
+/// @param option  that names its folder
+void require_kept(const std::string& option, const fs::path& folder, const fs::path& out) {
+  std::error_code ignored;
+  if (!fs::equivalent(folder, out, ignored)) return;
+  throw InputError(
+      fmt::format("{}: {} is to be kept; give another folder for the results with --out", option,
+                  folder.string()));
+}
+
 int resume_command(const CommandLine& line) {
   const auto began = Progress::Clock::now();
   if (line.from.size() > 1)
@@ -253,6 +263,7 @@ int resume_command(const CommandLine& line) {
     throw InputError(
         "--from and --to compute a part of a run again, with results of its own; give a folder for "
         "them with --out");
+  if (!same_folder) require_kept("--resume", line.resume, line.out);
   const std::vector<std::string> overrides = overrides_of(line);
   ResumedRun resumed = find_resumed_run(
       {line.resume, overrides, line.from.empty() ? "" : line.from[0], line.to, same_folder});
@@ -290,12 +301,7 @@ void require_stages(const CommandLine& line, const Scenario& scenario, const fs:
         fmt::format("--from {}: expected the name of a stage and the folder of the run that it is "
                     "of, or --resume with the folder of a run and a time",
                     line.from[0]));
-  std::error_code ignored;
-  if (line.from.size() > 1 && fs::equivalent(line.from[1], out, ignored))
-    throw InputError(
-        fmt::format("--from: {} is to be kept; give another folder for the results "
-                    "with --out",
-                    line.from[1]));
+  if (line.from.size() > 1) require_kept("--from", line.from[1], out);
 }
 
 int run_command(const CommandLine& line) {

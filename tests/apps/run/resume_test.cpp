@@ -368,6 +368,25 @@ TEST_F(ResumeErrors, RefuseAnEndThatIsOver) {
   EXPECT_FALSE(fs::exists(folder_ / "part"));
 }
 
+// A part that was computed again took the place of the run that it was a part of.
+TEST_F(ResumeErrors, KeepTheRunThatAPartIsComputedFrom) {
+  ASSERT_EQ(run().exit_code, kDone);
+  fs::create_directory_symlink("out", folder_ / "link");
+  const std::string energies = test::bytes_of(folder_ / "out/energy.csv");
+  const std::vector<fs::path> checkpoints = checkpoints_of(out());
+
+  for (const std::string& place : {out(), (folder_ / "link").string()}) {
+    const Outcome part = resume({"--from", "2 ms", "--out", place, "--overwrite"});
+
+    EXPECT_EQ(part.exit_code, kFailed);
+    EXPECT_NE(part.err.find("--resume: " + out() + " is to be kept; give another folder"),
+              std::string::npos)
+        << part.err;
+  }
+  EXPECT_EQ(test::bytes_of(folder_ / "out/energy.csv"), energies);
+  EXPECT_EQ(checkpoints_of(out()), checkpoints);
+}
+
 /// Output that was not asked for at first: the rows at the same times have the same digits.
 TEST_F(ResumeErrors, ComputeAPartOfARunAgainWithOtherOutput) {
   ASSERT_EQ(run().exit_code, kDone);
