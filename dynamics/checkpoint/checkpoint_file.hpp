@@ -18,7 +18,7 @@
 namespace plekton::dynamics {
 
 /// Grows whenever an array of the state changes its name or meaning.
-constexpr int kCheckpointVersion = 10;
+constexpr int kCheckpointVersion = 11;
 
 /// A checkpoint cannot be read. The message names the file, what is wrong with it and what to do.
 class CheckpointError : public std::runtime_error {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace plekton::dynamics {
 
@@ -142,7 +143,22 @@ bool DrivenPlanes::drives(std::size_t plane) const noexcept {
   return std::ranges::any_of(motions_, is_it) || std::ranges::any_of(servos_, is_it);
 }
 
+void DrivenPlanes::require_same_kind(const geometry::StateArchive& archive) const {
+  std::vector<std::size_t> driven;
+  for (const PlaneMotion& motion : motions_) driven.push_back(motion.plane);
+  for (const PlaneServo& servo : servos_) driven.push_back(servo.plane);
+  archive("driven", driven);
+  for (const std::size_t plane : driven) {
+    if (drives(plane)) continue;
+    throw geometry::StateMismatch(
+        "the state was that of a scene whose plane " + std::to_string(plane) +
+        " (by place) a load moves, which would go on at the speed of its last step here, where no "
+        "load moves it: give it a load here too");
+  }
+}
+
 void DrivenPlanes::exchange(const geometry::StateArchive& archive, std::size_t plane_count) {
+  require_same_kind(archive);
   struct Target {
     std::size_t servo = 0;
     double force = 0.0, pressure = 0.0;

@@ -119,7 +119,8 @@ class DrivenPlanes {
   double act(const LoadStep& step, std::span<const PlaneReaction> reactions,
              const PlanePressAt& press, std::vector<contact::Plane>& planes);
 
-  /// Targets that have been set, and velocities that wait for the next act(). @throws geometry::StateMismatch
+  /// Targets that have been set, and velocities that wait for the next act().
+  /// @throws geometry::StateMismatch also where something drove a plane that nothing drives here
   void exchange(const geometry::StateArchive& archive, std::size_t plane_count);
 
   /// By place in Loads::servos, with targets as they are set.
@@ -129,6 +130,8 @@ class DrivenPlanes {
   double largest_speed() const noexcept;
 
  private:
+  void require_same_kind(const geometry::StateArchive& archive) const;
+
   std::vector<PlaneMotion> motions_;
   std::vector<Vec3> start_;  // m, of motions_
   std::vector<PlaneServo> servos_;

@@ -228,6 +228,31 @@ TEST(RestoreErrors, NameAnotherLaw) {
               ThrowsMessage<StateMismatch>(HasSubstr("other contact laws")));
 }
 
+/// A plate that a servo pushed went on with the speed of its last step for ever.
+TEST(RestoreErrors, NameWhatALoadMovedAndNothingMovesHere) {
+  const StateTree state = Simulation(scene_of_loads(), {}).snapshot();
+  Scene without_servo = scene_of_loads(), without_press = scene_of_loads();
+  without_servo.loads.servos.clear();
+  without_press.loads.body_servos.clear();
+  Simulation free_plane(std::move(without_servo), {}), free_body(std::move(without_press), {});
+
+  EXPECT_THAT([&] { free_plane.restore(state); },
+              ThrowsMessage<StateMismatch>(HasSubstr("plane 1 (by place) a load moves")));
+  EXPECT_THAT([&] { free_body.restore(state); },
+              ThrowsMessage<StateMismatch>(HasSubstr("rigid body 0 (by place) a servo moves")));
+}
+
+/// What drives a plane may be another load; and what moved by itself may be driven.
+TEST(RestoreErrors, LetOtherLoadsMoveWhatWasMoved) {
+  Scene moved = scene_of_loads();
+  moved.loads.servos.clear();
+  moved.loads.plane_motions.push_back({1, Vec3(0, 0, -0.1), {}, {}});
+  moved.loads.plane_motions.push_back({2, Vec3(0, 0, 0.1), {}, {}});
+  Simulation other(std::move(moved), {});
+
+  EXPECT_NO_THROW(other.restore(Simulation(scene_of_loads(), {}).snapshot()));
+}
+
 TEST(RestoreErrors, TellThatASimulationHasBegun) {
   const ReportedScene scene;
   Simulation simulation = scene.simulation(test::kLaws[0]);
