@@ -47,10 +47,6 @@ std::vector<dynamics::CsvColumn> columns_of_measure() {
   return columns;
 }
 
-std::string file_of(const MeasureSettings& measure) {
-  return std::string(kMeasuresFolder) + "/" + measure.name + ".csv";
-}
-
 void remove_files(const fs::path& folder) {
   std::error_code ignored;
   std::vector<fs::path> files;
@@ -126,6 +122,10 @@ std::vector<double> row_of(double time, const dynamics::RegionMeasure& m) {
 
 std::span<const dynamics::OutputField> measure_fields() {
   return kMeasureFields;
+}
+
+std::string file_of(const MeasureSettings& measure) {
+  return std::string(kMeasuresFolder) + "/" + measure.name + ".csv";
 }
 
 geometry::Region region_of(const MeasureSettings& settings, const dynamics::Simulation& simulation,

@@ -7,12 +7,16 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace plekton::apps {
 
 /// The columns of measures/NAME.csv.
 std::span<const dynamics::OutputField> measure_fields();
+
+/// measures/NAME.csv
+std::string file_of(const MeasureSettings& measure);
 
 /// The region of a measure at the time of the last step, cut at its planes; what is cut away wholly
 /// has no volume.

@@ -16,6 +16,7 @@
 #include "apps/run/run_origin.hpp"
 #include "apps/run/run_state.hpp"
 #include "apps/run/run_warnings.hpp"
+#include "apps/run/same_outputs.hpp"
 #include "apps/run/scenario_copy.hpp"
 #include "apps/run/servo_force.hpp"
 #include "apps/run/stage_watch.hpp"
@@ -760,6 +761,8 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
 RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings& settings) {
   require_possible_start(prepared.start, scenario);
   const RunStart start = start_of(scenario, prepared);
+  const bool goes_on = settings.resume != nullptr && settings.resume->same_folder;
+  if (goes_on) require_same_outputs(settings.resume->state, scenario);
   // Before any file is touched: it may be the state of another scene.
   if (settings.resume != nullptr && !settings.resume->is_there)
     prepared.simulation->restore(settings.resume->state);
@@ -767,7 +770,6 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
   by_first_rank(scenario.simulation.ranks, [&] {
     make_output_folder(settings.out);
     lock.emplace(settings.out);
-    const bool goes_on = settings.resume != nullptr && settings.resume->same_folder;
     if (!settings.overwrite && !goes_on) refuse_results(settings.out, "run", kResultFiles);
     remove_parts(settings.out);
     // What came after is computed again, now perhaps with other intervals.

@@ -188,10 +188,11 @@ NodeSetSettings read_flexible_body(Section& section, const Scenario& scenario) {
 
 namespace {
 
+constexpr std::array<std::string_view, 8> kSetWords = {"all",   "rim",   "x_min", "x_max",
+                                                       "y_min", "y_max", "z_min", "z_max"};
+
 /// With the nodes of a body that the key `nodes` says.
 NodeSetSettings with_choice(Section& section, NodeSetSettings set) {
-  constexpr std::array<std::string_view, 8> kWords = {"all",   "rim",   "x_min", "x_max",
-                                                      "y_min", "y_max", "z_min", "z_max"};
   set.place = section.place_of("nodes");
   section.tell_default("nodes", "required; of grains \"all\"");
   if (section.is_table("nodes", box_type())) {
@@ -200,7 +201,7 @@ NodeSetSettings with_choice(Section& section, NodeSetSettings set) {
     return set;
   }
   const auto fallback = set.of_grains ? std::optional(std::size_t{0}) : std::nullopt;
-  set.which = static_cast<SetWhich>(section.choice("nodes", kWords, fallback));
+  set.which = static_cast<SetWhich>(section.choice("nodes", kSetWords, fallback));
   if (set.of_grains && set.which == SetWhich::rim)
     section.complain("nodes",
                      "grains have no rim; expected \"all\", a side such as \"z_max\", or "
@@ -216,6 +217,10 @@ NodeSetSettings with_nodes(Section& section, const NodeSetSettings& set) {
 }
 
 }  // namespace
+
+std::string_view word_of(SetWhich which) {
+  return kSetWords[static_cast<std::size_t>(which)];
+}
 
 NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
   const NodeSetSettings set = read_whole_body(section, scenario);

@@ -38,6 +38,9 @@ NodeSetSettings read_whole_body(Section& section, const Scenario& scenario);
 /// The same but for rigid bodies.
 NodeSetSettings read_flexible_body(Section& section, const Scenario& scenario);
 
+/// As the key `nodes` says it. Not of a box.
+std::string_view word_of(SetWhich which);
+
 /// From the keys `membrane` or `grains`, and `nodes`.
 NodeSetSettings read_node_set(Section& section, const Scenario& scenario);
 

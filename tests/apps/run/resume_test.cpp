@@ -301,6 +301,45 @@ TEST_F(ResumeErrors, RefuseWhatWouldMakeItAnotherRun) {
   EXPECT_NE(outcome.err.find("would make it another run"), std::string::npos) << outcome.err;
 }
 
+// A column or file went on with another wall or region under its old name.
+TEST_F(ResumeErrors, NameOutputsThatWouldGoOnWithAnotherThing) {
+  test::write_bytes(folder_ / "a.toml", std::string(kOnFacets) + R"(
+[[output.reactions]]
+name = "edge"
+kind = "support"
+membrane = "two"
+nodes = "x_min"
+[[output.measures]]
+name = "core"
+sphere = { centre = [0, 0, 0], radius = "1 cm" }
+)");
+  ASSERT_EQ(run().exit_code, kDone);
+  const std::string report = test::bytes_of(folder_ / "out/run.json");
+  const auto resume_with = [&](const std::string& value, std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"--set", "simulation.duration=6 ms", "--set", value});
+    return resume(std::move(more));
+  };
+  const std::string side = "output.reactions.edge.nodes=\"x_max\"";
+  const std::string wider = "output.measures.core.sphere.radius=\"20 mm\"";
+
+  const Outcome other_side = resume_with(side), other_region = resume_with(wider);
+  EXPECT_EQ(other_side.exit_code, kFailed);
+  EXPECT_NE(other_side.err.find("output.reactions: \"edge\" in reactions.csv is of the supports of "
+                                "x_min of membrane \"two\" so far, and would go on with the "
+                                "supports of x_max of membrane \"two\"; give that another name"),
+            std::string::npos)
+      << other_side.err;
+  EXPECT_EQ(other_region.exit_code, kFailed);
+  EXPECT_NE(other_region.err.find("\"core\" in measures/core.csv is of the sphere around [0, 0, 0] "
+                                  "with radius 0.01 m so far, and would go on with the sphere "
+                                  "around [0, 0, 0] with radius 0.02 m"),
+            std::string::npos)
+      << other_region.err;
+  EXPECT_EQ(test::bytes_of(folder_ / "out/run.json"), report);
+  EXPECT_EQ(resume_with(side, {"--out", (folder_ / "part").string()}).exit_code, kDone);
+  EXPECT_EQ(resume_with("output.measures.core.sphere.radius=\"10 mm\"").exit_code, kDone);
+}
+
 // It was said to have no checkpoints.
 TEST_F(ResumeErrors, TellThatAFolderIsNotThere) {
   for (const std::string& file : {out(), (folder_ / "a.toml").string()}) {
