@@ -4,6 +4,7 @@
 #include "apps/command_line/resume_command.hpp"
 #include "apps/pictures/other_picture.hpp"
 #include "apps/pictures/render.hpp"
+#include "apps/run/other_file.hpp"
 #include "apps/scenario/problems.hpp"
 #include "dynamics/output/file.hpp"
 
@@ -13,7 +14,7 @@ namespace plekton::apps {
 
 void render_run(const RenderArguments& arguments, std::ostream& out) {
   const std::filesystem::path file =
-      arguments.out.empty() ? arguments.run / "frame.png" : arguments.out;
+      arguments.out.empty() ? arguments.run / kFramePicture : arguments.out;
   if (file.extension() != ".png")
     throw InputError(
         fmt::format("--out: got \"{}\"; expected a file that ends in .png", file.string()));

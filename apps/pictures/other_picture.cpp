@@ -3,20 +3,7 @@
 
 #include "apps/run/other_file.hpp"
 
-#include <string_view>
-
 namespace plekton::apps {
-namespace {
-
-bool is_png(std::string_view head) {
-  return head.starts_with("\x89PNG\r\n\x1a\n");
-}
-
-bool is_plot(std::string_view head) {
-  return head.starts_with("<?xml") && head.find("Produced by GNUPLOT") != std::string_view::npos;
-}
-
-}  // namespace
 
 void refuse_other_picture(const std::filesystem::path& file) {
   if (file.extension() == ".svg")

@@ -6,9 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace plekton::apps {
 namespace {
@@ -23,13 +25,39 @@ std::string head_of(const fs::path& file) {
   return head;
 }
 
+bool is_file_of_kind(const fs::path& file, IsOfKind is_of_kind) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) && is_of_kind(head_of(file));
+}
+
 }  // namespace
+
+bool is_page(std::string_view head) {
+  return head.starts_with("<!DOCTYPE html>") &&
+         head.find("This page contains Plekton") != std::string_view::npos;
+}
+
+bool is_plot(std::string_view head) {
+  return head.starts_with("<?xml") && head.find("Produced by GNUPLOT") != std::string_view::npos;
+}
+
+bool is_png(std::string_view head) {
+  return head.starts_with("\x89PNG\r\n\x1a\n");
+}
+
+void remove_pictures(const fs::path& folder) {
+  constexpr std::array<std::pair<const char*, IsOfKind>, 4> kPictures = {
+      {{kPage, is_page}, {kPlot, is_plot}, {kPlotPicture, is_png}, {kFramePicture, is_png}}};
+  std::error_code ignored;
+  for (const auto& [name, is_of_kind] : kPictures)
+    if (is_file_of_kind(folder / name, is_of_kind)) fs::remove(folder / name, ignored);
+}
 
 void refuse_other_file(const fs::path& file, std::string_view kind, IsOfKind is_of_kind) {
   std::error_code ignored;
   // Also a link to nowhere is somebody's.
   if (dynamics::goes_nowhere(file) || !fs::exists(fs::symlink_status(file, ignored))) return;
-  if (fs::is_regular_file(file, ignored) && is_of_kind(head_of(file))) return;
+  if (is_file_of_kind(file, is_of_kind)) return;
   throw InputError(fmt::format("{}: is there already and no {}; choose another name, or remove it",
                                file.string(), kind));
 }

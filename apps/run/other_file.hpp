@@ -10,6 +10,19 @@ namespace plekton::apps {
 using IsOfKind = bool (*)(std::string_view head);
 inline constexpr std::size_t kHeadOfFile = 4096;
 
+// What is made of a run once it is there, by default into its folder.
+inline constexpr const char* kPage = "view.html";          ///< of plekton view
+inline constexpr const char* kPlot = "plot.svg";           ///< of plekton plot
+inline constexpr const char* kPlotPicture = "plot.png";    ///< likewise
+inline constexpr const char* kFramePicture = "frame.png";  ///< of plekton render
+
+bool is_page(std::string_view head);
+bool is_plot(std::string_view head);
+bool is_png(std::string_view head);
+
+/// Removes these from the folder of a run that is replaced; of such names files of another kind stay.
+void remove_pictures(const std::filesystem::path& folder);
+
 /// Refuses a name that somebody's file has: only one of the kind that is to be written is replaced.
 /// @param kind  as in "page of plekton view", for the message
 /// @throws InputError

@@ -7,6 +7,7 @@
 #include "apps/run/history.hpp"
 #include "apps/run/lost_grains.hpp"
 #include "apps/run/measures.hpp"
+#include "apps/run/other_file.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/plane_places.hpp"
 #include "apps/run/pressures.hpp"
@@ -772,6 +773,7 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
     lock.emplace(settings.out);
     if (!settings.overwrite && !goes_on) refuse_results(settings.out, "run", kResultFiles);
     remove_parts(settings.out);
+    if (!goes_on) remove_pictures(settings.out);
     // What came after is computed again, now perhaps with other intervals.
     goes_on ? remove_checkpoints_after(settings.out, prepared.simulation->steps())
             : remove_checkpoints(settings.out);

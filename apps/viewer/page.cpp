@@ -17,9 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPlaceOfRun = "<!--plekton:run-->";
-constexpr std::string_view kFirstLine = "<!DOCTYPE html>";
-/// What tells a page of ours from other files, near its beginning.
-constexpr std::string_view kOurs = "This page contains Plekton";
 
 std::string joined(std::span<const std::string_view> pieces) {
   std::string text;
@@ -47,10 +44,6 @@ std::string without_tags(std::string json) {
   for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
     json.replace(at, 1, "\\u003c");
   return json;
-}
-
-bool is_page(std::string_view head) {
-  return head.starts_with(kFirstLine) && head.find(kOurs) != std::string_view::npos;
 }
 
 /// Every so many frames, and the last one.
