@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -37,16 +38,37 @@ void require_same_run(std::span<const std::string> overrides) {
   }
 }
 
-/// Of a run without stages. It may have been longer than the checkpoint that it goes on from knows.
-void require_within(const Scenario& scenario, double begin, const ResumeArguments& arguments) {
-  const double duration = scenario.simulation.duration;
-  if (!scenario.stages.empty() || begin < duration) return;
-  const double last = std::max(duration, time_of(last_checkpoint(arguments.folder).state));
-  if (begin < last) return;
-  throw InputError(fmt::format(
-      "--from: got \"{}\"; expected a time before the end of the run, {:.6g} s; to go on "
-      "beyond that give --set simulation.duration=TIME",
-      arguments.from, last));
+/// Of the last stage. @param state  of a scenario with stages
+bool has_ended(const geometry::StateTree& state, const Scenario& scenario) {
+  const StageOfState of = stage_of(state);
+  return of.has_ended && of.bodies.stage + 1 == scenario.stages.size();
+}
+
+/// s, infinite where nobody knows: of stages that have not all ended. A run without stages may have
+/// been longer than the checkpoint that it goes on from knows.
+double end_of(const Scenario& scenario, const ResumeArguments& arguments) {
+  const geometry::StateTree last = last_checkpoint(arguments.folder).state;
+  if (scenario.stages.empty()) return std::max(scenario.simulation.duration, time_of(last));
+  return has_ended(last, scenario) ? time_of(last) : std::numeric_limits<double>::infinity();
+}
+
+/// Times of a part of a run are times of the run.
+void require_within(const Scenario& scenario, const std::optional<double>& begin,
+                    const std::optional<double>& to, const ResumeArguments& arguments) {
+  const double end = end_of(scenario, arguments);
+  const auto require = [&](bool holds, const char* option, const std::string& got,
+                           const char* expected) {
+    if (holds) return;
+    throw InputError(
+        fmt::format("{}: got \"{}\"; expected a time {} the end of the run, {:.6g} s{}", option,
+                    got, expected, end,
+                    scenario.stages.empty() ? "; to go on beyond that give --set "
+                                              "simulation.duration=TIME"
+                                            : ""));
+  };
+  constexpr double kRounding = 1e-9;
+  if (begin) require(*begin < end, "--from", arguments.from, "before");
+  if (to) require(*to <= end * (1.0 + kRounding), "--to", arguments.to, "up to");
 }
 
 /// There is nothing to go on with where a run is beyond its end already.
@@ -75,8 +97,7 @@ bool is_over(const ResumedRun& run, const std::optional<double>& to) {
   const double now = time_of(run.checkpoint.state);
   if (to && now >= *to) return true;
   if (run.scenario.stages.empty()) return now >= run.scenario.simulation.duration;
-  const StageOfState of = stage_of(run.checkpoint.state);
-  return of.has_ended && of.bodies.stage + 1 == run.scenario.stages.size();
+  return has_ended(run.checkpoint.state, run.scenario);
 }
 
 }  // namespace
@@ -105,7 +126,7 @@ ResumedRun find_resumed_run(const ResumeArguments& arguments) {
   if (begin && is_over(run, end))
     run = resumed_from(checkpoint_before(arguments.folder, steps_of(run.checkpoint.state), begin),
                        arguments.overrides);
-  if (begin) require_within(run.scenario, *begin, arguments);
+  if (begin || end) require_within(run.scenario, begin, end, arguments);
   run.from = begin;
   run.until = end;
   require_not_beyond(run, arguments.to);

@@ -92,13 +92,37 @@ StateTree computed_again(const ResumedRun& resumed, const StateTree& last) {
   return last_checkpoint(scratch.path()).state;
 }
 
+/// @param last  checkpoint that is not after the second time
+void require_there(const VerifyArguments& arguments, double from, double to,
+                   const geometry::StateTree& last) {
+  const double there = time_of(last);
+  constexpr double kRounding = 1e-9;
+  const std::string &begin = arguments.interval[0], &end = arguments.interval[1];
+  const bool is_last = steps_of(last) == steps_of(last_checkpoint(arguments.folder).state);
+  if (is_last && !(from < there && to <= there * (1.0 + kRounding)))
+    throw InputError(
+        fmt::format("--interval: got \"{}\"; expected times up to the last checkpoint of the run, "
+                    "which is of {:.6g} s",
+                    from < there ? end : begin, there));
+  if (!(from < there))
+    throw InputError(
+        fmt::format("--interval: got \"{}\" \"{}\", between which the run has no checkpoint to "
+                    "compare with; expected an interval with one: the one before is of {:.6g} s",
+                    begin, end, there));
+}
+
 }  // namespace
 
 bool verify_run(const VerifyArguments& arguments, std::ostream& out, std::ostream& problems) {
   const std::string begin = arguments.interval.empty() ? "" : arguments.interval[0];
   const std::string end = arguments.interval.empty() ? "" : arguments.interval[1];
-  const FoundCheckpoint last = last_checkpoint(arguments.folder, time_option("--interval", end));
   const std::optional<double> from = time_option("--interval", begin);
+  const std::optional<double> to = time_option("--interval", end);
+  if (from && !(*from < *to))
+    throw InputError(fmt::format(
+        "--interval: got \"{}\" \"{}\"; expected a second time after the first", begin, end));
+  const FoundCheckpoint last = last_checkpoint(arguments.folder, to);
+  if (from) require_there(arguments, *from, *to, last.state);
   const FoundCheckpoint first = checkpoint_before(arguments.folder, steps_of(last.state), from);
   print_warnings(warnings_about(last), problems);
   print_warnings(warnings_about(first), problems);

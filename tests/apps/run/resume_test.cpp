@@ -524,10 +524,39 @@ TEST_F(ResumeErrors, InspectTellsWhatACheckpointHolds) {
 TEST_F(ResumeErrors, VerifyComputesARunAgainAndFindsEveryBit) {
   ASSERT_EQ(run().exit_code, kDone);
   const Outcome last = Program({"verify", out()}).wait();
-  const Outcome most = Program({"verify", out(), "--interval", "1.2 ms", "9 ms"}).wait();
+  const Outcome most = Program({"verify", out(), "--interval", "1.2 ms", "5 ms"}).wait();
 
   EXPECT_EQ(last.exit_code, kDone) << last.err;
   EXPECT_NE(most.out.find("the same to the last bit"), std::string::npos) << most.out << most.err;
+}
+
+// Another part of the run was verified, or computed, and told of as if it were that.
+TEST_F(ResumeErrors, RefuseTimesThatTheRunHasNot) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const auto refusal_of = [&](const std::vector<std::string>& arguments) {
+    const Outcome outcome = Program(arguments).wait();
+    EXPECT_EQ(outcome.exit_code, kFailed) << outcome.out;
+    return outcome.err;
+  };
+  const std::string part = (folder_ / "part").string();
+
+  EXPECT_NE(refusal_of({"verify", out(), "--interval", "4 ms", "2 ms"})
+                .find("--interval: got \"4 ms\" \"2 ms\"; expected a second time after the first"),
+            std::string::npos);
+  for (const std::string begin : {"2 ms", "9 ms"}) {
+    const std::string error = refusal_of({"verify", out(), "--interval", begin, "10 ms"});
+    EXPECT_NE(error.find("--interval: got \"" + (begin == "2 ms" ? std::string("10 ms") : begin) +
+                         "\"; expected times up to the last checkpoint of the run, which is of "
+                         "0.005 s"),
+              std::string::npos)
+        << error;
+  }
+  const std::string beyond =
+      refusal_of({"run", "--resume", out(), "--from", "2 ms", "--to", "9 ms", "--out", part});
+  EXPECT_NE(beyond.find("--to: got \"9 ms\"; expected a time up to the end of the run, 0.005 s"),
+            std::string::npos)
+      << beyond;
+  EXPECT_FALSE(fs::exists(part));
 }
 
 // It was said to be of another build.
