@@ -4,8 +4,11 @@
 #include "apps/run/build_info.hpp"
 #include "apps/run/run_state.hpp"
 #include "apps/run/stage_change.hpp"
+#include "apps/scenario/overrides.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
+#include "apps/scenario/toml_file.hpp"
+#include "apps/scenario/toml_text.hpp"
 #include "apps/scenario/units.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 
@@ -21,20 +24,52 @@ namespace plekton::apps {
 namespace {
 
 /// What may be other than it was: where it ends, how many threads there are, what is written.
-bool may_change(std::string_view replaced) {
-  constexpr std::array<std::string_view, 4> kFree = {
-      "simulation.duration=", "simulation.threads=", "output.", "stop."};
-  return std::any_of(kFree.begin(), kFree.end(),
-                     [&](std::string_view free) { return replaced.starts_with(free); });
+bool may_change(std::string_view key) {
+  constexpr std::array<std::string_view, 4> kFree = {"simulation.duration", "simulation.threads",
+                                                     "output", "stop"};
+  return std::ranges::find(kFree, key) != kFree.end();
 }
 
-void require_same_run(std::span<const std::string> overrides) {
-  for (const std::string& replaced : overrides) {
-    if (may_change(replaced)) continue;
+/// The first key that may not change and is in one table alone, or another in both; empty: none.
+/// @param path  of the tables, "" or with a dot behind
+std::string changed_key(const Table& before, const Table& now, const std::string& path) {
+  const auto is_same = [](const Value& a, const Value& b) {
+    return to_toml({{{"value", {}, a}}}) == to_toml({{{"value", {}, b}}});
+  };
+  for (const auto& [of, other] : {std::pair(&before, &now), std::pair(&now, &before)}) {
+    for (const Entry& entry : of->entries) {
+      const std::string key = path + entry.key;
+      if (may_change(key)) continue;
+      const Entry* const there = other->find(entry.key);
+      const Table none;
+      const auto* const table = std::get_if<Table>(&entry.value.data);
+      const auto* const of_other = there ? std::get_if<Table>(&there->value.data) : &none;
+      if (table != nullptr && of_other != nullptr) {
+        const std::string changed = changed_key(*table, *of_other, key + ".");
+        if (!changed.empty()) return changed;
+      } else if (there == nullptr || !is_same(entry.value, there->value)) {
+        return key;
+      }
+    }
+  }
+  return "";
+}
+
+void require_same_run(const ScenarioText& then, std::span<const std::string> overrides) {
+  const auto table_with = [&](std::span<const std::string> more) {
+    Table table = parse_toml(then.text, then.file);
+    apply_overrides(table, then.overrides);
+    apply_overrides(table, more);
+    return table;
+  };
+  const Table before = table_with({});
+  for (std::size_t i = 0; i < overrides.size(); ++i) {
+    const std::string changed = changed_key(before, table_with(overrides.first(i + 1)), "");
+    if (changed.empty()) continue;
     throw InputError(
-        fmt::format("--set {}: would make it another run; a run that goes on may change "
-                    "simulation.duration, simulation.threads, output and stop alone",
-                    replaced));
+        fmt::format("--set {}: would make it another run, as {} is another; a run that goes on may "
+                    "change simulation.duration, simulation.threads, output and stop alone",
+                    overrides[i], changed));
   }
 }
 
@@ -153,9 +188,9 @@ std::vector<std::string> warnings_about(const ResumedRun& run) {
 }
 
 ResumedRun resumed_from(FoundCheckpoint checkpoint, std::span<const std::string> overrides) {
-  require_same_run(overrides);
   ScenarioText text;
   text.exchange(geometry::StateArchive::reader(checkpoint.state).group(kRunGroup));
+  require_same_run(text, overrides);
   text.overrides.insert(text.overrides.end(), overrides.begin(), overrides.end());
   return {std::move(checkpoint), parse_scenario(text.text, text.file, text.overrides), std::nullopt,
           std::nullopt};

@@ -301,6 +301,22 @@ TEST_F(ResumeErrors, RefuseWhatWouldMakeItAnotherRun) {
   EXPECT_NE(outcome.err.find("would make it another run"), std::string::npos) << outcome.err;
 }
 
+// Tables of keys that may change were refused with "may change simulation.duration, ... and stop".
+TEST_F(ResumeErrors, TakeTablesOfWhatMayChange) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const std::string part = (folder_ / "part").string();
+  for (const std::string table : {"stop={kinetic_energy=\"1e-3 J\"}", "output={interval=\"1 ms\"}",
+                                  "simulation={duration=\"6 ms\"}"}) {
+    const Outcome outcome =
+        resume({"--from", "2 ms", "--out", part, "--overwrite", "--set", table});
+    EXPECT_EQ(outcome.exit_code, kDone) << table << ": " << outcome.err;
+  }
+  const Outcome other = resume({"--set", "simulation={duration=\"6 ms\", damping=0.3}"});
+
+  EXPECT_EQ(other.exit_code, kFailed);
+  EXPECT_NE(other.err.find("as simulation.damping is another"), std::string::npos) << other.err;
+}
+
 // A column or file went on with another wall or region under its old name.
 TEST_F(ResumeErrors, NameOutputsThatWouldGoOnWithAnotherThing) {
   test::write_bytes(folder_ / "a.toml", std::string(kOnFacets) + R"(
