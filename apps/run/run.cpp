@@ -783,7 +783,11 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
   });
   Run all(scenario, prepared, settings, start);
   // Of a run that goes on when it is known that it can: its files are those that it had.
-  by_first_rank(scenario.simulation.ranks, [&] { remove_report(settings.out); });
+  by_first_rank(scenario.simulation.ranks, [&] {
+    if (!goes_on) return;
+    remove_report(settings.out);
+    write_scenario_copy(settings.out, scenario);
+  });
   if (lock) all.warn(lock->warning());
   return all.execute();
 }

@@ -407,6 +407,10 @@ TEST_F(ResumeErrors, GoBeyondTheDurationThatWasAskedForAtFirst) {
   const auto report = nlohmann::json::parse(file);
   EXPECT_EQ(report["timing"]["simulated_time_s"], 0.008);
   EXPECT_EQ(report["resumed_s"], 0.005);
+  // It went on saying what was asked for at first.
+  EXPECT_NE(test::bytes_of(folder_ / "out/scenario-as-run.toml")
+                .find("# --set simulation.duration=8 ms\n"),
+            std::string::npos);
 }
 
 // It went on from its end to an earlier one, and told of success.
