@@ -747,8 +747,7 @@ CLI::App* add_plot(CLI::App& app, CommandLine& line) {
   plot->add_option("run", line.run, "Folder that plekton run wrote to")->required();
   plot->add_option("--columns", line.columns,
                    "Columns of energy.csv, reactions.csv and pressures.csv, without their units, "
-                   "with commas between them; all that are not 0 if not given")
-      ->delimiter(',');
+                   "with commas between them; all that are not 0 if not given");
   plot->add_option(
       "--x", line.x,
       "Column on the horizontal axis, as in --x \"front edge.position_y\", for columns "

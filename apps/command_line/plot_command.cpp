@@ -30,7 +30,8 @@ void plot_run(const PlotArguments& arguments, std::ostream& out) {
   for (const fs::path& file : files) refuse_other_picture(file);
   const RunFolder run = open_run_folder(arguments.run);
   const std::vector<RecordedHistory> histories = read_histories(arguments.run);
-  const std::vector<PlotPanel> panels = panels_of(histories, arguments.columns, arguments.x);
+  const std::vector<std::string> columns = column_names_in(arguments.columns, histories);
+  const std::vector<PlotPanel> panels = panels_of(histories, columns, arguments.x);
   for (const fs::path& file : files) {
     const std::string picture = drawn_plot(panels, run.title, kind_of(file));
     dynamics::OutputFile written(file);

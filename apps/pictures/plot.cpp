@@ -46,11 +46,26 @@ std::string head_of(const RecordedHistory::Column& column) {
   return column.unit.empty() ? column.name : fmt::format("{} ({})", column.name, column.unit);
 }
 
-void require_known(const std::vector<RecordedHistory>& histories, std::string_view option,
-                   std::span<const std::string> names) {
+std::vector<std::string_view> known_names(const std::vector<RecordedHistory>& histories) {
   std::vector<std::string_view> known;
   for (const RecordedHistory& history : histories)
     for (const RecordedHistory::Column& column : columns_of(history)) known.push_back(column.name);
+  return known;
+}
+
+/// The first of the names in a text, with commas between them.
+std::string_view first_name(std::string_view text, const std::vector<std::string_view>& known) {
+  std::string_view longest;
+  for (const std::string_view name : known) {
+    if (!text.starts_with(name) || name.size() <= longest.size()) continue;
+    if (name.size() == text.size() || text[name.size()] == ',') longest = name;
+  }
+  return longest.empty() ? text.substr(0, text.find(',')) : longest;
+}
+
+void require_known(const std::vector<RecordedHistory>& histories, std::string_view option,
+                   std::span<const std::string> names) {
+  const std::vector<std::string_view> known = known_names(histories);
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string hint = did_you_mean(name, known);
@@ -138,6 +153,20 @@ std::string panel_commands(const PlotPanel& panel, std::size_t number) {
 }
 
 }  // namespace
+
+std::vector<std::string> column_names_in(std::span<const std::string> texts,
+                                         const std::vector<RecordedHistory>& histories) {
+  const std::vector<std::string_view> known = known_names(histories);
+  std::vector<std::string> names;
+  for (std::string_view text : texts) {
+    while (!text.empty()) {
+      const std::string_view name = first_name(text, known);
+      names.emplace_back(name);
+      text.remove_prefix(std::min(name.size() + 1, text.size()));
+    }
+  }
+  return names;
+}
 
 std::vector<PlotPanel> panels_of(const std::vector<RecordedHistory>& histories,
                                  std::span<const std::string> names, const std::string& x) {

@@ -20,6 +20,11 @@ struct PlotPanel {
   std::vector<const RecordedHistory::Column*> columns;  ///< of a history that outlives this
 };
 
+/// Names of columns in texts with commas between them. Names may have commas themselves: each is the
+/// longest one of a column that the rest of the text begins with; what is none ends with the next comma.
+std::vector<std::string> column_names_in(std::span<const std::string> texts,
+                                         const std::vector<RecordedHistory>& histories);
+
 /// What is drawn of the histories of a run, one panel for each file and unit.
 /// @param names  Columns, as their heads are without unit; none: all that have a unit and are not 0
 ///        throughout, but the time step.

@@ -54,6 +54,19 @@ TEST(PlotPanels, HoldTheColumnsThatAreNamed) {
   EXPECT_EQ(panels[1].quantity, "number");
 }
 
+// A column of a plane "drum, left" could not be named.
+TEST(PlotColumns, MayHaveCommasInTheirNames) {
+  auto all = histories();
+  for (const char* const name : {"drum, left.force_x", "drum"})
+    all[1].columns.push_back({name, "N", {0, 1}});
+  const std::vector<std::string> texts = {"kinetic,drum, left.force_x,drum,none,friction",
+                                          "contacts"};
+
+  EXPECT_THAT(column_names_in(texts, all),
+              testing::ElementsAre("kinetic", "drum, left.force_x", "drum", "none", "friction",
+                                   "contacts"));
+}
+
 TEST(PlotPanels, RefuseAColumnThatIsNotThere) {
   const auto all = histories();
   const std::vector<std::string> names = {"kinetik"};
