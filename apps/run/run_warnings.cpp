@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -25,13 +26,21 @@ std::string advice_on_overlap(const RunReport& report) {
       report.deepest_overlap ? ", " + text_of(*report.deepest_overlap) : "");
 }
 
+/// A part below 1 in two digits that are not more than it is.
+double rounded_down(double part) {
+  double digits = 100.0;
+  while (part * digits < 10.0 && digits < 1e12) digits *= 10.0;
+  return std::floor(part * digits) / digits;
+}
+
 std::string advice_on_motion(const RunReport& report) {
   return fmt::format(
       "the fastest node moves by {:.3g} % of the smallest radius in one step, above {:.0f} %: "
-      "contacts are seen late; run with {:.2g} of this simulation.time_step, or with \"auto\" if it was "
+      "contacts are seen late; run with {:.2g} of this simulation.time_step, or with \"auto\" if "
+      "it was "
       "given, which foresees gravity but not what tears",
-      100.0 * report.largest_motion_ratio, 100.0 * dynamics::kLargestMotion,
-      dynamics::kLargestMotion / report.largest_motion_ratio);
+      100.0 * report.largest_motion_ratio, 100.0 * kFastMotion,
+      rounded_down(dynamics::kLargestMotion / report.largest_motion_ratio));
 }
 
 std::string advice_on_pass_throughs(const RunReport& report) {

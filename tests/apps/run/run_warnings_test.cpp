@@ -19,7 +19,7 @@ TEST(RunWarnings, AreNoneForASoundRun) {
   RunReport report;
   report.largest_overlap_ratio = 0.02;
   report.energy_closure = 0.005;
-  report.largest_motion_ratio = dynamics::kLargestMotion * (1.0 + 1e-15);  // chosen to be this
+  report.largest_motion_ratio = 1.004 * dynamics::kLargestMotion;  // chosen, and pushed then
 
   EXPECT_THAT(warnings_about(report), IsEmpty());
 }
@@ -29,8 +29,18 @@ TEST(RunWarnings, NameAStepThatIsTooLongForTheMotion) {
   report.largest_motion_ratio = 0.4;
 
   EXPECT_THAT(warnings_about(report),
-              ElementsAre(AllOf(HasSubstr("by 40 % of the smallest radius in one step, above 10 %"),
+              ElementsAre(AllOf(HasSubstr("by 40 % of the smallest radius in one step, above 11 %"),
                                 HasSubstr("0.25 of this"))));
+}
+
+// "run with 1 of this simulation.time_step"
+TEST(RunWarnings, NeverAdviseTheStepThatThereWas) {
+  RunReport report;
+  report.largest_motion_ratio = 1.0001 * kFastMotion;
+  EXPECT_THAT(warnings_about(report), ElementsAre(HasSubstr("run with 0.9 of this")));
+
+  report.largest_motion_ratio = 30.0;
+  EXPECT_THAT(warnings_about(report), ElementsAre(HasSubstr("run with 0.0033 of this")));
 }
 
 TEST(RunWarnings, NameDeepOverlapsEnergyThatDoesNotAddUpAndLostGrains) {
