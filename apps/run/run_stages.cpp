@@ -56,6 +56,25 @@ bool are_same_grains(const Scenario& then, const Scenario& now, std::size_t tabl
          then.materials[a.material].density == now.materials[b.material].density;
 }
 
+/// Planes go on from where the run has left them, and as wide.
+void require_same_planes(const Scenario& then, const Scenario& now) {
+  const auto require = [&](bool holds, std::size_t i, const char* what) {
+    if (holds) return;
+    throw InputError(
+        fmt::format("{}: planes.{} has another {} than in the run that it is to go on from, which "
+                    "has ended this "
+                    "stage with it; leave it as it is there, or say another one in a later stage",
+                    now.stage->path,
+                    now.planes[i].name.empty() ? std::to_string(i) : now.planes[i].name, what));
+  };
+  for (std::size_t i = 0; i < now.planes.size(); ++i) {
+    const PlaneSettings &a = then.planes[i], &b = now.planes[i];
+    require(a.form == b.form, i, "kind");
+    require(a.point == b.point, i, "point");
+    require(a.is_flat() || a.radius == b.radius, i, "radius");
+  }
+}
+
 /// What goes on by its number has to be the same by its name, and of the same size.
 void require_same_tables(const Scenario& then, const Scenario& now) {
   const auto require = [&](const char* what, const auto& before, const auto& after) {
@@ -70,13 +89,7 @@ void require_same_tables(const Scenario& then, const Scenario& now) {
   require("membranes", then.membranes, now.membranes);
   require("rigid bodies", then.rigid_bodies, now.rigid_bodies);
   require("planes", then.planes, now.planes);
-  for (std::size_t i = 0; i < now.planes.size(); ++i) {
-    if (then.planes[i].form == now.planes[i].form) continue;
-    throw InputError(fmt::format(
-        "{}: planes.{} is of another kind than in the run that it is to go on from; leave its kind "
-        "as it is there",
-        now.stage->path, now.planes[i].name.empty() ? std::to_string(i) : now.planes[i].name));
-  }
+  require_same_planes(then, now);
   require("ties", then.ties, now.ties);
   for (std::size_t i = 0; i < now.ties.size(); ++i) {
     if (tie_the_same(then.ties[i], now.ties[i])) continue;

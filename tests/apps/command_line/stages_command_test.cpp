@@ -475,7 +475,14 @@ TEST_F(Stages, GoOnOnlyWithPlanesOfTheKindsOfBefore) {
 
   EXPECT_EQ(run(write("same.toml", cylinder), "same", from).exit_code, 0);
   EXPECT_THAT(run(write("flat.toml", around("")), "wrong", from).err,
-              HasSubstr("stages.a: planes.cell is of another kind than in the run"));
+              HasSubstr("stages.a: planes.cell has another kind than in the run"));
+  EXPECT_THAT(
+      run(write("wide.toml", around("kind = \"cylinder\"\nradius = 2\n")), "wrong", from).err,
+      HasSubstr("stages.a: planes.cell has another radius than in the run"));
+  EXPECT_THAT(run(write("moved.toml", cylinder), "wrong",
+                  {"--from", "a", in("first"), "--set", "planes.cell.point=[0, 0, -0.9]"})
+                  .err,
+              HasSubstr("stages.a: planes.cell has another point than in the run"));
   EXPECT_FALSE(fs::exists(folder_ / "wrong"));
 }
 
