@@ -108,7 +108,10 @@ RunReport begun_report(const Scenario& scenario, const PreparedRun& prepared) {
 StageStart start_now(const dynamics::Simulation& simulation) {
   StageStart start;
   start.positions = simulation.state().position;
-  for (const contact::Plane& plane : simulation.planes()) start.planes.push_back(plane.point);
+  for (const contact::Plane& plane : simulation.planes()) {
+    start.planes.push_back(plane.point);
+    start.radii.push_back(plane.radius);
+  }
   return start;
 }
 

@@ -27,9 +27,14 @@ Vec3 mean_place(const std::vector<NodeId>& nodes, const std::vector<Vec3>& posit
 
 }  // namespace
 
-/// m
+/// m, of a container also by how much it has become narrower or wider.
 double EndWatch::moved(const DisplacementEnd& end, const dynamics::Simulation& simulation) const {
-  if (!end.nodes) return (simulation.planes()[end.plane].point - start_.planes[end.plane]).norm();
+  if (!end.nodes) {
+    const contact::Plane& plane = simulation.planes()[end.plane];
+    const double way = (plane.point - start_.planes[end.plane]).norm();
+    if (plane.form == contact::Plane::Form::flat) return way;
+    return std::max(way, std::abs(plane.radius - start_.radii[end.plane]));
+  }
   return (mean_place(built_.moved_nodes, simulation.state().position) -
           mean_place(built_.moved_nodes, start_.positions))
       .norm();

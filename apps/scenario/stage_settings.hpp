@@ -22,7 +22,8 @@ struct ServoEnd {
   std::optional<std::size_t> body_servo;  ///< of rigid bodies, by place among those
 };
 
-/// A plane, or the mean of some nodes, is so far from where it was at the start of the stage.
+/// A plane, or the mean of some nodes, is so far from where it was at the start of the stage; or a
+/// container is narrower or wider by that.
 struct DisplacementEnd {
   double distance = 0.0;  ///< m
   std::size_t plane = 0;

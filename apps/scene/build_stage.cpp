@@ -77,16 +77,23 @@ void hold_as_told(const Scenario& stage, const BuiltScene& built, StageBodies& b
   }
 }
 
-/// Of nothing that there was before, where these planes begin.
-void note_new_planes(const Scenario& stage, const std::vector<Vec3>& points, StageBodies& bodies) {
-  const std::vector<int>& origins = stage.stage->origins.planes;
-  for (StageStart& start : bodies.starts) {
-    std::vector<Vec3> planes;
-    for (std::size_t i = 0; i < origins.size(); ++i)
-      planes.push_back(origins[i] < 0 ? points[i]
-                                      : start.planes[static_cast<std::size_t>(origins[i])]);
-    start.planes = std::move(planes);
-  }
+/// What was known of each plane, and of those that are new what is known now.
+/// @param origins  their places before; below 0: new
+template <class Thing>
+void take_new(const std::vector<Thing>& now, const std::vector<int>& origins,
+              std::vector<Thing>& things) {
+  std::vector<Thing> before = now;
+  for (std::size_t i = 0; i < origins.size(); ++i)
+    if (origins[i] >= 0) before[i] = things[static_cast<std::size_t>(origins[i])];
+  things = std::move(before);
+}
+
+/// How a stage begins.
+StageStart start_of(double time, const std::vector<Vec3>& positions,
+                    const std::vector<contact::Plane>& planes) {
+  StageStart start{time, positions, points_of(planes), {}};
+  for (const contact::Plane& plane : planes) start.radii.push_back(plane.radius);
+  return start;
 }
 
 }  // namespace
@@ -101,7 +108,7 @@ StageBodies first_stage(const BuiltScene& built) {
     for (std::size_t i = 0; i < grains.count; ++i)
       bodies.grains.back().push_back(built.scene.elements.spheres[sphere++].radius);
   }
-  bodies.starts.push_back({0.0, built.scene.state.position, points_of(built.scene.planes)});
+  bodies.starts.push_back(start_of(0.0, built.scene.state.position, built.scene.planes));
   return bodies;
 }
 
@@ -124,10 +131,14 @@ BuiltScene begun(BuiltScene built, const Scenario& stage, StageBodies& bodies,
   fix_and_free(*stage.stage, built, bodies.held);
   require_apart(stage.stage->end, built);
   built.scene.state.position = std::move(as_built);
-  const std::vector<Vec3> planes = points_of(built.scene.planes);
-  note_new_planes(stage, planes, bodies);
+  StageStart begins = start_of(time, positions, built.scene.planes);
+  // Of nothing that there was before, where these planes begin.
+  for (StageStart& start : bodies.starts) {
+    take_new(begins.planes, stage.stage->origins.planes, start.planes);
+    take_new(begins.radii, stage.stage->origins.planes, start.radii);
+  }
   bodies.stage = stage.stage->number;
-  bodies.starts.push_back({time, positions, planes});
+  bodies.starts.push_back(std::move(begins));
   add_conditions(stage, bodies, built);
   return built;
 }

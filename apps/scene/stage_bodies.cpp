@@ -17,6 +17,7 @@ void StageBodies::exchange(const geometry::StateArchive& archive) {
     group("time", starts[i].time);
     group("positions", starts[i].positions);
     group("planes", starts[i].planes);
+    group("radii", starts[i].radii);
   }
   std::size_t tables = grains.size();
   archive("tables_of_grains", tables);
@@ -50,7 +51,8 @@ KeptBodies::KeptBodies(const StageBodies& before, const std::vector<bool>& table
   bodies_.held = kept(std::span(before.held));
   bodies_.is_absent = before.is_absent;
   for (const StageStart& start : before.starts)
-    bodies_.starts.push_back({start.time, kept(std::span(start.positions)), start.planes});
+    bodies_.starts.push_back(
+        {start.time, kept(std::span(start.positions)), start.planes, start.radii});
   positions_ = kept(positions);
 }
 

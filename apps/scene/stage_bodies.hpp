@@ -21,6 +21,7 @@ struct StageStart {
   double time = 0.0;                      ///< s
   std::vector<geometry::Vec3> positions;  ///< m, by node; of what came later where it began
   std::vector<geometry::Vec3> planes;     ///< m, their points, likewise
+  std::vector<double> radii;              ///< m, of planes, likewise; of flat ones no matter
 };
 
 /// What a stage has from those before it that its scenario does not say: with the state of a

@@ -144,6 +144,35 @@ TEST_F(Stop, EndsByADisplacementOrAStrain) {
   EXPECT_NEAR(end_of("run"), 0.05 * 21e-3 / 0.1, kLooks + 5e-6);
 }
 
+// It never ended: the point of a container stays where its wall closes.
+TEST_F(Stop, EndsWhereAContainerHasBecomeNarrower) {
+  const std::string cell = std::string(kBall) + R"([[planes]]
+name = "cell"
+kind = "cylinder"
+point = [0, 0, 0]
+radius = "30 mm"
+material = "steel"
+[[loads]]
+name = "close"
+kind = "servo"
+plane = "cell"
+pressure = "1 kPa"
+between = ["floor", "lid"]
+speed = "0.1 m/s"
+)";
+  const std::string end = "displacement = { plane = \"cell\", distance = \"0.5 mm\" }\n";
+
+  EXPECT_EQ(ended(cell + "[stop]\n" + end)["stopped_by"], "displacement");
+  EXPECT_NEAR(end_of("run"), 5e-3, kLooks + 5e-6);
+  std::string staged = cell;
+  staged.replace(staged.find("duration = \"0.1 s\"\n"), 19, "");
+  for (const char* const name : {"first", "second"})
+    staged +=
+        "[[stages]]\nname = \"" + std::string(name) + "\"\nmax_duration = \"20 ms\"\nend." + end;
+  ended(staged);
+  EXPECT_NEAR(end_of("run"), 2 * 5e-3, 2 * (kLooks + 5e-6));
+}
+
 // k_n of a ball between planes is E R: 1e4 N/m, so that 2 N come 0.4 mm after the lid has touched.
 TEST_F(Stop, EndsByAForceAtTenLooksInARow) {
   const json pressed =
