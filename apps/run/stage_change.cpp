@@ -50,7 +50,7 @@ Scenario with_planes_of_now(Scenario stage, const dynamics::Simulation& before) 
     if (origins.planes[i] < 0) continue;
     const contact::Plane& then = before.planes()[static_cast<std::size_t>(origins.planes[i])];
     if (!origins.says_point[i]) stage.planes[i].point = then.point;
-    if (!origins.says_radius[i]) stage.planes[i].radius = then.radius;
+    if (!origins.says_radius[i] && !stage.planes[i].is_flat()) stage.planes[i].radius = then.radius;
   }
   return stage;
 }

@@ -295,6 +295,16 @@ class Stages {
     }
   }
 
+  /// Keys that planes of another kind have are not those of a plane that becomes one of this kind.
+  static void leave_out_keys_of_other_kinds(const Table& change, Table& plane) {
+    if (change.find("kind") == nullptr) return;
+    const std::string* const kind = text_of(change, "kind");
+    const bool is_flat = kind != nullptr && *kind == "flat";
+    std::erase_if(plane.entries, [&](const Entry& entry) {
+      return is_flat ? entry.key == "axis" || entry.key == "radius" : entry.key == "normal";
+    });
+  }
+
   /// Tables of one name are one.
   void change_named(Table& of, const Entry& entry) {
     const auto* const changes = std::get_if<Array>(&entry.value.data);
@@ -314,6 +324,8 @@ class Stages {
         all.push_back(value);
       } else {
         all[place].place = value.place;
+        if (entry.key == "planes")
+          leave_out_keys_of_other_kinds(*table, std::get<Table>(all[place].data));
         for (const Entry& key : table->entries) set(std::get<Table>(all[place].data), key);
       }
       note_origin(entry.key, place, table);

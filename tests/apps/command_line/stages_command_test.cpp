@@ -486,6 +486,39 @@ TEST_F(Stages, GoOnOnlyWithPlanesOfTheKindsOfBefore) {
   EXPECT_FALSE(fs::exists(folder_ / "wrong"));
 }
 
+// "stages.b.planes.cell.axis: unknown key": what a container had could not be left out.
+TEST_F(Stages, TurnAContainerIntoAFlatPlaneAndBack) {
+  const std::string file = write("kinds.toml", kBodies + std::string(R"([[planes]]
+name = "cell"
+kind = "cylinder"
+point = [0, 0, -1]
+axis = [1, 0, 0]
+radius = 2
+material = "sand"
+[[stages]]
+name = "a"
+end = { duration = "0.2 ms" }
+[[stages]]
+name = "b"
+end = { duration = "0.2 ms" }
+[[stages.planes]]
+name = "cell"
+kind = "flat"
+normal = [0, 0, 2]
+[[stages]]
+name = "c"
+end = { duration = "0.2 ms" }
+[[stages.planes]]
+name = "cell"
+kind = "sphere"
+radius = 3
+)"));
+
+  const Outcome outcome = run(file, "kinds");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+}
+
 /// The scene of kBodies, with a lid that comes in the last of three stages.
 std::string in_three(std::string_view first, std::string_view second, std::string_view third) {
   std::string text = kBodies;
