@@ -11,5 +11,5 @@ endif()
 find_program(PLEKTON_CCACHE ccache DOC "Compiler cache, used when found")
 if(PLEKTON_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   # Without this it does not keep what is compiled with precompiled headers, as tests are.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${PLEKTON_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER sh ${CMAKE_CURRENT_LIST_DIR}/cached_compiler.sh ${PLEKTON_CCACHE})
 endif()
