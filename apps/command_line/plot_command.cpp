@@ -25,7 +25,7 @@ PictureKind kind_of(const fs::path& file) {
 
 void plot_run(const PlotArguments& arguments, std::ostream& out) {
   std::vector<fs::path> files = {arguments.out};
-  if (arguments.out.empty()) files = {arguments.run / kPlot, arguments.run / kPlotPicture};
+  if (arguments.out.empty()) files = {arguments.run / kPlotDrawing, arguments.run / kPlotPicture};
   for (const fs::path& file : files) kind_of(file);
   for (const fs::path& file : files) refuse_other_picture(file);
   const RunFolder run = open_run_folder(arguments.run);

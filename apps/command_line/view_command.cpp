@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 void write(const ViewArguments& arguments, std::size_t limit, std::ostream& out) {
   const RunFolder run = open_run_folder(arguments.run);
   const PageData data = pack_run(run, limit);
-  const fs::path file = arguments.out.value_or(arguments.run / kPage);
+  const fs::path file = arguments.out.value_or(arguments.run / kViewPage);
   const std::size_t size = write_page(file, run, data);
   for (const std::string& note : data.notes) out << "note: " << note << '\n';
   out << fmt::format("wrote {}: {} frames, {:.1f} MB; open it in a browser, no network is needed\n",

@@ -187,11 +187,11 @@ void Session::write_frame(const fs::path& folder) const {
 fs::path Session::view(const std::optional<fs::path>& out) const {
   std::ostringstream unseen;
   if (folder_) {
-    const fs::path page = out.value_or(*folder_ / apps::kPage);
+    const fs::path page = out.value_or(*folder_ / apps::kViewPage);
     apps::view_run({*folder_, page, apps::ViewArguments{}.limit, {}}, unseen);
     return page;
   }
-  const fs::path page = out.value_or(apps::kPage);
+  const fs::path page = out.value_or(apps::kViewPage);
   const TemporaryFolder folder(scenario_.file.stem().string());
   write_frame(folder.path());
   apps::view_run({folder.path(), page, apps::ViewArguments{}.limit, {}}, unseen);

@@ -46,8 +46,10 @@ bool is_png(std::string_view head) {
 }
 
 void remove_pictures(const fs::path& folder) {
-  constexpr std::array<std::pair<const char*, IsOfKind>, 4> kPictures = {
-      {{kPage, is_page}, {kPlot, is_plot}, {kPlotPicture, is_png}, {kFramePicture, is_png}}};
+  constexpr std::array<std::pair<const char*, IsOfKind>, 4> kPictures = {{{kViewPage, is_page},
+                                                                          {kPlotDrawing, is_plot},
+                                                                          {kPlotPicture, is_png},
+                                                                          {kFramePicture, is_png}}};
   std::error_code ignored;
   for (const auto& [name, is_of_kind] : kPictures)
     if (is_file_of_kind(folder / name, is_of_kind)) fs::remove(folder / name, ignored);

@@ -11,8 +11,8 @@ using IsOfKind = bool (*)(std::string_view head);
 inline constexpr std::size_t kHeadOfFile = 4096;
 
 // What is made of a run once it is there, by default into its folder.
-inline constexpr const char* kPage = "view.html";          ///< of plekton view
-inline constexpr const char* kPlot = "plot.svg";           ///< of plekton plot
+inline constexpr const char* kViewPage = "view.html";      ///< of plekton view
+inline constexpr const char* kPlotDrawing = "plot.svg";    ///< of plekton plot
 inline constexpr const char* kPlotPicture = "plot.png";    ///< likewise
 inline constexpr const char* kFramePicture = "frame.png";  ///< of plekton render
 

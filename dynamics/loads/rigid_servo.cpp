@@ -139,22 +139,7 @@ DrivenBodies::DrivenBodies(const Scene& scene, const geometry::Surface& surface)
   }
 }
 
-void DrivenBodies::require_same_kind(const geometry::StateArchive& archive) const {
-  std::vector<std::size_t> driven;
-  for (const BodyServo& servo : servos_) driven.push_back(servo.body);
-  archive("driven", driven);
-  for (const std::size_t body : driven) {
-    if (std::ranges::any_of(servos_, [&](const BodyServo& servo) { return servo.body == body; }))
-      continue;
-    throw geometry::StateMismatch(
-        "the state was that of a scene whose rigid body " + std::to_string(body) +
-        " (by place) a servo moves, which would go on at the speed of its last step here, where no "
-        "servo moves it: give it a servo here too");
-  }
-}
-
 void DrivenBodies::exchange(const geometry::StateArchive& archive) {
-  require_same_kind(archive);
   struct Target {
     std::size_t servo = 0;
     double force = 0.0, pressure = 0.0, torque = 0.0;

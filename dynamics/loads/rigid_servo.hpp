@@ -100,8 +100,7 @@ class DrivenBodies {
   }
   /// With targets as they are set.
   const std::vector<BodyServo>& servos() const noexcept { return servos_; }
-  /// Targets that have been set.
-  /// @throws geometry::StateMismatch also where a servo drove a body that none drives here
+  /// Targets that have been set. @throws geometry::StateMismatch
   void exchange(const geometry::StateArchive& archive);
 
   /// Sets the velocities of the bodies along or about their axes, for the drift that begins now.
@@ -145,8 +144,6 @@ class DrivenBodies {
   }
 
  private:
-  void require_same_kind(const geometry::StateArchive& archive) const;
-
   std::vector<BodyServo> servos_;
   std::vector<std::size_t> set_servos_;
   std::vector<double> radii_;  ///< m, of the bodies of servos that turn; 0 of others

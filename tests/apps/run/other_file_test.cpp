@@ -39,18 +39,18 @@ TEST(OverwrittenRun, TakesAlongWhatWasDrawnOfIt) {
   test::write_bytes(folder / "out/mine.html", test::bytes_of(folder / "out/view.html"));
   ASSERT_EQ(Program(run).wait().exit_code, kDone);
 
-  for (const char* const drawn : {kPage, kPlot, kFramePicture})
+  for (const char* const drawn : {kViewPage, kPlotDrawing, kFramePicture})
     EXPECT_FALSE(fs::exists(fs::path(out) / drawn)) << drawn;
   EXPECT_TRUE(fs::exists(folder / "out/mine.html"));
 }
 
 TEST(RemovePictures, LeavesFilesOfOthersOfTheSameNames) {
   const test::TemporaryFolder folder;
-  for (const char* const drawn : {kPage, kPlot, kPlotPicture, kFramePicture})
+  for (const char* const drawn : {kViewPage, kPlotDrawing, kPlotPicture, kFramePicture})
     test::write_bytes(folder / drawn, "notes");
   remove_pictures(folder.path());
 
-  for (const char* const drawn : {kPage, kPlot, kPlotPicture, kFramePicture})
+  for (const char* const drawn : {kViewPage, kPlotDrawing, kPlotPicture, kFramePicture})
     EXPECT_EQ(test::bytes_of(folder / drawn), "notes") << drawn;
 }
 
