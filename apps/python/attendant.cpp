@@ -2,7 +2,9 @@
 #include "apps/python/attendant.hpp"
 
 #include "apps/python/from_python.hpp"
+#include "apps/python/interpreter_lock.hpp"
 
+#include <cxxabi.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +21,20 @@ constexpr std::chrono::milliseconds kBetweenSignals{50};  // nobody feels that C
 /// How many whole intervals are over. A step ends within half its length of where it was to.
 double intervals_over(const dynamics::Simulation& simulation, double interval) {
   return std::floor((simulation.time() + 0.5 * simulation.time_step()) / interval);
+}
+
+/// Functions of Python take the lock again and again. An unwinding by an interpreter that has ended
+/// goes no further than here: it would release objects without the lock.
+/// @throws py::error_already_set
+void call_with(const py::object& function, py::handle argument) {
+  PyObject* result = nullptr;
+  try {
+    result = PyObject_CallFunctionObjArgs(function.ptr(), argument.ptr(), nullptr);
+  } catch (const abi::__forced_unwind&) {
+    wait_for_process_end();
+  }
+  if (result == nullptr) throw py::error_already_set();
+  Py_DECREF(result);
 }
 
 }  // namespace
@@ -49,6 +65,7 @@ void Attendant::add(const py::handle& interval, const py::handle& function) {
 }
 
 void Attendant::start(const dynamics::Simulation& simulation) {
+  began_at_end_ = is_interpreter_ending();
   for (Call& call : calls_) call.next = intervals_over(simulation, call.interval) + 1;
   find_next();
 }
@@ -59,12 +76,14 @@ void Attendant::find_next() noexcept {
 }
 
 bool Attendant::wants_end(const dynamics::Simulation& simulation) {
+  // Nobody can ask for what comes now, and what the steps need is about to be destroyed.
+  if (!began_at_end_ && is_interpreter_ending()) wait_for_process_end();
   const bool is_due = simulation.time() >= next_ - 0.5 * simulation.time_step();
   if (!is_due && ++looks_ % kStepsBetweenClocks != 0) return stops_;
   const auto now = std::chrono::steady_clock::now();
   if (!is_due && now - last_signals_ < kBetweenSignals) return stops_;
   last_signals_ = now;
-  const py::gil_scoped_acquire lock;
+  const WithLock lock;
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (is_due) call_due(simulation);
@@ -82,7 +101,7 @@ void Attendant::call_due(const dynamics::Simulation& simulation) {
     const double over = intervals_over(simulation, call.interval);
     if (call.next > over) continue;
     call.next = over + 1;
-    call.function(owner_);
+    call_with(call.function, owner_);
   }
   is_calling_ = false;
   find_next();

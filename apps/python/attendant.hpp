@@ -27,7 +27,8 @@ class Attendant {
 
   /// After a step, without the lock. A function is called after the step whose end is nearest to
   /// its time; those that are due together in their order.
-  /// @returns whether the run is to end: after stop(), Ctrl-C and what a function raised
+  /// @returns whether the run is to end: after stop(), Ctrl-C and what a function raised. Not at
+  ///          all in a thread that is left over when the interpreter ends
   bool wants_end(const dynamics::Simulation& simulation);
 
   void stop() noexcept { stops_ = true; }
@@ -51,6 +52,7 @@ class Attendant {
   double next_ = 0.0;                ///< s, when the first call is due
   std::atomic<bool> stops_ = false;  ///< from any thread
   bool is_calling_ = false;
+  bool began_at_end_ = false;  ///< in the thread that ends the interpreter, whose lock it keeps
   std::exception_ptr raised_;
   std::uint64_t looks_ = 0;
   std::chrono::steady_clock::time_point last_signals_{};

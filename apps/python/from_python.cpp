@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/python/from_python.hpp"
 
+#include "apps/python/interpreter_lock.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/units.hpp"
@@ -134,7 +135,7 @@ apps::ResumedRun resumed_run(const apps::ResumeArguments& arguments) {
 }
 
 void check_signals() {
-  const py::gil_scoped_acquire lock;
+  const WithLock lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/python/arrays.hpp"
+#include "apps/python/interpreter_lock.hpp"
 #include "geometry/queries.hpp"
 
 #include <fmt/format.h>
@@ -99,7 +100,7 @@ class PySurface {
     const auto probes = balls_of(points, radius);
     std::vector<NearestRow> rows;
     {
-      const py::gil_scoped_release free;
+      const WithoutLock free;
       geometry::ThreadPool pool(threads);
       for (const auto& found : query_.nearest(probes, pool))
         rows.push_back(found ? row_of(*found) : NearestRow{});
@@ -119,7 +120,7 @@ class PySurface {
     for (std::size_t i = 0; i < from.size(); ++i) rays.push_back({from[i], along[i], ends[i]});
     std::vector<HitRow> rows;
     {
-      const py::gil_scoped_release free;
+      const WithoutLock free;
       geometry::ThreadPool pool(threads);
       for (const auto& hit : query_.first_hits(rays, pool))
         rows.push_back(hit ? HitRow{static_cast<std::int32_t>(hit->cell), hit->t, plain(hit->point),
@@ -201,7 +202,7 @@ py::array pairs(double largest_gap, const std::optional<Numbers>& centres, const
   }
   std::vector<PairRow> rows;
   {
-    const py::gil_scoped_release free;
+    const WithoutLock free;
     geometry::ProximityQuery query(std::move(elements), x.size(),
                                    {largest_gap, true, within_structures}, threads);
     const auto found = query.find(x);

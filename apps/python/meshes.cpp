@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/python/arrays.hpp"
+#include "apps/python/interpreter_lock.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/mesh/io/mesh_file.hpp"
 
@@ -27,7 +28,7 @@ py::tuple import_mesh(const std::filesystem::path& path, double scale,
                       const RepairOptions& repair) {
   geometry::ImportedMesh imported;
   {
-    const py::gil_scoped_release free;
+    const WithoutLock free;
     imported = geometry::import_mesh(path, {repair, scale});
   }
   return tuple_of(imported);
@@ -56,7 +57,7 @@ py::tuple repair_mesh(const Numbers& points, const py::object& facets,
   geometry::PolygonSoup soup = soup_of(points, whole_numbers(facets, "facets"));
   geometry::ImportedMesh imported;
   {
-    const py::gil_scoped_release free;
+    const WithoutLock free;
     imported = geometry::import_soup(std::move(soup), "mesh", {repair, 1.0});
   }
   return tuple_of(imported);

@@ -3,6 +3,7 @@
 
 #include "apps/command_line/view_command.hpp"
 #include "apps/python/from_python.hpp"
+#include "apps/python/interpreter_lock.hpp"
 #include "apps/run/body_tables.hpp"
 #include "apps/run/frames.hpp"
 #include "apps/run/other_file.hpp"
@@ -79,7 +80,7 @@ std::shared_ptr<apps::PreparedRun> Session::prepare() const {
     throw apps::InputError(
         "the scenario has [[stages]], which run_stages(), resume_stages() and plekton run run with "
         "results");
-  const py::gil_scoped_release free;
+  const WithoutLock free;
   auto prepared = std::make_shared<apps::PreparedRun>(
       apps::prepare_run(scenario_, [](const std::string&, double) { check_signals(); }));
   apps::require_possible_start(prepared->start, scenario_);
@@ -103,7 +104,7 @@ void Session::require_at_rest() const {
 void Session::run(double until, Attendant& attendant) {
   const Moving moving(*this, attendant);
   dynamics::Simulation& simulation = *prepared_->simulation;
-  const py::gil_scoped_release free;
+  const WithoutLock free;
   while (simulation.step_until(until))
     if (attendant.wants_end(simulation)) return;
   simulation.check_energy();
@@ -112,7 +113,7 @@ void Session::run(double until, Attendant& attendant) {
 void Session::step(std::int64_t count, Attendant& attendant) {
   const Moving moving(*this, attendant);
   dynamics::Simulation& simulation = *prepared_->simulation;
-  const py::gil_scoped_release free;
+  const WithoutLock free;
   for (std::int64_t i = 0; i < count; ++i) {
     simulation.step();
     if (attendant.wants_end(simulation)) return;
@@ -149,7 +150,7 @@ apps::RunReport Session::run_into(const fs::path& folder, double until, bool ove
   settings.overwrite = overwrite;
   settings.resume = resumption ? &*resumption : nullptr;
   folder_ = folder;
-  const py::gil_scoped_release free;
+  const WithoutLock free;
   return apps::run(scenario, *prepared_, settings);
 }
 

@@ -4,6 +4,7 @@
 #include "apps/python/attendant.hpp"
 #include "apps/python/bindings.hpp"
 #include "apps/python/from_python.hpp"
+#include "apps/python/interpreter_lock.hpp"
 #include "apps/run/output_folder.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ py::object run(const apps::Scenario& scenario, apps::StagesAsked asked, const fs
   settings.overwrite = overwrite;
   std::optional<apps::RunReport> report;
   {
-    const py::gil_scoped_release free;
+    const WithoutLock free;
     const auto hear = [](const std::string&, double) { check_signals(); };
     report = apps::run_stages_asked(scenario, asked, settings, hear, nullptr);
   }
