@@ -2,7 +2,6 @@
 #include "apps/viewer/run_folder.hpp"
 
 #include "apps/run/output_folder.hpp"
-#include "apps/run/written_files.hpp"
 #include "apps/viewer/csv_text.hpp"
 #include "apps/viewer/view_error.hpp"
 #include "geometry/base/regular_file.hpp"

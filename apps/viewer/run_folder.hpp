@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/run/written_files.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -57,8 +59,8 @@ std::vector<PlaneNumbers> planes_at(const RunFolder& run, double time);
 
 /// The histories of a run: those of kHistories that are there, then those of its measures by name
 /// ("measures/NAME.csv").
-inline constexpr std::array<std::string_view, 5> kHistories = {
-    "energy.csv", "reactions.csv", "pressures.csv", "rigid_bodies.csv", "ties.csv"};
+inline constexpr std::array<std::string_view, 6> kHistories = {
+    "energy.csv", "reactions.csv", "pressures.csv", "rigid_bodies.csv", "ties.csv", kPlanesFile};
 /// Of a run that still goes on a last row without its end is left out.
 /// @throws ViewError for a file that is no table of numbers
 std::vector<RecordedHistory> read_histories(const std::filesystem::path& folder);

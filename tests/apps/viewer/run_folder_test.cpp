@@ -148,7 +148,7 @@ TEST(RunFolder, KnowsContainersByTheirRadius) {
   EXPECT_EQ(planes_at(run, 0.0), (std::vector<PlaneNumbers>{{0, 0, 0, 0, 0, 1, 0}, drum}));
 }
 
-TEST(RunFolder, ReadsHistoriesOfBodiesTiesAndMeasuresInTheOrderOfTheirNames) {
+TEST(RunFolder, ReadsHistoriesOfBodiesTiesPlanesAndMeasuresInTheOrderOfTheirNames) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "measures");
   for (const char* name : {"measures/top.csv", "measures/bottom.csv", "ties.csv",
@@ -162,7 +162,7 @@ TEST(RunFolder, ReadsHistoriesOfBodiesTiesAndMeasuresInTheOrderOfTheirNames) {
     files.push_back(history.file);
 
   EXPECT_THAT(files, testing::ElementsAre("energy.csv", "rigid_bodies.csv", "ties.csv",
-                                          "measures/bottom.csv", "measures/top.csv"));
+                                          "planes.csv", "measures/bottom.csv", "measures/top.csv"));
 }
 
 }  // namespace
