@@ -2,6 +2,7 @@
 #include "apps/study/run_results.hpp"
 
 #include "apps/run/history.hpp"
+#include "apps/run/measures.hpp"
 #include "apps/run/run_report.hpp"
 #include "apps/run/written_files.hpp"
 #include "apps/scenario/closest_word.hpp"
@@ -111,6 +112,13 @@ const RecordedHistory::Column& column_of(const RecordedHistory& history,
   refuse_name(result, no_column(history.file, result.column, names));
 }
 
+/// Whether this is what a run may call the history of a measure, below its folder.
+bool is_of_measure(const std::string& file) {
+  const fs::path path(file);
+  return path.extension() == ".csv" &&
+         file == (fs::path(kMeasuresFolder) / path.filename()).string();
+}
+
 /// Linear between two rows. @param times  rising
 double value_then(const std::vector<double>& times, const std::vector<double>& values, double time,
                   const ResultSettings& result) {
@@ -201,6 +209,7 @@ class RunReader {
     const auto [found, is_new] = histories_.try_emplace(result.file);
     try {
       if (is_new) found->second = read_history(folder_ / result.file);
+      found->second.file = result.file;
     } catch (const ViewError& error) {
       std::error_code ignored;
       refuse(result, fs::exists(folder_ / result.file, ignored)
@@ -222,9 +231,12 @@ std::string problem_with_report(std::string_view path) {
 }
 
 std::string problem_with_column(const std::string& file, const std::string& column) {
-  if (file != kHistoryFile) return "";
   std::vector<std::string_view> names;
-  for (const dynamics::OutputField& field : history_fields()) names.push_back(field.name);
+  if (file == kHistoryFile)
+    for (const dynamics::OutputField& field : history_fields()) names.push_back(field.name);
+  if (is_of_measure(file))
+    for (const dynamics::OutputField& field : measure_fields()) names.push_back(field.name);
+  if (names.empty()) return "";
   return std::find(names.begin(), names.end(), column) == names.end()
              ? no_column(file, column, names)
              : "";
@@ -232,10 +244,15 @@ std::string problem_with_column(const std::string& file, const std::string& colu
 
 std::string problem_with_file(const std::string& file) {
   std::vector<std::string_view> names(kHistories.begin(), kHistories.end());
-  names.insert(names.end(), {kPlanesFile, kContactsFile});
-  return std::find(names.begin(), names.end(), file) == names.end()
-             ? fmt::format("no run writes \"{}\"{}", file, did_you_mean(file, names))
-             : "";
+  names.push_back(kContactsFile);
+  if (is_of_measure(file) || std::find(names.begin(), names.end(), file) != names.end()) return "";
+  // No measure has the name of a folder: what has is a way out of that of the run.
+  if (fs::path(file).filename() != file || !file.ends_with(".csv"))
+    return fmt::format(
+        "got \"{}\"; expected a CSV file of the run, as in \"reactions.csv\" or "
+        "\"{}/NAME.csv\", of a measure",
+        file, kMeasuresFolder);
+  return fmt::format("no run writes \"{}\"{}", file, did_you_mean(file, names));
 }
 
 std::vector<RunResult> results_of(const fs::path& folder,

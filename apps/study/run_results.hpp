@@ -25,8 +25,9 @@ struct UnknownResult : NoResult {
 /// Why no run can have a result of this name, as far as that is known before any; empty: one may.
 /// @param path  in run.json, as in "timing.steps"
 std::string problem_with_report(std::string_view path);
-/// @param file  a history; only of energy.csv the columns are known
+/// @param file  a history; only of energy.csv and of measures the columns are known
 std::string problem_with_column(const std::string& file, const std::string& column);
+/// @param file  in the folder of a run, as in "reactions.csv" or "measures/NAME.csv"
 std::string problem_with_file(const std::string& file);
 
 /// One number, or text of run.json, of a run.

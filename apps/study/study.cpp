@@ -339,13 +339,7 @@ class StudyReader {
       return result;
     }
     result.file = section.text("file", "energy.csv");
-    // A name in the folder of the run, not a way out of it.
-    if (fs::path(result.file).filename() != result.file || !result.file.ends_with(".csv"))
-      section.complain("file", fmt::format("got \"{}\"; expected a CSV file of the run, as in "
-                                           "\"reactions.csv\"",
-                                           result.file));
-    else
-      complain_if(section, "file", problem_with_file(result.file));
+    complain_if(section, "file", problem_with_file(result.file));
     result.column = section.text("column");
     if (!result.column.empty())
       complain_if(section, "column", problem_with_column(result.file, result.column));

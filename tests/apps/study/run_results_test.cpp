@@ -60,6 +60,29 @@ TEST_F(RunResults, OfAPathThatARunMayHaveAreNotRefusedBeforeThereIsOne) {
   EXPECT_EQ(problem_with_column("energy.csv", "time_step"), "");
   EXPECT_EQ(problem_with_column("reactions.csv", "what the scenario names"), "");
   EXPECT_EQ(problem_with_file("ties.csv"), "");
+  EXPECT_EQ(problem_with_file("planes.csv"), "");
+}
+
+TEST_F(RunResults, OfAMeasureAreThoseOfItsFileInTheFolderOfMeasures) {
+  EXPECT_EQ(problem_with_file("measures/core.csv"), "");
+  EXPECT_EQ(problem_with_column("measures/core.csv", "porosity"), "");
+  EXPECT_THAT(problem_with_column("measures/core.csv", "prosity"),
+              HasSubstr("measures/core.csv has no column \"prosity\"; did you mean \"porosity\"?"));
+  for (const char* file :
+       {"measures/../run.csv", "measures/a/b.csv", "/measures/a.csv", "core.json",
+        "../measures/core.csv", "measures/.csv", "measures//core.csv"})
+    EXPECT_THAT(problem_with_file(file), HasSubstr("\"measures/NAME.csv\", of a measure")) << file;
+  EXPECT_THAT(problem_with_file("plans.csv"), HasSubstr("did you mean \"planes.csv\"?"));
+
+  std::filesystem::create_directory(folder_ / "measures");
+  test::write_bytes(folder_ / "measures/core.csv", "time (s),porosity\n0,0.5\n1,0.25\n");
+  ResultSettings settings = force(Take::min);
+  settings.file = "measures/core.csv";
+  settings.column = "porosity";
+  EXPECT_EQ(result(settings).text, "0.25");
+  EXPECT_EQ(result(settings).unit, "");
+  settings.column = "rattlers";
+  EXPECT_THAT(problem(settings), HasSubstr("measures/core.csv has no column \"rattlers\""));
 }
 
 TEST_F(RunResults, AreTheValuesOfAColumnThatWereAskedFor) {
