@@ -746,8 +746,10 @@ CLI::App* add_plot(CLI::App& app, CommandLine& line) {
   CLI::App* plot = app.add_subcommand("plot", "Draw the histories of a run, with gnuplot");
   plot->add_option("run", line.run, "Folder that plekton run wrote to")->required();
   plot->add_option("--columns", line.columns,
-                   "Columns of energy.csv, reactions.csv and pressures.csv, without their units, "
-                   "with commas between them; all that are not 0 if not given");
+                   "Columns of energy.csv, reactions.csv, pressures.csv, rigid_bodies.csv, "
+                   "ties.csv, planes.csv and measures/NAME.csv, without their units, with commas "
+                   "between them; all that are not 0, and of planes.csv those that change, but "
+                   "time_step, if not given");
   plot->add_option(
       "--x", line.x,
       "Column on the horizontal axis, as in --x \"front edge.position_y\", for columns "

@@ -15,8 +15,24 @@
 namespace plekton::apps {
 namespace {
 
-/// What is measured in a unit, in the histories of a run.
-std::string quantity_in(const std::string& unit) {
+bool is_whole(double value) {
+  return !std::isfinite(value) || value == std::floor(value);
+}
+
+/// What the axis of a column without a unit says: the end of its name without the component, so that
+/// "top.fabric_xx" and "top.fabric_xy" share one.
+std::string quantity_without_unit(const RecordedHistory::Column& column) {
+  if (std::all_of(column.values.begin(), column.values.end(), is_whole)) return "number";
+  std::string name = column.name.substr(column.name.rfind('.') + 1);
+  const std::size_t component = name.find_last_not_of("xyz");
+  if (component != std::string::npos && component > 0 && component + 1 < name.size() &&
+      name[component] == '_')
+    name.resize(component);
+  return name;
+}
+
+/// What a column of a history tells, with its unit.
+std::string quantity_of(const RecordedHistory::Column& column) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kQuantities = {
       {{"J", "energy"},
        {"N", "force"},
@@ -25,16 +41,23 @@ std::string quantity_in(const std::string& unit) {
        {"s", "time"},
        {"Pa", "pressure"},
        {"m3", "volume"}}};
-  if (unit.empty()) return "number";
+  const std::string& unit = column.unit;
+  if (unit.empty()) return quantity_without_unit(column);
   for (const auto& [symbol, name] : kQuantities)
     if (symbol == unit) return fmt::format("{} ({})", name, unit);
   return fmt::format("value ({})", unit);
 }
 
-bool is_drawn_unasked(const RecordedHistory::Column& column) {
-  return !column.unit.empty() && column.name != "time_step" &&
-         std::any_of(column.values.begin(), column.values.end(),
-                     [](double value) { return std::isfinite(value) && value != 0.0; });
+/// Most planes stand where they are, and have seven columns each.
+bool is_drawn_unasked(const RecordedHistory& history, const RecordedHistory::Column& column) {
+  if (column.name == "time_step") return false;
+  const bool is_of_planes = history.file == kPlanesFile;
+  const auto& values = column.values;
+  const auto first =
+      std::find_if(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  return std::any_of(first, values.end(), [&](double value) {
+    return std::isfinite(value) && value != (is_of_planes ? *first : 0.0);
+  });
 }
 
 /// All columns but the time.
@@ -184,10 +207,10 @@ std::vector<PlotPanel> panels_of(const std::vector<RecordedHistory>& histories,
         over.column != nullptr ? *over.column : history.columns.front();
     for (const RecordedHistory::Column& column : columns_of(history)) {
       const bool is_drawn = names.empty()
-                                ? is_drawn_unasked(column) && &column != over.column
+                                ? is_drawn_unasked(history, column) && &column != over.column
                                 : std::find(names.begin(), names.end(), column.name) != names.end();
       if (!is_drawn) continue;
-      panel_of(panels, history, quantity_in(column.unit), along).columns.push_back(&column);
+      panel_of(panels, history, quantity_of(column), along).columns.push_back(&column);
     }
   }
   if (panels.empty())
@@ -201,8 +224,9 @@ std::string gnuplot_script(const std::vector<PlotPanel>& panels, const std::stri
                            PictureKind kind, const std::string& output) {
   constexpr int kWidth = 900;        // pixels
   constexpr int kPanelHeight = 340;  // pixels
-  const std::string size =
-      fmt::format("size {},{}", kWidth, kPanelHeight * static_cast<int>(panels.size()) + 40);
+  constexpr int kHighest = 32'000;   // pixels; cairo draws no picture of 32768
+  const int height = std::min(kPanelHeight * static_cast<int>(panels.size()) + 40, kHighest);
+  const std::string size = fmt::format("size {},{}", kWidth, height);
   std::string script = "set encoding utf8\n";
   script +=
       kind == PictureKind::svg

@@ -25,9 +25,10 @@ struct PlotPanel {
 std::vector<std::string> column_names_in(std::span<const std::string> texts,
                                          const std::vector<RecordedHistory>& histories);
 
-/// What is drawn of the histories of a run, one panel for each file and unit.
-/// @param names  Columns, as their heads are without unit; none: all that have a unit and are not 0
-///        throughout, but the time step.
+/// What is drawn of the histories of a run, one panel for each file and unit. Of columns without a
+/// unit, whole numbers have one panel and each other quantity has its own.
+/// @param names  Columns, as their heads are without unit; none: all that are not 0 throughout, of
+///        planes.csv those that change, but the time step.
 /// @param x  Column over which the others of its file are drawn; empty: the time, of all files.
 /// @throws InputError for a name that no history has, for columns of another file than that of x,
 ///         and if there is nothing to draw

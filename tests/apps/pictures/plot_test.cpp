@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace plekton::apps::plot_test {
 namespace {
@@ -33,15 +34,62 @@ std::vector<std::string> names_of(const PlotPanel& panel) {
   return names;
 }
 
-TEST(PlotPanels, HoldWhatHasAUnitAndIsNotZeroByFileAndUnit) {
+TEST(PlotPanels, HoldWhatIsNotZeroByFileAndUnit) {
   const auto all = histories();
   const auto panels = panels_of(all, {});
 
-  ASSERT_EQ(panels.size(), 2U);
+  ASSERT_EQ(panels.size(), 3U);
   EXPECT_THAT(names_of(panels[0]), testing::ElementsAre("kinetic", "gravity"));
   EXPECT_EQ(panels[0].quantity, "energy (J)");
-  EXPECT_THAT(names_of(panels[1]), testing::ElementsAre("floor's.force_z"));
-  EXPECT_EQ(panels[1].quantity, "force (N)");
+  EXPECT_THAT(names_of(panels[1]), testing::ElementsAre("contacts"));
+  EXPECT_EQ(panels[1].quantity, "number");
+  EXPECT_THAT(names_of(panels[2]), testing::ElementsAre("floor's.force_z"));
+  EXPECT_EQ(panels[2].quantity, "force (N)");
+}
+
+TEST(PlotPanels, HoldWhatHasNoUnitByWhatItIs) {
+  const std::vector<RecordedHistory> all = {{"measures/core.csv",
+                                             {{"time", "s", {0, 1}},
+                                              {"porosity", "", {0.4, 0.5}},
+                                              {"grains", "", {7, 8}},
+                                              {"rattlers", "", {0, 1}},
+                                              {"fabric_xx", "", {0.3, 0.4}},
+                                              {"fabric_xy", "", {0, 0.1}},
+                                              {"fabric_xz", "", {0, 0}}}}};
+
+  const auto panels = panels_of(all, {});
+
+  ASSERT_EQ(panels.size(), 3U);
+  EXPECT_EQ(panels[0].quantity, "porosity");
+  EXPECT_THAT(names_of(panels[1]), testing::ElementsAre("grains", "rattlers"));
+  EXPECT_EQ(panels[1].quantity, "number");
+  EXPECT_THAT(names_of(panels[2]), testing::ElementsAre("fabric_xx", "fabric_xy"));
+  EXPECT_EQ(panels[2].quantity, "fabric");
+}
+
+TEST(PlotPanels, HoldOfPlanesWhatChanges) {
+  const double none = std::nan("");
+  const std::vector<RecordedHistory> all = {{"planes.csv",
+                                             {{"time", "s", {0, 1, 2}},
+                                              {"floor.point_z", "m", {-1, -1, -1}},
+                                              {"late.point_z", "m", {none, -1, -1}},
+                                              {"side.normal_z", "", {1, 1, 1}},
+                                              {"side.radius", "m", {0.5, 0.5, 0.4}}}}};
+  const std::vector<std::string> names = {"floor.point_z"};
+
+  ASSERT_EQ(panels_of(all, {}).size(), 1U);
+  EXPECT_THAT(names_of(panels_of(all, {})[0]), testing::ElementsAre("side.radius"));
+  EXPECT_THAT(names_of(panels_of(all, names)[0]), testing::ElementsAre("floor.point_z"));
+}
+
+TEST(GnuplotScript, OfVeryManyPanelsIsNoHigherThanAPictureCanBe) {
+  std::vector<RecordedHistory> all;
+  for (int i = 0; i < 100; ++i)
+    all.push_back({"measures/" + std::to_string(i) + ".csv",
+                   {{"time", "s", {0, 1}}, {"porosity", "", {0.4, 0.5}}}});
+
+  EXPECT_THAT(gnuplot_script(panels_of(all, {}), "run", PictureKind::png, "/tmp/picture"),
+              HasSubstr("size 900,32000 "));
 }
 
 TEST(PlotPanels, HoldTheColumnsThatAreNamed) {
@@ -82,7 +130,7 @@ TEST(PlotPanels, AreDrawnOverAColumnOfTheirFile) {
   const auto all = histories();
   const auto panels = panels_of(all, {}, "kinetic");
 
-  ASSERT_EQ(panels.size(), 1U);
+  ASSERT_EQ(panels.size(), 2U);
   EXPECT_THAT(names_of(panels[0]), testing::ElementsAre("gravity"));
   EXPECT_EQ(panels[0].x_head, "kinetic (J)");
   EXPECT_THAT(panels[0].x, testing::ElementsAre(0, 2));
