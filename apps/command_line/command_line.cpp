@@ -438,6 +438,11 @@ int schema_command() {
 }
 
 int examples_command(const CommandLine& line) {
+  if (line.example.empty() && !line.out.empty())
+    throw InputError(fmt::format(
+        "--out: got \"{}\" without the name of an example, of which the copy would be; name one, "
+        "or list them without --out",
+        line.out.string()));
   if (line.example.empty())
     list_examples(std::cout);
   else

@@ -79,6 +79,11 @@ std::string_view starting_scenario() noexcept {
 }
 
 void write_starting_scenario(const std::filesystem::path& file, std::ostream& out) {
+  if (file.filename().empty())
+    throw InputError(
+        fmt::format("got \"{}\" as the scenario to write; expected a file, as in "
+                    "\"scene.toml\"",
+                    file.string()));
   if (std::filesystem::exists(file))
     throw InputError(fmt::format("{}: is there already; name a file that is not", file.string()));
   dynamics::OutputFile writer(file);

@@ -54,6 +54,14 @@ TEST_F(Examples, AllAreScenariosThatCanBeRead) {
   EXPECT_GE(scenarios, 3);
 }
 
+TEST_F(Examples, AreNotListedIntoAFolder) {
+  const Outcome outcome = outcome_of({"examples", "--out", (folder_ / "x").string()});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, HasSubstr("without the name of an example"));
+}
+
 TEST_F(Examples, DoNotReplaceFiles) {
   const std::string target = folder_.path().string();
   test::write_bytes(folder_ / "own_law.cpp", "mine");

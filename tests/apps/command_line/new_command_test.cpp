@@ -45,5 +45,15 @@ TEST_F(New, DoesNotReplaceAFile) {
   EXPECT_EQ(test::bytes_of(folder_ / "first.toml"), "mine");
 }
 
+TEST_F(New, SaysThatAFileIsWanted) {
+  for (const std::string& file : {std::string(), folder_.path().string() + "/"}) {
+    const Outcome outcome = outcome_of({"new", file});
+
+    EXPECT_EQ(outcome.exit_code, kFailed);
+    EXPECT_THAT(outcome.err,
+                HasSubstr("got \"" + file + "\" as the scenario to write; expected a file"));
+  }
+}
+
 }  // namespace
 }  // namespace plekton::apps::new_command_test
