@@ -3,6 +3,7 @@
 
 #include "apps/run/checkpoints.hpp"
 #include "apps/run/scenario_copy.hpp"
+#include "apps/run/written_files.hpp"
 
 #include <array>
 #include <filesystem>
@@ -16,10 +17,10 @@ namespace plekton::apps {
 void make_output_folder(const std::filesystem::path& folder);
 
 /// What a run may write into its folder, beside its frames.
-inline constexpr std::array<std::string_view, 13> kResultFiles = {
-    "run.json",      "energy.csv",   "reactions.csv", "pressures.csv",   "ties.csv",
-    "planes.csv",    "contacts.csv", kScenarioCopy,   kCheckpointFolder, "grains.pvd",
-    "membranes.pvd", "contacts.pvd", "measures"};
+inline constexpr std::array<std::string_view, 14> kResultFiles = {
+    "run.json",        "energy.csv", "reactions.csv", "pressures.csv", kRigidBodiesFile,
+    "ties.csv",        "planes.csv", "contacts.csv",  kMeasuresFolder, kScenarioCopy,
+    kCheckpointFolder, "grains.pvd", "membranes.pvd", "contacts.pvd"};
 
 /// Refuses a folder that holds a file of these names.
 /// @param maker  What made them, for the message: "run" or "import".

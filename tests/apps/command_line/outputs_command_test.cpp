@@ -197,6 +197,17 @@ TEST_F(Outputs, TellTablesAndMaterialsByNumbersWithNamesInTheReport) {
   EXPECT_GT(kinds.size(), 1U);
 }
 
+TEST_F(Outputs, OfMeasuresAreNoneForParaView) {
+  set_output(
+      "[[output.measures]]\nname = \"low\"\nbox = { min = [-1, -1, -1], max = [1, 1, 1] }\n");
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
+
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("energy.csv, planes.csv, measures, scenario-as-run.toml, "
+                                     "checkpoints, and for ParaView "));
+  EXPECT_THAT(outcome.out, HasSubstr("grains.pvd, membranes.pvd, contacts.pvd\n"));
+}
+
 TEST_F(Outputs, OfPressuresHaveTheVolumeThatTheyFollow) {
   set_output(std::string(kAir));
   const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
