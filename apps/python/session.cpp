@@ -104,6 +104,7 @@ void Session::require_at_rest() const {
 void Session::run(double until, Attendant& attendant) {
   const Moving moving(*this, attendant);
   dynamics::Simulation& simulation = *prepared_->simulation;
+  apps::require_possible_duration("until", until - simulation.time(), simulation.time_step());
   const WithoutLock free;
   while (simulation.step_until(until))
     if (attendant.wants_end(simulation)) return;
@@ -134,6 +135,7 @@ apps::RunReport Session::run_into(const fs::path& folder, double until, bool ove
         "results begin with the run, and this simulation has made steps up to {} already; load or "
         "resume it again for run(out=...)",
         steps));
+  apps::require_possible_duration("until", until, prepared_->simulation->time_step());
   const Moving moving(*this, attendant);
   // A state is restored by the run itself, into a scene that has none.
   if (goes_on) prepared_ = prepare();

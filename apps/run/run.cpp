@@ -680,6 +680,14 @@ contact::ContactModel model_of(const std::vector<PairSettings>& pairs, geometry:
 
 }  // namespace
 
+void require_possible_duration(const char* name, double duration, double step) {
+  if (duration <= kMostSteps * step) return;
+  throw InputError(fmt::format(
+      "{}: {:.6g} s are {:.3g} steps of {:.6g} s, above the {:.0e} that a run may have; ask for a "
+      "shorter duration or longer steps (softer, larger and heavier bodies allow them)",
+      name, duration, duration / step, step, kMostSteps));
+}
+
 void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& simulation) {
   double chosen = simulation.time_step();
   if (settings.time_step) {
@@ -692,13 +700,7 @@ void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& 
   } else {
     chosen = std::min(chosen, settings.duration);
   }
-  if (!(settings.duration <= kMostSteps * chosen)) {
-    throw InputError(fmt::format(
-        "simulation.duration: {:.6g} s are {:.3g} steps of {:.6g} s, above the {:.0e} that a run "
-        "may have; ask for a shorter duration or longer steps (softer, larger and heavier bodies "
-        "allow them)",
-        settings.duration, settings.duration / chosen, chosen, kMostSteps));
-  }
+  require_possible_duration("simulation.duration", settings.duration, chosen);
   if (chosen != simulation.time_step()) simulation.set_time_step(chosen);
 }
 

@@ -28,6 +28,11 @@ struct PreparedRun {
 
 /// The parts of that: a simulation of what was built, and its time step.
 std::unique_ptr<dynamics::Simulation> simulation_of(const Scenario& scenario, BuiltScene& built);
+/// @throws InputError for more steps than a run may have
+/// @param name      what messages call the time
+/// @param duration  s
+/// @param step      s
+void require_possible_duration(const char* name, double duration, double step);
 /// @throws InputError as prepare_run()
 void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& simulation);
 

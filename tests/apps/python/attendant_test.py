@@ -128,6 +128,15 @@ def test_an_end_that_is_no_time_is_refused(simulation, until):
         simulation.run(until=until)
 
 
+@pytest.mark.parametrize("out", [{}, {"out": "out"}])
+def test_more_steps_than_a_run_may_have_are_refused(simulation, out, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(plekton.InputError, match=r"until: 1e\+300 s are .* steps of .* s, above the 1e\+12 that"):
+        simulation.run(until=1e300, **out)
+    assert simulation.steps == 0
+    assert not list(tmp_path.iterdir())
+
+
 def test_control_c_ends_a_run_within_a_second(simulation):
     long = plekton.load(scenes.rain(count=500, duration=100.0))
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
