@@ -2,6 +2,7 @@
 #include "apps/python/arrays.hpp"
 #include "apps/python/from_python.hpp"
 #include "apps/python/session.hpp"
+#include "apps/run/body_tables.hpp"
 #include "apps/run/reactions.hpp"
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/scenario_reader.hpp"
@@ -171,14 +172,12 @@ py::array nodes_of(const Session& session, const std::string& name) {
 
 // Reading out.
 
-/// The layout of a row: every field of contacts.csv but for the tables of the scenario, eight bytes
-/// a number.
+/// The layout of a row: every field of contacts.csv, eight bytes a number.
 py::dtype contact_dtype() {
   py::list names, formats, offsets;
   py::ssize_t size = 0;
   for (const dynamics::ContactField& field : dynamics::contact_fields()) {
     using Field = dynamics::ContactField;
-    if (std::holds_alternative<Field::Label>(field.value)) continue;
     const bool is_vector = std::holds_alternative<Field::Vector>(field.value);
     names.append(std::string(field.name));
     formats.append(is_vector                                            ? "(3,)f8"
@@ -200,15 +199,20 @@ void append(std::byte*& at, const Value& value) {
 py::array contacts(const Session& session) {
   using Field = dynamics::ContactField;
   const auto records = session.simulation().list_contacts();
+  const apps::BodyTables bodies(session.scenario(), session.prepared()->built,
+                                session.simulation());
   py::array rows(contact_dtype(), static_cast<py::ssize_t>(records.size()));
   auto* at = static_cast<std::byte*>(rows.mutable_data());
   for (const contact::ContactRecord& record : records) {
+    const dynamics::ContactLabels labels = bodies.labels_of(record);
     for (const Field& field : dynamics::contact_fields()) {
       if (const auto* number = std::get_if<Field::Number>(&field.value))
         append(at, (*number)(record));
       if (const auto* whole = std::get_if<Field::Whole>(&field.value)) append(at, (*whole)(record));
       if (const auto* vector = std::get_if<Field::Vector>(&field.value))
         append(at, plain((*vector)(record)));
+      if (const auto* label = std::get_if<Field::Label>(&field.value))
+        append(at, std::int64_t{labels.**label});
     }
   }
   return rows;
@@ -460,7 +464,8 @@ void bind_readings(SessionClass& session) {
            "id, kind_a, body_a, "
            "feature_a, kind_b, ..., point (m), normal (from a to b), gap (m, negative: overlap), "
            "normal_force, "
-           "tangential_force (N, on b) and their magnitudes, moment (N m), is_bonded, is_slipping.")
+           "tangential_force (N, on b) and their magnitudes, moment (N m), is_bonded, is_slipping, "
+           "group_a, material_a, group_b, material_b (numbers of tables and materials, from 0).")
       .def(
           "energy", [](const Session& s) { return s.simulation().energy(); }, "J, by where it is.")
       .def("reaction", &reaction, py::arg("name"),

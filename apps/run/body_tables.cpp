@@ -85,4 +85,11 @@ std::size_t BodyTables::material_of(const BodyTable& table) const {
   return material_of_[static_cast<std::size_t>(table.kind)][table.number];
 }
 
+dynamics::ContactLabels BodyTables::labels_of(const contact::ContactRecord& contact) const {
+  const BodyTable a = table_of(contact.a);
+  const BodyTable b = table_of(contact.b);
+  return {number_of(a), number_of(b), static_cast<std::int32_t>(material_of(a)),
+          static_cast<std::int32_t>(material_of(b))};
+}
+
 }  // namespace plekton::apps

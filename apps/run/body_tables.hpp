@@ -4,6 +4,7 @@
 #include "apps/scenario/scenario.hpp"
 #include "apps/scene/build_scene.hpp"
 #include "contact/tracking/contact_record.hpp"
+#include "dynamics/output/contact_fields.hpp"
 #include "dynamics/simulation.hpp"
 
 #include <array>
@@ -45,6 +46,8 @@ class BodyTables {
   }
   /// Number of its material.
   std::size_t material_of(const BodyTable& table) const;
+  /// Tables and materials of both sides of a contact.
+  dynamics::ContactLabels labels_of(const contact::ContactRecord& contact) const;
 
   /// By node: number of its table among those of its kind.
   const std::vector<std::int32_t>& groups() const noexcept { return groups_; }

@@ -108,13 +108,8 @@ std::vector<dynamics::ContactLabels> labels_of(const std::vector<contact::Contac
                                                const BodyTables& bodies) {
   std::vector<dynamics::ContactLabels> labels;
   labels.reserve(contacts.size());
-  for (const contact::ContactRecord& contact : contacts) {
-    const BodyTable a = bodies.table_of(contact.a);
-    const BodyTable b = bodies.table_of(contact.b);
-    labels.push_back({bodies.number_of(a), bodies.number_of(b),
-                      static_cast<std::int32_t>(bodies.material_of(a)),
-                      static_cast<std::int32_t>(bodies.material_of(b))});
-  }
+  for (const contact::ContactRecord& contact : contacts)
+    labels.push_back(bodies.labels_of(contact));
   return labels;
 }
 

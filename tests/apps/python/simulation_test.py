@@ -255,3 +255,20 @@ def test_velocities_that_cannot_be_given_are_refused(simulation, nodes, velocity
         simulation.set_velocity(nodes, velocity)
 
     np.testing.assert_array_equal(simulation.velocities, before)
+
+
+def test_contacts_have_the_columns_of_the_file(tmp_path):
+    simulation = plekton.load(scenes.rain(count=100, cells=4, duration=0.02) | {"output": {"contact_list": True}})
+    simulation.run(out=tmp_path / "out")
+
+    contacts = simulation.contacts()
+
+    columns = plekton.open_run(tmp_path / "out").history("contacts.csv")
+    last = columns["time"] == columns["time"][-1]
+    assert 0 < len(contacts) == last.sum()
+    for name in contacts.dtype.names:
+        vector = contacts[name].ndim == 2
+        for k, column in enumerate((f"{name}_x", f"{name}_y", f"{name}_z") if vector else (name,)):
+            np.testing.assert_array_equal(contacts[name][:, k] if vector else contacts[name], columns[column][last])
+    assert len(columns) == 1 + sum(3 if contacts[name].ndim == 2 else 1 for name in contacts.dtype.names)
+    assert {"group_a", "material_a", "group_b", "material_b"} <= set(contacts.dtype.names)
