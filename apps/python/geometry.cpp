@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/python/arrays.hpp"
 #include "apps/python/interpreter_lock.hpp"
+#include "geometry/base/largest_coordinate.hpp"
 #include "geometry/queries.hpp"
 
 #include <fmt/format.h>
@@ -81,6 +82,36 @@ std::vector<Probe> balls_of(const Numbers& centres, const Numbers& radius) {
   return probes;
 }
 
+/// Of numbers that a ray can have.
+/// @throws std::invalid_argument naming the first that has others
+std::vector<geometry::Ray> rays_of(const Numbers& origins, const Numbers& directions,
+                                   const Numbers& t_end) {
+  const auto from = vectors_of(origins, "origins");
+  const auto along = vectors_of(directions, "directions");
+  if (from.size() != along.size())
+    throw std::invalid_argument(
+        fmt::format("rays: got {} origins and {} directions", from.size(), along.size()));
+  const auto ends = numbers_of(t_end, from.size(), "t_end");
+  std::vector<geometry::Ray> rays;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    rays.push_back({from[i], along[i], ends[i]});
+    if (geometry::can_hit(rays.back())) continue;
+    if (!(from[i].allFinite() && from[i].cwiseAbs().maxCoeff() < geometry::kLargestCoordinate))
+      throw std::invalid_argument(
+          fmt::format("origins[{}]: got ({:g}, {:g}, {:g}) m; coordinates must be finite and below "
+                      "1e75",
+                      i, from[i][0], from[i][1], from[i][2]));
+    if (!(ends[i] >= 0.0))
+      throw std::invalid_argument(fmt::format(
+          "t_end[{}]: got {:g}; it must be at least 0, in lengths of the direction", i, ends[i]));
+    throw std::invalid_argument(
+        fmt::format("directions[{}]: got ({:g}, {:g}, {:g}); the length must be from 1e-150 to "
+                    "1e150",
+                    i, along[i][0], along[i][1], along[i][2]));
+  }
+  return rays;
+}
+
 /// Facets and bars over points, and what can be asked of them.
 class PySurface {
  public:
@@ -110,14 +141,7 @@ class PySurface {
 
   py::array rays(const Numbers& origins, const Numbers& directions, const Numbers& t_end,
                  int threads) const {
-    const auto from = vectors_of(origins, "origins");
-    const auto along = vectors_of(directions, "directions");
-    if (from.size() != along.size())
-      throw std::invalid_argument(
-          fmt::format("rays: got {} origins and {} directions", from.size(), along.size()));
-    const auto ends = numbers_of(t_end, from.size(), "t_end");
-    std::vector<geometry::Ray> rays;
-    for (std::size_t i = 0; i < from.size(); ++i) rays.push_back({from[i], along[i], ends[i]});
+    const auto rays = rays_of(origins, directions, t_end);
     std::vector<HitRow> rows;
     {
       const WithoutLock free;
