@@ -36,14 +36,22 @@ MeshFormat detect_mesh_format(std::string_view bytes, const std::filesystem::pat
 /// @throws MeshError for any other ending.
 MeshFormat mesh_format_of(const std::filesystem::path& path);
 
+/// A mesh that could not be written, for a reason that is not its own.
+struct UnwrittenMesh : MeshError {
+  using MeshError::MeshError;
+};
+
 /// Writes a mesh such that reading it gives the same coordinates; binary STL rounds them to 24
 /// bits. Either the whole file appears or none: a temporary file beside it is renamed when it is
 /// complete.
-/// @throws MeshError if the folder does not exist or cannot be written, or the disk is full.
+/// @throws UnwrittenMesh if the folder does not exist or cannot be written, or the disk is full;
+///         MeshError for coordinates that no file can hold, see format_mesh, and for any other ending.
 void write_mesh_file(const std::filesystem::path& path, const Mesh& mesh, MeshFormat format);
 void write_mesh_file(const std::filesystem::path& path, const Mesh& mesh);
 
 /// The bytes that write_mesh_file writes.
+/// @throws MeshError for coordinates that are not finite or not below kLargestCoordinate, which no
+///         file is read with, and in binary STL for those that a float does not hold.
 std::string format_mesh(const Mesh& mesh, MeshFormat format);
 
 }  // namespace plekton::geometry

@@ -10,7 +10,9 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 #include <system_error>
 
 namespace plekton::geometry {
@@ -161,9 +163,25 @@ bool write_and_close(int descriptor, const std::string& bytes) {
   return std::fclose(file) == 0 && written;
 }
 
+/// @throws MeshError naming the first point that is elsewhere
+void require_coordinates(const Mesh& mesh, MeshFormat format) {
+  const bool is_float = format == MeshFormat::stl_binary;
+  const double largest = is_float ? double{std::numeric_limits<float>::max()} : kLargestCoordinate;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const Vec3& p = mesh.points[i];
+    if (p.allFinite() && p.cwiseAbs().maxCoeff() < largest) continue;
+    std::ostringstream text;
+    text << "point " << i << " is at (" << p[0] << ", " << p[1] << ", " << p[2]
+         << "), but every coordinate must be a finite number below " << std::setprecision(3)
+         << largest << " in size" << (is_float ? " in binary STL" : "");
+    throw MeshError(text.str());
+  }
+}
+
 }  // namespace
 
 std::string format_mesh(const Mesh& mesh, MeshFormat format) {
+  require_coordinates(mesh, format);
   switch (format) {
     case MeshFormat::off:
       return format_off(mesh);
@@ -185,12 +203,13 @@ std::string format_mesh(const Mesh& mesh, MeshFormat format) {
 
 void write_mesh_file(const fs::path& path, const Mesh& mesh, MeshFormat format) {
   if (is_no_file(path))
-    throw MeshError(path.string() + ": is a device, pipe or socket, no file; choose another name");
+    throw UnwrittenMesh(path.string() +
+                        ": is a device, pipe or socket, no file; choose another name");
   const std::string bytes = format_mesh(mesh, format);
   const fs::path part = part_of(path);
   const int descriptor = create_new_file(part);
   if (descriptor < 0)
-    throw MeshError(
+    throw UnwrittenMesh(
         part.string() + ": cannot be created: " + std::generic_category().message(errno) +
         "; check that the folder exists and is writable, and remove what has this name");
   const bool complete = write_and_close(descriptor, bytes);
@@ -199,8 +218,8 @@ void write_mesh_file(const fs::path& path, const Mesh& mesh, MeshFormat format) 
   if (!complete || error) {
     std::error_code ignored;
     fs::remove(part, ignored);
-    throw MeshError(path.string() + ": cannot be written (" + std::to_string(bytes.size()) +
-                    " bytes); check that the disk has room and that no folder has this name");
+    throw UnwrittenMesh(path.string() + ": cannot be written (" + std::to_string(bytes.size()) +
+                        " bytes); check that the disk has room and that no folder has this name");
   }
 }
 

@@ -90,8 +90,25 @@ TEST(MeshFile, WritesAndReadsFilesOfEveryEndingInEitherCase) {
 TEST(MeshFile, SaysWhyAFileCannotBeWrittenAndLeavesNone) {
   const test::TemporaryFolder folder;
 
-  EXPECT_THROW(write_mesh_file(folder / "none/a.off", box_shell({1.0, 1.0, 1.0})), MeshError);
+  EXPECT_THROW(write_mesh_file(folder / "none/a.off", box_shell({1.0, 1.0, 1.0})), UnwrittenMesh);
   EXPECT_THROW(write_mesh_file(folder / "a.step", box_shell({1.0, 1.0, 1.0})), MeshError);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(MeshFile, RefusesToWriteCoordinatesThatNoFileIsReadWith) {
+  const test::TemporaryFolder folder;
+  for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e75, -1e75}) {
+    Mesh mesh = box_shell({1.0, 2.0, 4.0});
+    mesh.points[5][1] = value;
+    for (const char* name : {"a.off", "a.obj", "a.stl", "a.ply", "a.msh", "a.vtp"})
+      EXPECT_THAT([&] { write_mesh_file(folder / name, mesh); },
+                  testing::ThrowsMessage<MeshError>(testing::HasSubstr("point 5 is at (")))
+          << name << ' ' << value;
+  }
+  Mesh large = box_shell({1.0, 2.0, 4.0});
+  large.points[5][1] = 3.5e38;  // above the largest float
+  EXPECT_THROW(format_mesh(large, MeshFormat::stl_binary), MeshError);
+  EXPECT_NO_THROW(format_mesh(large, MeshFormat::stl_ascii));
   EXPECT_TRUE(folder.names().empty());
 }
 
