@@ -10,10 +10,12 @@
 #include "geometry/base/regular_file.hpp"
 #include "geometry/base/state_tree.hpp"
 #include "geometry/mesh/io/import.hpp"
+#include "geometry/mesh/io/mesh_file.hpp"
 
 #include <exception>
 #include <initializer_list>
 #include <stdexcept>
+#include <string_view>
 
 namespace plekton::python {
 namespace {
@@ -41,6 +43,14 @@ PyObject* add_class(py::module_& module, const char* name, const char* doc,
   return made;
 }
 
+/// Names of files in a message may be any bytes: those that are no UTF-8 become what they are in the
+/// names that Python has of files.
+void set_error(PyObject* type, std::string_view text) {
+  const auto message = py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape"));
+  if (message) PyErr_SetObject(type, message.ptr());
+}
+
 void set_diverged(const dynamics::Diverged& error) {
   const py::object made = py::reinterpret_borrow<py::object>(classes.diverged)(error.what());
   made.attr("step") = error.step();
@@ -55,30 +65,32 @@ void translate(std::exception_ptr pointer) {
     std::rethrow_exception(pointer);
   } catch (const dynamics::Diverged& error) {
     set_diverged(error);
+  } catch (const geometry::UnwrittenMesh& error) {
+    set_error(classes.output, error.what());
   } catch (const geometry::MeshError& error) {
-    PyErr_SetString(classes.mesh, error.what());
+    set_error(classes.mesh, error.what());
   } catch (const dynamics::OutputError& error) {
-    PyErr_SetString(classes.output, error.what());
+    set_error(classes.output, error.what());
   } catch (const dynamics::CheckpointError& error) {
-    PyErr_SetString(classes.checkpoint, error.what());
+    set_error(classes.checkpoint, error.what());
   } catch (const geometry::StateMismatch& error) {
-    PyErr_SetString(classes.checkpoint, error.what());
+    set_error(classes.checkpoint, error.what());
   } catch (const apps::InputError& error) {
-    PyErr_SetString(classes.input, error.what());
+    set_error(classes.input, error.what());
   } catch (const apps::UnitError& error) {
-    PyErr_SetString(classes.input, error.what());
+    set_error(classes.input, error.what());
   } catch (const apps::ViewError& error) {
-    PyErr_SetString(classes.input, error.what());
+    set_error(classes.input, error.what());
   } catch (const geometry::UnreadableFile& error) {
-    PyErr_SetString(classes.input, error.what());
+    set_error(classes.input, error.what());
   } catch (const std::invalid_argument& error) {
-    PyErr_SetString(classes.input, error.what());
+    set_error(classes.input, error.what());
   } catch (const std::out_of_range& error) {
-    PyErr_SetString(classes.input, error.what());
+    set_error(classes.input, error.what());
   } catch (const apps::StageFailed& error) {
-    PyErr_SetString(classes.error, error.what());
+    set_error(classes.error, error.what());
   } catch (const std::logic_error& error) {
-    PyErr_SetString(classes.error, error.what());
+    set_error(classes.error, error.what());
   }
 }
 

@@ -4,7 +4,6 @@
 #include "apps/python/interpreter_lock.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "apps/scenario/section.hpp"
-#include "apps/scenario/units.hpp"
 #include "geometry/base/printable.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +19,11 @@ using apps::Value;
 
 std::string type_of(const py::handle& object) {
   return py::str(py::type::handle_of(object).attr("__name__"));
+}
+
+/// As Python prints it.
+std::string shown(const py::handle& object) {
+  return py::repr(object);
 }
 
 bool is_a(const py::handle& object, const char* module, const char* name) {
@@ -43,7 +47,7 @@ decltype(Value::data) list_of(const py::handle& items, const Place& place, int d
 /// @param depth  levels above this value
 decltype(Value::data) data_of(const py::handle& object, const Place& place, int depth) {
   if (depth > apps::kDeepest) apps::refuse_depth(place);
-  if (py::isinstance<py::str>(object)) return object.cast<std::string>();
+  if (py::isinstance<py::str>(object)) return text_of(object, to_string(place).c_str());
   if (py::isinstance<py::bool_>(object)) return object.cast<bool>();
   if (py::isinstance<py::float_>(object)) return object.cast<double>();
   if (py::isinstance<py::dict>(object))
@@ -73,10 +77,10 @@ apps::Table converted(const py::dict& dict, const Place& place, int depth) {
   apps::Table table;
   for (const auto& [key, value] : dict) {
     if (!py::isinstance<py::str>(key))
-      throw InputError(fmt::format("{}: got the key {}; expected a text", to_string(place),
-                                   std::string(py::repr(key))));
+      throw InputError(
+          fmt::format("{}: got the key {}; expected a text", to_string(place), shown(key)));
     table.entries.push_back(
-        {key.cast<std::string>(), place, {place, data_of(value, place, depth + 1)}});
+        {text_of(key, to_string(place).c_str()), place, {place, data_of(value, place, depth + 1)}});
   }
   return table;
 }
@@ -87,31 +91,45 @@ apps::Table table_of(const py::dict& dict, const std::string& source) {
   return converted(dict, {source, 0, 0}, 0);
 }
 
-double seconds_of(const py::handle& value, const char* name) {
-  double time = 0.0;
+std::string text_of(const py::handle& value, const char* name) {
+  const bool is_text = py::isinstance<py::str>(value);
+  py::ssize_t size = 0;
+  const char* const bytes = is_text ? PyUnicode_AsUTF8AndSize(value.ptr(), &size) : nullptr;
+  if (bytes != nullptr) return {bytes, static_cast<std::size_t>(size)};
+  PyErr_Clear();
+  throw InputError(fmt::format("{}: got {}; expected a text{}", name, shown(value),
+                               is_text ? " without halves of surrogate pairs" : ""));
+}
+
+double quantity_of(const py::handle& value, const apps::Dimension& expected, const char* name) {
   if (py::isinstance<py::str>(value)) {
     try {
-      time = apps::parse_quantity(value.cast<std::string>(), apps::kTime);
+      return apps::parse_quantity(text_of(value, name), expected);
     } catch (const apps::UnitError& error) {
       throw InputError(fmt::format("{}: {}", name, error.what()));
     }
-  } else {
-    time = PyFloat_AsDouble(value.ptr());
-    if (PyErr_Occurred() != nullptr) {
-      PyErr_Clear();
-      throw InputError(fmt::format("{}: got {}; expected {} ({})", name,
-                                   std::string(py::repr(value)), apps::kTime.name,
-                                   apps::kTime.units));
-    }
   }
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred() == nullptr) return number;
+  PyErr_Clear();
+  throw InputError(fmt::format("{}: got {}; expected {} ({})", name, shown(value), expected.name,
+                               expected.units));
+}
+
+double seconds_of(const py::handle& value, const char* name) {
+  const double time = quantity_of(value, apps::kTime, name);
   if (apps::kNotNegative.holds(time) && std::isfinite(time)) return time;
-  throw InputError(fmt::format("{}: got {}; expected {}{}", name, std::string(py::repr(value)),
-                               apps::kTime.name,
+  throw InputError(fmt::format("{}: got {}; expected {}{}", name, shown(value), apps::kTime.name,
                                std::isfinite(time) ? apps::kNotNegative.text : ", finite"));
 }
 
 std::filesystem::path path_of(const py::handle& value) {
-  return py::module_::import("os").attr("fsdecode")(value).cast<std::string>();
+  try {
+    return std::string(py::bytes(py::module_::import("os").attr("fsencode")(value)));
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_UnicodeError)) throw;
+    throw InputError(fmt::format("got {}, which is no name of a file", shown(value)));
+  }
 }
 
 std::vector<std::string> overrides_of(const py::handle& values) {
@@ -122,7 +140,7 @@ std::vector<std::string> overrides_of(const py::handle& values) {
                     "[\"simulation.duration=2 s\"]",
                     std::string(py::repr(values))));
   std::vector<std::string> overrides;
-  for (const py::handle value : values) overrides.push_back(value.cast<std::string>());
+  for (const py::handle value : values) overrides.push_back(text_of(value, "overrides"));
   return overrides;
 }
 

@@ -5,6 +5,7 @@
 #include "apps/python/bindings.hpp"
 #include "apps/scenario/config_tree.hpp"
 #include "apps/scenario/scenario.hpp"
+#include "apps/scenario/units.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -22,12 +23,22 @@ namespace plekton::python {
 /// be
 apps::Table table_of(const py::dict& dict, const std::string& source);
 
-/// A time in s: a number, or a text as in "10 ms".
+/// What Python's text is in UTF-8.
 /// @param name  what messages call it
+/// @throws InputError for what is no text, and for halves of surrogate pairs, which UTF-8 has not
+std::string text_of(const py::handle& value, const char* name);
+
+/// A quantity in SI units: a number, or a text with a unit, as in "10 ms".
+/// @param name  what messages call it
+/// @throws InputError for what is neither
+double quantity_of(const py::handle& value, const apps::Dimension& expected, const char* name);
+
+/// A time in s that is finite and not below 0.
 /// @throws InputError
 double seconds_of(const py::handle& value, const char* name);
 
 /// A text or anything with a path, as open() of Python takes them.
+/// @throws InputError for a text that is no name of a file
 std::filesystem::path path_of(const py::handle& value);
 
 /// "path=value" each, as --set takes them.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/python/arrays.hpp"
+#include "apps/python/from_python.hpp"
 #include "apps/python/interpreter_lock.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/mesh/io/mesh_file.hpp"
@@ -94,6 +95,12 @@ void bind_meshes(py::module_& module) {
       .def_readwrite("wrap_detail", &RepairOptions::wrap_detail)
       .def_readwrite("target_edge", &RepairOptions::target_edge)
       .def_readwrite("refuse_intersections", &RepairOptions::refuse_intersections);
+  module.def("_length", [](const py::handle& value, const char* name) {
+    return quantity_of(value, apps::kLength, name);
+  });
+  module.def("_number", [](const py::handle& value, const char* name) {
+    return quantity_of(value, apps::kNumber, name);
+  });
   module.def("_import_mesh", &import_mesh);
   module.def("_repair_mesh", &repair_mesh);
   module.def("write_mesh", &write_mesh, py::arg("path"), py::arg("points"), py::arg("facets"),

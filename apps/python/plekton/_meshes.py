@@ -21,13 +21,13 @@ class ImportedMesh(NamedTuple):
 def _options(weld, fill_holes, longest_hole, wrap, wrap_detail, target_edge, refuse_intersections):
     """A length asks for its step by itself, as in a scenario."""
     options = _core._RepairOptions()
-    options.weld = weld
-    options.fill_holes = fill_holes or longest_hole != inf
-    options.longest_hole = longest_hole
-    options.wrap = wrap or wrap_detail != 0
-    options.wrap_detail = wrap_detail
-    options.target_edge = target_edge
-    options.refuse_intersections = refuse_intersections
+    options.weld = _core._length(weld, "weld")
+    options.longest_hole = _core._length(longest_hole, "longest_hole")
+    options.fill_holes = bool(fill_holes) or options.longest_hole != inf
+    options.wrap_detail = _core._length(wrap_detail, "wrap_detail")
+    options.wrap = bool(wrap) or options.wrap_detail != 0
+    options.target_edge = _core._length(target_edge, "target_edge")
+    options.refuse_intersections = bool(refuse_intersections)
     return options
 
 
@@ -45,10 +45,10 @@ def import_mesh(
 ):
     """Reads a mesh (.off .obj .stl .ply .msh .vtp), repairs it and reports on it, as plekton import does.
 
-    Lengths are in m, after scaling. Raises MeshError for a mesh that cannot be used.
+    Lengths are in m, or texts as in "1 um", after scaling. Raises MeshError for a mesh that cannot be used.
     """
     options = _options(weld, fill_holes, longest_hole, wrap, wrap_detail, target_edge, refuse_intersections)
-    return ImportedMesh(*_core._import_mesh(path, scale, options))
+    return ImportedMesh(*_core._import_mesh(path, _core._number(scale, "scale"), options))
 
 
 def repair_mesh(

@@ -69,6 +69,23 @@ def test_a_simulation_that_diverges_says_where():
     assert f"node {error.value.node}" in str(error.value)
 
 
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: plekton.load(scenes.small(), [3]), "overrides: got 3; expected a text"),
+        (lambda: plekton.load(scenes.small(), ["simulation.seed=\ud800"]), "overrides: got .*halves of surrogate pairs"),
+        (lambda: plekton.load("\ud800.toml"), r"got '\\ud800.toml', which is no name of a file"),
+        (lambda: plekton.load("\udcff.toml"), "\udcff.toml: no such file"),
+        (lambda: plekton.load({"simulation": {"duration": "\ud800"}}), "dict: got .*; expected a text without halves"),
+        (lambda: plekton.load({"\ud800": 3}), "dict: got .*; expected a text without halves"),
+        (lambda: plekton.load(scenes.small()).run(until="\ud800"), "until: got .*; expected a text without halves"),
+    ],
+)
+def test_what_is_no_text_is_refused(call, message):
+    with pytest.raises(plekton.InputError, match=message):
+        call()
+
+
 def test_wrong_types_are_type_errors():
     with pytest.raises(TypeError):
         plekton.load(3)

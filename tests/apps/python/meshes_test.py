@@ -88,4 +88,37 @@ def test_what_cannot_be_written_is_refused(tmp_path):
         plekton.write_mesh(tmp_path / "mesh.off", np.eye(3), [[0, 1, 7]])
     with pytest.raises(plekton.MeshError, match="mesh.xyz"):
         plekton.write_mesh(tmp_path / "mesh.xyz", np.eye(3), [[0, 1, 2]])
+    with pytest.raises(plekton.OutputError, match="mesh.off.part: cannot be created: No such file or directory"):
+        plekton.write_mesh(tmp_path / "none" / "mesh.off", np.eye(3), [[0, 1, 2]])
+    for ending in ("off", "obj", "stl", "ply", "msh", "vtp"):
+        for value in (np.nan, np.inf, -np.inf, 1e75):
+            with pytest.raises(plekton.MeshError, match=r"point 2 is at \(0, 0, .*finite number below"):
+                plekton.write_mesh(tmp_path / f"mesh.{ending}", np.diag([1, 1, value]), [[0, 1, 2]])
+    with pytest.raises(plekton.MeshError, match="below 3.4e.38 in size in binary STL"):
+        plekton.write_mesh(tmp_path / "mesh.stl", 1e39 * np.eye(3), [[0, 1, 2]])
     assert not list(tmp_path.iterdir())
+
+
+def test_lengths_may_be_texts_with_units():
+    points, facets = scenes.sheet(4, 1.0)
+
+    same = [plekton.repair_mesh(points, facets, weld=weld, target_edge=edge) for weld, edge in ((1e-6, 0.1), ("1 um", "10 cm"))]
+
+    assert same[0].report == same[1].report
+    assert same[0].points.tobytes() == same[1].points.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"weld": "1 kg"}, 'weld: got "1 kg", a mass; expected a length'),
+        ({"longest_hole": None}, "longest_hole: got None; expected a length"),
+        ({"wrap_detail": [1]}, r"wrap_detail: got \[1\]; expected a length"),
+        ({"target_edge": "far"}, "target_edge: got .far"),
+    ],
+)
+def test_lengths_that_are_none_are_refused(options, message):
+    with pytest.raises(plekton.InputError, match=message):
+        plekton.repair_mesh(np.eye(3), [[0, 1, 2]], **options)
+    with pytest.raises(plekton.InputError, match="scale: got .1 mm."):
+        plekton.import_mesh("mesh.off", scale="1 mm")
