@@ -284,6 +284,7 @@ class Pages(unittest.TestCase):
             self.assertTrue(result.get("ok"), result)
             self.assertEqual(result["frames"], self.frames(name))
             self.assertGreater(result["drawn"], 0.005)
+            self.assertIn(f"Self-check: all is in order; {self.frames(name)} frames, ", said)
 
     def test_the_page_of_the_catch_is_small(self):
         self.view_of_run("whole catch", "apps/examples/catch/catch.toml")
@@ -327,7 +328,7 @@ class Pages(unittest.TestCase):
 
     def test_histories_of_measures_can_be_chosen(self):
         told = self.probed("pull-out", "told.files = page.files.map((f) => f.file);")
-        self.assertEqual(told["files"], ["energy.csv", "reactions.csv", "measures/sample.csv"])
+        self.assertEqual(told["files"], ["energy.csv", "reactions.csv", "planes.csv", "measures/sample.csv"])
 
     def test_a_page_that_follows_keeps_to_frames_that_are_there(self):
         told = self.probed("pull-out", SHORTER)

@@ -5,7 +5,7 @@ import { Run } from './data.js';
 import { Stage } from './stage.js';
 import { View, choicesOf, scalars } from './view.js';
 import { Histories } from './histories.js';
-import { selfCheck } from './self_check.js';
+import { selfCheck, verdictOf } from './self_check.js';
 import { colourAt, kCategories, kMaps, short, shortUnit, ticks, withUnit } from './colour.js';
 
 const $ = (id) => document.getElementById(id);
@@ -723,7 +723,7 @@ async function main() {
     await page.loadHistories();
     const options = await applyAddress(page);
     say('');
-    if (options.has('self-check')) await window.plektonSelfCheck();
+    if (options.has('self-check')) say(verdictOf(await window.plektonSelfCheck()));
     if (run.live) page.follow();
     document.documentElement.dataset.ready = 'yes';
   } catch (error) {

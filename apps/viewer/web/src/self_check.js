@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page looks at itself: everything decodes, the counts are those of the header, every number is one, every
-// element names nodes that are there, and something is drawn. The result is in the page for a test to read.
+// element names nodes that are there, and something is drawn. The result is in the page, in words and for a test to read.
 
 const kCounts = { grains: 'grains', nodes: 'nodes', edges: 'edges', facets: 'facets', contacts: 'contacts' };
 
@@ -60,4 +60,11 @@ export async function selfCheck(run, stage) {
   }
   result.ok = problems.length === 0;
   return result;
+}
+
+/** The result in words. */
+export function verdictOf({ ok, frames, numbers, histories, problems }) {
+  if (ok) return `Self-check: all is in order; ${frames} frames, ${numbers} numbers and ${histories} histories were read.`;
+  const most = 10, more = problems.length - most;
+  return `Self-check: not in order: ${problems.slice(0, most).join('; ')}${more > 0 ? `; and ${more} more` : ''}.`;
 }
