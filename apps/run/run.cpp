@@ -805,7 +805,7 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
   by_first_rank(scenario.simulation.ranks, [&] {
     if (!goes_on) return;
     remove_report(settings.out);
-    write_scenario_copy(settings.out, scenario);
+    update_scenario_copy(settings.out, scenario);
   });
   if (lock) all.warn(lock->warning());
   return all.execute();

@@ -20,4 +20,8 @@ std::string copy_of(const Scenario& scenario);
 /// is. @throws dynamics::OutputError
 void write_scenario_copy(const std::filesystem::path& folder, const Scenario& scenario);
 
+/// Of a run that goes on: does that where the copy says that other values were replaced, but for
+/// threads. @throws dynamics::OutputError
+void update_scenario_copy(const std::filesystem::path& folder, const Scenario& scenario);
+
 }  // namespace plekton::apps
