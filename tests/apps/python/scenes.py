@@ -14,7 +14,9 @@ PROGRAM = os.environ.get("PLEKTON_PROGRAM")
 
 def plekton(*arguments):
     """Runs the program."""
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
+    # What is loaded before the interpreter, as a sanitizer's library, is not for the program.
+    environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False, env=environment)
 
 
 def sheet(cells, width):
