@@ -47,8 +47,8 @@ std::optional<double> WireCurve::strain_at(double force) const noexcept {
   Point before{0.0, 0.0};
   for (const Point& point : points) {
     if (point.force >= force)
-      return before.strain + (point.strain - before.strain) * (force - before.force) /
-                                 (point.force - before.force);
+      return before.strain +
+             (point.strain - before.strain) * (force - before.force) / (point.force - before.force);
     before = point;
   }
   return std::nullopt;
