@@ -135,7 +135,9 @@ FOLLOWED = """<script>
     const page = window.plekton, frames = () => page.run.frames.length;
     for (const from = performance.now(); told.frames.length < 3 && performance.now() - from < 60000; await wait(50)) {
       if (told.frames.length && frames() <= told.frames.at(-1)) continue;
-      await wait(1000);  // until it is shown
+      await wait(1000);  // until it is shown, on a busy machine later
+      const rows = () => page.histories.plot.data[0].length, before = told.histories.at(-1) ?? 0;
+      for (const grown = performance.now(); rows() <= before && performance.now() - grown < 20000;) await wait(50);
       told.frames.push(frames()); told.shown.push(page.frame); told.histories.push(page.histories.plot.data[0].length);
       told.live.push(page.run.live);
     }
