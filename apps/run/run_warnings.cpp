@@ -39,7 +39,7 @@ std::string advice_on_motion(const RunReport& report) {
       "contacts are seen late; run with {:.2g} of this simulation.time_step, or with \"auto\" if "
       "it was "
       "given, which foresees gravity but not what tears",
-      100.0 * report.largest_motion_ratio, 100.0 * kFastMotion,
+      100.0 * report.largest_motion_ratio, 100.0 * dynamics::kLargestMotion,
       rounded_down(dynamics::kLargestMotion / report.largest_motion_ratio));
 }
 

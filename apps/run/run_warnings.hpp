@@ -28,9 +28,8 @@ inline constexpr double kMomentumDrift = 1e-10;
 /// work: one takes some microseconds, a grain in a step one or less.
 inline constexpr double kManyExactDecisions = 1.0;
 /// Motion in a step over the smallest radius above which contacts are seen late. A chosen step
-/// comes to kLargestMotion itself with the speeds that it is chosen for; the kick that follows, and
-/// those until the next look, add what contacts push: a tenth of it is seen in 4 steps as in 5.
-inline constexpr double kFastMotion = 1.1 * dynamics::kLargestMotion;
+/// comes to kLargestMotion itself but for rounding.
+inline constexpr double kFastMotion = 1.001 * dynamics::kLargestMotion;
 
 /// Something that a run is judged by.
 struct Check {

@@ -133,7 +133,7 @@ TEST_F(SeededFault, ATimeStepTooLongForTheMotionIsRedInTheCertificate) {
 
   EXPECT_EQ(outcome.exit_code, kRed);
   EXPECT_THAT(reds(), testing::Contains("largest_motion_ratio"));
-  EXPECT_THAT(outcome.err, HasSubstr("of the smallest radius in one step, above 11 %"));
+  EXPECT_THAT(outcome.err, HasSubstr("of the smallest radius in one step, above 10 %"));
 }
 
 /// One node 0.01 mm beside the middle of an edge: a facet of 0.03 degrees.
