@@ -541,20 +541,6 @@ class Run {
                       simulation_.time(), ratio, critical));
     }
     report_.dt_over_critical = std::max(report_.dt_over_critical, ratio);
-    require_steps_that_end();
-  }
-
-  /// The faster something moves, the shorter are the steps that are chosen.
-  void require_steps_that_end() const {
-    const double left = end_time_ - simulation_.time();
-    const double step = simulation_.time_step();
-    if (!std::isfinite(left) || left <= kMostSteps * step) return;
-    throw InputError(fmt::format(
-        "at {:.6g} s the time step has become {:.3g} s, so the {:.6g} s that are left are {:.3g} "
-        "steps, above the {:.0e} that a run may have; something moves or turns far too fast, or "
-        "has "
-        "become far too stiff: see the velocities, loads and moduli of the scenario",
-        simulation_.time(), step, left, left / step, kMostSteps));
   }
 
   void watch_motion() {

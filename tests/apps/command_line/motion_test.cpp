@@ -95,28 +95,5 @@ velocity = [0, 0, "-50 m/s"]
   EXPECT_LE(report()["largest_motion_ratio"], dynamics::kLargestMotion * (1.0 + 1e-12));
 }
 
-// At 1e18 m/s2 the speed that has been reached after some thousand steps makes 1e12 of them too few.
-TEST_F(FastMotion, ThatWouldTakeMoreStepsThanARunMayHaveEndsIt) {
-  test::write_bytes(folder_ / "ball.toml", R"([simulation]
-duration = "0.3 s"
-gravity = [0, 0, -1e18]
-[materials.rock]
-density = 2650
-young_modulus = "20 MPa"
-friction_angle = "30 deg"
-[[grains]]
-material = "rock"
-centres = [[0, 0, 0]]
-radii = ["6 mm"]
-)");
-
-  const Outcome outcome = outcome_of({"run", (folder_ / "ball.toml").string(), "--out", out()});
-
-  EXPECT_EQ(outcome.exit_code, kFailed);
-  EXPECT_THAT(outcome.err,
-              HasSubstr("steps, above the 1e+12 that a run may have; something moves"));
-  EXPECT_EQ(report()["status"], "failed");
-}
-
 }  // namespace
 }  // namespace plekton::apps::motion_test
