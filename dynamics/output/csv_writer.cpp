@@ -29,6 +29,25 @@ std::string head_row(std::span<const CsvColumn> columns) {
   return row += '\n';
 }
 
+/// @param head  first row of the file that is asked for
+/// @throws OutputError if the file has other columns or ends before what is kept of it
+void require_goes_on(const std::filesystem::path& file, const std::string& head,
+                     std::uint64_t kept) {
+  std::string row;
+  std::getline(std::ifstream(file, std::ios::binary), row);
+  row += '\n';
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error || size < kept || kept < row.size())
+    throw OutputError(file,
+                      "is not the file that the run has written so far; put it back, or go on in "
+                      "another folder");
+  if (row != head)
+    throw OutputError(file,
+                      "has other columns than the run writes now, as where a reaction or a measure "
+                      "is another; ask for the same ones, or go on in another folder");
+}
+
 }  // namespace
 
 CsvWriter::CsvWriter(const std::filesystem::path& file, std::span<const CsvColumn> columns,
@@ -45,16 +64,7 @@ CsvWriter::CsvWriter(const std::filesystem::path& file, std::span<const CsvColum
 CsvWriter::CsvWriter(const std::filesystem::path& file, std::span<const CsvColumn> columns,
                      Flush flush, std::uint64_t kept)
     : column_count_(columns.size()), flush_(flush), size_(kept) {
-  const std::string row = head_row(columns);
-  std::string head(row.size(), '\0');
-  std::ifstream old(file, std::ios::binary);
-  old.read(head.data(), static_cast<std::streamsize>(head.size()));
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error || !old || head != row || size < kept || kept < row.size())
-    throw OutputError(file,
-                      "is not the file that the run has written so far, with the same columns; put "
-                      "it back, or go on in another folder");
+  require_goes_on(file, head_row(columns), kept);
   cut_back(file, kept);
   file_.emplace(file, CheckedFile::Mode::append);
 }

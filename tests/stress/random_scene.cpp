@@ -65,6 +65,9 @@ class Maker {
     add_loads();
     add_output();
     if (!is_free_ && of_containers_.unit() < 0.2) add_container();
+    // Last, so that scenes without these are as before.
+    if (of_containers_.unit() < 0.25 && !has_lid_) add_rigid_bodies();
+    if (!membranes_.empty() && of_containers_.unit() < 0.12) add_tie();
     return std::move(scene_);
   }
 
@@ -458,7 +461,8 @@ class Maker {
     if (chance(0.5))
       add_plane("floor", {0, 0, -power(-5.0, -3.0)},
                 {random_.uniform(-0.02, 0.02), 0.0, random_.uniform(0.5, 2.0)});
-    if (chance(0.25)) add_plane("lid", {0, 0, top_ + power(-5.0, -3.0)}, {0, 0, -1});
+    has_lid_ = chance(0.25);
+    if (has_lid_) add_plane("lid", {0, 0, top_ + power(-5.0, -3.0)}, {0, 0, -1});
     if (chance(0.15)) add_plane("left", {-0.2, 0, 0}, {1, 0, 0});
     if (chance(0.15)) add_plane("right", {0.2, 0, 0}, {-1, 0, 0});
   }
@@ -482,6 +486,106 @@ class Maker {
     set(servo, "plane", word("container"));
     set(servo, "force", num(of_containers_.uniform(0.1, 100.0)));
     set(servo, "speed", num(of_containers_.uniform(0.1, 2.0)));
+  }
+
+  void add_rigid_bodies() {
+    const int count = random_.integer(1, 3);
+    for (int i = 0; i < count; ++i) add_rigid_body();
+    if (!is_free_ && chance(0.5)) add_load_of_rigid_body();
+  }
+
+  void add_rigid_body() {
+    const std::string name = fmt::format("b{}", bodies_++);
+    TextTable& t = table("[[rigid_bodies]]");
+    set(t, "name", word(name));
+    set(t, "material", material());
+    if (chance(0.4)) {
+      place(t, add_clump(t), 0.0);
+    } else {
+      const Shape shape = any_shape();
+      const double thickness = power(-3.0, -2.2);
+      set(t, "shape", "{ " + shape.text + " }");
+      set(t, "thickness", num(thickness));
+      if (shape.is_closed && chance(0.4)) set(t, "filling", word("shell"));
+      place(t, shape, thickness);
+    }
+    set(t, "density", num(power(2.7, 3.9)));
+    if (!is_free_ && chance(0.25)) set(t, "hold", word(one_of<5>({"x", "z", "xy", "yz", "xyz"})));
+    if (!is_free_ && chance(0.2)) set(t, "hold_rotation", word(one_of<3>({"x", "xy", "xyz"})));
+    set(t, "velocity", vec(velocity()));
+    if (chance(0.5)) set(t, "angular_velocity", vec(random_.in_cube(30.0)));
+    rigid_bodies_.push_back(name);
+  }
+
+  /// Spheres that overlap, or nearly do, around the first.
+  Shape add_clump(TextTable& t) {
+    Shape shape;
+    const int count = random_.integer(1, 6);
+    std::string rows;
+    for (int i = 0; i < count; ++i) {
+      const double radius = random_.uniform(0.004, 0.02);
+      const double reach = i == 0 ? 0.0 : random_.uniform(0.3, 1.2) * radius;
+      shape.radius = std::max(shape.radius, reach + radius);
+      rows += fmt::format("{}{{ centre = {}, radius = {} }}", i == 0 ? "" : ", ",
+                          vec(reach * random_.direction()), num(radius));
+    }
+    set(t, "spheres", "[" + rows + "]");
+    shape.half_height = shape.radius;
+    return shape;
+  }
+
+  void add_load_of_rigid_body() {
+    const std::string body = word(rigid_bodies_[random_.index(rigid_bodies_.size())]);
+    const char* kind = one_of<4>({"motion", "force", "servo", "mass_damping"});
+    TextTable& t = load(kind);
+    set(t, "rigid_body", body);
+    const std::string what = kind;
+    if (what == "mass_damping") return set(t, "rate", num(power(0.0, 3.0)));
+    if (what == "force") {
+      set(t, "force", vec(power(-1.0, 2.0) * random_.direction()));
+      if (chance(0.5)) set(t, "torque", vec(power(-4.0, -1.0) * random_.direction()));
+      return maybe_factor(t);
+    }
+    if (what == "motion") {
+      set(t, "velocity", vec(random_.in_cube(1.0)));
+      if (chance(0.5)) set(t, "components", word(one_of<3>({"x", "z", "xy"})));
+      return maybe_factor(t);
+    }
+    if (chance(0.3)) {
+      set(t, "about", word(one_of<3>({"x", "-y", "z"})));
+      set(t, "torque", num(power(-3.0, 0.0)));
+      return set(t, "angular_speed", num(power(0.0, 2.0)));
+    }
+    set(t, "direction", word(one_of<3>({"x", "-z", "z"})));
+    set(t, "force", num(power(-1.0, 2.0)));
+    set(t, "speed", num(power(-1.0, 0.3)));
+  }
+
+  /// Of some nodes of a membrane to what there is.
+  void add_tie() {
+    const Membrane& membrane = membranes_[random_.index(membranes_.size())];
+    TextTable& t = table("[[ties]]");
+    set(t, "from",
+        fmt::format("{{ membrane = \"{}\", nodes = \"{}\" }}", membrane.name,
+                    one_of<4>({"x_min", "x_max", "y_max", "z_max"})));
+    if (!rigid_bodies_.empty() && chance(0.7))
+      set(t, "to",
+          fmt::format("{{ kind = \"{}\", rigid_body = \"{}\" }}",
+                      one_of<3>({"nodes", "surface", "body"}), rigid_bodies_.front()));
+    else if (is_free_ || (membranes_.size() > 1 && chance(0.5)))
+      set(t, "to",
+          fmt::format("{{ kind = \"surface\", membrane = \"{}\" }}",
+                      membranes_[random_.index(membranes_.size())].name));
+    else
+      set(t, "to", "{ kind = \"ground\" }");
+    if (chance(0.4)) set(t, "stiffness", num(power(2.0, 5.0)));
+    if (chance(0.3)) set(t, "rest_length", num(power(-4.0, -2.0)));
+    if (chance(0.4)) set(t, "only_pulls", "true");
+    if (chance(0.3)) set(t, "strength", num(power(-1.0, 2.0)));
+    if (chance(0.3))
+      set(t, "brake",
+          fmt::format("{{ force = {}, stroke = {} }}", num(power(-1.0, 1.5)),
+                      num(power(-3.5, -2.0))));
   }
 
   std::string factor() {
@@ -660,6 +764,7 @@ class Maker {
   Random of_containers_;
   SceneText scene_;
   bool is_free_ = false;
+  bool has_lid_ = false;  // above what was made before the planes
   double duration_ = 0.0;  // s
   int materials_ = 0;
   int bodies_ = 0;
@@ -668,6 +773,7 @@ class Maker {
   std::vector<Membrane> membranes_;
   std::vector<std::string> grains_;
   std::vector<std::string> planes_;
+  std::vector<std::string> rigid_bodies_;
 };
 
 }  // namespace

@@ -161,14 +161,14 @@ TEST(CsvWriter, RefusesToGoOnWithAnotherFileAndLeavesThatAsItIs) {
       CsvWriter(path, kColumns, CsvWriter::Flush::every_row, bytes);
     };
   };
-  const auto is_refused = [](const char* name) {
-    return ThrowsMessage<OutputError>(
-        AllOf(HasSubstr(name), HasSubstr("is not the file that the run has written so far")));
+  const auto is_refused = [](const char* name,
+                             const char* why = "is not the file that the run has written so far") {
+    return ThrowsMessage<OutputError>(AllOf(HasSubstr(name), HasSubstr(why)));
   };
 
   EXPECT_THAT(go_on("short.csv", kept), is_refused("short.csv"));
   EXPECT_THAT(go_on("short.csv", kHead.size() - 1), is_refused("short.csv"));  // within the head
-  EXPECT_THAT(go_on("other.csv", kept), is_refused("other.csv"));
+  EXPECT_THAT(go_on("other.csv", kHead.size() + 4), is_refused("other.csv", "has other columns"));
   EXPECT_THAT(go_on("missing.csv", kept), is_refused("missing.csv"));
   EXPECT_EQ(bytes_of(folder / "short.csv"), kHead + "0,");
   EXPECT_THAT(folder.names(), testing::ElementsAre("other.csv", "short.csv"));
