@@ -5,6 +5,7 @@ Usage: python3 make_corpus.py DIR
 """
 import base64
 import pathlib
+import re
 import struct
 import sys
 import zlib
@@ -140,21 +141,24 @@ density = "2650 kg/m3"
 young_modulus = "20 MPa"
 friction_angle = "35 deg"
 [[contacts]]
-materials = ["gravel", "gravel"]
+between = "gravel"
+and = "gravel"
 law = "cohesive_frictional"
 tensile_strength = "1 kPa"
 [[membranes]]
 name = "sheet"
-shape = { kind = "plane_sheet", width = 0.4, length = "40 cm", cells = [4, 4] }
+shape = { kind = "sheet", width = 0.4, length = "40 cm", cells = [4, 4] }
 material = "gravel"
 thickness = "1 mm"
+young_modulus = "100 MPa"
+density = "1100 kg/m3"
 hold = "rim"
 [[grains]]
 name = "gravel"
 material = "gravel"
-mass = "2 kg"
+mass = "0.2 kg"
 sieves = [{ sieve = "6 mm", passing = 0 }, { sieve = "8 mm", passing = "30 %" }, { sieve = "16 mm", passing = 1 }]
-box = { min = ["0 m", "0 m", "0 m"], max = ["10 cm", "10 cm", "10 cm"] }
+box = { min = ["0 m", "0 m", "1 cm"], max = ["10 cm", "10 cm", "30 cm"] }
 [[planes]]
 name = "floor"
 point = [0, 0, 0]
@@ -163,6 +167,7 @@ material = "gravel"
 [[loads]]
 kind = "force"
 membrane = "sheet"
+nodes = "all"
 force = [0, 0, "1 N"]
 [output]
 interval = "1 ms"
@@ -173,9 +178,51 @@ kinetic_energy = "1e-6 J"
 """
 
 
+INFLATED = b"""[simulation]
+duration = "2 ms"
+[materials.rubber]
+density = 1000
+young_modulus = "1 MPa"
+friction_angle = "20 deg"
+[[membranes]]
+name = "ball"
+shape = { kind = "sphere", radius = "5 cm", subdivisions = 1 }
+mode = "continuum"
+young_modulus = "1 MPa"
+density = 1000
+material = "rubber"
+thickness = "1 mm"
+rest_pressure = "2 kPa"
+[[rigid_bodies]]
+name = "clump"
+spheres = [{ centre = [0, 0, "10 cm"], radius = "1 cm" }, { centre = [0, "1 cm", "10 cm"], radius = "8 mm" }]
+material = "rubber"
+mass = "10 g"
+inertia = ["1 kg cm2", "1 kg cm2", "1 kg cm2"]
+hold = "xy"
+[[ties]]
+from = { membrane = "ball", nodes = "z_max" }
+to = { kind = "body", rigid_body = "clump" }
+brake = { force = "1 N", stroke = "1 cm" }
+[[planes]]
+name = "drum"
+kind = "cylinder"
+axis = [0, 1, 0]
+point = [0, 0, 0]
+radius = "20 cm"
+angular_velocity = "10 rad/s"
+material = "rubber"
+[[loads]]
+kind = "servo"
+plane = "drum"
+force = "1 N"
+speed = "1 m/s"
+"""
+
+
 def scenario():
     """The examples of the program too, where their meshes are not needed."""
-    files = {"small.toml": SCENARIO,
+    files = {"small.toml": SCENARIO, "inflated.toml": INFLATED,
              "overrides.toml": b"--set grains.gravel.mass=3 kg\n--set simulation.damping=0.2\n" + SCENARIO}
     examples = pathlib.Path(__file__).resolve().parents[2] / "apps" / "examples"
     for example in sorted(examples.glob("*/*.toml")):
@@ -206,10 +253,9 @@ def state():
 
 
 WORDS = {
-    "scenario": "[simulation] [materials.a] [[contacts]] [[membranes]] [[grains]] [[planes]] [[loads]] [output] [stop] duration "
-                "time_step gravity damping threads density young_modulus friction_angle law shape mesh kind plane_sheet net tube "
-                "sphere box_shell material thickness hold rim sieves sieve passing passing_by mass number count volume radius box "
-                "min max centres velocity interval reactions inf nan -inf 1e999 -1 --set true false mm deg kPa",
+    "scenario": "[simulation] [materials.a] [[contacts]] [[membranes]] [[rigid_bodies]] [[grains]] [[planes]] [[ties]] [[loads]] "
+                "[output] [stop] [[stages]] inf nan -inf 1e999 -1 --set true false mm deg kPa rim lattice truss continuum sphere "
+                "cylinder tube sheet motion force servo pressure ground_springs",
     "sieves": "",
     "bed": "1e999 nan inf -1 1e300 0x1 18446744073709551615",
     "checkpoint": "plekton checkpoint version writer bytes checksum",
@@ -229,6 +275,15 @@ WORDS = {
 }
 
 
+def keys_of_scenarios():
+    """The parts of all keys, from the one table of them."""
+    table = pathlib.Path(__file__).resolve().parents[2] / "apps" / "scenario" / "key_meanings.cpp"
+    paths = re.findall(r'^ *\{"([^"]+)"', table.read_text(), re.MULTILINE)
+    if not paths:
+        sys.exit(f"{table}: has no keys")
+    return " ".join(sorted({part.removesuffix("[]") for path in paths for part in path.split(".")}))
+
+
 def dictionary(words):
     escaped = (word.replace("\\", "\\\\") for word in words.split())
     return "".join(f'"{word}"\n' for word in escaped)
@@ -243,7 +298,8 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in maker().items():
             (folder / name).write_bytes(content)
-    for name, words in (WORDS | {"import": " ".join(WORDS.values())}).items():
+    words = WORDS | {"scenario": WORDS["scenario"] + " " + keys_of_scenarios()}
+    for name, words in (words | {"import": " ".join(WORDS.values())}).items():
         (root / f"{name}.dict").write_text(dictionary(words))
 
 
