@@ -5,6 +5,7 @@
 #include "apps/command_line/resume_command.hpp"
 #include "apps/run/checkpoints.hpp"
 #include "apps/run/run.hpp"
+#include "apps/run/run_warnings.hpp"
 #include "apps/scenario/scenario_reader.hpp"
 #include "tests/stress/apart.hpp"
 #include "tests/stress/watch.hpp"
@@ -186,6 +187,10 @@ class Examination {
     if (report.energy_closure > kStatedClosure && !is_attracted())
       find(Fault::energy, fmt::format("the balance is off by {:.3g} % of what went through",
                                       100.0 * report.energy_closure));
+    const double drift = std::max(report.momentum.linear, report.momentum.angular);
+    if (!(drift <= apps::kMomentumDrift))
+      find(Fault::momentum,
+           fmt::format("contacts, bonds and sheets made {:.3g} of the momentum they carry", drift));
   }
 
   /// A force that jumps as bodies come to touch is not in the balance: apps/scenario.md.
