@@ -16,9 +16,9 @@ namespace plekton::dynamics {
 /// way it turned (Diverged). The step is chosen for half of it, so that a node which spins ever
 /// faster is not looked at in every step.
 constexpr double kLargestTurn = 1.0;
-/// Of the critical step, where structures touch at the start: omega dt = 1/2. What begins in each
-/// other flies apart, and as its contact ends within a step it is off by (omega dt)² / 4 of what was
-/// stored in it at most.
+/// Of the critical step, where structures touch at the start or their cores cross: omega dt = 1/2.
+/// What is in each other flies apart, and as its contact ends within a step it is off by
+/// (omega dt)² / 4 of what was stored in it at most.
 constexpr double kReleaseStep = 0.25;
 
 StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
@@ -76,7 +76,8 @@ double StepChooser::choose(double dt, const Pace& pace) {
            std::max(std::min(usual, kLongestWay * pace_radius_), pace.speed * step)};
   // First, as it collects the springs.
   const double margin = 2.0 * look_.longest_way;
-  const double near = stable_near(margin, dt);
+  const double crossed = of_.contacts.crossings() > 0 ? kReleaseStep / kSafety : 1.0;
+  const double near = crossed * stable_near(margin, dt);
   const double stable = std::min(
       {near, springs_.collision_step(of_.scene.state, of_.scene.properties),
        springs_.crossing_step(of_.scene.state, of_.scene.properties),

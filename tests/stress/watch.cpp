@@ -27,6 +27,10 @@ bool acts_from_outside(const apps::LoadSettings& load) {
   return pressure == nullptr || !(pressure->load.gas || pressure->load.by_volume);
 }
 
+bool holds_on_outside(const apps::TieSettings& tie) {
+  return tie.kind == apps::TieTo::ground || tie.kind == apps::TieTo::point;
+}
+
 bool turns(const apps::MembraneSettings& membrane) {
   if (membrane.mode == apps::MembraneMode::truss) return false;
   return membrane.mode == apps::MembraneMode::lattice || membrane.bending_stiffness != 0.0;
@@ -53,7 +57,8 @@ Conserved conserved_in(const apps::Scenario& scenario) {
   const auto& motion = scenario.simulation;
   conserved.momentum =
       motion.damping == 0.0 && scenario.planes.empty() && !holds_some(scenario) &&
-      std::none_of(scenario.loads.begin(), scenario.loads.end(), acts_from_outside);
+      std::none_of(scenario.loads.begin(), scenario.loads.end(), acts_from_outside) &&
+      std::none_of(scenario.ties.begin(), scenario.ties.end(), holds_on_outside);
   conserved.angular_momentum =
       conserved.momentum && motion.gravity.isZero(0.0) &&
       std::all_of(scenario.membranes.begin(), scenario.membranes.end(), turns);
