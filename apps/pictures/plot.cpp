@@ -48,7 +48,7 @@ std::string quantity_of(const RecordedHistory::Column& column) {
   return fmt::format("value ({})", unit);
 }
 
-/// Most planes stand where they are, and have seven columns each.
+/// Most planes stand where they are.
 bool is_drawn_unasked(const RecordedHistory& history, const RecordedHistory::Column& column) {
   if (column.name == "time_step") return false;
   const bool is_of_planes = history.file == kPlanesFile;

@@ -12,7 +12,7 @@
 namespace plekton::apps {
 namespace {
 
-constexpr std::array<dynamics::OutputField, 7> kPlaceFields = {{
+constexpr std::array<dynamics::OutputField, 8> kPlaneFields = {{
     {"point_x", "m", "of a point of the plane, which moves with it"},
     {"point_y", "m", "likewise"},
     {"point_z", "m", "likewise"},
@@ -20,12 +20,13 @@ constexpr std::array<dynamics::OutputField, 7> kPlaceFields = {{
     {"normal_y", "", "likewise; all of them 0 of a sphere"},
     {"normal_z", "", "likewise"},
     {"radius", "m", "of the inside of a cylinder or sphere; 0 of a flat plane"},
+    {"pressing", "N", "how hard bodies press against its normal, on a container all around"},
 }};
 
 }  // namespace
 
 std::span<const dynamics::OutputField> plane_fields() {
-  return kPlaceFields;
+  return kPlaneFields;
 }
 
 PlanePlaces::PlanePlaces(const std::filesystem::path& folder, const Scenario& scenario,
@@ -34,21 +35,22 @@ PlanePlaces::PlanePlaces(const std::filesystem::path& folder, const Scenario& sc
   columns_ = names.size();
   places_ = plane_numbers(scenario);
   HistoryColumns columns;
-  for (const std::string& name : names) columns.add(name, kPlaceFields);
+  for (const std::string& name : names) columns.add(name, kPlaneFields);
   open(folder, kPlanesFile, columns, before);
 }
 
 void PlanePlaces::add(const dynamics::Simulation& simulation) {
   if (!is_open()) return;
   constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> row(1 + kPlaceFields.size() * columns_, kNotThere);
+  std::vector<double> row(1 + kPlaneFields.size() * columns_, kNotThere);
   row[0] = simulation.time();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const contact::Plane& plane = simulation.planes()[i];
-    double* const at = &row[1 + kPlaceFields.size() * places_[i]];
+    double* const at = &row[1 + kPlaneFields.size() * places_[i]];
     std::copy_n(plane.point.data(), 3, at);
     std::copy_n(plane.direction().data(), 3, at + 3);
     at[6] = plane.radius;
+    at[7] = simulation.pressing_on(i);
   }
   add_row(row);
 }

@@ -14,7 +14,8 @@ namespace plekton::apps {
 /// What planes.csv has of every plane, behind its name (or "planes[0]" without one) and a dot.
 std::span<const dynamics::OutputField> plane_fields();
 
-/// Writes planes.csv, if there are planes: where they are at the time of every frame.
+/// Writes planes.csv, if there are planes: where they are at the time of every frame, and how hard
+/// bodies press on them.
 class PlanePlaces : public HistoryFile {
  public:
   /// @throws dynamics::OutputError

@@ -14,6 +14,8 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <span>
+#include <string_view>
 #include <system_error>
 
 namespace plekton::apps {
@@ -117,6 +119,17 @@ std::vector<std::string> measure_files(const fs::path& folder) {
   return names;
 }
 
+/// How many columns the first plane has, and any other, where it is first: runs of before have no
+/// radius (all of their planes are flat), or not what presses.
+std::size_t columns_of_a_plane(std::span<const RecordedHistory::Column> columns) {
+  const auto name_of = [](const RecordedHistory::Column& column) {
+    return std::string_view(column.name).substr(0, column.name.rfind('.'));
+  };
+  std::size_t count = 1;
+  while (1 + count < columns.size() && name_of(columns[1 + count]) == name_of(columns[1])) ++count;
+  return count;
+}
+
 }  // namespace
 
 RunFolder open_run_folder(const fs::path& folder) {
@@ -154,12 +167,11 @@ std::vector<PlaneNumbers> planes_at(const RunFolder& run, double time) {
   std::size_t row = 0;
   for (std::size_t i = 1; i < times.size(); ++i)
     if (std::abs(times[i] - time) < std::abs(times[row] - time)) row = i;
-  // Runs of before have no column of the radius: all of their planes are flat.
-  const bool have_radius = columns.size() > 7 && columns[7].name.ends_with(".radius");
-  const std::size_t numbers = have_radius ? 7 : 6;
-  for (std::size_t first = 1; first + numbers <= columns.size(); first += numbers) {
+  const std::size_t each = columns_of_a_plane(columns);
+  for (std::size_t first = 1; first + each <= columns.size(); first += each) {
     PlaneNumbers plane{};
-    for (std::size_t k = 0; k < numbers; ++k) plane[k] = columns[first + k].values[row];
+    for (std::size_t k = 0; k < std::min(each, plane.size()); ++k)
+      plane[k] = columns[first + k].values[row];
     if (std::none_of(plane.begin(), plane.end(), [](double x) { return std::isnan(x); }))
       planes.push_back(plane);
   }

@@ -146,7 +146,7 @@ TEST_F(ChangedOutputs, AreRefusedWhereColumnsAreOthersAndNothingIsLost) {
               R"(output.reactions=[{ kind = "plane", plane = "floor", name = "ground" }])"});
 
   EXPECT_EQ(outcome.exit_code, kFailed);
-  EXPECT_THAT(outcome.err, HasSubstr("with the same columns"));
+  EXPECT_THAT(outcome.err, HasSubstr("has other columns than the run writes now"));
   EXPECT_EQ(test::bytes_of(folder_ / "out/run.json"), report);
   EXPECT_THAT(times("reactions.csv"), ElementsAre(0, 5, 10));
 }

@@ -255,6 +255,9 @@ TEST_F(Measured, StressInACellIsThatOfItsSideAndEnds) {
   EXPECT_NEAR(whole.last("volume"), area * height, 1e-6 * area * height);
   EXPECT_NEAR(-0.5 * (whole.last("stress_xx") + whole.last("stress_yy")), 20e3, 0.005 * 20e3);
   EXPECT_NEAR(-whole.last("stress_zz"), 56.5 / area, 0.005 * 20e3);
+  const double wall = 2.0 * std::acos(-1.0) * radius * height;
+  EXPECT_NEAR(planes.last("side.pressing"), 20e3 * wall, 0.005 * 20e3 * wall);
+  EXPECT_NEAR(planes.last("lid.pressing"), 56.5, 0.005 * 56.5);
 }
 
 /// A grain that rests in a cell that is moved past the place where the region was.

@@ -133,14 +133,15 @@ TEST(RunFolder, LeavesOutPlanesThatComeInALaterStage) {
 TEST(RunFolder, KnowsContainersByTheirRadius) {
   RunFolder run;
   run.planes = RecordedHistory{"planes.csv", {{"time", "s", {0}}}};
-  const std::array<double, 7> drum = {1, 2, 3, 0, 1, 0, 0.25};
+  const PlaneNumbers drum = {1, 2, 3, 0, 1, 0, 0.25};
   for (const char* name : {"floor", "drum"}) {
     std::size_t i = 0;
-    for (const char* field :
-         {".point_x", ".point_y", ".point_z", ".normal_x", ".normal_y", ".normal_z", ".radius"}) {
+    for (const char* field : {".point_x", ".point_y", ".point_z", ".normal_x", ".normal_y",
+                              ".normal_z", ".radius", ".pressing"}) {
       const double of_floor = i == 5 ? 1.0 : 0.0;
+      const double of_drum = i < drum.size() ? drum[i] : 17.0;
       run.planes->columns.push_back(
-          {std::string(name) + field, "", {name[0] == 'd' ? drum[i] : of_floor}});
+          {std::string(name) + field, "", {name[0] == 'd' ? of_drum : of_floor}});
       ++i;
     }
   }
