@@ -92,21 +92,27 @@ void AppliedLoads::add_pressures_to(NodalStiffness& stiffness, geometry::Positio
 }
 
 // The largest eigenvalue of a sum is at most the sum of the largest ones, 4 / dt² that of the rest.
-double AppliedLoads::critical_step(double without, const Scene& scene) const {
+double AppliedLoads::critical_step(double without, double of_structures, const Scene& scene) const {
   double gas = 0.0;
   for (const PressedSurface& surface : pressures_)
     gas += surface.gas_frequency_squared(scene.state.position, scene.properties);
-  return damped_step(gas == 0.0 ? without : 2.0 / std::sqrt(4.0 / (without * without) + gas));
+  return damped_step(gas == 0.0 ? without : 2.0 / std::sqrt(4.0 / (without * without) + gas),
+                     of_structures);
 }
 
-double AppliedLoads::damped_step(double undamped) const noexcept {
-  double relaxation_time = 0.0;
+double AppliedLoads::relaxation_time() const noexcept {
+  double sum = 0.0;
+  for (const DampedBeams& beams : beams_) sum += beams.relaxation_time();
+  for (const DampedSheets& sheets : sheets_) sum += sheets.relaxation_time();
+  return sum;
+}
+
+double AppliedLoads::damped_step(double undamped, double of_structures) const noexcept {
   double rate = 0.0;
-  for (const DampedBeams& beams : beams_) relaxation_time += beams.relaxation_time();
-  for (const DampedSheets& sheets : sheets_) relaxation_time += sheets.relaxation_time();
   for (const DraggedNodes& nodes : dragged_) rate += nodes.rate();
-  if (relaxation_time == 0.0 && rate == 0.0) return undamped;
-  return dynamics::damped_step(undamped, relaxation_time, rate);
+  if (!damps_structures() && rate == 0.0) return undamped;
+  return dynamics::damped_step(undamped, std::max(undamped, of_structures), relaxation_time(),
+                               rate);
 }
 
 void AppliedLoads::add_elastic_forces(double time, const NodeState& state, NodeForces& forces,

@@ -63,13 +63,19 @@ class AppliedLoads {
   /// Adds the stiffness of facets under pressure.
   void add_pressures_to(NodalStiffness& stiffness, geometry::Positions x) const;
 
+  /// Whether damping in proportion to the stiffness of structures acts.
+  bool damps_structures() const noexcept { return relaxation_time() > 0.0; }
+
   /// The critical step (s) with viscous damping and the stiffness of gases.
-  /// @param without  s, without them; may be infinite
-  double critical_step(double without, const Scene& scene) const;
+  /// @param without        s, without them; may be infinite
+  /// @param of_structures  s, that of the structures alone, without contacts, or less; asked for
+  ///                       where they are damped
+  double critical_step(double without, double of_structures, const Scene& scene) const;
 
   /// The critical step (s) with viscous damping, which shortens it.
-  /// @param undamped  s, without; may be infinite
-  double damped_step(double undamped) const noexcept;
+  /// @param undamped       s, without; may be infinite
+  /// @param of_structures  s, as above
+  double damped_step(double undamped, double of_structures) const noexcept;
 
   /// Adds the forces that follow from where the nodes are: of springs and pressures. No allocation.
   void add_elastic_forces(double time, const NodeState& state, NodeForces& forces,
@@ -85,6 +91,7 @@ class AppliedLoads {
   const std::vector<PressedSurface>& pressed_surfaces() const noexcept { return pressures_; }
 
  private:
+  double relaxation_time() const noexcept;  // s, sum of those of beams and sheets
   void exchange_set_forces(const geometry::StateArchive& archive);
   void exchange_set_pressures(const geometry::StateArchive& archive);
   /// Calls visit with each load that is a force.

@@ -112,9 +112,10 @@ LoadedNodes& DraggedNodes::act(const LoadStep&, const NodeState& state,
 }
 
 // The positive root, by 1 / dt0², which may be 0.
-double damped_step(double undamped, double relaxation_time, double rate) noexcept {
+double damped_step(double undamped, double of_damped, double relaxation_time,
+                   double rate) noexcept {
   const double stiff = 1.0 / (undamped * undamped);
-  const double slow = relaxation_time * stiff + 0.25 * rate;
+  const double slow = relaxation_time / (of_damped * of_damped) + 0.25 * rate;
   return 1.0 / (slow + std::sqrt(slow * slow + stiff));
 }
 

@@ -69,12 +69,15 @@ class DraggedNodes {
 };
 
 /// Longest stable step (s) of the leapfrog with forces of damping that see the velocity of the last
-/// drift: of M x'' + C x' + K x = 0 with C <= relaxation_time K + rate M it is stable for
-/// dt² K + 2 dt C < 4 M, so with 4 M / dt0² the bound of K, for
+/// drift: of M x'' + C x' + K x = 0 it is stable for dt² K + 2 dt C < 4 M, as a root z of
+/// (z - 1)² + dt² k z + dt c (z - 1) = 0 is in the unit circle for dt² k + 2 dt c < 4, k and c of any
+/// motion of unit mass. With C <= relaxation_time K1 + rate M, K1 what is damped and no contact, and
+/// the bounds 4 M / dt0² of K and 4 M / dt1² of K1 that is
 ///
-///     dt² + 2 (relaxation_time + rate dt0² / 4) dt < dt0².
+///     dt² / dt0² + 2 (relaxation_time / dt1² + rate / 4) dt < 1.
 ///
-/// @param undamped  s, dt0; may be infinite
-double damped_step(double undamped, double relaxation_time, double rate) noexcept;
+/// @param undamped   s, dt0; may be infinite
+/// @param of_damped  s, dt1, likewise; at least dt0
+double damped_step(double undamped, double of_damped, double relaxation_time, double rate) noexcept;
 
 }  // namespace plekton::dynamics

@@ -198,7 +198,8 @@ ExactStep exact_critical_step(const Scene& scene, const Structures& structures,
   step.products = largest.products;
   step.contacts = contacts.size();
   const bool is_stiff = largest.value > 0.0;
-  step.dt = loads.damped_step(is_stiff ? 2.0 / std::sqrt(largest.value) : step.dt);
+  step.dt = loads.damped_step(is_stiff ? 2.0 / std::sqrt(largest.value) : step.dt,
+                              structures.critical_step);
   if (is_stiff) step.error = 0.5 * largest.residual / largest.value;
   return step;
 }

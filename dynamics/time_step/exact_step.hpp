@@ -28,6 +28,7 @@ struct Structures {
   const BeamBonds& bonds;
   const SheetFacets& sheets;
   const Ties& ties;
+  double critical_step;  ///< s, of these alone, or less; asked for where they are damped
 };
 
 /// Adds forces (N) that follow from where the nodes are (m) alone.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace plekton::dynamics {
@@ -112,6 +113,9 @@ double StepChooser::stable_near(double margin, double last) {
   space_.begin_at(0);
   springs_.clear();
   limits_->add_structures(space_);
+  const double of_structures = of_.loads.damps_structures()
+                                   ? space_.critical_step(of_.scene.properties).dt
+                                   : std::numeric_limits<double>::infinity();
   limits_->add_near_contacts(springs_, margin, rate);
   add_near_structures(margin, rate);
   limits_->add_between_structures(springs_, structures_, of_.scene.state.position, 0.0);
@@ -119,7 +123,7 @@ double StepChooser::stable_near(double margin, double last) {
   shares_.add(springs_, of_.scene.properties, space_);
   double stable = kSafety * space_.critical_step(of_.scene.properties).dt;
   if (limits_->is_damped()) stable = stable_with_dashpots(last, stable);
-  return kSafety * of_.loads.critical_step(stable / kSafety, of_.scene);
+  return kSafety * of_.loads.critical_step(stable / kSafety, of_structures, of_.scene);
 }
 
 /// Nodes of structures that another one may come to lie on, and that nothing of the kind touches

@@ -123,9 +123,15 @@ NodalStiffness::Total StepLimits::total_stiffness(NodalStiffness& space) const {
   return sum;
 }
 
+/// s, the critical step of the structures alone; infinite where none is damped, as nobody asks.
+double StepLimits::of_structures(NodalStiffness& space) const {
+  if (!of_.loads.damps_structures()) return std::numeric_limits<double>::infinity();
+  return shortest_of_pieces(space, [] {}).dt;
+}
+
 /// With gases and viscous damping.
-CriticalStep StepLimits::with_loads(CriticalStep step) const {
-  step.dt = of_.loads.critical_step(step.dt, of_.scene);
+CriticalStep StepLimits::with_loads(CriticalStep step, NodalStiffness& space) const {
+  step.dt = of_.loads.critical_step(step.dt, of_structures(space), of_.scene);
   return step;
 }
 
@@ -147,11 +153,12 @@ Step StepLimits::with_dashpots(const Find& find) const {
 }
 
 CriticalStep StepLimits::critical(NodalStiffness& space, geometry::Positions x) const {
-  return with_loads(with_dashpots<CriticalStep>([&](double rate) {
+  const CriticalStep step = with_dashpots<CriticalStep>([&](double rate) {
     const CriticalStep coming = structural(space, rate);
     const CriticalStep now = present(space, x, rate);
     return now.dt < coming.dt ? now : coming;
-  }));
+  });
+  return with_loads(step, space);
 }
 
 CriticalStep StepLimits::critical(geometry::Positions x) const {
@@ -161,14 +168,16 @@ CriticalStep StepLimits::critical(geometry::Positions x) const {
 
 CriticalStep StepLimits::present(geometry::Positions x) const {
   NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
-  return with_loads(
-      with_dashpots<CriticalStep>([&](double rate) { return present(space, x, rate); }));
+  const CriticalStep step =
+      with_dashpots<CriticalStep>([&](double rate) { return present(space, x, rate); });
+  return with_loads(step, space);
 }
 
 CriticalStep StepLimits::coming() const {
   NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
-  return with_loads(
-      with_dashpots<CriticalStep>([&](double rate) { return structural(space, rate); }));
+  const CriticalStep step =
+      with_dashpots<CriticalStep>([&](double rate) { return structural(space, rate); });
+  return with_loads(step, space);
 }
 
 /// Of the contacts of now, without gases and viscous damping.
@@ -212,13 +221,15 @@ ExactStep StepLimits::exact(geometry::Positions x, double time) const {
   const auto normal = [&](geometry::Positions places, NodeForces& forces) {
     of_.contacts.add_elastic_forces(places, forces, finder, [](NodeId) { return true; });
   };
+  NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
+  const double alone = of_structures(space);
   return with_dashpots<ExactStep>([&](double rate) {
     ContactSprings springs(&of_.rigid);
     SlipOnSurfaces slip{springs};
     contacts(rate).add_to(slip, 0.0, x);
     StructureStiffness structures(of_.rigid);
     add_between_structures(springs, structures, x, std::numeric_limits<double>::infinity());
-    return exact_critical_step(of_.scene, {of_.bonds, of_.sheet_facets, of_.ties}, of_.loads,
+    return exact_critical_step(of_.scene, {of_.bonds, of_.sheet_facets, of_.ties, alone}, of_.loads,
                                springs, time, normal);
   });
 }
@@ -251,7 +262,7 @@ StepCause StepLimits::cause(geometry::Positions x) const {
     cause = parts.cause();
   }
   cause.without_dashpots = without_dashpots;
-  cause.step.dt = of_.loads.critical_step(shortest.dt, of_.scene);
+  cause.step.dt = with_loads(shortest, space).dt;
   return cause;
 }
 

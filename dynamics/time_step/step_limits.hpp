@@ -84,7 +84,8 @@ class StepLimits {
   void for_each_piece(NodalStiffness& space, const Look& look) const;
   template <class Step, class Find>
   Step with_dashpots(const Find& find) const;
-  CriticalStep with_loads(CriticalStep step) const;
+  double of_structures(NodalStiffness& space) const;
+  CriticalStep with_loads(CriticalStep step, NodalStiffness& space) const;
   template <class Add>
   CriticalStep shortest_of_pieces(NodalStiffness& space, const Add& add_contacts) const;
   CriticalStep structural(NodalStiffness& space, double rate) const;

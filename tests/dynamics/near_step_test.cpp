@@ -255,7 +255,7 @@ double limit_by_forces(const Simulation& simulation, const std::vector<Vec3>& re
     contacts->advance({x, still, still}, {}, 0.0, pool, forces);
   };
   return dynamics::exact_critical_step(
-             scene, {simulation.bonds(), simulation.sheet_facets(), simulation.ties()},
+             scene, {simulation.bonds(), simulation.sheet_facets(), simulation.ties(), 0.0},
              simulation.loads(), {}, simulation.time(), normal)
       .dt;
 }

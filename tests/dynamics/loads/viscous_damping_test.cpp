@@ -150,7 +150,7 @@ TEST(ViscousDamping, ShortensTheCriticalStepToWhereItIsStable) {
       const double stiffness = 1e7 * std::numbers::pi * 9e-6 / 0.2;
       const double undamped = 2.0 / std::sqrt(2.0 * stiffness / scene.properties.mass[0]);
       const double relaxation = dashpot_of(scene.bonds[0], ratio, scene.properties) / stiffness;
-      const double limit = dynamics::damped_step(undamped, relaxation, rate);
+      const double limit = dynamics::damped_step(undamped, undamped, relaxation, rate);
       EXPECT_LE(LoadedSimulation(scene, {}).critical_step().dt, limit * (1.0 + 1e-12));
 
       // The same oscillator by hand, in units of its mass.
@@ -166,8 +166,41 @@ TEST(ViscousDamping, ShortensTheCriticalStepToWhereItIsStable) {
       }
     }
   }
-  EXPECT_DOUBLE_EQ(dynamics::damped_step(std::numeric_limits<double>::infinity(), 0.0, 4.0), 0.5);
-  EXPECT_DOUBLE_EQ(dynamics::damped_step(3.0, 0.0, 0.0), 3.0);
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  EXPECT_DOUBLE_EQ(dynamics::damped_step(kNever, kNever, 0.0, 4.0), 0.5);
+  EXPECT_DOUBLE_EQ(dynamics::damped_step(3.0, 3.0, 0.0, 0.0), 3.0);
+}
+
+// Two equal masses that a spring and a dashpot join, one of them on a stiff spring that has none, as
+// where a contact holds it: 1 % below and above the step at which the leapfrog is stable, by powers
+// of its matrix. The bound by the damping of each motion by itself is never above that, and it does
+// not go with the square of the stiff frequency, as where all stiffness is damped.
+TEST(ViscousDamping, OfStructuresDoesNotGrowWithTheStiffnessOfContacts) {
+  constexpr double kSpring = 1.0;      // 1/s², over the mass
+  constexpr double kRelaxation = 0.5;  // s
+  for (const double contact : {1e2, 1e4, 1e6}) {
+    const double trace = 2.0 * kSpring + contact;
+    const double largest = 0.5 * (trace + std::sqrt(trace * trace - 4.0 * kSpring * contact));
+    const double undamped = 2.0 / std::sqrt(largest);
+    const double of_damped = 2.0 / std::sqrt(2.0 * kSpring);
+    const double bound = dynamics::damped_step(undamped, of_damped, kRelaxation, 0.0);
+    const auto is_stable = [&](double dt) {
+      Eigen::Vector2d x(1.0, 0.3), v(0.0, 0.0);
+      const Eigen::Matrix2d spring = (Eigen::Matrix2d() << 1.0, -1.0, -1.0, 1.0).finished();
+      Eigen::Matrix2d stiffness = kSpring * spring;
+      stiffness(0, 0) += contact;
+      for (int i = 0; i < 20000 && x.norm() < 1e10; ++i) {
+        v -= dt * (stiffness * x + kRelaxation * kSpring * spring * v);
+        x += dt * v;
+      }
+      return x.norm() < 1e3;
+    };
+
+    EXPECT_TRUE(is_stable(0.999 * bound)) << contact;
+    EXPECT_GT(bound, (contact < 1e3 ? 0.9 : 0.99) * undamped) << contact;
+    EXPECT_FALSE(is_stable(1.01 * undamped)) << contact;
+    EXPECT_LT(dynamics::damped_step(undamped, undamped, kRelaxation, 0.0), 0.2 * undamped);
+  }
 }
 
 TEST(ViscousDamping, IsRefusedOutOfRange) {
