@@ -113,7 +113,8 @@ NodalStiffness::Shares NodalStiffness::mobility_of(const SpringEnd& end, const V
   if (!properties_) return {weight, weight};
   if (const std::int32_t body = body_at(end.node); body >= 0) {
     const Mat3 mobility = rigid_->point_mobility(body, end.to_contact(normal));
-    const double along = normal.dot(mobility * normal);
+    // Rounding may leave it below 0, of a body that can only turn, about a point along the normal.
+    const double along = std::max(0.0, normal.dot(mobility * normal));
     const double across = std::max(0.0, 0.5 * (mobility.trace() - along));
     return {weight * std::sqrt(along), weight * std::sqrt(across)};
   }

@@ -3,6 +3,7 @@
 
 #include "dynamics/model/scene.hpp"
 #include "dynamics/stiffness/nodal_stiffness.hpp"
+#include "tests/support/seeded_random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,6 +71,24 @@ TEST(RigidNodes, LimitTheStepOfASpringAtTheirEnd) {
 
   EXPECT_NEAR(step.dt, 2.0 / std::sqrt(600.0 * 1.5), 1e-12);
   EXPECT_EQ(step.node, NodeId{2});
+}
+
+// A push through the centre of a body that can only turn moves nothing; rounding made it a square
+// root of less than 0, and a time step that was no number.
+TEST(RigidNodes, AreNotMovedThroughTheirCentreWhereTheyCanOnlyTurn) {
+  Scene scene = bar(Held::translation);
+  test::Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    scene.state.orientation[2] = Quat(random.rotation());
+    const RigidNodes rigid = nodes_of(scene);
+    const NodalStiffness stiffness(scene.state.size(), &scene.properties, &rigid);
+    const Vec3 normal = random.direction();
+
+    const double moved = stiffness.mobility_of({NodeId{2}, 1.0, 0.3}, normal).normal;
+
+    EXPECT_GE(moved, 0.0) << i;
+    EXPECT_LE(moved, 1e-7) << i;
+  }
 }
 
 // Two springs at both ends: the body turns about y against 2 k, and moves against 2 k.
