@@ -109,7 +109,11 @@ std::optional<NearestCell> SurfaceQuery::nearest(const Probe& probe) const {
 
 std::vector<NearestCell> SurfaceQuery::within(const Probe& probe, double gap) const {
   check_probe(probe);
-  const double margin = probe.radius + std::max(gap, 0.0) * (1.0 + 1e-12);
+  if (std::isnan(gap))
+    throw std::invalid_argument("a gap of nan m; expected a length, infinite for all cells");
+  // No cell is further away, and the squares of boxes' distances must be numbers.
+  constexpr double kFurthest = 8.0 * kLargestCoordinate;
+  const double margin = probe.radius + std::clamp(gap, 0.0, kFurthest) * (1.0 + 1e-12);
   std::vector<NearestCell> found;
   tree_.for_each_near(bounding_box(probe.core.corners(), margin), [&](std::int32_t item) {
     const Proximity near = proximity(probe, {*surface_, x_}, CellId{item});

@@ -53,7 +53,9 @@ class SurfaceQuery {
   /// are not finite or whose coordinates are not below 1e75 m
   std::optional<NearestCell> nearest(const Probe& probe) const;
 
-  /// Every cell whose gap to a probe is less than a length (m), ascending.
+  /// Every cell whose gap to a probe is less than a length, ascending.
+  /// @param gap  m; infinite for all cells, below 0 for those that overlap by more than that
+  /// @throws std::invalid_argument also if it is NaN
   std::vector<NearestCell> within(const Probe& probe, double gap) const;
 
   /// The smallest gap between two surfaces, of equal ones the lowest cells, of this one first; of

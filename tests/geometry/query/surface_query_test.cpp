@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
 
 namespace plekton::geometry::surface_query_test {
 namespace {
@@ -211,6 +213,33 @@ TEST(SurfaceQuery, RefusesPositionsThatItCannotUse) {
                  "node 2 is at (  1 nan   0) m; coordinates must be finite and below 1e75\n"
                  "node 3 is at (1e+80     1     0) m; coordinates must be finite and below 1e75");
   }
+}
+
+TEST(SurfaceQuery, ListsAllCellsWithinAnyLengthThatIsLongEnough) {
+  const Complex complex = test::sheet(6);
+  const Surface surface = complex.surface();
+  const SurfaceQuery query(surface, complex.x);
+  const double infinity = std::numeric_limits<double>::infinity();
+  // From the furthest point that may be asked with the cells are nearly 1e75 m away.
+  for (const Vec3& x : {Vec3(0, 0, 5), Vec3(0.99e75, 0, 0)}) {
+    for (const double gap : {1e76, 1e160, std::numeric_limits<double>::max(), infinity}) {
+      const auto found = query.within(Probe::point(x), gap);
+
+      ASSERT_EQ(found.size(), surface.cell_count()) << gap;
+      for (std::size_t c = 0; c < found.size(); ++c) EXPECT_EQ(found[c].cell, id_at<CellId>(c));
+    }
+  }
+  EXPECT_TRUE(query.within(Probe::point(Vec3(0, 0, 5)), -infinity).empty());
+}
+
+TEST(SurfaceQuery, RefusesToListCellsWithinWhatIsNoLength) {
+  const Complex complex = test::sheet(1);
+  const Surface surface = complex.surface();
+  const SurfaceQuery query(surface, complex.x);
+
+  EXPECT_THROW(
+      (void)query.within(Probe::point(Vec3::Zero()), std::numeric_limits<double>::quiet_NaN()),
+      std::invalid_argument);
 }
 
 }  // namespace
