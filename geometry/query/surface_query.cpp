@@ -150,6 +150,7 @@ Side SurfaceQuery::side_of(const Vec3& point) const {
 SignedDistance SurfaceQuery::signed_distance(const Vec3& point) const {
   const Side side = side_of(point);
   const auto [nearest, distance] = nearest_core(Probe::point(point), searched());
+  if (side == Side::on) return {0.0, side, nearest};  // the computed distance has a rounding error
   return {side == Side::inside ? -distance : distance, side, nearest};
 }
 

@@ -85,7 +85,8 @@ class SurfaceQuery {
   Side side_of(const Vec3& point) const;
 
   /// Distance from the closed surface with the sign of side_of(), which no rounding of the distance
-  /// can turn. @throws as side_of()
+  /// can turn: exactly 0 where that says on. The gap of the nearest cell is rounded also there.
+  /// @throws as side_of()
   SignedDistance signed_distance(const Vec3& point) const;
 
   /// Many questions, shared by threads; the answers in the order of the questions.

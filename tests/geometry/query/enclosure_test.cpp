@@ -221,5 +221,35 @@ TEST(SignedDistance, IsThatOfTheNearestCoreWithTheSignOfTheSide) {
   }
 }
 
+/// The foot of (1, 1, -1) has rounded weights, and a computed distance of some 1e-16 of the size.
+TEST(SignedDistance, IsZeroOnTheSurfaceWhateverIsRounded) {
+  Complex complex;
+  for (const Vec3& x : {Vec3(1, -2, -2), Vec3(-1, 2, -2), Vec3(-1, -2, 0), Vec3(2, 2, 0),
+                        Vec3(-2, 1, -2), Vec3(2, 2, -2), Vec3(0, 1, 2), Vec3(1, 0, 2)})
+    complex.node(x);
+  for (const int first : {0, 4}) {
+    complex.facet(first, first + 1, first + 2);
+    complex.facet(first, first + 3, first + 1);
+    complex.facet(first + 1, first + 3, first + 2);
+    complex.facet(first + 2, first + 3, first);
+  }
+  const Surface surface = complex.surface();
+  for (const double size : {1.0, 1e6, 1e60}) {
+    std::vector<Vec3> x = complex.x;
+    for (Vec3& position : x) position *= size;
+    const SurfaceQuery query(surface, x);
+    int on = 0;
+    for (int i = 0; i < 125; ++i) {
+      const SignedDistance found =
+          query.signed_distance(size * Vec3(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2));
+
+      if (found.side == Side::on) ++on;
+      EXPECT_EQ(found.distance < 0.0, found.side == Side::inside) << i;
+      EXPECT_EQ(found.distance > 0.0, found.side == Side::outside) << i;
+    }
+    EXPECT_EQ(on, 13);
+  }
+}
+
 }  // namespace
 }  // namespace plekton::geometry::enclosure_test
