@@ -7,6 +7,7 @@
 namespace plekton::geometry {
 
 EdgeTable::EdgeTable(const Mesh& mesh) {
+  require_corners(mesh);
   struct Side {
     std::array<NodeId, 2> nodes;
     std::uint32_t facet;

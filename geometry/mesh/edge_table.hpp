@@ -20,6 +20,7 @@ struct EdgeUse {
 class EdgeTable {
  public:
   /// n log n in the number of facets. Facets must name three different nodes.
+  /// @throws MeshError for one that names a point which is not there
   explicit EdgeTable(const Mesh& mesh);
 
   std::size_t size() const noexcept { return edges_.size(); }

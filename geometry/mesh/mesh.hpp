@@ -31,11 +31,14 @@ struct PolygonSoup {
 
 /// A mesh that cannot be read, written or used. The message names the file, the place, what was
 /// found, what was expected and a way out; all problems of a file come in one message. What it
-/// quotes of a file may be any bytes: control characters come out as in
-/// geometry/base/printable.hpp.
+/// quotes of a file may be any bytes: control characters come out as in "\\n" and "\\x1b".
 struct MeshError : std::runtime_error {
   explicit MeshError(const std::string& text);
 };
+
+/// What takes a mesh from outside asks this first.
+/// @throws MeshError naming the first facets with a corner that is none of the points
+void require_corners(const Mesh& mesh);
 
 /// The same triangles as polygons.
 PolygonSoup to_soup(const Mesh& mesh);

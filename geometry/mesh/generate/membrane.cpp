@@ -7,21 +7,34 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace plekton::geometry {
 namespace {
 
+std::optional<std::size_t> repeating_facet(const Mesh& mesh) {
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    const auto& [a, b, c] = mesh.facets[f];
+    if (a == b || b == c || c == a) return f;
+  }
+  return std::nullopt;
+}
+
 void require_usable(const Mesh& mesh, const MembraneOptions& options) {
+  constexpr auto kMostNodes = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+  require_corners(mesh);
   std::ostringstream text;
   if (!(options.thickness > 0.0) || !std::isfinite(options.thickness))
     text << "a membrane of thickness " << options.thickness << " m; expected a positive length";
   else if (mesh.facets.empty())
     text << "a membrane of a mesh without facets; expected at least one";
-  else if (options.first_node + mesh.points.size() >
-           static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+  else if (options.first_node > kMostNodes || mesh.points.size() > kMostNodes - options.first_node)
     text << "a membrane of " << mesh.points.size() << " nodes from number " << options.first_node
          << " on; the numbers of nodes end at 2147483647";
+  else if (const auto facet = repeating_facet(mesh))
+    text << "a membrane of a mesh whose facet " << *facet
+         << " repeats a node; merge duplicate nodes or leave out the facet";
   else
     return;
   throw MeshError(text.str());

@@ -27,8 +27,9 @@ struct Membrane {
 };
 
 /// Thickens a mesh. Facets and edges name the nodes by their numbers in the scene.
-/// @throws MeshError if the thickness is not a positive length, the mesh has no facet, or the
-///         numbers of the nodes do not fit a NodeId.
+/// @throws MeshError if the thickness is not a positive length, the mesh has no facet or one that
+///         repeats a node or names a point which is not there, or the numbers of the nodes do not
+///         fit a NodeId.
 Membrane make_membrane(const Mesh& mesh, const MembraneOptions& options);
 
 }  // namespace plekton::geometry

@@ -23,7 +23,7 @@ enum class MeshFormat { off, obj, stl_ascii, stl_binary, ply, gmsh, vtp };
 PolygonSoup read_mesh_file(const std::filesystem::path& path);
 
 /// The same from memory. Time and memory are linear in the size of the text, whatever counts it
-/// claims (a .vtp file that unpacks to more than kNumbersPerByte of vtk_array.hpp is refused).
+/// claims (a .vtp file that unpacks to more than kNumbersPerByte is refused).
 /// @param name  What messages call it.
 PolygonSoup parse_mesh(std::string_view bytes, MeshFormat format, const std::string& name);
 
@@ -45,13 +45,14 @@ struct UnwrittenMesh : MeshError {
 /// bits. Either the whole file appears or none: a temporary file beside it is renamed when it is
 /// complete.
 /// @throws UnwrittenMesh if the folder does not exist or cannot be written, or the disk is full;
-///         MeshError for coordinates that no file can hold, see format_mesh, and for any other ending.
+///         MeshError for a mesh that no file can hold, see format_mesh, and for any other ending.
 void write_mesh_file(const std::filesystem::path& path, const Mesh& mesh, MeshFormat format);
 void write_mesh_file(const std::filesystem::path& path, const Mesh& mesh);
 
 /// The bytes that write_mesh_file writes.
-/// @throws MeshError for coordinates that are not finite or not below kLargestCoordinate, which no
-///         file is read with, and in binary STL for those that a float does not hold.
+/// @throws MeshError for facets that name a point which is not there, for coordinates that are not
+///         finite or not below kLargestCoordinate, which no file is read with, and in binary STL for
+///         those that a float does not hold.
 std::string format_mesh(const Mesh& mesh, MeshFormat format);
 
 }  // namespace plekton::geometry

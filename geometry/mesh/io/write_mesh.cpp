@@ -181,6 +181,7 @@ void require_coordinates(const Mesh& mesh, MeshFormat format) {
 }  // namespace
 
 std::string format_mesh(const Mesh& mesh, MeshFormat format) {
+  require_corners(mesh);
   require_coordinates(mesh, format);
   switch (format) {
     case MeshFormat::off:

@@ -149,6 +149,7 @@ void measure_solid(const Mesh& mesh, const EdgeTable& edges, bool intersections,
 }  // namespace
 
 double smallest_angle(const Mesh& mesh) {
+  require_corners(mesh);
   double smallest = mesh.facets.empty() ? 0.0 : 180.0;
   for (const auto& facet : mesh.facets) {
     std::array<Vec3, 3> side;  // From corner k to the next.

@@ -41,7 +41,7 @@ struct MeshMeasures {
 /// @param intersections  Look for facets that intersect, by far the most expensive part.
 MeshMeasures measure(const Mesh& mesh, bool intersections);
 
-/// Degrees, of all corners of facets; 0 without facets.
+/// Degrees, of all corners of facets; 0 without facets. @throws as measure()
 double smallest_angle(const Mesh& mesh);
 /// Degrees; facets with smaller ones are needles.
 inline constexpr double kSmallAngle = 1.0;

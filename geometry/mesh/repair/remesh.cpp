@@ -109,6 +109,7 @@ Mesh remeshed(const Mesh& mesh, double target_edge, bool collapse) {
 }  // namespace
 
 Mesh remesh(const Mesh& mesh, double target_edge) {
+  require_corners(mesh);
   std::ostringstream what;
   what << "a target edge of " << target_edge << " m";
   require_resolved(mesh, target_edge, what.str());

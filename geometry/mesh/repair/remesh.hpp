@@ -17,9 +17,9 @@ inline constexpr double kFeatureAngle = 40.0;
 /// where that makes fewer of them. Other nodes lie on the old surface up to rounding.
 /// @param target_edge  m.
 /// @throws MeshError if the length is not positive and finite or would make more than 2e7 facets,
-///         and for a mesh that is not manifold or whose facets disagree, where remeshing would tear
-///         shared nodes apart. Source: Botsch & Kobbelt, A remeshing approach to multiresolution
-///         modeling (2004).
+///         for facets that name a point which is not there, and for a mesh that is not manifold or
+///         whose facets disagree, where remeshing would tear shared nodes apart. Source: Botsch &
+///         Kobbelt, A remeshing approach to multiresolution modeling (2004).
 Mesh remesh(const Mesh& mesh, double target_edge);
 
 }  // namespace plekton::geometry

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/generate/membrane.hpp"
+
+#include "geometry/mesh/generate/generators.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/mesh/io/mesh_file.hpp"
 #include "geometry/primitives/elements.hpp"
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace plekton::geometry::membrane_test {
 namespace {
@@ -41,6 +43,23 @@ TEST(MakeMembrane, NumbersNodesFromTheFirstOne) {
   EXPECT_THAT(membrane.edges, ElementsAre(ElementsAre(NodeId{100}, NodeId{101}),
                                           ElementsAre(NodeId{100}, NodeId{102}),
                                           ElementsAre(NodeId{101}, NodeId{102})));
+}
+
+TEST(MakeMembrane, RefusesNumbersThatNoNodeHas) {
+  const Mesh mesh = plane_sheet({1.0, 1.0, 2, 2});
+  for (const std::size_t first : {std::numeric_limits<std::size_t>::max() - 2, std::size_t{1} << 40,
+                                  std::size_t{2147483640}}) {
+    EXPECT_THROW(make_membrane(mesh, {.thickness = 0.01, .first_node = first}), MeshError);
+  }
+  EXPECT_NO_THROW(make_membrane(mesh, {.thickness = 0.01, .first_node = 2147483647 - 9}));
+}
+
+TEST(MakeMembrane, NamesAFacetThatRepeatsANode) {
+  Mesh mesh = plane_sheet({1.0, 1.0, 2, 2});
+  mesh.facets[5][2] = mesh.facets[5][0];
+
+  EXPECT_THAT([&] { make_membrane(mesh, {.thickness = 0.01}); },
+              ::testing::ThrowsMessage<MeshError>(HasSubstr("facet 5 repeats a node")));
 }
 
 TEST(MakeMembrane, GivesASurfaceThatContactCanUse) {
