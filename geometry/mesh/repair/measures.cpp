@@ -90,17 +90,23 @@ std::size_t count_non_manifold_nodes(const Mesh& mesh) {
   return count;
 }
 
+/// The norm, also where squares vanish.
+double norm_of(const Vec3& v) {
+  constexpr double kSmallestWithSquares = 1e-150;
+  const double norm = v.norm();
+  return norm > kSmallestWithSquares ? norm : v.stableNorm();
+}
+
 double angle_degrees(const Vec3& u, const Vec3& v) {
-  return elementary::atan2(u.cross(v).norm(), u.dot(v)) * 180.0 / std::numbers::pi;
+  return elementary::atan2(norm_of(u.cross(v)), u.dot(v)) * 180.0 / std::numbers::pi;
 }
 
 void measure_facets(const Mesh& mesh, MeshMeasures& m) {
   m.smallest_angle = smallest_angle(mesh);
   for (const auto& [a, b, c] : mesh.facets) {
     const Vec3& x = mesh.points[index_of(a)];
-    m.area += 0.5 * (mesh.points[index_of(b)] - x)
-                        .cross(mesh.points[index_of(c)] - mesh.points[index_of(b)])
-                        .norm();
+    m.area += 0.5 * norm_of((mesh.points[index_of(b)] - x)
+                                .cross(mesh.points[index_of(c)] - mesh.points[index_of(b)]));
   }
 }
 
@@ -108,7 +114,7 @@ void measure_edges(const Mesh& mesh, const EdgeTable& edges, MeshMeasures& m) {
   if (edges.size() == 0) return;
   m.shortest_edge = std::numeric_limits<double>::infinity();
   for (const auto& [a, b] : edges.edges()) {
-    const double length = (mesh.points[index_of(b)] - mesh.points[index_of(a)]).norm();
+    const double length = norm_of(mesh.points[index_of(b)] - mesh.points[index_of(a)]);
     m.shortest_edge = std::min(m.shortest_edge, length);
     m.longest_edge = std::max(m.longest_edge, length);
     m.mean_edge += length / static_cast<double>(edges.size());
