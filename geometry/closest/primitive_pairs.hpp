@@ -22,8 +22,8 @@
 /// goes to the lowest-dimensional features, then to the lowest ids. A facet without area is the
 /// union of its sides, a cylinder without length its node.
 ///
-/// The relative error of the distance of the cores is at most 1e-12. Coordinates must be finite and
-/// below 1e75 m.
+/// The relative error of the distance of the cores is at most 1e-12. Nothing is checked: ids must
+/// be those of the surface, coordinates and radii finite and below 1e75 m, radii not negative.
 namespace plekton::geometry {
 
 /// Two spheres. Of coincident centres the normal is the z axis.
@@ -48,7 +48,7 @@ Proximity proximity(const PlacedSurface& on_a, CellId a, const PlacedSurface& on
 
 /// A primitive that belongs to no surface: a point, ball, cylinder or facet to ask others with.
 struct Probe {
-  Core core;      ///< m
+  Core core;      ///< m; with one to three corners
   double radius;  ///< m, >= 0
 
   static Probe point(const Vec3& x) { return ball(x, 0.0); }

@@ -14,8 +14,6 @@ namespace plekton::geometry {
 
 namespace {
 
-constexpr double kSmallestSkin = 1e-100;
-
 bool is_skin(double skin) noexcept {
   return std::isfinite(skin) && (skin == 0.0 || skin >= kSmallestSkin);
 }

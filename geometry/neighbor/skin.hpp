@@ -10,6 +10,9 @@ namespace plekton::geometry {
 
 class StateArchive;
 
+/// m. Squares of shorter skins would vanish.
+inline constexpr double kSmallestSkin = 1e-100;
+
 /// How long a list of overlapping boxes stays good while the nodes move: a Verlet list with a
 /// proven rule.
 ///
@@ -31,8 +34,8 @@ class StateArchive;
 class Skin {
  public:
   /// @param skin m. Zero asks for a rebuild at every question.
-  /// @throws std::invalid_argument if it is negative, not finite, or between 0 and 1e-100, where
-  /// squares would vanish.
+  /// @throws std::invalid_argument if it is negative, not finite, or between 0 and
+  /// kSmallestSkin
   explicit Skin(double skin);
 
   /// Takes another skin, from the next list on: mark_built() has to follow.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -59,6 +60,10 @@ class ElementProblems {
     if (!(radius >= 0.0 && std::isfinite(radius))) {
       line(kind, id) << " has radius " << radius << " m; it must be finite and not negative\n";
     }
+  }
+
+  void count_nodes(std::size_t count, std::int32_t most) {
+    text_ << "surface: " << count << " nodes; their numbers end at " << most << '\n';
   }
 
   std::ostream& line(const char* kind, std::size_t id) {
@@ -145,6 +150,11 @@ std::vector<std::size_t> first_with_same_nodes(std::span<const Facet> facets) {
 void check_elements(std::span<const Cylinder> cylinders, std::span<const Facet> facets,
                     std::size_t node_count) {
   ElementProblems problems;
+  constexpr auto kMostNodes = std::numeric_limits<std::int32_t>::max();
+  if (node_count > static_cast<std::size_t>(kMostNodes)) {
+    problems.count_nodes(node_count, kMostNodes);
+    problems.throw_if_any();
+  }
   const auto first = first_with_same_nodes(facets);
   for (std::size_t f = 0; f < facets.size(); ++f) {
     problems.check("facet", f, facets[f].nodes, facets[f].radius, node_count);

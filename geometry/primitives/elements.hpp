@@ -30,7 +30,8 @@ class Surface {
   Surface() = default;
 
   /// Time and memory grow linearly with the number of elements, times log for sorting the edges.
-  /// @throws std::invalid_argument listing every problem: a node id out of range, an element that
+  /// @throws std::invalid_argument listing every problem: more nodes than a NodeId counts (and
+  ///         nothing else then), a node id out of range, an element that
   ///         repeats a node, two facets on the same three nodes, a radius that is negative or not
   ///         finite, connected elements with different radii.
   Surface(std::span<const Cylinder> cylinders, std::span<const Facet> facets,

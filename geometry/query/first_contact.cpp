@@ -2,12 +2,13 @@
 #include "geometry/query/first_contact.hpp"
 
 #include "geometry/base/problems.hpp"
-#include "geometry/query/probe_check.hpp"
+#include "geometry/query/number_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <string>
 
 namespace plekton::geometry {
 namespace {
@@ -20,8 +21,9 @@ void check(const char* which, const MovingProbe& probe, std::ostream& problems) 
     problems << which << " has " << probe.from.count << " corners at the start of the step and "
              << probe.to.count << " at the end; expected as many\n";
   }
-  list_probe_problems({probe.from, probe.radius}, problems);
-  list_probe_problems({probe.to, probe.radius}, problems);
+  const std::string name = which;
+  list_probe_problems({probe.from, probe.radius}, problems, name + " at the start of the step");
+  list_probe_problems({probe.to, probe.radius}, problems, name + " at the end of the step");
 }
 
 Probe at(const MovingProbe& moving, double t) {

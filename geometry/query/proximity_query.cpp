@@ -3,6 +3,7 @@
 
 #include "geometry/base/problems.hpp"
 #include "geometry/closest/primitive_pairs.hpp"
+#include "geometry/query/number_checks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,6 +32,25 @@ void list_sphere_problems(std::span<const Sphere> spheres, std::size_t node_coun
   }
 }
 
+void list_gap_problems(double largest_gap, std::ostream& problems) {
+  if (!(largest_gap > 0.0) || !std::isfinite(largest_gap)) {
+    problems << "largest gap is " << largest_gap << " m; it must be positive and finite\n";
+  } else if (largest_gap < kSmallestSkin) {
+    problems << "largest gap is " << largest_gap << " m; it must be at least " << kSmallestSkin
+             << " m; take a larger one, and leave out what is further away\n";
+  }
+}
+
+/// @throws std::invalid_argument if distances of nodes cannot be taken
+void check_numbers(Positions x) {
+  double largest = 0.0;
+  for (const Vec3& position : x) largest += position.cwiseAbs().sum();  // NaN stays NaN
+  if (largest < kLargestCoordinate) return;
+  std::ostringstream problems;
+  list_node_problems(x, problems, [](std::size_t) { return true; });
+  throw_if_any(problems);
+}
+
 }  // namespace
 
 ProximityQuery::ProximityQuery(Elements elements, std::size_t node_count, const PairChoice& choice,
@@ -45,8 +65,7 @@ ProximityQuery::ProximityQuery(Elements elements, std::size_t node_count, const 
   const double largest_gap = choice.largest_gap;
   std::ostringstream problems;
   list_sphere_problems(elements_.spheres, node_count, problems);
-  if (!(largest_gap > 0.0) || !std::isfinite(largest_gap))
-    problems << "largest gap is " << largest_gap << " m; it must be positive and finite\n";
+  list_gap_problems(largest_gap, problems);
   try {
     surface_ = std::make_unique<Surface>(elements_.cylinders, elements_.facets, node_count);
   } catch (const std::invalid_argument& of_surface) {
@@ -65,6 +84,7 @@ std::span<const Proximity> ProximityQuery::find(Positions x) {
                                 " nodes; this query was made for " +
                                 std::to_string(surface_->node_count()));
   }
+  check_numbers(x);
   list_candidates(x);
   for (Found& found : found_by_worker_) {
     found.proximities.clear();

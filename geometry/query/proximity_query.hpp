@@ -17,7 +17,8 @@ namespace plekton::geometry {
 
 /// Which pairs of a scene are asked for.
 struct PairChoice {
-  double largest_gap;              ///< m, > 0: how far apart a pair may be to be reported
+  double largest_gap;  ///< m, finite, from kSmallestSkin on: how far apart a pair may be to be
+                       ///< reported
   bool cells_with_cells = true;    ///< cylinders and facets of different structures
   bool within_structures = false;  ///< and of one structure with itself, but for neighbours
 };
@@ -56,11 +57,12 @@ class ProximityQuery {
 
   /// Every chosen pair that is nearer than the largest gap: spheres with spheres first, then
   /// spheres with cells, then cells with cells, each in ascending order of the ids. Cells that
-  /// share a node are never a pair. One entry for each pair of elements; use
-  /// contact/sphere_surface/patch.hpp for what pushes. The same whatever the number of threads.
-  /// Valid until the next call.
+  /// share a node are never a pair. One entry for each pair of elements; what a sphere on several
+  /// cells is pushed by is for contacts to decide. The same whatever the number of threads. Valid
+  /// until the next call.
   /// @param x  m, one position for each node, finite and below 1e75
-  /// @throws std::invalid_argument if that are not as many as there are nodes
+  /// @throws std::invalid_argument if that are not as many as there are nodes, or naming those
+  ///         whose coordinates are not so
   std::span<const Proximity> find(Positions x);
 
   /// The elements of each entry that the last find() gave.

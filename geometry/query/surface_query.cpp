@@ -2,10 +2,11 @@
 #include "geometry/query/surface_query.hpp"
 
 #include "geometry/base/problems.hpp"
-#include "geometry/query/probe_check.hpp"
+#include "geometry/query/number_checks.hpp"
 #include "geometry/query/ray_search.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -15,14 +16,7 @@ namespace {
 
 /// @throws std::invalid_argument for numbers that no distance can be taken of
 void check_probe(const Probe& probe) {
-  const bool is_usual = probe.core.count >= 1 && probe.core.count <= 3 && probe.radius >= 0.0 &&
-                        probe.radius < kLargestCoordinate;
-  double largest = 0.0;
-  if (is_usual) {
-    for (const Vec3& corner : probe.core.corners())
-      largest += corner.cwiseAbs().sum();  // NaN stays NaN
-  }
-  if (is_usual && largest < kLargestCoordinate) return;
+  if (is_usable(probe)) return;
   std::ostringstream problems;
   list_probe_problems(probe, problems);
   throw_if_any(problems);
@@ -69,13 +63,9 @@ void SurfaceQuery::check(Positions x) const {
              << surface_->node_count() << '\n';
     throw_if_any(problems);
   }
-  for (std::size_t n = 0; n < x.size(); ++n) {
-    const bool is_used = surface_->structure_of(id_at<NodeId>(n)) != StructureId{-1};
-    if (is_used && !(x[n].cwiseAbs().maxCoeff() < kLargestCoordinate && x[n].allFinite())) {
-      problems << "node " << n << " is at (" << x[n].transpose()
-               << ") m; coordinates must be finite and below 1e75\n";
-    }
-  }
+  list_node_problems(x, problems, [this](std::size_t n) {
+    return surface_->structure_of(id_at<NodeId>(n)) != StructureId{-1};
+  });
   throw_if_any(problems);
 }
 
@@ -157,9 +147,21 @@ SignedDistance SurfaceQuery::signed_distance(const Vec3& point) const {
 std::vector<std::optional<NearestCell>> SurfaceQuery::nearest(std::span<const Probe> probes,
                                                               ThreadPool& pool) const {
   std::vector<std::optional<NearestCell>> answers(probes.size());
+  std::atomic<bool> is_any_wrong = false;
   pool.for_each_range(probes.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i) answers[i] = nearest(probes[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!is_usable(probes[i])) {
+        is_any_wrong = true;
+        return;
+      }
+      if (!boxes_.empty()) answers[i] = nearest_cell(probes[i], searched());
+    }
   });
+  if (is_any_wrong) {
+    std::ostringstream problems;
+    list_probe_problems(probes, problems);
+    throw_if_any(problems);
+  }
   return answers;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/base/thread_pool.hpp"
 #include "geometry/query/box_tree.hpp"
 #include "geometry/query/enclosure.hpp"
 #include "geometry/query/nearest_search.hpp"
 #include "geometry/query/ray.hpp"
-#include "geometry/base/thread_pool.hpp"
 
 #include <optional>
 #include <span>
@@ -68,6 +68,8 @@ class SurfaceQuery {
 
   /// Where a ray first enters the thick surface: of the hits of all cells (ray.hpp) the one with
   /// the smallest t, of equal t that of the lowest cell.
+  /// @returns nothing if it misses, or is none that can hit (can_hit()), as with a direction of
+  /// zero or NaN
   std::optional<RayHit> first_hit(const Ray& ray) const;
 
   /// Where a ray enters each cell that it enters, by t, then by cell: one hit for every cell, so
@@ -90,6 +92,7 @@ class SurfaceQuery {
   SignedDistance signed_distance(const Vec3& point) const;
 
   /// Many questions, shared by threads; the answers in the order of the questions.
+  /// @throws std::invalid_argument that names the probes that cannot be used by their places
   std::vector<std::optional<NearestCell>> nearest(std::span<const Probe> probes,
                                                   ThreadPool& pool) const;
   std::vector<std::optional<RayHit>> first_hits(std::span<const Ray> rays, ThreadPool& pool) const;

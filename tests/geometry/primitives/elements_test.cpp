@@ -366,5 +366,18 @@ TEST(Surface, MayBeWithoutThickness) {
   EXPECT_EQ(surface.radius(surface.structure_of(CellId{0})), 0.0);
 }
 
+TEST(SurfaceErrors, NameANumberOfNodesThatNoIdCounts) {
+  for (const std::size_t count :
+       {std::size_t{3000000000}, std::numeric_limits<std::size_t>::max()}) {
+    try {
+      Surface surface({}, {}, count);
+      FAIL() << "was accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(error.what(),
+                "surface: " + std::to_string(count) + " nodes; their numbers end at 2147483647");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plekton::geometry::elements_test

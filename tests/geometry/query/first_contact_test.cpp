@@ -152,5 +152,20 @@ TEST(FirstContact, RefusesWhatItCannotUse) {
   EXPECT_THROW((void)first_contact(ball, ball, {nan}), std::invalid_argument);
 }
 
+TEST(FirstContact, NamesWhichOfTheTwoItCannotUseAndWhen) {
+  const auto ball = MovingProbe::resting(Probe::ball(Vec3::Zero(), 1.0));
+  auto spoilt = ball;
+  spoilt.to.x[0].x() = std::numeric_limits<double>::quiet_NaN();
+
+  try {
+    (void)first_contact(ball, spoilt);
+    FAIL() << "was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "b at the end of the step has a corner at (nan   0   0) m; coordinates must be "
+                 "finite and below 1e75");
+  }
+}
+
 }  // namespace
 }  // namespace plekton::geometry::first_contact_test

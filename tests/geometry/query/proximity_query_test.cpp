@@ -174,6 +174,38 @@ TEST(ProximityQuery, RefusesALargestGapThatIsNotPositive) {
   EXPECT_THROW(ProximityQuery({}, 0, -1.0), std::invalid_argument);
 }
 
+TEST(ProximityQuery, SaysHowSmallTheLargestGapMayBe) {
+  EXPECT_NO_THROW(ProximityQuery({}, 0, 1e-100));
+  try {
+    ProximityQuery query({}, 0, 1e-300);
+    FAIL() << "was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "largest gap is 1e-300 m; it must be at least 1e-100 m; take a larger one, and "
+                 "leave out what is further away");
+  }
+}
+
+TEST(ProximityQuery, NamesTheNodesWhoseCoordinatesItCannotUse) {
+  Elements elements;
+  elements.spheres = {{{NodeId{0}}, 1.0}, {{NodeId{1}}, 0.5}};
+  ProximityQuery query(elements, 3, 1.0);
+  const std::vector<Vec3> good{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  auto spoilt = good;
+  spoilt[0].y() = std::numeric_limits<double>::quiet_NaN();
+  spoilt[2].x() = 1e80;
+
+  try {
+    (void)query.find(spoilt);
+    FAIL() << "was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "node 0 is at (  0 nan   0) m; coordinates must be finite and below 1e75\n"
+                 "node 2 is at (1e+80     1     0) m; coordinates must be finite and below 1e75");
+  }
+  EXPECT_EQ(query.find(good).size(), 1u);
+}
+
 TEST(ProximityQuery, ListsAllProblemsOfItsElementsTogether) {
   Elements elements;
   elements.spheres = {{{NodeId{0}}, 0.1}, {{NodeId{5}}, 0.1}, {{NodeId{-1}}, -0.1}};

@@ -242,5 +242,35 @@ TEST(SurfaceQuery, RefusesToListCellsWithinWhatIsNoLength) {
       std::invalid_argument);
 }
 
+TEST(SurfaceQuery, NamesTheProbesOfManyThatItCannotUse) {
+  const Complex complex = test::sheet(1);
+  const Surface surface = complex.surface();
+  const SurfaceQuery query(surface, complex.x);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Probe> probes(1000, Probe::point(Vec3(0, 0, 5)));
+  probes[617] = Probe::point(Vec3(nan, 0, 0));
+  probes[901] = Probe::ball(Vec3(0, 0, 1), -1.0);
+  const auto message = [&](int threads) -> std::string {
+    ThreadPool pool(threads);
+    try {
+      (void)query.nearest(probes, pool);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+
+  for (const int threads : {1, 3}) {
+    EXPECT_EQ(message(threads),
+              "probe 617 has a corner at (nan   0   0) m; coordinates must be finite and below "
+              "1e75\nprobe 901 has radius -1 m; expected from 0 to below 1e75");
+  }
+  for (std::size_t i = 0; i < 10; ++i) probes[i] = Probe::ball(Vec3::Zero(), nan);
+  EXPECT_TRUE(message(2).starts_with("probe 0 has radius nan m"));
+  EXPECT_TRUE(
+      message(2).ends_with("probe 7 has radius nan m; expected from 0 to below 1e75\n"
+                           "and 4 more probes like these"));
+}
+
 }  // namespace
 }  // namespace plekton::geometry::surface_query_test
