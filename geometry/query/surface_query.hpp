@@ -35,11 +35,12 @@ struct SignedDistance {
 /// far as each other, as those of a ball are from its centre.
 class SurfaceQuery {
  public:
-  /// @param surface  must outlive this
+  /// @param surface  must outlive this; no temporary
   /// @param x        m, one position for each node; copied
   /// @throws std::invalid_argument if that are not as many as there are nodes, or a node of a cell
   /// is not finite or not below 1e75 m
   SurfaceQuery(const Surface& surface, Positions x);
+  SurfaceQuery(const Surface&& surface, Positions x) = delete;
 
   /// The nodes have moved. @throws as the constructor; then nothing has changed
   void move(Positions x);

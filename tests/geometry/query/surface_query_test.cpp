@@ -272,5 +272,11 @@ TEST(SurfaceQuery, NamesTheProbesOfManyThatItCannotUse) {
                            "and 4 more probes like these"));
 }
 
+/// It would keep the address of what is gone.
+TEST(SurfaceQuery, CannotBeMadeOfATemporary) {
+  EXPECT_TRUE((std::is_constructible_v<SurfaceQuery, const Surface&, Positions>));
+  EXPECT_FALSE((std::is_constructible_v<SurfaceQuery, Surface, Positions>));
+}
+
 }  // namespace
 }  // namespace plekton::geometry::surface_query_test
