@@ -57,8 +57,8 @@ ProximityQuery::ProximityQuery(Elements elements, std::size_t node_count, const 
                                int threads)
     : elements_(std::move(elements)),
       choice_(choice),
-      pool_(threads),
-      cell_skin_(choice.largest_gap > 1e-100 && std::isfinite(choice.largest_gap)
+      pool_(std::make_unique<ThreadPool>(threads)),
+      cell_skin_(choice.largest_gap >= kSmallestSkin && std::isfinite(choice.largest_gap)
                      ? choice.largest_gap
                      : 0.0),
       found_by_worker_(static_cast<std::size_t>(threads)) {
@@ -90,7 +90,7 @@ std::span<const Proximity> ProximityQuery::find(Positions x) {
     found.proximities.clear();
     found.elements.clear();
   }
-  pool_.for_each_range(candidates_.size(), [&](std::size_t begin, std::size_t end, int worker) {
+  pool_->for_each_range(candidates_.size(), [&](std::size_t begin, std::size_t end, int worker) {
     Found& found = found_by_worker_[static_cast<std::size_t>(worker)];
     for (std::size_t i = begin; i < end; ++i) {
       const Proximity proximity = proximity_of(candidates_[i], x);
@@ -110,7 +110,7 @@ std::span<const Proximity> ProximityQuery::find(Positions x) {
 
 void ProximityQuery::list_candidates(Positions x) {
   using Kind = ElementId::Kind;
-  neighbours_->update(x, pool_);
+  neighbours_->update(x, *pool_);
   candidates_.clear();
   for (const IndexPair& pair : neighbours_->sphere_pairs())
     candidates_.push_back({{Kind::sphere, pair.a}, {Kind::sphere, pair.b}});
@@ -129,7 +129,7 @@ void ProximityQuery::list_candidates(Positions x) {
 
 /// Each box carries half the largest gap, and half the skin (skin.hpp).
 void ProximityQuery::list_cell_pairs(Positions x) {
-  if (!cell_skin_.needs_rebuild(x, pool_)) return;
+  if (!cell_skin_.needs_rebuild(x, *pool_)) return;
   const double margin = 0.5 * choice_.largest_gap + cell_skin_.margin();
   cell_boxes_.clear();
   for (std::size_t c = 0; c < surface_->cell_count(); ++c) {

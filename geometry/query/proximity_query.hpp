@@ -44,7 +44,7 @@ struct ElementPair {
 /// without any dynamics. All six kinds of pairs of primitives (primitive_pairs.hpp).
 ///
 /// Lists of candidates are kept while nodes move by less than half the largest gap; a question
-/// between two rebuilds takes O(elements + candidates).
+/// between two rebuilds takes O(elements + candidates). It can be moved, not copied.
 class ProximityQuery {
  public:
   /// @throws std::invalid_argument listing every problem of the elements (see Surface; spheres
@@ -87,7 +87,7 @@ class ProximityQuery {
   std::vector<Sphere>
       grown_;  ///< the spheres with largest_gap more radius: what the neighbours see
   std::unique_ptr<Surface> surface_;  ///< at a fixed address, which the neighbours know
-  ThreadPool pool_;
+  std::unique_ptr<ThreadPool> pool_;
   std::unique_ptr<Neighbours> neighbours_;
   Skin cell_skin_;
   BroadPhase cell_tree_;

@@ -206,6 +206,26 @@ TEST(ProximityQuery, NamesTheNodesWhoseCoordinatesItCannotUse) {
   EXPECT_EQ(query.find(good).size(), 1u);
 }
 
+TEST(ProximityQuery, AnswersTheSameAfterItWasMoved) {
+  Elements elements;
+  elements.spheres = {{{NodeId{0}}, 0.5}, {{NodeId{1}}, 0.5}};
+  elements.facets = {{{NodeId{2}, NodeId{3}, NodeId{4}}, 0.1}};
+  const std::vector<Vec3> x{{0, 0, 1}, {0.9, 0, 1}, {-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  ProximityQuery query(elements, x.size(), 0.6);
+  const auto found = query.find(x);
+  const std::vector<Proximity> before(found.begin(), found.end());
+
+  ProximityQuery moved = std::move(query);
+
+  for (int asked = 0; asked < 2; ++asked) {
+    const auto after = moved.find(x);
+    ASSERT_EQ(after.size(), before.size());
+    ASSERT_GE(after.size(), 2u);
+    for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].gap, before[i].gap);
+  }
+  EXPECT_EQ(moved.surface().face_count(), 1u);
+}
+
 TEST(ProximityQuery, ListsAllProblemsOfItsElementsTogether) {
   Elements elements;
   elements.spheres = {{{NodeId{0}}, 0.1}, {{NodeId{5}}, 0.1}, {{NodeId{-1}}, -0.1}};
