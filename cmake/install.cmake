@@ -22,9 +22,12 @@ plekton_public_headers(public_headers
   dynamics/simulation.hpp
   dynamics/structure/bonds_along.hpp
   dynamics/structure/membrane_force.hpp
+  geometry/mesh/generate/closed_tube.hpp
   geometry/mesh/generate/generators.hpp
-  geometry/mesh/io/import.hpp
+  geometry/mesh/generate/lattice.hpp
   geometry/mesh/generate/membrane.hpp
+  geometry/mesh/generate/polygon.hpp
+  geometry/mesh/io/import.hpp
   geometry/mesh/io/mesh_file.hpp
   geometry/mesh/repair/orientation.hpp
   geometry/mesh/repair/remesh.hpp

@@ -3,6 +3,7 @@
 
 #include "contact/models.hpp"
 #include "dynamics/broken_elements.hpp"
+#include "dynamics/checkpoint/checkpoint_error.hpp"
 #include "dynamics/integrators/nodes_of_ranks.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/loads/plane_servo.hpp"
@@ -266,7 +267,8 @@ class Simulation {
   /// @throws geometry::StateMismatch if the state is of another scene, or damaged: the simulation
   ///         can only be thrown away then
   void restore(const geometry::StateTree& state);
-  /// The same, to and from a file (checkpoint/checkpoint_file.hpp).
+  /// The same, to and from an HDF5 file with a data set for every array of the state. load() refuses
+  /// a file of another version of them, and one in which a bit has changed.
   /// @throws OutputError; CheckpointError
   void save(const std::filesystem::path& file);
   void load(const std::filesystem::path& file);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dynamics/checkpoint/checkpoint_error.hpp"
 #include "geometry/base/state_tree.hpp"
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -19,13 +19,6 @@ namespace plekton::dynamics {
 
 /// Grows whenever an array of the state changes its name or meaning.
 constexpr int kCheckpointVersion = 11;
-
-/// A checkpoint cannot be read. The message names the file, what is wrong with it and what to do.
-class CheckpointError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-  CheckpointError(const std::filesystem::path& file, const std::string& problem);
-};
 
 inline constexpr std::string_view kUnknownRevision = "unknown";
 

@@ -59,7 +59,7 @@ endif()
 
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${WORK}/build ${options})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-foreach(name IN ITEMS geometry geometry_queries contact dynamics)
+foreach(name IN ITEMS geometry geometry_queries mesh_generators contact dynamics)
   run(${WORK}/build/consumer_${name})
 endforeach()
 if(distributed)
