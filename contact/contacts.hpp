@@ -72,8 +72,7 @@ class Contacts {
   virtual void advance(const Motion& motion, std::span<const Plane> planes, double dt,
                        geometry::ThreadPool& pool, NodeForces& forces) = 0;
 
-  /// Which of several processes moves which nodes (sphere_sphere/shared_motion.hpp); null: each
-  /// that there is moves all of them.
+  /// Which of several processes moves which nodes; null: each that there is moves all of them.
   virtual SharedMotion* shared_motion() noexcept { return nullptr; }
   /// Whether advance() would look at all nodes, not only at those that are near others.
   virtual bool may_make_lists(const Motion& motion,

@@ -43,7 +43,7 @@ namespace plekton::dynamics {
 
 struct SimulationOptions {
   double time_step = 0.0;  ///< s; 0 chooses one as it goes: kSafety times the critical step with
-                           ///< the contacts of now and those that are near (step_chooser.hpp),
+                           ///< the contacts of now and those that are near,
                            ///< shorter while something is fast (dynamics/time_step/motion_step.hpp)
   MotionOptions motion;
   double skin =
@@ -183,7 +183,7 @@ class Simulation {
   /// m, the radius of a container then.
   double force_radius(std::size_t plane) const;
   /// All contacts of the last step with all that they did to the nodes. Those that have no number
-  /// get one (contact::Contacts::number).
+  /// get one (contact::Contacts::assign_ids).
   std::vector<contact::ContactRecord> list_contacts();
   /// The same without giving numbers.
   std::vector<contact::ContactRecord> contact_rows() const;
@@ -231,7 +231,7 @@ class Simulation {
   /// into each other by more than both radii. They are pushed apart along the shortest way.
   std::size_t most_crossings() const noexcept { return most_crossings_; }
   /// Critical time step: of the structures and contacts as they are now, or with the contacts that
-  /// may come (expected_contacts.hpp), whichever is shorter.
+  /// may come, whichever is shorter.
   CriticalStep critical_step() const;
   /// The same of the structures and contacts as they are now alone: what a chosen step keeps to.
   CriticalStep present_critical_step() const;

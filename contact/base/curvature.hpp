@@ -16,10 +16,10 @@
 ///     flat, flat            as cylinders of half the thickness: the rims of sheets crossed
 ///
 /// The first three are the surfaces' own. Structures on structures also touch along lines and over
-/// areas, where there is no point contact; there each of the contacts that the measure counts
-/// (surface_surface/extended.hpp) is one with these radii. They do not follow the angle at which
-/// bars cross, nor which feature is touched: with them the energy would have to have moments and
-/// forces of their own, or would be no function of the positions.
+/// areas, where there is no point contact; there each of the contacts that the measure counts is
+/// one with these radii. They do not follow the angle at which bars cross, nor which feature is
+/// touched: with them the energy would have to have moments and forces of their own, or would be no
+/// function of the positions.
 namespace plekton::contact {
 
 /// Principal radii of the gap between two bodies about the point where they touch:

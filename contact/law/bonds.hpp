@@ -15,8 +15,7 @@ enum class Bonds {
 };
 
 /// A law that glues bodies. Between structures a bond is a spring of its own between two material
-/// points (surface_surface/structure_bond.hpp), and the rest of their contact has what it has
-/// beside.
+/// points, and the rest of their contact has what it has beside.
 ///
 /// cements(parameters): whether bodies that come to touch stick; cement(parameters, history): the
 /// history of ones that do now; of_bond(parameters): what a bond has of a law with parts;

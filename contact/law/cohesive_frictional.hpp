@@ -22,7 +22,7 @@ namespace plekton::contact {
 ///
 /// On a surface a sphere has one bond for every contact, at its representative point. Between
 /// structures the bonds of a contact together are as many as the contacts it counts for, each a
-/// spring between two material points (surface_surface/structure_bond.hpp).
+/// spring between two material points.
 struct CohesiveFrictional {
   static constexpr std::string_view name = "cohesive_frictional";
 

@@ -8,8 +8,8 @@
 namespace plekton::contact {
 
 /// A dashpot along the normal, as strong as a restitution wants it: c = 2 xi sqrt(m k), with the
-/// reduced mass m of both bodies, the present stiffness k, and the damping ratio xi of
-/// restitution.hpp. It never makes the contact pull.
+/// reduced mass m of both bodies, the present stiffness k, and the damping ratio xi
+/// (damping_ratio()). It never makes the contact pull.
 ///
 /// A surface that a sphere meets counts as held: of a light free membrane the restitution is lower.
 /// The push follows the speed of half a step before, which costs time steps where a heavy sphere

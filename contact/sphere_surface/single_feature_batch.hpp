@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <span>
 
-/// Spheres that touch the inside of one facet each, side by side: what single_feature_contact.hpp
+/// Spheres that touch the inside of one facet each, side by side: what the way for one at a time
 /// and the general way make of each, to the last bit.
 namespace plekton::contact {
 

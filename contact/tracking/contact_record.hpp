@@ -23,7 +23,7 @@ struct ContactBody {
 
 /// A contact as it is reported: what body a and body b do to each other, of a patch all together.
 struct ContactRecord {
-  std::int64_t id = 0;  ///< 0: not numbered yet (Contacts::number)
+  std::int64_t id = 0;  ///< 0: not numbered yet (Contacts::assign_ids)
   ContactBody a;
   ContactBody b;
   Vec3 point_a;                ///< m, core point of body a

@@ -16,8 +16,7 @@ struct NodesInMotion;
 namespace plekton::dynamics {
 
 /// The nodes of a simulation that several ranks may compute together: moves those that this rank
-/// has to move, and knows whether it knows all of them (contact/sphere_sphere/shared_motion.hpp).
-/// On one process it moves all.
+/// has to move, and knows whether it knows all of them. On one process it moves all.
 class NodesOfRanks {
  public:
   /// @param state, forces  must outlive this

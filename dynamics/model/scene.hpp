@@ -87,9 +87,8 @@ struct Scene {
   /// @throws std::invalid_argument listing every problem: arrays of different lengths, ids out of
   ///         range, a node without mass that is not held, a value that is not finite, a structure
   ///         of several materials, a facet without area, a cylinder without length, a sphere on a
-  ///         node of another element, rigid bodies that share nodes or have bonds of their own
-  ///         (rigid_check.hpp), ties that hold nothing (ties/ties_check.hpp), loads that cannot be
-  ///         applied (loads/loads_check.hpp).
+  ///         node of another element, rigid bodies that share nodes or have bonds of their own,
+  ///         ties that hold nothing, loads that cannot be applied.
   void check() const;
 };
 

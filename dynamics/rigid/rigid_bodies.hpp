@@ -18,9 +18,9 @@ namespace plekton::dynamics {
 /// In each step the forces on the nodes of a body are added up to a force and a torque on its
 /// reference node (gather()), in the order of the nodes, so that the result does not depend on
 /// threads. Its velocity is stepped as that of any node is (leapfrog.hpp), and its angular momentum
-/// likewise; it then turns by free_rotation.hpp over the drift. Its nodes are where they are on it:
-/// their velocities are those that take them there, straight, within the drift, and the leapfrog
-/// moves them. So are its own, with the mean angular velocity of the drift.
+/// likewise; it then turns freely, with that momentum, over the drift. Its nodes are where they are
+/// on it: their velocities are those that take them there, straight, within the drift, and the
+/// leapfrog moves them. So are its own, with the mean angular velocity of the drift.
 ///
 /// Momentum of translation and rotation is what the forces give, to rounding. The kinetic energy of
 /// the turning is 1/2 L(t - dt/2) . I(t)^-1 L(t + dt/2), as the leapfrog has it.

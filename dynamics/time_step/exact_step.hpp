@@ -34,10 +34,10 @@ struct Structures {
 /// Adds forces (N) that follow from where the nodes are (m) alone.
 using ForcesOfPlaces = std::function<void(geometry::Positions x, NodeForces& forces)>;
 
-/// 2 / omega_max, omega² the largest eigenvalue of K x = omega² M x, by Lanczos' method
-/// (largest_eigenvalue.hpp), and what viscous damping makes of it. An eigenvalue below zero, where
-/// something is about to buckle or snap through, counts by its magnitude: what grows by
-/// exp(sqrt(-omega²) t) needs as short a step as what swings.
+/// 2 / omega_max, omega² the largest eigenvalue of K x = omega² M x, by Lanczos' method, and what
+/// viscous damping makes of it. An eigenvalue below zero, where something is about to buckle or
+/// snap through, counts by its magnitude: what grows by exp(sqrt(-omega²) t) needs as short a step
+/// as what swings.
 ///
 /// K times a motion is a central difference of the forces of bonds, sheets, ties, springs to ground and
 /// pressure (with the stiffness of gases), and of what else follows from the places of nodes, and

@@ -4,7 +4,7 @@
 namespace plekton::geometry {
 
 /// Coordinates and lengths (m) at or above this are refused: exact signs take products of three
-/// lengths (predicates.hpp), and those of this size still fit a double.
+/// lengths, and those of this size still fit a double.
 inline constexpr double kLargestCoordinate = 1e75;
 
 }  // namespace plekton::geometry

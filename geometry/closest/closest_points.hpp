@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "geometry/primitives/proximity.hpp"
 #include "geometry/base/types.hpp"
+#include "geometry/primitives/proximity.hpp"
 
 #include <cstdint>
 
@@ -15,8 +15,8 @@
 /// on p's side of that through q. For every pair of features that can carry the nearest points
 /// (corner and corner, corner and side, corner and face, side and side) these conditions, and those
 /// for the foot points to lie inside the features, are signs of polynomials of degree 2, 3 and 4 of
-/// coordinate differences (predicates.hpp). So a guess made in double is certified, or replaced by
-/// the first pair of features that passes.
+/// coordinate differences. So a guess made in double is certified, or replaced by the first pair of
+/// features that passes.
 ///
 /// Ties, which parallel features have, go to the lowest sum of dimensions; then to the side that is
 /// lower in lower_side(); then to the lowest corners. The answer for (b, a) is that for (a, b) with

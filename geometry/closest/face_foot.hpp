@@ -86,8 +86,8 @@ PLEKTON_INLINE Real line_is_beyond(const PackVec3<Real>& w, const PackVec3<Real>
          (along * along + Real(1e-12) * w_squared * u_squared);
 }
 
-/// A triangle and a point, in numbers that tell certain cases apart: FaceView
-/// (cell_clearance.hpp), for any Real. Side k joins corners k and k + 1.
+/// A triangle and a point, in numbers that tell certain cases apart, for any Real. Side k joins
+/// corners k and k + 1.
 template <class Real>
 struct FaceSidesOf {
   std::array<Real, 3> side;  ///< m⁴, positive where the foot is inside of it
@@ -157,7 +157,7 @@ inline bool is_across_first_side(const Vec3& point, const std::array<Vec3, 3>& c
                              detail::side_is_beyond(2, p, x, range)) > 0.0;
 }
 
-/// Where is_alone, this is foot_on_face() (foot_point.hpp) to the last bit, line by line.
+/// Where is_alone, this is what foot_on_face() finds, to the last bit, line by line.
 /// @param range  m, > 0
 /// @param may_be_near  by side: 1 where the side may be in range all the same, because it is known
 ///                     not to touch by itself; else -1

@@ -41,7 +41,7 @@ class CellNeighbours {
 
   /// From the next list on, a skin of the radius of the thinnest structure (a quarter of it where
   /// edges are far shorter than thick): a longer list costs little, because contacts leave far
-  /// pairs alone (contact/surface_surface/clearances.hpp), and making it costs much.
+  /// pairs alone, and making it costs much.
   void choose_skin();
 
   /// Makes the list anew if it has to be. @returns whether it has changed

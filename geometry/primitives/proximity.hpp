@@ -42,8 +42,8 @@ enum class Relation : std::uint8_t {
 /// Two elements, where they are nearest to each other.
 ///
 /// Cores that meet have relation touching_or_crossing; then the core points are one that they have
-/// in common, the normal is the shortest way for b out of a (closest/deep.hpp), and the gap is
-/// -(length of that way + radius_a + radius_b).
+/// in common, the normal is the shortest way for b out of a, and the gap is -(length of that way +
+/// radius_a + radius_b).
 struct Proximity {
   CorePoint a;
   CorePoint b;

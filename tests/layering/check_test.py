@@ -142,6 +142,12 @@ class SeededTree(unittest.TestCase):
         self.assertEqual(len(found), 2, found)
         self.assertIn("whose folder leads back to geometry/base", found[0])
 
+    def test_an_installed_header_that_names_one_that_is_not_is_flagged(self):
+        self.write("cmake/install.cmake", f"# {SPDX}\nplekton_public_headers(public_headers\n  dynamics/model/scene.hpp\n  geometry/mesh/repair/repair.hpp)\n")
+        self.write("dynamics/model/scene.hpp", TAG + '#include "geometry/primitives/box.hpp"\n/// As geometry/primitives/box.hpp and repair.hpp.\n')
+        self.assert_clean("contact/sphere_surface/patch.hpp", TAG + "/// Not installed: see tests/support/lattice.hpp.\n")
+        self.assert_flagged("geometry/primitives/box.hpp", TAG + "\n/// See patch.hpp.\n", "geometry/primitives/box.hpp:3")
+
     def test_functions_that_differ_between_processors_are_flagged(self):
         for code, reason in (
             ("double a = std::sin(x);", "std::sin depends on the processor"),

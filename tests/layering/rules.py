@@ -174,6 +174,7 @@ def forget_tree():
     """To be called before a tree is read again."""
     _reached_from.cache_clear()
     _homes_of_types.cache_clear()
+    _public_headers.cache_clear()
 
 
 NAMESPACE_OR_TYPE = re.compile(r"^(?:namespace (?P<namespace>[\w:]+) \{|(?:class|struct|enum class) (?:alignas\([^)]*\) )?(?P<type>\w+)\b(?! *<)(?![^\n]*;$))", re.MULTILINE)
@@ -210,6 +211,31 @@ def one_home_for_each_type(source, root):
     for name, line in _types_of(source):
         if homes[name] != source.path:
             yield f"{source.path}:{line}: {name} is defined in {homes[name]} too; give one another name"
+
+
+INSTALL_LIST = "cmake/install.cmake"
+
+
+@lru_cache(maxsize=None)
+def _public_headers(root):
+    """What is installed: the headers that the install rules name, and all that these include (cmake/public_headers.cmake)."""
+    rules = Path(root) / INSTALL_LIST
+    named = re.search(r"plekton_public_headers\(public_headers\s([^)]*)\)", rules.read_text(encoding="utf-8")) if rules.is_file() else None
+    reached = _reached_from(root)
+    found = set(named[1].split()) if named else set()
+    return found.union(*(reached.get(header, ()) for header in found))
+
+
+def public_headers_name_public_headers(source, root):
+    """Comments in headers that are installed send nobody to headers that are not."""
+    public = _public_headers(str(root))
+    if source.path not in public:
+        return
+    for number, line in enumerate(source.text.split("\n"), 1):
+        comment = line[line.index("//") :] if "//" in line else ""
+        for header in re.findall(r"[\w/]+\.hpp", comment):
+            if not any(path == header or path.endswith("/" + header) for path in public):
+                yield f"{source.path}:{number}: names {header}, which is not installed as this is; say what stands there"
 
 
 def tests_keep_to_themselves(source, root):
@@ -319,4 +345,4 @@ def eigen_does_not_vectorise(source, root):
         yield f'{source.path}:{includes[0].line}: includes Eigen without "{EIGEN_HOME}", which sees to the same bits everywhere'
 
 
-RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, no_circles, same_bits_on_every_processor, eigen_does_not_vectorise, one_home_for_each_type, tests_keep_to_themselves)
+RULES = (layers, app_layers, mesh_stays_outside_the_core, includes_from_the_root, packages_stay_home, licence_tag, no_circles, same_bits_on_every_processor, eigen_does_not_vectorise, one_home_for_each_type, public_headers_name_public_headers, tests_keep_to_themselves)

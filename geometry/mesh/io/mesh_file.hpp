@@ -23,7 +23,7 @@ enum class MeshFormat { off, obj, stl_ascii, stl_binary, ply, gmsh, vtp };
 PolygonSoup read_mesh_file(const std::filesystem::path& path);
 
 /// The same from memory. Time and memory are linear in the size of the text, whatever counts it
-/// claims (a .vtp file that unpacks to more than kNumbersPerByte is refused).
+/// claims (a .vtp file that unpacks to more than 16 numbers a byte is refused).
 /// @param name  What messages call it.
 PolygonSoup parse_mesh(std::string_view bytes, MeshFormat format, const std::string& name);
 

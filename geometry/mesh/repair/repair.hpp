@@ -33,11 +33,11 @@ struct RepairOptions {
 ///
 /// Equal points are merged and near ones welded, polygons cut into triangles, facets dropped that
 /// repeat a node, have exactly no area (decided without rounding: a needle stays) or have the nodes
-/// of an earlier one, slits that such facets leave closed (close_slits.hpp), neighbours oriented
-/// alike, and unused points removed. What is not manifold stays as it is, with its nodes shared.
-/// Nodes keep the order of the points and facets that of the polygons; otherwise the outcome
-/// depends on neither order, except for ties that find_orientation names. Then, only if asked for,
-/// steps follow that change the shape: holes are filled, the surface wrapped, and remeshed.
+/// of an earlier one, slits that such facets leave closed, neighbours oriented alike, and unused
+/// points removed. What is not manifold stays as it is, with its nodes shared. Nodes keep the order
+/// of the points and facets that of the polygons; otherwise the outcome depends on neither order,
+/// except for ties that find_orientation names. Then, only if asked for, steps follow that change
+/// the shape: holes are filled, the surface wrapped, and remeshed.
 /// @param report  Its source names the mesh in messages; everything else is written anew. Verdict
 ///        refused if no facet is left or a polygon cannot be cut (it crosses itself), if a step
 ///        that was asked for cannot be done, or if facets intersect that must not; the mesh must
