@@ -17,11 +17,11 @@ namespace plekton::contact {
 
 /// What a scenario says about a pair of materials.
 struct ContactSettings {
-  std::size_t law = 0;                   ///< place in contact_laws()
-  LinearFrictional::Properties springs;  ///< also of cohesion
-  DmtAdhesion::Properties adhesion;
-  CohesiveFrictional::Properties cohesion;  ///< but for its springs
-  RollingTwisting::Properties rolling;
+  std::size_t law = 0;                        ///< place in contact_laws()
+  LinearFrictional::Properties springs = {};  ///< also of cohesion
+  DmtAdhesion::Properties adhesion = {};
+  CohesiveFrictional::Properties cohesion = {};  ///< but for its springs
+  RollingTwisting::Properties rolling = {};
   double restitution = 1.0;  ///< of an impact along the normal, in (0, 1]
 };
 

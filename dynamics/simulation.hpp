@@ -45,7 +45,7 @@ struct SimulationOptions {
   double time_step = 0.0;  ///< s; 0 chooses one as it goes: kSafety times the critical step with
                            ///< the contacts of now and those that are near,
                            ///< shorter while something is fast (dynamics/time_step/motion_step.hpp)
-  MotionOptions motion;
+  MotionOptions motion = {};
   double skin =
       0.0;  ///< m, how far apart a pair may be when it is listed; 0 begins with a fifth of
   ///< the smallest radius, then follows how fast spheres move

@@ -31,12 +31,12 @@ struct AxisTurn {
 /// by angle (factor(t) - factor(0)), exactly on their circles, and turn with it where their
 /// rotation is prescribed; a displacement or velocity comes after that.
 struct PrescribedMotion {
-  std::vector<NodeId> nodes;
+  std::vector<NodeId> nodes = {};
   Held held = Held::translation;         ///< the motions that are prescribed
   Vec3 displacement = Vec3::Zero();      ///< m
   Vec3 velocity = Vec3::Zero();          ///< m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
-  TimeTable factor;
+  TimeTable factor = {};
   std::optional<AxisTurn> turn = std::nullopt;  ///< only where all of the translation is prescribed
   /// m, where the nodes were at the start of the factor; empty: where they are in the scene.
   std::vector<Vec3> start = {};
@@ -46,21 +46,21 @@ struct PrescribedMotion {
 struct PlaneMotion {
   std::size_t plane = 0;
   Vec3 velocity = Vec3::Zero();  ///< m/s
-  TimeTable factor;
+  TimeTable factor = {};
   std::optional<Vec3> start = std::nullopt;  ///< m, its point then; nothing: that in the scene
 };
 
 /// A force and a torque on each of some nodes, times factor(t), in directions that stay.
 struct NodalForce {
-  std::vector<NodeId> nodes;
+  std::vector<NodeId> nodes = {};
   Vec3 force = Vec3::Zero();   ///< N, on each node
   Vec3 torque = Vec3::Zero();  ///< N m, on each node
-  TimeTable factor;
+  TimeTable factor = {};
 };
 
 /// Springs from each of some nodes to the place where it is at the start.
 struct GroundSprings {
-  std::vector<NodeId> nodes;
+  std::vector<NodeId> nodes = {};
   Vec3 stiffness = Vec3::Zero();  ///< N/m, >= 0, along the axes of the world, of each node
   /// m, the places to which they pull; empty: where the nodes are in the scene.
   std::vector<Vec3> start = {};
@@ -84,10 +84,10 @@ struct PressureByVolume {
 /// without any resultant force or moment. Facets that are torn are pressed no more; a gas escapes
 /// with the first of them, and its pressure is over.
 struct SurfacePressure {
-  std::vector<geometry::FaceId> facets;
-  double pressure = 0.0;   ///< Pa, over the outside where the surface holds a gas
-  TimeTable factor;        ///< of the pressure
-  std::optional<Gas> gas;  ///< only where the facets are closed
+  std::vector<geometry::FaceId> facets = {};
+  double pressure = 0.0;                  ///< Pa, over the outside where the surface holds a gas
+  TimeTable factor = {};                  ///< of the pressure
+  std::optional<Gas> gas = std::nullopt;  ///< only where the facets are closed
   /// In place of the pressure and a gas, times factor(t); only where the facets are closed.
   std::optional<PressureByVolume> by_volume = std::nullopt;
   std::optional<double> start_volume = std::nullopt;  ///< m³, V0; nothing: that in the scene
@@ -97,7 +97,7 @@ struct SurfacePressure {
 /// the mass of either if they are equal), that of the free node if one is held. At 1 a beam alone
 /// between two free nodes is critically damped.
 struct BeamDamping {
-  std::vector<std::size_t> bonds;
+  std::vector<std::size_t> bonds = {};
   double ratio = 0.0;  ///< >= 0
 };
 
@@ -105,13 +105,13 @@ struct BeamDamping {
 /// (loads/damped_sheets.hpp). At 1 the fastest stretching of a facet alone between its nodes is
 /// critically damped.
 struct SheetDamping {
-  std::vector<std::size_t> facets;  ///< by place in Scene::sheet_facets
-  double ratio = 0.0;               ///< >= 0
+  std::vector<std::size_t> facets = {};  ///< by place in Scene::sheet_facets
+  double ratio = 0.0;                    ///< >= 0
 };
 
 /// Forces -rate m v and torques -rate I w: drag in a medium at rest.
 struct MassDamping {
-  std::vector<NodeId> nodes;
+  std::vector<NodeId> nodes = {};
   double rate = 0.0;  ///< 1/s, >= 0
 };
 
@@ -124,8 +124,8 @@ struct PlaneServo {
   double area = 1.0;      ///< m², > 0; m or 1 where planes bound it
   /// Pairs of planes that face each other: the area is multiplied by the distance of each pair, as
   /// it is at any time.
-  std::vector<std::array<std::size_t, 2>> between;
-  TimeTable factor;
+  std::vector<std::array<std::size_t, 2>> between = {};
+  TimeTable factor = {};
   double largest_speed = 0.0;  ///< m/s, > 0
   double gain = 0.1;           ///< above 0, at most 1
 };
@@ -142,8 +142,8 @@ struct BodyServo {
   double pressure = 0.0;  ///< Pa, >= 0
   double torque = 0.0;    ///< N m, >= 0; above 0 it turns, and the force and the pressure are 0
   double area = 1.0;      ///< m², > 0; m or 1 where planes bound it
-  std::vector<std::array<std::size_t, 2>> between;  ///< as of PlaneServo
-  TimeTable factor;
+  std::vector<std::array<std::size_t, 2>> between = {};  ///< as of PlaneServo
+  TimeTable factor = {};
   double largest_speed = 0.0;  ///< m/s, or rad/s where it turns; > 0
   double gain = 0.1;           ///< above 0, at most 1
 
@@ -152,17 +152,17 @@ struct BodyServo {
 
 /// All that acts from outside.
 struct Loads {
-  std::vector<PrescribedMotion> motions;
-  std::vector<PlaneMotion> plane_motions;
-  std::vector<PlaneServo> servos;
-  std::vector<BodyServo> body_servos;
-  std::vector<NodalForce> forces;
-  std::vector<GroundSprings> ground_springs;
-  std::vector<SurfacePressure> pressures;
-  std::vector<BeamDamping> beam_damping;
-  std::vector<SheetDamping> sheet_damping;
-  std::vector<MassDamping> mass_damping;
-  TimeTable gravity_factor;  ///< of the gravity in MotionOptions
+  std::vector<PrescribedMotion> motions = {};
+  std::vector<PlaneMotion> plane_motions = {};
+  std::vector<PlaneServo> servos = {};
+  std::vector<BodyServo> body_servos = {};
+  std::vector<NodalForce> forces = {};
+  std::vector<GroundSprings> ground_springs = {};
+  std::vector<SurfacePressure> pressures = {};
+  std::vector<BeamDamping> beam_damping = {};
+  std::vector<SheetDamping> sheet_damping = {};
+  std::vector<MassDamping> mass_damping = {};
+  TimeTable gravity_factor = {};  ///< of the gravity in MotionOptions
 };
 
 /// What is held by itself or because a motion is prescribed. Nodes that do not exist are left out.

@@ -21,25 +21,25 @@ namespace plekton::dynamics {
 /// Everything a simulation starts from: plain data that can be built by hand, by a reader or by a
 /// generator.
 struct Scene {
-  NodeState state;
-  NodeProperties properties;
-  geometry::Elements elements;
-  std::vector<BeamBond> bonds;
-  std::vector<BondLaw> bond_laws;  ///< of the bonds that yield or break
-  std::vector<SheetFacet> sheet_facets;
-  std::vector<contact::Plane> planes;
-  std::vector<contact::Material> materials;           ///< by MaterialId
-  std::vector<contact::MaterialId> sphere_materials;  ///< by SphereId
-  std::vector<contact::MaterialId>
-      cylinder_materials;  ///< one for each cylinder; one material for a connected structure
-  std::vector<contact::MaterialId> facet_materials;  ///< one for each facet
-  std::vector<RigidBody> rigid_bodies;
-  std::vector<Cable> cables;
-  std::vector<Tie> ties;
-  Loads loads;
+  NodeState state = {};
+  NodeProperties properties = {};
+  geometry::Elements elements = {};
+  std::vector<BeamBond> bonds = {};
+  std::vector<BondLaw> bond_laws = {};  ///< of the bonds that yield or break
+  std::vector<SheetFacet> sheet_facets = {};
+  std::vector<contact::Plane> planes = {};
+  std::vector<contact::Material> materials = {};           ///< by MaterialId
+  std::vector<contact::MaterialId> sphere_materials = {};  ///< by SphereId
+  /// One for each cylinder; one material for a connected structure.
+  std::vector<contact::MaterialId> cylinder_materials = {};
+  std::vector<contact::MaterialId> facet_materials = {};  ///< one for each facet
+  std::vector<RigidBody> rigid_bodies = {};
+  std::vector<Cable> cables = {};
+  std::vector<Tie> ties = {};
+  Loads loads = {};
   /// By node: the facets and cylinders on it are not there, not yet or not any more; all nodes of a
   /// structure alike, and held. What its bonds and sheets are goes on. Empty: all are there.
-  std::vector<bool> is_absent;
+  std::vector<bool> is_absent = {};
 
   bool is_there(NodeId node) const noexcept {
     return is_absent.empty() || !is_absent[static_cast<std::size_t>(node)];

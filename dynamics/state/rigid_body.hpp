@@ -13,9 +13,9 @@ namespace plekton::dynamics {
 /// to no element: its place, rotation and velocities are those of the body, its mass and what is
 /// held of it too. Loads and prescribed motions of the body act on it.
 struct RigidBody {
-  NodeId node{-1};              ///< the reference node
-  std::vector<NodeId> nodes;    ///< that follow it
-  Vec3 moments = Vec3::Zero();  ///< kg m², principal moments of inertia, > 0 where it may turn
+  NodeId node{-1};                 ///< the reference node
+  std::vector<NodeId> nodes = {};  ///< that follow it
+  Vec3 moments = Vec3::Zero();     ///< kg m², principal moments of inertia, > 0 where it may turn
 };
 
 }  // namespace plekton::dynamics

@@ -45,13 +45,14 @@ namespace plekton::dynamics {
 struct BondStrength {
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  double yield_stress = kNever;              ///< Pa, sigma_y > 0
-  std::optional<double> shear_yield_stress;  ///< Pa, tau_y > 0; else sigma_y / sqrt(3) (von Mises)
-  double hardening = 0.0;                    ///< Pa, H >= 0, d sigma / d (plastic strain)
-  double moment_ratio = 1.0;                 ///< c: 1 at first yield of a fibre, kFullyPlastic
-  double strength = kNever;                  ///< Pa, > 0
-  std::optional<double> shear_strength;      ///< Pa, > 0; else strength / sqrt(3)
-  double rupture_strain = kNever;            ///< -, > 0, plastic
+  double yield_stress = kNever;  ///< Pa, sigma_y > 0
+  /// Pa, tau_y > 0; else sigma_y / sqrt(3) (von Mises).
+  std::optional<double> shear_yield_stress = std::nullopt;
+  double hardening = 0.0;     ///< Pa, H >= 0, d sigma / d (plastic strain)
+  double moment_ratio = 1.0;  ///< c: 1 at first yield of a fibre, kFullyPlastic
+  double strength = kNever;   ///< Pa, > 0
+  std::optional<double> shear_strength = std::nullopt;  ///< Pa, > 0; else strength / sqrt(3)
+  double rupture_strain = kNever;                       ///< -, > 0, plastic
 
   /// moment_ratio of a full circular section that is plastic all through.
   static constexpr double kFullyPlastic = 16.0 / (3.0 * std::numbers::pi);

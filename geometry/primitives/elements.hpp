@@ -14,9 +14,9 @@ namespace plekton::geometry {
 
 /// The primitives of a scene, over shared nodes. The position in its table is an element's id.
 struct Elements {
-  std::vector<Sphere> spheres;
-  std::vector<Cylinder> cylinders;
-  std::vector<Facet> facets;
+  std::vector<Sphere> spheres = {};
+  std::vector<Cylinder> cylinders = {};
+  std::vector<Facet> facets = {};
 };
 
 /// How facets and cylinders hang together: every node, edge and face once, and who touches whom.

@@ -13,8 +13,8 @@
 namespace plekton::geometry {
 
 struct ImportOptions {
-  RepairOptions repair;  ///< lengths after scaling
-  double scale = 1.0;    ///< of all coordinates, before anything else; finite, > 0
+  RepairOptions repair = {};  ///< lengths after scaling
+  double scale = 1.0;         ///< of all coordinates, before anything else; finite, > 0
 };
 
 struct ImportedMesh {
