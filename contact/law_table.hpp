@@ -46,6 +46,10 @@ struct LawTable {
       .parameter_numbers = number_count<LawParameters>(),
       .history_numbers = number_count<LawHistory>(),
       .has_interaction_range = HasInteractionRange<Law>,
+      .list_problems =
+          [](const Properties& properties, std::ostream& out) {
+            contact::list_problems<Law>(properties.as<PropertiesOf<Law>>(), out);
+          },
       .combine =
           [](const Properties& properties, const Body& a, const Body& b) {
             return kept(contact::combine<Law>(properties.as<PropertiesOf<Law>>(), a, b));

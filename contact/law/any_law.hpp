@@ -3,10 +3,12 @@
 
 #include "contact/law/bonds.hpp"
 #include "contact/law/contact_law.hpp"
+#include "geometry/base/copy_bits.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <iosfwd>
 #include <limits>
 #include <type_traits>
 
@@ -29,7 +31,7 @@ struct AnyLaw {
 
   struct Functions;
 
-  /// Numbers of a law. A law's types must fit: consist of numbers, and not be larger.
+  /// Numbers of a law, whose types fit in here (contact_law.hpp).
   template <std::size_t kNumbers>
   struct Kept {
     const Functions* law = nullptr;
@@ -37,22 +39,30 @@ struct AnyLaw {
 
     /// Plain numbers; Eigen's small vectors are, though not by the letter trivially copyable.
     template <class Typed>
-    static constexpr bool fits =
-        std::is_trivially_destructible_v<Typed>&& std::is_default_constructible_v<Typed> &&
-        sizeof(Typed) <= kNumbers * sizeof(double);
+    static constexpr void require_fit() noexcept {
+      static_assert(sizeof(Typed) <= kNumbers * sizeof(double),
+                    "a contact law is too large: its Parameters may be of the size of 24 doubles, "
+                    "its History and its Properties of 16 each");
+      static_assert(std::is_trivially_destructible_v<Typed>,
+                    "Parameters, History and Properties of a contact law are plain numbers, which "
+                    "are copied bit by bit: no std::vector, std::string or owning pointer");
+      static_assert(std::is_default_constructible_v<Typed>,
+                    "Parameters, History and Properties of a contact law are made without "
+                    "arguments, and filled then");
+    }
 
     template <class Typed>
     Typed as() const noexcept {
-      static_assert(fits<Typed>);
+      require_fit<Typed>();
       Typed typed;
       std::memcpy(static_cast<void*>(&typed), numbers.data(), sizeof typed);
       return typed;
     }
     template <class Typed>
     void keep(const Functions& of, const Typed& typed) noexcept {
-      static_assert(fits<Typed>);
+      require_fit<Typed>();
       law = &of;
-      std::memcpy(numbers.data(), static_cast<const void*>(&typed), sizeof typed);
+      geometry::copy_bits(typed, numbers.data());
     }
   };
   // Multiples of 8: read by whole vectors.
@@ -69,7 +79,8 @@ struct AnyLaw {
     std::string_view name;
     std::size_t parameter_numbers;  ///< how many numbers its parameters are
     std::size_t history_numbers;
-    bool has_interaction_range;  ///< see HasInteractionRange
+    bool has_interaction_range;                               ///< see HasInteractionRange
+    void (*list_problems)(const Properties&, std::ostream&);  ///< see ChecksProperties
     Parameters (*combine)(const Properties&, const Body&, const Body&);
     Parameters (*scaled)(const Parameters&, double);
     double (*elastic_normal_force)(const Parameters&, double);

@@ -6,6 +6,7 @@
 #include "contact/base/rotation.hpp"
 
 #include <concepts>
+#include <iosfwd>
 #include <string_view>
 
 namespace plekton::contact {
@@ -56,6 +57,17 @@ concept HasMoments = requires {
 /// What a contact law is: stateless functions of parameters, relative motion and history. It never
 /// sees a shape.
 ///
+/// Its Parameters, History and Properties are structs of plain numbers, copied bit by bit: no
+/// pointers, strings or containers; each can be made without arguments. Parameters have at most the
+/// size of 24 doubles, a History and Properties that of 16 each. Bytes between members are no part
+/// of the state, but clang below 20 cannot leave them out: members of one size, or with the gaps
+/// filled by members of their own, have the same state there too.
+///
+/// Its functions must not throw: loops over contacts run in several threads and end the program
+/// then. What is wrong with properties is said before (ChecksProperties). Stiffnesses and forces are
+/// finite. They are called at any time and from any thread, so that they keep nothing beside the
+/// history.
+///
 /// The elastic normal force depends on the gap alone and is summed over the features of a patch by
 /// the contact rule; everything else (friction, viscosity, cohesion) is decided once per patch by
 /// force().
@@ -85,6 +97,19 @@ concept ContactLaw = requires(const typename Law::Parameters& parameters,
   /// Adds a share of another contact's history: how contacts split and merge.
   { Law::accumulate_history(history, other, number) } -> std::same_as<void>;
 };
+
+/// A law that knows what is wrong with its properties: list_problems(properties, out) writes a line
+/// for each of it, which begins with what is wrong and ends in a line end. Asked when contacts are
+/// made; they are not, where there is any.
+template <class Law>
+concept ChecksProperties = requires(const PropertiesOf<Law>& properties, std::ostream& out) {
+  { Law::list_problems(properties, out) } -> std::same_as<void>;
+};
+
+template <class Law>
+void list_problems(const PropertiesOf<Law>& properties, std::ostream& out) {
+  if constexpr (ChecksProperties<Law>) Law::list_problems(properties, out);
+}
 
 /// A law whose force after a step follows from the gap (m), the normal and the history then: it
 /// does not have to be kept. To the bit what force() has answered.

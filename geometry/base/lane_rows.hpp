@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/base/copy_bits.hpp"
 #include "geometry/base/pack.hpp"
 
 #include <array>
@@ -16,8 +17,9 @@ namespace plekton::geometry {
 /// @tparam Number  double, or const double of rows that are only read
 template <std::size_t kLanes, class Number = double>
 class LaneRows {
+  /// The last one maybe in part.
   template <class Thing>
-  static constexpr std::size_t kNumbersOf = sizeof(Thing) / sizeof(double);
+  static constexpr std::size_t kNumbersOf = (sizeof(Thing) + sizeof(double) - 1) / sizeof(double);
 
  public:
   /// @param first  of row_count * kLanes numbers
@@ -39,8 +41,8 @@ class LaneRows {
   /// Writes a thing into a lane.
   template <class Thing>
   PLEKTON_INLINE void set(std::size_t lane, const Thing& thing) const noexcept {
-    std::array<double, kNumbersOf<Thing>> numbers;
-    std::memcpy(numbers.data(), static_cast<const void*>(&thing), sizeof numbers);
+    std::array<double, kNumbersOf<Thing>> numbers{};
+    copy_bits(thing, numbers.data());
     set_numbers(lane, numbers.data(), numbers.size());
   }
   template <class Thing>
@@ -48,7 +50,7 @@ class LaneRows {
     std::array<double, kNumbersOf<Thing>> numbers;
     get_numbers(lane, numbers.data(), numbers.size());
     Thing thing;
-    std::memcpy(static_cast<void*>(&thing), numbers.data(), sizeof numbers);
+    std::memcpy(static_cast<void*>(&thing), numbers.data(), sizeof thing);
     return thing;
   }
   /// The first number of a lane.
