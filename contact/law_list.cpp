@@ -8,6 +8,9 @@
 
 #include <array>
 #include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
 
 namespace plekton::contact {
 namespace {
@@ -135,8 +138,30 @@ std::span<const LawParameter> common_law_parameters() noexcept {
   return kCommon;
 }
 
+namespace {
+
+/// @throws std::invalid_argument
+const LawEntry& entry_of(const ContactSettings& settings) {
+  if (settings.law < kLaws.size()) return kLaws[settings.law];
+  throw std::invalid_argument("contact settings: there is no law " + std::to_string(settings.law) +
+                              ", only " + std::to_string(kLaws.size()) +
+                              " laws; contact_laws() lists them");
+}
+
+/// @throws std::invalid_argument
+void require_restitution(double restitution) {
+  if (restitution > 0.0 && restitution <= 1.0) return;
+  std::ostringstream text;
+  text << "contact settings: restitution is " << restitution
+       << "; it must be above 0 and at most 1";
+  throw std::invalid_argument(text.str());
+}
+
+}  // namespace
+
 PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings) {
-  const std::string_view name = kLaws[settings.law].name;
+  const std::string_view name = entry_of(settings).name;
+  require_restitution(settings.restitution);
   const bool is_hertz = name == HertzMindlin::name || name == DmtAdhesion::name;
   const Dashpot::Properties dashpot{
       damping_ratio(is_hertz ? SpringKind::hertz : SpringKind::linear, settings.restitution)};
@@ -151,8 +176,8 @@ PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings) {
   return with_parts<LinearFrictional>(settings.springs, settings.rolling, dashpot);
 }
 
-std::optional<Bonds> bonds_of(const ContactSettings& settings) noexcept {
-  if (contact_laws()[settings.law].name != CohesiveFrictional::name) return std::nullopt;
+std::optional<Bonds> bonds_of(const ContactSettings& settings) {
+  if (entry_of(settings).name != CohesiveFrictional::name) return std::nullopt;
   const CohesiveFrictional::Properties& cohesion = settings.cohesion;
   const bool has_strength = cohesion.tensile_strength > 0.0 || cohesion.shear_strength > 0.0;
   return has_strength ? cohesion.bonds : Bonds::none;

@@ -62,9 +62,12 @@ std::span<const LawParameter> common_law_parameters() noexcept;
 
 /// Of the law with what goes with it, as far as there is any: linear_frictional with nothing beside
 /// it is that law alone.
+/// @throws std::invalid_argument for a law that there is none of, or a restitution out of its range;
+///         what else is out of its range is found when contacts are made (models.hpp)
 PropertiesOf<AnyLaw> properties_of(const ContactSettings& settings);
 
 /// Which contacts are glued; nothing for a law without bonds. Bonds without any strength are none.
-std::optional<Bonds> bonds_of(const ContactSettings& settings) noexcept;
+/// @throws std::invalid_argument for a law that there is none of
+std::optional<Bonds> bonds_of(const ContactSettings& settings);
 
 }  // namespace plekton::contact

@@ -2,10 +2,92 @@
 #include "contact/models.hpp"
 
 #include "contact/scene_contacts.hpp"
+#include "geometry/base/problems.hpp"
 
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace plekton::contact {
+namespace {
+
+/// Writes the lines of some problems, each with a beginning.
+void add_lines(std::string_view beginning, const std::string& lines, std::ostream& to) {
+  std::istringstream all(lines);
+  for (std::string line; std::getline(all, line);) to << beginning << line << '\n';
+}
+
+/// @param whose  how lines begin
+/// @returns whether there is a law
+bool list_law_problems(const AnyLaw::Properties& properties, const std::string& whose,
+                       std::ostream& problems) {
+  if (properties.law == nullptr) {
+    problems << whose << ": there is no law; AnyLaw::of<Law>() makes properties of one\n";
+    return false;
+  }
+  std::ostringstream own;
+  properties.law->list_problems(properties, own);
+  add_lines(whose + ", law " + std::string(properties.law->name) + ": ", own.str(), problems);
+  return true;
+}
+
+bool list_pair_problems(const PairProperties<AnyLaw>& properties, std::size_t materials,
+                        std::ostream& problems) {
+  bool has_laws = true;
+  for (const auto& [pair, of_pair] : properties) {
+    const auto a = static_cast<std::int64_t>(pair.first);
+    const auto b = static_cast<std::int64_t>(pair.second);
+    const std::string whose =
+        "materials " + std::to_string(a) + " and " + std::to_string(b) + " as a pair";
+    for (const std::int64_t id : {a, b}) {
+      if (id >= 0 && id < static_cast<std::int64_t>(materials)) continue;
+      problems << whose << ": there is no material " << id << ", only " << materials
+               << " materials\n";
+    }
+    has_laws &= list_law_problems(of_pair, whose, problems);
+  }
+  return has_laws;
+}
+
+/// Asks for the stiffness of bodies of each pair of materials.
+void list_stiffness_problems(const MaterialPairs& pairs, std::ostream& problems) {
+  constexpr double kRadius = 1.0, kMass = 1.0;  // m, kg
+  constexpr double kGap = -1e-3;                // m
+  for (std::size_t a = 0; a < pairs.size(); ++a) {
+    for (std::size_t b = a; b < pairs.size(); ++b) {
+      const AnyLaw::Parameters p =
+          pairs.combine(BodyPart{geometry::id_at<MaterialId>(a), kRadius, kMass},
+                        BodyPart{geometry::id_at<MaterialId>(b), kRadius, kMass});
+      const double normal = AnyLaw::normal_stiffness(p, kGap);
+      const double tangential = AnyLaw::tangential_stiffness(p, kGap);
+      if (std::isfinite(normal) && std::isfinite(tangential)) continue;
+      problems << "materials " << a << " and " << b << ", law " << p.law->name
+               << ": bodies of radius " << kRadius << " m, " << -kGap
+               << " m deep, have the normal stiffness " << normal << " N/m and the tangential one "
+               << tangential
+               << " N/m; both must be finite: look at the law's functions, and at the numbers of "
+                  "these materials\n";
+    }
+  }
+}
+
+/// @throws std::invalid_argument
+MaterialPairs checked_pairs(std::vector<Material> materials,
+                            const PairProperties<AnyLaw>& properties,
+                            const AnyLaw::Properties& others) {
+  std::ostringstream problems;
+  const std::size_t count = materials.size();
+  const bool has_laws = list_pair_problems(properties, count, problems) &
+                        list_law_problems(others, "pairs of materials", problems);
+  MaterialPairs pairs(std::move(materials), properties, others);
+  if (has_laws && problems.view().empty()) list_stiffness_problems(pairs, problems);
+  geometry::throw_if_any(problems);
+  return pairs;
+}
+
+}  // namespace
 
 ContactModel linear_frictional(const PairProperties<LinearFrictional>& properties) {
   return model_of<LinearFrictional>(properties);
@@ -15,7 +97,7 @@ ContactModel any_law(const PairProperties<AnyLaw>& properties, const AnyLaw::Pro
   return [properties, others](ContactScene scene) -> std::unique_ptr<Contacts> {
     return std::make_unique<SceneContacts>(
         scene.spheres, scene.surface,
-        ContactMaterials{MaterialPairs(std::move(scene.materials), properties, others),
+        ContactMaterials{checked_pairs(std::move(scene.materials), properties, others),
                          std::move(scene.of_spheres), std::move(scene.of_structures),
                          std::move(scene.masses)},
         scene.skin, scene.meets_planes, scene.rest, scene.groups);

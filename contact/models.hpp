@@ -8,6 +8,10 @@
 
 namespace plekton::contact {
 
+// What makes contacts of these models throws std::invalid_argument listing every problem of the
+// properties: pairs of materials that are none, numbers out of their ranges, a law that is none, or
+// one that answers with stiffnesses that are not finite.
+
 /// LinearFrictional between all pairs.
 /// @param properties  of pairs of materials that say more than their materials do
 ContactModel linear_frictional(const PairProperties<LinearFrictional>& properties = {});

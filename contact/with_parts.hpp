@@ -15,8 +15,9 @@ AnyLaw::Properties with_parts(const PropertiesOf<Law>& law,
                               const RollingTwisting::Properties& rolling,
                               const Dashpot::Properties& dashpot) {
   using Rolling = Sum<Law, RollingTwisting>;
-  const bool rolls = rolling.rolling_stiffness > 0.0 || rolling.twisting_stiffness > 0.0;
-  const bool is_damped = dashpot.damping_ratio > 0.0;
+  // Numbers out of their ranges are there too: they are refused when contacts are made.
+  const bool rolls = rolling.rolling_stiffness != 0.0 || rolling.twisting_stiffness != 0.0;
+  const bool is_damped = dashpot.damping_ratio != 0.0;
   if (rolls && is_damped) return AnyLaw::of<Sum<Rolling, Dashpot>>({{law, rolling}, dashpot});
   if (rolls) return AnyLaw::of<Rolling>({law, rolling});
   if (is_damped) return AnyLaw::of<Sum<Law, Dashpot>>({law, dashpot});

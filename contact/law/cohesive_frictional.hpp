@@ -6,6 +6,7 @@
 #include "contact/law/tangential_spring.hpp"
 
 #include <algorithm>
+#include <iosfwd>
 #include <type_traits>
 
 namespace plekton::contact {
@@ -33,6 +34,10 @@ struct CohesiveFrictional {
     Bonds bonds = Bonds::new_contacts;
     LinearFrictional::Properties elastic = {};
   };
+
+  /// See ChecksProperties.
+  static void list_problems(const Properties& given, std::ostream& out);
+
   template <class Real>
   struct ParametersOf {
     LinearFrictional::ParametersOf<Real> elastic;

@@ -4,6 +4,7 @@
 #include "contact/law/contact_part.hpp"
 
 #include <cmath>
+#include <iosfwd>
 
 namespace plekton::contact {
 
@@ -20,6 +21,10 @@ struct Dashpot {
   struct Properties {
     double damping_ratio = 0.0;  ///< xi >= 0; damping_ratio() gives that of a restitution
   };
+
+  /// See ChecksProperties.
+  static void list_problems(const Properties& given, std::ostream& out);
+
   template <class Real>
   struct ParametersOf {
     Real strength;  ///< sqrt(kg), 2 xi sqrt(m); 0 without mass

@@ -3,6 +3,7 @@
 
 #include "contact/law/hertz_mindlin.hpp"
 
+#include <iosfwd>
 #include <numbers>
 
 namespace plekton::contact {
@@ -29,6 +30,10 @@ struct DmtAdhesion {
   struct Properties {
     double work_of_adhesion = 0.0;  ///< J/m², w, >= 0
   };
+
+  /// See ChecksProperties.
+  static void list_problems(const Properties& given, std::ostream& out);
+
   template <class Real>
   struct ParametersOf {
     HertzMindlin::ParametersOf<Real> elastic;

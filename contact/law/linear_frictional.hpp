@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iosfwd>
 #include <type_traits>
 
 namespace plekton::contact {
@@ -34,6 +35,9 @@ struct LinearFrictional {
 
     friend bool operator==(const Properties&, const Properties&) = default;
   };
+
+  /// See ChecksProperties.
+  static void list_problems(const Properties& given, std::ostream& out);
 
   template <class Real>
   struct ParametersOf {

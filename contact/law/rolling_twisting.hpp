@@ -5,6 +5,7 @@
 #include "contact/law/tangential_spring.hpp"
 
 #include <algorithm>
+#include <iosfwd>
 #include <limits>
 #include <type_traits>
 
@@ -25,6 +26,10 @@ struct RollingTwisting {
     double rolling_limit = std::numeric_limits<double>::infinity();   ///< eta of rolling, >= 0
     double twisting_limit = std::numeric_limits<double>::infinity();  ///< eta of twisting, >= 0
   };
+
+  /// See ChecksProperties.
+  static void list_problems(const Properties& given, std::ostream& out);
+
   template <class Real>
   struct ParametersOf {
     Real rolling_arms;           ///< m², alpha R_a R_b

@@ -46,6 +46,13 @@ struct Sum {
     PropertiesOf<Whole> whole;
     PropertiesOf<Part> part;
   };
+
+  /// See ChecksProperties.
+  static void list_problems(const Properties& properties, std::ostream& out) {
+    contact::list_problems<Whole>(properties.whole, out);
+    contact::list_problems<Part>(properties.part, out);
+  }
+
   // Not by a requires-clause: clang 14 crashes on that of a template within a template.
   template <class Real, class = std::enable_if_t<detail::HasNumbersOf<Whole, Real> &&
                                                  detail::HasNumbersOf<Part, Real>>>

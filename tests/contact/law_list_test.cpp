@@ -3,15 +3,21 @@
 
 #include "contact/law_table.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 namespace plekton::contact::law_list_test {
 namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 /// A parameter of several laws, as those of linear springs, is one and the same.
 TEST(LawList, NamesEveryLawAndParameterOnceAndSaysWhatItIs) {
@@ -95,6 +101,23 @@ TEST(LawList, GivesEachNameItsLaw) {
   EXPECT_EQ(force_of("cohesive_frictional"), linear);
   EXPECT_EQ(force_of("hertz_mindlin"), hertz);
   EXPECT_EQ(force_of("dmt_adhesion"), hertz);
+}
+
+TEST(LawList, RefusesALawOrARestitutionThatThereIsNot) {
+  ContactSettings settings;
+  settings.law = 99;
+  EXPECT_THAT([&] { properties_of(settings); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("there is no law 99, only 4 laws")));
+  EXPECT_THAT([&] { bonds_of(settings); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("there is no law 99, only 4 laws")));
+
+  settings.law = 0;
+  for (const double restitution : {0.0, -1.0, 2.0, std::numeric_limits<double>::quiet_NaN()}) {
+    settings.restitution = restitution;
+    EXPECT_THAT([&] { properties_of(settings); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr("it must be above 0 and at most 1")))
+        << restitution;
+  }
 }
 
 }  // namespace
