@@ -61,6 +61,9 @@ struct Resistance;
 
 /// A scene in motion. The state belongs to the simulation; what is given out are views of it.
 ///
+/// Simulations have nothing in common: each may be used in a thread of its own, one thread at a time
+/// (saving and loading wait for each other, as most builds of the HDF5 library are for one thread).
+///
 /// Several processes may compute one scene (contact::among_ranks): all make the same calls in the
 /// same order and get the same answers. A view is of now; after a step it has to be asked for anew.
 ///

@@ -29,7 +29,7 @@ namespace {
 using geometry::StateArray;
 using geometry::StateTree;
 using hdf5::Handle;
-using hdf5::QuietErrors;
+using hdf5::LibraryUse;
 
 constexpr const char* kFormat = "plekton checkpoint";
 constexpr std::size_t kHeadSize = 512;         // bytes
@@ -83,7 +83,7 @@ void write_array(hid_t file, const std::string& name, const StateArray& array) {
 /// The bytes of an HDF5 file with a state.
 std::string image_of(const StateTree& state) {
   constexpr std::size_t kGrowth = std::size_t{4} << 20U;  // bytes
-  const QuietErrors quiet;
+  const LibraryUse use;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   require(H5Pset_fapl_core(access.get(), kGrowth, false) >= 0);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
@@ -172,7 +172,7 @@ class Reader {
 
   StateTree read() {
     check_head();
-    const QuietErrors quiet;
+    const LibraryUse use;
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     if (H5Pset_fapl_core(access.get(), kHeadSize, false) < 0 ||
         H5Pset_file_image(access.get(), bytes_.data(), bytes_.size()) < 0)

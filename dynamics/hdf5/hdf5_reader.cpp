@@ -14,7 +14,7 @@ namespace plekton::dynamics {
 namespace {
 
 using hdf5::Handle;
-using hdf5::QuietErrors;
+using hdf5::LibraryUse;
 
 /// Deflate makes a file at most about 1030 times smaller (RFC 1951: 258 bytes by two bits).
 constexpr hsize_t kMostUnpacked = 1100;
@@ -61,12 +61,11 @@ struct Hdf5Reader::File {
     if (bytes.empty() || H5Pset_fapl_core(access, kGrowth, false) < 0 ||
         H5Pset_file_image(access, bytes.data(), bytes.size()) < 0)
       return -1;
-    return H5Fopen("image", H5F_ACC_RDONLY, access);
+    return H5Fopen(hdf5::name_of_file().c_str(), H5F_ACC_RDONLY, access);
   }
 
   std::string name;
   std::string bytes;
-  QuietErrors quiet;
   Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   Handle id{open(access.get(), bytes), H5Fclose};
 };
@@ -163,8 +162,9 @@ std::optional<std::vector<std::string>> read_texts(hid_t type, hid_t space, std:
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(std::string bytes, const std::filesystem::path& name)
-    : file_(std::make_unique<File>(std::move(bytes), name)) {
+Hdf5Reader::Hdf5Reader(std::string bytes, const std::filesystem::path& name) {
+  const LibraryUse use;
+  file_ = std::make_unique<File>(std::move(bytes), name);
   if (!file_->id)
     throw Hdf5Error(file_->name +
                     ": is no whole HDF5 file; expected one that was written to its end (.vtkhdf)");
@@ -178,6 +178,7 @@ void Hdf5Reader::fail(const std::string& path, const std::string& what) const {
 // Names that lie in this file, each within the one before: a soft or an external link would lead
 // elsewhere, to another file even.
 bool Hdf5Reader::has(const std::string& path) const {
+  const LibraryUse use;
   const hid_t file = file_->id.get();
   for (std::size_t slash = path.find('/', 1);; slash = path.find('/', slash + 1)) {
     const std::string above = path.substr(0, slash);
@@ -190,6 +191,7 @@ bool Hdf5Reader::has(const std::string& path) const {
 }
 
 bool Hdf5Reader::is_group(const std::string& path) const {
+  const LibraryUse use;
   H5O_info_t info;
   return has(path) &&
          H5Oget_info_by_name2(file_->id.get(), path.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >=
@@ -198,6 +200,7 @@ bool Hdf5Reader::is_group(const std::string& path) const {
 }
 
 std::vector<std::string> Hdf5Reader::names_in(const std::string& group) const {
+  const LibraryUse use;
   const Handle opened(has(group) ? H5Gopen2(file_->id.get(), group.c_str(), H5P_DEFAULT) : -1,
                       H5Gclose);
   if (!opened) fail(group, "there is no such group");
@@ -212,18 +215,21 @@ std::vector<std::string> Hdf5Reader::names_in(const std::string& group) const {
 }
 
 Hdf5Array<double> Hdf5Reader::numbers(const std::string& path) const {
+  const LibraryUse use;
   const OpenSet set(*this, file_->id.get(), path);
   if (!is_number(set.type())) fail(path, "expected numbers");
   return read_numbers<double>(*this, set, path);
 }
 
 Hdf5Array<std::int64_t> Hdf5Reader::whole_numbers(const std::string& path) const {
+  const LibraryUse use;
   const OpenSet set(*this, file_->id.get(), path);
   if (H5Tget_class(set.type()) != H5T_INTEGER) fail(path, "expected whole numbers");
   return read_numbers<std::int64_t>(*this, set, path);
 }
 
 geometry::StateArray Hdf5Reader::array(const std::string& path) const {
+  const LibraryUse use;
   const OpenSet set(*this, file_->id.get(), path);
   const auto as = [&](auto number) -> geometry::StateArray {
     auto array = read_numbers<decltype(number)>(*this, set, path);
@@ -237,6 +243,7 @@ geometry::StateArray Hdf5Reader::array(const std::string& path) const {
 }
 
 std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
+  const LibraryUse use;
   const OpenSet set(*this, file_->id.get(), path);
   const auto count = set.count();
   if (!count)
@@ -268,6 +275,7 @@ struct OpenAttribute {
 
 std::optional<double> Hdf5Reader::number_attribute(const std::string& path,
                                                    const std::string& name) const {
+  const LibraryUse use;
   if (!has(path)) return std::nullopt;
   const OpenAttribute found(file_->id.get(), path, name);
   if (!found.attribute) return std::nullopt;
@@ -280,6 +288,7 @@ std::optional<double> Hdf5Reader::number_attribute(const std::string& path,
 
 std::optional<std::string> Hdf5Reader::text_attribute(const std::string& path,
                                                       const std::string& name) const {
+  const LibraryUse use;
   if (!has(path)) return std::nullopt;
   const OpenAttribute found(file_->id.get(), path, name);
   if (!found.attribute) return std::nullopt;

@@ -14,7 +14,7 @@ namespace plekton::dynamics {
 namespace {
 
 using hdf5::Handle;
-using hdf5::QuietErrors;
+using hdf5::LibraryUse;
 
 /// Any call that fails ends the writing: what is written is in memory.
 void require(bool done) {
@@ -119,7 +119,6 @@ struct Hdf5Writer::File {
     require(attribute && H5Awrite(attribute.get(), type.in_memory, data) >= 0);
   }
 
-  QuietErrors quiet;
   Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   Handle creation{H5Pcreate(H5P_FILE_CREATE), H5Pclose};
   Handle id{make(access.get(), creation.get()), H5Fclose};
@@ -129,44 +128,54 @@ struct Hdf5Writer::File {
     require(H5Pset_fapl_core(access, kGrowth, false) >= 0 &&
             H5Pset_link_creation_order(creation, kInOrder) >= 0 &&
             H5Pset_obj_track_times(creation, false) >= 0);
-    const hid_t made = H5Fcreate("image", H5F_ACC_TRUNC, creation, access);
+    const hid_t made = H5Fcreate(hdf5::name_of_file().c_str(), H5F_ACC_TRUNC, creation, access);
     require(made >= 0);
     return made;
   }
 };
 
-Hdf5Writer::Hdf5Writer() : file_(std::make_unique<File>()) {}
+Hdf5Writer::Hdf5Writer() {
+  const LibraryUse use;
+  file_ = std::make_unique<File>();
+}
 Hdf5Writer::~Hdf5Writer() = default;
 
 void Hdf5Writer::group(const std::string& path) {
+  const LibraryUse use;
   file_->make_group(path);
 }
 
 void Hdf5Writer::numbers(const std::string& path, std::span<const double> values,
                          std::size_t columns) {
+  const LibraryUse use;
   file_->write_numbers(path, values, columns);
 }
 
 void Hdf5Writer::numbers(const std::string& path, std::span<const std::int64_t> values,
                          std::size_t columns) {
+  const LibraryUse use;
   file_->write_numbers(path, values, columns);
 }
 
 void Hdf5Writer::array(const std::string& path, const geometry::StateArray& array) {
+  const LibraryUse use;
   std::visit(
       [&](const auto& numbers) { file_->write_numbers(path, std::span(numbers), array.columns); },
       array.numbers);
 }
 
 void Hdf5Writer::number(const std::string& path, double value) {
+  const LibraryUse use;
   file_->write_set(path, type_of(value), {}, &value);
 }
 
 void Hdf5Writer::number(const std::string& path, std::int64_t value) {
+  const LibraryUse use;
   file_->write_set(path, type_of(value), {}, &value);
 }
 
 void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& values) {
+  const LibraryUse use;
   const PaddedTexts padded(values);
   const Handle type(text_type(padded.length, H5T_CSET_UTF8), H5Tclose);
   const std::array<hsize_t, 1> shape{values.size()};
@@ -174,6 +183,7 @@ void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& 
 }
 
 void Hdf5Writer::text(const std::string& path, const std::string& value) {
+  const LibraryUse use;
   const PaddedTexts padded(std::span(&value, 1));
   const Handle type(text_type(padded.length, H5T_CSET_UTF8), H5Tclose);
   file_->write_set(path, {type.get(), type.get()}, {}, padded.bytes.data());
@@ -181,38 +191,45 @@ void Hdf5Writer::text(const std::string& path, const std::string& value) {
 
 void Hdf5Writer::attribute(const std::string& path, const std::string& name,
                            const std::string& value) {
+  const LibraryUse use;
   const PaddedTexts padded(std::span(&value, 1));
   const Handle type(text_type(padded.length, H5T_CSET_ASCII), H5Tclose);
   file_->write_attribute(path, name, {type.get(), type.get()}, {}, padded.bytes.data());
 }
 
 void Hdf5Writer::attribute(const std::string& path, const std::string& name, double value) {
+  const LibraryUse use;
   file_->write_attribute(path, name, type_of(value), {}, &value);
 }
 
 void Hdf5Writer::attribute(const std::string& path, const std::string& name,
                            std::span<const std::int64_t> values) {
+  const LibraryUse use;
   const std::array<hsize_t, 1> shape{values.size()};
   file_->write_attribute(path, name, type_of(std::int64_t{}), shape, values.data());
 }
 
 void Hdf5Writer::attribute(const std::string& path, const std::string& name, std::int64_t value) {
+  const LibraryUse use;
   file_->write_attribute(path, name, type_of(value), {}, &value);
 }
 
 void Hdf5Writer::soft_link(const std::string& path, const std::string& target) {
+  const LibraryUse use;
   file_->make_groups_above(path);
   require(H5Lcreate_soft(target.c_str(), file_->id.get(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT) >=
           0);
 }
 
 void Hdf5Writer::same_as(const std::string& path, const std::string& target) {
+  const LibraryUse use;
   file_->make_groups_above(path);
   require(H5Lcreate_hard(file_->id.get(), target.c_str(), file_->id.get(), path.c_str(),
                          H5P_DEFAULT, H5P_DEFAULT) >= 0);
 }
 
 std::string Hdf5Writer::bytes() const {
+  const LibraryUse use;
   const hid_t file = file_->id.get();
   require(H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0);
   const ssize_t size = H5Fget_file_image(file, nullptr, 0);

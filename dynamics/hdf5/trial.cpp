@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/hdf5/trial.hpp"
 
+#include "dynamics/hdf5/handle.hpp"
+
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -33,6 +35,15 @@ namespace {
   ::_exit(is_said ? 0 : 1);
 }
 
+/// @returns the process, or below 0 where none could be made. In the copy there is no other thread
+/// that could let go of the library: it is this one that uses it.
+pid_t fork_in_use(geometry::FunctionRef<void()> function, unsigned seconds, int to) {
+  const LibraryUse use;
+  const pid_t child = ::fork();
+  if (child == 0) run_alone(function, seconds, to);
+  return child;
+}
+
 /// All that comes out of a pipe up to its end.
 std::string text_from(int pipe) {
   std::string text;
@@ -50,8 +61,7 @@ std::string text_from(int pipe) {
 Trial try_out(geometry::FunctionRef<void()> function, unsigned seconds) {
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) return {};
-  const pid_t child = ::fork();
-  if (child == 0) run_alone(function, seconds, ends[1]);
+  const pid_t child = fork_in_use(function, seconds, ends[1]);
   ::close(ends[1]);
   Trial trial;
   const std::string said = child < 0 ? "" : text_from(ends[0]);

@@ -16,6 +16,9 @@
 #include <cstring>
 #include <limits>
 #include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
 
 namespace plekton::dynamics::checkpoint_file_test {
 namespace {
@@ -207,6 +210,26 @@ TEST_F(CheckpointFile, RefusesOneThatLeadsToAnotherFile) {
     H5Lcreate_external("/nonexistent/other.h5", "a", made, "b", H5P_DEFAULT, H5P_DEFAULT);
   });
   EXPECT_THROW(parse_checkpoint(link, "forged"), CheckpointError);
+}
+
+TEST_F(CheckpointFile, IsWrittenAndReadInSeveralThreadsAtOnce) {
+  constexpr int kTimes = 30;
+  std::vector<int> right(4, 0);
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t k = 0; k < right.size(); ++k)
+      threads.emplace_back([this, &right, k] {
+        const std::filesystem::path own = folder_ / (std::to_string(k) + ".h5");
+        for (int i = 0; i < kTimes; ++i) {
+          StateTree state = example();
+          state.arrays["time"] = {std::vector<double>{static_cast<double>(k) + 0.1 * i}, 1};
+          write_checkpoint(own, state);
+          right[k] += read_checkpoint(own).hash() == state.hash();
+        }
+      });
+  }
+
+  EXPECT_EQ(right, std::vector<int>(right.size(), kTimes));
 }
 
 }  // namespace
