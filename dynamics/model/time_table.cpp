@@ -45,6 +45,18 @@ TimeTable::TimeTable(std::vector<Row> rows) : rows_(std::move(rows)) {
   integral_to_zero_ = integral_from_first_row(0.0);
 }
 
+const std::vector<Row>& TimeTable::rows() const noexcept {
+  static const std::vector<Row> one{{0.0, 1.0}};
+  return rows_.empty() ? one : rows_;
+}
+
+void TimeTable::swap(TimeTable& other) noexcept {
+  rows_.swap(other.rows_);
+  integrals_.swap(other.integrals_);
+  std::swap(integral_to_zero_, other.integral_to_zero_);
+  std::swap(start_, other.start_);
+}
+
 TimeTable TimeTable::from(double start) const {
   TimeTable later = *this;
   later.start_ = start;
@@ -64,6 +76,7 @@ double TimeTable::at(double time) const noexcept {
 }
 
 double TimeTable::value(double time) const noexcept {
+  if (rows_.empty()) return 1.0;
   const std::size_t after = row_after(time);
   if (after == 0) return rows_.front().value;
   const Row& row = rows_[after - 1];
@@ -78,6 +91,7 @@ double TimeTable::slope(double time) const noexcept {
 }
 
 double TimeTable::integral_from_first_row(double time) const noexcept {
+  if (rows_.empty()) return time;
   const std::size_t after = row_after(time);
   const std::size_t row = after == 0 ? 0 : after - 1;
   return integrals_[row] + 0.5 * (rows_[row].value + value(time)) * (time - rows_[row].time);
@@ -89,7 +103,7 @@ double TimeTable::integral(double time) const noexcept {
 
 double TimeTable::largest() const noexcept {
   double largest = 0.0;
-  for (const Row& row : rows_) largest = std::max(largest, std::abs(row.value));
+  for (const Row& row : rows()) largest = std::max(largest, std::abs(row.value));
   return largest;
 }
 

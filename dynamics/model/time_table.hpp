@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <utility>
 #include <vector>
 
 namespace plekton::dynamics {
 
 /// A number that changes with time: straight lines between rows, the value of the first row before
-/// it and of the last row after it. Exactly the value of a row at its time.
+/// it and of the last row after it. Exactly the value of a row at its time. One that was moved from is
+/// as good as new: 1 at all times, from a start of 0.
 class TimeTable {
  public:
   struct Row {
@@ -23,7 +25,17 @@ class TimeTable {
   /// @throws std::invalid_argument listing every problem of the rows
   explicit TimeTable(std::vector<Row> rows);
 
-  const std::vector<Row>& rows() const noexcept { return rows_; }
+  TimeTable(const TimeTable&) = default;
+  TimeTable& operator=(const TimeTable&) = default;
+  TimeTable(TimeTable&& other) noexcept : TimeTable(Moved{}) { swap(other); }
+  TimeTable& operator=(TimeTable&& other) noexcept {
+    TimeTable(std::move(other)).swap(*this);
+    return *this;
+  }
+  ~TimeTable() = default;
+
+  /// At least one.
+  const std::vector<Row>& rows() const noexcept;
 
   /// The same numbers later: rows count from a time (s), and so does integral().
   TimeTable from(double start) const;
@@ -43,12 +55,17 @@ class TimeTable {
   double largest_slope() const noexcept;
 
  private:
+  struct Moved {};
+  /// Without rows, which need memory.
+  explicit TimeTable(Moved) noexcept {}
+  void swap(TimeTable& other) noexcept;
+
   // Of times that count from the start.
   std::size_t row_after(double time) const noexcept;
   double value(double time) const noexcept;
   double integral_from_first_row(double time) const noexcept;
 
-  std::vector<Row> rows_;
+  std::vector<Row> rows_;          // none of one that was moved from
   std::vector<double> integrals_;  // by row, from the first one
   double integral_to_zero_ = 0.0;  // from the first row to the start
   double start_ = 0.0;             // s

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace plekton::dynamics::time_table_test {
 namespace {
@@ -84,6 +85,29 @@ TEST(TimeTable, RefusesRowsWithoutAnOrderInTime) {
   EXPECT_THAT(problems_of({}), HasSubstr("has no rows"));
   EXPECT_THAT(problems_of({{0.0, std::numeric_limits<double>::quiet_NaN()}}),
               HasSubstr("row 0 (0 s, nan) is not finite"));
+}
+
+TEST(TimeTable, IsAsGoodAsNewAfterItWasMovedFrom) {
+  TimeTable from = table().from(10.0);
+  const TimeTable to = std::move(from);
+  TimeTable assigned = table();
+  TimeTable again(3.0);
+  again = std::move(assigned);
+
+  EXPECT_EQ(to.at(11.5), table().at(1.5));
+  EXPECT_EQ(to.start(), 10.0);
+  EXPECT_EQ(again.integral(3.0), table().integral(3.0));
+  for (const TimeTable* const moved : {&from, &assigned}) {
+    EXPECT_EQ(moved->at(-1.0), 1.0);
+    EXPECT_EQ(moved->at(5.0), 1.0);
+    EXPECT_EQ(moved->integral(2.0), 2.0);
+    EXPECT_EQ(moved->slope(1.0), 0.0);
+    EXPECT_EQ(moved->largest(), 1.0);
+    EXPECT_EQ(moved->largest_slope(), 0.0);
+    EXPECT_EQ(moved->start(), 0.0);
+    ASSERT_EQ(moved->rows().size(), 1U);
+    EXPECT_EQ(moved->rows()[0].value, 1.0);
+  }
 }
 
 }  // namespace
