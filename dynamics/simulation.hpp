@@ -288,6 +288,7 @@ class Simulation {
   void go_on_from(Simulation& before, const SceneChange& change);
 
  private:
+  /// @throws std::invalid_argument for places that are none: nothing is changed then
   void advance(double longest);
   void find_contacts();
   double power_on_turning_planes() const;
