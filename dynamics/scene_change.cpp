@@ -302,7 +302,8 @@ void Simulation::leave_out_absent() {
   if (are_fewer) follow_surface();
 }
 
-/// Calls look() with the contacts as they would be found, and leaves them as they are.
+/// Calls look() with the contacts as they would be found, and leaves them as they are, whatever it
+/// throws.
 /// @param ago  s, before now: where nodes and planes were then
 template <class Look>
 void Simulation::look_ahead(double ago, const Look& look) {
@@ -317,9 +318,17 @@ void Simulation::look_ahead(double ago, const Look& look) {
     plane.radius -= ago * plane.widening;
   }
   NodeForces forces(state.size());
-  contacts_->advance(state.motion(), planes, 0.0, pool_, forces);
-  look();
-  contacts_->exchange(StateArchive::reader(kept), scene_.planes, pool_);
+  const auto put_back = [&] {
+    contacts_->exchange(StateArchive::reader(kept), scene_.planes, pool_);
+  };
+  try {
+    contacts_->advance(state.motion(), planes, 0.0, pool_, forces);
+    look();
+  } catch (...) {
+    put_back();
+    throw;
+  }
+  put_back();
 }
 
 /// J, half a drift ago: what comes or goes between two forces has acted on half of the drift between

@@ -80,7 +80,9 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
   ~Simulation();
 
-  /// One time step. @throws Diverged; std::logic_error if none was given where nothing sets one
+  /// One time step. @throws Diverged; std::logic_error if none was given where nothing sets one; what
+  /// a force of one's own throws. The step is half done then: but for the logic_error, the simulation
+  /// can be looked at and is to be thrown away, or made anew and loaded from a snapshot of before.
   void step() { advance(std::numeric_limits<double>::infinity()); }
   /// One time step on the way to a time. The last kStepsBetweenLooks before it are equally long, as
   /// long as ends there: what swings fast would change its energy by as much as a single step
@@ -192,7 +194,7 @@ class Simulation {
   std::vector<contact::ContactRecord> contact_rows() const;
   /// Those that the next step will find where the nodes are now, some of which may not have been
   /// there in the last one. Takes about as long as a step and a snapshot.
-  /// @param wants  which of them
+  /// @param wants  which of them; what it throws leaves the simulation as it was
   /// @throws std::logic_error before the first step, whose contacts are those of contact_rows()
   std::vector<contact::ContactRecord> next_contact_rows(
       geometry::FunctionRef<bool(const contact::ContactRecord&)> wants);

@@ -13,7 +13,8 @@ namespace plekton::dynamics {
 
 /// A force of one's own: sets the forces on some nodes, which are zero before, by place in the list
 /// of these. Called once a step, from one thread. Its bits follow from the time (s) and the state
-/// alone if runs are to be repeated, and on ranks it is called by all of them.
+/// alone if runs are to be repeated, and on ranks it is called by all of them. What it throws comes
+/// out of Simulation::step(), after which the simulation is to be thrown away.
 using OwnForce =
     std::function<void(double time, const NodeState& state, std::span<LoadedNodes::Force> forces)>;
 

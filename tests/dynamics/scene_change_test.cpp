@@ -10,8 +10,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 
 namespace plekton::dynamics::scene_change_test {
 namespace {
@@ -246,6 +248,51 @@ TEST(SceneChange, ComesBeforeTheFirstStep) {
   next.step();
 
   EXPECT_THROW(next.go_on_from(whole, nothing_moves(scene.scene)), std::logic_error);
+}
+
+TEST(SceneChange, RefusesPlacesThatAreNone) {
+  const ReportedScene scene;
+  Simulation whole = scene.simulation(test::kLaws[0]);
+  advance(whole, 10);
+  Simulation next = scene.simulation(test::kLaws[0]);
+  const std::size_t nodes = scene.scene.state.size();
+  const auto refused = [&](const SceneChange& change, const std::string& text) {
+    EXPECT_THAT([&] { next.go_on_from(whole, change); },
+                testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr(text)));
+  };
+
+  refused({}, "go_on_from: places.nodes has 0 entries; expected " + std::to_string(nodes));
+  refused({}, "go_on_from: places.planes has 0 entries; expected 2");
+  SceneChange change = nothing_moves(scene.scene);
+  change.places.nodes.back() = static_cast<std::int32_t>(nodes);
+  refused(change, "there are " + std::to_string(nodes) + " nodes now");
+  change = nothing_moves(scene.scene);
+  change.places.planes[0] = -5;
+  refused(change, "go_on_from: places.planes[0] is -5; there are 2 planes now");
+  change = nothing_moves(scene.scene);
+  change.places.spheres[2] = 1;
+  refused(change, "go_on_from: places.spheres[2] is 1, as of one before");
+  change = nothing_moves(scene.scene);
+  change.moved_planes = {true};
+  refused(change, "go_on_from: moved_planes has 1 entries; expected 2");
+
+  // Nothing was changed by all that.
+  next.go_on_from(whole, nothing_moves(scene.scene));
+  EXPECT_EQ(next.steps(), whole.steps());
+}
+
+TEST(NextContactRows, LeaveTheSimulationAsItWasWhenTheyAreAskedInVain) {
+  const ReportedScene scene;
+  Simulation left_alone = scene.simulation(test::kLaws[0]);
+  Simulation asked = scene.simulation(test::kLaws[0]);
+  for (Simulation* const simulation : {&left_alone, &asked}) advance(*simulation, 10);
+
+  const auto fail = [](const contact::ContactRecord&) -> bool { throw std::runtime_error("no"); };
+  EXPECT_THROW(asked.next_contact_rows(fail), std::runtime_error);
+
+  EXPECT_EQ(asked.snapshot().hash(), left_alone.snapshot().hash());
+  for (Simulation* const simulation : {&left_alone, &asked}) advance(*simulation, 10);
+  EXPECT_EQ(asked.snapshot().hash(), left_alone.snapshot().hash());
 }
 
 }  // namespace
