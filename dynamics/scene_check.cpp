@@ -71,6 +71,7 @@ class SceneProblems {
     expect_length("cylinder_materials", scene_.cylinder_materials.size(),
                   elements.cylinders.size());
     expect_length("facet_materials", scene_.facet_materials.size(), elements.facets.size());
+    if (!scene_.is_absent.empty()) expect_length("is_absent", scene_.is_absent.size(), nodes);
     return text_.view().empty();
   }
 
@@ -137,6 +138,7 @@ class SceneProblems {
       expect_positive("material", i, "Young's modulus", material.young_modulus);
       expect_not_negative(i, "stiffness ratio", material.stiffness_ratio);
       expect_not_negative(i, "friction coefficient", material.friction);
+      expect_poisson_ratio(i, material.poisson_ratio);
     }
   }
 
@@ -144,6 +146,12 @@ class SceneProblems {
     if (value >= 0.0 && std::isfinite(value)) return;
     line("material", material) << "its " << what << " is " << value
                                << "; it must be zero or positive, and finite\n";
+  }
+
+  void expect_poisson_ratio(std::size_t material, double ratio) {
+    if (ratio > -1.0 && ratio <= 0.5) return;
+    line("material", material) << "its Poisson's ratio is " << ratio
+                               << "; it must be above -1 and at most 0.5\n";
   }
 
   void expect_unit(std::string_view kind, std::size_t id, std::string_view what,
@@ -180,6 +188,8 @@ class SceneProblems {
       if (!std::isfinite(plane.angular_velocity))
         line("plane", i) << "its angular velocity is " << plane.angular_velocity
                          << "; it must be finite\n";
+      if (!std::isfinite(plane.widening))
+        line("plane", i) << "its widening is " << plane.widening << " m/s; it must be finite\n";
       expect_turning_in_itself(i, plane);
     }
   }

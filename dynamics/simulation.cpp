@@ -61,7 +61,8 @@ contact::ContactScene contact_scene(const Scene& scene, const geometry::Surface&
 /// @returns the scene
 /// @throws std::invalid_argument listing every problem of the scene or the options, or about the
 ///         width of vectors (geometry/base/vector_width.hpp)
-const Scene& checked(const Scene& scene, const SimulationOptions& options) {
+const Scene& checked(const Scene& scene, const SimulationOptions& options,
+                     const contact::ContactModel& model) {
   scene.check();
   geometry::vector_width();  // asked for in a way that cannot be: said here, not within a kernel
   std::ostringstream problems;
@@ -74,6 +75,7 @@ const Scene& checked(const Scene& scene, const SimulationOptions& options) {
   if (!(options.skin >= 0.0))
     problems << "skin " << options.skin << " m: must be 0 (choose) or more\n";
   if (!options.motion.gravity.allFinite()) problems << "gravity is not finite\n";
+  if (!model) problems << "contact model: is none; models.hpp makes them\n";
   if (options.threads < 1) problems << "threads " << options.threads << ": must be at least 1\n";
   geometry::throw_if_any(problems);
   return scene;
@@ -94,7 +96,7 @@ bool may_touch(const Scene& scene, const geometry::Surface& surface,
 
 Simulation::Simulation(Scene scene, const SimulationOptions& options,
                        const contact::ContactModel& model)
-    : scene_((checked(scene, options), held_as_prescribed(std::move(scene)))),
+    : scene_((checked(scene, options, model), held_as_prescribed(std::move(scene)))),
       scene_hash_(scene_hash(scene_)),
       motion_(options.motion),
       pool_(options.threads),
@@ -195,6 +197,8 @@ void Simulation::set_velocity(NodeId node, const Vec3& velocity, const Vec3& ang
                                 "; set the velocity of its reference node, " +
                                 std::to_string(index_of(rigid_nodes_.reference(body))));
   }
+  if (!velocity.allFinite() || !angular_velocity.allFinite())
+    throw std::invalid_argument("set_velocity: velocity and angular velocity must be finite");
   scene_.state.velocity[index_of(node)] = velocity;
   scene_.state.angular_velocity[index_of(node)] = angular_velocity;
   rigid_bodies_.start_from(node, scene_.state, scene_.properties);

@@ -71,8 +71,8 @@ struct Resistance;
 /// std::out_of_range with the call, the id and how many there are.
 class Simulation {
  public:
-  /// @throws std::invalid_argument listing every problem of the scene or the options, among them a
-  ///         time step above kLargestStep of the critical one
+  /// @throws std::invalid_argument listing every problem of the scene, the options or the model,
+  ///         among them a time step above kLargestStep of the critical one
   /// @param model  which contact law there is
   Simulation(Scene scene, const SimulationOptions& options,
              const contact::ContactModel& model = contact::linear_frictional());
@@ -128,7 +128,8 @@ class Simulation {
   const NodeState& state() const { return scene().state; }
   /// The velocities of held nodes may be set between steps, unless a motion is prescribed for them
   /// (Scene::loads), and those of the reference nodes of rigid bodies, which take their nodes along.
-  /// @throws std::invalid_argument for a node that follows a rigid body
+  /// @throws std::invalid_argument for a node that follows a rigid body, or a velocity that is not
+  ///         finite
   void set_velocity(NodeId node, const Vec3& velocity, const Vec3& angular_velocity = Vec3::Zero());
   /// Adds a force of one's own to the loads, asked for in every step from the next one on
   /// (loads/own_force.hpp); its work is external. The time step knows nothing of it: one that grows

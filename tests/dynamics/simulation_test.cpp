@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace plekton::dynamics::simulation_test {
 namespace {
@@ -206,6 +207,39 @@ TEST(Simulation, SaysWhereItDivergedWhenANodeMovesFurtherThanItsElementsCanNotic
     EXPECT_EQ(error.node(), NodeId{0});
     EXPECT_THAT(error.what(), testing::HasSubstr("node 0 at (11  2  3) m"));
   }
+}
+
+TEST(Simulation, MayBeMadeOfASceneThatWasMovedFromAndFilledAnew) {
+  const auto fill = [](Scene& scene) {
+    scene.materials = {{1e6, 0.3, 0.0}};
+    scene.add_sphere(Vec3(0.0, 0.0, 0.1), 0.01, 2650.0, contact::MaterialId{0});
+  };
+  Scene scene;
+  fill(scene);
+  const SimulationOptions options{.time_step = 1e-4, .motion = {.gravity = kGravity}};
+  Simulation first(std::move(scene), options);
+  fill(scene);
+  Simulation second(scene, options);
+
+  first.step();
+  second.step();
+
+  EXPECT_EQ(second.state().velocity[0], first.state().velocity[0]);
+  EXPECT_LT(second.state().velocity[0].z(), 0.0);
+}
+
+TEST(Simulation, RefusesAVelocityThatIsNotFinite) {
+  Simulation simulation(ball_over_sheet(0.002, 0.03, 5e6), {});
+  const auto node = geometry::id_at<NodeId>(simulation.state().size() - 1);
+  const Vec3 none(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
+
+  EXPECT_THROW(simulation.set_velocity(node, none), std::invalid_argument);
+  EXPECT_THROW(simulation.set_velocity(node, Vec3::Zero(), none), std::invalid_argument);
+  EXPECT_EQ(simulation.state().velocity.back(), Vec3(0.0, 0.0, -1.0));
+}
+
+TEST(Simulation, RefusesAContactModelThatIsNone) {
+  EXPECT_THROW(Simulation(Scene{}, {}, contact::ContactModel{}), std::invalid_argument);
 }
 
 }  // namespace

@@ -221,5 +221,34 @@ TEST(Scene, RefusesSurfacesWithoutThicknessThatQueriesTake) {
   EXPECT_THAT(problems, HasSubstr("cylinder 0: its radius is 0"));
 }
 
+TEST(Scene, RefusesNumbersOfMaterialsAndContainersThatAreNone) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double ratio : {-1.0, 0.51, 3.0, kNan}) {
+    Scene scene = sound_scene();
+    scene.materials[1].poisson_ratio = ratio;
+    EXPECT_THAT(problems_of(scene), HasSubstr("material 1: its Poisson's ratio is")) << ratio;
+  }
+  for (const double ratio : {-0.99, 0.0, 0.5}) {
+    Scene scene = sound_scene();
+    scene.materials[1].poisson_ratio = ratio;
+    EXPECT_EQ(problems_of(scene), "") << ratio;
+  }
+  for (const double widening : {kNan, kInfinity}) {
+    Scene scene = sound_scene();
+    scene.planes[0].widening = widening;
+    EXPECT_THAT(problems_of(scene), HasSubstr("plane 0: its widening is")) << widening;
+  }
+}
+
+TEST(Scene, WantsAFlagOfAbsenceForEachNodeOrNone) {
+  Scene scene = sound_scene();
+  scene.is_absent.assign(3, false);
+  EXPECT_EQ(problems_of(scene), "is_absent has 3 entries instead of 4");
+
+  scene.is_absent.assign(4, false);
+  EXPECT_EQ(problems_of(scene), "");
+}
+
 }  // namespace
 }  // namespace plekton::dynamics::scene_test
