@@ -204,7 +204,9 @@ class Simulation {
   /// What bodies do to a plane, about force_point(plane).
   ForceAndMoment plane_reaction(std::size_t plane) const;
   /// What the supports of nodes bear: measures/reactions.hpp. Of grains, membranes and any other
-  /// bodies contact_force_on() there tells what contacts do to them.
+  /// bodies contact_force_on() there tells what contacts do to them. A rigid body is supported where
+  /// its reference node is held, which bears what acts on all of its nodes; these count for nothing
+  /// by themselves.
   /// @param about  m, point of the moment
   ForceAndMoment support_reaction(std::span<const NodeId> nodes, const Vec3& about) const;
   /// N, of all contacts on the nodes of a rigid body in the last step, by place in
@@ -286,12 +288,12 @@ class Simulation {
   /// stiffness counts as external work; weight as if it had no energy when it came or went.
   /// To be called before the first step. A step that is chosen is chosen anew.
   /// @throws std::logic_error after the first step
+  /// @throws std::invalid_argument for places that are none: nothing is changed then
   /// @throws geometry::StateMismatch if structures or laws are others: the simulation can only be
   ///         thrown away then
   void go_on_from(Simulation& before, const SceneChange& change);
 
  private:
-  /// @throws std::invalid_argument for places that are none: nothing is changed then
   void advance(double longest);
   void find_contacts();
   double power_on_turning_planes() const;

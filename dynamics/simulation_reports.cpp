@@ -5,6 +5,8 @@
 #include "dynamics/simulation.hpp"
 #include "geometry/base/elementary.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -60,9 +62,12 @@ double Simulation::pressing_on(std::size_t plane) const {
 ForceAndMoment Simulation::support_reaction(std::span<const NodeId> nodes,
                                             const Vec3& about) const {
   for (const NodeId node : nodes) require_node("support_reaction", node, scene_.state.size());
+  std::vector<NodeId> supported;
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(supported),
+               [this](NodeId node) { return rigid_nodes_.body_followed_by(node) < 0; });
   const std::vector<Vec3> positions = force_positions();
-  return dynamics::support_reaction(nodes, {positions, forces_, scene_.properties, motion_.gravity},
-                                    about);
+  return dynamics::support_reaction(
+      supported, {positions, forces_, scene_.properties, motion_.gravity}, about);
 }
 
 double Simulation::unbalanced_force_ratio() const {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -112,6 +113,60 @@ TEST(UnbalancedForceRatio, CountsWhatBondsCarry) {
   simulation.step();
 
   EXPECT_NEAR(simulation.unbalanced_force_ratio(), 2.0 * (1.0 + 2.5e-6), 1e-9);
+}
+
+/// A cube of 0.1 m as a rigid body that stands 0.1 mm deep in a floor, and a sphere that it carries
+/// as deep.
+struct CarriedSphere {
+  explicit CarriedSphere(dynamics::Held held) {
+    constexpr double kSide = 0.1, kThickness = 0.002, kDepth = 1e-4, kRadius = 0.02;  // m
+    const contact::MaterialId stone{0};
+    scene.materials = {contact::Material{1e7, 0.5, 0.3}};
+    scene.planes = {{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), stone}};
+    const geometry::Mesh cube = geometry::box_shell({kSide, kSide, kSide});
+    double lowest = 0.0, highest = 0.0;
+    for (const Vec3& point : cube.points) {
+      lowest = std::min(lowest, point.z());
+      highest = std::max(highest, point.z());
+    }
+    const double up = kThickness - kDepth - lowest;
+    for (const Vec3& point : cube.points) nodes.push_back(scene.add_node(point + Vec3(0, 0, up)));
+    for (const auto& [a, b, c] : cube.facets)
+      scene.add_facet(nodes[index_of(a)], nodes[index_of(b)], nodes[index_of(c)], kThickness,
+                      stone);
+    Vec3 centre = Vec3::Zero();
+    for (const NodeId node : nodes)
+      centre += scene.state.position[index_of(node)] / static_cast<double>(nodes.size());
+    sphere = scene.state.size();
+    scene.add_sphere(Vec3(centre.x(), centre.y(), up + highest + kThickness + kRadius - kDepth),
+                     kRadius, 2650.0, stone);
+    scene.add_rigid_body(nodes, {kMass, centre, 1e-2 * geometry::Mat3::Identity()}, held);
+    nodes.push_back(scene.rigid_bodies[0].node);
+  }
+
+  static constexpr double kMass = 2.0;  // kg
+  Scene scene;
+  std::vector<NodeId> nodes;  // of the body
+  std::size_t sphere = 0;     // its node
+};
+
+TEST(SupportReaction, IsOfARigidBodyThatOfItsReferenceNode) {
+  const CarriedSphere free(dynamics::Held::nothing), held(dynamics::Held::everything);
+  const Vec3 gravity(0, 0, -kGravity);
+  LoadedSimulation of_free = simulation_of(free.scene, 1e-5, gravity);
+  LoadedSimulation of_held = simulation_of(held.scene, 1e-5, gravity);
+  for (LoadedSimulation* const simulation : {&of_free, &of_held}) simulation->step();
+  const double carried = of_held.forces().force[held.sphere].z();
+  ASSERT_GT(carried, 0.0);
+  ASSERT_GT(of_free.pressing_on(0), 0.0);
+
+  // What is free stands on the floor: no support bears anything.
+  const ForceAndMoment reaction = of_free.support_reaction(free.nodes, Vec3::Zero());
+  EXPECT_EQ(reaction.force, Vec3(Vec3::Zero()));
+  EXPECT_EQ(reaction.moment, Vec3(Vec3::Zero()));
+  // What is held bears the sphere and its own weight, each once.
+  EXPECT_NEAR(of_held.support_reaction(held.nodes, Vec3::Zero()).force.z(),
+              -carried - CarriedSphere::kMass * kGravity, 1e-12 * carried);
 }
 
 }  // namespace
