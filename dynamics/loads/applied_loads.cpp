@@ -128,6 +128,19 @@ double AppliedLoads::largest_speed() const noexcept {
   return speed;
 }
 
+namespace {
+
+/// @throws geometry::StateMismatch if a load that was set is none of this scene
+void require_place(std::size_t load, std::size_t count, const char* what, const char* whats) {
+  if (load < count) return;
+  throw geometry::StateMismatch("in the state " + std::string(what) + " " + std::to_string(load) +
+                                " was set, by its place from 0 in the loads; here are " +
+                                std::to_string(count) + " " + whats +
+                                ": the scene needs the loads that were set there");
+}
+
+}  // namespace
+
 void AppliedLoads::exchange(const geometry::StateArchive& archive) {
   archive.same("pressures", pressures_.size(), "another number of pressures");
   for (std::size_t i = 0; i < pressures_.size(); ++i)
@@ -147,7 +160,7 @@ void AppliedLoads::exchange_set_forces(const geometry::StateArchive& archive) {
     if (forces_[i].is_set()) all.push_back({i, forces_[i].force(), forces_[i].torque()});
   archive.rows("set_forces", all, [&](geometry::RowFields& row, SetForce& one) {
     row("load", one.load);
-    row.require(one.load < forces_.size(), "load");
+    if (row.is_reading()) require_place(one.load, forces_.size(), "force", "forces");
     row("force", one.force);
     row("torque", one.torque);
     row.require(one.force.allFinite() && one.torque.allFinite(), "force");
@@ -165,7 +178,7 @@ void AppliedLoads::exchange_set_pressures(const geometry::StateArchive& archive)
     if (pressures_[i].is_set()) all.push_back({i, pressures_[i].full_pressure()});
   archive.rows("set_pressures", all, [&](geometry::RowFields& row, SetPressure& one) {
     row("load", one.load);
-    row.require(one.load < pressures_.size(), "load");
+    if (row.is_reading()) require_place(one.load, pressures_.size(), "pressure", "pressures");
     row("pressure", one.pressure);
     row.require(std::isfinite(one.pressure), "pressure");
     if (row.is_reading()) pressures_[one.load].set(one.pressure);

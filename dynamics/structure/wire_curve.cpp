@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <ostream>
+#include <stdexcept>
 
 namespace plekton::dynamics {
 namespace {
@@ -54,7 +55,10 @@ std::optional<double> WireCurve::strain_at(double force) const noexcept {
   return std::nullopt;
 }
 
-BeamSection wire_section(double radius, const WireCurve& curve) noexcept {
+BeamSection wire_section(double radius, const WireCurve& curve) {
+  if (curve.points.empty())
+    throw std::invalid_argument(
+        "wire_section: the curve has no points; give at least one, at which the wire breaks");
   const double area = std::numbers::pi * radius * radius;
   return bar_section(radius, curve.first_slope() / area);
 }

@@ -47,7 +47,8 @@ struct WireCurve {
 
 /// Section of a bar that is as stiff as the first piece of a curve: E = first slope / (pi r²).
 /// @param radius  m, > 0
-BeamSection wire_section(double radius, const WireCurve& curve) noexcept;
+/// @throws std::invalid_argument for a curve without points
+BeamSection wire_section(double radius, const WireCurve& curve);
 
 /// Writes a line for everything that is wrong with a curve.
 /// @param name  how the lines begin

@@ -2,6 +2,7 @@
 // All loads at once on one scene.
 #include "dynamics/loads/applied_loads.hpp"
 
+#include "geometry/base/state_tree.hpp"
 #include "tests/support/loaded_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -82,6 +83,28 @@ TEST(AppliedLoads, GiveTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(one.energy().external_work, many.energy().external_work) << threads;
     EXPECT_EQ(one.energy().damping, many.energy().damping) << threads;
   }
+}
+
+TEST(AppliedLoads, SayWhichOfThemThatWereSetAreNotHere) {
+  const auto with_forces = [](std::size_t count) {
+    Scene scene;
+    const NodeId node = add_lump(scene, Vec3::Zero());
+    dynamics::NodalForce force;
+    force.nodes = {node};
+    force.force = Vec3(0, 0, 1);
+    scene.loads.forces.assign(count, force);
+    return simulation_of(std::move(scene), 1e-3);
+  };
+  LoadedSimulation before = with_forces(2);
+  before.step();
+  before.set_force(1, Vec3(0, 0, 7));
+  LoadedSimulation same = with_forces(2);
+  LoadedSimulation other = with_forces(1);
+
+  EXPECT_NO_THROW(same.restore(before.snapshot()));
+  EXPECT_THAT([&] { other.restore(before.snapshot()); },
+              testing::ThrowsMessage<geometry::StateMismatch>(testing::HasSubstr(
+                  "in the state force 1 was set, by its place from 0 in the loads; here are 1")));
 }
 
 }  // namespace

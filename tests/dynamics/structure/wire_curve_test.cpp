@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 
 namespace plekton::test::wire_curve_test {
 namespace {
@@ -186,6 +187,10 @@ TEST(BondLaws, ListWhatDoesNotFitTheirBonds) {
   for (const char* what : {"bond law 0: bond 0: follows the curve of a wire", "E A is",
                            "bond law 0: bond 7 does not exist", "bond law 1: bond 0 has a law"})
     EXPECT_THAT(problems.str(), HasSubstr(what));
+}
+
+TEST(WireCurve, WithoutPointsMakesNoSection) {
+  EXPECT_THROW(dynamics::wire_section(0.01, WireCurve{}), std::invalid_argument);
 }
 
 }  // namespace
