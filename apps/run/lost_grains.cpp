@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace plekton::apps {
 namespace {
@@ -48,20 +49,76 @@ geometry::Box wall_beside(const contact::Plane& plane, const Vec3& place) {
   return {middle - reach, middle + reach};
 }
 
-geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positions x,
-                           std::span<const contact::Plane> planes) {
-  geometry::Box bounds{Vec3::Constant(std::numeric_limits<double>::max()),
-                       Vec3::Constant(std::numeric_limits<double>::lowest())};
-  const auto include = [&](const auto& list) {
-    for (const auto& element : list) {
-      const geometry::Box box = geometry::box(element, x);
-      bounds.lower = bounds.lower.cwiseMin(box.lower);
-      bounds.upper = bounds.upper.cwiseMax(box.upper);
-    }
-  };
-  include(elements.spheres);
-  include(elements.cylinders);
-  include(elements.facets);
+/// Around nothing yet.
+geometry::Box no_box() {
+  return {Vec3::Constant(std::numeric_limits<double>::max()),
+          Vec3::Constant(std::numeric_limits<double>::lowest())};
+}
+
+template <class Element>
+void include(geometry::Box& bounds, const std::vector<Element>& list, geometry::Positions x) {
+  for (const Element& element : list) {
+    const geometry::Box box = geometry::box(element, x);
+    bounds.lower = bounds.lower.cwiseMin(box.lower);
+    bounds.upper = bounds.upper.cwiseMax(box.upper);
+  }
+}
+
+/// On every side by its own longest side.
+geometry::Box grown(const geometry::Box& box) {
+  const double margin = (box.upper - box.lower).maxCoeff();
+  return {box.lower.array() - margin, box.upper.array() + margin};
+}
+
+/// Of membranes and rigid bodies as they are.
+geometry::Box box_of_structures(const geometry::Elements& elements, geometry::Positions x) {
+  geometry::Box bounds = no_box();
+  include(bounds, elements.cylinders, x);
+  include(bounds, elements.facets, x);
+  return grown(bounds);
+}
+
+bool holds(const geometry::Box& box, const Vec3& x) noexcept {
+  return (x.array() >= box.lower.array()).all() && (x.array() <= box.upper.array()).all();
+}
+
+/// Whether a wall is in the way of a grain before it for good: one that ever falls (or, without
+/// gravity, goes on) in a direction.
+bool stops(const contact::Plane& plane, const Vec3& x, const Vec3& direction) noexcept {
+  if (!(plane.height(x) > 0.0)) return false;
+  constexpr double kAlong = 1e-9;  // sine of the angle below which a wall is along a direction
+  const double least = kAlong * direction.norm();
+  switch (plane.form) {
+    case contact::Plane::Form::flat:
+      return direction.dot(plane.normal) < -least;
+    case contact::Plane::Form::cylinder:
+      return direction.cross(plane.axis).norm() > least;
+    case contact::Plane::Form::sphere:
+      return true;
+  }
+  return false;
+}
+
+bool is_stopped(const Vec3& x, double radius, const Vec3& velocity,
+                const LostGrains::Surroundings& surroundings) {
+  const bool falls = !surroundings.gravity.isZero(0.0);
+  if (!falls && velocity.isZero(0.0)) return true;
+  const Vec3& direction = falls ? surroundings.gravity : velocity;
+  return std::any_of(surroundings.planes.begin(), surroundings.planes.end(),
+                     [&](const contact::Plane& plane) {
+                       const bool touches = plane.height(x) > 0.0 && plane.height(x) <= radius;
+                       return stops(plane, x, direction) || (!falls && touches);
+                     });
+}
+
+}  // namespace
+
+geometry::Box roaming_box(const geometry::Elements& elements, geometry::Positions x,
+                          std::span<const contact::Plane> planes) {
+  geometry::Box bounds = no_box();
+  include(bounds, elements.spheres, x);
+  include(bounds, elements.cylinders, x);
+  include(bounds, elements.facets, x);
   const geometry::Box of_elements = bounds;
   for (const contact::Plane& plane : planes) {
     for (const Vec3& corner : {of_elements.lower, of_elements.upper}) {
@@ -70,11 +127,8 @@ geometry::Box start_bounds(const geometry::Elements& elements, geometry::Positio
       bounds.upper = bounds.upper.cwiseMax(wall.upper);
     }
   }
-  const double margin = (bounds.upper - bounds.lower).maxCoeff();
-  return {bounds.lower.array() - margin, bounds.upper.array() + margin};
+  return grown(bounds);
 }
-
-}  // namespace
 
 bool passes_through(const Vec3& point0, const Vec3& point1, const std::array<Vec3, 3>& triangle0,
                     const std::array<Vec3, 3>& triangle1) noexcept {
@@ -91,7 +145,7 @@ bool passes_through(const Vec3& point0, const Vec3& point1, const std::array<Vec
 LostGrains::LostGrains(const geometry::Elements& elements, geometry::Positions x,
                        std::span<const contact::Plane> planes)
     : elements_(elements),
-      bounds_(start_bounds(elements, x, planes)),
+      bounds_(roaming_box(elements, x, planes)),
       smallest_radius_(smallest_radius(elements)),
       before_(x.begin(), x.end()),
       is_through_(elements.spheres.size(), false),
@@ -117,16 +171,25 @@ void LostGrains::look_for_passing(geometry::Positions x, const geometry::Neighbo
   }
 }
 
-void LostGrains::look(geometry::Positions x, const geometry::Neighbours& neighbours) {
-  look_for_passing(x, neighbours);
+void LostGrains::look_for_leaving(geometry::Positions x, const Surroundings& surroundings) {
+  std::optional<geometry::Box> structures;  // only where somebody is out at all
   for (std::size_t i = 0; i < elements_.spheres.size(); ++i) {
-    const Vec3& centre = x[index_of(elements_.spheres[i].nodes[0])];
-    const bool inside = (centre.array() >= bounds_.lower.array()).all() &&
-                        (centre.array() <= bounds_.upper.array()).all();
-    if (inside || is_out_[i]) continue;
+    const std::size_t node = index_of(elements_.spheres[i].nodes[0]);
+    if (is_out_[i] || holds(bounds_, x[node])) continue;
+    if (is_stopped(x[node], elements_.spheres[i].radius, surroundings.velocities[node],
+                   surroundings))
+      continue;
+    if (!structures) structures = box_of_structures(elements_, x);
+    if (holds(*structures, x[node])) continue;
     is_out_[i] = true;
     ++out_;
   }
+}
+
+void LostGrains::look(geometry::Positions x, const geometry::Neighbours& neighbours,
+                      const Surroundings& surroundings) {
+  look_for_passing(x, neighbours);
+  look_for_leaving(x, surroundings);
   std::copy(x.begin(), x.end(), before_.begin());
 }
 

@@ -16,11 +16,21 @@ class StateArchive;
 
 namespace plekton::apps {
 
+/// m, around all elements and around the feet of that on the planes, grown on every side by its own
+/// longest side; empty without elements.
+geometry::Box roaming_box(const geometry::Elements& elements, geometry::Positions x,
+                          std::span<const contact::Plane> planes);
+
 /// Which grains a simulation has lost. A grain is lost for good
 /// - when its centre has passed through a facet of a membrane, which no contact force should let
 ///   happen, or
-/// - when its centre has left the box around everything at the start and around the feet of that
-///   on the planes, grown on every side by its own longest side.
+/// - when its centre has left roaming_box() and nothing is left that could stop it: no plane lies
+///   below it along gravity (without gravity: ahead of it), and it is not near the membranes and
+///   rigid bodies as they are now, in the box around them, grown likewise.
+///
+/// So a grain that rolls away on a floor without end, flies above one, or lies in a bag that is
+/// carried off, is not lost. A container stops what is inside, a cylinder nothing that falls along
+/// its axis. The second kind depends on the state of now alone.
 ///
 /// Between two looks a grain and the corners of a facet are taken to move straight and evenly. The
 /// centre passes through the facet if it changes sides of its plane and, at the moment it lies in
@@ -28,13 +38,21 @@ namespace plekton::apps {
 /// the broad phase lists are asked: a centre in the plane of a facet touches it.
 class LostGrains {
  public:
+  /// What moves grains, and stops them.
+  struct Surroundings {
+    std::span<const contact::Plane> planes;
+    geometry::Vec3 gravity = geometry::Vec3::Zero();  ///< m/s²
+    std::span<const geometry::Vec3> velocities;       ///< m/s, of all nodes
+  };
+
   /// @param x  m, at the start. The elements must outlive this.
   LostGrains(const geometry::Elements& elements, geometry::Positions x,
              std::span<const contact::Plane> planes);
 
   /// Looks at what happened since the last look. Call it so often that no grain moves by its radius
   /// in between, see steps_to_next_look.
-  void look(geometry::Positions x, const geometry::Neighbours& neighbours);
+  void look(geometry::Positions x, const geometry::Neighbours& neighbours,
+            const Surroundings& surroundings);
 
   /// Time steps, from 1 to kMostSteps, within which no grain gets nearer to a facet than by half
   /// the radius of the smallest grain, at the speeds of now. What moves further in a single step
@@ -56,6 +74,7 @@ class LostGrains {
 
  private:
   void look_for_passing(geometry::Positions x, const geometry::Neighbours& neighbours);
+  void look_for_leaving(geometry::Positions x, const Surroundings& surroundings);
 
   const geometry::Elements& elements_;
   geometry::Box bounds_;

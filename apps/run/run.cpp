@@ -459,7 +459,8 @@ class Run {
   }
 
   void look_at_grains() {
-    lost_.look(simulation_.state().position, simulation_.contacts().neighbours());
+    lost_.look(simulation_.state().position, simulation_.contacts().neighbours(),
+               {simulation_.planes(), simulation_.gravity(), simulation_.state().velocity});
     next_look_at_grains_ =
         simulation_.steps() +
         lost_.steps_to_next_look(simulation_.state().velocity, simulation_.time_step());

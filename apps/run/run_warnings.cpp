@@ -93,10 +93,11 @@ std::string advice_on_exact_decisions(const RunReport& report) {
 
 std::string advice_on_lost_grains(const RunReport& report) {
   return fmt::format(
-      "{} grains are lost: {} passed through a membrane (smaller time steps or stiffer contacts "
-      "hold them), {} left the box around everything at the start, grown on every side by its "
-      "longest side (a plane or a membrane can stop them)",
-      report.lost_grains, report.lost_through_membranes, report.lost_out_of_bounds);
+      "{} lost: {} passed through a membrane (smaller time steps or stiffer contacts hold them), "
+      "{} left the box around everything, grown on every side by its longest side, with no plane "
+      "below (a plane or a membrane can stop them)",
+      report.lost_grains == 1 ? "1 grain is" : fmt::format("{} grains are", report.lost_grains),
+      report.lost_through_membranes, report.lost_out_of_bounds);
 }
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();

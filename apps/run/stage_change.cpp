@@ -2,6 +2,7 @@
 #include "apps/run/stage_change.hpp"
 
 #include "apps/run/initial_contacts.hpp"
+#include "apps/run/lost_grains.hpp"
 #include "apps/run/run_state.hpp"
 #include "apps/scene/build_stage.hpp"
 #include "geometry/base/state_archive.hpp"
@@ -98,23 +99,30 @@ std::vector<bool> carry_flags(const StateArchive& from, const StateArchive& to, 
   return now;
 }
 
-/// Which grains are lost, of those of now. What has come may be outside of where all began.
+/// Elements without the grains that are lost.
+geometry::Elements without(const std::vector<bool>& is_out, geometry::Elements elements) {
+  std::vector<geometry::Sphere> left;
+  for (std::size_t i = 0; i < is_out.size(); ++i)
+    if (!is_out[i]) left.push_back(elements.spheres[i]);
+  elements.spheres = std::move(left);
+  return elements;
+}
+
+/// Which grains are lost, of those of now. What has come may be outside of where all began, and
+/// roams as far around itself.
 void carry_lost_grains(const StateArchive& from, const StateArchive& to,
                        const contact::BodyPlaces& places, const dynamics::Simulation& now) {
-  const std::vector<geometry::Sphere>& spheres = now.elements().spheres;
-  carry_flags(from, to, "is_through", places, spheres.size());
-  const std::vector<bool> is_out = carry_flags(from, to, "is_out", places, spheres.size());
+  const std::size_t spheres = now.elements().spheres.size();
+  carry_flags(from, to, "is_through", places, spheres);
+  const std::vector<bool> is_out = carry_flags(from, to, "is_out", places, spheres);
   std::vector<Vec3> positions = now.state().position;
   to("before", positions);
   Vec3 lower, upper;
   from("lower_bounds", lower);
   from("upper_bounds", upper);
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    if (is_out[i]) continue;
-    const Vec3& centre = positions[index_of(spheres[i].nodes[0])];
-    lower = lower.cwiseMin((centre.array() - spheres[i].radius).matrix());
-    upper = upper.cwiseMax((centre.array() + spheres[i].radius).matrix());
-  }
+  const geometry::Box here = roaming_box(without(is_out, now.elements()), positions, now.planes());
+  lower = lower.cwiseMin(here.lower);
+  upper = upper.cwiseMax(here.upper);
   to("lower_bounds", lower);
   to("upper_bounds", upper);
 }

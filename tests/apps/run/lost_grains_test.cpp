@@ -24,7 +24,8 @@ std::array<Vec3, 3> triangle_at(double height) {
 class Scene {
  public:
   explicit Scene(const Vec3& grain, const std::vector<contact::Plane>& planes = {})
-      : positions_{{triangle_at(0.0)[0], triangle_at(0.0)[1], triangle_at(0.0)[2], grain}} {
+      : planes_(planes),
+        positions_{{triangle_at(0.0)[0], triangle_at(0.0)[1], triangle_at(0.0)[2], grain}} {
     elements_.facets.push_back({{id_at<NodeId>(0), id_at<NodeId>(1), id_at<NodeId>(2)}, 0.01});
     elements_.spheres.push_back({{id_at<NodeId>(3)}, 0.1});
     surface_ = geometry::Surface({}, elements_.facets, positions_.size());
@@ -39,13 +40,31 @@ class Scene {
     constexpr int kSteps = 100;
     for (int i = 1; i <= kSteps; ++i) {
       positions_[3] = start + (target - start) * (static_cast<double>(i) / kSteps);
-      neighbours_->update(positions_, pool_);
-      lost_->look(positions_, *neighbours_);
+      look();
     }
   }
+  /// Moves the facet with the grain, without turning it.
+  void carry_by(const Vec3& way) {
+    constexpr int kSteps = 100;
+    for (int i = 0; i < kSteps; ++i) {
+      for (Vec3& x : positions_) x += way / kSteps;
+      look();
+    }
+  }
+  void set_gravity(const Vec3& gravity) { gravity_ = gravity; }
+  /// Of the grain, m/s.
+  void set_velocity(const Vec3& velocity) { velocities_[3] = velocity; }
   const LostGrains& lost() const { return *lost_; }
 
  private:
+  void look() {
+    neighbours_->update(positions_, pool_);
+    lost_->look(positions_, *neighbours_, {planes_, gravity_, velocities_});
+  }
+
+  std::vector<contact::Plane> planes_;
+  Vec3 gravity_{0.0, 0.0, -9.81};
+  std::vector<Vec3> velocities_ = std::vector<Vec3>(4, Vec3::Zero());
   std::vector<Vec3> positions_;
   geometry::Elements elements_;
   geometry::Surface surface_;
@@ -115,6 +134,85 @@ TEST(LostGrains, CountNoneThatIsAnywhereInAContainer) {
 
     EXPECT_EQ(scene.lost().total(), 0U);
   }
+}
+
+contact::Plane flat(const Vec3& point, const Vec3& normal) {
+  return {.point = point, .normal = normal};
+}
+
+// The floor ended where the box did, though a plane has no end.
+TEST(LostGrains, CountNoneThatRollsAwayOnAFloorOrFliesAboveIt) {
+  for (const Vec3& normal : {Vec3(0.0, 0.0, 1.0), Vec3(0.6, 0.0, 0.8)}) {
+    Scene scene({0.2, 0.2, 0.3}, {flat({0.0, 0.0, -0.5}, normal)});
+    scene.move_to({60.0, 0.2, 0.3});
+    scene.move_to({60.0, 0.2, 50.0});
+
+    EXPECT_EQ(scene.lost().total(), 0U);
+  }
+}
+
+TEST(LostGrains, CountOneThatFallsBesideAWallBelowACeilingOrBehindAFloor) {
+  const contact::Plane wall = flat({-1.0, 0.0, 0.0}, Vec3::UnitX());
+  const contact::Plane ceiling = flat({0.0, 0.0, 2.0}, -Vec3::UnitZ());
+  const contact::Plane floor = flat({0.0, 0.0, -0.5}, Vec3::UnitZ());
+  for (const contact::Plane& plane : {wall, ceiling, floor}) {
+    Scene scene({1.5, 0.2, 0.3}, {plane});
+    scene.move_to({1.5, 0.2, -20.0});
+
+    EXPECT_EQ(scene.lost().out_of_bounds(), 1U);
+  }
+}
+
+TEST(LostGrains, CountNoneThatIsCarriedAwayByAMembrane) {
+  Scene scene({0.2, 0.2, 0.3});
+  scene.carry_by({60.0, 0.0, 0.0});
+  EXPECT_EQ(scene.lost().total(), 0U);
+  scene.move_to({64.0, 0.2, 0.3});  // the facet's longest side is 1.02 m with its thickness
+
+  EXPECT_EQ(scene.lost().out_of_bounds(), 1U);
+}
+
+TEST(LostGrains, CountOneThatFallsOutOfACylinderAndNoneInABowl) {
+  using Form = contact::Plane::Form;
+  const auto lost_in = [](Form form, const Vec3& axis, double radius) {
+    const contact::Plane wall{.point = Vec3::Zero(),
+                              .normal = Vec3::Zero(),
+                              .form = form,
+                              .radius = radius,
+                              .axis = axis};
+    Scene scene({0.2, 0.2, 0.3}, {wall});
+    scene.move_to({1.2, 0.2, 0.3});
+    scene.move_to({1.2, 0.2, -30.0});
+    return scene.lost().total();
+  };
+
+  EXPECT_EQ(lost_in(Form::cylinder, Vec3::UnitZ(), 5.0), 1U);
+  EXPECT_EQ(lost_in(Form::cylinder, Vec3::UnitX(), 40.0), 0U);
+  EXPECT_EQ(lost_in(Form::sphere, Vec3::Zero(), 40.0), 0U);
+}
+
+TEST(LostGrains, CountWithoutGravityOneThatFliesAwayAndNoneThatAPlaneIsAheadOf) {
+  const auto lost_with = [](const Vec3& velocity) {
+    Scene scene({0.2, 0.2, 0.3}, {flat({0.0, 0.0, -0.5}, Vec3::UnitZ())});
+    scene.set_gravity(Vec3::Zero());
+    scene.set_velocity(velocity);
+    scene.move_to({30.0, 0.2, 30.0});
+    return scene.lost().total();
+  };
+
+  EXPECT_EQ(lost_with({1.0, 0.0, 1.0}), 1U);
+  EXPECT_EQ(lost_with({1.0, 0.0, 0.0}), 1U);
+  EXPECT_EQ(lost_with({1.0, 0.0, -0.1}), 0U);
+  EXPECT_EQ(lost_with(Vec3::Zero()), 0U);
+}
+
+TEST(LostGrains, CountNoneThatRollsOnAPlaneWithoutGravity) {
+  Scene scene({1.5, 0.2, -0.41}, {flat({0.0, 0.0, -0.5}, Vec3::UnitZ())});
+  scene.set_gravity(Vec3::Zero());
+  scene.set_velocity({1.0, 0.0, 0.0});
+  scene.move_to({30.0, 0.2, -0.41});
+
+  EXPECT_EQ(scene.lost().total(), 0U);
 }
 
 TEST(LostGrains, WantToBeLookedAtTheMoreOftenTheFasterAnythingMoves) {

@@ -56,6 +56,13 @@ TEST(RunWarnings, NameDeepOverlapsEnergyThatDoesNotAddUpAndLostGrains) {
                           HasSubstr("20 grains are lost: 4 passed through")));
 }
 
+TEST(RunWarnings, CountOneLostGrainInTheSingular) {
+  RunReport report;
+  report.lost_grains = report.lost_out_of_bounds = 1;
+
+  EXPECT_THAT(warnings_about(report), ElementsAre(HasSubstr("1 grain is lost: 0 passed")));
+}
+
 TEST(RunWarnings, NameEnergyThatTrackingMadeOrLost) {
   RunReport report;
   report.tracking_ratio = 0.9e-3;
