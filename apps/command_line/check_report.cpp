@@ -79,9 +79,10 @@ Json ties_of(const BuiltScene& built) {
 Json boxes_of(const Scenario& scenario, const PreparedRun& prepared) {
   Json list = Json::array();
   for (const NamedBox& body : boxes_at_start(scenario, prepared)) {
-    list.push_back({{"of", body.name},
-                    {"lower_m", list_of(body.box.lower)},
-                    {"upper_m", list_of(body.box.upper)}});
+    Json& json = list.emplace_back(Json{{"of", body.name},
+                                        {"lower_m", list_of(body.box.lower)},
+                                        {"upper_m", list_of(body.box.upper)}});
+    if (!body.comes_in.empty()) json["comes_in"] = body.comes_in;
   }
   return list;
 }

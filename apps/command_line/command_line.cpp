@@ -215,7 +215,7 @@ int run_aloud(const CommandLine& line, const Scenario& scenario, const fs::path&
               const Resumption* resume, const std::optional<double>& until,
               Progress::Clock::time_point began) {
   PreparedRun prepared = prepared_aloud(scenario, line.quiet);
-  if (!line.quiet) std::cout << summary_of(prepared) << std::flush;
+  if (!line.quiet) std::cout << summary_of(scenario, prepared) << std::flush;
   const InterruptGuard guard;
   RunSettings settings = settings_of(line, out, guard, began);
   settings.resume = resume;
@@ -365,7 +365,7 @@ int check_command(const CommandLine& line) {
   if (line.json) return check_for_programs(line);
   const Scenario scenario = scenario_of(line);
   PreparedRun prepared = prepared_aloud(scenario, false);
-  std::cout << summary_of(prepared) << listing_of_start(scenario, prepared) << std::flush;
+  std::cout << summary_of(scenario, prepared) << listing_of_start(scenario, prepared) << std::flush;
   require_possible_start(prepared.start, scenario);
   std::cout << step_advice(scenario, prepared);
   if (line.power_iteration) std::cout << summary_of(prepared.simulation->exact_critical_step());

@@ -122,7 +122,7 @@ RunReport run_stages_asked(const Scenario& scenario, const StagesAsked& asked,
       *aloud << fmt::format("stage {} ({} of {}), from {:.6g} s\n", stage.stage->name,
                             stage.stage->number + 1, scenario.stages.size(),
                             prepared.simulation->time())
-             << summary_of(prepared) << std::flush;
+             << summary_of(scenario, prepared) << std::flush;
   };
   if (aloud != nullptr) {
     stages.ends = [&](const Scenario& stage, const RunReport& report) {

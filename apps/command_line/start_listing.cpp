@@ -3,6 +3,7 @@
 
 #include "apps/command_line/enclosed_bodies.hpp"
 #include "apps/scenario/section.hpp"
+#include "apps/scenario/staged_scenario.hpp"
 #include "geometry/primitives/box.hpp"
 
 #include <fmt/format.h>
@@ -34,8 +35,10 @@ void include(Box& box, const Vec3& centre, double radius) {
 std::string line_of(const NamedBox& body) {
   const Vec3& l = body.box.lower;
   const Vec3& u = body.box.upper;
-  return fmt::format("box of {}: ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m\n",
-                     body.name, l[0], l[1], l[2], u[0], u[1], u[2]);
+  const std::string when =
+      body.comes_in.empty() ? "" : fmt::format(", which comes in stage {}", body.comes_in);
+  return fmt::format("box of {}{}: ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m\n",
+                     body.name, when, l[0], l[1], l[2], u[0], u[1], u[2]);
 }
 
 std::string bonds(const Scenario& scenario, const InitialContacts& start) {
@@ -75,11 +78,16 @@ std::vector<NamedBox> boxes_at_start(const Scenario& scenario, const PreparedRun
     Box box = no_box();
     for (std::size_t n = membrane.first_node; n < membrane.first_node + membrane.nodes; ++n)
       include(box, x[n], 0.5 * scenario.membranes[m].thickness);
-    boxes.push_back({path_of({BodyTable::Kind::membrane, m}, scenario), box});
+    const std::string comes_in =
+        scenario.membranes[m].is_absent
+            ? stage_that_brings(scenario, &Scenario::membranes, m, prepared.bodies.stage)
+            : "";
+    boxes.push_back({path_of({BodyTable::Kind::membrane, m}, scenario), box, comes_in});
   }
   std::size_t first = 0;
   for (std::size_t g = 0; g < prepared.built.grains.size(); ++g) {
     const BuiltGrains& grains = prepared.built.grains[g];
+    if (grains.count == 0) continue;  // of a rigid body that is not there
     Box box = no_box();
     for (std::size_t i = first; i < first + grains.count; ++i) {
       const geometry::Sphere& sphere = scene.elements.spheres[i];
@@ -89,8 +97,9 @@ std::vector<NamedBox> boxes_at_start(const Scenario& scenario, const PreparedRun
     boxes.push_back({path_of({BodyTable::Kind::grains, g}, scenario), box});
   }
   Box all = no_box();
-  for (const auto& [name, box] : boxes)
-    all = {all.lower.cwiseMin(box.lower), all.upper.cwiseMax(box.upper)};
+  for (const NamedBox& body : boxes)
+    if (body.comes_in.empty())
+      all = {all.lower.cwiseMin(body.box.lower), all.upper.cwiseMax(body.box.upper)};
   boxes.push_back({"everything", all});
   return boxes;
 }

@@ -13,10 +13,11 @@ namespace plekton::apps {
 struct NamedBox {
   std::string name;  ///< as in "membranes.net"
   geometry::Box box;
+  std::string comes_in = {};  ///< name of a later stage in which it comes; empty: it is there
 };
 
-/// Around membranes with their thickness, around grains, and around all of them ("everything").
-/// Planes have none.
+/// Around membranes with their thickness, around grains, and around all of them that are there
+/// ("everything"). Planes have none.
 std::vector<NamedBox> boxes_at_start(const Scenario& scenario, const PreparedRun& prepared);
 
 /// How a scene begins, in lines: the boxes around its bodies, the bonds that hold, who overlaps

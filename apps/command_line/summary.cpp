@@ -2,6 +2,7 @@
 #include "apps/command_line/summary.hpp"
 
 #include "apps/run/run_warnings.hpp"
+#include "apps/scenario/staged_scenario.hpp"
 #include "geometry/mesh/repair/report.hpp"
 
 #include <fmt/format.h>
@@ -36,14 +37,23 @@ std::string axes_of(const Vec3& free) {
   return text.empty() ? "nothing" : text;
 }
 
-std::string line_of(const BuiltRigidBody& body) {
+/// Along and about what it is free, or when it comes.
+std::string freedom_of(const BuiltRigidBody& body, const Scenario& scenario, std::size_t stage) {
+  if (!body.is_absent)
+    return fmt::format("free along {}, about {}", axes_of(dynamics::free_axes(body.held)),
+                       axes_of(dynamics::free_turns(body.held)));
+  const std::string name = stage_that_brings(scenario, &Scenario::rigid_bodies, body.table, stage);
+  return name.empty() ? "not there any more" : "comes in stage " + name;
+}
+
+/// @param stage  its number, where there are some
+std::string line_of(const BuiltRigidBody& body, const Scenario& scenario, std::size_t stage) {
   const Vec3& centre = body.mass.centre;
   return fmt::format(
       "rigid body {}: mass {:.4g} kg, centre ({:.4g}, {:.4g}, {:.4g}) m, principal moments of "
-      "inertia {:.4g}, {:.4g}, {:.4g} kg m2, {}; free along {}, about {}\n",
+      "inertia {:.4g}, {:.4g}, {:.4g} kg m2, {}; {}\n",
       body.name, body.mass.mass, centre[0], centre[1], centre[2], body.moments[0], body.moments[1],
-      body.moments[2], body.volume, axes_of(dynamics::free_axes(body.held)),
-      axes_of(dynamics::free_turns(body.held)));
+      body.moments[2], body.volume, freedom_of(body, scenario, stage));
 }
 
 std::string line_of(const BuiltTies& ties) {
@@ -78,13 +88,14 @@ std::string wall_text(double seconds) {
 
 }  // namespace
 
-std::string summary_of(const PreparedRun& prepared) {
+std::string summary_of(const Scenario& scenario, const PreparedRun& prepared) {
   std::string text;
   for (const BuiltMembrane& membrane : prepared.built.membranes)
     if (!membrane.is_rigid) text += line_of(membrane);
   for (const BuiltGrains& grains : prepared.built.grains)
     if (!grains.is_rigid) text += line_of(grains);
-  for (const BuiltRigidBody& body : prepared.built.rigid_bodies) text += line_of(body);
+  for (const BuiltRigidBody& body : prepared.built.rigid_bodies)
+    text += line_of(body, scenario, prepared.bodies.stage);
   for (const BuiltTies& ties : prepared.built.ties) text += line_of(ties);
   if (!prepared.simulation->planes().empty())
     text += fmt::format("planes: {}\n", prepared.simulation->planes().size());

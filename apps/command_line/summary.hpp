@@ -8,7 +8,8 @@
 namespace plekton::apps {
 
 /// What was built, for people: membranes, grains, masses, time step, warnings.
-std::string summary_of(const PreparedRun& prepared);
+/// @param scenario  with all stages, of which this may be one
+std::string summary_of(const Scenario& scenario, const PreparedRun& prepared);
 
 /// The critical step that power iteration found.
 std::string summary_of(const dynamics::ExactStep& step);

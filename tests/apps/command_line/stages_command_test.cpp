@@ -556,6 +556,23 @@ TEST_F(Stages, GoOnOnlyWithTheBodiesOfBefore) {
   EXPECT_FALSE(fs::exists(folder_ / "wrong"));
 }
 
+// It was said to be free along nothing, and was in the box of everything.
+TEST_F(Stages, AreNamedOfBodiesThatComeInThem) {
+  const std::string file = write("bodies.toml", in_three("a", "b", "c"));
+
+  const Outcome checked = Program({"check", file}).wait();
+  const json boxes = json::parse(Program({"check", "--json", file}).wait().out)["boxes"];
+
+  EXPECT_THAT(checked.out, HasSubstr("; comes in stage c\n"));
+  EXPECT_THAT(checked.out, HasSubstr("box of rigid_bodies.lid, which comes in stage c: (-0.0205"));
+  for (const json& box : boxes) {
+    const bool is_lid = box["of"] == "rigid_bodies.lid";
+    EXPECT_EQ(box.value("comes_in", ""), is_lid ? "c" : "");
+    // The lid is from 0.0495 m on, the highest grain ends at 0.036 m.
+    EXPECT_EQ(box["upper_m"][2] > 0.04, is_lid) << box;
+  }
+}
+
 TEST_F(Stages, GoOnWithOtherKeysOfBodiesThatAreStillToCome) {
   const std::string file = write("bodies.toml", in_three("a", "b", "c"));
   ASSERT_EQ(run(file, "first", {"--until", "b"}).exit_code, 0);
