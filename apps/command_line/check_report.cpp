@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/check_report.hpp"
 
-#include "apps/command_line/enclosed_bodies.hpp"
 #include "apps/command_line/run_estimate.hpp"
 #include "apps/command_line/start_listing.hpp"
 #include "apps/command_line/step_advice.hpp"
+#include "apps/run/enclosed_bodies.hpp"
 #include "geometry/version.hpp"
 
 #include <sstream>
@@ -120,7 +120,7 @@ Json overlaps_of(const Scenario& scenario, const InitialContacts& start) {
 
 Json enclosed_in(const PreparedRun& prepared) {
   Json list = Json::array();
-  for (const EnclosedBody& body : enclosed_bodies(prepared))
+  for (const EnclosedBody& body : enclosed_bodies(prepared.built, prepared.simulation->scene()))
     list.push_back({{"of", {body.name, body.in}}, {"inside", body.inside}, {"all", body.all}});
   return list;
 }

@@ -2,6 +2,7 @@
 #include "apps/command_line/stages_command.hpp"
 
 #include "apps/command_line/summary.hpp"
+#include "apps/run/enclosed_bodies.hpp"
 #include "apps/scenario/staged_scenario.hpp"
 #include "apps/scene/build_stage.hpp"
 
@@ -149,6 +150,8 @@ StagesSeen look_at_stages(const Scenario& scenario, const HearSetUp& hear) {
   const BuiltScene built = build_scene(first, hear);
   tell(first, built.scene.elements.spheres.size());
   std::vector<std::string> told = built.warnings;
+  for (std::string& warning : warnings_about_solids(first, built, built.scene))
+    told.push_back(std::move(warning));
   StagesAhead ahead(first, built);
   bool knows_what_is_free = !frees_grains_at_places(*first.stage);
   for (const Scenario& stage : std::span(scenario.stages).subspan(1)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/start_listing.hpp"
 
-#include "apps/command_line/enclosed_bodies.hpp"
+#include "apps/run/enclosed_bodies.hpp"
 #include "apps/scenario/section.hpp"
 #include "apps/scenario/staged_scenario.hpp"
 #include "geometry/primitives/box.hpp"
@@ -107,8 +107,9 @@ std::vector<NamedBox> boxes_at_start(const Scenario& scenario, const PreparedRun
 std::string listing_of_start(const Scenario& scenario, const PreparedRun& prepared) {
   std::string text;
   for (const NamedBox& body : boxes_at_start(scenario, prepared)) text += line_of(body);
+  const dynamics::Scene& scene = prepared.simulation->scene();
   return text + bonds(scenario, prepared.start) + overlaps(scenario, prepared.start) +
-         listing_of(enclosed_bodies(prepared));
+         listing_of(enclosed_bodies(prepared.built, scene));
 }
 
 }  // namespace plekton::apps

@@ -3,6 +3,7 @@
 
 #include "apps/run/checkpoints.hpp"
 #include "apps/run/clock_checkpoints.hpp"
+#include "apps/run/enclosed_bodies.hpp"
 #include "apps/run/first_rank.hpp"
 #include "apps/run/history.hpp"
 #include "apps/run/lost_grains.hpp"
@@ -761,6 +762,9 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   for (std::string& warning : warnings_about(prepared.start, scenario))
     prepared.built.warnings.push_back(std::move(warning));
   for (std::string& warning : warnings_about_stiffness(scenario, prepared.built))
+    prepared.built.warnings.push_back(std::move(warning));
+  for (std::string& warning :
+       warnings_about_solids(scenario, prepared.built, prepared.simulation->scene()))
     prepared.built.warnings.push_back(std::move(warning));
   return prepared;
 }

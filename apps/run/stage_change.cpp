@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/stage_change.hpp"
 
+#include "apps/run/enclosed_bodies.hpp"
 #include "apps/run/initial_contacts.hpp"
 #include "apps/run/lost_grains.hpp"
 #include "apps/run/run_state.hpp"
@@ -309,6 +310,8 @@ StageAhead StagesAhead::next(const Scenario& stage, const HearSetUp& hear) {
   ahead.built = try_stage(stage, bodies_, positions_, hear);
   ahead.warnings = ahead.built.warnings;
   ahead.simulation = simulation_of(stage, ahead.built);
+  for (std::string& warning : warnings_about_solids(stage, ahead.built, ahead.simulation->scene()))
+    ahead.warnings.push_back(std::move(warning));
   find_planes(stage);
   look_at_arrivals(stage, nodes_before, was_absent, ahead);
   for (std::size_t i = 0; i < has_stayed_.size(); ++i)
