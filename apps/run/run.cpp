@@ -538,9 +538,13 @@ class Run {
     const double ratio = simulation_.time_step() / critical;
     if (ratio > dynamics::kLargestStep && report_.dt_over_critical <= dynamics::kLargestStep) {
       report_.warnings.push_back(
-          fmt::format("from {:.4g} s on the time step is {:.2f} of the critical one ({:.4g} s); "
-                      "run with a smaller one",
-                      simulation_.time(), ratio, critical));
+          fmt::format("from {:.4g} s on the time step is {:.2f} of the critical one ({:.4g} s); {}",
+                      simulation_.time(), ratio, critical,
+                      simulation_.chooses_time_step()
+                          ? fmt::format("it was chosen, and something became stiffer faster than "
+                                        "that follows; give simulation.time_step, {:.2g} s",
+                                        dynamics::kSafety * critical)
+                          : "run with a smaller one"));
     }
     report_.dt_over_critical = std::max(report_.dt_over_critical, ratio);
   }
@@ -572,6 +576,7 @@ class Run {
     report_.simulated_time = simulation_.time();
     report_.steps = simulation_.steps();
     report_.time_step = simulation_.time_step();
+    report_.chose_time_step = simulation_.chooses_time_step();
     report_.wall_time = wall_time_before_ + seconds_since(start_);
     report_.largest_overlap_ratio = simulation_.largest_overlap_ratio();
     report_.pass_throughs = simulation_.pass_throughs();
@@ -648,17 +653,19 @@ class Run {
   std::int64_t next_look_at_grains_ = 1;
 };
 
+/// @param chosen  s, what "auto" would begin with; infinite if there is nothing to choose it by
 /// @throws InputError
-void require_sound_time_step(const SimulationSettings& settings, double critical) {
+void require_sound_time_step(const SimulationSettings& settings, double critical, double chosen) {
   const double asked = *settings.time_step;
   Problems problems;
   if (!(asked < dynamics::kLargestStep * critical)) {
-    problems.add(settings.time_step_place,
-                 fmt::format("simulation.time_step: {:.6g} s is not below {} of the critical time "
-                             "step of this scene, which is {:.6g} s; "
-                             "choose less than {:.6g} s, or \"auto\" for {:.6g} s",
-                             asked, dynamics::kLargestStep, critical,
-                             dynamics::kLargestStep * critical, dynamics::kSafety * critical));
+    problems.add(
+        settings.time_step_place,
+        fmt::format("simulation.time_step: {:.6g} s is not below {} of the critical time "
+                    "step of this scene, which is {:.6g} s; "
+                    "choose less than {:.6g} s, or \"auto\", which begins with {:.4g} s",
+                    asked, dynamics::kLargestStep, critical, dynamics::kLargestStep * critical,
+                    std::min(chosen, settings.duration)));
   }
   if (asked > settings.duration) {
     problems.add(settings.time_step_place,
@@ -693,7 +700,7 @@ void require_possible_duration(const char* name, double duration, double step) {
 void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& simulation) {
   double chosen = simulation.time_step();
   if (settings.time_step) {
-    require_sound_time_step(settings, simulation.critical_step().dt);
+    require_sound_time_step(settings, simulation.critical_step().dt, chosen);
     chosen = *settings.time_step;
   } else if (!std::isfinite(chosen)) {
     throw InputError(

@@ -81,6 +81,7 @@ struct RunReport {
   std::int64_t steps = 0;
   std::int64_t resumed_step = 0;  ///< from which wall times count
   double time_step = 0.0;         ///< s, at the end
+  bool chose_time_step = false;   ///< at the end, as none was given
   double start_up_time = 0.0;     ///< s, from reading the scenario to the first step
   double wall_time = 0.0;         ///< s, without reading the scenario and building its scene
   double output_time = 0.0;       ///< s, of the wall time: frames and rows of energy.csv

@@ -124,9 +124,14 @@ constexpr std::string_view kStepCheck = "dt_over_critical";
 
 std::string advice_on_step(const RunReport& report) {
   return fmt::format(
-      "the time step was {:.2f} of the critical one, above {:.1f}: run with a smaller one, or with "
-      "none, and it is chosen",
-      report.dt_over_critical, dynamics::kLargestStep);
+      "the time step was {:.2f} of the critical one, above {:.1f}: {}", report.dt_over_critical,
+      dynamics::kLargestStep,
+      report.chose_time_step
+          ? fmt::format("it was chosen, and something became stiffer faster than that follows; "
+                        "give simulation.time_step, {:.2g} of what it was then (column time_step "
+                        "of energy.csv)",
+                        rounded_down(dynamics::kSafety / report.dt_over_critical))
+          : "run with a smaller one, or with none, and it is chosen");
 }
 
 using Advice = std::string (*)(const RunReport&);

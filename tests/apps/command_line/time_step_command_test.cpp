@@ -96,6 +96,19 @@ TEST_F(TimeStepAdvice, SaysThatDashpotsShortenTheStep) {
   EXPECT_THAT(check({"contacts.0.restitution=1"}), Not(HasSubstr("dashpots")));
 }
 
+// It named 0.65 of the critical step with all contacts that may come, which is not what is chosen.
+TEST_F(TimeStepAdvice, NamesForAGivenStepThatIsTooLongTheOneThatWouldBeChosen) {
+  const std::string out = check({});
+  const std::string begin = "time step: ";
+  const std::size_t first = out.find(begin) + begin.size();
+  const std::string chosen = out.substr(first, out.find(" s,", first) - first);
+
+  const Outcome outcome = outcome_of({"check", scenario(), "--set", "simulation.time_step=1 ms"});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("or \"auto\", which begins with " + chosen + " s"));
+}
+
 TEST_F(TimeStepAdvice, IsJoinedByPowerIterationIfAsked) {
   const std::string asked = check({}, {"--power-iteration"});
 

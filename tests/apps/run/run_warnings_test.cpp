@@ -129,6 +129,21 @@ TEST(Certificate, NamesWhatIsRedWithValueAndLimit) {
   EXPECT_EQ(warnings_about(report).size(), 2U);
 }
 
+// It said to leave out what had not been given.
+TEST(Certificate, AsksForAGivenStepWhereTheChosenOneWasTooLong) {
+  RunReport report;
+  report.dt_over_critical = 1.3;
+  const auto advice = [&] {
+    for (const Check& check : certificate_of(report))
+      if (check.name == "dt_over_critical") return check.advice;
+    return std::string();
+  };
+
+  EXPECT_THAT(advice(), HasSubstr("run with a smaller one, or with none"));
+  report.chose_time_step = true;
+  EXPECT_THAT(advice(), HasSubstr("give simulation.time_step, 0.5 of what it was"));  // 0.65 / 1.3
+}
+
 TEST(Certificate, IsRedWhereAValueIsNoNumber) {
   RunReport report;
   report.energy_closure = std::numeric_limits<double>::quiet_NaN();
