@@ -32,7 +32,10 @@ constexpr std::array<dynamics::OutputField, 22> kFields = {{
     {"plane_contacts", "", "how many"},
     {"broken_bonds", "", "how many so far"},
     {"torn_facets", "", "of sheets, how many so far"},
-    {"largest_overlap_ratio", "", "overlap over the radius of the smaller ball"},
+    {"largest_overlap_ratio", "",
+     "overlap over the radius of the grain, of two grains the smaller one; between membranes, and "
+     "of "
+     "them with planes, over half the thickness, the smaller one"},
     {"time_step", "s", "chosen or given; the last 64 steps of a run may be shorter"},
     {"lost_grains", "", "how many"},
     {"unbalanced_force_ratio", "",

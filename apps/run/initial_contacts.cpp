@@ -49,9 +49,9 @@ std::string refusal_of(std::size_t count, const BodyOverlap& deepest, const Scen
             ? "move them to the side that the normal of the plane points to, or move or turn the "
               "plane"
             : "move them inside, or move or widen it";
-    return fmt::format("{}: {} of its {} begin behind {}, {}by {}; {}", a, count,
-                       deepest.of[0].kind == BodyTable::Kind::grains ? "grains" : "nodes", b, which,
-                       text_of(deepest), way_out);
+    return fmt::format("{}: {} of its {} {} behind {}, {}by {}; {}", a, count,
+                       deepest.of[0].kind == BodyTable::Kind::grains ? "grains" : "nodes",
+                       count == 1 ? "begins" : "begin", b, which, text_of(deepest), way_out);
   }
   return fmt::format("{}: begins in {} at {} {}, deeper than both radii, {}by {}; move them apart",
                      a, b, count, count == 1 ? "place" : "places", which, text_of(deepest));
@@ -107,10 +107,10 @@ std::vector<std::string> warnings_about(const InitialContacts& contacts, const S
   if (deep == 0) return warnings;
   const BodyOverlap& deepest = contacts.overlaps.front();
   warnings.push_back(fmt::format(
-      "{} contacts begin with an overlap above {:.0f} % of the radius, the deepest {} with {} by "
+      "{} with an overlap above {:.0f} % of the radius, the deepest {} with {} by "
       "{}; what is in each other flies apart; `plekton check` lists all",
-      deep, 100.0 * kDeepOverlap, path_of(deepest.of[0], scenario),
-      path_of(deepest.of[1], scenario), text_of(deepest)));
+      deep == 1 ? "1 contact begins" : fmt::format("{} contacts begin", deep), 100.0 * kDeepOverlap,
+      path_of(deepest.of[0], scenario), path_of(deepest.of[1], scenario), text_of(deepest)));
   return warnings;
 }
 

@@ -33,6 +33,12 @@ double depth_of(const ContactRecord& row) {
   return is_of_structures(row) ? row.deepest : -row.gap;
 }
 
+/// m, what an overlap is measured against, as Simulation::largest_overlap_ratio() does.
+double measure_of(const ContactRecord& row, double radius_a, double radius_b) {
+  if (row.a.kind == row.b.kind) return std::min(radius_a, radius_b);
+  return row.b.kind == BodyKind::sphere ? radius_b : radius_a;
+}
+
 /// Between structures a bond has a row of its own beside that of the contact.
 bool is_bond_alone(const ContactRecord& row) {
   return row.is_bonded && is_of_structures(row);
@@ -62,7 +68,7 @@ std::optional<BodyOverlap> overlap_of(const ContactRecord& row, const BodyTables
     std::swap(overlap.grains[0], overlap.grains[1]);
   }
   overlap.depth = depth;
-  overlap.ratio = depth / std::min(radius_a, radius_b);
+  overlap.ratio = depth / measure_of(row, radius_a, radius_b);
   overlap.place = row.point;
   const bool is_own =
       overlap.of[0] == overlap.of[1] && overlap.of[0].kind == BodyTable::Kind::membrane;

@@ -11,12 +11,13 @@
 
 namespace plekton::apps {
 
-/// Two bodies that overlap.
+/// Two bodies that overlap. What the depth is measured against is the radius of the grain, of two
+/// grains the smaller one; between structures, and of them with planes, half the smaller thickness.
 struct BodyOverlap {
   std::array<BodyTable, 2> of;        ///< the lower one first
   std::array<std::size_t, 2> grains;  ///< which one of its table, where that is one of grains
   double depth = 0.0;                 ///< m
-  double ratio = 0.0;                 ///< of the depth to the smaller radius
+  double ratio = 0.0;                 ///< of the depth, over what largest_overlap_ratio is over
   Vec3 place = Vec3::Zero();          ///< m, of the contact
   /// Deeper than both radii, so that the core of each lies in the other body, or that of one behind
   /// a plane. Not of a membrane with itself: that its mesh crosses itself is told at its import.

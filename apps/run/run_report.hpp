@@ -30,7 +30,7 @@ struct DeepestOverlap {
   std::string a;  ///< as in "grains.sand grain 3"
   std::string b;
   double depth = 0.0;         ///< m
-  double ratio = 0.0;         ///< of the depth to the smaller radius
+  double ratio = 0.0;         ///< as of BodyOverlap
   Vec3 place = Vec3::Zero();  ///< m
   double time = 0.0;          ///< s
 };

@@ -89,7 +89,7 @@ TEST_F(StartOfScenes, AreListedWithTheBoxesOfTheirBodies) {
 
 TEST_F(StartOfScenes, AreListedWithWhoOverlapsWhomHowDeepAndWhere) {
   // 18 mm apart: 2 mm of 10. On the floor: 0.4 mm of 10. On the sheet, which begins 2 mm above its
-  // middle: 0.08 mm of its 2.
+  // middle: 0.08 mm of the grain's 10, as in the run.
   const Outcome outcome =
       check(grains("a", "[0, 0, 0.5], [0, 0, 0.7]") + grains("b", "[0.018, 0, 0.5]") +
             grains("c", "[0.5, 0, 0.0096]") + grains("d", "[2, 0, 0.51192]") +
@@ -102,8 +102,8 @@ TEST_F(StartOfScenes, AreListedWithWhoOverlapsWhomHowDeepAndWhere) {
   EXPECT_THAT(outcome.out, HasSubstr("of grains.c with planes.floor: 1\n"
                                      "  0.4 mm (4 % of the radius) of grain 0 at (0.5, 0, "));
   EXPECT_THAT(outcome.out, HasSubstr("of grains.d with membranes.m: 1\n"
-                                     "  0.08 mm (4 % of the radius) of grain 0 at (2, 0, "));
-  EXPECT_THAT(outcome.out, HasSubstr("warning: 1 contacts begin with an overlap above 5 %"));
+                                     "  0.08 mm (0.8 % of the radius) of grain 0 at (2, 0, "));
+  EXPECT_THAT(outcome.out, HasSubstr("warning: 1 contact begins with an overlap above 5 %"));
   EXPECT_THAT(outcome.out, HasSubstr("the deepest grains.a with grains.b by 2 mm"));
 }
 
@@ -153,7 +153,7 @@ TEST_F(StartOfScenes, AreRefusedWhereGrainsBeginOutsideOfAContainer) {
       "[[planes]]\nname = \"cell\"\nkind = \"cylinder\"\npoint = [0, 0, 0]\nradius = \"5 cm\"\n"
       "material = \"stone\"\n");
 
-  EXPECT_THAT(error, HasSubstr("grains.g: 1 of its grains begin behind planes.cell, by 20 mm"));
+  EXPECT_THAT(error, HasSubstr("grains.g: 1 of its grains begins behind planes.cell, by 20 mm"));
   EXPECT_THAT(error, HasSubstr("; move them inside, or move or widen it"));
 }
 
@@ -191,7 +191,7 @@ TEST_F(StartOfScenes, MayHaveMembranesThatOverlapByLessWithAWarning) {
   EXPECT_THAT(outcome.out,
               HasSubstr("overlaps at the start of membranes.low with membranes.high: "));
   EXPECT_THAT(outcome.out, HasSubstr("  1 mm (50 % of the radius) at ("));
-  EXPECT_THAT(outcome.out, HasSubstr("begin with an overlap above 5 % of the radius"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 contact begins with an overlap above 5 % of the radius"));
 }
 
 /// A rope laid in a figure of eight: what its own parts do is told, and may be meant.
@@ -213,7 +213,7 @@ TEST_F(StartOfScenes, AreRefusedWithAllThatIsWrongTogether) {
                                        grains("b", "[0.3, 0, 0.1], [0.305, 0, 0.1]") + kFloor);
 
   EXPECT_THAT(error, HasSubstr("plekton: 2 problems\n"));
-  EXPECT_THAT(error, HasSubstr("grains.a: 1 of its grains begin behind planes.floor, by 60 mm"));
+  EXPECT_THAT(error, HasSubstr("grains.a: 1 of its grains begins behind planes.floor, by 60 mm"));
   EXPECT_THAT(error, HasSubstr("grains.b: begins in grains.b"));
 }
 
@@ -273,7 +273,7 @@ TEST_F(StartOfScenes, WriteTheWarningsOfTheirStartIntoTheReportOfTheRun) {
 
   EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
   EXPECT_THAT(test::bytes_of(folder_ / "out/run.json"),
-              HasSubstr("1 contacts begin with an overlap above 5 %"));
+              HasSubstr("1 contact begins with an overlap above 5 %"));
 }
 
 }  // namespace

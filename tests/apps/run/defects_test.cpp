@@ -270,7 +270,7 @@ INSTANTIATE_TEST_SUITE_P(
     All, DefectsOfStarts,
     testing::Values(Refused{"24_overlap_centres",
                             "begins in grains.b at 1 place, deeper than both radii"},
-                    Refused{"gr_in_floor", "begin behind planes[0]"},
+                    Refused{"gr_in_floor", "begins behind planes[0]"},
                     Refused{"behind_plane_1108", "begin behind planes.top"},
                     Refused{"x_thick", "begin behind planes.floor"}));
 

@@ -170,7 +170,7 @@ TEST_F(SeededFault, AnOverlapAtTheStartIsListedAndRefusedWhereItIsDeep) {
 
   EXPECT_EQ(shallow.exit_code, kDone);
   EXPECT_THAT(shallow.out, AllOf(HasSubstr("1 mm (20 % of the radius) of grain 0 and grain 1"),
-                                 HasSubstr("warning: 1 contacts begin with an overlap above 5 %")));
+                                 HasSubstr("warning: 1 contact begins with an overlap above 5 %")));
 
   grains.replace(grains.find("[\"9 mm\", 0, "), 12, "[\"1 mm\", 0, ");
   EXPECT_THAT(check(grains).err, HasSubstr("deeper than both radii, by 9 mm"));

@@ -419,7 +419,7 @@ radius = "5 mm"
 centres = [["50 mm", 0, "-6 mm"]]
 )");
   EXPECT_EQ(behind.exit_code, 1);
-  EXPECT_THAT(behind.err, HasSubstr("stages.b: at its start grains.second: 1 of its grains begin "
+  EXPECT_THAT(behind.err, HasSubstr("stages.b: at its start grains.second: 1 of its grains begins "
                                     "behind planes.floor"));
   std::filesystem::remove_all(out());
   const Outcome within = run(text + R"([[stages.rigid_bodies]]
@@ -442,7 +442,7 @@ name = "floor"
 normal = [1, 0, 1]
 )");
   EXPECT_EQ(turned.exit_code, 1);
-  EXPECT_THAT(turned.err, HasSubstr("stages.b: at its start grains.first: 1 of its grains begin "
+  EXPECT_THAT(turned.err, HasSubstr("stages.b: at its start grains.first: 1 of its grains begins "
                                     "behind planes.floor"));
 }
 
