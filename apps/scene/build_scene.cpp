@@ -10,6 +10,7 @@
 #include "apps/scene/membrane_builder.hpp"
 #include "apps/scene/rigid_builder.hpp"
 #include "apps/scene/stage_ends.hpp"
+#include "apps/scene/taken_space.hpp"
 #include "geometry/base/elementary.hpp"
 #include "geometry/mesh/io/import.hpp"
 #include "geometry/neighbor/space_order.hpp"
@@ -303,7 +304,10 @@ void add_all_grains(const Scenario& scenario, const BodiesThere& there, BuiltSce
               : placed_grains(grains, material.young_modulus, there, built, hear);
       built.grains.push_back(add_grains(grains, placed, material.density.value(), built));
     } catch (const DoesNotFit& error) {
-      problems.add(grains.place, fmt::format("grains.{}", error.what()));
+      std::vector<Vec3> x = built.scene.state.position;
+      std::copy(there.positions.begin(), there.positions.end(), x.begin());
+      problems.add(grains.place, fmt::format("grains.{}{}", error.what(),
+                                             what_takes_up(grains, scenario, built, x)));
     } catch (const InputError& error) {
       problems.add(grains.place, fmt::format("grains.{}", error.what()));
     }
@@ -329,9 +333,14 @@ BuiltScene build_bodies(const Scenario& scenario, const BodiesThere& there, cons
   add_surfaces(scenario, built, problems, hear);
   add_clumps(scenario, built, problems);
   if (problems.empty()) add_ties(scenario, built);
+  const auto tell_the_rest_is_there = [&] {
+    if (!built.scene.is_absent.empty())
+      built.scene.is_absent.resize(built.scene.state.size(), false);
+  };
+  tell_the_rest_is_there();
   add_all_grains(scenario, there, built, problems, hear);
   problems.throw_if_any();
-  if (!built.scene.is_absent.empty()) built.scene.is_absent.resize(built.scene.state.size(), false);
+  tell_the_rest_is_there();
   return built;
 }
 
