@@ -132,6 +132,24 @@ TEST(ScenarioReader, AsksBackWhenAnAngleHasNoUnit) {
           "got 35 rad; expected an angle from 0 deg to below 90 deg; did you mean \"35 deg\"?"));
 }
 
+// A mesh was turned by 90 rad.
+TEST(ScenarioReader, AsksBackWhenABodyIsTurnedByMoreThanATurn) {
+  const auto turned = [](const std::string& angle) {
+    return std::string(kGood) +
+           "[[membranes]]\nname = \"sheet\"\nthickness = 0.002\nmaterial = \"gravel\"\n"
+           "shape = { kind = \"sheet\", width = 1, length = 1, cells = [2, 2] }\n"
+           "young_modulus = 5e7\nareal_mass = 0.3\nrotate.angle = " +
+           angle + "\n";
+  };
+
+  EXPECT_THAT(error_of(turned("90")),
+              HasSubstr("membranes.sheet.rotate.angle: got 90 rad; expected an angle from -360 deg "
+                        "to 360 deg; did you mean \"90 deg\"?"));
+  EXPECT_THAT(error_of(turned("-6.3")), HasSubstr("did you mean \"-6.3 deg\"?"));
+  for (const char* angle : {"1.5", "\"360 deg\"", "\"-360 deg\"", "6.283185307179586"})
+    EXPECT_EQ(error_of(turned(angle)), "") << angle;
+}
+
 TEST(ScenarioReader, NamesAMaterialThatDoesNotExist) {
   EXPECT_THAT(
       error_of(edited("material = \"gravel\"", "material = \"gravle\"")),
