@@ -38,6 +38,7 @@ class LoadBuilder {
       std::visit([&](const auto& load) { add(load); }, current_->load);
     }
     problems_.throw_if_any();
+    warn_about_held_nodes();
   }
 
  private:
@@ -69,6 +70,12 @@ class LoadBuilder {
     load.factor = begun(load.factor);
     if (settings.is_total && !load.nodes.empty())
       load.force /= static_cast<double>(load.nodes.size());
+    if (load.force.isZero(0.0) && load.torque.isZero(0.0))
+      warn(
+          fmt::format("{}: its force and torque are 0: it does nothing, unless a program sets it "
+                      "as it runs; give one, or leave it out",
+                      current_->path));
+    forced_by_.push_back(current_);
     loads_.forces.push_back(std::move(load));
   }
 
@@ -119,6 +126,11 @@ class LoadBuilder {
     else if (faces_one_way(settings, load) && (load.gas || load.by_volume))
       require_closed(settings, load);
     warn_about_turned_facets(built_.membranes[settings.membrane]);
+    if (load.pressure == 0.0 && !load.gas && !load.by_volume)
+      warn(
+          fmt::format("{}: its pressure is 0, without gas or by_volume: it does nothing, unless a "
+                      "program sets it as it runs; give one, or leave it out",
+                      current_->path));
     load.factor = begun(load.factor);
     if (load.gas && start_ != nullptr) load.start_volume = volume_of(load);
     loads_.pressures.push_back(std::move(load));
@@ -237,6 +249,35 @@ class LoadBuilder {
         current_->path, membrane.report->changed.flipped_facets, membrane.facets, membrane.name));
   }
 
+  /// Whether a force or torque has a part in which a node is free.
+  static bool can_move(const dynamics::NodalForce& load, dynamics::Held held) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (load.force[axis] != 0.0 && !dynamics::holds_along(held, axis)) return true;
+      if (load.torque[axis] != 0.0 && !dynamics::holds_about(held, axis)) return true;
+    }
+    return false;
+  }
+
+  /// By motions too, which may come after the forces.
+  void warn_about_held_nodes() {
+    const std::vector<dynamics::Held> held =
+        dynamics::held_with_motions(built_.scene.properties.held, loads_.motions);
+    for (std::size_t i = 0; i < loads_.forces.size(); ++i) {
+      const dynamics::NodalForce& load = loads_.forces[i];
+      if (load.force.isZero(0.0) && load.torque.isZero(0.0)) continue;
+      if (std::any_of(load.nodes.begin(), load.nodes.end(),
+                      [&](NodeId node) { return can_move(load, held[index_of(node)]); }))
+        continue;
+      warn(
+          fmt::format("{}: all that it acts on is held or moved as told along its force and about "
+                      "its torque, so that it moves nothing; free something (hold, motions), or "
+                      "take other nodes",
+                      forced_by_[i]->path));
+    }
+  }
+
+  void warn(std::string warning) { built_.warnings.push_back(std::move(warning)); }
+
   void drive(std::size_t plane) {
     if (driven_.empty()) driven_.resize(scenario_.planes.size(), nullptr);
     const LoadSettings* const by = std::exchange(driven_[plane], current_);
@@ -257,8 +298,9 @@ class LoadBuilder {
   PrescribedOnce prescribed_;
   Problems problems_;
   const LoadSettings* current_ = nullptr;
-  const StageStart* start_ = nullptr;        // of the load; nothing: it begins with the scene
-  std::vector<const LoadSettings*> driven_;  // by plane
+  const StageStart* start_ = nullptr;           // of the load; nothing: it begins with the scene
+  std::vector<const LoadSettings*> driven_;     // by plane
+  std::vector<const LoadSettings*> forced_by_;  // by place among the forces
   bool has_gravity_ = false;
 };
 

@@ -71,6 +71,39 @@ class Loads : public Command {
   }
 };
 
+/// Loads that can do nothing, which nothing told of.
+TEST_F(Loads, AreAWarningWhereTheyCanDoNothing) {
+  const Outcome outcome = check(
+      "[[loads]]\nname = \"rim\"\nkind = \"force\"\nmembrane = \"net\"\nnodes = \"rim\"\n"
+      "total_force = [0, 0, 5]\n"
+      "[[loads]]\nname = \"led\"\nkind = \"force\"\nmembrane = \"sheet\"\nnodes = \"x_min\"\n"
+      "force = [0, 0, 1]\n"
+      "[[loads]]\nname = \"leads\"\nkind = \"motion\"\nmembrane = \"sheet\"\n"
+      "nodes = \"x_min\"\ncomponents = \"z\"\nvelocity = [0, 0, 0.01]\n"
+      "[[loads]]\nname = \"nil\"\nkind = \"force\"\nmembrane = \"sheet\"\nnodes = \"all\"\n"
+      "force = [0, 0, 0]\n"
+      "[[loads]]\nname = \"calm\"\nkind = \"pressure\"\nmembrane = \"sheet\"\npressure = 0\n");
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("warning: loads.rim: all that it acts on is held or moved"));
+  EXPECT_THAT(outcome.out, HasSubstr("warning: loads.led: all that it acts on is held or moved"));
+  EXPECT_THAT(outcome.out, HasSubstr("warning: loads.nil: its force and torque are 0"));
+  EXPECT_THAT(outcome.out, HasSubstr("warning: loads.calm: its pressure is 0, without gas"));
+}
+
+TEST_F(Loads, AreNoWarningWhereTheyMoveSomething) {
+  const Outcome outcome = check(
+      "[[loads]]\nkind = \"force\"\nmembrane = \"net\"\nnodes = \"all\"\nforce = [0, 0, 1]\n"
+      "[[loads]]\nkind = \"force\"\nmembrane = \"sheet\"\nnodes = \"x_min\"\n"
+      "force = [1, 0, 1]\n"
+      "[[loads]]\nkind = \"motion\"\nmembrane = \"sheet\"\n"
+      "nodes = \"x_min\"\ncomponents = \"z\"\nvelocity = [0, 0, 0.01]\n"
+      "[[loads]]\nkind = \"pressure\"\nmembrane = \"ball\"\npressure = 0\ngas = {}\n");
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, Not(HasSubstr("warning: loads")));
+}
+
 constexpr std::string_view kAllLoads = R"([[loads]]
 name = "start"
 kind = "gravity"
