@@ -45,15 +45,44 @@ Place place_of(const toml::source_region& region, const std::string& source) {
   return {source, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
+/// Marks at the beginning of UTF-16, or bytes of 0, which ASCII in UTF-16 has and no text in UTF-8.
+bool is_utf16(std::string_view text) noexcept {
+  return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
+         text.find('\0') != std::string_view::npos;
+}
+
+/// From a place on.
+std::string_view rest_from(std::string_view text, const KeyPlace& place) noexcept {
+  for (int line = 1; line < place.line; ++line) text.remove_prefix(text.find('\n') + 1);
+  return text.substr(static_cast<std::size_t>(place.column - 1));
+}
+
+/// What to do about a character beyond ASCII with which a text begins.
+std::string_view advice_on(std::string_view text) noexcept {
+  // U+2018 to U+201F, and the two of guillemets: what word processors and web pages make of quotes.
+  const bool is_typographic = text.size() > 2 && text.starts_with("\xE2\x80") &&
+                              static_cast<unsigned char>(text[2]) >= 0x98 &&
+                              static_cast<unsigned char>(text[2]) <= 0x9F;
+  if (is_typographic || text.starts_with("\xC2\xAB") || text.starts_with("\xC2\xBB"))
+    return "a typographic quote, as word processors and web pages make of plain ones; write \" or "
+           "'";
+  constexpr std::string_view kHardBlank = "\xC2\xA0";
+  if (text.starts_with(kHardBlank)) return "a no-break space; write a plain one";
+  return "a character beyond ASCII outside of quotes and comments; put a name that has one in "
+         "quotes";
+}
+
 /// @throws toml::parse_error, InputError for a key that is deeper than any
 toml::table parsed(std::string_view text, const std::string& source) {
+  if (is_utf16(text))
+    throw InputError(
+        fmt::format("{}: not TOML: is text in UTF-16, or no text; save it as UTF-8", source));
   if (const auto place = key_of_more_parts(text, kDeepest))
     refuse_depth({source, place->line, place->column});
   if (const auto place = first_beyond_ascii(text))
-    throw InputError(
-        fmt::format("{}: not TOML: a character beyond ASCII outside of quotes and comments; put a "
-                    "name that has one in quotes",
-                    to_string(Place{source, place->line, place->column})));
+    throw InputError(fmt::format("{}: not TOML: {}",
+                                 to_string(Place{source, place->line, place->column}),
+                                 advice_on(rest_from(text, *place))));
   return toml::parse(text);
 }
 

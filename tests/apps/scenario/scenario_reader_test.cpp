@@ -538,6 +538,22 @@ TEST(ScenarioReader, RefusesTextsThatItsParserIsNotMadeFor) {
   EXPECT_THAT(error_of("[simulation]\nd\xC3\xA9 = 1\n"), HasSubstr("case.toml:2:2: not TOML"));
 }
 
+// All were a character beyond ASCII, to be put in quotes.
+TEST(ScenarioReader, NamesWhatOtherProgramsMakeOfAText) {
+  EXPECT_THAT(error_of("[simulation]\nduration = \xE2\x80\x9C"
+                       "1 s\xE2\x80\x9D\n"),
+              HasSubstr("case.toml:2:12: not TOML: a typographic quote, as word processors and web "
+                        "pages make of plain ones; write \" or '"));
+  EXPECT_THAT(error_of("# \xC3\xA9\n[simulation]\nduration = \xC2\xAB"
+                       "1 s\xC2\xBB\n"),
+              HasSubstr("case.toml:3:12: not TOML: a typographic quote"));
+  EXPECT_THAT(error_of("[simulation]\nduration\xC2\xA0= 1\n"),
+              HasSubstr("case.toml:2:9: not TOML: a no-break space"));
+  const std::string utf16 = {'\xFF', '\xFE', '[', '\0', 's', '\0', ']', '\0'};
+  EXPECT_THAT(error_of(utf16), HasSubstr("case.toml: not TOML: is text in UTF-16"));
+  EXPECT_THAT(error_of(utf16.substr(2)), HasSubstr("save it as UTF-8"));
+}
+
 TEST(ScenarioReader, TakesAnyCharacterInQuotesCommentsAndOverrides) {
   const std::string text =
       "\xEF\xBB\xBF# K\xC3\xB6rner\n" + edited("name = \"gravel\"", "name = \"K\xC3\xB6rner\"");
