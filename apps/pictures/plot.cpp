@@ -31,20 +31,34 @@ std::string quantity_without_unit(const RecordedHistory::Column& column) {
   return name;
 }
 
+/// What columns of a unit tell whose names have a word; an empty word is in every name.
+struct Quantity {
+  std::string_view unit;
+  std::string_view word;
+  std::string_view name;
+};
+
 /// What a column of a history tells, with its unit.
 std::string quantity_of(const RecordedHistory::Column& column) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kQuantities = {
-      {{"J", "energy"},
-       {"N", "force"},
-       {"N m", "moment"},
-       {"m", "position"},
-       {"s", "time"},
-       {"Pa", "pressure"},
-       {"m3", "volume"}}};
+  constexpr std::array<Quantity, 12> kQuantities = {{{"J", "", "energy"},
+                                                     {"N", "", "force"},
+                                                     {"N m", "", "moment"},
+                                                     {"m", "slip", "slip"},
+                                                     {"m", "radius", "radius"},
+                                                     {"m", "", "position"},
+                                                     {"m/s", "", "velocity"},
+                                                     {"rad/s", "", "angular velocity"},
+                                                     {"s", "", "time"},
+                                                     {"Pa", "stress", "stress"},
+                                                     {"Pa", "", "pressure"},
+                                                     {"m3", "", "volume"}}};
   const std::string& unit = column.unit;
   if (unit.empty()) return quantity_without_unit(column);
-  for (const auto& [symbol, name] : kQuantities)
-    if (symbol == unit) return fmt::format("{} ({})", name, unit);
+  // What is before the dot is a name of the user's.
+  const std::string_view name = std::string_view(column.name).substr(column.name.rfind('.') + 1);
+  for (const Quantity& quantity : kQuantities)
+    if (quantity.unit == unit && name.find(quantity.word) != std::string_view::npos)
+      return fmt::format("{} ({})", quantity.name, unit);
   return fmt::format("value ({})", unit);
 }
 

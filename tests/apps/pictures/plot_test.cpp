@@ -67,6 +67,27 @@ TEST(PlotPanels, HoldWhatHasNoUnitByWhatItIs) {
   EXPECT_EQ(panels[2].quantity, "fabric");
 }
 
+// A slip was a position, and a velocity a value.
+TEST(PlotPanels, HoldWhatHasAUnitByWhatItIs) {
+  const std::vector<RecordedHistory> all = {{"ties.csv",
+                                             {{"time", "s", {0, 1}},
+                                              {"slip.position_x", "m", {1, 2}},
+                                              {"net.largest_slip", "m", {0, 1}},
+                                              {"net[0].slip", "m", {0, 1}},
+                                              {"drum.radius", "m", {1, 2}},
+                                              {"ball.velocity_z", "m/s", {0, 1}},
+                                              {"ball.angular_velocity_z", "rad/s", {0, 1}},
+                                              {"core.stress_zz", "Pa", {0, 1}},
+                                              {"gas.pressure", "Pa", {0, 1}}}}};
+
+  std::vector<std::string> quantities;
+  for (const PlotPanel& panel : panels_of(all, {})) quantities.push_back(panel.quantity);
+
+  EXPECT_THAT(quantities,
+              testing::ElementsAre("position (m)", "slip (m)", "radius (m)", "velocity (m/s)",
+                                   "angular velocity (rad/s)", "stress (Pa)", "pressure (Pa)"));
+}
+
 TEST(PlotPanels, HoldOfPlanesWhatChanges) {
   const double none = std::nan("");
   const std::vector<RecordedHistory> all = {{"planes.csv",
