@@ -14,7 +14,9 @@ double unbalanced_force_ratio(const LoadedNodesView& nodes, double carried) noex
     resultant.add(free_axes(held).cwiseProduct(force).norm());
   }
   if (resultant.value() == 0.0) return 0.0;
-  return carried > 0.0 ? resultant.value() / carried : std::numeric_limits<double>::infinity();
+  constexpr double kRounding = 1e-10;  // of the resultant: what stiff bonds carry by their lengths
+  return carried > kRounding * resultant.value() ? resultant.value() / carried
+                                                 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace plekton::dynamics

@@ -30,7 +30,8 @@ class MeanMagnitude {
 /// YADE (Smilauer et al., Yade Documentation, 2nd ed. (2015), utils.unbalancedForce), after Cundall
 /// & Strack.
 /// @param carried  mean of the forces between bodies and within structures (N)
-/// @returns  0 where no resultant is left, infinity where there is one and nothing is carried
+/// @returns  0 where no resultant is left, infinity where there is one and nothing is carried, or
+///           less than 1e-10 of it, as rounding makes of stiff bonds that carry nothing
 double unbalanced_force_ratio(const LoadedNodesView& nodes, double carried) noexcept;
 
 }  // namespace plekton::dynamics

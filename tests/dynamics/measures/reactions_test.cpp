@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/measures/unbalanced_force.hpp"
 #include "tests/support/loaded_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -96,6 +97,19 @@ TEST(UnbalancedForceRatio, IsSmallAtRestOneInFreeLoadAndZeroWhereNothingActs) {
   EXPECT_NEAR(weightless.unbalanced_force_ratio(), 1.0, 1e-12);  // the contact alone
   EXPECT_EQ(falling.unbalanced_force_ratio(), std::numeric_limits<double>::infinity());
   EXPECT_EQ(floating.unbalanced_force_ratio(), 0.0);
+}
+
+// It was 9e11 at the start of a net that only its weight acts on.
+TEST(UnbalancedForceRatio, IsInfiniteWhereWhatIsCarriedMayBeRounding) {
+  Scene scene;
+  add_lump(scene, Vec3::Zero());
+  dynamics::NodeForces forces(1);
+  forces.force[0] = Vec3(0, 0, -2.0);
+  const dynamics::LoadedNodesView view{scene.state.position, forces, scene.properties,
+                                       Vec3::Zero()};
+
+  EXPECT_EQ(dynamics::unbalanced_force_ratio(view, 2e-12), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(dynamics::unbalanced_force_ratio(view, 2e-6), 1e6);
 }
 
 /// A node moved from the middle of two equal bars: one pulls it and the other pushes it with F, so
