@@ -206,7 +206,7 @@ std::string read_toml_text(const fs::path& path) {
 
 Value parse_toml_value(std::string_view text, const Place& place) {
   Value value{place, std::string(text)};
-  if (first_beyond_ascii(text)) return value;  // without quotes no TOML
+  if (first_beyond_ascii(text) || is_utf16(text)) return value;  // without quotes no TOML
   try {
     const toml::table table = parsed("value = " + std::string(text), place.source);
     // A line break in the text could add keys; then it is no single value.

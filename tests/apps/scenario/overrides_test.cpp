@@ -46,6 +46,13 @@ std::int64_t count_of(const Table& table, std::size_t number) {
   return std::get<std::int64_t>(std::get<Table>(grains.data).find("count")->value.data);
 }
 
+// As of a program in Python: it is no text in UTF-16.
+TEST(Overrides, TakeATextWithAByteOfZeroAsItIs) {
+  const std::string text("simulation.duration=2\0s", 23);
+
+  EXPECT_EQ(std::get<std::string>(duration_of(with({text})).data), std::string("2\0s", 3));
+}
+
 TEST(Overrides, ReplaceAValueAndBecomeItsPlace) {
   const Table table = with({"simulation.duration=3 s"});
 
