@@ -454,7 +454,8 @@ void bind_readings(SessionClass& session) {
       .def_property_readonly(
           "largest_overlap_ratio",
           [](const Session& s) { return s.simulation().largest_overlap_ratio(); },
-          "Largest overlap so far over the smaller radius.")
+          "Largest overlap so far over the radius of the grain, of two grains the smaller one; "
+          "between membranes, and of them with planes, over half the thickness.")
       .def_property_readonly(
           "unbalanced_force_ratio",
           [](const Session& s) { return s.simulation().unbalanced_force_ratio(); },
