@@ -24,11 +24,20 @@ def command(browser, profile, size="1000,760"):
     return [browser, *OPTIONS, f"--window-size={size}", f"--user-data-dir={profile}"]
 
 
+SECONDS = (60, 120, 240)
+"""For how long a browser may be at one page. Now and then one hangs as it starts, and never the next."""
+
+
 def browse(browser, address, *options, size="1000,760"):
     """What the browser says of a page."""
-    with tempfile.TemporaryDirectory() as profile:
-        done = subprocess.run([*command(browser, profile, size), *options, address], capture_output=True, text=True, timeout=300, check=True)
-    return done.stdout
+    for seconds in SECONDS:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+            line = [*command(browser, profile, size), *options, address]
+            try:
+                return subprocess.run(line, capture_output=True, text=True, timeout=seconds, check=True).stdout
+            except subprocess.TimeoutExpired:
+                if seconds == SECONDS[-1]:
+                    raise
 
 
 def pixels(file):
