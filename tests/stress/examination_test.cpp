@@ -73,10 +73,11 @@ const std::vector<Harm>& harms() {
        }},
       {"ARotationThatIsNoNumber", Fault::not_finite,
        [](dynamics::Simulation& simulation, Part) {
-         constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
          if (at_step(simulation, 9))
-           simulation.set_velocity(id_at<NodeId>(2), simulation.state().velocity[2],
-                                   Vec3(0.0, kNoNumber, 0.0));
+           simulation.add_force({id_at<NodeId>(2)}, [](double, const auto&, auto forces) {
+             constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+             forces.front().torque = Vec3(0.0, kNoNumber, 0.0);
+           });
        }},
       {"ASlowPush", Fault::momentum,
        [](dynamics::Simulation& simulation, Part) {
