@@ -131,9 +131,9 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
   limits_ = std::make_unique<StepLimits>(resistance());
   if (options.time_step == 0.0) chooser_ = std::make_unique<StepChooser>(resistance(), *limits_);
   // The first look at the contacts: histories are empty, so nothing is changed by it.
-  yielding_bonds_.advance(bonds_, scene_.state, pool_);
+  yielding_bonds_.advance(bonds_, scene_.state, 0.0, pool_);
   yielding_bonds_.forget_dissipated();
-  sheet_facets_.advance(scene_.state, pool_);
+  sheet_facets_.advance(scene_.state, 0.0, pool_);
   sheet_facets_.tear(scene_.state.position, pool_);
   sheet_facets_.forget_dissipated();
   follow_breaks();
@@ -443,8 +443,9 @@ void Simulation::choose_step() {
 /// @param longest  s, the step is not longer
 void Simulation::advance(double longest) {
   require_time_step();
-  yielding_bonds_.advance(bonds_, scene_.state, pool_);
-  sheet_facets_.advance(scene_.state, pool_);
+  break_asked();
+  yielding_bonds_.advance(bonds_, scene_.state, last_drift_, pool_);
+  sheet_facets_.advance(scene_.state, last_drift_, pool_);
   sheet_facets_.tear(scene_.state.position, pool_);
   follow_breaks();
   find_contacts();
@@ -605,16 +606,29 @@ void Simulation::drive_planes() {
     plane_reactions_[plane].force += force;
     plane_reactions_[plane].push += push;
   });
-  const auto press = [this](std::size_t plane, double way) { return plane_press(plane, way); };
+  places_ahead_.clear();
+  const auto press = [&](std::size_t plane, double way, double ahead) {
+    if (ahead == 0.0) return plane_press(plane, way, scene_.state.position);
+    if (places_ahead_.empty()) find_places_ahead(ahead);
+    return plane_press(plane, way, places_ahead_);
+  };
   work_.external +=
       driven_planes_.act({time_, last_drift_, drift_}, plane_reactions_, press, scene_.planes);
 }
 
-/// Of all bodies that the plane would touch if it were a way (m) further along its normal.
-PlanePress Simulation::plane_press(std::size_t plane, double way) const {
+/// Of all nodes after a time (s), as they move now.
+void Simulation::find_places_ahead(double ahead) {
+  nodes_.know_all();
+  for (std::size_t i = 0; i < scene_.state.size(); ++i)
+    places_ahead_.push_back(scene_.state.position[i] + ahead * scene_.state.velocity[i]);
+}
+
+/// Of all bodies that the plane would touch with the nodes at x if it were a way (m) further along
+/// its normal.
+PlanePress Simulation::plane_press(std::size_t plane, double way, geometry::Positions x) const {
   PlanePress press;
   contacts_->for_each_near_plane_pair(
-      way, scene_.planes, scene_.state.position,
+      way, scene_.planes, x,
       [&](NodeId, std::size_t near, const contact::PairSprings& pair, double gap) {
         if (near != plane || !(gap < way)) return;
         press.force += pair.normal_force(gap - way);

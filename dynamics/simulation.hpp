@@ -306,7 +306,8 @@ class Simulation {
   geometry::Surface change_surface(geometry::Surface next);
   void apply_loads();
   void drive_planes();
-  PlanePress plane_press(std::size_t plane, double way) const;
+  void find_places_ahead(double ahead);
+  PlanePress plane_press(std::size_t plane, double way, geometry::Positions x) const;
   void drive_bodies(const LoadStep& step);
   void follow_gravity();
   Vec3 free_moment(double before) const;
@@ -361,6 +362,7 @@ class Simulation {
   DrivenBodies driven_bodies_;
   BodyPress body_press_;                        ///< working space, to drive bodies
   std::vector<PlaneReaction> plane_reactions_;  ///< to drive planes
+  std::vector<Vec3> places_ahead_;              ///< m, of nodes; to drive planes
   double power_on_turning_ = 0.0;  ///< W, what bodies do to planes that turn, at the last forces
   BrokenParts broken_;             ///< asked for, in the next step
   double broken_energy_ = 0.0;     ///< J, of bonds that were asked for

@@ -60,7 +60,6 @@ void Simulation::break_facet(const std::array<NodeId, 3>& nodes) {
 void Simulation::follow_breaks() {
   const std::span<const std::size_t> yielded = yielding_bonds_.broken();
   if (broken_.empty() && yielded.empty() && sheet_facets_.broken().empty()) return;
-  break_asked();
   loads_.follow(bonds_, sheet_facets_);
   if (surface_.cell_count() > 0) {
     broken_.bonds.insert(broken_.bonds.end(), yielded.begin(), yielded.end());
@@ -71,17 +70,16 @@ void Simulation::follow_breaks() {
   broken_.clear();
 }
 
-/// Half of the work of a bond's last step is still done by its force of before, the other half is
-/// not: the mean of its energies before and after is lost.
+/// Before bonds and sheets find what they do where their nodes have come to.
 void Simulation::break_asked() {
   for (const std::size_t bond : broken_.bonds) {
-    if (bonds_.is_broken(bond)) continue;
-    const double after = bonds_.energy_of(bond, scene_.state);
-    broken_energy_ += 0.5 * (bonds_.break_bond(bond) + after);
+    broken_energy_ += bonds_.lost_by_break(bond, bonds_.spring(bond), scene_.state, last_drift_);
+    bonds_.break_bond(bond);
   }
   for (const auto& nodes : broken_.facets) {
     for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
-      if (geometry::sorted(sheet_facets_.nodes(i)) == nodes) sheet_facets_.break_facet(i);
+      if (geometry::sorted(sheet_facets_.nodes(i)) == nodes)
+        sheet_facets_.break_facet(i, scene_.state, last_drift_);
     }
   }
 }

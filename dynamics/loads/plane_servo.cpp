@@ -57,36 +57,43 @@ double way_to_press(double growth, double longest, const PlanePress& now,
   return low;
 }
 
+/// The way (m) of a plate that touches nothing, in a drift (s).
+double way_to_touch(double growth, double longest,
+                    const std::function<PlanePress(double way, double ahead)>& press, double dt) {
+  constexpr double kTouch = 1e-3;  // of the force it would press with
+  const PlanePress coming = press(0.0, dt);
+  if (coming.force > kTouch * growth) return 0.0;
+  const auto then = [&](double way) { return press(way, dt); };
+  // A force is counted over half of the drift that brings it: over the way to the bodies too,
+  // unless the plate comes to rest on them first.
+  const double way = way_to_press(growth, longest, coming, then);
+  const double touch = way_to_press(kTouch * growth, way, coming, then);
+  return touch > way - touch ? touch : way;
+}
+
 }  // namespace
 
 double servo_speed(const ServoPace& pace, const ServoPlate& plate,
-                   const std::function<PlanePress(double way)>& press, double dt) {
+                   const std::function<PlanePress(double way, double ahead)>& press, double dt) {
   const double longest = pace.largest_speed * dt;
-  PlanePress now = press(0.0);
+  PlanePress now = press(0.0, 0.0);
   const double of_last = now.damping * plate.speed;
   const double of_dashpots = plate.felt - now.force;
   const double change =
       pace.gain * (plate.wanted - plate.felt +
                    (of_last < 0.0 ? std::max(of_last, std::min(of_dashpots, 0.0)) : of_last));
+  if (!(now.stiffness > 0.0))
+    return change > 0.0 ? way_to_touch(change, longest, press, dt) / dt : 0.0;
   // The dashpots resist a way in a drift as springs do.
   const double drag = pace.gain * now.damping / dt;
   now.stiffness += drag;
   const auto resisted = [&press, drag](double way) {
-    PlanePress there = press(way);
+    PlanePress there = press(way, 0.0);
     there.force += drag * way;
     there.stiffness += drag;
     return there;
   };
-  if (change > 0.0) {
-    const double way = way_to_press(change, longest, now, resisted);
-    if (now.stiffness > 0.0) return way / dt;
-    // A force is counted over half of the drift that brings it: over the way to the bodies too,
-    // unless the plate comes to rest on them first.
-    constexpr double kTouch = 1e-3;  // of the force it would press with
-    const double touch = way_to_press(kTouch * change, way, now, resisted);
-    return (touch > way - touch ? touch : way) / dt;
-  }
-  if (!(now.stiffness > 0.0)) return 0.0;
+  if (change > 0.0) return way_to_press(change, longest, now, resisted) / dt;
   return std::max(change / now.stiffness, -longest) / dt;
 }
 
@@ -119,7 +126,9 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const PlaneReaction> re
     const double wanted = servo.factor.at(step.time) * full_target(servo, planes);
     const bool is_flat = plane.form == Plane::Form::flat;
     const double pressing = reactions[servo.plane].pressing(plane);
-    const auto press_here = [&](double way) { return press(servo.plane, way); };
+    const auto press_here = [&](double way, double ahead) {
+      return press(servo.plane, way, ahead);
+    };
     const ServoPlate now{wanted, pressing,
                          is_flat ? plane.velocity.dot(plane.normal) : -plane.widening};
     // A container closes by a part of what is left, never altogether.

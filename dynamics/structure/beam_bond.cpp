@@ -18,6 +18,10 @@
 namespace plekton::dynamics {
 namespace {
 
+PackVec3<double> numbers_of(const Vec3& v) noexcept {
+  return {v[0], v[1], v[2]};
+}
+
 /// The shortest rotation from the x axis to a chord; half a turn about z where they are opposite.
 ///
 /// For a unit direction (x, y, z) it is (1 + x, 0, -z, y), normalised. Next to x = -1 the sum
@@ -200,8 +204,21 @@ BondForces BeamBonds::forces_of(std::size_t bond, const NodeState& state) const 
   return bond_forces(spring(bond), ends(bond, state));
 }
 
-double BeamBonds::energy_of(std::size_t bond, const NodeState& state) const noexcept {
-  return any_beam_reaction(spring(bond), ends(bond, state)).energy;
+double BeamBonds::lost_by_break(std::size_t bond, const BeamSpringOf<double>& spring,
+                                const NodeState& state, double drift) const noexcept {
+  if (is_broken_[bond]) return 0.0;
+  const auto [a, b] = nodes(bond);
+  const auto turn = [&](NodeId node) { return drift * state.angular_velocity[index_of(node)]; };
+  const auto turned_back = [&](NodeId node) {
+    return detail::numbers_of(turned(state.orientation[index_of(node)], turn(node), -1.0));
+  };
+  const Vec3 way = drift * (state.velocity[index_of(b)] - state.velocity[index_of(a)]);
+  const Vec3 chord = state.position[index_of(b)] - state.position[index_of(a)] - way;
+  const BeamReactionOf<double> before =
+      any_beam_reaction(spring, {numbers_of(chord), turned_back(a), turned_back(b)});
+  const double work = before.force.dot(numbers_of(way)) + before.torque_a.dot(numbers_of(turn(a))) +
+                      before.torque_b.dot(numbers_of(turn(b)));
+  return row_of(bond).energy.number(lane_of(bond)) - 0.5 * work;
 }
 
 double BeamBonds::break_bond(std::size_t bond) noexcept {

@@ -136,12 +136,17 @@ class BeamBonds {
   void set_spring(std::size_t bond, const BeamSpringOf<double>& spring) noexcept {
     rows_[slots_[bond] / BeamRow::kLanes].spring.set(lane_of(bond), spring);
   }
-  /// Energy (J) that a bond stores where its nodes are as given.
-  double energy_of(std::size_t bond, const NodeState& state) const noexcept;
+  /// What is lost (J) if a bond breaks that nodes came to be at with their velocities in a drift:
+  /// what it stored at the last advance, less the work of its forces of then on half of the way.
+  /// That much the leapfrog still lets them do. The balance closes to rounding.
+  /// @param spring  as it was at the last advance
+  /// @param drift   s
+  double lost_by_break(std::size_t bond, const BeamSpringOf<double>& spring, const NodeState& state,
+                       double drift) const noexcept;
 
   /// Takes all stiffness from a bond, for good: from the next advance on it does nothing, and
   /// stores nothing. Again: no effect.
-  /// @returns J, what it stored at the last advance, which is lost
+  /// @returns J, what it stored at the last advance
   double break_bond(std::size_t bond) noexcept;
   bool is_broken(std::size_t bond) const noexcept { return is_broken_[bond]; }
 

@@ -213,7 +213,6 @@ bool yield(double length, double at_first, const WireCurve& curve, BeamSpringOf<
            WireYield& memory) noexcept {
   const double strain = (length - at_first) / at_first;
   if (strain > curve.breaking_strain()) {
-    memory.dissipated += 0.5 * memory.force * (length - memory.rest_length);
     memory.force = 0.0;
     return true;
   }

@@ -27,7 +27,7 @@ SheetSpring spring_of(const SheetFacet& facet) noexcept {
 }
 
 SheetFacets::SheetFacets(std::span<const SheetFacet> facets, std::size_t node_count)
-    : reactions_(facets.size()), energy_before_(facets.size(), 0.0), broken_(facets.size(), 0) {
+    : reactions_(facets.size()), broken_(facets.size(), 0) {
   std::ostringstream problems;
   for (std::size_t i = 0; i < facets.size(); ++i)
     list_problems(facets[i], node_count, "sheet facet " + std::to_string(i), problems);
@@ -47,16 +47,19 @@ SheetFacets::SheetFacets(std::span<const SheetFacet> facets, std::size_t node_co
     limited_.push_back(nodes_.size() - 1);
     strength_.push_back(facet.section.strength * facet.section.thickness);
   }
+  lost_.assign(limited_.size(), 0.0);
   tears_.assign(limited_.size(), 0);
   just_broken_.reserve(limited_.size());
   if (!facets.empty()) corners_ = by_node(corners, node_count);
 }
 
-void SheetFacets::advance(const NodeState& state, geometry::ThreadPool& pool) {
+void SheetFacets::advance(const NodeState& state, double drift, geometry::ThreadPool& pool) {
+  pool.for_each_range(limited_.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) lost_[i] = lost_by_break(limited_[i], state, drift);
+  });
   pool.for_each_range(springs_.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
       if (is_broken(i)) continue;
-      energy_before_[i] = reactions_[i].energy;
       reactions_[i] = sheet_reaction(springs_[i], pose_of(springs_[i], nodes_[i], state));
     }
   });
@@ -72,17 +75,32 @@ void SheetFacets::tear(geometry::Positions positions, geometry::ThreadPool& pool
     }
   });
   for (std::size_t i = 0; i < limited_.size(); ++i) {
-    if (tears_[i] != 0) break_facet(limited_[i]);
+    if (tears_[i] == 0 || is_broken(limited_[i])) continue;
+    take_out(limited_[i], lost_[i]);
+    just_broken_.push_back(limited_[i]);
   }
 }
 
-bool SheetFacets::break_facet(std::size_t facet) {
-  if (is_broken(facet)) return false;
+void SheetFacets::break_facet(std::size_t facet, const NodeState& state, double drift) {
+  if (!is_broken(facet)) take_out(facet, lost_by_break(facet, state, drift));
+}
+
+double SheetFacets::lost_by_break(std::size_t facet, const NodeState& state,
+                                  double drift) const noexcept {
+  const SheetReaction& reaction = reactions_[facet];
+  double power = 0.0;  // W
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t node = index_of(nodes_[facet][i]);
+    power += reaction.force[i].dot(state.velocity[node]) +
+             reaction.torque[i].dot(state.angular_velocity[node]);
+  }
+  return reaction.energy - 0.5 * drift * power;
+}
+
+void SheetFacets::take_out(std::size_t facet, double lost) {
   broken_[facet] = 1;
-  dissipated_ += 0.5 * (energy_before_[facet] + reactions_[facet].energy);
+  dissipated_ += lost;
   reactions_[facet] = SheetReaction{};
-  just_broken_.push_back(facet);
-  return true;
 }
 
 void SheetFacets::add_forces(NodeForces& forces, geometry::ThreadPool& pool) const {

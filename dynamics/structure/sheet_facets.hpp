@@ -62,7 +62,8 @@ class SheetFacets {
   bool is_broken(std::size_t facet) const noexcept { return broken_[facet] != 0; }
 
   /// Computes what all facets do to their nodes, facet by facet. No allocation.
-  void advance(const NodeState& state, geometry::ThreadPool& pool);
+  /// @param drift  s, that brought the nodes there with their velocities
+  void advance(const NodeState& state, double drift, geometry::ThreadPool& pool);
 
   /// Breaks the facets that the last advance took beyond their strength (SheetSection); the others
   /// are not touched. To be called after each advance, where the nodes are then. Costs nothing
@@ -72,13 +73,14 @@ class SheetFacets {
   /// along it: that gets smaller with the facets, so a strength is that of a mesh. Where the stress
   /// is even everything tears at once; a hole or a weaker facet says where it begins.
   void tear(geometry::Positions positions, geometry::ThreadPool& pool);
-  /// Breaks one, after an advance. @returns whether it had not yet
-  bool break_facet(std::size_t facet);
-  /// The facets that broke since the last advance, those that tore before, ascending.
+  /// Breaks one where its nodes have come to, before the advance there. Again: no effect.
+  /// @param drift  s, that brought the nodes there with their velocities
+  void break_facet(std::size_t facet, const NodeState& state, double drift);
+  /// The facets that tore after the last advance, ascending.
   std::span<const std::size_t> broken() const noexcept { return just_broken_; }
-  /// J, what breaking took in all steps, less what was forgotten: of what a facet stored the mean
-  /// of the last advance and the one before, because the leapfrog lets the forces of before act for
-  /// half of the way to where it breaks, and none for the other half.
+  /// J, what breaking took in all steps, less what was forgotten: what a facet stored at the advance
+  /// before it broke, less the work of its forces of then on half of the way from there. That much
+  /// the leapfrog still lets them do. The balance closes to rounding.
   double dissipated() const noexcept { return dissipated_; }
   /// Counts from here: what happens before the start of a simulation is in its initial energy.
   void forget_dissipated() noexcept { dissipated_ = 0.0; }
@@ -119,15 +121,17 @@ class SheetFacets {
     double tension;   ///< -, times the membrane force: of the tension
   };
   static Bounds bounds_of(const SheetFacet& facet, const SheetSpring& spring);
+  double lost_by_break(std::size_t facet, const NodeState& state, double drift) const noexcept;
+  void take_out(std::size_t facet, double lost);
 
   std::vector<std::array<NodeId, 3>> nodes_;
   std::vector<SheetSpring> springs_;
   std::vector<Bounds> bounds_;
   std::vector<SheetReaction> reactions_;
-  std::vector<double> energy_before_;     ///< J, of each, at the advance before the last
   std::vector<std::uint8_t> broken_;      ///< 1 if it broke
   std::vector<std::size_t> limited_;      ///< those with a strength, ascending
   std::vector<double> strength_;          ///< N/m, of these
+  std::vector<double> lost_;              ///< J, of these, if it tears now
   std::vector<std::uint8_t> tears_;       ///< of these, 1 if it tears now
   std::vector<std::size_t> just_broken_;  ///< since the last advance
   double dissipated_ = 0.0;

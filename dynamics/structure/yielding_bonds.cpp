@@ -41,63 +41,58 @@ YieldingBonds::YieldingBonds(std::vector<BondLaw> laws, std::span<const BeamBond
   broken_.reserve(beams_.size() + wires_.size());
 }
 
-void YieldingBonds::yield_one(Beam& beam, BeamBonds& bonds, const NodeState& state) noexcept {
-  BeamSpringOf<double> spring = bonds.spring(beam.bond);
-  if (yield(bonds.ends(beam.bond, state), beam.limits, spring, beam.memory))
+void YieldingBonds::yield_one(Beam& beam, BeamBonds& bonds, const Drifted& to) noexcept {
+  const BeamSpringOf<double> before = bonds.spring(beam.bond);
+  BeamSpringOf<double> spring = before;
+  if (yield(bonds.ends(beam.bond, to.state), beam.limits, spring, beam.memory))
     bonds.set_spring(beam.bond, spring);
-  breaks_[beam.bond] = is_broken(beam.limits, beam.memory);
+  if (!is_broken(beam.limits, beam.memory)) return;
+  breaks_[beam.bond] = 1;
+  beam.memory.dissipated +=
+      bonds.lost_by_break(beam.bond, before, to.state, to.drift) - beam.memory.loss;
 }
 
-void YieldingBonds::yield_one(Wire& wire, BeamBonds& bonds, const NodeState& state) noexcept {
-  BeamSpringOf<double> spring = bonds.spring(wire.bond);
-  const double length = bonds.ends(wire.bond, state).chord.norm();
-  breaks_[wire.bond] = yield(length, wire.length, curves_[wire.curve], spring, wire.memory);
+void YieldingBonds::yield_one(Wire& wire, BeamBonds& bonds, const Drifted& to) noexcept {
+  const BeamSpringOf<double> before = bonds.spring(wire.bond);
+  BeamSpringOf<double> spring = before;
+  const double length = bonds.ends(wire.bond, to.state).chord.norm();
+  if (yield(length, wire.length, curves_[wire.curve], spring, wire.memory)) {
+    breaks_[wire.bond] = 1;
+    wire.memory.dissipated += bonds.lost_by_break(wire.bond, before, to.state, to.drift);
+  }
   bonds.set_spring(wire.bond, spring);
 }
 
 template <class Bond>
-void YieldingBonds::yield_all(std::vector<Bond>& all, BeamBonds& bonds, const NodeState& state,
+void YieldingBonds::yield_all(std::vector<Bond>& all, BeamBonds& bonds, const Drifted& to,
                               geometry::ThreadPool& pool) {
   if (all.empty()) return;
   pool.for_each_range(all.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (!bonds.is_broken(all[i].bond)) yield_one(all[i], bonds, state);
+      if (!bonds.is_broken(all[i].bond)) yield_one(all[i], bonds, to);
     }
   });
 }
 
-/// The leapfrog lets the forces of before act for half of the way to where a beam breaks, and none
-/// for the other half. So of what it would have stored and lost on that way only half is there to
-/// be lost: to the second order of the step the balance closes.
-void YieldingBonds::break_one(Beam& beam, BeamBonds& bonds, const NodeState& state) noexcept {
-  const double after =
-      any_beam_reaction(bonds.spring(beam.bond), bonds.ends(beam.bond, state)).energy;
-  beam.memory.dissipated += 0.5 * (bonds.break_bond(beam.bond) + after - beam.memory.loss);
-}
-
-/// What it had stored is in what it lost as it yielded to no force.
-void YieldingBonds::break_one(Wire& wire, BeamBonds& bonds, const NodeState&) noexcept {
-  bonds.break_bond(wire.bond);
-}
-
 template <class Bond>
-void YieldingBonds::break_all(std::vector<Bond>& all, BeamBonds& bonds,
-                              const NodeState& state) noexcept {
-  for (Bond& one : all) {
+void YieldingBonds::break_all(const std::vector<Bond>& all, BeamBonds& bonds) noexcept {
+  for (const Bond& one : all) {
     if (breaks_[one.bond] == 0) continue;
     breaks_[one.bond] = 0;
-    break_one(one, bonds, state);
+    bonds.break_bond(one.bond);
     broken_.push_back(one.bond);
   }
 }
 
-void YieldingBonds::advance(BeamBonds& bonds, const NodeState& state, geometry::ThreadPool& pool) {
+void YieldingBonds::advance(BeamBonds& bonds, const NodeState& state, double drift,
+                            geometry::ThreadPool& pool) {
   if (breaks_.empty()) return;
-  yield_all(beams_, bonds, state, pool);
-  yield_all(wires_, bonds, state, pool);
+  const Drifted to{state, drift};
+  yield_all(beams_, bonds, to, pool);
+  yield_all(wires_, bonds, to, pool);
   broken_.clear();
-  break_all(beams_, bonds, state);
-  break_all(wires_, bonds, state);
+  break_all(beams_, bonds);
+  break_all(wires_, bonds);
   std::sort(broken_.begin(), broken_.end());
 }
 

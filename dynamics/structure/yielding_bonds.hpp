@@ -24,7 +24,8 @@ class YieldingBonds {
   /// Lets every bond keep its law where the nodes are, and breaks those that do: to be called
   /// before each BeamBonds::advance. Linear in the number of bonds with laws; no allocation; the
   /// same bits for any number of threads.
-  void advance(BeamBonds& bonds, const NodeState& state, geometry::ThreadPool& pool);
+  /// @param drift  s, that brought the nodes there with their velocities
+  void advance(BeamBonds& bonds, const NodeState& state, double drift, geometry::ThreadPool& pool);
 
   /// What any bond would carry after an advance to this state; nothing if it broke.
   BondForces forces_of(std::size_t bond, const BeamBonds& bonds,
@@ -66,15 +67,18 @@ class YieldingBonds {
     WireYield memory;
   };
 
-  void yield_one(Beam& beam, BeamBonds& bonds, const NodeState& state) noexcept;
-  void yield_one(Wire& wire, BeamBonds& bonds, const NodeState& state) noexcept;
+  /// Where the nodes have come to.
+  struct Drifted {
+    const NodeState& state;
+    double drift;  ///< s
+  };
+  void yield_one(Beam& beam, BeamBonds& bonds, const Drifted& to) noexcept;
+  void yield_one(Wire& wire, BeamBonds& bonds, const Drifted& to) noexcept;
   template <class Bond>
-  void yield_all(std::vector<Bond>& all, BeamBonds& bonds, const NodeState& state,
+  void yield_all(std::vector<Bond>& all, BeamBonds& bonds, const Drifted& to,
                  geometry::ThreadPool& pool);
-  void break_one(Beam& beam, BeamBonds& bonds, const NodeState& state) noexcept;
-  void break_one(Wire& wire, BeamBonds& bonds, const NodeState& state) noexcept;
   template <class Bond>
-  void break_all(std::vector<Bond>& all, BeamBonds& bonds, const NodeState& state) noexcept;
+  void break_all(const std::vector<Bond>& all, BeamBonds& bonds) noexcept;
 
   std::vector<WireCurve> curves_;
   std::vector<Beam> beams_;           // ascending by bond

@@ -150,7 +150,7 @@ class ScaledStiffness {
     forces_.set_zero();
     bonds_.advance(moved_, pool_);
     bonds_.add_forces(forces_, pool_);
-    sheets_.advance(moved_, pool_);
+    sheets_.advance(moved_, 0.0, pool_);
     sheets_.add_forces(forces_, pool_);
     ties_.add_forces_at(moved_.position, forces_);
     loads_.add_elastic_forces(time_, moved_, forces_, pool_);

@@ -72,7 +72,7 @@ TEST(Allocation, IsNoneInTheForcesOfSheets) {
     geometry::ThreadPool pool(threads);
 
     const std::size_t count = allocations_of([&] {
-      sheets.advance(scene.state, pool);
+      sheets.advance(scene.state, 0.0, pool);
       sheets.add_forces(forces, pool);
       sheets.add_to(stiffness, scene.state);
     });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/state/rotation_step.hpp"
 #include "dynamics/model/scene.hpp"
+#include "dynamics/state/rotation_step.hpp"
 #include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/sheet_kernel.hpp"
 #include "tests/support/linear_algebra.hpp"
@@ -38,7 +38,7 @@ inline NodeState moved(NodeState state, const Eigen::VectorXd& displacement) {
 inline Eigen::VectorXd sheet_forces(SheetFacets& sheets, const NodeState& state, int threads = 1) {
   geometry::ThreadPool pool(threads);
   contact::NodeForces forces(state.size());
-  sheets.advance(state, pool);
+  sheets.advance(state, 0.0, pool);
   sheets.add_forces(forces, pool);
   Eigen::VectorXd stacked(static_cast<Eigen::Index>(6 * state.size()));
   for (std::size_t i = 0; i < state.size(); ++i)

@@ -128,6 +128,67 @@ TEST(BreakEnergy, WhatABondHadStoredIsDissipated) {
   EXPECT_LE(std::abs(simulation.energy().closure_error()), 1e-15 * stored);
 }
 
+/// One element that flies by itself, ever further stretched, bent and twisted.
+Scene lone(bool is_facet, double strength) {
+  Scene scene;
+  scene.materials = {{1e6, 0.5, 0.5}};
+  const std::array<Vec3, 3> places{Vec3::Zero(), Vec3::UnitX(), Vec3(0.2, 0.9, 0.1)};
+  for (int i = 0; i < (is_facet ? 3 : 2); ++i) scene.add_node(places[static_cast<std::size_t>(i)]);
+  if (is_facet) {
+    SheetSection section = solid_sheet(0.05, 1e7, 0.3);
+    section.strength = strength;
+    scene.add_facet(NodeId{0}, NodeId{1}, NodeId{2}, 0.02, kWire);
+    scene.add_sheet_facet({NodeId{0}, NodeId{1}, NodeId{2}}, section, 1000.0);
+  } else {
+    scene.add_cylinder(NodeId{0}, NodeId{1}, 0.02, kWire);
+    scene.add_beam(NodeId{0}, NodeId{1}, circular_section(0.05, 1e7, 0.3), 1000.0);
+    BondStrength law;
+    law.strength = strength;
+    if (strength < BondStrength::kNever) scene.bond_laws.push_back({law, {0}});
+  }
+  test::Random random(3);
+  for (std::size_t i = 0; i < scene.state.size(); ++i) {
+    scene.state.velocity[i] = scene.state.position[i] + random.in_cube(0.2);
+    scene.state.angular_velocity[i] = random.in_cube(0.5);
+  }
+  return scene;
+}
+
+/// By how much the balance changes in the step of the break (J), over what goes through.
+double made_by_break(const Scene& scene, double time_step, bool is_asked) {
+  BreakingSimulation simulation(scene,
+                                {.time_step = time_step, .motion = {.gravity = Vec3::Zero()}});
+  double before = 0.0;
+  while (simulation.energy().bond_dissipated == 0.0 && simulation.steps() < 1000) {
+    before = simulation.energy().closure_error();
+    if (is_asked && simulation.steps() == 20) {
+      if (scene.bonds.empty())
+        simulation.break_facet({NodeId{0}, NodeId{1}, NodeId{2}});
+      else
+        simulation.break_bond(0);
+    }
+    simulation.step();
+  }
+  const Energy energy = simulation.energy();
+  EXPECT_GT(energy.bond_dissipated, 1e-3 * energy.turnover());
+  EXPECT_EQ(energy.bond_elastic + energy.sheet_elastic, 0.0);
+  return std::abs(energy.closure_error() - before) / energy.turnover();
+}
+
+// The forces of before act for half of the way to the place of the break. Steps are long, so that
+// the energy there is far from the mean of before and after.
+TEST(BreakEnergy, NothingIsMadeInTheStepOfABreakHoweverLongItIs) {
+  constexpr double kRounding = 100.0 * std::numeric_limits<double>::epsilon();
+  for (const bool is_facet : {false, true}) {
+    const double critical =
+        BreakingSimulation(lone(is_facet, BondStrength::kNever), {}).critical_step().dt;
+    for (const bool is_asked : {false, true}) {
+      const Scene scene = lone(is_facet, is_asked ? BondStrength::kNever : is_facet ? 3e4 : 5e4);
+      EXPECT_LE(made_by_break(scene, 0.3 * critical, is_asked), kRounding) << is_facet << is_asked;
+    }
+  }
+}
+
 TEST(BreakEnergy, WhatAContactOnABrokenCylinderHadStoredIsLostInTracking) {
   // A held ball on a held chain, pressed and dragged along it: normal and tangential energy.
   Scene scene;

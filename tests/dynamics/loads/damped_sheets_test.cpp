@@ -164,7 +164,7 @@ TEST(DampedSheets, EndWhereAFacetIsTorn) {
   const Scene scene = pair_of_facets();
   dynamics::DampedSheets damped({{0, 1}, 0.3}, scene.sheet_facets, scene.properties);
   dynamics::SheetFacets sheets(scene.sheet_facets, scene.state.size());
-  sheets.break_facet(0);
+  sheets.break_facet(0, scene.state, 0.0);
   damped.follow(sheets);
   NodeState state = scene.state;
   state.velocity = random_velocities(4, 5);

@@ -39,9 +39,9 @@ dynamics::ServoPlate missing(double force) {
 }
 
 /// Springs of 1e4 N/m, one of which the plate presses already and one that is a gap (m) away.
-std::function<PlanePress(double)> springs(double pressed, double gap) {
+std::function<PlanePress(double, double)> springs(double pressed, double gap) {
   constexpr double kStiffness = 1e4;
-  return [=](double way) {
+  return [=](double way, double) {
     PlanePress press;
     for (const double overlap : {pressed + way, way - gap}) {
       if (!(overlap > 0.0)) continue;
@@ -71,7 +71,7 @@ TEST(ServoSpeed, DoesNotFollowWhatItFeelsOfItsOwnSpeed) {
   constexpr double kStiffness = 1e4;
   constexpr double kDashpot = 500.0;  // N s/m: gain c / (k dt) is 10
   constexpr double kElastic = 10.0;   // N
-  const auto press = [](double way) {
+  const auto press = [](double way, double) {
     return PlanePress{kElastic + kStiffness * way, kStiffness, kDashpot};
   };
   const double expected = 0.2 * 2.0 / (kStiffness * kStep + 0.2 * kDashpot);
@@ -112,6 +112,19 @@ TEST(ServoSpeed, TouchesFirstAndThenPressesWithNoMoreThanItsGain) {
   EXPECT_NEAR(way(-1e-4, 1.0), 3e-4, 1e-3 * 3e-4);
   // With a second spring that begins 0.1 mm further on, half of the rest falls to each.
   EXPECT_NEAR(way(1e-9, 1e-4), 1.5e-4, 1e-3 * 1.5e-4);
+}
+
+// A body that comes on at 0.2 m/s is 0.2 mm nearer at the end of the drift.
+TEST(ServoSpeed, MeetsWhatComesToItWhereThatWillBe) {
+  constexpr double kStep = 1e-3;
+  const auto speed = [&](double gap) {
+    const auto press = [gap](double way, double ahead) {
+      return springs(-1.0, gap - 0.2 * ahead)(way, 0.0);
+    };
+    return servo_speed({0.5, 0.2}, missing(10.0), press, kStep);
+  };
+  EXPECT_NEAR(speed(5e-4), 0.3, 1e-2 * 0.3);
+  EXPECT_EQ(speed(1e-4), 0.0);  // it comes by itself
 }
 
 TEST(PlateArea, IsWhatTheFacingPlanesLeaveFree) {

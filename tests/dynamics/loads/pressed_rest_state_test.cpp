@@ -94,7 +94,7 @@ std::array<double, 2> left_over(const Scene& scene, double pressure) {
   geometry::ThreadPool pool;
   contact::NodeForces forces(scene.state.size()), push(scene.state.size());
   SheetFacets sheets(scene.sheet_facets, scene.state.size());
-  sheets.advance(scene.state, pool);
+  sheets.advance(scene.state, 0.0, pool);
   sheets.add_forces(forces, pool);
   dynamics::BeamBonds bonds(scene.bonds, scene.state.size());
   bonds.advance(scene.state, pool);
@@ -185,7 +185,7 @@ TEST(PressedRestState, HasForcesThatDoTheWorkOfThePressureOnAnyClosedShape) {
   rest_under_pressure(0.1 * kPressure, {}, truss);
 
   SheetFacets sheets(sheet.sheet_facets, sheet.state.size());
-  sheets.advance(sheet.state, pool);
+  sheets.advance(sheet.state, 0.0, pool);
   double work = 0.0;
   for (std::size_t i = 0; i < sheets.size(); ++i) {
     const auto& x = sheet.state.position;
@@ -220,7 +220,7 @@ TEST(PressedRestState, OfASphereIsThatOfItsPrestrain) {
 
   geometry::ThreadPool pool;
   SheetFacets sheets(scene.sheet_facets, scene.state.size());
-  sheets.advance(scene.state, pool);
+  sheets.advance(scene.state, 0.0, pool);
   const double force = 0.5 * kPressure * radius;
   const double strain = force * (1.0 - kPoisson) / kStiffness;
   const auto count = static_cast<double>(sheets.size());
@@ -251,7 +251,7 @@ TEST(PressedRestState, OfALongTubeHasTwiceTheForceAroundAsAlong) {
 
   geometry::ThreadPool pool;
   SheetFacets sheets(scene.sheet_facets, scene.state.size());
-  sheets.advance(scene.state, pool);
+  sheets.advance(scene.state, 0.0, pool);
   const double tolerance = std::pow(std::numbers::pi / around, 2.0) * kPressure * radius;
   int looked_at = 0;
   for (std::size_t i = 0; i < sheets.size(); ++i) {
@@ -276,7 +276,7 @@ TEST(PressedRestState, OfATorusHasTheForcesOfMembraneTheory) {
 
   geometry::ThreadPool pool;
   SheetFacets sheets(scene.sheet_facets, scene.state.size());
-  sheets.advance(scene.state, pool);
+  sheets.advance(scene.state, 0.0, pool);
   const auto in_belt = static_cast<std::size_t>(2 * around);
   const double scale = kPressure * small;
   for (std::size_t belt = 0; belt < static_cast<std::size_t>(across); ++belt) {
@@ -309,7 +309,7 @@ TEST(PressedRestState, OfACushionHeldAtItsRimIsThatOfItsSphere) {
   EXPECT_LT(left_over(scene, kPressure)[0], 10.0 * kRounding);
   geometry::ThreadPool pool;
   SheetFacets sheets(scene.sheet_facets, scene.state.size());
-  sheets.advance(scene.state, pool);
+  sheets.advance(scene.state, 0.0, pool);
   const double force = 0.5 * kPressure * radius;
   double mean = 0.0, area = 0.0;
   for (std::size_t i = 0; i < sheets.size(); ++i) {

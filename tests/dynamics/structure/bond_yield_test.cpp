@@ -54,7 +54,7 @@ class Specimen {
     for (Vec3& x : state_.position) x = turn * x + shift;
     for (Quat& q : state_.orientation) q = (turn * q).normalized();
     geometry::ThreadPool pool;
-    yielding_.advance(bonds_, state_, pool);
+    yielding_.advance(bonds_, state_, 0.0, pool);
     bonds_.advance(state_, pool);
     return bonds_.forces_of(0, state_);
   }

@@ -58,7 +58,7 @@ Eigen::VectorXd random_displacement(std::size_t nodes, double size, std::uint64_
 
 double energy_of(SheetFacets& sheets, const NodeState& state) {
   geometry::ThreadPool pool;
-  sheets.advance(state, pool);
+  sheets.advance(state, 0.0, pool);
   return sheets.elastic_energy();
 }
 

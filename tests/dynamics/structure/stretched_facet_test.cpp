@@ -68,7 +68,7 @@ TEST(StretchedFacet, CarriesTheForceThatIsAskedByItsOwnLawAndTurnsNoNode) {
     EXPECT_GT(stretched->facet.corners[2].y(), 0.0);
     const std::vector<SheetFacet> facets{stretched->facet};
     SheetFacets sheets(facets, scene.state.size());
-    sheets.advance(scene.state, pool);
+    sheets.advance(scene.state, 0.0, pool);
     const auto axes = axes_of(scene);
     const Mat3 carried = sheets.membrane_force(0, scene.state.position);
     // Strains are differences of squares of about 1, of sides of about 1.

@@ -31,15 +31,18 @@ class PulledWire {
   explicit PulledWire(const WireCurve& curve)
       : scene_(chain(1, kLength, dynamics::wire_section(1.35e-3, curve))),
         bonds_(scene_.bonds, 2),
-        yielding_({BondLaw{curve, {0}}}, scene_.bonds) {}
+        yielding_({BondLaw{curve, {0}}}, scene_.bonds),
+        state_(scene_.state) {}
 
   /// @returns N
   double at(double strain) {
-    NodeState state = scene_.state;
-    state.position[1].x() = (1.0 + strain) * kLength;
+    constexpr double kDrift = 1.0;  // s
+    const double length = (1.0 + strain) * kLength;
+    state_.velocity[1].x() = (length - state_.position[1].x()) / kDrift;
+    state_.position[1].x() = length;
     geometry::ThreadPool pool;
-    yielding_.advance(bonds_, state, pool);
-    bonds_.advance(state, pool);
+    yielding_.advance(bonds_, state_, kDrift, pool);
+    bonds_.advance(state_, pool);
     return bonds_.axial_force(0);
   }
   double stored() const { return bonds_.elastic_energy(); }
@@ -51,6 +54,7 @@ class PulledWire {
   Scene scene_;
   BeamBonds bonds_;
   YieldingBonds yielding_;
+  NodeState state_;
 };
 
 /// N: a length is rounded to eps L0, worth eps times the first slope; a few times in each step.
