@@ -306,7 +306,8 @@ class Simulation {
   geometry::Surface change_surface(geometry::Surface next);
   void apply_loads();
   void drive_planes();
-  void find_places_ahead(double ahead);
+  void find_places_ahead();
+  Vec3 acceleration(std::size_t node, const Vec3& gravity) const;
   PlanePress plane_press(std::size_t plane, double way, geometry::Positions x) const;
   void drive_bodies(const LoadStep& step);
   void follow_gravity();
@@ -318,6 +319,7 @@ class Simulation {
   void watch_momentum();
   FaultFinder fault_finder();
   void set_first_step(double asked);
+  void foresee_first_kick(double kick);
   void require_time_step() const;
   Resistance resistance() const noexcept;
   Pace pace() const noexcept;

@@ -57,38 +57,37 @@ double way_to_press(double growth, double longest, const PlanePress& now,
   return low;
 }
 
-/// The way (m) of a plate that touches nothing, in a drift (s).
-double way_to_touch(double growth, double longest,
-                    const std::function<PlanePress(double way, double ahead)>& press, double dt) {
+/// The way (m) of a plate that touches nothing now, to bodies where they are now or will be.
+double way_to_meet(double growth, double longest, const PressOfWay& press, ServoTime when) {
   constexpr double kTouch = 1e-3;  // of the force it would press with
-  const PlanePress coming = press(0.0, dt);
-  if (coming.force > kTouch * growth) return 0.0;
-  const auto then = [&](double way) { return press(way, dt); };
-  // A force is counted over half of the drift that brings it: over the way to the bodies too,
-  // unless the plate comes to rest on them first.
-  const double way = way_to_press(growth, longest, coming, then);
-  const double touch = way_to_press(kTouch * growth, way, coming, then);
-  return touch > way - touch ? touch : way;
+  const PlanePress still = press(0.0, when);
+  if (still.force > kTouch * growth) return 0.0;
+  return way_to_press(kTouch * growth, longest, still,
+                      [&](double way) { return press(way, when); });
 }
 
 }  // namespace
 
-double servo_speed(const ServoPace& pace, const ServoPlate& plate,
-                   const std::function<PlanePress(double way, double ahead)>& press, double dt) {
+double servo_speed(const ServoPace& pace, const ServoPlate& plate, const PressOfWay& press,
+                   double dt) {
   const double longest = pace.largest_speed * dt;
-  PlanePress now = press(0.0, 0.0);
+  PlanePress now = press(0.0, ServoTime::now);
   const double of_last = now.damping * plate.speed;
   const double of_dashpots = plate.felt - now.force;
   const double change =
       pace.gain * (plate.wanted - plate.felt +
                    (of_last < 0.0 ? std::max(of_last, std::min(of_dashpots, 0.0)) : of_last));
-  if (!(now.stiffness > 0.0))
-    return change > 0.0 ? way_to_touch(change, longest, press, dt) / dt : 0.0;
+  if (!(now.stiffness > 0.0)) {
+    if (!(change > 0.0)) return 0.0;
+    return std::min(way_to_meet(change, longest, press, ServoTime::now),
+                    way_to_meet(change, longest, press, ServoTime::after_drift)) /
+           dt;
+  }
   // The dashpots resist a way in a drift as springs do.
   const double drag = pace.gain * now.damping / dt;
   now.stiffness += drag;
   const auto resisted = [&press, drag](double way) {
-    PlanePress there = press(way, 0.0);
+    PlanePress there = press(way, ServoTime::now);
     there.force += drag * way;
     there.stiffness += drag;
     return there;
@@ -126,8 +125,8 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const PlaneReaction> re
     const double wanted = servo.factor.at(step.time) * full_target(servo, planes);
     const bool is_flat = plane.form == Plane::Form::flat;
     const double pressing = reactions[servo.plane].pressing(plane);
-    const auto press_here = [&](double way, double ahead) {
-      return press(servo.plane, way, ahead);
+    const auto press_here = [&](double way, ServoTime when) {
+      return press(servo.plane, way, when);
     };
     const ServoPlate now{wanted, pressing,
                          is_flat ? plane.velocity.dot(plane.normal) : -plane.widening};

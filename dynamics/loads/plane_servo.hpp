@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <utility>
@@ -26,9 +27,11 @@ struct PlanePress {
   double stiffness = 0.0;  ///< N/m
   double damping = 0.0;    ///< N s/m
 };
-/// That of a plane if it were a way (m) further in them, and they stayed where they are, or went on
-/// for so long (s) as they move now.
-using PlanePressAt = std::function<PlanePress(std::size_t plane, double way, double ahead)>;
+/// Where bodies are: now, or after the drift that begins now.
+enum class ServoTime : std::uint8_t { now, after_drift };
+/// That of a plane if it were a way (m) further in them.
+using PressOfWay = std::function<PlanePress(double way, ServoTime when)>;
+using PlanePressAt = std::function<PlanePress(std::size_t plane, double way, ServoTime when)>;
 
 /// How fast a servo may be.
 struct ServoPace {
@@ -68,19 +71,18 @@ double full_target(const BodyServo& servo, std::span<const contact::Plane> plane
 /// / (k dt + gain c), as of the plate above with c beside it. A dashpot that would have to pull does
 /// nothing: of a plate that goes back no more of it counts than what is felt below P(0).
 ///
-/// Far from the bodies the plate comes on with largest_speed. Where it would touch them at the end of
-/// the drift, as they move now, it stops at a thousandth of the elastic force, and presses from
-/// there: work is counted by the mean force over a drift, so a force f that begins somewhere on a
-/// drift of way s, all of which would be counted, makes energy of up to 1/2 f s. A plate that struck
-/// at full speed would be off by up to 1/8 k (v dt)², v with that of the bodies, whatever that is
-/// beside the work of the wanted force. Where they come to it by themselves it waits. Where no force
-/// is wanted, a plate without contacts stays.
-/// @param press    of way (m) and time (s) -> PlanePress, with the bodies as they will be then; a
-///                 force that grows less than in proportion makes the plate slower, never faster.
+/// Far from the bodies the plate comes on with largest_speed. Where it would touch them, as they are
+/// now or will be at the end of the drift, it stops at a thousandth of the elastic force, and presses
+/// from there: work is counted by the mean force over a drift, so with a force f that begins in a
+/// drift the gap g of before costs energy of 1/2 f g. A plate that struck at full speed would be off
+/// by up to 1/8 k (v dt)², v with that of the bodies, whatever that is beside the work of the wanted
+/// force. Where they come to it by themselves it waits. Where no force is wanted, a plate without
+/// contacts stays.
+/// @param press    a force that grows less than in proportion makes the plate slower, never faster.
 ///                 Dashpots are those of way 0
 /// @param dt       s, length of the drift that begins now
-double servo_speed(const ServoPace& pace, const ServoPlate& plate,
-                   const std::function<PlanePress(double way, double ahead)>& press, double dt);
+double servo_speed(const ServoPace& pace, const ServoPlate& plate, const PressOfWay& press,
+                   double dt);
 
 /// What all bodies do to a plane.
 struct PlaneReaction {

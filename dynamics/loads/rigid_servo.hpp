@@ -128,7 +128,7 @@ class DrivenBodies {
       const ServoPace pace{servo.largest_speed, servo.gain};
       const ServoPlate plate{wanted, pressing, servo.towards * velocity};
       const double speed = servo_speed(
-          pace, plate, [&](double along, double) { return press.at(along); }, step.after);
+          pace, plate, [&](double along, ServoTime) { return press.at(along); }, step.after);
       const double now = servo.towards * speed;
       work += 0.5 * step.before * load[servo.axis] * (now - velocity);
       velocity = now;

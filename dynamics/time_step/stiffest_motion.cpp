@@ -10,7 +10,6 @@ namespace plekton::dynamics {
 namespace {
 
 constexpr int kFirstProducts = 32;
-constexpr int kProducts = 4;
 
 /// In [-1, 1), of a place in a sequence: the bits of a product with an odd number (Knuth's
 /// multiplicative hashing).
@@ -25,7 +24,7 @@ double per_root_of_mass(const NodeProperties& properties, std::size_t node) noex
   return holds_translation(properties.held[node]) ? 0.0 : 1.0 / std::sqrt(properties.mass[node]);
 }
 
-int StiffestMotion::start(const NodeProperties& properties) {
+int StiffestMotion::start(const NodeProperties& properties, int next) {
   const std::size_t count = properties.size();
   const bool is_first = is_new_ || motion_.size() != count;
   is_new_ = false;
@@ -50,7 +49,7 @@ int StiffestMotion::start(const NodeProperties& properties) {
   }
   for (std::size_t i = 0; i < count; ++i)
     if (takes_part_[i] != 0) motion_[i] /= std::sqrt(steps_[part_[i]]);
-  return is_first ? kFirstProducts : kProducts;
+  return is_first ? kFirstProducts : next;
 }
 
 bool StiffestMotion::find_steps(const NodeProperties& properties, double difference) {

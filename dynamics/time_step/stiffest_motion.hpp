@@ -26,6 +26,9 @@ class StiffestMotion {
   /// @param rigid  rigid bodies among the nodes; must outlive this
   explicit StiffestMotion(const RigidNodes& rigid) : rigid_(&rigid) {}
 
+  /// Products of a look that goes on with the motion of the last one.
+  static constexpr int kProducts = 4;
+
   /// Where nodes are (m), and how far a difference goes (m).
   struct Places {
     geometry::Positions x;
@@ -47,8 +50,9 @@ class StiffestMotion {
   /// The next look begins with a motion of its own.
   void forget() noexcept { is_new_ = true; }
 
+  /// @param next  products to take where the motion is that of a look before
   /// @returns how many products to take
-  int start(const NodeProperties& properties);
+  int start(const NodeProperties& properties, int next = kProducts);
   /// The product of the motion with the derivative.
   /// @param forces_of  (places, forces): adds the forces (N)
   /// @returns whether anything moves

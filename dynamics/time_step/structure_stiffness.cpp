@@ -13,7 +13,10 @@ void StructureStiffness::add_to(ContactSprings& springs, const contact::Contacts
   if (!probe_.touches()) return motion_.forget();
   find_parts(properties);
   double gone = moved + places.difference;
-  for (int i = motion_.start(properties); i > 0; --i) {
+  // Steps in which cores cross are short, and looked at almost one by one: the motion is followed
+  // over them.
+  const int next = contacts.crossings() > 0 ? 1 : StiffestMotion::kProducts;
+  for (int i = motion_.start(properties, next); i > 0; --i) {
     const bool moves =
         motion_.multiply(properties, places, [&](geometry::Positions at, NodeForces& forces) {
           probe_.add_forces(at, gone, forces);

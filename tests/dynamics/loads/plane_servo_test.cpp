@@ -20,6 +20,7 @@ namespace {
 using dynamics::PlaneMotion;
 using dynamics::PlanePress;
 using dynamics::PlaneServo;
+using dynamics::ServoTime;
 using dynamics::TimeTable;
 using testing::HasSubstr;
 
@@ -39,9 +40,9 @@ dynamics::ServoPlate missing(double force) {
 }
 
 /// Springs of 1e4 N/m, one of which the plate presses already and one that is a gap (m) away.
-std::function<PlanePress(double, double)> springs(double pressed, double gap) {
+dynamics::PressOfWay springs(double pressed, double gap) {
   constexpr double kStiffness = 1e4;
-  return [=](double way, double) {
+  return [=](double way, ServoTime) {
     PlanePress press;
     for (const double overlap : {pressed + way, way - gap}) {
       if (!(overlap > 0.0)) continue;
@@ -71,7 +72,7 @@ TEST(ServoSpeed, DoesNotFollowWhatItFeelsOfItsOwnSpeed) {
   constexpr double kStiffness = 1e4;
   constexpr double kDashpot = 500.0;  // N s/m: gain c / (k dt) is 10
   constexpr double kElastic = 10.0;   // N
-  const auto press = [](double way, double) {
+  const auto press = [](double way, ServoTime) {
     return PlanePress{kElastic + kStiffness * way, kStiffness, kDashpot};
   };
   const double expected = 0.2 * 2.0 / (kStiffness * kStep + 0.2 * kDashpot);
@@ -107,9 +108,10 @@ TEST(ServoSpeed, TouchesFirstAndThenPressesWithNoMoreThanItsGain) {
            kStep;
   };
 
-  // 2 N are 0.2 mm: from 0.3 mm away it goes to the spring, from 0.1 mm away it presses.
+  // 2 N are 0.2 mm. It goes to the spring, a thousandth of that deep, however near it is.
   EXPECT_NEAR(way(-3e-4, 1.0), 3e-4, 2e-3 * 2e-4);
-  EXPECT_NEAR(way(-1e-4, 1.0), 3e-4, 1e-3 * 3e-4);
+  EXPECT_NEAR(way(-1e-4, 1.0), 1e-4, 2e-3 * 2e-4);
+  EXPECT_NEAR(way(1e-9, 1.0), 2e-4, 1e-3 * 2e-4);
   // With a second spring that begins 0.1 mm further on, half of the rest falls to each.
   EXPECT_NEAR(way(1e-9, 1e-4), 1.5e-4, 1e-3 * 1.5e-4);
 }
@@ -118,8 +120,9 @@ TEST(ServoSpeed, TouchesFirstAndThenPressesWithNoMoreThanItsGain) {
 TEST(ServoSpeed, MeetsWhatComesToItWhereThatWillBe) {
   constexpr double kStep = 1e-3;
   const auto speed = [&](double gap) {
-    const auto press = [gap](double way, double ahead) {
-      return springs(-1.0, gap - 0.2 * ahead)(way, 0.0);
+    const auto press = [gap](double way, ServoTime when) {
+      const double nearer = when == ServoTime::now ? 0.0 : 0.2 * kStep;
+      return springs(-1.0, gap - nearer)(way, when);
     };
     return servo_speed({0.5, 0.2}, missing(10.0), press, kStep);
   };
@@ -276,17 +279,17 @@ double closure_of_sheet(const geometry::Mesh& mesh, double speed, double part = 
   return largest;
 }
 
-// A plate at 1 m/s strikes a tube that lies on its side with a step of 0.4 ms, in which it goes 0.4
-// mm, a twentieth of the thickness: 1.1 % of all energy is missing then, of others and of a plate
-// at 14.5 m/s, with steps as much shorter, less. A quarter of the step has a quarter of an error of
-// the first order.
+// A plate at 1 m/s strikes a tube with a step of 0.3 ms, in which it goes 0.3 mm, a thirtieth of the
+// thickness. It touches the tube before it presses, but where the tube springs back from it a force
+// ends within a step: 0.6 % of all energy is made then, by a plate at 14.5 m/s, with steps as much
+// shorter, less. A quarter of the step has a quarter of an error of the first order.
 TEST(PlaneServo, KeepsTheEnergyBalanceOnMembranesAtWhateverMomentOfAStepItArrives) {
   const geometry::Mesh flat = geometry::plane_sheet({0.2, 0.2, 4, 4});
   const geometry::Mesh standing = geometry::tube({0.06, 0.24, 12, 3});
   geometry::Mesh lying = standing;
   for (Vec3& x : lying.points) x = Vec3(x.z(), x.y(), x.x());
   for (const geometry::Mesh& mesh : {flat, standing, lying}) {
-    EXPECT_LT(closure_of_sheet(mesh, 1.0), 0.012);
+    EXPECT_LT(closure_of_sheet(mesh, 1.0), 0.0065);
     EXPECT_LT(closure_of_sheet(mesh, 1.0, 0.25), 0.003);
     EXPECT_LT(closure_of_sheet(mesh, 14.5), 0.001);
     EXPECT_LT(closure_of_sheet(mesh, 14.5, 0.25), 0.00025);
