@@ -21,6 +21,12 @@ constexpr double kLargestTurn = 1.0;
 /// What is in each other flies apart, and as its contact ends within a step it is off by
 /// (omega dt)² / 4 of what was stored in it at most.
 constexpr double kReleaseStep = 0.25;
+/// rad, by which a bar that is pressed together turns at most in a chosen step, and the part of its
+/// length at rest below which it is not followed any further. One that goes through itself turns its
+/// force round within a step: that makes up to the force times the way in the step, which then is
+/// 1/256 of the length, 1/128 of what a bar of no length stores.
+constexpr double kLargestTurnOfBar = 1.0 / 8.0;
+constexpr double kShortestBar = 1.0 / 32.0;
 
 StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
     : of_(of),
@@ -82,7 +88,8 @@ double StepChooser::choose(double dt, const Pace& pace) {
   const double stable = std::min(
       {near, springs_.collision_step(of_.scene.state, of_.scene.properties),
        springs_.crossing_step(of_.scene.state, of_.scene.properties),
-       walls_.step(springs_, of_.scene.state, of_.scene.properties), step_of_wires(margin)});
+       walls_.step(springs_, of_.scene.state, of_.scene.properties), step_of_wires(margin),
+       step_of_bars()});
   const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
   step_ = std::min(
       {stable, collision_step_, motion, step_of_spin(), (may_grow ? kGrowth : 1.0) * step_});
@@ -94,6 +101,22 @@ double StepChooser::step_of_wires(double margin) {
   wires_.clear();
   limits_->add_near_wires(wires_, margin);
   return wires_.ending_step(of_.scene.state, of_.scene.properties);
+}
+
+/// s, in which bars that are pressed together turn by kLargestTurnOfBar at most; infinite if none
+/// does.
+double StepChooser::step_of_bars() const {
+  const NodeState& state = of_.scene.state;
+  double fastest = 0.0;  // rad/s
+  for (std::size_t i = 0; i < of_.bonds.size(); ++i) {
+    if (!(of_.bonds.axial_force(i) < 0.0)) continue;
+    const auto [a, b] = of_.bonds.nodes(i);
+    const Vec3 chord = state.position[index_of(b)] - state.position[index_of(a)];
+    const Vec3 motion = state.velocity[index_of(b)] - state.velocity[index_of(a)];
+    const double length = std::max(chord.norm(), kShortestBar * of_.scene.bonds[i].length);
+    fastest = std::max(fastest, motion.norm() / length);
+  }
+  return kLargestTurnOfBar / fastest;
 }
 
 /// s, in which the node that spins fastest turns by half of kLargestTurn; infinite if none does.

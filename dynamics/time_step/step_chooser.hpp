@@ -82,6 +82,7 @@ class StepChooser {
  private:
   double stable_near(double margin, double last);
   double step_of_wires(double margin);
+  double step_of_bars() const;
   double step_of_spin() const;
   bool structures_touch() const;
   void add_near_structures(double margin, double rate);
