@@ -44,7 +44,7 @@ constexpr double kGrowth = 1.1;
 /// The way that nodes may go until a chosen step is looked at again is below this part of the
 /// smallest radius, unless a single step is longer. The longer it is the more contacts count that
 /// are still to come, and the shorter it is the more often they are counted.
-constexpr double kLongestWay = 0.05;
+constexpr double kLongestWay = 0.1;
 
 /// How fast a simulation is.
 struct Pace {
