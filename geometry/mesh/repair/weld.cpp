@@ -44,7 +44,7 @@ class CellGrid {
     Vec3 lower = points[0];
     for (const Vec3& p : points) lower = lower.cwiseMin(p);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vec3 scaled = (points[i] - lower) / (0.5 * distance);
+      const Vec3 scaled = 2.0 * ((points[i] - lower) / distance);
       for (std::size_t k = 0; k < 3; ++k)
         cell_of_[i][k] =
             static_cast<std::int64_t>(std::floor(scaled[static_cast<Eigen::Index>(k)]));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/repair/weld.hpp"
+
 #include "geometry/mesh/disjoint_sets.hpp"
 #include "geometry/mesh/generate/generators.hpp"
-#include "geometry/mesh/repair/weld.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/seeded_random.hpp"
 
@@ -44,6 +45,12 @@ TEST(Weld, AgreesWithComparingAllPairs) {
 
     for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(weld.representative[i], sets.find(i));
   }
+}
+
+TEST(Weld, JoinsPointsAtTheLeastDistanceThereIs) {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();  // half of it is 0
+
+  EXPECT_EQ(weld_near_points(std::vector<Vec3>{Vec3::Zero(), {kLeast, 0, 0}}, kLeast).merged, 1u);
 }
 
 TEST(Weld, StaysQuickWhenTheDistanceIsLargerThanTheMesh) {
