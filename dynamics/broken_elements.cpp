@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/broken_elements.hpp"
 
+#include "dynamics/model/erase_elements.hpp"
 #include "geometry/primitives/node_sets.hpp"
 
 #include <algorithm>
@@ -28,22 +29,6 @@ NodeSets<2> edges_that_hold(const Scene& scene, const BeamBonds& bonds) {
   return holding;
 }
 
-/// Elements and their materials, without those that are gone.
-template <class Element, class IsGone>
-bool erase(std::vector<Element>& elements, std::vector<contact::MaterialId>& materials,
-           IsGone is_gone) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (is_gone(elements[i], materials[i])) continue;
-    elements[kept] = elements[i];
-    materials[kept++] = materials[i];
-  }
-  const bool some_are_gone = kept < elements.size();
-  elements.resize(kept);
-  materials.resize(kept);
-  return some_are_gone;
-}
-
 struct TornFacet {
   Facet facet;
   contact::MaterialId material;
@@ -69,15 +54,15 @@ std::vector<TornFacet> take_out_facets(Scene& scene, const Sets& broken,
                                        const NodeSets<3>& sheets) {
   std::vector<TornFacet> torn;
   const auto is_broken = [&](const Edge& side) { return broken.edges.contains(side); };
-  erase(scene.elements.facets, scene.facet_materials,
-        [&](const Facet& facet, contact::MaterialId material) {
-          const auto sides = sides_of(facet);
-          const bool is_torn =
-              std::any_of(sides.begin(), sides.end(), is_broken) && !sheets.contains(facet.nodes);
-          if (!is_torn && !broken.facets.contains(facet.nodes)) return false;
-          torn.push_back({facet, material});
-          return true;
-        });
+  erase_elements(scene.elements.facets, scene.facet_materials,
+                 [&](const Facet& facet, contact::MaterialId material) {
+                   const auto sides = sides_of(facet);
+                   const bool is_torn = std::any_of(sides.begin(), sides.end(), is_broken) &&
+                                        !sheets.contains(facet.nodes);
+                   if (!is_torn && !broken.facets.contains(facet.nodes)) return false;
+                   torn.push_back({facet, material});
+                   return true;
+                 });
   return torn;
 }
 
@@ -123,10 +108,11 @@ bool take_out_broken(Scene& scene, const BrokenParts& broken, const BeamBonds& b
   const Sets holding{edges_that_hold(scene, bonds), sheets_that_hold(sheets)};
   const Sets sets = sets_of(scene, broken, holding);
   if (sets.edges.empty() && sets.facets.empty()) return false;
-  const bool cylinders_are_gone = erase(scene.elements.cylinders, scene.cylinder_materials,
-                                        [&](const Cylinder& cylinder, contact::MaterialId) {
-                                          return sets.edges.contains(cylinder.nodes);
-                                        });
+  const bool cylinders_are_gone =
+      erase_elements(scene.elements.cylinders, scene.cylinder_materials,
+                     [&](const Cylinder& cylinder, contact::MaterialId) {
+                       return sets.edges.contains(cylinder.nodes);
+                     });
   const std::vector<TornFacet> torn = take_out_facets(scene, sets, holding.facets);
   if (!torn.empty()) add_rims(scene, torn, holding.edges);
   return cylinders_are_gone || !torn.empty();

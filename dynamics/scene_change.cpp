@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/scene_change.hpp"
 
+#include "dynamics/model/erase_elements.hpp"
 #include "dynamics/model/scene_figures.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/time_step/step_chooser.hpp"
@@ -109,22 +110,6 @@ void stop(Held motions, Vec3& velocity, Vec3& spin) {
     if (holds_along(motions, axis)) velocity[axis] = 0.0;
     if (holds_about(motions, axis)) spin[axis] = 0.0;
   }
-}
-
-/// @returns whether there were any
-template <class Element>
-bool erase_absent(const Scene& scene, std::vector<Element>& elements,
-                  std::vector<contact::MaterialId>& materials) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (!scene.is_there(elements[i].nodes[0])) continue;
-    elements[kept] = elements[i];
-    materials[kept++] = materials[i];
-  }
-  const bool are_fewer = kept < elements.size();
-  elements.resize(kept);
-  materials.resize(kept);
-  return are_fewer;
 }
 
 /// Of the nodes of structures, which come first in both.
@@ -297,8 +282,12 @@ void Simulation::take_state(Simulation& before, const SceneChange& change) {
 void Simulation::leave_out_absent() {
   if (scene_.is_absent.empty()) return;
   whole_ = surface_;
-  const bool are_fewer = erase_absent(scene_, scene_.elements.facets, scene_.facet_materials) |
-                         erase_absent(scene_, scene_.elements.cylinders, scene_.cylinder_materials);
+  const auto is_absent = [this](const auto& element, contact::MaterialId) {
+    return !scene_.is_there(element.nodes[0]);
+  };
+  const bool are_fewer =
+      erase_elements(scene_.elements.facets, scene_.facet_materials, is_absent) |
+      erase_elements(scene_.elements.cylinders, scene_.cylinder_materials, is_absent);
   if (are_fewer) follow_surface();
 }
 
@@ -311,7 +300,7 @@ void Simulation::look_ahead(double ago, const Look& look) {
   StateTree kept;
   contacts_->exchange(StateArchive::writer(kept), scene_.planes, pool_);
   NodeState state = scene_.state;
-  for (std::size_t i = 0; i < state.size(); ++i) state.position[i] -= ago * state.velocity[i];
+  state.position = positions_before(state, ago);
   std::vector<contact::Plane> planes = scene_.planes;
   for (contact::Plane& plane : planes) {
     plane.point -= ago * plane.velocity;

@@ -6,7 +6,6 @@
 #include "dynamics/ties/ties_check.hpp"
 #include "geometry/base/problems.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>

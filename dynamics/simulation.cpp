@@ -8,7 +8,6 @@
 #include "dynamics/model/scene_hash.hpp"
 #include "dynamics/time_step/step_chooser.hpp"
 #include "dynamics/time_step/step_limits.hpp"
-#include "geometry/base/elementary.hpp"
 #include "geometry/base/problems.hpp"
 #include "geometry/base/vector_width.hpp"
 
@@ -17,7 +16,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -111,7 +109,6 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
       loads_(scene_),
       driven_planes_(scene_.loads, scene_.planes),
       driven_bodies_(scene_, surface_),
-      plane_reactions_(driven_planes_.empty() ? 0 : scene_.planes.size()),
       forces_(scene_.state.size()),
       nodes_(scene_.state, forces_),
       furthest_(furthest_in_a_step(scene_)),
@@ -218,6 +215,7 @@ void Simulation::set_velocity(NodeId node, const Vec3& velocity, const Vec3& ang
   rigid_bodies_.start_from(node, scene_.state, scene_.properties);
   if (chooser_ == nullptr || !std::isfinite(dt_)) return;
   dt_ = std::min(dt_, longest_step(velocity.norm(), largest_gravity(), pace_radius_));
+  chooser_->look_again();
 }
 
 void Simulation::add_force(std::vector<NodeId> nodes, OwnForce force) {
@@ -298,6 +296,7 @@ void Simulation::set_plane_velocity(std::size_t plane, const Vec3& velocity) {
   if (!velocity.allFinite())
     throw std::invalid_argument("set_plane_velocity: the velocity must be finite");
   driven_planes_.set_velocity(plane, velocity);
+  if (chooser_ != nullptr) chooser_->look_again();
 }
 
 double Simulation::motion_ratio() const {
@@ -313,9 +312,17 @@ Resistance Simulation::resistance() const noexcept {
 
 Pace Simulation::pace() const noexcept {
   return {steps_,
-          std::max({largest_speed(scene_.state), loads_.largest_speed(),
+          std::max({largest_speed(scene_.state), loads_.largest_speed(), speed_of_free_planes(),
                     driven_planes_.largest_speed(), driven_bodies_.largest_speed()}),
           largest_gravity()};
+}
+
+/// m/s, of planes that no load moves.
+double Simulation::speed_of_free_planes() const noexcept {
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < scene_.planes.size(); ++i)
+    if (!driven_planes_.drives(i)) fastest = std::max(fastest, scene_.planes[i].speed());
+  return fastest;
 }
 
 /// Nodes have drifted with the velocities after the last kick.
@@ -352,13 +359,13 @@ void Simulation::account(const StepWork& work, const StepLengths& lengths) {
 }
 
 void Simulation::move_planes() {
-  double squared = fastest_ * fastest_;
+  double fastest = fastest_;
   for (contact::Plane& plane : scene_.planes) {
     plane.point += drift_ * plane.velocity;
     plane.radius += drift_ * plane.widening;
-    squared = std::max({squared, plane.velocity.squaredNorm(), plane.widening * plane.widening});
+    fastest = std::max(fastest, plane.speed());
   }
-  if (chooser_ != nullptr) chooser_->moved(std::sqrt(squared) * drift_);
+  if (chooser_ != nullptr) chooser_->moved(fastest * drift_);
 }
 
 Energy Simulation::energy() const {
@@ -497,7 +504,7 @@ bool Simulation::step_until(double end) {
   return true;
 }
 
-/// Nodes that no element belongs to are not looked at, nor is any node while none is fast enough.
+/// No node is looked at while none is fast enough.
 void Simulation::check_motion() {
   const bool is_slow =
       fastest_ * drift_ <= least_furthest_ && fastest_spin_ * drift_ < std::numbers::pi;
@@ -521,7 +528,7 @@ void Simulation::watch_energy() {
 double Simulation::fastest_on_planes() const {
   double fastest = 0.0;
   for (const contact::Plane& plane : scene_.planes) {
-    fastest = std::max(fastest, plane.velocity.norm());
+    fastest = std::max(fastest, plane.speed());
     if (!plane.turns()) continue;
     for (const Vec3& x : scene_.state.position)
       fastest = std::max(fastest, plane.velocity_at(x).norm());
@@ -543,7 +550,8 @@ void Simulation::check_energy() {
                               most_energetic(scene_.state, scene_.properties), made, there};
   // What makes the energy need not act any more when it has become too much.
   FaultFinder finder = fault_finder();
-  const std::string suspect = finder.strongest_action(divergence, finder.state_before(last_drift_));
+  const std::string suspect =
+      finder.strongest_action(divergence, state_before(scene_.state, last_drift_));
   if (!suspect.empty()) suspect_ = suspect;
   // A comparison with NaN is false.
   if (made <= kFarMore * there) return;
@@ -597,6 +605,7 @@ void Simulation::apply_loads() {
   work_.external += work.external;
   work_.damped += work.damped;
   if (!driven_bodies_.empty()) drive_bodies(step);
+  find_plane_reactions();
   if (!driven_planes_.empty()) drive_planes();
 }
 
@@ -614,12 +623,19 @@ void Simulation::drive_bodies(const LoadStep& step) {
       driven_bodies_.act(step, felt, forces_, rigid_nodes_, scene_.planes, scene_.state, look_at);
 }
 
-void Simulation::drive_planes() {
-  plane_reactions_.assign(scene_.planes.size(), PlaneReaction{});
+/// None where nothing asks for them.
+void Simulation::find_plane_reactions() {
+  plane_reactions_.clear();
+  const auto widens = [](const contact::Plane& plane) { return plane.widening != 0.0; };
+  if (driven_planes_.empty() && std::ranges::none_of(scene_.planes, widens)) return;
+  plane_reactions_.resize(scene_.planes.size());
   contacts_->for_each_plane_force([&](std::size_t plane, const Vec3& force, double push) {
     plane_reactions_[plane].force += force;
     plane_reactions_[plane].push += push;
   });
+}
+
+void Simulation::drive_planes() {
   places_ahead_.clear();
   const auto press = [&](std::size_t plane, double way, ServoTime when) {
     if (when == ServoTime::now) return plane_press(plane, way, scene_.state.position);

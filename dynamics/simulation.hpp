@@ -31,7 +31,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <iosfwd>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -209,8 +208,14 @@ class Simulation {
   /// by themselves.
   /// @param about  m, point of the moment
   ForceAndMoment support_reaction(std::span<const NodeId> nodes, const Vec3& about) const;
-  /// N, of all contacts on the nodes of a rigid body in the last step, by place in
-  /// Scene::rigid_bodies.
+  /// What a section carries that cuts some nodes from all others: what beams and sheets across it do
+  /// to these nodes in the last step. Of the nodes beyond the place where a cable is cut it is the
+  /// pull of the rest.
+  /// @param about  m, point of the moment
+  ForceAndMoment section_force(std::span<const NodeId> nodes, const Vec3& about) const;
+  /// N, of all that acts on the nodes of a rigid body in the last step (contacts, ties, bonds,
+  /// sheets, pressure), but for what loads do to its reference node; by place in
+  /// Scene::rigid_bodies. 0 before the first step, also of a state that was restored.
   const Vec3& gathered_force(std::size_t body) const;
   /// N m, the torque of these about the centre of mass.
   const Vec3& gathered_torque(std::size_t body) const;
@@ -264,9 +269,9 @@ class Simulation {
 
   // The state, to go on from later or elsewhere.
 
-  /// All that decides how the simulation goes on, and what can be read out of its last step, as
-  /// plain numbers in an order that does not depend on threads. It changes nothing; linear in the
-  /// scene and its contacts.
+  /// All that decides how the simulation goes on, and what can be read out of its last step but for
+  /// gathered_force() and gathered_torque(), as plain numbers in an order that does not depend on
+  /// threads. It changes nothing; linear in the scene and its contacts.
   geometry::StateTree snapshot();
   /// Goes on from a state: from here on every bit is as it was there, with any number of threads.
   /// To be called before the first step of a simulation of the same scene, materials and laws; its
@@ -305,6 +310,7 @@ class Simulation {
   void follow_surface();
   geometry::Surface change_surface(geometry::Surface next);
   void apply_loads();
+  void find_plane_reactions();
   void drive_planes();
   void find_places_ahead();
   Vec3 acceleration(std::size_t node, const Vec3& gravity) const;
@@ -323,6 +329,7 @@ class Simulation {
   void require_time_step() const;
   Resistance resistance() const noexcept;
   Pace pace() const noexcept;
+  double speed_of_free_planes() const noexcept;
   void move_planes();
   double rounding_energy() const;
   void exchange(const geometry::StateArchive& archive);
@@ -363,7 +370,7 @@ class Simulation {
   DrivenPlanes driven_planes_;
   DrivenBodies driven_bodies_;
   BodyPress body_press_;                        ///< working space, to drive bodies
-  std::vector<PlaneReaction> plane_reactions_;  ///< to drive planes
+  std::vector<PlaneReaction> plane_reactions_;  ///< of planes that are driven or widen; else none
   std::vector<Vec3> places_ahead_;              ///< m, of nodes; to drive planes
   double power_on_turning_ = 0.0;  ///< W, what bodies do to planes that turn, at the last forces
   BrokenParts broken_;             ///< asked for, in the next step

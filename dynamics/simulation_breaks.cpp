@@ -98,9 +98,8 @@ void Simulation::follow_surface() {
 geometry::Surface Simulation::change_surface(geometry::Surface next) {
   nodes_.know_all();
   std::swap(next, surface_);
-  std::vector<Vec3> at = scene_.state.position;
-  for (std::size_t i = 0; i < at.size(); ++i) at[i] -= 0.5 * last_drift_ * scene_.state.velocity[i];
-  contacts_->follow(geometry::SurfaceChange(next, surface_), motion(), at, pool_);
+  contacts_->follow(geometry::SurfaceChange(next, surface_), motion(),
+                    positions_before(scene_.state, 0.5 * last_drift_), pool_);
   return next;
 }
 

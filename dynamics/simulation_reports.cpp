@@ -70,6 +70,36 @@ ForceAndMoment Simulation::support_reaction(std::span<const NodeId> nodes,
       supported, {positions, forces_, scene_.properties, motion_.gravity}, about);
 }
 
+ForceAndMoment Simulation::section_force(std::span<const NodeId> nodes, const Vec3& about) const {
+  nodes_.know_all();
+  std::vector<char> is_inside(scene_.state.size(), 0);
+  for (const NodeId node : nodes) {
+    require_node("section_force", node, is_inside.size());
+    is_inside[index_of(node)] = 1;
+  }
+  const NodeState before = state_before(scene_.state, last_drift_);
+  ForceAndMoment sum;
+  for (std::size_t i = 0; i < bonds_.size(); ++i) {
+    const auto [a, b] = bonds_.nodes(i);
+    const bool has_b = is_inside[index_of(b)] != 0;
+    if ((is_inside[index_of(a)] != 0) == has_b || bonds_.is_broken(i)) continue;
+    const auto [force, torque] = bonds_.action_on(i, has_b, before);
+    sum.add(before.position[index_of(has_b ? b : a)] - about, force, torque);
+  }
+  for (std::size_t i = 0; i < sheet_facets_.size(); ++i) {
+    const auto corners = sheet_facets_.nodes(i);
+    const auto inside = std::count_if(corners.begin(), corners.end(), [&](NodeId corner) {
+      return is_inside[index_of(corner)] != 0;
+    });
+    for (std::size_t k = 0; k < 3 && inside < 3; ++k) {
+      if (is_inside[index_of(corners[k])] == 0) continue;
+      sum.add(before.position[index_of(corners[k])] - about, sheet_facets_.corner_force(i, k),
+              sheet_facets_.corner_torque(i, k));
+    }
+  }
+  return sum;
+}
+
 double Simulation::unbalanced_force_ratio() const {
   const std::vector<Vec3> positions = force_positions();
   MeanMagnitude carried;

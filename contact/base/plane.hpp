@@ -4,6 +4,8 @@
 #include "contact/base/material.hpp"
 #include "geometry/primitives/elements.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace plekton::contact {
@@ -62,6 +64,9 @@ struct Plane {
     if (widening != 0.0) sum -= widening * normal_at(x);
     return sum;
   }
+
+  /// m/s, the fastest that the wall comes nearer to anything.
+  double speed() const noexcept { return std::max(velocity.norm(), std::abs(widening)); }
 
   /// N/m, how a force (N) along the normal resists a motion across it: the wall comes nearer on
   /// both sides of the lowest place of a bowl.

@@ -3,12 +3,10 @@
 
 #include <mpi.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <limits>
-#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <string_view>

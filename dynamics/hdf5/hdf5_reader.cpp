@@ -7,7 +7,6 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace plekton::dynamics {

@@ -6,7 +6,6 @@
 #include "geometry/base/parallel_sum.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <span>
 
 namespace plekton::dynamics {

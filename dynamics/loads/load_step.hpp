@@ -14,12 +14,6 @@ struct LoadStep {
 struct LoadWork {
   double external = 0.0;  ///< done on the bodies
   double damped = 0.0;    ///< taken by viscous damping
-
-  LoadWork& operator+=(const LoadWork& other) noexcept {
-    external += other.external;
-    damped += other.damped;
-    return *this;
-  }
 };
 
 }  // namespace plekton::dynamics

@@ -5,7 +5,6 @@
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

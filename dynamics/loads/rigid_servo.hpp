@@ -104,7 +104,8 @@ class DrivenBodies {
   void exchange(const geometry::StateArchive& archive);
 
   /// Sets the velocities of the bodies along or about their axes, for the drift that begins now.
-  /// @param felt     (servo) -> force (N), or torque (N m) of one that turns, of contacts alone
+  /// @param felt     (servo) -> force (N), or torque (N m) of one that turns, on the nodes of
+  ///                 the body
   /// @param look_at  (way) -> how its body would be pressed on the way
   /// @returns the work (J) over half of the drift before, as far as the velocity there was another
   template <class Felt, class LookAt>

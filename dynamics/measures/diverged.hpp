@@ -53,8 +53,8 @@ class Diverged : public std::runtime_error {
 };
 
 /// The node that moved too far in the last step by the largest factor, or else the one that spins
-/// fastest of those that spin too fast. Nodes of no element may do as they like.
-/// @param furthest  m, by node: what it may move in a step of dt (s); infinite without an element
+/// fastest of those that spin too fast.
+/// @param furthest  m, by node: what it may move in a step of dt (s), furthest_in_a_step()
 std::optional<Divergence> find_runaway(const NodeState& state, std::span<const double> furthest,
                                        double dt);
 

@@ -49,7 +49,7 @@ std::string FaultFinder::fault(const Divergence& divergence, const Drifts& drift
     return text.str();
   }
   const double drift = drifts.drift;
-  NodeState before = state_before(drift);
+  NodeState before = state_before(*state_, drift);
   const std::string who = strongest_action(divergence, before);
   if (!who.empty())
     text << who;
@@ -64,7 +64,8 @@ std::string FaultFinder::fault(const Divergence& divergence, const Drifts& drift
     text << drift / usual << " of the critical one: use a smaller time step (or \"auto\")";
     return text.str();
   }
-  if (std::isfinite(usual) && drift <= kLargestStep * usual) text << drift / usual << " of the critical one and ";
+  if (std::isfinite(usual) && drift <= kLargestStep * usual)
+    text << drift / usual << " of the critical one and ";
   text << "not the cause: ";
   if (drift > kLargestStep * critical)
     text << "with the contacts of now that is " << critical
@@ -75,11 +76,14 @@ std::string FaultFinder::fault(const Divergence& divergence, const Drifts& drift
 }
 
 /// Where a node moves or spins too fast, and would have without the forces of the last step: the
-/// longest step (s) in which that could be followed; else 0.
+/// longest step (s) in which that could be followed; else 0, and of what follows a rigid body that
+/// is free to move.
 double FaultFinder::limit_exceeded_before(const Divergence& divergence,
                                           const Drifts& drifts) const noexcept {
   if (divergence.sign == Divergence::Sign::energy) return 0.0;
   const std::size_t i = index_of(divergence.node);
+  const std::size_t mover = index_of(of_.rigid.mover_of(divergence.node));
+  if (mover != i && of_.scene.properties.held[mover] != Held::everything) return 0.0;
   const NodeProperties& properties = of_.scene.properties;
   const bool spins = divergence.sign == Divergence::Sign::spin;
   const Vec3& now = spins ? state_->angular_velocity[i] : state_->velocity[i];
@@ -92,15 +96,6 @@ double FaultFinder::limit_exceeded_before(const Divergence& divergence,
   }
   const double most = spins ? std::numbers::pi : furthest_[i];
   return before.norm() * drifts.drift > most ? most / now.norm() : 0.0;
-}
-
-NodeState FaultFinder::state_before(double drift) const {
-  NodeState before = *state_;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    before.position[i] -= drift * before.velocity[i];
-    before.orientation[i] = turned(before.orientation[i], before.angular_velocity[i], -drift);
-  }
-  return before;
 }
 
 /// s, of the structures and contacts at a state; with the velocities of now.
@@ -120,9 +115,9 @@ std::string FaultFinder::strongest_action(const Divergence& divergence, const No
   consider_contacts(node, state.position, action);
   for (std::size_t i = 0; i < of_.bonds.size(); ++i) {
     const auto nodes = of_.bonds.nodes(i);
-    if (of_.bonds.is_broken(i) || (nodes[0] != node && nodes[1] != node)) continue;
+    if (of_.bonds.is_broken(i) || !(moves(nodes[0], node) || moves(nodes[1], node))) continue;
     const BondForces forces = of_.bonds.forces_of(i, state);
-    const Vec3& moment = nodes[0] == node ? forces.moment_a : forces.moment_b;
+    const Vec3& moment = moves(nodes[0], node) ? forces.moment_a : forces.moment_b;
     action.consider(elementary::hypot(forces.tension, forces.shear.norm()),
                     elementary::hypot(moment.norm(), forces.torque), [&](std::ostream& text) {
                       text << "bond " << i << " (nodes " << index_of(nodes[0]) << ", "
@@ -133,13 +128,20 @@ std::string FaultFinder::strongest_action(const Divergence& divergence, const No
     if (of_.sheet_facets.is_broken(i)) continue;
     const auto nodes = of_.sheet_facets.nodes(i);
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      if (nodes[corner] != node) continue;
+      if (!moves(nodes[corner], node)) continue;
       action.consider(of_.sheet_facets.corner_force(i, corner).norm(), 0.0,
                       [&](std::ostream& text) {
                         text << "sheet facet " << i << " (nodes " << index_of(nodes[0]) << ", "
                              << index_of(nodes[1]) << ", " << index_of(nodes[2]) << ")";
                       });
     }
+  }
+  for (std::size_t i = 0; i < of_.ties.size(); ++i) {
+    bool is_on_it = false;
+    of_.ties.for_each_node(i, [&](NodeId end) { is_on_it = is_on_it || moves(end, node); });
+    if (is_on_it && !of_.ties.is_broken(i))
+      action.consider(std::abs(of_.ties.pull(i)), 0.0,
+                      [&](std::ostream& text) { text << "tie " << i; });
   }
   return action.text();
 }
@@ -180,10 +182,15 @@ bool FaultFinder::is_of_structure(const contact::ContactBody& body, NodeId node)
 
 bool FaultFinder::has_node(const contact::ContactBody& body, NodeId node) const {
   if (body.kind == contact::BodyKind::sphere)
-    return of_.scene.elements.spheres[static_cast<std::size_t>(body.index)].nodes[0] == node;
+    return moves(of_.scene.elements.spheres[static_cast<std::size_t>(body.index)].nodes[0], node);
   if (body.kind == contact::BodyKind::plane || body.feature.id < 0) return false;
   const geometry::FeatureNodes nodes = geometry::nodes_of(of_.surface, body.feature);
-  return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId one) { return moves(one, node); });
+}
+
+/// Whether what acts on one node acts on another: it is the same, or both are of one rigid body.
+bool FaultFinder::moves(NodeId one, NodeId other) const noexcept {
+  return of_.rigid.mover_of(one) == of_.rigid.mover_of(other);
 }
 
 /// As in "the contact of sphere 3 (node 40) with the edge (nodes 7, 8) of structure 0 at (0 0 1) m,

@@ -45,15 +45,12 @@ class FaultFinder {
   /// @param state  where the forces were found
   std::string strongest_action(const Divergence& divergence, const NodeState& state);
 
-  /// Where the forces of the last step were found.
-  /// @param drift  s, that the last step has moved the nodes by
-  NodeState state_before(double drift) const;
-
  private:
   double limit_exceeded_before(const Divergence& divergence, const Drifts& drifts) const noexcept;
   double critical_step_at(NodeState& state, double last, bool expected);
   void consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action);
   bool has_node(const contact::ContactBody& body, NodeId node) const;
+  bool moves(NodeId one, NodeId other) const noexcept;
   bool is_of_structure(const contact::ContactBody& body, NodeId node) const;
   void describe(const contact::ContactRecord& row, std::ostream& text) const;
 

@@ -26,7 +26,7 @@ class MeanMagnitude {
 /// goes to 0 as everything comes to rest; 1e-2 to 1e-3 is usually called quasi-static.
 ///
 /// Of nodes, those that are free along some axis count, along their free axes; of forces, those of
-/// all contacts and bonds, and those of sheet facets on their corners. As the unbalanced force of
+/// all contacts, bonds and ties, and those of sheet facets on their corners. As the unbalanced force of
 /// YADE (Smilauer et al., Yade Documentation, 2nd ed. (2015), utils.unbalancedForce), after Cundall
 /// & Strack.
 /// @param carried  mean of the forces between bodies and within structures (N)

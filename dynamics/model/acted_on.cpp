@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/model/acted_on.hpp"
 
-#include <array>
-
 namespace plekton::dynamics {
 namespace {
 

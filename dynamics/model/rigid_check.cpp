@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <ostream>
-#include <string>
 #include <vector>
 
 namespace plekton::dynamics {

@@ -2,13 +2,11 @@
 #include "dynamics/model/scene_figures.hpp"
 
 #include "dynamics/state/rigid_nodes.hpp"
-#include "geometry/base/problems.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace plekton::dynamics {
 namespace {

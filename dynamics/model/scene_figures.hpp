@@ -10,8 +10,8 @@
 namespace plekton::dynamics {
 
 /// m, by node: what it may move in one step before nothing could notice it any more. A sphere its
-/// own radius, so that it cannot jump over what it should touch; nodes of structures the largest
-/// radius; nodes without elements what they like.
+/// own radius, so that it cannot jump over what it should touch; other nodes the largest radius;
+/// what they like, where there are no elements at all.
 std::vector<double> furthest_in_a_step(const Scene& scene);
 
 /// Smallest radius (m) of what moves past others: of the spheres where there are some. Infinite if

@@ -9,7 +9,6 @@
 #include <limits>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 /// A scene at one moment as the draft of the ON-DEM network tells it in a VTKHDF file, with what

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <string>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 namespace plekton::dynamics {
@@ -63,7 +62,8 @@ void create_folder(const std::filesystem::path& folder) {
   std::filesystem::create_directory(folder, error);
   if (!error) return;
   const std::filesystem::path parent = folder.parent_path();
-  if (error.value() == ENOENT && !parent.empty()) {
+  std::error_code unknown;
+  if (error.value() == ENOENT && !parent.empty() && !std::filesystem::exists(parent, unknown)) {
     throw OutputError(folder, "cannot create the folder: its parent " + parent.string() +
                                   " does not exist; create that first or correct the path");
   }

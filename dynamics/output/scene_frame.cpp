@@ -4,7 +4,6 @@
 #include "dynamics/output/frame_fields.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <utility>
 

@@ -56,7 +56,8 @@ class RigidBodies {
                 const MotionOptions& options, const StepLengths& lengths,
                 geometry::ThreadPool& pool);
 
-  /// N, of all forces on the nodes of a body in the last gather(), without the loads on it.
+  /// N, of all forces on the nodes of a body in the last gather(), without the loads on its reference
+  /// node.
   const Vec3& gathered_force(std::size_t body) const noexcept { return bodies_[body].gathered; }
   /// N m, about the centre of mass, likewise.
   const Vec3& gathered_torque(std::size_t body) const noexcept {

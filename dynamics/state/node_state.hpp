@@ -97,6 +97,9 @@ struct NodeProperties {
   std::size_t size() const noexcept { return mass.size(); }
 };
 
+/// A state with which the nodes came to this one in a time (s), with the velocities of now.
+NodeState state_before(const NodeState& state, double time);
+
 /// m, where the nodes were so much time (s) ago, with the velocities of now.
 inline std::vector<Vec3> positions_before(const NodeState& state, double time) {
   std::vector<Vec3> positions = state.position;

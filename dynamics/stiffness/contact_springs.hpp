@@ -36,7 +36,6 @@ class ContactSprings {
 
   /// Number of contacts between balls, surfaces and walls.
   std::size_t size() const noexcept { return contacts_; }
-  bool empty() const noexcept { return springs_.empty() && single_.empty(); }
 
   /// Leaves out the springs against turning of the balls for which a function says so: what they
   /// resist is known in another way.

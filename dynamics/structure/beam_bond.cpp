@@ -204,6 +204,14 @@ BondForces BeamBonds::forces_of(std::size_t bond, const NodeState& state) const 
   return bond_forces(spring(bond), ends(bond, state));
 }
 
+std::array<Vec3, 2> BeamBonds::action_on(std::size_t bond, bool at_b,
+                                         const NodeState& state) const noexcept {
+  const auto vector = [](const PackVec3<double>& v) { return Vec3(v.x, v.y, v.z); };
+  const BeamReactionOf<double> all = any_beam_reaction(spring(bond), ends(bond, state));
+  if (at_b) return {vector(all.force), vector(all.torque_b)};
+  return {-vector(all.force), vector(all.torque_a)};
+}
+
 double BeamBonds::lost_by_break(std::size_t bond, const BeamSpringOf<double>& spring,
                                 const NodeState& state, double drift) const noexcept {
   if (is_broken_[bond]) return 0.0;

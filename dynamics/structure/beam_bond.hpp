@@ -125,6 +125,10 @@ class BeamBonds {
   /// What a bond carries where its nodes are as given.
   BondForces forces_of(std::size_t bond, const NodeState& state) const noexcept;
 
+  /// Force (N) and torque (N m) of a bond on one of its nodes where they are as given.
+  /// @param at_b  on the second node, or else the first
+  std::array<Vec3, 2> action_on(std::size_t bond, bool at_b, const NodeState& state) const noexcept;
+
   /// What the force knows of a bond, and where its ends are.
   BeamSpringOf<double> spring(std::size_t bond) const noexcept {
     return row_of(bond).spring.at<BeamSpringOf<double>>(lane_of(bond));

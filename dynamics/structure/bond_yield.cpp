@@ -23,7 +23,7 @@ struct Flow {
 
 /// How far a force has to flow, from what it would be without flow, to come back to its limit.
 double amount(double force, double limit, double stiffness) noexcept {
-  return std::max(0.0, force - limit) / stiffness;
+  return force > limit ? (force - limit) / stiffness : 0.0;
 }
 
 double along(double trial, double limit, double stiffness) noexcept {

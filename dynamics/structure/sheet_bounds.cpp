@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/structure/sheet_facets.hpp"
-
 #include "dynamics/stiffness/small_eigenvalue.hpp"
+#include "dynamics/structure/sheet_facets.hpp"
 #include "dynamics/structure/sheet_kernel.hpp"
 
 #include <algorithm>
@@ -96,13 +95,13 @@ void SheetFacets::add_to(NodalStiffness& stiffness, const NodeState& state,
   const Vec3 area = f.col(0).cross(f.col(1));
   const bool has_area = area.norm() > 0.0;
   const Vec3 n = area.stableNormalized();
-  const auto along_and_across = [&](double along, double beside) -> Mat3 {
+  const auto about_normal = [&](double along, double beside) -> Mat3 {
     if (!has_area) return std::max(along, beside) * Mat3::Identity();
-    return beside * Mat3::Identity() + ((along - beside) * n) * n.transpose();
+    return along_and_across(n, along, beside);
   };
-  const Mat3 translation = along_and_across(across, in_plane);
+  const Mat3 translation = about_normal(across, in_plane);
   const Mat3 rotation =
-      along_and_across(stretch * bounds.turning, bounds.gyration * stretch * bounds.across);
+      about_normal(stretch * bounds.turning, bounds.gyration * stretch * bounds.across);
   for (const NodeId node : nodes_[facet]) stiffness.add_to_node(node, translation, rotation);
 }
 

@@ -3,7 +3,6 @@
 
 #include "geometry/base/problems.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <sstream>

@@ -7,8 +7,6 @@
 #include "geometry/base/problems.hpp"
 #include "geometry/base/state_archive.hpp"
 
-#include <Eigen/LU>
-
 #include <sstream>
 #include <string>
 

@@ -94,6 +94,11 @@ class SheetFacets {
     return reactions_[facet].force[corner];
   }
 
+  /// Likewise the torque (N m).
+  const Vec3& corner_torque(std::size_t facet, std::size_t corner) const noexcept {
+    return reactions_[facet].torque[corner];
+  }
+
   /// Energy (J) stored in all facets at the last advance.
   double elastic_energy() const noexcept;
 

@@ -4,7 +4,6 @@
 #include "dynamics/model/scene.hpp"
 #include "dynamics/stiffness/nodal_stiffness.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace plekton::geometry {
@@ -64,8 +63,6 @@ class Ties {
   double elastic_energy(std::size_t i) const noexcept { return kept_[i].elastic; }
   /// J, taken by friction, by its brake and as it broke, less what was forgotten.
   double dissipated(std::size_t i) const noexcept { return kept_[i].dissipated; }
-  /// Where it is tied to, of the last advance; of a fixed point all weights are 0.
-  const MaterialPoint& point(std::size_t i) const noexcept { return points_[i]; }
 
   double elastic_energy() const noexcept;  ///< J, of all
   double dissipated() const noexcept;      ///< J, of all

@@ -46,6 +46,7 @@ StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
 
 double StepChooser::first(double critical, NodalStiffness space, const Pace& pace) {
   space_ = std::move(space);
+  step_ = std::numeric_limits<double>::infinity();
   // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
   if (!std::isfinite(critical)) return critical;
   const double dt = choose(kSafety * critical, pace);
@@ -85,11 +86,11 @@ double StepChooser::choose(double dt, const Pace& pace) {
   const double margin = 2.0 * look_.longest_way;
   const double crossed = of_.contacts.crossings() > 0 ? kReleaseStep / kSafety : 1.0;
   const double near = crossed * stable_near(margin, dt);
-  const double stable = std::min(
-      {near, springs_.collision_step(of_.scene.state, of_.scene.properties),
-       springs_.crossing_step(of_.scene.state, of_.scene.properties),
-       walls_.step(springs_, of_.scene.state, of_.scene.properties), step_of_wires(margin),
-       step_of_bars()});
+  const double stable =
+      std::min({near, springs_.collision_step(of_.scene.state, of_.scene.properties),
+                springs_.crossing_step(of_.scene.state, of_.scene.properties),
+                walls_.step(springs_, of_.scene.state, of_.scene.properties), step_of_wires(margin),
+                step_of_bars()});
   const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
   step_ = std::min(
       {stable, collision_step_, motion, step_of_spin(), (may_grow ? kGrowth : 1.0) * step_});

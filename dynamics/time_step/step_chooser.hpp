@@ -55,10 +55,10 @@ struct Pace {
 
 class StepChooser {
  public:
-  /// @param of, limits  must outlive this
+  /// @param of, limits  what the one refers to and the other itself must outlive this
   StepChooser(const Resistance& of, const StepLimits& limits);
 
-  /// The first step (s).
+  /// The first step (s), whatever was chosen before.
   /// @param critical  s, StepLimits::critical()
   /// @param space     for all nodes
   double first(double critical, NodalStiffness space, const Pace& pace);

@@ -39,7 +39,7 @@ struct Resistance {
 /// were found (m).
 class StepLimits {
  public:
-  /// @param of  must outlive this
+  /// @param of  what it refers to must outlive this
   explicit StepLimits(const Resistance& of);
 
   /// Of the structures and contacts as they are now, or with the contacts that may come

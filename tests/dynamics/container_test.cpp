@@ -286,6 +286,19 @@ TEST_P(ServoOn, DoesTheWorkThatItsContentsTakeUp) {
   EXPECT_LT(error, 1e-9 * simulation.energy().external_work);
 }
 
+/// Also where it closes by itself, as it was made.
+TEST_P(ServoOn, IsNotNeededForTheWorkToBeCounted) {
+  Scene closing = scene();
+  closing.loads.servos.clear();
+  closing.planes[0].widening = -0.01;
+  Simulation simulation(closing, {.time_step = 5e-6, .motion = {.gravity = Vec3::Zero()}});
+
+  for (int i = 0; i < 6000; ++i) simulation.step();
+
+  EXPECT_GT(simulation.energy().external_work, 0.0);
+  EXPECT_LT(simulation.energy().closure(), 1e-4);
+}
+
 TEST_P(ServoOn, GoesOnFromAStateAsIfItHadNotBeenStopped) {
   const SimulationOptions options{.time_step = 2e-5, .motion = {.gravity = Vec3::Zero()}};
   Simulation whole(scene(), options);

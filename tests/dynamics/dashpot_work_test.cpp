@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/law/dashpot.hpp"
-
 #include "contact/law/restitution.hpp"
 #include "dynamics/simulation.hpp"
 #include "tests/support/named_laws.hpp"

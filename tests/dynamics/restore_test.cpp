@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 namespace plekton::dynamics::restore_test {
@@ -61,6 +62,19 @@ TEST_P(Restore, GoesOnToTheLastBitWithContactsOfEveryKindAndOtherThreads) {
   }
 
   EXPECT_EQ(differences(resumed.snapshot(), whole.snapshot()), std::vector<std::string>{});
+}
+
+TEST(RestoreOfNothingStiff, TakesAStateWithoutAStepWhereNoneIsSet) {
+  Scene scene;
+  scene.add_node(Vec3::Zero());
+  scene.properties.mass = scene.properties.inertia = {1.0};
+  const SimulationOptions options{.motion = {.gravity = Vec3::Zero()}};
+  Simulation one(scene, options), other(scene, options);
+  ASSERT_TRUE(std::isinf(one.time_step()));
+
+  EXPECT_NO_THROW(other.restore(one.snapshot()));
+
+  EXPECT_TRUE(std::isinf(other.time_step()));
 }
 
 /// Before a step is taken.

@@ -153,6 +153,26 @@ TEST(Diverged, SaysThatASpinWasGiven) {
   EXPECT_THAT(error->what(), AllOf(HasSubstr("400000 rad/s"), HasSubstr("given or is prescribed")));
 }
 
+TEST(Diverged, NamesTheContactThatThrowsARigidBody) {
+  // Two balls in one body, one of them half in the floor.
+  Scene scene;
+  scene.materials = {{1e6, 0.3, 0.4}};
+  scene.add_sphere(Vec3(0.0, 0.0, 0.025), 0.05, 1000.0, kMaterial);
+  scene.add_sphere(Vec3(0.0, 0.0, 0.1), 0.05, 1000.0, kMaterial);
+  scene.add_rigid_body(std::vector{NodeId{0}, NodeId{1}},
+                       {1.0, Vec3(0.0, 0.0, 0.0625), 1e-3 * geometry::Mat3::Identity()});
+  scene.planes.push_back({Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), kMaterial});
+  Simulation simulation(scene, without_gravity(0.0));
+  simulation.set_time_step(20.0 * simulation.exact_critical_step().dt);
+
+  const auto error = divergence_of(simulation, 1);
+
+  ASSERT_TRUE(error.has_value());
+  EXPECT_THAT(error->what(),
+              AllOf(HasSubstr("the contact of sphere 0"), HasSubstr("plane 0"),
+                    HasSubstr("use a smaller time step"), Not(HasSubstr("prescribed"))));
+}
+
 TEST(Diverged, IsNothingASphereDoesThatFallsFromRestAndBounces) {
   Scene scene;
   scene.materials = {{1e6, 0.3, 0.4}};

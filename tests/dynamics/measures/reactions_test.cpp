@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/measures/unbalanced_force.hpp"
+#include "geometry/mesh/generate/generators.hpp"
 #include "tests/support/loaded_scene.hpp"
+#include "tests/support/seeded_random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,6 +39,44 @@ TEST(PlaneReaction, IsTheWeightOfWhatRestsOnThePlaneWithItsMoment) {
 
   EXPECT_NEAR(reaction.force[2], -weight, 1e-9 * weight);
   EXPECT_NEAR(reaction.moment[1], weight, 1e-9 * weight);  // arm 1 m along x
+}
+
+/// A sheet with beams along its sides, all of it in any motion: what acts on a part of its nodes
+/// comes from across the section, as what is within cancels (Newton's third law).
+TEST(SectionForce, IsAllThatActsOnWhatItCutsOff) {
+  Scene scene;
+  scene.materials = {contact::Material{1e6, 0.5, 0.3}};
+  const geometry::Mesh mesh = geometry::plane_sheet({0.4, 0.3, 4, 3});
+  add_membrane(scene, mesh);
+  for (const auto& nodes : mesh.facets)
+    scene.add_sheet_facet(nodes, {2e5, 0.3, 0.1, 0.002}, 1000.0);
+  Random random(7);
+  for (std::size_t i = 0; i < scene.state.size(); ++i) {
+    scene.state.velocity[i] = random.in_cube(2.0);
+    scene.state.angular_velocity[i] = random.in_cube(20.0);
+  }
+  LoadedSimulation simulation = simulation_of(std::move(scene), 1e-6);
+  for (int i = 0; i < 200; ++i) simulation.step();
+  const std::vector<Vec3> x = simulation.force_positions();
+  const Vec3 about(0.1, -0.2, 0.3);
+  std::vector<NodeId> cut_off;
+  ForceAndMoment expected;
+  double size = 0.0;  // N
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    size += simulation.forces().force[i].norm();
+    if (mesh.points[i].x() > 0.05) continue;
+    cut_off.push_back(geometry::id_at<NodeId>(i));
+    expected.add(x[i] - about, simulation.forces().force[i], simulation.forces().torque[i]);
+  }
+  ASSERT_GT(cut_off.size(), 4U);
+  ASSERT_LT(cut_off.size(), x.size() - 4);
+
+  const ForceAndMoment section = simulation.section_force(cut_off, about);
+
+  // Orientations of before are those of now turned back: to rounding, which stiff beams feel.
+  EXPECT_GT(expected.force.norm(), 1e-3 * size);
+  EXPECT_LT((section.force - expected.force).norm(), 1e-9 * size);
+  EXPECT_LT((section.moment - expected.moment).norm(), 1e-9 * size);
 }
 
 TEST(SupportReaction, IsWhatAHeldLumpHangsOnAndItsWeight) {

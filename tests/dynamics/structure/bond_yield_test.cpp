@@ -41,8 +41,8 @@ BondStrength steel() {
 /// A bond along x from the origin whose ends are moved by hand.
 class Specimen {
  public:
-  explicit Specimen(const BondStrength& strength)
-      : scene_(chain(1, kLength, kSection)),
+  explicit Specimen(const BondStrength& strength, const BeamSection& section = kSection)
+      : scene_(chain(1, kLength, section)),
         bonds_(scene_.bonds, 2),
         yielding_({BondLaw{strength, {0}}}, scene_.bonds),
         state_(scene_.state) {}
@@ -156,6 +156,19 @@ TEST(BondYield, BendsABeamByTheBilinearLaw) {
   // Released, it keeps the curvature by which the law has flown.
   const BondForces released = beam.bent(law.plastic() * kLength);
   EXPECT_LT(released.moment_a.norm(), 1e-3 * kYield * kModulusOfSection);
+}
+
+TEST(BondYield, BendsABeamThatDoesNotResistTwisting) {
+  BeamSection section = kSection;
+  section.torsion_constant = 0.0;
+  Specimen whole(steel()), beam(steel(), section);
+  const double first = kYield * kModulusOfSection * kLength / (kModulus * kSection.second_moment);
+
+  const Vec3 moment = beam.bent(3.0 * first).moment_b;
+
+  EXPECT_LT((moment - whole.bent(3.0 * first).moment_b).norm(), 1e-12 * moment.norm());
+  EXPECT_GT(moment.norm(), kYield * kModulusOfSection);
+  EXPECT_LT(std::abs(beam.twisted(0.1).torque), 1e-12 * moment.norm());
 }
 
 TEST(BondYield, TwistsAShaftByTheBilinearLaw) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "contact/base/material.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace plekton::dynamics {
+
+/// Leaves out the elements for which is_gone(element, material), with their materials.
+/// @returns whether there were any
+template <class Element, class IsGone>
+bool erase_elements(std::vector<Element>& elements, std::vector<contact::MaterialId>& materials,
+                    const IsGone& is_gone) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (is_gone(elements[i], materials[i])) continue;
+    elements[kept] = elements[i];
+    materials[kept++] = materials[i];
+  }
+  const bool are_fewer = kept < elements.size();
+  elements.resize(kept);
+  materials.resize(kept);
+  return are_fewer;
+}
+
+}  // namespace plekton::dynamics
