@@ -814,6 +814,21 @@ CLI::App* add_generate(CLI::App& app, CommandLine& line) {
   return generate;
 }
 
+/// @throws InputError
+void require_no_empty_option(const CLI::App& app) {
+  for (const CLI::App* const command : app.get_subcommands()) {
+    for (const CLI::Option* const option : command->get_options()) {
+      const std::vector<std::string>& given = option->results();
+      if (option->nonpositional() && std::find(given.begin(), given.end(), "") != given.end())
+        throw InputError(
+            fmt::format("{}: got an empty text, as of a variable of the shell that is not set; "
+                        "leave the option "
+                        "out, or give it its value",
+                        option->get_name()));
+    }
+  }
+}
+
 int dispatch(int argc, const char* const* argv) {
   CommandLine line;
   CLI::App app("Plekton: discrete elements with deformable structures", "plekton");
@@ -845,6 +860,7 @@ int dispatch(int argc, const char* const* argv) {
     print_error(usage_error(app, error, argc < 2 ? "" : argv[1]));
     return kUsage;
   }
+  require_no_empty_option(app);
   if (run->parsed()) return run_on_ranks(line);
   if (check->parsed()) return check_command(line);
   if (import->parsed()) return import_command(line);

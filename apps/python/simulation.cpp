@@ -137,6 +137,7 @@ auto nodes_of_elements(const std::vector<Element>& elements) {
 std::string unknown(std::string_view what, const std::string& name,
                     const std::vector<std::string>& known) {
   const std::vector<std::string_view> words(known.begin(), known.end());
+  if (words.empty()) return fmt::format("there is no {} \"{}\"; the scenario has none", what, name);
   const std::string closest = apps::did_you_mean(name, words);
   return fmt::format("there is no {} \"{}\"{}", what, name,
                      closest.empty() ? "; known here: " + apps::listed(words) : closest);

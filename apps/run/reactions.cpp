@@ -14,7 +14,7 @@ using dynamics::ForceAndMoment;
 using geometry::index_of;
 
 constexpr std::array<dynamics::OutputField, 3> kReactionFields = {{
-    {"force", "N", "what the plane, the supports, the body or the nodes bear"},
+    {"force", "N", "what the plane, the supports, the body, the nodes or the section bear"},
     {"moment", "N m", "about the point of the plane, the origin, or the point `about`"},
     {"position", "m", "of the point of the plane, or the mean of the nodes, at that time"},
 }};
@@ -99,6 +99,8 @@ ReactionValue reaction_in(const dynamics::Simulation& simulation, const BuiltRea
   if (reaction.kind == ReactionKind::plane) result.value = on_plane(reaction, simulation);
   if (reaction.kind == ReactionKind::support)
     result.value = simulation.support_reaction(reaction.nodes, about(reaction));
+  if (reaction.kind == ReactionKind::section)
+    result.value = simulation.section_force(reaction.nodes, about(reaction));
   if (reaction.kind == ReactionKind::nodes) result.value = on_nodes(reaction, simulation);
   if (reaction.kind == ReactionKind::contacts)
     result.value = of_contacts(reaction, contacts, simulation);

@@ -659,13 +659,15 @@ void require_sound_time_step(const SimulationSettings& settings, double critical
   const double asked = *settings.time_step;
   Problems problems;
   if (!(asked < dynamics::kLargestStep * critical)) {
-    problems.add(
-        settings.time_step_place,
-        fmt::format("simulation.time_step: {:.6g} s is not below {} of the critical time "
-                    "step of this scene, which is {:.6g} s; "
-                    "choose less than {:.6g} s, or \"auto\", which begins with {:.4g} s",
-                    asked, dynamics::kLargestStep, critical, dynamics::kLargestStep * critical,
-                    std::min(chosen, settings.duration)));
+    problems.add(settings.time_step_place,
+                 fmt::format("simulation.time_step: {:.6g} s is not below {} of the critical time "
+                             "step of this scene, which is {:.6g} s; "
+                             "choose less than {:.6g} s, or \"auto\", which begins with {:.4g} s{}",
+                             asked, dynamics::kLargestStep, critical,
+                             dynamics::kLargestStep * critical, std::min(chosen, settings.duration),
+                             chosen > dynamics::kLargestStep * critical
+                                 ? " and gets shorter as more bodies touch"
+                                 : ""));
   }
   if (asked > settings.duration) {
     problems.add(settings.time_step_place,

@@ -95,9 +95,12 @@ std::string advice_on_lost_grains(const RunReport& report) {
   return fmt::format(
       "{} lost: {} passed through a membrane (smaller time steps or stiffer contacts hold them), "
       "{} left the box around everything, grown on every side by its longest side, with no plane "
-      "below (a plane or a membrane can stop them)",
+      "below (a plane or a membrane can stop them){}",
       report.lost_grains == 1 ? "1 grain is" : fmt::format("{} grains are", report.lost_grains),
-      report.lost_through_membranes, report.lost_out_of_bounds);
+      report.lost_through_membranes, report.lost_out_of_bounds,
+      report.lost_through_membranes + report.lost_out_of_bounds > report.lost_grains
+          ? "; some did both"
+          : "");
 }
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scenario/overrides.hpp"
 
+#include "apps/scenario/closest_word.hpp"
+#include "apps/scenario/section.hpp"
 #include "apps/scenario/toml_file.hpp"
 
 #include <fmt/format.h>
@@ -40,6 +42,21 @@ Value* item_of(Array& array, const std::string& key) {
   return is_number && number < array.size() ? &array[number] : nullptr;
 }
 
+/// What the entries of a list are called; empty if nobody has a name.
+std::string names_in(const Array& array, const std::string& asked) {
+  std::vector<std::string_view> names;
+  for (const Value& item : array) {
+    const auto* table = std::get_if<Table>(&item.data);
+    const Entry* const name = table ? table->find("name") : nullptr;
+    const auto* text = name ? std::get_if<std::string>(&name->value.data) : nullptr;
+    if (text != nullptr) names.push_back(*text);
+  }
+  if (names.empty()) return {};
+  const std::string closest = closest_word(asked, names);
+  return closest.empty() ? "; there are " + listed(names)
+                         : fmt::format("; did you mean \"{}\"?", closest);
+}
+
 /// The value of a key, made as an empty table where it is missing.
 Value& value_of(Table& table, const std::string& key, const Place& place) {
   if (Entry* entry = table.find(key)) return entry->value;
@@ -52,8 +69,9 @@ Value* descend(Value& value, const std::string& key, const Place& place, std::st
   if (auto* table = std::get_if<Table>(&value.data)) return &value_of(*table, key, place);
   if (auto* array = std::get_if<Array>(&value.data)) {
     if (Value* item = item_of(*array, key)) return item;
-    reason = fmt::format("the list has {} entries, none of them named or numbered (from 0) \"{}\"",
-                         array->size(), key);
+    reason =
+        fmt::format("the list has {} entries, none of them named or numbered (from 0) \"{}\"{}",
+                    array->size(), key, names_in(*array, key));
     return nullptr;
   }
   reason = fmt::format("there is no \"{}\" in {}", key, shown(value));

@@ -11,13 +11,29 @@
 namespace plekton::apps {
 namespace {
 
+template <class Body>
+constexpr std::string_view kTables = "rigid_bodies";
+template <>
+constexpr std::string_view kTables<MembraneSettings> = "membranes";
+template <>
+constexpr std::string_view kTables<GrainSettings> = "grains";
+template <>
+constexpr std::string_view kTables<PlaneSettings> = "planes";
+
+/// What membranes or grains are there that make up no rigid body.
+template <class Body>
+bool is_of_its_own(const Body& body) noexcept {
+  if constexpr (requires { body.rigid_body; }) return !body.rigid_body;
+  return true;
+}
+
 /// Position of a name among the bodies of a kind.
-/// @param kind  as in "membrane"; their tables are [[kind]] or [[kinds]]
 template <class Body>
 std::optional<std::size_t> find_name(Section& section, std::string_view key,
                                      const std::string& name, const std::vector<Body>& bodies) {
   if (name.empty()) return std::nullopt;
   std::vector<std::string_view> names;
+  bool are_any = false;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].name == name) {
       if constexpr (requires { bodies[i].is_absent; }) {
@@ -31,13 +47,16 @@ std::optional<std::size_t> find_name(Section& section, std::string_view key,
       }
       return i;
     }
+    if (!is_of_its_own(bodies[i])) continue;
+    are_any = true;
     if (!bodies[i].name.empty()) names.push_back(bodies[i].name);
   }
   const std::string closest = closest_word(name, names);
   section.complain(key, fmt::format("there is none called \"{}\"; {}", name,
                                     !closest.empty() ? fmt::format("did you mean \"{}\"?", closest)
-                                    : names.empty()  ? "none of them has a name; give it one"
-                                                     : "there are " + listed(names)));
+                                    : !names.empty() ? "there are " + listed(names)
+                                    : are_any        ? "none of them has a name; give it one"
+                                              : fmt::format("there are no [[{}]]", kTables<Body>)));
   return std::nullopt;
 }
 
@@ -231,6 +250,13 @@ NodeSetSettings read_node_set(Section& section, const Scenario& scenario) {
                        "their own; leave nodes out");
     return set;
   }
+  return with_nodes(section, set);
+}
+
+NodeSetSettings read_membrane_nodes(Section& section, const Scenario& scenario) {
+  NodeSetSettings set;
+  set.place = section.place();
+  set.body = read_membrane_name(section, scenario).value_or(0);
   return with_nodes(section, set);
 }
 

@@ -44,6 +44,9 @@ std::string_view word_of(SetWhich which);
 /// From the keys `membrane` or `grains`, and `nodes`.
 NodeSetSettings read_node_set(Section& section, const Scenario& scenario);
 
+/// The same of a membrane alone.
+NodeSetSettings read_membrane_nodes(Section& section, const Scenario& scenario);
+
 /// The same of a membrane or a rigid body alone: grains may be gone, or elsewhere, in a later stage.
 NodeSetSettings read_tied_nodes(Section& section, const Scenario& scenario);
 NodeSetSettings read_tied_body(Section& section, const Scenario& scenario);

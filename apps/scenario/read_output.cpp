@@ -11,8 +11,8 @@
 namespace plekton::apps {
 namespace {
 
-constexpr std::array<std::string_view, 4> kReactionKinds = {"plane", "support", "contacts",
-                                                            "nodes"};
+constexpr std::array<std::string_view, 5> kReactionKinds = {"plane", "support", "contacts", "nodes",
+                                                            "section"};
 
 /// All nodes of the body that the key `membrane` or `grains` names.
 NodeSetSettings read_body(Section& section, const Scenario& scenario) {
@@ -46,6 +46,8 @@ ReactionSettings read_reaction(Section section, const Scenario& scenario,
   if (reaction.kind == ReactionKind::support || reaction.kind == ReactionKind::nodes)
     reaction.nodes = read_node_set(section, scenario);
   if (reaction.kind == ReactionKind::contacts) reaction.nodes = read_body(section, scenario);
+  if (reaction.kind == ReactionKind::section)
+    reaction.nodes = read_membrane_nodes(section, scenario);
   reaction.name = name.empty() ? name_of_target(section, reaction) : name;
   const bool taken =
       std::any_of(earlier.begin(), earlier.end(), [&](const ReactionSettings& other) {

@@ -176,8 +176,8 @@ struct PlaneSettings {
 };
 
 /// What forces a reaction adds up: those of bodies on a plane; those on supports of nodes; those of
-/// contacts on a body; all that act on nodes.
-enum class ReactionKind : std::uint8_t { plane, support, contacts, nodes };
+/// contacts on a body; all that act on nodes; those of beams and sheets between nodes and the rest.
+enum class ReactionKind : std::uint8_t { plane, support, contacts, nodes, section };
 
 /// A force and a moment to be written as time goes on.
 struct ReactionSettings {

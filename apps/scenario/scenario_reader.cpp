@@ -107,7 +107,8 @@ Scenario scenario_of(const Table& table, const StageOrigins& stage, const Place&
   Scenario scenario = read_root(Section(table, start, "", problems), stage, problems, start.source);
   if (problems.empty() && scenario.membranes.empty() && scenario.grains.empty()) {
     problems.add(start,
-                 "nothing to simulate; expected at least one table [[grains]] or [[membranes]]");
+                 "nothing to simulate; expected at least one table [[grains]], [[membranes]] or "
+                 "[[rigid_bodies]]");
   }
   return scenario;
 }

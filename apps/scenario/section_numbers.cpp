@@ -197,8 +197,10 @@ std::int64_t Section::integer(std::string_view key, std::int64_t low, std::int64
   if (value == nullptr) return fallback.value_or(0);
   const auto* number = std::get_if<std::int64_t>(&value->data);
   if (number && *number >= low && *number <= high) return *number;
-  complain(key,
-           fmt::format("got {}; expected a whole number from {} to {}", shown(*value), low, high));
+  const auto* real = std::get_if<double>(&value->data);
+  const bool is_whole = real != nullptr && std::floor(*real) == *real;
+  complain(key, fmt::format("got {}{}; expected a whole number from {} to {}", shown(*value),
+                            is_whole ? " with a decimal point or an exponent" : "", low, high));
   return fallback.value_or(0);
 }
 

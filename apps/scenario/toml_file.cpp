@@ -173,8 +173,12 @@ Table parse_toml(std::string_view text, const std::string& source) {
     return converted_table(parsed(without_byte_order_mark(text), source), source, 0);
   } catch (const toml::parse_error& error) {
     Problems problems;
+    // What it says of a text whose quote is not closed before the end of its line.
+    const bool may_be_open =
+        error.description().find("control characters other than TAB") != std::string_view::npos;
     problems.add(place_of(error.source(), source),
-                 fmt::format("not TOML: {}", error.description()));
+                 fmt::format("not TOML: {}{}", error.description(),
+                             may_be_open ? "; is the quote at the end of a text missing?" : ""));
     problems.throw_if_any();
     throw;
   } catch (const ImpossibleToml&) {

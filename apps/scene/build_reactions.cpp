@@ -32,10 +32,31 @@ bool is_any_held(const std::vector<geometry::NodeId>& nodes, const std::vector<H
   });
 }
 
+/// Whether a beam or a sheet goes from some nodes to others.
+bool is_section(const std::vector<geometry::NodeId>& nodes, const dynamics::Scene& scene) {
+  std::vector<char> is_inside(scene.state.size(), 0);
+  for (const geometry::NodeId node : nodes) is_inside[geometry::index_of(node)] = 1;
+  const auto is_cut = [&](const auto& element) {
+    return std::any_of(element.nodes.begin(), element.nodes.end(), [&](geometry::NodeId node) {
+      return is_inside[geometry::index_of(node)] !=
+             is_inside[geometry::index_of(element.nodes.front())];
+    });
+  };
+  return std::any_of(scene.bonds.begin(), scene.bonds.end(), is_cut) ||
+         std::any_of(scene.sheet_facets.begin(), scene.sheet_facets.end(), is_cut);
+}
+
 /// Why there is nothing to add up; empty if there is.
 std::string problem_of(const ReactionSettings& settings, const BuiltReaction& reaction,
                        const std::vector<Held>& held, const BuiltScene& built) {
   if (reaction.nodes.empty()) return nothing_of(settings.nodes, built);
+  if (settings.kind == ReactionKind::section)
+    return is_section(reaction.nodes, built.scene)
+               ? ""
+               : fmt::format(
+                     "no beam or sheet goes from these nodes of \"{}\" to others, so that "
+                     "there is no section; expected a part of its nodes",
+                     name_of(settings.nodes, built));
   if (settings.kind == ReactionKind::nodes || is_any_held(reaction.nodes, held)) return {};
   return fmt::format(
       "none of these nodes of \"{}\" is held or moved, so nothing supports them; "
@@ -139,7 +160,7 @@ void add_reactions(const Scenario& scenario, BuiltScene& built, const StageBodie
       const AtStart of_stage(built, &bodies->starts.back());
       std::string warning = warning_about_freed(*scenario.stage, settings, reaction, held, built);
       if (!warning.empty()) built.warnings.push_back(std::move(warning));
-    } else if (settings.kind == ReactionKind::support || settings.kind == ReactionKind::nodes) {
+    } else if (settings.kind != ReactionKind::plane && settings.kind != ReactionKind::contacts) {
       const std::string problem = problem_of(settings, reaction, held, built);
       if (!problem.empty())
         problems.add(settings.nodes.place, fmt::format("{}.nodes: {}", settings.path, problem));

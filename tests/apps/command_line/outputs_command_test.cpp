@@ -243,6 +243,46 @@ TEST_F(Outputs, OfAllNodesOfAFreeBodyHaveItsWeightAndItsPlace) {
   EXPECT_LT(weight, -9.81 * 0.5 * 4.0 * std::numbers::pi * 4e-4 * 0.9);
 }
 
+// What holds the rim bears its weight and what the rest of the sheet does to it: until a grain
+// touches it they differ by that weight.
+TEST_F(Outputs, OfASectionAreWhatTheRestDoesToItsNodes) {
+  set_output(R"(history_interval = "1 ms"
+[[output.reactions]]
+name = "rim"
+kind = "support"
+membrane = "sheet"
+nodes = "rim"
+[[output.reactions]]
+name = "cut"
+kind = "section"
+membrane = "sheet"
+nodes = "rim"
+)");
+  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out()}).exit_code, kDone);
+
+  const Table table(test::bytes_of(folder_ / "out/reactions.csv"));
+
+  const auto weight = [&](const auto& row) {
+    return table.at(row, "cut.force_z (N)") - table.at(row, "rim.force_z (N)");
+  };
+  EXPECT_GT(weight(table.rows[1]), 0.0);
+  for (std::size_t i = 1; i < 4; ++i) {
+    const auto& row = table.rows[i];
+    EXPECT_NE(table.at(row, "cut.force_z (N)"), 0.0);
+    EXPECT_NEAR(weight(row), weight(table.rows[1]), 1e-9 * weight(row));
+  }
+}
+
+TEST_F(Outputs, OfASectionNeedNodesAndOthers) {
+  EXPECT_THAT(checked(R"([[output.reactions]]
+kind = "section"
+membrane = "sheet"
+nodes = "all"
+)")
+                  .err,
+              HasSubstr("no beam or sheet goes from these nodes of \"sheet\" to others"));
+}
+
 TEST_F(Outputs, RefuseANameThatWouldBreakTheHeaderOfATable) {
   const Outcome outcome =
       checked("[[output.reactions]]\nname = \"a\\nb\"\nkind = \"plane\"\nplane = \"floor\"\n");
