@@ -112,6 +112,10 @@ struct LawTable {
           [](History& history, const FrameRotation& rotation) {
             change(history, [&](LawHistory& typed) { Law::rotate(typed, rotation); });
           },
+      .scale_history =
+          [](History& history, double factor) {
+            change(history, [&](LawHistory& typed) { contact::scale_history<Law>(typed, factor); });
+          },
       .accumulate_history =
           [](History& history, const History& other, double share) {
             change(history,

@@ -150,11 +150,6 @@ class SceneContacts final : public Contacts {
     return cell_neighbours_;
   }
 
-  const SphereContacts& with_spheres() const noexcept { return with_spheres_; }
-  const SurfaceContacts& with_surfaces() const noexcept { return with_surfaces_; }
-  const StructureContacts& between_structures() const noexcept { return between_structures_; }
-  const PlaneContacts& with_planes() const noexcept { return with_planes_; }
-
  private:
   double list_on_surfaces();
   void share_out();

@@ -291,7 +291,8 @@ class Simulation {
   /// bodies that stay goes on, so that no force jumps where nothing changed; time and steps go on
   /// counting. Spheres that stay keep their order. Energy that comes or goes with bodies and
   /// stiffness counts as external work; weight as if it had no energy when it came or went.
-  /// To be called before the first step. A step that is chosen is chosen anew.
+  /// To be called before the first step. A step that is chosen is chosen anew, and
+  /// is not longer than that of the scene as it was made until it has grown.
   /// @throws std::logic_error after the first step
   /// @throws std::invalid_argument for places that are none: nothing is changed then
   /// @throws geometry::StateMismatch if structures or laws are others: the simulation can only be

@@ -232,6 +232,7 @@ int run_stages_aloud(const CommandLine& line, const Scenario& scenario, const fs
   if (resume != nullptr) {
     asked.resume = &resume->state;
     asked.same_folder = resume->same_folder;
+    asked.by_clock = resume->by_clock;
     asked.written_from = resume->from;
   }
   RunSettings settings = settings_of(line, out, guard, began);

@@ -19,19 +19,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The comment that a file begins with, without the licence and from "Run:" on, on one line.
+/// The sentences that a file begins with, without the licence and up to a command, on one line.
 std::string description_in(const fs::path& file) {
   std::ifstream lines(file);
   std::string text;
   for (std::string line; std::getline(lines, line);) {
     const std::size_t begin = line.find_first_not_of("#/ ");
     const bool is_comment = line.starts_with('#') || line.starts_with("//");
-    if (!is_comment || line.starts_with("#include") || line.find("Run: ") != std::string::npos)
+    if (!is_comment || line.starts_with("#include") || line.find("Run: ") != std::string::npos ||
+        line.find("plekton run") != std::string::npos)
       break;
     if (begin == std::string::npos || line.find("SPDX") != std::string::npos) continue;
     text += (text.empty() ? "" : " ") + line.substr(begin);
   }
-  return text;
+  return text.substr(0, text.rfind('.') + 1);
 }
 
 /// The scenario of a folder: that of its name, or the only one. Empty if there is none.

@@ -50,13 +50,15 @@ std::unique_ptr<Begin> begin_of(const Scenario& scenario, const StagesAsked& ask
     const Scenario& stage = scenario.stages.at(of.bodies.stage);
     auto begin = std::make_unique<Begin>(Begin{prepare_stage(stage, *asked.resume, hear), {}});
     if (!of.has_ended) {
-      begin->from.emplace(Resumption{*asked.resume, asked.same_folder, asked.written_from, false});
+      begin->from.emplace(
+          Resumption{*asked.resume, asked.same_folder, asked.written_from, false, asked.by_clock});
       return begin;
     }
     begin->prepared.simulation->restore(*asked.resume);
     begin = begin_of_next(stage_after(scenario, stage), begin->prepared, *asked.resume,
                           asked.same_folder, hear);
     begin->from->from = asked.written_from;  // nothing: what is written goes on
+    begin->from->by_clock = asked.by_clock;
     return begin;
   }
   if (asked.from.empty()) return std::make_unique<Begin>(Begin{prepare_run(scenario, hear), {}});

@@ -18,6 +18,7 @@ struct StagesAsked {
   const geometry::StateTree* resume = nullptr;  ///< a state to go on from
   std::string until;                            ///< name of the last stage; empty: all
   bool same_folder = true;                      ///< where the state to go on from is
+  bool by_clock = false;  ///< that state is of a checkpoint that does not stay
   std::optional<double> written_from = std::nullopt;  ///< s, when output begins in another folder
   std::function<void(const dynamics::Simulation&)> begins = {};  ///< hears of each stage
 };

@@ -286,7 +286,7 @@ SpherePacking::Relaxed SpherePacking::relax(bool to_balance) {
   double step = kFirstStep, mix = kMix;
   int downhill = 0;
   std::fill(v_.begin(), v_.end(), Vec3::Zero());
-  for (int k = 0; k < kMostSteps; ++k, ++steps_) {
+  for (int k = 0; k < kMostSteps; ++k) {
     const Forces sum = add_forces();
     if (!to_balance && sum.deepest < kApart) return Relaxed::apart;
     if (k % kStepsBetweenLooks == kStepsBetweenLooks - 1) {

@@ -58,8 +58,6 @@ class SpherePacking {
   /// Over E: a third of the trace of the stress in the container, compression above 0.
   double pressure() const noexcept { return pressure_; }
   const std::vector<Vec3>& centres() const noexcept { return x_; }
-  /// Steps of relaxation so far.
-  std::int64_t steps() const noexcept { return steps_; }
 
  private:
   /// A sphere near something that does not move.
@@ -101,7 +99,6 @@ class SpherePacking {
   double smallest_ = 0.0;  // m, of the radii
   double largest_ = 0.0;   // m
   double pressure_ = 0.0;
-  std::int64_t steps_ = 0;
   std::vector<Vec3> x_;
   std::vector<Vec3> v_;
   std::vector<Vec3> f_;

@@ -173,6 +173,7 @@ void Session::restore(const fs::path& file) {
   const geometry::StateTree state = dynamics::read_checkpoint(file);
   auto fresh = prepare();
   fresh->simulation->restore(state);
+  require_at_rest();  // another thread may have begun to run while this one prepared
   prepared_ = std::move(fresh);
   checkpoint_.reset();
   folder_.reset();

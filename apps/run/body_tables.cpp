@@ -4,8 +4,6 @@
 #include "apps/scenario/staged_scenario.hpp"
 #include "geometry/critical/product_features.hpp"
 
-#include <fmt/format.h>
-
 namespace plekton::apps {
 
 using contact::BodyKind;
@@ -14,10 +12,8 @@ using geometry::index_of;
 
 std::string path_of(const BodyTable& table, const Scenario& scenario) {
   switch (table.kind) {
-    case BodyTable::Kind::plane: {
-      const std::string& name = scenario.planes[table.number].name;
-      return name.empty() ? fmt::format("planes[{}]", table.number) : "planes." + name;
-    }
+    case BodyTable::Kind::plane:
+      return scenario.planes[table.number].path();
     case BodyTable::Kind::membrane:
       return (scenario.membranes[table.number].rigid_body ? "rigid_bodies." : "membranes.") +
              scenario.membranes[table.number].name;

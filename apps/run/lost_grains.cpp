@@ -205,7 +205,7 @@ std::int64_t LostGrains::steps_to_next_look(std::span<const Vec3> velocities,
 }
 
 std::size_t LostGrains::total() const noexcept {
-  std::size_t count = 0;
+  std::size_t count = removed_;
   for (std::size_t i = 0; i < is_out_.size(); ++i) count += is_out_[i] || is_through_[i] ? 1U : 0U;
   return count;
 }
@@ -218,6 +218,15 @@ void LostGrains::exchange(const geometry::StateArchive& archive) {
   archive.fixed("is_out", is_out_, "grains");
   archive("through", through_);
   archive("out", out_);
+  exchange_removed(archive, removed_);
+}
+
+void exchange_removed(const geometry::StateArchive& archive, std::size_t& removed) {
+  constexpr const char* kName = "removed";
+  if (archive.is_reading() && !archive.has(kName))
+    removed = 0;
+  else if (archive.is_reading() || removed > 0)
+    archive(kName, removed);
 }
 
 }  // namespace plekton::apps

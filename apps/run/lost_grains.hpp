@@ -69,7 +69,7 @@ class LostGrains {
 
   std::size_t through_membranes() const noexcept { return through_; }
   std::size_t out_of_bounds() const noexcept { return out_; }
-  /// Grains that are either.
+  /// Grains that are either, also those that a stage has taken out since.
   std::size_t total() const noexcept;
 
  private:
@@ -84,7 +84,12 @@ class LostGrains {
   std::vector<bool> is_out_;
   std::size_t through_ = 0;
   std::size_t out_ = 0;
+  std::size_t removed_ = 0;  // lost grains that stages have taken out
 };
+
+/// How many lost grains stages have taken out, of what LostGrains::exchange() exchanges. A state
+/// has the number only where there are some.
+void exchange_removed(const geometry::StateArchive& archive, std::size_t& removed);
 
 /// Whether a point passes through a triangle while both move straight and evenly.
 bool passes_through(const geometry::Vec3& point0, const geometry::Vec3& point1,

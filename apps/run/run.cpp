@@ -24,6 +24,7 @@
 #include "apps/run/stage_watch.hpp"
 #include "apps/run/stiffness_warnings.hpp"
 #include "apps/run/tie_histories.hpp"
+#include "apps/run/unit_warnings.hpp"
 #include "apps/run/written_files.hpp"
 #include "apps/scene/build_stage.hpp"
 #include "contact/among_ranks.hpp"
@@ -769,6 +770,8 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   prepared.start = initial_contacts(scenario, prepared.built, *prepared.simulation,
                                     prepared.simulation->contact_rows());
   for (std::string& warning : warnings_about(prepared.start, scenario))
+    prepared.built.warnings.push_back(std::move(warning));
+  for (std::string& warning : warnings_about_units(scenario))
     prepared.built.warnings.push_back(std::move(warning));
   for (std::string& warning : warnings_about_stiffness(scenario, prepared.built))
     prepared.built.warnings.push_back(std::move(warning));

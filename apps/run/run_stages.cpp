@@ -61,11 +61,10 @@ void require_same_planes(const Scenario& then, const Scenario& now) {
   const auto require = [&](bool holds, std::size_t i, const char* what) {
     if (holds) return;
     throw InputError(
-        fmt::format("{}: planes.{} has another {} than in the run that it is to go on from, which "
+        fmt::format("{}: {} has another {} than in the run that it is to go on from, which "
                     "has ended this "
                     "stage with it; leave it as it is there, or say another one in a later stage",
-                    now.stage->path,
-                    now.planes[i].name.empty() ? std::to_string(i) : now.planes[i].name, what));
+                    now.stage->path, now.planes[i].path(), what));
   };
   for (std::size_t i = 0; i < now.planes.size(); ++i) {
     const PlaneSettings &a = then.planes[i], &b = now.planes[i];
@@ -229,6 +228,25 @@ StageBegin begin_next(const Scenario& stage, PreparedRun& before, const geometry
   }
 }
 
+/// Name of the stage at whose end a state is; empty: at none.
+std::string stage_ended_in(const geometry::StateTree& state) {
+  const StageOfState of = stage_of(state);
+  return of.has_ended ? scenario_in(state).stages.at(of.bodies.stage).stage->name : "";
+}
+
+/// @param ended    names of the stages of which there is one
+/// @param damaged  what is wrong with checkpoints that cannot be read
+[[noreturn]] void throw_no_end_of_stage(const fs::path& folder, const std::string& stage,
+                                        const std::vector<std::string>& ended,
+                                        const std::vector<std::string>& damaged) {
+  std::string message = fmt::format(
+      "{}: has no end of a stage \"{}\"; {}", folder.string(), stage,
+      ended.empty() ? "it has none of any: plekton run of a scenario with [[stages]] writes them"
+                    : fmt::format("it has those of \"{}\"", fmt::join(ended, "\", \"")));
+  for (const std::string& problem : damaged) message += '\n' + problem;
+  throw InputError(message);
+}
+
 }  // namespace
 
 RunReport run_stages(const Scenario& scenario, PreparedRun first, const RunSettings& settings,
@@ -267,20 +285,19 @@ RunReport run_stages(const Scenario& scenario, PreparedRun first, const RunSetti
 
 geometry::StateTree end_of_stage(const fs::path& folder, const std::string& stage) {
   std::vector<fs::path> files = checkpoints_of(folder);
-  std::vector<std::string> ended;
+  std::vector<std::string> ended, damaged;
   for (; !files.empty(); files.pop_back()) {
-    geometry::StateTree state = dynamics::read_checkpoint(files.back());
-    const StageOfState of = stage_of(state);
-    if (!of.has_ended) continue;
-    const std::string name = scenario_in(state).stages.at(of.bodies.stage).stage->name;
-    if (name == stage) return state;
-    ended.push_back(name);
+    try {
+      geometry::StateTree state = dynamics::read_checkpoint(files.back());
+      const std::string name = stage_ended_in(state);
+      if (name == stage) return state;
+      if (!name.empty()) ended.push_back(name);
+    } catch (const dynamics::CheckpointError& error) {
+      damaged.emplace_back(error.what());
+    }
   }
   std::reverse(ended.begin(), ended.end());
-  throw InputError(fmt::format(
-      "{}: has no end of a stage \"{}\"; {}", folder.string(), stage,
-      ended.empty() ? "it has none of any: plekton run of a scenario with [[stages]] writes them"
-                    : fmt::format("it has those of \"{}\"", fmt::join(ended, "\", \""))));
+  throw_no_end_of_stage(folder, stage, ended, damaged);
 }
 
 bool is_same_but_for_output(const Scenario& scenario, const geometry::StateTree& state) {

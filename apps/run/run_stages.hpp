@@ -26,8 +26,10 @@ struct StagesToRun {
 RunReport run_stages(const Scenario& scenario, PreparedRun first, const RunSettings& settings,
                      const StagesToRun& stages);
 
-/// The state at the end of a stage of an earlier run in a folder.
-/// @throws InputError if it has none, with the stages of which it has one
+/// The state at the end of a stage of an earlier run in a folder, whatever is wrong with its other
+/// checkpoints.
+/// @throws InputError if it has none, with the stages of which it has one, and what is wrong with
+///         checkpoints that cannot be read
 geometry::StateTree end_of_stage(const std::filesystem::path& folder, const std::string& stage);
 
 /// Whether a scenario says the same as that of a state, but for what is written.

@@ -42,8 +42,9 @@ std::string text_of(const NodeSetSettings& set, const Scenario& scenario) {
 }
 
 std::string text_of(const ReactionSettings& reaction, const Scenario& scenario) {
-  constexpr std::array<std::string_view, 4> kOf = {"", "the supports of ", "the contacts of ",
-                                                   "the nodes of "};
+  static_assert(static_cast<std::size_t>(ReactionKind::section) == 4);
+  constexpr std::array<std::string_view, 5> kOf = {"", "the supports of ", "the contacts of ",
+                                                   "the nodes of ", "the section of "};
   std::string text(kOf[static_cast<std::size_t>(reaction.kind)]);
   text += reaction.kind == ReactionKind::plane
               ? fmt::format("plane \"{}\"", scenario.planes[reaction.plane].name)

@@ -89,15 +89,36 @@ dynamics::SceneChange change_to(const StageOrigins& origins, contact::BodyPlaces
   return {std::move(places), origins.moved_planes};
 }
 
-/// Flags of grains, by those of now. @returns them
-std::vector<bool> carry_flags(const StateArchive& from, const StateArchive& to, const char* name,
-                              const contact::BodyPlaces& places, std::size_t spheres) {
-  std::vector<bool> before, now(spheres, false);
-  from(name, before);
-  for (std::size_t i = 0; i < places.spheres.size(); ++i)
-    if (places.spheres[i] >= 0) now[static_cast<std::size_t>(places.spheres[i])] = before[i];
-  to(name, now);
+/// Which grains are lost, and how.
+struct LostFlags {
+  std::vector<bool> is_through;  ///< by grain: it has passed through a membrane
+  std::vector<bool> is_out;      ///< by grain: it has left the box around everything
+
+  void exchange(const StateArchive& archive) {
+    archive("is_through", is_through);
+    archive("is_out", is_out);
+  }
+};
+
+/// Those of before, of the grains of now.
+LostFlags flags_of_now(const LostFlags& before, const contact::BodyPlaces& places,
+                       std::size_t spheres) {
+  LostFlags now{std::vector<bool>(spheres, false), std::vector<bool>(spheres, false)};
+  for (std::size_t i = 0; i < places.spheres.size(); ++i) {
+    if (places.spheres[i] < 0) continue;
+    const auto place = static_cast<std::size_t>(places.spheres[i]);
+    now.is_through[place] = before.is_through[i];
+    now.is_out[place] = before.is_out[i];
+  }
   return now;
+}
+
+/// How many lost grains of before are not there any more.
+std::size_t count_removed(const LostFlags& before, const contact::BodyPlaces& places) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < places.spheres.size(); ++i)
+    count += places.spheres[i] < 0 && (before.is_through[i] || before.is_out[i]) ? 1U : 0U;
+  return count;
 }
 
 /// Elements without the grains that are lost.
@@ -109,19 +130,26 @@ geometry::Elements without(const std::vector<bool>& is_out, geometry::Elements e
   return elements;
 }
 
-/// Which grains are lost, of those of now. What has come may be outside of where all began, and
-/// roams as far around itself.
+/// Which grains are lost, of those of now, and how many lost ones were taken out, which stay lost.
+/// What has come may be outside of where all began, and roams as far around itself.
 void carry_lost_grains(const StateArchive& from, const StateArchive& to,
                        const contact::BodyPlaces& places, const dynamics::Simulation& now) {
   const std::size_t spheres = now.elements().spheres.size();
-  carry_flags(from, to, "is_through", places, spheres);
-  const std::vector<bool> is_out = carry_flags(from, to, "is_out", places, spheres);
+  LostFlags before;
+  std::size_t removed = 0;
+  before.exchange(from);
+  exchange_removed(from, removed);
+  LostFlags lost = flags_of_now(before, places, spheres);
+  removed += count_removed(before, places);
+  lost.exchange(to);
+  exchange_removed(to, removed);
   std::vector<Vec3> positions = now.state().position;
   to("before", positions);
   Vec3 lower, upper;
   from("lower_bounds", lower);
   from("upper_bounds", upper);
-  const geometry::Box here = roaming_box(without(is_out, now.elements()), positions, now.planes());
+  const geometry::Box here =
+      roaming_box(without(lost.is_out, now.elements()), positions, now.planes());
   lower = lower.cwiseMin(here.lower);
   upper = upper.cwiseMax(here.upper);
   to("lower_bounds", lower);

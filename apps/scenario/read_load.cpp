@@ -276,7 +276,7 @@ LoadSettings read_load(Section section, const Scenario& scenario, std::size_t nu
       "ground_springs", "beam_damping", "sheet_damping", "mass_damping"};
   LoadSettings settings;
   section.tell_default("name", "loads N");
-  settings.name = section.name("name", fmt::format("loads {}", number));
+  settings.name = section.name("name", default_load_name(number));
   settings.path = section.path();
   settings.place = section.place();
   const std::optional<std::size_t> kind = section.known_choice("kind", kKinds);

@@ -21,10 +21,11 @@ Vec3 read_direction(Section& section, std::string_view key, const Vec3& fallback
 
 }  // namespace
 
-PlaneSettings read_plane(Section section, const Known& known) {
+PlaneSettings read_plane(Section section, const Known& known, std::size_t number) {
   constexpr std::array<std::string_view, 3> kKinds = {"flat", "cylinder", "sphere"};
   PlaneSettings plane;
   plane.name = section.name("name", "");
+  plane.number = number;
   plane.form = static_cast<Form>(section.choice("kind", kKinds, 0));
   plane.point = section.vector("point", {kLength});
   if (plane.is_flat()) {

@@ -35,7 +35,8 @@ PairSettings read_contact(Section section, const Known& known, MaterialPairSet& 
 MembraneSettings read_membrane(Section section, const Known& known);
 /// @param number  Position among the tables: grains without a seed of their own differ by it.
 GrainSettings read_grains(Section section, const Known& known, std::size_t number);
-PlaneSettings read_plane(Section section, const Known& known);
+/// @param number  among all planes that have come, in any stage
+PlaneSettings read_plane(Section section, const Known& known, std::size_t number);
 /// @param scenario  with its duration, from which the intervals have their defaults, and its bodies
 OutputSettings read_output(Section section, const Scenario& scenario);
 /// @param scenario  with its bodies, planes, loads and output
@@ -44,7 +45,7 @@ StageEnd read_stop(Section section, const Scenario& scenario);
 StageSettings read_stage(Section section, const Scenario& scenario);
 
 /// @param scenario  with its membranes, grains and planes
-/// @param number    Position among the tables, for those without a name.
+/// @param number    among all loads that have come, in any stage, for those without a name
 LoadSettings read_load(Section section, const Scenario& scenario, std::size_t number);
 
 /// @param scenario  with its membranes and rigid bodies

@@ -163,6 +163,7 @@ struct GrainSettings {
 /// As contact::Plane; without a name it is called by its number.
 struct PlaneSettings {
   std::string name;
+  std::size_t number = 0;        ///< among all planes that have come, in any stage
   Vec3 point = Vec3::Zero();     ///< m
   Vec3 normal{0.0, 0.0, 1.0};    ///< unit, into the space of the bodies; of a flat one
   Vec3 velocity = Vec3::Zero();  ///< m/s
@@ -173,6 +174,10 @@ struct PlaneSettings {
   double angular_velocity = 0.0;  ///< rad/s, about the axis through the point
 
   bool is_flat() const noexcept { return form == contact::Plane::Form::flat; }
+  /// As its columns are called: its name, or as in "planes[0]".
+  std::string label() const { return name.empty() ? default_plane_name(number) : name; }
+  /// As messages call it: as in "planes.floor", or "planes[0]".
+  std::string path() const { return name.empty() ? label() : "planes." + name; }
 };
 
 /// What forces a reaction adds up: those of bodies on a plane; those on supports of nodes; those of

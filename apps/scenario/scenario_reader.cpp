@@ -21,6 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+template <class Settings>
+std::string name_of_columns(const Settings& settings) {
+  return settings.name;
+}
+std::string name_of_columns(const PlaneSettings& plane) {
+  return plane.label();
+}
+
 /// Reads the tables of a kind, and complains about a name that an earlier one of them has.
 /// @param read  (section), the settings of a table
 template <class Settings, class Read>
@@ -28,11 +36,20 @@ void read_tables(Section& root, std::string_view key, std::vector<Settings>& all
   std::unordered_set<std::string> names;
   for (Section& section : root.tables(key)) {
     all.push_back(read(section));
-    const std::string& name = all.back().name;
-    if (!name.empty() && !names.insert(name).second)
-      section.complain("name",
-                       fmt::format("\"{}\" has this name already; names must differ", name));
+    const std::string name = name_of_columns(all.back());
+    if (name.empty() || names.insert(name).second) continue;
+    section.complain(
+        "name", section.has("name")
+                    ? fmt::format("\"{}\" has this name already; names must differ", name)
+                    : fmt::format("missing, and without one it is called \"{}\", as another one is "
+                                  "named; give it a name",
+                                  name));
   }
+}
+
+/// Of a plane or load among all that have come; there are no others without stages.
+std::size_t number_of(const std::vector<std::size_t>& numbers, std::size_t i) {
+  return i < numbers.size() ? numbers[i] : i;
 }
 
 bool is_set(const std::vector<bool>& flags, std::size_t i) {
@@ -67,10 +84,11 @@ void read_bodies(Section& root, const StageOrigins& stage, Scenario& scenario) {
   require_own_names(root, scenario);
   read_tables(root, "ties", scenario.ties,
               [&](Section& section) { return read_tie(section, scenario, scenario.ties.size()); });
-  read_tables(root, "planes", scenario.planes,
-              [&](Section& section) { return read_plane(section, known); });
+  read_tables(root, "planes", scenario.planes, [&](Section& section) {
+    return read_plane(section, known, number_of(stage.plane_numbers, scenario.planes.size()));
+  });
   read_tables(root, "loads", scenario.loads, [&](Section& section) {
-    return read_load(section, scenario, scenario.loads.size());
+    return read_load(section, scenario, number_of(stage.load_numbers, scenario.loads.size()));
   });
 }
 

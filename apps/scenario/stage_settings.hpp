@@ -70,20 +70,33 @@ struct RemovalSettings {
   std::optional<geometry::Box> box;                         ///< m
 };
 
+/// What a plane without a name is called, as in "planes[0]".
+/// @param number  among all planes that have come, in any stage
+inline std::string default_plane_name(std::size_t number) {
+  return "planes[" + std::to_string(number) + "]";
+}
+/// What a load without a name is called, as in "loads 0".
+/// @param number  among all loads that have come, in any stage
+inline std::string default_load_name(std::size_t number) {
+  return "loads " + std::to_string(number);
+}
+
 /// What of a stage is that of the stage before. A load begins in the stage that names it, and goes
 /// on until one names it again; a plane goes on from where it is, unless a stage says its point, and
 /// as wide as it is, unless one says its radius.
 struct StageOrigins {
-  std::vector<std::size_t> loads;         ///< by load: the stage in which it began
-  std::vector<std::size_t> reactions;     ///< by reaction, likewise
-  std::vector<int> planes;                ///< by plane: its number in the stage before; -1: new
-  std::vector<bool> moved_planes;         ///< by plane: whether the stage says where or how it is
-  std::vector<bool> says_point;           ///< by plane: whether the stage says its point
-  std::vector<bool> says_radius;          ///< by plane: likewise
-  std::vector<bool> absent_membranes;     ///< by membrane: it is not there yet, or any more
-  std::vector<bool> absent_rigid_bodies;  ///< likewise
-  std::vector<bool> says_hold;            ///< by rigid body: whether the stage says what is held
-  bool changes_nothing = false;           ///< but when it ends and what is written
+  std::vector<std::size_t> loads;          ///< by load: the stage in which it began
+  std::vector<std::size_t> reactions;      ///< by reaction, likewise
+  std::vector<std::size_t> load_numbers;   ///< by load: its number among all that have come
+  std::vector<int> planes;                 ///< by plane: its number in the stage before; -1: new
+  std::vector<std::size_t> plane_numbers;  ///< by plane: its number among all that have come
+  std::vector<bool> moved_planes;          ///< by plane: whether the stage says where or how it is
+  std::vector<bool> says_point;            ///< by plane: whether the stage says its point
+  std::vector<bool> says_radius;           ///< by plane: likewise
+  std::vector<bool> absent_membranes;      ///< by membrane: it is not there yet, or any more
+  std::vector<bool> absent_rigid_bodies;   ///< likewise
+  std::vector<bool> says_hold;             ///< by rigid body: whether the stage says what is held
+  bool changes_nothing = false;            ///< but when it ends and what is written
 };
 
 /// What a stage says beside its scenario.

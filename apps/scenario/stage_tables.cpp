@@ -102,6 +102,20 @@ struct BodyList {
   }
 };
 
+/// Planes or loads. Those without a name are called by their number among all that have come: so
+/// they are called the same in all stages, whatever is taken out before them.
+struct NumberedList {
+  std::vector<std::size_t> numbers = {};  ///< by table that is there
+  std::size_t come = 0;                   ///< how many have
+  std::set<std::string> gone = {};        ///< names of those that were taken out
+
+  void add() { numbers.push_back(come++); }
+  void remove(std::size_t place, const std::string& name) {
+    numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(place));
+    gone.insert(name);
+  }
+};
+
 /// Goes from stage to stage.
 class Stages {
  public:
@@ -110,6 +124,8 @@ class Stages {
       if (entry.key != "stages") now_.entries.push_back(entry);
     origins_.loads.assign(count("loads"), 0);
     origins_.reactions.assign(reaction_count(), 0);
+    for (std::size_t i = 0; i < count("planes"); ++i) planes_.add();
+    for (std::size_t i = 0; i < count("loads"); ++i) loads_.add();
     for (BodyList* const list : {&membranes_, &rigid_bodies_}) {
       list->from_the_start = count(list->key);
       list->comes.assign(list->from_the_start, 0);
@@ -137,6 +153,8 @@ class Stages {
                       stage.find("remove") != nullptr;
     for (const Entry& entry : stage.entries)
       if (entry.key != "remove" && !change(entry)) own.entries.push_back(entry);
+    origins_.plane_numbers = planes_.numbers;
+    origins_.load_numbers = loads_.numbers;
     origins_.absent_membranes = membranes_.absent_in(number_);
     origins_.absent_rigid_bodies = rigid_bodies_.absent_in(number_);
     origins_.changes_nothing = number_ > 0 && !changes_bodies_ && text_of_all() == before;
@@ -322,6 +340,7 @@ class Stages {
           name != nullptr && is_first ? place_in(all, "name", *name) : all.size();
       if (place == all.size()) {
         all.push_back(value);
+        number_new(entry.key, value, name == nullptr);
       } else {
         all[place].place = value.place;
         if (entry.key == "planes")
@@ -330,6 +349,21 @@ class Stages {
       }
       note_origin(entry.key, place, table);
     }
+  }
+
+  /// Of planes and loads. A column is of one of them alone.
+  void number_new(std::string_view list, const Value& value, bool is_unnamed) {
+    if (list != "planes" && list != "loads") return;
+    const bool is_plane = list == "planes";
+    NumberedList& all = is_plane ? planes_ : loads_;
+    all.add();
+    const std::string name =
+        is_plane ? default_plane_name(all.numbers.back()) : default_load_name(all.numbers.back());
+    if (is_unnamed && all.gone.contains(name))
+      complain(value.place, list,
+               fmt::format("without a name it is called \"{}\", as one was that is taken out; give "
+                           "it a name",
+                           name));
   }
 
   void note_origin(std::string_view list, std::size_t place, const Table* table) {
@@ -517,6 +551,7 @@ class Stages {
     if (place == all.size()) return;
     const auto at = static_cast<std::ptrdiff_t>(place);
     all.erase(all.begin() + at);
+    (list == "loads" ? loads_ : planes_).remove(place, *text_of(removal, key));
     if (list == "loads") origins_.loads.erase(origins_.loads.begin() + at);
     if (list != "planes") return;
     origins_.planes.erase(origins_.planes.begin() + at);
@@ -566,6 +601,8 @@ class Stages {
   Problems& problems_;
   Table now_;
   StageOrigins origins_;
+  NumberedList planes_;
+  NumberedList loads_;
   BodyList membranes_{"membranes", "membrane", {}, 0, {}};
   BodyList rigid_bodies_{"rigid_bodies", "rigid_body", {}, 0, {}};
   std::size_t number_ = 0;

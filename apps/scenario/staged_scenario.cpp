@@ -38,10 +38,6 @@ void check_laws(const Scenario& before, const Scenario& now, Problems& problems)
   }
 }
 
-std::string column_name(const PlaneSettings& plane, std::size_t number) {
-  return plane.name.empty() ? fmt::format("planes[{}]", number) : plane.name;
-}
-
 template <class Thing>
 void add_new(std::vector<Thing>& all, const Thing& thing) {
   if (std::find(all.begin(), all.end(), thing) == all.end()) all.push_back(thing);
@@ -56,8 +52,8 @@ std::vector<std::string> plane_names(const Scenario& scenario) {
 std::vector<std::size_t> plane_numbers(const Scenario& scenario) {
   const std::vector<std::string> all = plane_names(scenario);
   std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < scenario.planes.size(); ++i) {
-    const auto found = std::find(all.begin(), all.end(), column_name(scenario.planes[i], i));
+  for (const PlaneSettings& plane : scenario.planes) {
+    const auto found = std::find(all.begin(), all.end(), plane.label());
     numbers.push_back(static_cast<std::size_t>(found - all.begin()));
   }
   return numbers;
@@ -66,8 +62,7 @@ std::vector<std::size_t> plane_numbers(const Scenario& scenario) {
 NamesOfStages names_in(std::span<const Scenario> stages) {
   NamesOfStages names;
   for (const Scenario& stage : stages) {
-    for (std::size_t i = 0; i < stage.planes.size(); ++i)
-      add_new(names.planes, column_name(stage.planes[i], i));
+    for (const PlaneSettings& plane : stage.planes) add_new(names.planes, plane.label());
     for (const LoadSettings& load : stage.loads) {
       if (const auto* const pressure = std::get_if<PressureSettings>(&load.load))
         add_new(names.pressures, {load.name, pressure->load.gas.has_value() ||

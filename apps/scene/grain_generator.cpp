@@ -86,33 +86,6 @@ std::vector<Vec3> lattice_sites(const Box& box, double spacing) {
   return sites;
 }
 
-/// Random vector in the unit ball.
-Vec3 in_ball(Random& random) {
-  while (true) {
-    Vec3 v = random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0));
-    if (v.squaredNorm() <= 1.0) return v;
-  }
-}
-
-/// Places the grains on lattice sites; fewer than asked for if there are not enough.
-std::vector<PlacedGrain> place_on_lattice(std::span<const double> diameters, const FreeSpace& space,
-                                          const Container& container, Random& random) {
-  const double spacing = diameters.front() * (1.0 + kLatticeMargin);
-  std::vector<Vec3> sites = lattice_sites(container.bounds, spacing);
-  std::erase_if(sites, [&](const Vec3& site) {
-    const double radius = 0.5 * diameters.front();
-    return !space.has_room(site, radius) || !container.holds(site, radius);
-  });
-  random.shuffle(sites);
-  std::vector<PlacedGrain> grains;
-  for (std::size_t i = 0; i < std::min(sites.size(), diameters.size()); ++i) {
-    // Any two neighbours keep apart when each stays within its own ball of the lattice.
-    const double room = 0.5 * (diameters.front() - diameters[i]);
-    grains.push_back({sites[i] + room * in_ball(random), 0.5 * diameters[i]});
-  }
-  return grains;
-}
-
 std::string_view kind_of_space(const GrainSettings& settings) {
   if (!settings.inside.empty()) return "membrane";
   return settings.cylinder ? "cylinder" : "box";
@@ -134,6 +107,50 @@ struct Task {
   std::size_t count;
   double volume;  ///< m³, of all of them
 };
+
+/// Random vector in the unit ball.
+Vec3 in_ball(Random& random) {
+  while (true) {
+    Vec3 v = random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0));
+    if (v.squaredNorm() <= 1.0) return v;
+  }
+}
+
+/// Before they are listed, so that few small grains in a large space do not take all memory.
+void refuse_too_many_sites(const GrainSettings& settings, const Box& box, double spacing) {
+  constexpr double kMostSites = 1e8;  // 2.4 GB
+  const Vec3 size = (box.upper - box.lower).cwiseMax(0.0);
+  // Of a face-centred cubic lattice there are sqrt(2) in the cube of the spacing, less at the sides.
+  const double sites = std::numbers::sqrt2 * (size / spacing).prod();
+  if (!(sites > kMostSites)) return;
+  throw InputError(fmt::format(
+      "{}: placement = \"lattice\" would list about {:.3g} sites, in a box of "
+      "{:.4g} m x {:.4g} m x {:.4g} m for a largest radius of {:.4g} m; expected at most {:.0e}; "
+      "make the {} smaller, or take placement = \"random\"",
+      settings.name, sites, size[0], size[1], size[2], 0.5 * spacing, kMostSites,
+      kind_of_space(settings)));
+}
+
+/// Places the grains on lattice sites; fewer than asked for if there are not enough.
+std::vector<PlacedGrain> place_on_lattice(std::span<const double> diameters, const FreeSpace& space,
+                                          const Task& task, Random& random) {
+  const Container& container = task.container;
+  const double spacing = diameters.front() * (1.0 + kLatticeMargin);
+  refuse_too_many_sites(task.settings, container.bounds, spacing);
+  std::vector<Vec3> sites = lattice_sites(container.bounds, spacing);
+  std::erase_if(sites, [&](const Vec3& site) {
+    const double radius = 0.5 * diameters.front();
+    return !space.has_room(site, radius) || !container.holds(site, radius);
+  });
+  random.shuffle(sites);
+  std::vector<PlacedGrain> grains;
+  for (std::size_t i = 0; i < std::min(sites.size(), diameters.size()); ++i) {
+    // Any two neighbours keep apart when each stays within its own ball of the lattice.
+    const double room = 0.5 * (diameters.front() - diameters[i]);
+    grains.push_back({sites[i] + room * in_ball(random), 0.5 * diameters[i]});
+  }
+  return grains;
+}
 
 /// @param attained  how far it went, as in "no arrangement of balls can"
 [[noreturn]] void fail(const Task& task, const std::string& attained) {
@@ -281,7 +298,7 @@ std::vector<PlacedGrain> generate_grains(const GrainSettings& settings,
   std::vector<PlacedGrain> grains =
       settings.placement == GrainPlacement::random
           ? place_at_random(diameters, std::move(space), container, random, tell)
-          : place_on_lattice(diameters, space, container, random);
+          : place_on_lattice(diameters, space, task, random);
   if (grains.size() < diameters.size()) fail(task, attained_by(task, grains));
   return grains;
 }

@@ -65,8 +65,7 @@ struct Taking {
 
 Taking of_plane(std::size_t i, const Scenario& scenario, const contact::Plane& plane,
                 const std::vector<Vec3>& places, double radius) {
-  const std::string& name = scenario.planes[i].name;
-  const std::string path = name.empty() ? fmt::format("planes[{}]", i) : "planes." + name;
+  const std::string path = scenario.planes[i].path();
   const double part = part_of(places, [&](const Vec3& x) { return plane.height(x) < radius; });
   if (!scenario.planes[i].is_flat())
     return {part,

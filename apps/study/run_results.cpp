@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <string_view>
@@ -119,7 +120,19 @@ bool is_of_measure(const std::string& file) {
          file == (fs::path(kMeasuresFolder) / path.filename()).string();
 }
 
-/// Linear between two rows. @param times  rising
+/// s, of the last row where a time is beyond it by no more than the last step of a run may be short
+/// of its end; otherwise the time itself. @param times  s, rising, at least one
+double within_rows(const std::vector<double>& times, double time) {
+  // Of a step, by Simulation::step_until; rows are at least a step apart.
+  constexpr double kShort = 1e-3;
+  const double last = times.back();
+  const auto rest = std::lower_bound(times.begin(), times.end(), last);
+  if (rest == times.begin()) return time;
+  const double interval = last - *std::prev(rest);
+  return time > last && time <= last + kShort * interval ? last : time;
+}
+
+/// Linear between two rows. @param times  s, rising, at least one
 double value_then(const std::vector<double>& times, const std::vector<double>& values, double time,
                   const ResultSettings& result) {
   const auto after = std::lower_bound(times.begin(), times.end(), time);
@@ -130,6 +143,15 @@ double value_then(const std::vector<double>& times, const std::vector<double>& v
   if (times[i] == time) return values[i];
   const double share = (time - times[i - 1]) / (times[i] - times[i - 1]);
   return values[i - 1] + share * (values[i] - values[i - 1]);
+}
+
+double value_at_time(const std::vector<double>& times, const std::vector<double>& values,
+                     const ResultSettings& result) {
+  const double value = value_then(times, values, within_rows(times, *result.at), result);
+  if (std::isnan(value))
+    refuse(result, fmt::format("{} has no value of \"{}\" at {} s: it is nan there", result.file,
+                               result.column, *result.at));
+  return value;
 }
 
 /// The integral over time by trapezoids, over the time; of rows at one time their mean.
@@ -163,13 +185,31 @@ double taken(std::span<const double> times, std::span<const double> values, Take
   return values.back();
 }
 
+/// Rows of a history with a value.
+struct Rows {
+  std::vector<double> times;  ///< s
+  std::vector<double> values;
+};
+
+/// Those of some rows whose value is a number: measures have none before there are contacts.
+Rows rows_with_value(std::span<const double> times, std::span<const double> values) {
+  Rows rows;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    rows.times.push_back(times[i]);
+    rows.values.push_back(values[i]);
+  }
+  return rows;
+}
+
 double history_value(const RecordedHistory& history, const ResultSettings& result) {
   const std::vector<double>& times = history.columns.front().values;
   const std::vector<double>& values = column_of(history, result).values;
   if (times.empty()) refuse(result, result.file + " has no rows");
-  if (result.at) return value_then(times, values, *result.at, result);
+  if (result.at) return value_at_time(times, values, result);
   const auto begin =
-      result.from ? std::lower_bound(times.begin(), times.end(), *result.from) : times.begin();
+      result.from ? std::lower_bound(times.begin(), times.end(), within_rows(times, *result.from))
+                  : times.begin();
   const auto end =
       result.to ? std::upper_bound(times.begin(), times.end(), *result.to) : times.end();
   if (begin >= end)
@@ -178,8 +218,12 @@ double history_value(const RecordedHistory& history, const ResultSettings& resul
                        result.from.value_or(times.front()), result.to.value_or(times.back())));
   const auto first = static_cast<std::size_t>(begin - times.begin());
   const auto count = static_cast<std::size_t>(end - begin);
-  return taken(std::span(times).subspan(first, count), std::span(values).subspan(first, count),
-               result.take);
+  const Rows rows = rows_with_value(std::span(times).subspan(first, count),
+                                    std::span(values).subspan(first, count));
+  if (rows.times.empty())
+    refuse(result, fmt::format("{} has no value of \"{}\" from {} s to {} s: it is nan in all rows",
+                               result.file, result.column, times[first], times[first + count - 1]));
+  return taken(rows.times, rows.values, result.take);
 }
 
 /// The files of a run, each read once, when it is asked for.

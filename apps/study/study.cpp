@@ -188,10 +188,9 @@ class StudyReader {
     /// @param u  in [0, 1)
     std::string at(double u) const {
       const double last = is_whole ? to + 1.0 : to;
-      double value =
+      const double value =
           is_logarithmic ? from * elementary::pow(last / from, u) : from + u * (last - from);
-      if (is_whole) value = std::floor(value);
-      return text_of(NumberWithUnit{value, unit});
+      return is_whole ? whole_text_of({std::floor(value), unit}) : text_of({value, unit});
     }
   };
 
@@ -313,12 +312,29 @@ class StudyReader {
                       "is wanted of each run");
       return;
     }
-    for (auto& [name, section] : results->all_tables())
+    for (auto& [name, section] : results->all_tables()) {
+      refuse_second_column(name, section.place());
       study_.results.push_back(read_result(name, section));
+    }
     if (study_.results.empty() && problems_.empty())
       problems_.add(results->place(),
                     "results: is empty; expected what is wanted of each run, as "
                     "in steps = { report = \"timing.steps\" }");
+  }
+
+  /// No two columns of results.csv have one name.
+  void refuse_second_column(const std::string& name, const Place& place) {
+    constexpr std::array<std::string_view, 4> kOfEveryStudy = {"run", "status", "problem", "key"};
+    const auto is_among = [&](const auto& names) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    const std::string_view taken_by = is_among(kOfEveryStudy)       ? "every results.csv has"
+                                      : is_among(study_.parameters) ? "is of a parameter"
+                                                                    : "";
+    if (!taken_by.empty())
+      problems_.add(place, fmt::format("results.{}: got the name of a column that {}; expected "
+                                       "another one",
+                                       name, taken_by));
   }
 
   static void complain_if(Section& section, std::string_view key, const std::string& problem) {

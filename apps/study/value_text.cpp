@@ -55,6 +55,10 @@ struct Write {
   std::string operator()(const OtherKind& other) const { return other.text; }
 };
 
+std::string with_unit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : number + ' ' + unit;
+}
+
 bool is_plain_text(const std::string& text) {
   if (text.empty()) return false;
   const Value read = parse_toml_value(text, {});
@@ -94,8 +98,11 @@ std::optional<NumberWithUnit> number_with_unit(const Value& value) {
 }
 
 std::string text_of(const NumberWithUnit& quantity) {
-  const std::string number = fmt::format("{:.9g}", quantity.number);
-  return quantity.unit.empty() ? number : number + ' ' + quantity.unit;
+  return with_unit(fmt::format("{:.9g}", quantity.number), quantity.unit);
+}
+
+std::string whole_text_of(const NumberWithUnit& quantity) {
+  return with_unit(fmt::format("{:.0f}", quantity.number), quantity.unit);
 }
 
 }  // namespace plekton::apps

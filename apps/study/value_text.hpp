@@ -27,4 +27,7 @@ std::optional<NumberWithUnit> number_with_unit(const Value& value);
 /// As in "22.5 deg", with nine digits.
 std::string text_of(const NumberWithUnit& quantity);
 
+/// As in "4000000000", with all digits. @param quantity  of a whole number
+std::string whole_text_of(const NumberWithUnit& quantity);
+
 }  // namespace plekton::apps

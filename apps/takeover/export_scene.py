@@ -118,7 +118,6 @@ MATERIAL = {
     "young": "young",
     "poisson": "poisson",
     "frictionAngle": "friction_angle",
-    "density": "density",
     "isCohesive": "is_cohesive",
     "normalCohesion": "normal_cohesion",
     "shearCohesion": "shear_cohesion",
@@ -127,7 +126,6 @@ MATERIAL = {
     "alphaKtw": "twisting_stiffness",
     "etaRoll": "rolling_limit",
     "etaTwist": "twisting_limit",
-    "en": "restitution",
 }
 """Attributes of YADE's materials, and what they are called here."""
 
@@ -227,7 +225,7 @@ class Export:
         a, b = interaction.id1, interaction.id2
         radii = O.bodies[a].shape.radius + O.bodies[b].shape.radius
         self.bonds.append({
-            "nodes": [a, b], "kn": phys.kn, "ks": phys.ks, "kr": getattr(phys, "kr", 0.0), "ktw": getattr(phys, "ktw", 0.0),
+            "nodes": [a, b], "kn": phys.kn, "kr": getattr(phys, "kr", 0.0), "ktw": getattr(phys, "ktw", 0.0),
             "rest_length": radii - getattr(phys, "unp", 0.0), "force": float(phys.normalForce.norm()),
             "broken": bool(getattr(phys, "cohesionBroken", False)), "fragile": bool(getattr(phys, "fragile", True)),
             "normal_adhesion": min(getattr(phys, "normalAdhesion", 1e300), 1e300),
@@ -246,9 +244,23 @@ def permanent_forces():
     return forces
 
 
+LEFT_OUT = {
+    "Ip2": ("en", "es", "betan", "betas", "gamma", "eta", "krot", "ktwist", "frictAngle", "kn", "ks"),
+    "Law2": ("includeMoment", "includeAdhesion"),
+}
+"""Attributes of functors that have no counterpart where they are set, by how the names of the functors begin."""
+
+
+def settings_left_out(functor):
+    """Those that are set: by default they are None, False or 0."""
+    kind = type(functor).__name__.split("_")[0]
+    return [name for name in LEFT_OUT.get(kind, ()) if getattr(functor, name, None)]
+
+
 def engine_facts():
     """What engines there are, and what the integrator is told."""
-    facts = {"engines": [], "functors": [], "gravity": [0.0, 0.0, 0.0], "damping": 0.0, "damp_gravity": True, "stepper": ""}
+    facts = {"engines": [], "functors": [], "functor_settings": {},
+             "gravity": [0.0, 0.0, 0.0], "damping": 0.0, "damp_gravity": True, "stepper": ""}
     for engine in O.engines:
         name = type(engine).__name__
         if getattr(engine, "dead", False):
@@ -262,6 +274,8 @@ def engine_facts():
             for dispatcher in (engine.geomDispatcher, engine.physDispatcher, engine.lawDispatcher):
                 for functor in dispatcher.functors:
                     facts["functors"].append(type(functor).__name__)
+                    if left_out := settings_left_out(functor):
+                        facts["functor_settings"][type(functor).__name__] = left_out
                     for flag in ("setCohesionNow", "setCohesionOnNewContacts"):
                         if getattr(functor, flag, False):
                             facts["functors"].append(flag)

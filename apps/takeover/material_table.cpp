@@ -46,8 +46,7 @@ bool are_glued(const Scene& scene, const Material& a, const Material& b) {
   return has_law && are_at_all && a.is_cohesive && b.is_cohesive;
 }
 
-}  // namespace
-
+/// A text of TOML.
 std::string in_quotes(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -60,6 +59,8 @@ std::string in_quotes(const std::string& text) {
   }
   return result + '"';
 }
+
+}  // namespace
 
 std::string MaterialTable::free_name(const Material& material, bool is_rigid) const {
   std::string name = material.label.empty() ? material.type : material.label;

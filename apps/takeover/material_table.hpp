@@ -9,9 +9,6 @@
 
 namespace plekton::apps::yade {
 
-/// A text of TOML, in quotes.
-std::string quoted(const std::string& text);
-
 /// The materials of a scenario that stand for those of a scene: for one of YADE's there may be some,
 /// as bodies have masses of their own, and rigid facets get a stiffness without a thickness.
 class MaterialTable {

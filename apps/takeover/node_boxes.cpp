@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace plekton::apps::yade {
 namespace {
@@ -41,43 +42,59 @@ std::size_t cut_of(const std::vector<Vec3>& points, const std::vector<std::size_
   return best;
 }
 
-/// One box if it holds no other point; otherwise those of both sides of a cut across its longest
-/// side.
-void cover(const std::vector<Vec3>& points, const std::vector<bool>& chosen,
-           std::vector<std::size_t> part, double margin, std::vector<Box>& boxes) {
-  const Box box = box_of(points, part, margin);
-  bool is_alone = true;
-  for (std::size_t i = 0; i < points.size() && is_alone; ++i)
-    is_alone = chosen[i] || !holds(box, points[i]);
-  if (is_alone) {
-    boxes.push_back(box);
-    return;
+/// Points by number.
+using Part = std::vector<std::size_t>;
+
+/// Covers parts of the points by boxes that hold no others.
+class Cover {
+ public:
+  Cover(const std::vector<Vec3>& points, double margin) : points_(points), margin_(margin) {}
+
+  /// One box if it holds no other point; otherwise those of both sides of a cut across its longest
+  /// side.
+  /// @param others  that may be in the box: a box of a side is within that of both
+  void add(Part part, Part others) {
+    const Box box = box_of(points_, part, margin_);
+    std::erase_if(others, [&](std::size_t i) { return !holds(box, points_[i]); });
+    if (others.empty()) {
+      result_.boxes.push_back(box);
+      return;
+    }
+    Eigen::Index axis = 0;
+    (box.upper - box.lower).maxCoeff(&axis);
+    std::ranges::stable_sort(part, {}, [&](std::size_t i) { return points_[i][axis]; });
+    const std::size_t cut = cut_of(points_, part, axis, margin_);
+    if (cut == 0) {
+      result_.hold_all = false;
+      return;
+    }
+    const auto middle = part.begin() + static_cast<std::ptrdiff_t>(cut);
+    add({part.begin(), middle}, others);
+    add({middle, part.end()}, std::move(others));
   }
-  Eigen::Index axis = 0;
-  (box.upper - box.lower).maxCoeff(&axis);
-  std::ranges::stable_sort(part, {}, [&](std::size_t i) { return points[i][axis]; });
-  const std::size_t cut = cut_of(points, part, axis, margin);
-  if (cut == 0) return;
-  const auto middle = part.begin() + static_cast<std::ptrdiff_t>(cut);
-  cover(points, chosen, {part.begin(), middle}, margin, boxes);
-  cover(points, chosen, {middle, part.end()}, margin, boxes);
-}
+
+  NodeBoxes result() && { return std::move(result_); }
+
+ private:
+  const std::vector<Vec3>& points_;
+  double margin_;
+  NodeBoxes result_;
+};
 
 }  // namespace
 
-std::vector<Box> boxes_around(const std::vector<Vec3>& points, const std::vector<bool>& chosen) {
-  std::vector<std::size_t> part;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (chosen[i]) part.push_back(i);
+NodeBoxes boxes_around(const std::vector<Vec3>& points, const std::vector<bool>& chosen) {
+  Part part, others;
+  for (std::size_t i = 0; i < points.size(); ++i) (chosen[i] ? part : others).push_back(i);
   if (part.empty()) return {};
   Vec3 lower = points.front(), upper = lower;
   for (const Vec3& point : points) {
     lower = lower.cwiseMin(point);
     upper = upper.cwiseMax(point);
   }
-  std::vector<Box> boxes;
-  cover(points, chosen, std::move(part), kMargin * (upper - lower).norm(), boxes);
-  return boxes;
+  Cover cover(points, kMargin * (upper - lower).norm());
+  cover.add(std::move(part), std::move(others));
+  return std::move(cover).result();
 }
 
 }  // namespace plekton::apps::yade

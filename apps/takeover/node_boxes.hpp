@@ -7,10 +7,15 @@
 
 namespace plekton::apps::yade {
 
-/// Boxes that together hold the chosen points and no others: few where these lie in blocks, rows or
-/// planes. Points at the place of one that is not chosen stay out.
+/// Boxes that together hold chosen points and no others.
+struct NodeBoxes {
+  std::vector<geometry::Box> boxes;
+  bool hold_all = true;  ///< false where points at the place of one that is not chosen stay out
+};
+
+/// Few boxes where the chosen points lie in blocks, rows or planes. n log n in the points where these
+/// are spread evenly, n² at most.
 /// @param chosen  By point.
-std::vector<geometry::Box> boxes_around(const std::vector<geometry::Vec3>& points,
-                                        const std::vector<bool>& chosen);
+NodeBoxes boxes_around(const std::vector<geometry::Vec3>& points, const std::vector<bool>& chosen);
 
 }  // namespace plekton::apps::yade

@@ -4,6 +4,7 @@
 #include "apps/takeover/material_table.hpp"
 #include "apps/takeover/node_boxes.hpp"
 #include "apps/takeover/yade_grid.hpp"
+#include "geometry/base/printable.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,6 +16,7 @@
 #include <map>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 namespace plekton::apps::yade {
 namespace {
@@ -26,6 +28,15 @@ constexpr double kRigidThickness =
 
 std::string text_of(const Vec3& v) {
   return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
+}
+
+/// As it may stand in a comment, which a line break would end, and which may have no other control
+/// characters.
+std::string on_one_line(std::string_view text) {
+  std::string shown = geometry::printable(text);
+  for (std::size_t at = shown.find('\n'); at != std::string::npos; at = shown.find('\n', at))
+    shown.replace(at, 1, "\\n");
+  return shown;
 }
 
 /// A list with a row on each line.
@@ -59,6 +70,9 @@ Key key_of(const Vec3& v) {
 
 /// How a node is held: what is blocked, and how it moves along and about these.
 using Hold = std::tuple<std::string, Key, Key>;
+
+/// Force and torque.
+using Load = std::tuple<Key, Key>;
 
 Hold hold_of(const Body& body) {
   Key velocity{}, angular_velocity{};
@@ -105,7 +119,10 @@ std::vector<std::string> folded(const std::vector<std::string>& notes) {
 class Writer {
  public:
   Writer(const Scene& scene, const TakeoverOptions& options)
-      : scene_(scene), options_(options), materials_(scene) {}
+      : scene_(scene), options_(options), materials_(scene) {
+    for (const PermanentForce& force : scene.forces)
+      loads_on_.try_emplace(force.id, key_of(force.force), key_of(force.torque));
+  }
 
   Takeover written() {
     note_what_is_left_out();
@@ -130,7 +147,7 @@ class Writer {
         "no\n"
         "# counterpart here. The duration is that of {:g} steps of YADE.\n[simulation]\n"
         "duration = {}\ntime_step = {}\ngravity = {}\n",
-        options_.script, scene_.iteration, scene_.time, options_.steps,
+        on_one_line(options_.script), scene_.iteration, scene_.time, options_.steps,
         options_.steps * scene_.time_step,
         has_chosen_step() ? "\"auto\"" : fmt::format("{}", scene_.time_step),
         text_of(scene_.gravity));
@@ -150,20 +167,22 @@ class Writer {
 
   void write_grid(const Grid& grid, std::size_t number) {
     const std::string name = fmt::format("\"grid {}\"", number);
-    std::vector<Vec3> points, velocities;
+    std::vector<Vec3> velocities;
+    Nodes nodes{.who = "membrane " + name, .target = fmt::format("membrane = {}\n", name)};
     double mass = 0.0;
     double turning = 0.0;
     for (const std::size_t i : grid.nodes) {
       const GridNode& node = scene_.nodes[i];
-      points.push_back(node.position);
+      nodes.points.push_back(node.position);
+      nodes.bodies.push_back(&node);
       velocities.push_back(node.velocity);
       mass += node.mass;
       turning = std::max(turning, node.angular_velocity.norm());
     }
-    const auto row = [](const auto& nodes) { return fmt::format("{}", nodes); };
+    const auto row = [](const auto& corners) { return fmt::format("{}", corners); };
     bodies_ += fmt::format("[[membranes]]\nname = {}\n", name);
     bodies_ += fmt::format("shape.kind = \"{}\"\nshape.points = {}\n",
-                           grid.facets.empty() ? "bars" : "facets", list_of_vectors(points));
+                           grid.facets.empty() ? "bars" : "facets", list_of_vectors(nodes.points));
     if (!grid.facets.empty())
       bodies_ += fmt::format("shape.facets = {}\n", list_of(grid.facets, row));
     if (!grid.bars.empty()) bodies_ += fmt::format("shape.bars = {}\n", list_of(grid.bars, row));
@@ -192,49 +211,51 @@ class Writer {
     counts_.push_back(
         fmt::format("membrane {}: {} nodes, {:.6g} kg, {} facets, {} bars beside them", name,
                     grid.nodes.size(), mass, grid.facets.size(), grid.bars.size()));
-    hold_nodes(grid, name, points);
-    load_nodes(grid, name, points);
+    hold_nodes(nodes, grid.bends);
+    load_nodes(nodes);
   }
 
-  /// Nodes of a grid by what is said of each; nothing is said where it is the default.
+  /// Nodes of a membrane, or grains of one table.
+  struct Nodes {
+    std::string who;             ///< as in `membrane "grid 0"`
+    std::string target;          ///< of a load, a line
+    std::vector<Vec3> points{};  ///< m
+    std::vector<const Body*> bodies{};
+  };
+
+  /// Nodes by what is said of each; nothing is said where it is the default.
   template <class What>
-  std::map<What, std::vector<bool>> by(const Grid& grid, const auto& what) const {
+  static std::map<What, std::vector<bool>> by(const Nodes& nodes, const auto& what) {
     std::map<What, std::vector<bool>> chosen;
-    for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
-      const What said = what(scene_.nodes[grid.nodes[i]]);
+    for (std::size_t i = 0; i < nodes.bodies.size(); ++i) {
+      const What said = what(*nodes.bodies[i]);
       if (said == What{}) continue;
-      chosen.try_emplace(said, grid.nodes.size(), false).first->second[i] = true;
+      chosen.try_emplace(said, nodes.bodies.size(), false).first->second[i] = true;
     }
     return chosen;
   }
 
-  /// As `nodes` of loads says them: all, or boxes.
-  std::vector<std::string> sets_of(const std::string& name, const std::vector<Vec3>& points,
-                                   const std::vector<bool>& chosen) {
-    if (std::ranges::find(chosen, false) == chosen.end()) return {"\"all\""};
-    std::vector<std::string> sets;
-    std::vector<bool> reached(points.size(), false);
-    for (const Box& box : boxes_around(points, chosen)) {
-      sets.push_back(
-          fmt::format("{{ min = {}, max = {} }}", text_of(box.lower), text_of(box.upper)));
-      for (std::size_t i = 0; i < points.size(); ++i)
-        if ((points[i].array() >= box.lower.array()).all() &&
-            (points[i].array() <= box.upper.array()).all())
-          reached[i] = true;
-    }
-    if (reached != chosen)
+  /// Lines of loads that say what they act on: all, or boxes.
+  std::vector<std::string> targets_of(const Nodes& nodes, const std::vector<bool>& chosen) {
+    if (std::ranges::find(chosen, false) == chosen.end())
+      return {nodes.target + "nodes = \"all\"\n"};
+    const NodeBoxes around = boxes_around(nodes.points, chosen);
+    if (!around.hold_all)
       notes_.push_back(
-          fmt::format("membrane {}: nodes at one place of which some are held or loaded "
+          fmt::format("{}: nodes at one place of which some are held or loaded "
                       "and others are not: these are as if they were not",
-                      name));
-    return sets;
+                      nodes.who));
+    std::vector<std::string> targets;
+    for (const Box& box : around.boxes)
+      targets.push_back(fmt::format("{}nodes = {{ min = {}, max = {} }}\n", nodes.target,
+                                    text_of(box.lower), text_of(box.upper)));
+    return targets;
   }
 
-  void hold_nodes(const Grid& grid, const std::string& name, const std::vector<Vec3>& points) {
-    for (const auto& [hold, chosen] : by<Hold>(grid, hold_of))
-      for (const std::string& nodes : sets_of(name, points, chosen))
-        write_hold(fmt::format("membrane = {}\nnodes = {}\n", name, nodes), hold,
-                   std::ranges::count(chosen, true), grid.bends);
+  void hold_nodes(const Nodes& nodes, bool turn) {
+    for (const auto& [hold, chosen] : by<Hold>(nodes, hold_of))
+      for (const std::string& target : targets_of(nodes, chosen))
+        write_hold(target, hold, std::ranges::count(chosen, true), turn);
   }
 
   /// A load that holds what it names, or moves it for good.
@@ -264,26 +285,22 @@ class Writer {
     loads_ += '\n';
   }
 
-  const PermanentForce* force_on(int id) const {
-    const auto found = std::ranges::find(scene_.forces, id, &PermanentForce::id);
-    return found == scene_.forces.end() ? nullptr : &*found;
+  /// That is permanent; zero if there is none.
+  Load load_on(const Body& body) const {
+    const auto found = loads_on_.find(body.id);
+    return found == loads_on_.end() ? Load{} : found->second;
   }
 
-  void write_force(const std::string& target, const Key& force, const Key& torque) {
+  void write_force(const std::string& target, const Load& load) {
+    const auto& [force, torque] = load;
     loads_ += fmt::format("[[loads]]\nkind = \"force\"\n{}force = [{}]\ntorque = [{}]\n\n", target,
                           fmt::join(force, ", "), fmt::join(torque, ", "));
   }
 
-  void load_nodes(const Grid& grid, const std::string& name, const std::vector<Vec3>& points) {
-    using Load = std::tuple<Key, Key>;
-    const auto load_of = [&](const Body& body) -> Load {
-      const PermanentForce* const force = force_on(body.id);
-      return force == nullptr ? Load{} : Load{key_of(force->force), key_of(force->torque)};
-    };
-    for (const auto& [load, chosen] : by<Load>(grid, load_of))
-      for (const std::string& nodes : sets_of(name, points, chosen))
-        write_force(fmt::format("membrane = {}\nnodes = {}\n", name, nodes), std::get<0>(load),
-                    std::get<1>(load));
+  void load_nodes(const Nodes& nodes) {
+    const auto load = [&](const Body& body) { return load_on(body); };
+    for (const auto& [said, chosen] : by<Load>(nodes, load))
+      for (const std::string& target : targets_of(nodes, chosen)) write_force(target, said);
   }
 
   /// A table for each material and way of being held.
@@ -307,18 +324,20 @@ class Writer {
 
   void write_grains(const std::string& name, const std::string& material, const Hold& hold,
                     const std::vector<const Sphere*>& spheres) {
-    std::vector<Vec3> centres, velocities, angular_velocities;
+    Nodes nodes{.who = "grains " + name, .target = fmt::format("grains = {}\n", name)};
+    std::vector<Vec3> velocities, angular_velocities;
     std::vector<double> radii;
     double mass = 0.0;
     for (const Sphere* const sphere : spheres) {
-      centres.push_back(sphere->position);
+      nodes.points.push_back(sphere->position);
+      nodes.bodies.push_back(sphere);
       radii.push_back(sphere->radius);
       velocities.push_back(sphere->velocity);
       angular_velocities.push_back(sphere->angular_velocity);
       mass += sphere->mass;
     }
     bodies_ += fmt::format("[[grains]]\nname = {}\nmaterial = {}\ncentres = {}\nradii = {}\n", name,
-                           material, list_of_vectors(centres),
+                           material, list_of_vectors(nodes.points),
                            list_of(radii, [](double r) { return fmt::format("{}", r); }));
     if (any_moves(velocities))
       bodies_ += fmt::format("velocities = {}\n", list_of_vectors(velocities));
@@ -327,17 +346,8 @@ class Writer {
     bodies_ += '\n';
     counts_.push_back(fmt::format("grains {}: {}, {:.6g} kg", name, spheres.size(), mass));
     if (hold != Hold{})
-      write_hold(fmt::format("grains = {}\n", name), hold,
-                 static_cast<std::ptrdiff_t>(spheres.size()), true);
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-      const PermanentForce* const force = force_on(spheres[i]->id);
-      if (force == nullptr) continue;
-      std::vector<bool> chosen(spheres.size(), false);
-      chosen[i] = true;
-      for (const std::string& nodes : sets_of(name, centres, chosen))
-        write_force(fmt::format("grains = {}\nnodes = {}\n", name, nodes), key_of(force->force),
-                    key_of(force->torque));
-    }
+      write_hold(nodes.target, hold, static_cast<std::ptrdiff_t>(spheres.size()), true);
+    load_nodes(nodes);
   }
 
   void write_clumps() {
@@ -355,9 +365,8 @@ class Writer {
       bodies_ += "]\n";
       write_inertia(clump, name);
       write_motion(clump);
-      if (force_on(clump.id) != nullptr)
-        write_force(fmt::format("rigid_body = {}\n", name), key_of(force_on(clump.id)->force),
-                    key_of(force_on(clump.id)->torque));
+      if (const Load load = load_on(clump); load != Load{})
+        write_force(fmt::format("rigid_body = {}\n", name), load);
       bodies_ += '\n';
       spheres += clump.radii.size();
       mass += clump.mass;
@@ -412,17 +421,17 @@ class Writer {
   void write_rigid_facets() {
     if (scene_.facets.empty()) return;
     const double thickness = rigid_thickness();
-    std::map<std::tuple<int, Key, Key>, RigidFacets> groups;
+    std::map<std::tuple<int, Key, Key>, RigidGroup> groups;
     std::size_t free = 0;
     for (const RigidFacets& body : scene_.facets) {
       if (body.blocked.size() < 6) ++free;
       const auto key =
           std::tuple{body.material, key_of(body.velocity), key_of(body.angular_velocity)};
-      RigidFacets& group = groups.try_emplace(key, RigidFacets{}).first->second;
-      static_cast<Body&>(group) = body;
+      RigidGroup& group = groups[key];
+      static_cast<Body&>(group.all) = body;
       append(group, body, thickness);
     }
-    for (const auto& [key, group] : groups) write_rigid(group, thickness);
+    for (const auto& [key, group] : groups) write_rigid(group.all, thickness);
     notes_.push_back(
         fmt::format("rigid facets have a thickness here: {:.3g} m, half of it on either side "
                     "of where they are in YADE (boxes have the size that they have there)",
@@ -432,8 +441,14 @@ class Writer {
           fmt::format("{} facets or boxes move freely in YADE; here they are held", free));
   }
 
+  /// Facets that move alike.
+  struct RigidGroup {
+    RigidFacets all;
+    std::map<Key, std::size_t> numbers;  ///< of the points, by place
+  };
+
   /// Joins points that are equal; a box shrinks by half the thickness, which its facets add again.
-  static void append(RigidFacets& group, const RigidFacets& body, double thickness) {
+  static void append(RigidGroup& group, const RigidFacets& body, double thickness) {
     std::vector<Vec3> points = body.points;
     if (body.is_box) {
       const Vec3 centre = 0.5 * (points.front() + points.back());
@@ -443,14 +458,15 @@ class Writer {
           point -= std::copysign(0.5 * thickness, (point - centre).dot(axis)) * axis;
       }
     }
-    std::vector<std::size_t> place;
+    std::vector<std::size_t> numbers;
     for (const Vec3& point : points) {
-      const auto found = std::ranges::find(group.points, point);
-      place.push_back(static_cast<std::size_t>(found - group.points.begin()));
-      if (found == group.points.end()) group.points.push_back(point);
+      const auto [found, is_new] =
+          group.numbers.try_emplace(key_of(point), group.all.points.size());
+      numbers.push_back(found->second);
+      if (is_new) group.all.points.push_back(point);
     }
     for (const auto& [a, b, c] : body.facets)
-      group.facets.push_back({place[a], place[b], place[c]});
+      group.all.facets.push_back({numbers[a], numbers[b], numbers[c]});
   }
 
   void write_rigid(const RigidFacets& group, double thickness) {
@@ -536,6 +552,10 @@ class Writer {
           std::ranges::find(kKnown, functor) == kKnown.end())
         notes_.push_back(
             fmt::format("{}: has no counterpart; contacts are linear_frictional", functor));
+    for (const auto& [functor, attributes] : scene_.functor_settings)
+      notes_.push_back(fmt::format(
+          "{}: what it sets is left out: {}; contacts are as [materials] and [[contacts]] say",
+          functor, fmt::join(attributes, ", ")));
     if (scene_.contacts > 0)
       notes_.push_back(fmt::format("{} contacts are there: their friction begins anew, from zero",
                                    scene_.contacts));
@@ -562,6 +582,7 @@ class Writer {
   const Scene& scene_;
   const TakeoverOptions& options_;
   MaterialTable materials_;
+  std::map<int, Load> loads_on_;  // that are permanent, by id of the body
   std::string bodies_, loads_;
   std::vector<std::string> counts_, notes_;
 };

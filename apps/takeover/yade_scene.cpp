@@ -25,7 +25,6 @@ Material material_of(const json& row) {
   for (const auto& [key, number] : {std::pair{"young", &material.young},
                                     {"poisson", &material.poisson},
                                     {"friction_angle", &material.friction_angle},
-                                    {"density", &material.density},
                                     {"normal_cohesion", &material.normal_cohesion},
                                     {"shear_cohesion", &material.shear_cohesion},
                                     {"rolling_stiffness", &material.rolling_stiffness},
@@ -84,7 +83,6 @@ Bond bond_of(const json& row) {
   Bond bond;
   row.at("nodes").get_to(bond.nodes);
   row.at("kn").get_to(bond.normal_stiffness);
-  row.at("ks").get_to(bond.shear_stiffness);
   row.at("kr").get_to(bond.bending_stiffness);
   row.at("ktw").get_to(bond.twisting_stiffness);
   row.at("rest_length").get_to(bond.rest_length);
@@ -107,6 +105,8 @@ Scene scene_of(const json& told) {
   told.at("damp_gravity").get_to(scene.damps_gravity);
   told.at("engines").get_to(scene.engines);
   told.at("functors").get_to(scene.functors);
+  // Scenes that were recorded before have none.
+  scene.functor_settings = told.value("functor_settings", scene.functor_settings);
   for (const json& row : told.at("materials")) scene.materials.push_back(material_of(row));
   scene.spheres = bodies_of<Sphere>(told.at("spheres"));
   scene.nodes = bodies_of<GridNode>(told.at("nodes"));

@@ -22,7 +22,6 @@ struct Material {
   double young = 0.0;
   double poisson = 0.0;  ///< of the laws after Cundall the ratio of stiffnesses
   double friction_angle = 0.0;
-  double density = 0.0;
   bool is_cohesive = false;
   double normal_cohesion = 0.0;
   double shear_cohesion = 0.0;
@@ -87,7 +86,6 @@ struct Clump : Body {
 struct Bond {
   std::array<int, 2> nodes{};  ///< ids
   double normal_stiffness = 0.0;
-  double shear_stiffness = 0.0;
   double bending_stiffness = 0.0;   ///< N m
   double twisting_stiffness = 0.0;  ///< N m
   double rest_length = 0.0;
@@ -114,6 +112,8 @@ struct Scene {
   bool damps_gravity = true;
   std::vector<std::string> engines;
   std::vector<std::string> functors;  ///< of interactions, and flags that are set of these
+  std::map<std::string, std::vector<std::string>>
+      functor_settings;  ///< by functor, attributes that are set of it and have no counterpart
   std::vector<Material> materials;
   std::vector<Sphere> spheres;
   std::vector<GridNode> nodes;

@@ -22,14 +22,22 @@ class CsvParser {
   std::vector<CsvRow> parse() {
     std::vector<CsvRow> rows;
     while (!rest_.empty()) {
-      CsvRow row = read_row();
-      const bool is_blank = row.cells.size() == 1 && row.cells[0].empty();
-      if (!is_blank) rows.push_back(std::move(row));
+      if (take_blank_line()) continue;
+      rows.push_back(read_row());
     }
     return rows;
   }
 
  private:
+  /// Of one that has nothing but blanks; an empty cell in quotes is a row.
+  bool take_blank_line() {
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    if (!trimmed(rest_.substr(0, end)).empty()) return false;
+    rest_.remove_prefix(end);
+    take('\n');
+    return true;
+  }
+
   CsvRow read_row() {
     CsvRow row{line_, {}};
     do {

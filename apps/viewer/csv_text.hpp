@@ -14,9 +14,9 @@ struct CsvRow {
   std::vector<std::string> cells;
 };
 
-/// Rows of a table; lines with nothing on them are left out. A quote that is not closed ends with
-/// the text. Blanks around a cell without quotes do not belong to it, nor does the byte order mark
-/// of UTF-8 at the beginning.
+/// Rows of a table; lines with nothing but blanks on them are left out, while "" is a row with an
+/// empty cell. A quote that is not closed ends with the text. Blanks around a cell without quotes do
+/// not belong to it, nor does the byte order mark of UTF-8 at the beginning.
 std::vector<CsvRow> parse_csv(std::string_view text);
 
 /// A cell as it is written.

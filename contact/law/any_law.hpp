@@ -103,6 +103,7 @@ struct AnyLaw {
     bool (*holds)(const History&);
     Vec3 (*moment)(const History&, const Vec3&);
     void (*rotate)(History&, const FrameRotation&);
+    void (*scale_history)(History&, double);
     void (*accumulate_history)(History&, const History&, double);
     /// See TellsForce; null of a law that does not tell it.
     Vec3 (*force_of_state)(const Parameters&, double, const Vec3&, const History&);
@@ -184,6 +185,10 @@ struct AnyLaw {
   }
   static void rotate(History& history, const FrameRotation& rotation) {
     if (history.law != nullptr) history.law->rotate(history, rotation);
+  }
+  /// See ScalesHistory.
+  static void scale_history(History& history, double factor) {
+    if (history.law != nullptr) history.law->scale_history(history, factor);
   }
   static void accumulate_history(History& history, const History& other, double share) {
     if (other.law != nullptr) other.law->accumulate_history(history, other, share);

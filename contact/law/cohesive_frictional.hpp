@@ -44,10 +44,15 @@ struct CohesiveFrictional {
     Real tension;           ///< N, of a bond
     Real shear;             ///< N
     Real rupture_distance;  ///< m
-    Real glues;             ///< 1 if it glues bodies that come to touch, else 0
+    Real glues;             ///< 1 if it glues bodies that come to touch, else 0; kBeside of a bond
+                            ///< beside its contact
     Real compliance;        ///< m/N, along the normal, 0 without stiffness
   };
   using Parameters = ParametersOf<double>;
+
+  /// Between structures: the elastic force is that of the whole contact, and begins and ends without
+  /// the bond.
+  static constexpr double kBeside = -1.0;
 
   // What may become of a bond, as numbers: bonds are looked at side by side.
   static constexpr double kNone = 0.0;
@@ -113,7 +118,11 @@ struct CohesiveFrictional {
     return p.glues > 0.0 && (p.tension > 0.0 || p.shear > 0.0);
   }
   static void cement(const Parameters&, History& history) noexcept { history.bond = kHolds; }
-  static Parameters of_bond(const Parameters& p) noexcept { return p; }
+  static Parameters of_bond(const Parameters& p) noexcept {
+    Parameters bond = p;
+    bond.glues = kBeside;
+    return bond;
+  }
   static Parameters unbonded_part(const Parameters& p, double part) noexcept {
     const LinearFrictional::Parameters& e = p.elastic;
     return with_compliance({{e.normal_stiffness, part * e.tangential_stiffness, part * e.friction},
@@ -129,6 +138,7 @@ struct CohesiveFrictional {
                                                    const RelativeMotionOf<Real>& motion,
                                                    HistoryOf<Real>& history, double dt) noexcept {
     const Real energy_before = bond_energy(p, history);
+    const Real bond_before = history.bond;
     const Real pull_before = history.pull;
     const Real overlap_before = history.overlap;
     const Vec3Of<Real> slip = Real(dt) * motion.slip_velocity;
@@ -146,7 +156,11 @@ struct CohesiveFrictional {
     const Real of_bond =
         energy_before - bond_energy(p, history) +
         Real(0.5) * (pull_before + history.pull) * (history.overlap - overlap_before);
-    return {total_force(motion.elastic_normal_force, motion.normal, history), of_spring + of_bond};
+    const Real goes_on_with_it = geometry::smaller_of(bond_before, Real(p.glues - Real(kBeside)));
+    const Real of_end = geometry::select(
+        goes_on_with_it > Real(0.0), pressing_left(p, overlap_before, history.overlap), Real(0.0));
+    return {total_force(motion.elastic_normal_force, motion.normal, history),
+            of_spring + of_bond + of_end};
   }
 
   /// See TellsForce.
@@ -167,6 +181,11 @@ struct CohesiveFrictional {
     return history.spring.energy() + bond_energy(p, history);
   }
 
+  /// The last pull of a bond goes on for half a step after it has broken. See WorksAfterwards.
+  static double loss_after(const History& history, double parting) noexcept {
+    return -0.5 * history.pull * parting;
+  }
+
   template <class Real>
   PLEKTON_INLINE static Real normal_stiffness(const ParametersOf<Real>& p,
                                               const std::type_identity_t<Real>&) noexcept {
@@ -183,12 +202,17 @@ struct CohesiveFrictional {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     history.spring.force = rotation(history.spring.force);
   }
+  /// See ScalesHistory.
+  static void scale_history(History& history, double factor) noexcept {
+    history.spring.scale_history(factor);
+    history.pull *= factor;
+  }
   /// A bond is one: what comes together has yielded as much as the part that has most.
   static void accumulate_history(History& history, const History& other, double share) noexcept {
     history.spring.accumulate_history(other.spring, share);
     history.overlap = other.overlap;
     history.yielded = std::min(history.yielded, other.yielded);
-    history.pull += share * other.pull;
+    history.pull += std::abs(share) * other.pull;
     const bool is_broken = std::min(history.bond, other.bond) < 0.0;
     history.bond = is_broken ? kBroken : std::max(history.bond, other.bond);
   }
@@ -273,6 +297,18 @@ struct CohesiveFrictional {
                                                  const Vec3Of<Real>& normal,
                                                  const HistoryOf<Real>& history) noexcept {
     return (elastic_force + history.pull) * normal + history.spring.force;
+  }
+
+  /// J, of the elastic force in a step in which bodies that are glued part or meet: what it stored
+  /// less what its mean does on the way. It does not begin or end there, as the bond goes on with
+  /// it, so that both together lose nothing.
+  template <class Real>
+  PLEKTON_INLINE static Real pressing_left(const ParametersOf<Real>& p, const Real& before,
+                                           const Real& after) noexcept {
+    const Real pressed = geometry::positive_part(before) + geometry::positive_part(after);
+    const Real apart =
+        geometry::positive_part(Real(-before)) - geometry::positive_part(Real(-after));
+    return Real(0.5) * p.elastic.normal_stiffness * pressed * apart;
   }
 
   /// J, beyond that of the elastic force.

@@ -94,9 +94,24 @@ concept ContactLaw = requires(const typename Law::Parameters& parameters,
   { Law::tangential_stiffness(parameters, number) } -> std::same_as<double>;
   /// Turns the history with the contact frame.
   { Law::rotate(history, rotation) } -> std::same_as<void>;
-  /// Adds a share of another contact's history: how contacts split and merge.
+  /// Adds a share of another contact's history: how contacts split and merge. A negative one is of a
+  /// contact whose bodies are the other way round: what points along the contact turns round with
+  /// it, what goes along the normal does not.
   { Law::accumulate_history(history, other, number) } -> std::same_as<void>;
 };
+
+/// A law whose history is that of all contacts side by side, as forces are: scale_history(history,
+/// factor) makes it that of as many times as many, each as before (scaled()). Of a law without it
+/// the history is that of each, as slips are.
+template <class Law>
+concept ScalesHistory = requires(typename Law::History& history, double factor) {
+  { Law::scale_history(history, factor) } -> std::same_as<void>;
+};
+
+template <class Law>
+void scale_history(typename Law::History& history, double factor) {
+  if constexpr (ScalesHistory<Law>) Law::scale_history(history, factor);
+}
 
 /// A law that knows what is wrong with its properties: list_problems(properties, out) writes a line
 /// for each of it, which begins with what is wrong and ends in a line end. Asked when contacts are

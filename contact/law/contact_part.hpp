@@ -63,6 +63,12 @@ concept PartWorksAfterwards = requires(const typename Part::History& history, do
   { Part::loss_after(history, parting) } -> std::same_as<double>;
 };
 
+/// A part whose history is that of all contacts side by side: see ScalesHistory.
+template <class Part>
+concept PartScalesHistory = requires(typename Part::History& history, double factor) {
+  { Part::scale_history(history, factor) } -> std::same_as<void>;
+};
+
 /// What a bond has of a part, and a contact beside bonds (HasBonds): of one that says nothing about
 /// them all, as the stiffness that comes with the law is divided already.
 template <ContactPart Part>

@@ -85,8 +85,10 @@ struct Dashpot {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     history.push = rotation.along_normal(history.push);
   }
+  /// See PartScalesHistory.
+  static void scale_history(History& history, double factor) noexcept { history.push *= factor; }
   static void accumulate_history(History& history, const History& other, double share) noexcept {
-    history.push += share * other.push;
+    history.push += std::abs(share) * other.push;
   }
 };
 

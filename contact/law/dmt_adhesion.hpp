@@ -116,6 +116,10 @@ struct DmtAdhesion {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     HertzMindlin::rotate(history.elastic, rotation);
   }
+  /// See ScalesHistory.
+  static void scale_history(History& history, double factor) noexcept {
+    HertzMindlin::scale_history(history.elastic, factor);
+  }
   static void accumulate_history(History& history, const History& other, double share) noexcept {
     HertzMindlin::accumulate_history(history.elastic, other.elastic, share);
     history.overlap += share * other.overlap;

@@ -109,6 +109,10 @@ struct HertzMindlin {
                                     const FrameRotationOf<Real>& rotation) noexcept {
     history.spring.force = rotation(history.spring.force);
   }
+  /// See ScalesHistory.
+  static void scale_history(History& history, double factor) noexcept {
+    history.spring.scale_history(factor);
+  }
   static void accumulate_history(History& history, const History& other, double share) noexcept {
     history.spring.accumulate_history(other.spring, share);
   }

@@ -43,7 +43,7 @@ void DmtAdhesion::list_problems(const Properties& given, std::ostream& out) {
 
 void CohesiveFrictional::list_problems(const Properties& given, std::ostream& out) {
   LinearFrictional::list_problems(given.elastic, out);
-  expect_limit("tensile_strength", given.tensile_strength, out);
+  expect_finite("tensile_strength", given.tensile_strength, out);  // which is how far bonds reach
   expect_limit("shear_strength", given.shear_strength, out);
   expect_finite("rupture_distance", given.rupture_distance, out);
 }

@@ -5,6 +5,7 @@
 #include "contact/law/tangential_spring.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iosfwd>
 #include <limits>
 #include <type_traits>
@@ -128,9 +129,15 @@ struct RollingTwisting {
     history.rolling = rotation(history.rolling);
     history.twisting = rotation.along_normal(history.twisting);
   }
+  /// See PartScalesHistory.
+  static void scale_history(History& history, double factor) noexcept {
+    history.rolling *= factor;
+    history.twisting *= factor;
+    history.compliance /= factor;
+  }
   static void accumulate_history(History& history, const History& other, double share) noexcept {
     history.rolling += share * other.rolling;
-    history.twisting += share * other.twisting;
+    history.twisting += std::abs(share) * other.twisting;
     history.compliance = compliance_beside(history.compliance, other.compliance, share);
   }
 

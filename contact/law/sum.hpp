@@ -192,6 +192,11 @@ struct Sum {
     Whole::rotate(history.whole, rotation);
     Part::rotate(history.part, rotation);
   }
+  /// See ScalesHistory.
+  static void scale_history(History& history, double factor) noexcept {
+    contact::scale_history<Whole>(history.whole, factor);
+    if constexpr (PartScalesHistory<Part>) Part::scale_history(history.part, factor);
+  }
   static void accumulate_history(History& history, const History& other, double share) noexcept {
     Whole::accumulate_history(history.whole, other.whole, share);
     Part::accumulate_history(history.part, other.part, share);

@@ -139,6 +139,12 @@ struct TangentialSpringOf {
     return Real(0.5) * (compliance * force.squaredNorm());
   }
 
+  /// See ScalesHistory.
+  void scale_history(double factor) noexcept {
+    force *= factor;
+    compliance /= factor;
+  }
+
   /// Contacts that merge are springs side by side; one that splits leaves each part a share.
   void accumulate_history(const TangentialSpringOf& other, double share) noexcept {
     force += share * other.force;

@@ -41,9 +41,7 @@ class Clearances {
   }
 
   /// @param way  m, how far any node has moved at most since the last call, but for rounding; finite
-  void move(double way) {
-    gone_ += (1.0 + kRounding) * way + kRounding * (furthest_ + gone_);
-  }
+  void move(double way) { gone_ += (1.0 + kRounding) * way + kRounding * (furthest_ + gone_); }
 
   /// Calls visit(pair) for all that may be in range, in ascending order.
   template <class Visit>

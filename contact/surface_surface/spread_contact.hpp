@@ -179,11 +179,13 @@ struct SpreadContact {
   /// Adds the history of a spread contact of the last step.
   /// @param contacts  that it counts for, of both
   void take_over(const SpreadContact& old, double contacts, const Motion& motion, double dt) {
+    if (!(contacts > 0.0)) return;
     // Pairs within one structure may have their cells the other way round.
     const double sign = old.memory.normal.dot(normal()) < 0.0 && old.pair != pair ? -1.0 : 1.0;
     const Vec3 onto = sign * normal();
     const Vec3 spin = 0.5 * (a.angular_velocity(motion) + b.angular_velocity(motion));
-    const auto carried = carried_history<AnyLaw>(old.memory, onto, dt * spin.dot(onto));
+    auto carried = carried_history<AnyLaw>(old.memory, onto, dt * spin.dot(onto));
+    AnyLaw::scale_history(carried, count / old.count);
     AnyLaw::accumulate_history(memory.history, carried, sign * contacts / count);
   }
 

@@ -131,8 +131,8 @@ double StructureBonds::wide_count(const PairTerms& terms, std::uint32_t acting,
   }
   if (!(push > 0.0) || !(energy > 0.0)) return 0.0;
   push *= pushing_part(parameters, energy, push, term.overlap);
-  const double one = AnyLaw::elastic_normal_force(parameters,
-                                                  -mean_overlap(parameters, energy, push));
+  const double one =
+      AnyLaw::elastic_normal_force(parameters, -mean_overlap(parameters, energy, push));
   return one > 0.0 ? std::max(0.0, push - of_point) / one : 0.0;
 }
 
@@ -252,7 +252,8 @@ double StructureBonds::hand_to_patch(const StructureBond& bond, bool is_turned,
 double StructureBonds::hand_to_spread(const StructureBond& bond, SpreadContact& spread,
                                       const StructurePatches& patches) const {
   const double before = spread.energy;
-  const auto carried = carried_history<AnyLaw>(bond.memory, spread.memory.normal, 0.0);
+  auto carried = carried_history<AnyLaw>(bond.memory, spread.memory.normal, 0.0);
+  if (bond.count > 0.0) AnyLaw::scale_history(carried, spread.count / bond.count);
   AnyLaw::accumulate_history(spread.memory.history, carried,
                              std::min(1.0, bond.count / spread.count));
   spread.find_energy(patches.structure_pairs()[spread.structure_pair],

@@ -275,7 +275,7 @@ void StructurePatches::hand_on_history(const Predecessor& old,
     if (patch.point_count() > 0.0)
       squares += patch.normal_force * patch.normal_force / patch.point_count();
   }
-  if (!(squares > 0.0)) return;
+  if (!(squares > 0.0 && old.count > 0.0)) return;
   const double contacts = std::min(old.count, total * total / squares);
   for (const PatchSuccessor& successor : successors) {
     StructurePatch& patch = patches_[successor.patch];
@@ -284,7 +284,8 @@ void StructurePatches::hand_on_history(const Predecessor& old,
     const Vec3 normal = sign / patch.normal_force * patch.elastic_force;
     const Vec3 spin =
         0.5 * (patch.first.angular_velocity(motion) + patch.second.angular_velocity(motion));
-    const auto carried = carried_history<AnyLaw>(old.memory, normal, dt * spin.dot(normal));
+    auto carried = carried_history<AnyLaw>(old.memory, normal, dt * spin.dot(normal));
+    AnyLaw::scale_history(carried, patch.point_count() / old.count);
     const double share = patch.normal_force / total * contacts / patch.point_count();
     AnyLaw::accumulate_history(patch.memory.history, carried, sign * share);
   }

@@ -46,7 +46,6 @@ StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
 
 double StepChooser::first(double critical, NodalStiffness space, const Pace& pace) {
   space_ = std::move(space);
-  step_ = std::numeric_limits<double>::infinity();
   // Where nothing is stiff and free there is nothing to choose from, however fast it moves.
   if (!std::isfinite(critical)) return critical;
   const double dt = choose(kSafety * critical, pace);

@@ -58,7 +58,7 @@ class StepChooser {
   /// @param of, limits  what the one refers to and the other itself must outlive this
   StepChooser(const Resistance& of, const StepLimits& limits);
 
-  /// The first step (s), whatever was chosen before.
+  /// The first step (s). Again, as for a scene that goes on from another: no longer than before.
   /// @param critical  s, StepLimits::critical()
   /// @param space     for all nodes
   double first(double critical, NodalStiffness space, const Pace& pace);

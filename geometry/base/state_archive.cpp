@@ -11,6 +11,10 @@ void StateArchive::operator()(std::string_view name, std::string& text) const {
   text.assign(characters.begin(), characters.end());
 }
 
+bool StateArchive::has(std::string_view name) const {
+  return is_reading() && from_->arrays.contains(prefix_ + std::string(name));
+}
+
 const StateArray& StateArchive::find(std::string_view name) const {
   const auto found = from_->arrays.find(prefix_ + std::string(name));
   if (found == from_->arrays.end())

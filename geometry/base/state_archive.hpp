@@ -95,6 +95,9 @@ class StateArchive {
 
   bool is_reading() const noexcept { return to_ == nullptr; }
 
+  /// Whether the state that is read has an array: one that is not always written.
+  bool has(std::string_view name) const;
+
   /// For what belongs to a member.
   StateArchive group(std::string_view name) const {
     return StateArchive(to_, from_, prefix_ + std::string(name) + "/");

@@ -93,24 +93,6 @@ TEST_P(SceneGoesOn, ToTheLastBitWhereNothingChangesWithAnyThreads) {
   EXPECT_EQ(next.energy().closure_error(), whole.energy().closure_error());
 }
 
-/// A ball that flies at 100 m/s as it is made, and has come to rest by then.
-TEST(BallGoesOn, WithAStepChosenForHowItIsAndNotForHowItWasMade) {
-  Scene scene;
-  scene.materials = {{1e6, 0.5, 0.3}};
-  scene.add_sphere(Vec3(0, 0, 1), 0.1, 2500.0, contact::MaterialId{0});
-  scene.planes = {{Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), contact::MaterialId{0}}};
-  Scene flying = scene;
-  flying.state.velocity[0] = Vec3(0, 0, 100);
-  const SimulationOptions options{.motion = {.gravity = Vec3::Zero()}};
-  Simulation before(scene, options), next(flying, options);
-  before.step();
-  ASSERT_LT(next.time_step(), 0.5 * before.time_step());
-
-  next.go_on_from(before, nothing_moves(flying));
-
-  EXPECT_EQ(next.time_step(), before.time_step());
-}
-
 /// A plate that was moved along and across itself; its servo moves it along its normal alone.
 TEST(PlateGoesOn, WithoutTheMotionAlongItselfWhereAServoTakesIt) {
   Scene scene;

@@ -277,6 +277,56 @@ TEST_F(Stages, GoOnFromAnyCheckpointToTheLastByte) {
   }
 }
 
+/// Grains that have fallen out of everything are taken out by the next stage, and others come.
+constexpr const char* kLost = R"([simulation]
+time_step = "20 us"
+[materials.m]
+density = 1000
+young_modulus = "1 MPa"
+friction_angle = "20 deg"
+[[grains]]
+name = "gone"
+material = "m"
+radius = "1 mm"
+centres = [[0, 0, 0], [0.01, 0, 0]]
+[[stages]]
+name = "fall"
+end = { duration = "0.1 s" }
+[[stages]]
+name = "others"
+end = { duration = "2 ms" }
+remove = [{ grains = "gone" }]
+output.checkpoint_interval = "1 ms"
+[[stages.grains]]
+name = "new"
+material = "m"
+radius = "1 mm"
+centres = [[0, 0, 0]]
+)";
+
+// "lost_grains": 0, and --strict was content.
+TEST_F(Stages, CountLostGrainsThatTheyTakeOut) {
+  const Outcome outcome = run(write("lost.toml", kLost), "lost", {"--strict"});
+
+  EXPECT_EQ(outcome.exit_code, kRed) << outcome.err;
+  const json whole = report("lost");
+  EXPECT_EQ(whole["lost_grains"], 2);
+  ASSERT_EQ(whole["stages"].size(), 2U);
+  EXPECT_EQ(whole["stages"][1]["grains"], 1);
+}
+
+TEST_F(Stages, KeepTheNumberOfLostGrainsInCheckpoints) {
+  ASSERT_EQ(run(write("lost.toml", kLost), "lost").exit_code, 0);
+  const auto files = checkpoints_of(folder_ / "lost");
+  ASSERT_GE(files.size(), 3U);  // at the ends of both stages, and in the second one
+  fs::remove(files.back());
+
+  const Outcome resumed = Program({"run", "--resume", in("lost"), "--quiet"}).wait();
+
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(report("lost")["lost_grains"], 2);
+}
+
 /// Across the end of a stage, with more output than there was.
 TEST_F(Stages, ArePartlyComputedAgainInAnotherFolder) {
   ASSERT_EQ(run(all_stages(), "whole").exit_code, 0);
@@ -532,6 +582,27 @@ thickness = "1 mm"
 material = "sand"
 density = "1000 kg/m3"
 )";
+}
+
+/// A checkpoint that has lost its second half.
+void damage(const fs::path& checkpoint) {
+  fs::resize_file(checkpoint, fs::file_size(checkpoint) / 2);
+}
+
+// The damaged checkpoint of the second stage kept the run from going on from the first one.
+TEST_F(Stages, AreBegunFromAWholeCheckpointBesideDamagedOnes) {
+  const std::string file = write("bodies.toml", in_three("a", "b", "c"));
+  ASSERT_EQ(run(file, "first", {"--until", "b"}).exit_code, 0);
+  const fs::path last = checkpoints_of(folder_ / "first").back();
+  damage(last);
+
+  const Outcome again = run(file, "again", {"--from", "a", in("first"), "--until", "b"});
+  const Outcome none = run(file, "none", {"--from", "b", in("first")});
+
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.err, HasSubstr("has no end of a stage \"b\"; it has those of \"a\"\n"));
+  EXPECT_THAT(none.err, HasSubstr(last.string() + ": is damaged"));
 }
 
 TEST_F(Stages, GoOnOnlyWithTheBodiesOfBefore) {

@@ -101,7 +101,7 @@ TEST_F(TimeStepAdvice, NamesForAGivenStepThatIsTooLongTheOneThatWouldBeChosen) {
   const std::string out = check({});
   const std::string begin = "time step: ";
   const std::size_t first = out.find(begin) + begin.size();
-  const std::string chosen = out.substr(first, out.find(" s,", first) - first);
+  const std::string chosen = out.substr(first, out.find(" s to begin with", first) - first);
 
   const Outcome outcome = outcome_of({"check", scenario(), "--set", "simulation.time_step=1 ms"});
 

@@ -107,6 +107,30 @@ TEST_F(ChangedOutputs, BeginWithReactions) {
 }
 
 // What was due next was due as it had been with the interval before, an hour later.
+// Also where anything is changed, as what is asked of reactions is compared then.
+TEST_F(ChangedOutputs, GoOnWithTheSectionOfAMembrane) {
+  test::write_bytes(folder_ / "a.toml", std::string(kScenario) + R"(
+[[output.reactions]]
+kind = "section"
+membrane = "rope"
+nodes = "x_min"
+[[membranes]]
+name = "rope"
+shape = { kind = "chain", points = [[0, 1, 1], [1, 1, 1]], divisions = 4 }
+mode = "lattice"
+thickness = "1 cm"
+young_modulus = "1 MPa"
+density = "1000 kg/m3"
+material = "sand"
+)");
+  ASSERT_EQ(run({}).exit_code, kDone);
+
+  const Outcome outcome = resume({"simulation.duration=20 ms"});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(times("reactions.csv"), ElementsAre(0, 5, 10, 15, 20));
+}
+
 TEST_F(ChangedOutputs, ComeMoreOftenFromThereOn) {
   ASSERT_EQ(run({"output.interval=1 h", "output.history_interval=1 h"}).exit_code, kDone);
   ASSERT_EQ(resume({"simulation.duration=13 ms", "output.interval=2 ms",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/lost_grains.hpp"
 
+#include "geometry/base/state_archive.hpp"
+
 #include <gtest/gtest.h>
 
 namespace plekton::apps::lost_grains_test {
@@ -55,6 +57,7 @@ class Scene {
   /// Of the grain, m/s.
   void set_velocity(const Vec3& velocity) { velocities_[3] = velocity; }
   const LostGrains& lost() const { return *lost_; }
+  LostGrains& lost() { return *lost_; }
 
  private:
   void look() {
@@ -96,6 +99,38 @@ TEST(LostGrains, StayLostWhenTheyComeBack) {
   scene.move_to({0.2, 0.2, 0.3});
 
   EXPECT_EQ(scene.lost().total(), 1U);
+}
+
+TEST(LostGrains, CountThoseThatStagesHaveTakenOut) {
+  using geometry::StateArchive;
+  Scene before({0.2, 0.2, 0.3});
+  before.move_to({0.2, 0.2, -0.3});
+  geometry::StateTree state;
+  before.lost().exchange(StateArchive::writer(state));
+  std::size_t removed = 2;
+  exchange_removed(StateArchive::writer(state), removed);
+
+  Scene after({0.2, 0.2, 0.3});
+  after.lost().exchange(StateArchive::reader(state));
+
+  EXPECT_EQ(after.lost().total(), 3U);
+  geometry::StateTree again;
+  after.lost().exchange(StateArchive::writer(again));
+  EXPECT_EQ(again.hash(), state.hash());
+}
+
+/// As one that was written before the number was there.
+TEST(LostGrains, AreThoseThatAreThereOfAStateThatKnowsOfNoOthers) {
+  using geometry::StateArchive;
+  Scene before({0.2, 0.2, 0.3});
+  before.move_to({0.2, 0.2, -0.3});
+  geometry::StateTree state;
+  before.lost().exchange(StateArchive::writer(state));
+  Scene after({0.2, 0.2, 0.3});
+  after.lost().exchange(StateArchive::reader(state));
+
+  EXPECT_FALSE(state.arrays.contains("removed"));
+  EXPECT_EQ(after.lost().total(), 1U);
 }
 
 TEST(LostGrains, CountAGrainThatLeavesTheGrownBox) {

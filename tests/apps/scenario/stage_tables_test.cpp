@@ -136,6 +136,90 @@ TEST_F(StageTables, AddChangeAndTakeOutPlanesThatGoOnFromWhereTheyAre) {
   EXPECT_THAT(plane_numbers(stages_[1]), ElementsAre(1U, 2U));
 }
 
+constexpr const char* kUnnamed = R"([[planes]]
+point = [-7, 0, 0]
+normal = [1, 0, 0]
+material = "sand"
+[[loads]]
+kind = "force"
+grains = "first"
+force = [0, 1, 0]
+[[stages]]
+name = "a"
+end = { duration = 1 }
+[[stages]]
+name = "b"
+end = { duration = 1 }
+remove = [{ plane = "floor" }, { load = "push" }]
+[[stages.planes]]
+point = [7, 0, 0]
+normal = [-1, 0, 0]
+material = "sand"
+[[stages.loads]]
+kind = "force"
+grains = "first"
+force = [0, 2, 0]
+)";
+
+// The plane at -7 m went on as planes[1], the column of another one, and the load as "loads 0".
+TEST(StageTable, CallsWhatHasNoNameTheSameInAllStages) {
+  const Scenario scenario = parsed(kUnnamed);
+  const std::vector<Scenario>& stages = scenario.stages;
+
+  EXPECT_THAT(plane_names(scenario), ElementsAre("floor", "wall", "planes[2]", "planes[3]"));
+  EXPECT_THAT(plane_numbers(stages[0]), ElementsAre(0U, 1U, 2U));
+  EXPECT_THAT(plane_numbers(stages[1]), ElementsAre(1U, 2U, 3U));
+  EXPECT_EQ(stages[1].planes[1].point, Vec3(-7, 0, 0));
+  EXPECT_EQ(stages[1].planes[1].path(), "planes[2]");
+  ASSERT_EQ(stages[1].loads.size(), 2U);
+  EXPECT_EQ(stages[0].loads[1].name, "loads 1");
+  EXPECT_EQ(stages[1].loads[0].name, "loads 1");
+  EXPECT_EQ(stages[1].loads[1].name, "loads 2");
+}
+
+/// Pressures have columns of their own.
+TEST(StageTable, CallsPressuresWithoutANameTheSameInAllStages) {
+  const auto bag = [](const std::string& name) {
+    return "[[membranes]]\nname = \"" + name +
+           "\"\nshape = { kind = \"sheet\", width = 1, length = 1, cells = [2, 2] }\n"
+           "mode = \"truss\"\nthickness = 0.01\nmaterial = \"sand\"\nyoung_modulus = 1e6\n"
+           "density = 1000\n[[loads]]\nkind = \"pressure\"\nmembrane = \"" +
+           name + "\"\npressure = 1\n";
+  };
+  const Scenario scenario = parsed(bag("one") + bag("two") +
+                                   "[[stages]]\nname = \"a\"\nend = { duration = 1 }\n"
+                                   "[[stages]]\nname = \"b\"\nend = { duration = 1 }\n"
+                                   "remove = [{ load = \"push\" }]\n");
+
+  EXPECT_THAT(scenario.names_of_stages.pressures,
+              ElementsAre(PressureColumn{"loads 1", false}, PressureColumn{"loads 2", false}));
+}
+
+TEST(StageTable, RefusesANameThatAnotherOneIsCalledWithoutAName) {
+  const std::string plane = "material = \"sand\"\npoint = [0, 0, -3]\n";
+  const std::string stages =
+      "[[stages]]\nname = \"a\"\nend = { duration = 1 }\n[[stages]]\nname = \"b\"\n"
+      "end = { duration = 1 }\n";
+  const auto named = [&](const std::string& name) {
+    return "[[planes]]\nname = \"" + name + "\"\n" + plane;
+  };
+
+  EXPECT_THAT(
+      [&] { parsed(named("planes[3]") + "[[planes]]\n" + plane + stages); },
+      ThrowsMessage<InputError>(HasSubstr("planes[3].name: missing, and without one it is "
+                                          "called \"planes[3]\", as another one is named")));
+  EXPECT_THAT([&] { parsed("[[planes]]\n" + plane + named("planes[2]") + stages); },
+              ThrowsMessage<InputError>(HasSubstr("\"planes[2]\" has this name already")));
+  EXPECT_THAT(
+      [&] {
+        parsed(named("planes[3]") + stages +
+               "remove = [{ plane = \"planes[3]\" }]\n[[stages.planes]]\n" + plane);
+      },
+      ThrowsMessage<InputError>(HasSubstr("stages.b.planes: without a name it is called "
+                                          "\"planes[3]\", as one was that is taken out")));
+  EXPECT_NO_THROW(parsed(named("planes[7]") + "[[planes]]\n" + plane + stages));
+}
+
 TEST_F(StageTables, BeginLoadsWhereTheyAreNamed) {
   EXPECT_THAT(stages_[1].stage->origins.loads, ElementsAre(0U));
   EXPECT_THAT(stages_[2].stage->origins.loads, ElementsAre(2U, 2U));
@@ -267,9 +351,9 @@ TEST(StageTable, EndsByAStrainBetweenTwoThatHaveADistance) {
   EXPECT_THAT(
       [&] { with(R"("floor", "floor")"); },
       ThrowsMessage<InputError>(HasSubstr("stages.a.end.strain.between: names \"floor\" twice")));
-  EXPECT_THAT(
-      [&] { with(R"("floor", "wall")"); },
-      ThrowsMessage<InputError>(HasSubstr("planes \"floor\" and \"wall\" are not flat and parallel")));
+  EXPECT_THAT([&] { with(R"("floor", "wall")"); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("planes \"floor\" and \"wall\" are not flat and parallel")));
   EXPECT_THAT([&] { with(R"("floor", "lidd")"); },
               ThrowsMessage<InputError>(HasSubstr("\"lidd\"")));
 }

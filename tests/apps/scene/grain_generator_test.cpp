@@ -281,6 +281,24 @@ TEST(GrainGenerator, RefusesMoreGrainsThanMemoryHoldsWithoutDrawingThem) {
               HasSubstr("no arrangement of balls can"));
 }
 
+TEST(GrainGenerator, RefusesALatticeOfMoreSitesThanMemoryHoldsWithoutListingThem) {
+  GrainSettings settings = equal(10, 0.001, {3.0, 3.0, 3.0});
+  settings.placement = GrainPlacement::lattice;
+
+  try {
+    generate_grains(settings, {});
+    FAIL() << "a lattice of billions of sites was listed";
+  } catch (const InputError& error) {
+    // sqrt(2) 27 / 0.002^3
+    EXPECT_THAT(
+        error.what(),
+        testing::AllOf(HasSubstr("4.77e+09 sites"), HasSubstr("box of 3 m x 3 m x 3 m"),
+                       HasSubstr("radius of 0.001 m"), HasSubstr("placement = \"random\"")));
+  }
+  settings.placement = GrainPlacement::random;
+  EXPECT_EQ(generate_grains(settings, {}).size(), 10U);
+}
+
 TEST(DistanceToTriangle, IsTheSmallestOverThePointsOfTheTriangle) {
   test::Random random(7);
   for (int i = 0; i < 200; ++i) {

@@ -3,6 +3,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -111,6 +112,59 @@ TEST_F(RunResults, AreOfTheTimesThatWereAskedFor) {
   settings = force(Take::mean);
   settings.from = 4.5;
   EXPECT_THAT(problem(settings), HasSubstr("no row from 4.5 s to 4 s"));
+}
+
+TEST_F(RunResults, LeaveOutRowsWithoutAValue) {
+  test::write_bytes(folder_ / "reactions.csv",
+                    "time (s),floor.force_z (N)\n0,nan\n1,1\n2,5\n3,nan\n4,3\n5,nan\n");
+
+  EXPECT_EQ(result(force(Take::first)).text, "1");
+  EXPECT_EQ(result(force(Take::last)).text, "3");
+  EXPECT_EQ(result(force(Take::max)).text, "5");
+  EXPECT_EQ(result(force(Take::min)).text, "1");
+  EXPECT_EQ(result(force(Take::change)).text, "2");
+  // (1/2 (1 + 5) 1 + 1/2 (5 + 3) 2) / 3
+  EXPECT_EQ(result(force(Take::mean)).text, fmt::format("{}", 11.0 / 3.0));
+}
+
+TEST_F(RunResults, AreRefusedWhereNoRowHasAValue) {
+  test::write_bytes(folder_ / "reactions.csv", "time (s),floor.force_z (N)\n0,nan\n1,nan\n2,5\n");
+  for (const Take take :
+       {Take::first, Take::last, Take::max, Take::min, Take::mean, Take::change}) {
+    ResultSettings settings = force(take);
+    settings.to = 1.5;
+    EXPECT_THAT(problem(settings),
+                HasSubstr("no value of \"floor.force_z\" from 0 s to 1 s: it is nan in all rows"));
+  }
+  ResultSettings settings = force(Take::last);
+  settings.at = 1.5;
+  EXPECT_THAT(problem(settings), HasSubstr("no value of \"floor.force_z\" at 1.5 s"));
+  settings.at = 2.0;
+  EXPECT_EQ(result(settings).text, "5");
+}
+
+// The last step may end 1e-3 of it before the end of the run.
+TEST_F(RunResults, OfTheEndOfARunAreThoseOfItsLastRow) {
+  test::write_bytes(folder_ / "reactions.csv", "time (s),floor.force_z (N)\n0,1\n1,3\n1.99999,7\n");
+
+  ResultSettings settings = force(Take::last);
+  settings.at = 2.0;
+  EXPECT_EQ(result(settings).text, "7");
+  settings.at = 2.01;
+  EXPECT_THAT(problem(settings), HasSubstr("no row at 2.01 s"));
+  settings = force(Take::last);
+  settings.from = 2.0;
+  EXPECT_EQ(result(settings).text, "7");
+}
+
+TEST_F(RunResults, OfOneRowAreThoseOfItsTimeAlone) {
+  test::write_bytes(folder_ / "reactions.csv", "time (s),floor.force_z (N)\n1,3\n");
+
+  ResultSettings settings = force(Take::last);
+  settings.at = 1.0;
+  EXPECT_EQ(result(settings).text, "3");
+  settings.at = 1.001;
+  EXPECT_THAT(problem(settings), HasSubstr("no row at 1.001 s"));
 }
 
 TEST_F(RunResults, AreValuesOfTheReport) {

@@ -63,6 +63,19 @@ TEST_F(StudyFile, PutsASobolSequenceIntoRangesOnTheScalesAskedFor) {
   EXPECT_THAT(study.points[2].values, ElementsAre("35 deg", "3.16227766 MPa", "2"));
 }
 
+TEST_F(StudyFile, KeepsAllDigitsOfWholeNumbersOfASobolSequence) {
+  const Study study = read(std::string("[sobol]\nruns = 4\n[sobol.parameters]\n"
+                                       "a.seed = { from = 1, to = 4000000000, whole = true }\n") +
+                           kResults);
+
+  // 1 + u 4e9 for u = 0, 1/2, 3/4, 1/4
+  ASSERT_EQ(study.points.size(), 4U);
+  EXPECT_THAT(study.points[0].values, ElementsAre("1"));
+  EXPECT_THAT(study.points[1].values, ElementsAre("2000000001"));
+  EXPECT_THAT(study.points[2].values, ElementsAre("3000000001"));
+  EXPECT_THAT(study.points[3].values, ElementsAre("1000000001"));
+}
+
 TEST_F(StudyFile, TakesATableWhereAnEmptyCellLeavesTheScenarioAsItIs) {
   test::write_bytes(folder_ / "runs.csv", "simulation.seed,simulation.damping\n1,\n2,0.5\n");
 
@@ -96,6 +109,27 @@ TEST_F(StudyFile, IsRefusedWithThePlaceOfWhatIsWrong) {
               HasSubstr("expected a CSV file of the run"));
   EXPECT_THAT(problem("[grid]\na = [1]\n[results]\nf = { column = \"y\", take = \"lst\" }\n"),
               AllOf(HasSubstr("results.f.take"), HasSubstr("did you mean \"last\"?")));
+}
+
+TEST_F(StudyFile, TakesAnEmptyCellInQuotesForARunWhereATableHasOneColumn) {
+  test::write_bytes(folder_ / "runs.csv", "simulation.seed\n1\n\"\"\n\n3\n");
+
+  const Study study = read(std::string("table = \"runs.csv\"\n") + kResults);
+
+  ASSERT_EQ(study.points.size(), 3U);
+  EXPECT_THAT(overrides_of(study, 1), testing::IsEmpty());
+  EXPECT_THAT(overrides_of(study, 2), ElementsAre("simulation.seed=3"));
+}
+
+TEST_F(StudyFile, RefusesResultsWithTheNameOfAnotherColumn) {
+  for (const char* name : {"run", "status", "problem", "key"})
+    EXPECT_THAT(problem(std::string("[grid]\na.b = [1]\n[results]\n") + name +
+                        " = { report = \"timing.steps\" }\n"),
+                AllOf(HasSubstr("many.toml:5:"), HasSubstr(std::string("results.") + name),
+                      HasSubstr("a column that every results.csv has")));
+  EXPECT_THAT(problem("[grid]\na.b = [1]\n[results]\n"
+                      "\"a.b\" = { report = \"timing.steps\" }\n"),
+              HasSubstr("results.a.b: got the name of a column that is of a parameter"));
 }
 
 TEST_F(StudyFile, NamesEveryRowOfATableThatDoesNotFit) {

@@ -18,7 +18,6 @@ inline Bond bond_between(const Scene& scene, std::size_t a, std::size_t b) {
   bond.nodes = {scene.nodes[a].id, scene.nodes[b].id};
   bond.rest_length = length;
   bond.normal_stiffness = kGridModulus * area / length;
-  bond.shear_stiffness = 12.0 * kGridModulus * moment / (length * length * length);
   bond.bending_stiffness = kGridModulus * moment / length;
   bond.twisting_stiffness = kGridModulus / 2.6 * 2.0 * moment / length;  // Poisson's ratio 0.3
   bond.adhesion = 1e100;
@@ -49,12 +48,8 @@ inline Scene grid_scene() {
   scene.gravity = {0.0, 0.0, -9.81};
   scene.functors = {"Ig2_GridNode_GridNode_GridNodeGeom6D",
                     "Law2_ScGeom6D_CohFrictPhys_CohesionMoment"};
-  scene.materials.push_back({.type = "FrictMat",
-                             .label = "cloth",
-                             .young = 1e7,
-                             .poisson = 0.4,
-                             .friction_angle = 0.5,
-                             .density = 1000.0});
+  scene.materials.push_back(
+      {.type = "FrictMat", .label = "cloth", .young = 1e7, .poisson = 0.4, .friction_angle = 0.5});
   for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(2, 1, 0),
                         Vec3(5, 0, 0), Vec3(6, 0, 0)}) {
     GridNode node;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace plekton::apps::yade::node_boxes_test {
@@ -17,7 +18,7 @@ bool holds(const Box& box, const Vec3& point) {
 
 /// Every chosen point is in exactly one box, and no other point is in any.
 void expect_exact(const std::vector<Vec3>& points, const std::vector<bool>& chosen) {
-  const std::vector<Box> boxes = boxes_around(points, chosen);
+  const std::vector<Box> boxes = boxes_around(points, chosen).boxes;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto count = std::count_if(boxes.begin(), boxes.end(),
                                      [&](const Box& b) { return holds(b, points[i]); });
@@ -37,7 +38,8 @@ TEST(BoxesAround, TakeARowAsOne) {
   std::vector<bool> chosen(25, false);
   for (std::size_t i = 0; i < 5; ++i) chosen[i] = true;
 
-  EXPECT_EQ(boxes_around(points, chosen).size(), 1u);
+  EXPECT_EQ(boxes_around(points, chosen).boxes.size(), 1u);
+  EXPECT_TRUE(boxes_around(points, chosen).hold_all);
   expect_exact(points, chosen);
 }
 
@@ -48,7 +50,7 @@ TEST(BoxesAround, HoldARimAndNothingWithinIt) {
     chosen.push_back(std::min({x[0], x[1], 0.5 - x[0], 0.5 - x[1]}) < 0.05);
 
   expect_exact(points, chosen);
-  EXPECT_LE(boxes_around(points, chosen).size(), 12u);
+  EXPECT_LE(boxes_around(points, chosen).boxes.size(), 12u);
 }
 
 TEST(BoxesAround, AreExactForPointsAnywhere) {
@@ -74,9 +76,11 @@ TEST(BoxesAround, DoNotShareAPointWhereRoundingTearsARowApart) {
 }
 
 TEST(BoxesAround, LeaveOutWhatIsAtThePlaceOfOneThatIsNotChosen) {
-  EXPECT_TRUE(
-      boxes_around({Vec3::Zero(), Vec3::Zero(), Vec3::Ones()}, {true, false, false}).empty());
-  EXPECT_TRUE(boxes_around({Vec3::Zero()}, {false}).empty());
+  const NodeBoxes around =
+      boxes_around({Vec3::Zero(), Vec3::Zero(), Vec3::Ones()}, {true, false, false});
+  EXPECT_TRUE(around.boxes.empty());
+  EXPECT_FALSE(around.hold_all);
+  EXPECT_TRUE(boxes_around({Vec3::Zero()}, {false}).boxes.empty());
 }
 
 }  // namespace

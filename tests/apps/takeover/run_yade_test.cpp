@@ -63,6 +63,28 @@ TEST(RunYade, TellsWhatAScriptHasMadeAtAnIteration) {
   EXPECT_TRUE(has_functor(scene, "Law2_ScGeom6D_CohFrictPhys_CohesionMoment"));
 }
 
+TEST(RunYade, TellsWhatFunctorsSetThatHasNoCounterpart) {
+  if (!find_program("yade")) GTEST_SKIP() << "yade is not installed";
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "case.py", R"(
+O.materials.append(FrictMat(young=1e7, poisson=0.3, density=2000, frictionAngle=0.5))
+O.bodies.append([sphere((0, 0, 0), 0.1), sphere((0, 0, 1), 0.1)])
+O.engines = [InteractionLoop([Ig2_Sphere_Sphere_ScGeom()],
+    [Ip2_FrictMat_FrictMat_MindlinPhys(en=0.3, es=0.3, frictAngle=0.1)],
+    [Law2_ScGeom_MindlinPhys_Mindlin(includeMoment=True)]),
+    InteractionLoop([], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()])]
+O.dt = 1e-5
+)");
+
+  const Scene scene = run_to(folder / "case.py", 0);
+
+  EXPECT_THAT(scene.functor_settings,
+              testing::ElementsAre(testing::Pair("Ip2_FrictMat_FrictMat_MindlinPhys",
+                                                 testing::ElementsAre("en", "es", "frictAngle")),
+                                   testing::Pair("Law2_ScGeom_MindlinPhys_Mindlin",
+                                                 testing::ElementsAre("includeMoment"))));
+}
+
 TEST(RunYade, TellsWhyAScriptFails) {
   if (!find_program("yade")) GTEST_SKIP() << "yade is not installed";
 

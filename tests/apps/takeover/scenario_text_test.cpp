@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace plekton::apps::yade::scenario_text_test {
 namespace {
 
@@ -80,6 +82,38 @@ TEST(ScenarioText, HasSpheresWithTheirMotionAndForces) {
   EXPECT_EQ(result.scene.state.velocity[7], Vec3::Zero());
   EXPECT_EQ(result.scene.state.velocity[8], Vec3(0.0, 0.0, -3.0));
   ASSERT_EQ(result.scene.loads.forces.size(), 1u);
+}
+
+TEST(ScenarioText, LoadsSpheresWithEqualForcesTogether) {
+  Scene scene;
+  scene.time_step = 1e-6;
+  scene.materials = {{.type = "FrictMat", .label = "steel", .young = 1e9, .poisson = 0.3}};
+  for (int i = 0; i < 4; ++i) {
+    scene.spheres.push_back(sphere_at({1.0 * i, 0.0, 0.0}, 0.1));
+    scene.spheres.back().id = i;
+  }
+  scene.forces = {{2, {0.0, 0.0, 3.0}, Vec3::Zero()},
+                  {0, {5.0, 0.0, 0.0}, Vec3::Zero()},
+                  {3, {0.0, 0.0, 3.0}, Vec3::Zero()}};
+
+  const BuiltScene result = built(scene);
+
+  ASSERT_EQ(result.scene.loads.forces.size(), 2u);
+  EXPECT_EQ(result.scene.loads.forces[0].nodes.size(), 2u);
+  EXPECT_EQ(result.scene.loads.forces[1].nodes.size(), 1u);
+}
+
+TEST(ScenarioText, NamesItsScriptInOneLine) {
+  TakeoverOptions options;
+  for (const char* script : {"a\nb.py", "a\n  b.py", "a\x1b\tb.py"}) {
+    options.script = script;
+
+    const Takeover takeover = take_over(grid_scene(), options);
+
+    EXPECT_NO_THROW(parse_scenario(takeover.scenario, "case.toml")) << script;
+  }
+  options.script = "a\nb.py";
+  EXPECT_THAT(take_over(grid_scene(), options).scenario, HasSubstr("Taken over from a\\nb.py at"));
 }
 
 TEST(ScenarioText, TurnsAWallToTheBodiesAndLeavesOneBetweenThemOut) {
@@ -170,18 +204,49 @@ TEST(ScenarioText, JoinsFacetsAndBoxesThatMoveAlike) {
   EXPECT_EQ(result.scene.state.velocity.back(), Vec3(0.0, 0.0, 1.0));
 }
 
+// A strip of squares of two facets each, told one by one.
+TEST(ScenarioText, JoinsTheCornersOfFacetsThatAreToldOneByOne) {
+  Scene scene = grid_scene();
+  RigidFacets facet;
+  facet.material = 0;
+  facet.blocked = "xyzXYZ";
+  facet.facets = {{0, 1, 2}};
+  constexpr int kSquares = 50;
+  for (int i = 0; i < kSquares; ++i) {
+    const double x = i;
+    facet.points = {{x, 0, -5}, {x + 1, 0, -5}, {x, 1, -5}};
+    scene.facets.push_back(facet);
+    facet.points = {{x + 1, 0, -5}, {x + 1, 1, -5}, {x, 1, -5}};
+    scene.facets.push_back(facet);
+  }
+
+  const std::string scenario = take_over(scene, {.script = "case.py"}).scenario;
+
+  const auto points = [&] {
+    const std::size_t begin = scenario.rfind("shape.points = [\n");
+    const std::size_t end = scenario.find("]\nshape.facets", begin);
+    return std::count(scenario.begin() + static_cast<std::ptrdiff_t>(begin),
+                      scenario.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+  };
+  // A line for each, and that of the bracket.
+  EXPECT_EQ(points(), 2 * (kSquares + 1) + 1);
+}
+
 TEST(ScenarioText, SaysWhatIsLeftOut) {
   Scene scene = grid_scene();
   scene.is_periodic = true;
   scene.others = {{"Polyhedra", 4}};
   scene.engines = {"NewtonIntegrator", "PyRunner"};
   scene.functors.push_back("Law2_ScGeom_ViscElPhys_Basic");
+  scene.functor_settings["Ip2_FrictMat_FrictMat_MindlinPhys"] = {"en", "frictAngle"};
   scene.contacts = 3;
 
   const std::vector<std::string> notes = take_over(scene, {}).notes;
 
   for (const char* what : {"the cell is periodic", "4 bodies of shape Polyhedra", "engine PyRunner",
                            "Law2_ScGeom_ViscElPhys_Basic: has no counterpart",
+                           "Ip2_FrictMat_FrictMat_MindlinPhys: what it sets is left out: en, "
+                           "frictAngle; contacts are as",
                            "3 contacts are there", "grids do not touch each other in YADE"})
     EXPECT_THAT(notes, Contains(HasSubstr(what)));
 }

@@ -6,14 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace plekton::apps::yade::yade_scene_test {
 namespace {
 
 constexpr std::string_view kTold = R"({"iteration": 7, "time": 0.5, "dt": 1e-3, "periodic": false,
-"engines": ["NewtonIntegrator"], "functors": ["Ig2_Sphere_Sphere_ScGeom"], "gravity": [0, 0, -9.81],
+"engines": ["NewtonIntegrator"], "functors": ["Ig2_Sphere_Sphere_ScGeom"],
+"functor_settings": {"Ip2_FrictMat_FrictMat_FrictPhys": ["kn", "ks"]}, "gravity": [0, 0, -9.81],
 "damping": 0.2, "damp_gravity": true, "stepper": "", "forces": [{"id": 0, "force": [1, 0, 0], "torque": [0, 0, 2]}],
-"materials": [{"type": "FrictMat", "label": "sand", "young": 1e7, "poisson": 0.3, "friction_angle": 0.5, "density": 2600}],
+"materials": [{"type": "FrictMat", "label": "sand", "young": 1e7, "poisson": 0.3, "friction_angle": 0.5}],
 "spheres": [{"id": 0, "material": 0, "x": [1, 2, 3], "v": [0, 0, -1], "w": [4, 0, 0], "blocked": "xY", "mass": 0.1, "r": 0.02}],
 "nodes": [{"id": 1, "material": 0, "x": [0, 0, 0], "v": [0, 0, 0], "w": [0, 0, 0], "blocked": "", "mass": 0.1, "r": 0.01, "inertia": 0.25}],
 "connections": [], "pfacets": [],
@@ -40,6 +42,8 @@ TEST(YadeScene, IsReadAsItIsTold) {
   EXPECT_EQ(scene.others.at("Polyhedra"), 2);
   EXPECT_TRUE(has_functor(scene, "Ig2_Sphere_Sphere_ScGeom"));
   EXPECT_FALSE(has_functor(scene, "Ig2_Sphere_Sphere"));
+  EXPECT_EQ(scene.functor_settings.at("Ip2_FrictMat_FrictMat_FrictPhys"),
+            (std::vector<std::string>{"kn", "ks"}));
 }
 
 TEST(YadeScene, IsRefusedWhereItIsNotWhatIsExpected) {

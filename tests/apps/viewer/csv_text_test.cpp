@@ -27,6 +27,18 @@ TEST(CsvText, MayBeginWithAByteOrderMark) {
   EXPECT_THAT(rows[0].cells, ElementsAre("a", "b"));
 }
 
+TEST(CsvText, HasNoRowsForBlankLinesButOneForAnEmptyCellInQuotes) {
+  const auto rows = parse_csv("a\n\n  \r\n\"\"\r\n\t\nb\n \"\" \n\n");
+
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_THAT(rows[0].cells, ElementsAre("a"));
+  EXPECT_THAT(rows[1].cells, ElementsAre(""));
+  EXPECT_EQ(rows[1].line, 4);
+  EXPECT_THAT(rows[2].cells, ElementsAre("b"));
+  EXPECT_THAT(rows[3].cells, ElementsAre(""));
+  EXPECT_EQ(rows[3].line, 7);
+}
+
 TEST(CsvText, IsReadAsItWasWritten) {
   for (const std::string cell : {"plain", "a,b", "a \"quote\"", "two\nlines", "[0, 0, 1]"}) {
     const auto rows = parse_csv(csv_cell(cell) + ",x\n");

@@ -97,6 +97,16 @@ TEST(StateArchive, NamesWhatIsMissing) {
               ThrowsMessage<StateMismatch>(HasSubstr("no \"path\"")));
 }
 
+TEST(StateArchive, KnowsWhatAStateThatItReadsHas) {
+  StateTree tree = written(example());
+  const StateArchive reader = StateArchive::reader(tree);
+
+  EXPECT_TRUE(reader.has("path"));
+  EXPECT_TRUE(reader.group("inner").has("parts/node"));
+  EXPECT_FALSE(reader.group("inner").has("path"));
+  EXPECT_FALSE(StateArchive::writer(tree).has("path"));
+}
+
 TEST(StateArchive, NamesWhatIsOfAnotherKind) {
   StateTree tree = written(example());
   tree.arrays["length"] = {std::vector<std::int64_t>{1}, 1};
