@@ -61,7 +61,7 @@ TEST(Models, RefuseNumbersOutOfTheirRangesWithTheLawAndThePair) {
                   {.tensile_strength = -1.0, .shear_strength = kNan, .rupture_distance = -2.0},
                   {.rolling_stiffness = kNan, .twisting_limit = -3.0}, {-0.5}))),
       AllOf(HasSubstr("pairs of materials, law cohesive_frictional"),
-            HasSubstr("tensile_strength is -1; it must not be negative"),
+            HasSubstr("tensile_strength is -1; it must be finite and not negative"),
             HasSubstr("shear_strength is nan"), HasSubstr("rupture_distance is -2"),
             HasSubstr("rolling_stiffness is nan"), HasSubstr("twisting_limit is -3"),
             HasSubstr("damping_ratio is -0.5; it must be finite and not negative")));
