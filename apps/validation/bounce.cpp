@@ -93,8 +93,7 @@ Bounce on_wall(double time_step) {
     bounce.places.push_back(centre.place);
     bounce.restitution = centre.speed;  // it came with 1 m/s
     const dynamics::Energy energy = simulation.energy();
-    bounce.energy_error =
-        std::max(bounce.energy_error, std::abs(energy.closure_error()) / energy.initial);
+    keep_largest(bounce.energy_error, std::abs(energy.closure_error()) / energy.initial);
   }
   return bounce;
 }
@@ -130,8 +129,8 @@ Bounce on_incline(double friction, double time_step) {
     const Along centre = centre_along(simulation, nodes, kNormal);
     bounce.times.push_back(simulation.time());
     bounce.places.push_back(centre.place);
-    bounce.drift = std::max(
-        bounce.drift, std::abs(centre_along(simulation, nodes, Vec3::UnitY()).place - kPlace));
+    keep_largest(bounce.drift,
+                 std::abs(centre_along(simulation, nodes, Vec3::UnitY()).place - kPlace));
     if (simulation.time() < kFirstTouch) fastest_in = std::max(fastest_in, -centre.speed);
     if (simulation.time() < kSecondFall) fastest_out = std::max(fastest_out, centre.speed);
   }

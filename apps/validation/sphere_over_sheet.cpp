@@ -102,8 +102,8 @@ CaseReport validate(bool full) {
   double worst_tangential = 0.0;
   for (std::size_t i = 0; i < felt.place.size(); ++i) {
     expected.push_back(std::min(kRatio * kStiffness * felt.place[i], limit));
-    worst_normal = std::max(worst_normal, std::abs(felt.normal[i] / normal - 1.0));
-    worst_tangential = std::max(worst_tangential, std::abs(felt.tangential[i] - expected[i]));
+    keep_largest(worst_normal, std::abs(felt.normal[i] / normal - 1.0));
+    keep_largest(worst_tangential, std::abs(felt.tangential[i] - expected[i]));
   }
   CaseReport report;
   report.findings = {

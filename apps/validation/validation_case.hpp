@@ -3,6 +3,7 @@
 
 #include "apps/validation/figure.hpp"
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,11 @@ struct Finding {
 
   bool passes() const noexcept;
 };
+
+/// Keeps the largest of some deviations; one that is no number stays, and no finding passes with it.
+inline void keep_largest(double& largest, double deviation) noexcept {
+  if (!(deviation <= largest) && !std::isnan(largest)) largest = deviation;
+}
 
 struct CaseReport {
   std::vector<Finding> findings;

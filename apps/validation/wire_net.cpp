@@ -210,7 +210,7 @@ Pull pulled(double speed) {
     for (const NodeId node : net.top) force -= simulation.forces().force[index_of(node)].y();
     pull.elongations.push_back(simulation.state().position[index_of(net.top[0])].y() - start);
     pull.forces.push_back(force);
-    pull.closure = std::max(pull.closure, simulation.energy().closure());
+    keep_largest(pull.closure, simulation.energy().closure());
   }
   return pull;
 }

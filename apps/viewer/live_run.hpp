@@ -41,9 +41,10 @@ class LiveRun {
   PackedRun packed_;
   std::string problem_;  ///< with what was read last
   std::size_t step_ = 1;
-  std::size_t next_ = 0;         ///< frame of the run
-  std::size_t told_frames_ = 0;  ///< of the run, when it was read last
-  std::size_t generation_ = 0;
+  std::size_t next_ = 0;                          ///< frame of the run
+  std::size_t told_frames_ = 0;                   ///< of the run, when it was read last
+  std::filesystem::file_time_type told_first_{};  ///< when the first of these was written
+  std::size_t generation_;  ///< begins elsewhere in every server: pages outlive them
   std::size_t version_ = 0;
   std::pair<std::size_t, bool> told_{0, false};  ///< rows of histories, and whether it has ended
 };

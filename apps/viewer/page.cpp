@@ -47,25 +47,16 @@ std::string without_tags(std::string json) {
 }
 
 /// Every so many frames, and the last one.
-PackedRun packed_every(const RunFolder& run, std::size_t step, std::size_t limit,
-                       const std::function<void(double)>& hear) {
+PackedRun packed_every(const RunFolder& run, std::size_t step, std::size_t limit) {
   PackedRun packed;
   packed.set_histories(read_histories(run.folder));
   const std::size_t count = run.frames.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (i % step != 0 && i + 1 != count) continue;
     packed.add(run.frames[i], planes_at(run, run.frames[i].time));
-    if (hear) hear(static_cast<double>(i + 1) / static_cast<double>(count));
     if (packed.size() > limit && packed.frames() > 1 && step < count) break;
   }
   return packed;
-}
-
-/// "every second" of 2, "every 5th".
-std::string every(std::size_t step) {
-  if (step == 2) return "every second";
-  if (step == 3) return "every third";
-  return fmt::format("every {}th", step);
 }
 
 /// How many frames every so many of a number are, with the last one.
@@ -75,8 +66,13 @@ std::size_t taken(std::size_t count, std::size_t step) {
 
 }  // namespace
 
-PageData pack_run(const RunFolder& run, std::size_t limit,
-                  const std::function<void(double)>& hear) {
+std::string every(std::size_t step) {
+  if (step == 2) return "every second";
+  if (step == 3) return "every third";
+  return fmt::format("every {}th", step);
+}
+
+PageData pack_run(const RunFolder& run, std::size_t limit) {
   const std::size_t count = run.frames.size();
   if (count == 0)
     throw ViewError(run.folder.string() +
@@ -84,7 +80,7 @@ PageData pack_run(const RunFolder& run, std::size_t limit,
   PageData data;
   std::size_t step = 1;
   while (true) {
-    data.packed = packed_every(run, step, limit, hear);
+    data.packed = packed_every(run, step, limit);
     const std::size_t done = data.packed.frames(), wanted = taken(count, step);
     if (data.packed.size() <= limit || step >= count) break;
     // About as many as fit, and always fewer than before.

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,10 +19,11 @@ struct PageData {
 /// Reads and packs a run. Where all frames would be more than a limit, only every second is taken,
 /// or every third, and so on, and the last one; a note says so.
 /// @param limit  bytes of all blocks
-/// @param hear   told how much is done, 0 to 1, if given
 /// @throws ViewError also for a run without frames
-PageData pack_run(const RunFolder& run, std::size_t limit,
-                  const std::function<void(double)>& hear = {});
+PageData pack_run(const RunFolder& run, std::size_t limit);
+
+/// Which of many are shown: "every second" of a step of 2, "every 5th".
+std::string every(std::size_t step);
 
 /// The page of a run that ended or was stopped: one file that needs no other and no network.
 /// @returns its size in bytes

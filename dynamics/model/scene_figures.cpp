@@ -36,6 +36,11 @@ std::vector<double> furthest_in_a_step(const Scene& scene) {
   return furthest;
 }
 
+double thinnest_structure(const geometry::Elements& elements) {
+  const double bars = smallest_radius(elements.cylinders, std::numeric_limits<double>::infinity());
+  return smallest_radius(elements.facets, bars);
+}
+
 double pace_radius(const geometry::Elements& elements) {
   if (elements.spheres.empty()) return smallest_radius(elements);
   return smallest_radius(elements.spheres, std::numeric_limits<double>::infinity());

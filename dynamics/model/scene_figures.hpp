@@ -14,6 +14,9 @@ namespace plekton::dynamics {
 /// what they like, where there are no elements at all.
 std::vector<double> furthest_in_a_step(const Scene& scene);
 
+/// m, smallest radius of a cylinder or facet; infinite where there is none.
+double thinnest_structure(const geometry::Elements& elements);
+
 /// Smallest radius (m) of what moves past others: of the spheres where there are some. Infinite if
 /// there are no elements.
 double pace_radius(const geometry::Elements& elements);

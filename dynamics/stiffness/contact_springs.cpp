@@ -95,6 +95,7 @@ double ContactSprings::crossing_step(const NodeState& state,
   for (const Spring& spring : springs_) {
     if (!(spring.contact.core_force > 0.0)) continue;
     const Approach approach = approach_of(spring, state, properties);
+    if (!(approach.mobility > 0.0)) continue;  // of what is moved or held nothing is lost
     energy += approach.energy();
     power += spring.contact.core_force * std::max(0.0, -approach.speed);
   }

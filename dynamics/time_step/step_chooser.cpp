@@ -32,6 +32,7 @@ StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
     : of_(of),
       limits_(&limits),
       pace_radius_(pace_radius(of.scene.elements)),
+      thinnest_(thinnest_structure(of.scene.elements)),
       springs_(&of.rigid),
       wires_(&of.rigid),
       spread_(of.surface, of.rigid),
@@ -89,7 +90,7 @@ double StepChooser::choose(double dt, const Pace& pace) {
       std::min({near, springs_.collision_step(of_.scene.state, of_.scene.properties),
                 springs_.crossing_step(of_.scene.state, of_.scene.properties),
                 walls_.step(springs_, of_.scene.state, of_.scene.properties), step_of_wires(margin),
-                step_of_bars()});
+                step_of_bars(), step_of_meeting(margin)});
   const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
   step_ = std::min(
       {stable, collision_step_, motion, step_of_spin(), (may_grow ? kGrowth : 1.0) * step_});
@@ -117,6 +118,22 @@ double StepChooser::step_of_bars() const {
     fastest = std::max(fastest, motion.norm() / length);
   }
   return kLargestTurnOfBar / fastest;
+}
+
+/// s, in which nodes of structures that touch each other, or are nearer than a margin, move by
+/// kLargestMotion of the smallest radius of a structure at most; infinite if none does.
+double StepChooser::step_of_meeting(double margin) const {
+  double fastest = 0.0;  // m/s
+  const auto look_at = [&](NodeId node) {
+    fastest = std::max(fastest, of_.scene.state.velocity[index_of(node)].norm());
+  };
+  of_.contacts.for_each_structure_stiffness(
+      [&](NodeId node, const contact::PairStiffness&, double) { look_at(node); });
+  of_.contacts.for_each_near_cell_pair(margin, [&](const geometry::CellPair& cells) {
+    for (const geometry::CellId cell : {cells.a, cells.b})
+      for (const NodeId node : of_.surface.nodes_of(cell)) look_at(node);
+  });
+  return kLargestMotion * thinnest_ / fastest;
 }
 
 /// s, in which the node that spins fastest turns by half of kLargestTurn; infinite if none does.

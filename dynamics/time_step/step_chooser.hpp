@@ -83,6 +83,7 @@ class StepChooser {
   double stable_near(double margin, double last);
   double step_of_wires(double margin);
   double step_of_bars() const;
+  double step_of_meeting(double margin) const;
   double step_of_spin() const;
   bool structures_touch() const;
   void add_near_structures(double margin, double rate);
@@ -90,6 +91,7 @@ class StepChooser {
   Resistance of_;
   const StepLimits* limits_;
   double pace_radius_;             ///< m, against which the motion in a chosen step is measured
+  double thinnest_;                ///< m, smallest radius of a structure; infinite without any
   NodalStiffness space_{0};        ///< of all nodes, so that no look allocates
   ContactSprings springs_;         ///< of the last look
   ContactSprings wires_;           ///< likewise, that are taut or may be

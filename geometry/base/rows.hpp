@@ -30,12 +30,6 @@ class Rows {
     std::memcpy(static_cast<void*>(&thing), numbers, sizeof(thing));
   }
 
-  /// Writes a thing of other rows into a lane.
-  PLEKTON_INLINE void set_from(const Rows& other, std::size_t other_lane,
-                               std::size_t lane) noexcept {
-    for (std::size_t n = 0; n < kNumbers; ++n) rows_[n][lane] = other.rows_[n][other_lane];
-  }
-
   template <class Thing>
   PLEKTON_INLINE Thing at(std::size_t lane) const noexcept {
     Thing thing;

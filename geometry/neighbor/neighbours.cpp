@@ -124,7 +124,8 @@ bool Neighbours::may_touch(const IndexPair& pair, Positions x) const noexcept {
 /// Where cells come that are in no list, it is made anew with the next step.
 void Neighbours::follow(const SurfaceChange& change) {
   surface_ = &change.after();
-  if (brings_elements(change)) skin_.expire();
+  // Of a facet that is left out with a group the sides may stay, and belong to none.
+  if (brings_elements(change) || !groups_.empty()) skin_.expire();
   std::vector<IndexPair> left;
   for (const IndexPair& pair : sphere_cells_) {
     for (const CellId cell : change.left_of(CellId{pair.b}))

@@ -94,7 +94,8 @@ class Approach {
 
 MovingProbe MovingProbe::translated(const Probe& probe, const Vec3& way) {
   MovingProbe moving = resting(probe);
-  for (std::size_t k = 0; k < probe.core.count; ++k) moving.to.x[k] += way;
+  const std::size_t count = std::min(probe.core.count, probe.core.x.size());  // checked later
+  for (std::size_t k = 0; k < count; ++k) moving.to.x[k] += way;
   return moving;
 }
 

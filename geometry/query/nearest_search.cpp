@@ -73,9 +73,14 @@ bool separates(const Vec3& direction, const Core& a, const Core& b, double reach
     least = std::min(least, direction.dot(way));
     size = std::max(size, way.cwiseAbs().sum());
   }
+  // Of a direction so short that its square is rounded to nothing nobody can tell.
+  constexpr double kLeast =
+      std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+  const double squared = direction.squaredNorm();
   const double rounding = kRounding * (size + reach);
-  return least - greatest >
-         (kSide == Rounding::certain ? reach + rounding : reach - rounding) * direction.norm();
+  return squared > kLeast &&
+         least - greatest > (kSide == Rounding::certain ? reach + rounding : reach - rounding) *
+                                std::sqrt(squared);
 }
 
 /// A part of a tree that is still to be looked at.

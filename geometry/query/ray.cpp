@@ -50,7 +50,7 @@ std::optional<RayHit> hit(const Ray& ray, const PlacedSurface& on, CellId cell) 
       return hit_at(t, point, near, cell, ray, radius);
     }
     const double next = t + near.gap / approach;
-    if (!(next <= ray.t_end)) return std::nullopt;
+    if (!(next <= ray.t_end && std::isfinite(next))) return std::nullopt;
     if (!(next > t)) return hit_at(t, point, near, cell, ray, radius);
     t = next;
   }

@@ -15,8 +15,8 @@ void require_way(const std::vector<Vec3>& points) {
     throw MeshError("a chain through " + std::to_string(points.size()) +
                     " points; expected at least 2");
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite())
-      throw MeshError("point " + std::to_string(i) + " of a chain is not finite");
+    if (!points[i].allFinite() || !(points[i].cwiseAbs().maxCoeff() < kLargestCoordinate))
+      throw MeshError("point " + std::to_string(i) + " of a chain is not finite, or too far away");
     if (i > 0 && points[i] == points[i - 1])
       throw MeshError("points " + std::to_string(i - 1) + " and " + std::to_string(i) +
                       " of a chain are equal; leave one of them out");

@@ -84,7 +84,7 @@ PolygonSoup parse_mesh(std::string_view bytes, MeshFormat format, const std::str
     case MeshFormat::stl_binary:
       return read_stl(without_byte_order_mark(bytes), name);
     case MeshFormat::ply:
-      return read_ply(bytes, name);
+      return read_ply(without_byte_order_mark(bytes), name);
     case MeshFormat::gmsh:
       return read_gmsh(without_byte_order_mark(bytes), name);
     case MeshFormat::vtp:

@@ -138,6 +138,9 @@ class VtpReader {
       add_cell(std::span(corners).subspan(begin, end - begin));
       begin = end;
     }
+    if (begin != corners.size())
+      damaged(array, "the last offset is " + std::to_string(begin) + "; expected " +
+                         std::to_string(corners.size()) + ", the number of corners");
   }
 
   /// Corners count from the first point of their piece; from here on from that of the file.

@@ -34,9 +34,9 @@ Weld weld_of(std::span<const Vec3> points, DisjointSets& sets) {
 
 using Cell = std::array<std::int64_t, 3>;
 
-/// Points sorted into cubic cells, half the weld distance wide, so that all points of one cell are
-/// within reach of each other (the diagonal is 0.87 of the distance) and partners are at most two
-/// cells away.
+/// Points sorted into cubic cells, a little more than half the weld distance wide, so that all
+/// points of one cell are within reach of each other (the diagonal is 0.87 of the distance) and
+/// partners are at most two cells away, however places are rounded.
 class CellGrid {
  public:
   CellGrid(std::span<const Vec3> points, double distance)
@@ -44,7 +44,7 @@ class CellGrid {
     Vec3 lower = points[0];
     for (const Vec3& p : points) lower = lower.cwiseMin(p);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vec3 scaled = 2.0 * ((points[i] - lower) / distance);
+      const Vec3 scaled = 1.98 * ((points[i] - lower) / distance);
       for (std::size_t k = 0; k < 3; ++k)
         cell_of_[i][k] =
             static_cast<std::int64_t>(std::floor(scaled[static_cast<Eigen::Index>(k)]));

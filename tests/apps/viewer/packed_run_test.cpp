@@ -186,9 +186,10 @@ TEST_F(PackedRunOf, FollowsARunThatGrows) {
   EXPECT_EQ(after["frames"].size(), 5U);
   EXPECT_GT(after["version"], before["version"]);
   EXPECT_EQ(after["generation"], before["generation"]);
-  EXPECT_TRUE(live.block("0", "4"));
-  EXPECT_FALSE(live.block("0", "5"));
-  EXPECT_FALSE(live.block("1", "4"));
+  const auto generation = after["generation"].get<std::size_t>();
+  EXPECT_TRUE(live.block(std::to_string(generation), "4"));
+  EXPECT_FALSE(live.block(std::to_string(generation), "5"));
+  EXPECT_FALSE(live.block(std::to_string(generation + 1), "4"));
 
   live.refresh();
   EXPECT_EQ(nlohmann::json::parse(live.header())["version"], after["version"]);
@@ -196,12 +197,13 @@ TEST_F(PackedRunOf, FollowsARunThatGrows) {
 
 TEST_F(PackedRunOf, FollowsARunWithinALimitByLeavingFramesOut) {
   LiveRun live(out(), packed().size() * 2 / 3);
+  const auto at_first = nlohmann::json::parse(live.header())["generation"].get<std::size_t>();
 
   live.refresh();
 
   const auto header = nlohmann::json::parse(live.header());
   EXPECT_LT(header["frames"].size(), 5U);
-  EXPECT_GT(header["generation"], 0);
+  EXPECT_GT(header["generation"].get<std::size_t>(), at_first);
   EXPECT_FALSE(header["notes"].empty());
   // The next frame that is shown lies beyond the last of the run: that is no other run.
   live.refresh();
@@ -210,23 +212,28 @@ TEST_F(PackedRunOf, FollowsARunWithinALimitByLeavingFramesOut) {
   EXPECT_EQ(later["version"], header["version"]);
 }
 
+/// Also with one that has as many frames.
 TEST_F(PackedRunOf, BeginsAnewWithAnotherRunInTheSameFolder) {
   LiveRun live(out(), 1'000'000);
   live.refresh();
-  const auto before = nlohmann::json::parse(live.header());
+  auto before = nlohmann::json::parse(live.header());
   ASSERT_EQ(before["frames"].size(), 5U);
-  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out(), "--overwrite", "--quiet", "--set",
-                        "simulation.duration=2 ms"})
-                .exit_code,
-            kDone);
+  const double whole = before["frames"].back()["time"];
+  for (const double part : {0.4, 1.0, 1.0}) {
+    ASSERT_EQ(outcome_of({"run", scenario(), "--out", out(), "--overwrite", "--quiet", "--set",
+                          "simulation.duration=" + std::to_string(part * whole)})
+                  .exit_code,
+              kDone);
 
-  live.refresh();
+    live.refresh();
 
-  const auto after = nlohmann::json::parse(live.header());
-  EXPECT_LT(after["frames"].size(), 5U);
-  EXPECT_GT(after["frames"].size(), 0U);
-  EXPECT_NE(after["generation"], before["generation"]);
-  EXPECT_FALSE(after["histories"].get<std::string>().empty());
+    const auto after = nlohmann::json::parse(live.header());
+    EXPECT_EQ(after["frames"].size() == 5U, part == 1.0);
+    EXPECT_GT(after["frames"].size(), 0U);
+    EXPECT_NE(after["generation"], before["generation"]);
+    EXPECT_FALSE(after["histories"].get<std::string>().empty());
+    before = after;
+  }
 }
 
 }  // namespace

@@ -85,6 +85,16 @@ TEST(CrossingStep, IsInfiniteWhereNothingComesNearerToACore) {
   EXPECT_TRUE(std::isinf(parting.crossing_step()));
 }
 
+// A ball that is moved as told comes to a held node: it has no energy that could be lost.
+TEST(CrossingStep, IsInfiniteWhereNothingIsFree) {
+  Collisions moved;
+  moved.properties.held = {3, Held::everything};
+  moved.state.velocity[0] = Vec3(0.0, 0.0, 1.0);
+  moved.add(NodeId{1}, 30.0, 0.1, 3.6);
+
+  EXPECT_TRUE(std::isinf(moved.crossing_step()));
+}
+
 // Both have 1/2 (1 m/s)² 0.4 kg of motion; the second one stores 1/2 30 N/m (0.1 m)² besides.
 TEST(EndingStep, TakesWhatMotionHasMoreThanIsStored) {
   Collisions ending;

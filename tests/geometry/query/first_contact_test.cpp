@@ -143,6 +143,11 @@ TEST(FirstContact, RefusesWhatItCannotUse) {
   auto uneven = ball;
   uneven.to.count = 2;
 
+  Probe of_four = Probe::point(Vec3::Zero());
+  of_four.core.count = 4;
+
+  EXPECT_THROW((void)first_contact(ball, MovingProbe::translated(of_four, Vec3::UnitX())),
+               std::invalid_argument);
   EXPECT_THROW((void)first_contact(ball, uneven), std::invalid_argument);
   EXPECT_THROW((void)first_contact(ball, MovingProbe::resting(Probe::ball(Vec3(nan, 0, 0), 1.0))),
                std::invalid_argument);

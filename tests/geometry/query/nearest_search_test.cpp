@@ -121,6 +121,26 @@ TEST(NearestCells, OfParallelAndCoincidentSheetsAreAsNearAsBruteForceFinds) {
   }
 }
 
+/// Two pairs of facets far from each other, of which the second is nearer.
+TEST(NearestCells, AreFoundAmongFacetsWhoseAreasAreRoundedToNothing) {
+  for (const double side : {1.0, 1e-80, 1e-100}) {
+    Complex below, above;
+    for (const auto& [x, height] : {std::pair{0.0, 1.0}, std::pair{50.0, 0.5}}) {
+      for (auto& [complex, z] : {std::pair{&below, 0.0}, std::pair{&above, height}}) {
+        const int first = complex->node(side * Vec3(x, 0, z));
+        const int second = complex->node(side * Vec3(x + 1, 0, z));
+        complex->facet(first, second, complex->node(side * Vec3(x, 1, z)));
+        complex->facets.back().radius = 0.0;
+      }
+    }
+    const Surface a = below.surface(), b = above.surface();
+
+    const auto found = SurfaceQuery(a, below.x).nearest(SurfaceQuery(b, above.x));
+
+    EXPECT_NEAR(found->proximity.gap, 0.5 * side, kKernelError * 50.0 * side);
+  }
+}
+
 TEST(NearestCells, OfCrossingSurfacesHaveTheDeepestOverlap) {
   test::Random random(5);
   for (int trial = 0; trial < 20; ++trial) {

@@ -194,6 +194,16 @@ TEST(Hit, IsNotMissedFarFromTheOrigin) {
   }
 }
 
+// The way to it over the length of the direction is more than a number holds.
+TEST(Hit, IsNoneBeyondAllNumbers) {
+  Complex bar;
+  bar.cylinder(bar.node(Vec3(1e74, 1e-20, 0)), bar.node(Vec3(1e74, 1, 0)));
+  bar.cylinders.back().radius = 0.0;
+  const Surface surface = bar.surface();
+
+  EXPECT_FALSE(hit({Vec3::Zero(), Vec3(0, 1e-150, 0)}, {surface, bar.x}, CellId{0}));
+}
+
 TEST(Hit, IsNoneOfARayThatEndsBeforeItBegins) {
   const std::vector<Cylinder> wire{{{NodeId{0}, NodeId{1}}, 0.1}};
   const Surface surface(wire, {}, 2);

@@ -51,6 +51,7 @@ const kPlain = new Set(['', 's', '1']);
 /** Factor and name of the unit in which numbers up to this size are short, as in [1e-3, 'mm']. */
 export function shortUnit(size, unit) {
   if (unit === '' || !(size > 0) || kPlain.has(unit) && size >= 1e-2) return [1, unit];
+  if (/^m[23]$/.test(unit)) return [1, unit];  // a prefix would be squared or cubed with it
   const [factor, prefix] = (size >= 0.1 && size < 1 ? [1, ''] : kPrefixes.find(([f]) => size >= 0.9999 * f)) ?? kPrefixes[kPrefixes.length - 1];
   if (unit.startsWith('rad') && factor < 1) return [1, unit];
   return [factor, prefix + unit];

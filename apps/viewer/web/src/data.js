@@ -67,6 +67,8 @@ class Cache {
     return hit?.value;
   }
   put(key, value, size) {
+    this.size -= this.map.get(key)?.size ?? 0;
+    this.map.delete(key);
     this.map.set(key, { value, size });
     this.size += size;
     for (const [old, entry] of this.map) {

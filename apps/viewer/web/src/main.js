@@ -67,7 +67,7 @@ class Page {
   rangeOf(part) {
     const choice = this.choice(part), c = this.colours[part];
     if (!choice) return [0, 1];
-    if (c.lo !== null && c.hi !== null && c.hi > c.lo) return [c.lo, c.hi];
+    if (c.lo !== null && c.hi !== null && c.hi > c.lo && (c.mode !== 'log' || c.hi > 0)) return [c.mode === 'log' && !(c.lo > 0) ? c.hi * 1e-4 : c.lo, c.hi];
     let [lo, hi] = c.range === 'extremes' ? choice.range : c.range === 'frame' ? this.frameRange(part) ?? choice.usual : usualRange(choice);
     if (!(hi > lo)) [lo, hi] = choice.range;
     if (lo < 0 && -lo < 0.4 * hi && choice.axis < 0) lo = 0;

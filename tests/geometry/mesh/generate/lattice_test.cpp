@@ -55,6 +55,7 @@ TEST(Chain, RefusesPointsThatMakeNoWay) {
   EXPECT_THAT(error_of({{Vec3::Zero(), Vec3::Zero()}, 1}), HasSubstr("points 0 and 1 of a chain"));
   EXPECT_THAT(error_of({{Vec3::Zero(), Vec3::Ones()}, 0}), HasSubstr("expected at least 1"));
   EXPECT_THAT(error_of({{Vec3::Zero(), Vec3::Ones() / 0.0}, 1}), HasSubstr("is not finite"));
+  EXPECT_THAT(error_of({{Vec3(-1e308, 0, 0), Vec3(1e308, 0, 0)}, 1}), HasSubstr("too far away"));
   EXPECT_THAT(error_of({{Vec3::Zero(), Vec3::Ones(), Vec3::Zero()}, 1}), HasSubstr("has 2 links"));
 }
 

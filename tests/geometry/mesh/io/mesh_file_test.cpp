@@ -216,6 +216,17 @@ TEST(MeshFile, PassesOverColoursCommentsAndTheMissingEdgeCountOfOff) {
   EXPECT_THAT(soup.polygons, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(0, 1, 2, 3)));
 }
 
+TEST(MeshFile, PassesOverTheByteOrderMarkOfAPlyOfText) {
+  constexpr std::string_view kText =
+      "\xef\xbb\xbfply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+  EXPECT_EQ(detect_mesh_format(kText, "a.ply"), MeshFormat::ply);
+  EXPECT_THAT(parse_mesh(kText, MeshFormat::ply, "mesh").polygons,
+              ElementsAre(ElementsAre(0, 1, 2)));
+}
+
 /// A binary PLY of one quadrilateral with properties and an element that nobody asked for.
 template <class Append>
 std::string ply_with(const std::string& format, const Append& append) {

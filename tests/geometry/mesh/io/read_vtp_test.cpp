@@ -105,6 +105,7 @@ TEST(VtpReader, NamesTheLineOfWhatIsWrong) {
   EXPECT_THAT(message_of(with("1 4 2", "1 x 2")), HasSubstr("line 13: expected a whole number"));
   EXPECT_THAT(message_of(with("\n3 7 ", "\n7 3 ")), HasSubstr("the offset 3 after 7"));
   EXPECT_THAT(message_of(with("\n3 7 ", "\n3 8 ")), HasSubstr("end at 7"));
+  EXPECT_THAT(message_of(with("\n3 7 ", "\n3 6 ")), HasSubstr("the last offset is 6; expected 7"));
   EXPECT_THAT(message_of(with("Name=\"offsets\"", "Name=\"of\"")), HasSubstr("array offsets"));
   EXPECT_THAT(message_of(with("</Points>", "</Point>")),
               HasSubstr("expected the end tag of 'Points', got that of 'Point'"));

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -51,6 +52,18 @@ TEST(Weld, JoinsPointsAtTheLeastDistanceThereIs) {
   constexpr double kLeast = std::numeric_limits<double>::denorm_min();  // half of it is 0
 
   EXPECT_EQ(weld_near_points(std::vector<Vec3>{Vec3::Zero(), {kLeast, 0, 0}}, kLeast).merged, 1u);
+}
+
+// On borders of cells, which are rounded: 0.25 - 0.15 is a little less than 0.1.
+TEST(Weld, JoinsPointsThatAreExactlyTheDistanceApart) {
+  for (const auto& [a, b, distance] :
+       {std::array{0.15, 0.25, 0.1}, std::array{10.235, 10.245, 0.01},
+        std::array{20.47, 20.49, 0.02}, std::array{0.075, 0.125, 0.05}}) {
+    ASSERT_LE(b - a, distance);
+    const std::vector<Vec3> points{{a, 0, 0}, {b, 0, 0}, {0, 0, 0}};
+
+    EXPECT_EQ(weld_near_points(points, distance).representative[1], 0u) << a;
+  }
 }
 
 TEST(Weld, StaysQuickWhenTheDistanceIsLargerThanTheMesh) {
