@@ -45,6 +45,17 @@ TEST(RollingTwisting, SlidesAtTheLimitOfTheNormalForce) {
   EXPECT_GT(answer.dissipated, 0.0);
 }
 
+/// Of a contact whose bodies are the other way round: what b had is a's, and the normal turns over.
+TEST(RollingTwisting, ExchangesItsBodiesByAShareBelowZero) {
+  const RollingTwisting::History before{Vec3(0.3, -0.2, 0.0), 0.7, 1e-5};
+  RollingTwisting::History after;
+
+  RollingTwisting::accumulate_history(after, before, -1.0);
+
+  const Vec3 normal = Vec3::UnitZ();
+  EXPECT_EQ(RollingTwisting::moment(after, -normal), -RollingTwisting::moment(before, normal));
+}
+
 TEST(RollingTwisting, TurnsItsMomentWithTheContactButNotTheTwist) {
   const auto p = Law::combine({{}, {0.3, 0.7}}, kBody, kLarger);
   Law::History history{};
