@@ -210,8 +210,9 @@ class Simulation {
   ForceAndMoment support_reaction(std::span<const NodeId> nodes, const Vec3& about) const;
   /// What a section carries that cuts some nodes from all others: what beams and sheets across it do
   /// to these nodes in the last step. Of the nodes beyond the place where a cable is cut it is the
-  /// pull of the rest.
+  /// pull of the rest. Torn elements carry nothing. Linear in the number of nodes and elements.
   /// @param about  m, point of the moment
+  /// @throws std::out_of_range for nodes that are none
   ForceAndMoment section_force(std::span<const NodeId> nodes, const Vec3& about) const;
   /// N, of all that acts on the nodes of a rigid body in the last step (contacts, ties, bonds,
   /// sheets, pressure), but for what loads do to its reference node; by place in
@@ -291,8 +292,8 @@ class Simulation {
   /// bodies that stay goes on, so that no force jumps where nothing changed; time and steps go on
   /// counting. Spheres that stay keep their order. Energy that comes or goes with bodies and
   /// stiffness counts as external work; weight as if it had no energy when it came or went.
-  /// To be called before the first step. A step that is chosen is chosen anew, and
-  /// is not longer than that of the scene as it was made until it has grown.
+  /// To be called before the first step. A step that is chosen is chosen anew, and is not longer
+  /// than that of the scene as it was made until it has grown.
   /// @throws std::logic_error after the first step
   /// @throws std::invalid_argument for places that are none: nothing is changed then
   /// @throws geometry::StateMismatch if structures or laws are others: the simulation can only be

@@ -73,6 +73,10 @@ const std::vector<Call>& calls() {
        [](auto& s, auto i) {
          s.support_reaction(std::array{node(0), node(i)}, Vec3::Zero());
        }},
+      {"section_force", "node", 3,
+       [](auto& s, auto i) {
+         s.section_force(std::array{node(0), node(i)}, Vec3::Zero());
+       }},
       {"break_cylinder", "node", 3, [](auto& s, auto i) { s.break_cylinder(node(0), node(i)); }},
       {"break_cylinder", "node", 3, [](auto& s, auto i) { s.break_cylinder(node(i), node(0)); }},
       {"break_facet", "node", 3,
