@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <ostream>
+#include <string_view>
 
 namespace plekton::apps {
 namespace {
@@ -73,10 +74,6 @@ nodes = "rim"
 )";
 
 }  // namespace
-
-std::string_view starting_scenario() noexcept {
-  return kScenario;
-}
 
 void write_starting_scenario(const std::filesystem::path& file, std::ostream& out) {
   if (file.filename().empty())

@@ -71,8 +71,8 @@ class StructureContacts {
   /// Energy (J) stored in all contacts, at the positions of the last step.
   double elastic_energy() const;
 
-  /// Calls visit(node, stiffness (N/m), radius (m), tangential over normal stiffness) for what
-  /// every patch, and every bond over a distance, adds to the stiffness around its nodes.
+  /// Calls visit(node, stiffness, radius (m) of its body) for what every patch that pushes, every
+  /// contact of a bar and every bond over a distance adds to the stiffness around its nodes.
   void for_each_stiffness(
       geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const;
 

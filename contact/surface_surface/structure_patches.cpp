@@ -402,7 +402,7 @@ double StructurePatches::elastic_energy() const {
   return energy;
 }
 
-/// That of pairs with a bar is told by these.
+/// The contacts of bars tell that of pairs with a bar.
 void StructurePatches::for_each_stiffness(
     geometry::FunctionRef<void(NodeId, const PairStiffness&, double)> visit) const {
   for (const StructurePatch& patch : patches_) {

@@ -15,7 +15,6 @@ struct EnergyLoss {
     tracking += other.tracking;
     return *this;
   }
-  double total() const noexcept { return dissipated + tracking; }
 };
 
 }  // namespace plekton::contact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/law/cohesive_frictional.hpp"
 #include "dynamics/simulation.hpp"
+#include "tests/dynamics/ball_on_ground.hpp"
 #include "tests/support/named_laws.hpp"
 
 #include <gtest/gtest.h>
@@ -12,11 +13,13 @@
 namespace plekton::dynamics::bond_break_work_test {
 namespace {
 
+using ball_on_ground::add_ball;
+using ball_on_ground::kMaterial;
+using ball_on_ground::kRadius;
+using ball_on_ground::lay_ball;
+using ball_on_ground::lay_facet;
+using ball_on_ground::lay_plane;
 using contact::AnyLaw;
-using geometry::NodeId;
-
-constexpr contact::MaterialId kMaterial{0};
-constexpr double kRadius = 0.01;  // m
 
 struct Ground {
   const char* name;
@@ -26,21 +29,6 @@ struct Ground {
   double reduced;       ///< mass that swings, in parts of the ball's
 };
 
-void lay_plane(Scene& scene) {
-  scene.planes.push_back({Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), kMaterial});
-}
-void lay_facet(Scene& scene) {
-  constexpr double kHalf = 0.001;  // m, half of the thickness
-  const auto node = [&](double x, double y) {
-    return scene.add_node(Vec3(x, y, -kHalf), Held::everything);
-  };
-  scene.add_facet(node(-1, -1), node(1, -1), node(0, 1), kHalf, kMaterial);
-}
-void lay_ball(Scene& scene) {
-  scene.add_sphere(Vec3(0, 0, -kRadius), kRadius, 2000.0, kMaterial);
-  scene.state.velocity.back() = -scene.state.velocity.front();
-}
-
 class BondTo : public testing::TestWithParam<Ground> {};
 
 /// In steps of a tenth of 1 / omega the last pull does a quarter of what the bond stored.
@@ -49,8 +37,7 @@ TEST_P(BondTo, LosesWhatItHasStoredLessTheWorkOfItsLastPullWhereItIsTornApart) {
   for (const double speed : {1.0, 1.1, 1.3}) {
     Scene scene;
     scene.materials = {{2e5, 0.5, 0.3}};
-    scene.add_sphere(Vec3(0, 0, kRadius - 1e-5), kRadius, 2000.0, kMaterial);
-    scene.state.velocity.back() = Vec3(0, 0, speed);
+    add_ball(scene, -1e-5, speed);
     ground.lay(scene);
     const double stiffness = 1000.0;                                                         // N/m
     const double swings = std::sqrt(ground.reduced * scene.properties.mass[0] / stiffness);  // s

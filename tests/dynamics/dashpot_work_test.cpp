@@ -2,6 +2,7 @@
 #include "contact/law/dashpot.hpp"
 #include "contact/law/restitution.hpp"
 #include "dynamics/simulation.hpp"
+#include "tests/dynamics/ball_on_ground.hpp"
 #include "tests/support/named_laws.hpp"
 
 #include <gtest/gtest.h>
@@ -12,14 +13,18 @@
 namespace plekton::dynamics::dashpot_work_test {
 namespace {
 
+using ball_on_ground::add_ball;
+using ball_on_ground::kDensity;
+using ball_on_ground::kMaterial;
+using ball_on_ground::kRadius;
+using ball_on_ground::lay_ball;
+using ball_on_ground::lay_facet;
+using ball_on_ground::lay_plane;
 using contact::AnyLaw;
-using geometry::NodeId;
 
-constexpr contact::MaterialId kMaterial{0};
-constexpr double kRadius = 0.01;  // m
-constexpr double kSpeed = 0.4;    // m/s
+constexpr double kSpeed = 0.4;  // m/s
 constexpr double kXi = 0.2;
-const double kMass = 2000.0 * 4.0 / 3.0 * std::acos(-1.0) * kRadius * kRadius * kRadius;
+const double kMass = kDensity * 4.0 / 3.0 * std::acos(-1.0) * kRadius * kRadius * kRadius;
 
 struct Ground {
   const char* name;
@@ -27,21 +32,6 @@ struct Ground {
   double speed;         ///< m/s, of what comes from below
   double reduced;       ///< mass that moves, in parts of the ball's
 };
-
-void lay_plane(Scene& scene) {
-  scene.planes.push_back({Vec3::Zero(), Vec3::UnitZ(), Vec3::Zero(), kMaterial});
-}
-void lay_facet(Scene& scene) {
-  constexpr double kHalf = 0.001;  // m, half of the thickness
-  const auto node = [&](double x, double y) {
-    return scene.add_node(Vec3(x, y, -kHalf), Held::everything);
-  };
-  scene.add_facet(node(-1, -1), node(1, -1), node(0, 1), kHalf, kMaterial);
-}
-void lay_ball(Scene& scene) {
-  scene.add_sphere(Vec3(0, 0, -kRadius), kRadius, 2000.0, kMaterial);
-  scene.state.velocity.back() = Vec3(0, 0, kSpeed);
-}
 
 /// What a leapfrog does to the overlap of a spring and a dashpot that never pull, and what the
 /// dashpot takes: its push over half of the ways before and after it.
@@ -79,8 +69,7 @@ TEST_P(DashpotOn, TakesTheWorkOfItsPushUpToTheEndOfTheStepInWhichTheBodiesPart) 
     const double dt = 0.3 * std::sqrt(mass / stiffness);
     const double speed = kSpeed + ground.speed;
     const double gap = phase * speed * dt;
-    scene.add_sphere(Vec3(0, 0, kRadius + gap), kRadius, 2000.0, kMaterial);
-    scene.state.velocity.back() = Vec3(0, 0, -kSpeed);
+    add_ball(scene, gap, -kSpeed);
     ground.lay(scene);
     const contact::PairProperties<AnyLaw> properties{
         {{kMaterial, kMaterial},

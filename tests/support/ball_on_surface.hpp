@@ -98,7 +98,8 @@ class SphereOnSurface {
 
  private:
   Vec3 advance(double dt) {
-    dissipated_ += contacts_.advance({x_, velocity_, spin_}, dt, pool_).total();
+    const auto loss = contacts_.advance({x_, velocity_, spin_}, dt, pool_);
+    dissipated_ += loss.dissipated + loss.tracking;
     forces_.set_zero();
     contacts_.add_forces(forces_, pool_);
     return forces_.force.back();

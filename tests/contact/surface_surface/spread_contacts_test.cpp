@@ -164,7 +164,7 @@ class HandedOver {
     const double handed = stored();
     const double growth = growth_of_merged();
     EXPECT_LE(handed, (1.0 + growth + kRounding) * before);
-    EXPECT_NEAR(before - handed, loss.total(), kRounding * before);
+    EXPECT_NEAR(before - handed, loss.dissipated + loss.tracking, kRounding * before);
     EXPECT_GE(loss.dissipated, -kRounding * before);
     EXPECT_GE(loss.tracking, -(growth + kRounding) * before);
     if (before > 0.0) largest_growth_ = std::max(largest_growth_, handed / before - 1.0);

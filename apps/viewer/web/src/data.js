@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The data of a run: a header, and a block of text for each frame (apps/viewer/packed_frame.hpp has the format).
+// The data of a run: a header, and a block of text for each frame (apps/viewer/packed_run.hpp has the format).
 
 /** Bytes of base64 text. */
 function bytesOf(text) {
