@@ -144,6 +144,15 @@ Edge ends(const Simplex& edge, Side side) {
   return {corner(edge, 0, side), corner(edge, 1, side)};
 }
 
+/// Beside a cylinder a needle is its longest side: the seams on both sides of it still cancel.
+Real of_cylinder_and_face(const Edge& cylinder, const Simplex& face, Side side,
+                          const NormalSpring& spring) {
+  if (!is_needle(face)) return of_cylinder_and_facet(cylinder, corners(face, side), spring);
+  const std::size_t k = longest_side_of(face);
+  const Edge longest{corner(face, k, side), corner(face, (k + 1) % 3, side)};
+  return of_cylinder_beside_side(cylinder, longest, spring, nullptr);
+}
+
 }  // namespace
 
 bool can_extend(const Simplex& a, const Simplex& b) {
@@ -152,13 +161,10 @@ bool can_extend(const Simplex& a, const Simplex& b) {
 }
 
 PairForces extended_part(const Simplex& a, const Simplex& b, const NormalSpring& spring) {
-  if (a.count == 3 && b.count == 3) return facing_facets(a, b, spring);
-  if (a.count == 3) {
-    return forces_of(of_cylinder_and_facet(ends(b, Side::b), corners(a, Side::a), spring));
-  }
-  if (b.count == 3) {
-    return forces_of(of_cylinder_and_facet(ends(a, Side::a), corners(b, Side::b), spring));
-  }
+  if (a.count == 3 && b.count == 3)
+    return is_needle(a) || is_needle(b) ? PairForces{} : facing_facets(a, b, spring);
+  if (a.count == 3) return forces_of(of_cylinder_and_face(ends(b, Side::b), a, Side::a, spring));
+  if (b.count == 3) return forces_of(of_cylinder_and_face(ends(a, Side::a), b, Side::b, spring));
   const Edge edge_a = ends(a, Side::a);
   const Edge edge_b = ends(b, Side::b);
   if (is_cylinder(a) && is_cylinder(b)) return forces_of(of_cylinders(edge_a, edge_b, spring));

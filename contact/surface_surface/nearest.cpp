@@ -52,7 +52,7 @@ struct FlatEdge {
 
 void find_flat_edge(const Simplex& simplex, unsigned corners, const Simplex& facet, bool is_of_a,
                     double& least, std::optional<FlatEdge>& found) {
-  if (facet.count != 3) return;
+  if (facet.count != 3 || is_needle(facet)) return;
   const Vec3 long_normal = area_normal_of(facet);
   for (std::size_t k = 0; k < edge_count(simplex); ++k) {
     const EdgeOf edge = edge_of(simplex, k);
@@ -196,7 +196,7 @@ PairForces at_nearest_points(const CoreProximity& nearest, const NormalSpring& s
 namespace {
 
 bool may_lie_flat(const Simplex& simplex, unsigned corners, const Simplex& facet) {
-  if (facet.count != 3) return false;
+  if (facet.count != 3 || is_needle(facet)) return false;
   const Vec3 long_normal = area_normal_of(facet);
   for (std::size_t k = 0; k < edge_count(simplex); ++k) {
     const EdgeOf edge = edge_of(simplex, k);

@@ -104,7 +104,7 @@ void PairTerms::rebuild(std::span<const geometry::CellPair> pairs) {
 
 void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& motion,
                          geometry::ThreadPool& pool) {
-  if (terms_are_new_) prepare_attractions(springs);
+  if (terms_are_new_) prepare_springs(springs);
   find_near_pairs(springs, motion, pool);
   list_candidates();
   is_acting_.resize(candidates_.size());
@@ -126,7 +126,11 @@ void PairTerms::evaluate(std::span<const NormalSpring> springs, const Motion& mo
   terms_are_new_ = false;
 }
 
-void PairTerms::prepare_attractions(std::span<const NormalSpring> springs) {
+/// What there is to know of all springs, of which there may be many more than terms.
+void PairTerms::prepare_springs(std::span<const NormalSpring> springs) {
+  largest_range_ = 0.0;
+  for (const NormalSpring& spring : springs)
+    largest_range_ = std::max(largest_range_, spring.range());
   attracts_.clear();
   attractions_.clear();
   if (std::none_of(springs.begin(), springs.end(), [](const auto& of) { return of.attracts(); }))
@@ -250,9 +254,7 @@ RimPlaces PairTerms::rims_of(const PairTerm& term, const NearestCorners& nearest
 }
 
 void PairTerms::give_back_of_rings(std::span<const NormalSpring> springs, Positions x) {
-  double range = 0.0;
-  for (const NormalSpring& spring : springs) range = std::max(range, spring.range());
-  const double least_life = RingWeights::kLeastLife * range;
+  const double least_life = RingWeights::kLeastLife * largest_range_;
   if (!search_.find(acting_, terms_, holders_, term_of_pair_.size(), least_life)) return;
   ring_terms_.clear();
   for (const std::uint32_t term : acting_) {

@@ -134,7 +134,7 @@ class PairTerms {
   void find_near_pairs(std::span<const NormalSpring> springs, const Motion& motion,
                        geometry::ThreadPool& pool);
   void list_candidates();
-  void prepare_attractions(std::span<const NormalSpring> springs);
+  void prepare_springs(std::span<const NormalSpring> springs);
   bool evaluate_candidate(std::size_t candidate, std::span<const NormalSpring> springs,
                           Positions x);
   void act(std::size_t candidate, const TermProximity& found, const NormalSpring& spring,
@@ -163,6 +163,7 @@ class PairTerms {
       attractions_;  ///< by term, of those in range; empty if no spring attracts
   std::vector<std::uint32_t> first_holders_;  ///< by term, and the number of all
   std::vector<std::uint32_t> term_of_pair_;   ///< of both cells
+  double largest_range_ = 0.0;                ///< m, of all springs
   bool terms_are_new_ = false;
   bool have_bars_ = false;
   Clearances clearances_;                 ///< of the pairs of cells

@@ -19,7 +19,7 @@ std::array<Vec3, 3> by_corners(const Simplex& facet, const Vec3& by_normal) {
 }  // namespace
 
 double tilt_between(const Simplex& a, const Simplex& b) {
-  if (a.count != 3 || b.count != 3) return -1.0;
+  if (a.count != 3 || b.count != 3 || is_needle(a) || is_needle(b)) return -1.0;
   return normal_of(a).cross(normal_of(b)).squaredNorm();
 }
 

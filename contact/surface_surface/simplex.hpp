@@ -3,6 +3,7 @@
 
 #include "contact/surface_surface/tilt_share.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -30,6 +31,27 @@ inline Vec3 area_normal_of(const Simplex& facet) {
 /// Unit.
 inline Vec3 normal_of(const Simplex& facet) {
   return area_normal_of(facet).normalized();
+}
+
+/// Whether the corners of a facet lie on one line but for rounding, as those of a sliver at a joint
+/// of two edges that are divided otherwise: the product of two sides is off by some 1e-16 of the
+/// longest one squared, so that the normal of what is left is off by more than 1e-3. Such a facet
+/// counts as one without a normal.
+inline bool is_needle(const Simplex& facet) {
+  const Vec3 u = facet.x[1] - facet.x[0];
+  const Vec3 v = facet.x[2] - facet.x[0];
+  const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
+  return !(u.cross(v).norm() > 1e-12 * longest);
+}
+/// The first corner of the longest side of a facet.
+inline std::size_t longest_side_of(const Simplex& facet) {
+  const auto length = [&](std::size_t k) {
+    return (facet.x[(k + 1) % 3] - facet.x[k]).squaredNorm();
+  };
+  std::size_t longest = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (length(k) > length(longest)) longest = k;
+  return longest;
 }
 
 /// What a pair of simplices adds to the energy, and what pushes their nodes.

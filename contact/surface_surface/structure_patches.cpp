@@ -183,10 +183,22 @@ void StructurePatches::add_up_patches(Positions x) {
   largest_overlap_ratio_ = 0.0;
   crossings_ = 0;
   for (StructurePatch& patch : patches_) patch.reset();
+  find_energies();
+  for (std::size_t i = 0; i < patches_.size(); ++i) patches_[i].energy = energies_[i].value();
   for (std::size_t i = 0; i < places_.size(); ++i) add_up_term(terms_.acting()[i], places_[i]);
   for (StructurePatch& patch : patches_) patch.find_totals(structure_pair_of(patch), x);
   for (const PatchSuccessor& successor : successors_)
     patches_[successor.patch].is_torn |= previous_[successor.old_patch].is_torn;
+}
+
+/// Of the patches as they hang together now.
+void StructurePatches::find_energies() {
+  energies_.assign(patches_.size(), {});
+  for (const std::uint32_t acting : terms_.acting()) {
+    const PairTerm& term = terms_[acting];
+    const Holder& holder = terms_.holders(term).front();
+    energies_[static_cast<std::size_t>(pairs_[holder.pair].patch)].add(acting, term);
+  }
 }
 
 void StructurePatches::add_up_term(std::uint32_t acting, const TermPlaces& places) {
@@ -200,15 +212,19 @@ void StructurePatches::add_up_term(std::uint32_t acting, const TermPlaces& place
     patch.deepest_overlap = term.overlap;
     patch.deepest = {places.is_turned ? term.b : term.a, places.is_turned ? term.a : term.b};
   }
-  patch.energy += term.forces.energy;
   auto& side_a = places.is_turned ? patch.second : patch.first;
   auto& side_b = places.is_turned ? patch.first : patch.second;
-  const auto push = [&](const PairForces& by) {
-    for (std::size_t k = 0; k < term.a.count; ++k) side_a.add_force(places.a[k], by.on_a[k]);
-    for (std::size_t k = 0; k < term.b.count; ++k) side_b.add_force(places.b[k], by.on_b[k]);
+  const auto push = [&](const PairForces& by, double part) {
+    for (std::size_t k = 0; k < term.a.count; ++k) side_a.add_force(places.a[k], part * by.on_a[k]);
+    for (std::size_t k = 0; k < term.b.count; ++k) side_b.add_force(places.b[k], part * by.on_b[k]);
   };
-  push(term.forces);
-  if (const PairForces* const ends = terms_.at_ends(acting)) push(*ends);
+  const PatchEnergy& energy = energies_[places.patch];
+  if (!energy.is_of_one()) {
+    push(term.forces, 1.0);
+    if (const PairForces* const ends = terms_.at_ends(acting)) push(*ends, 1.0);
+  } else if (energy.most_term == acting) {
+    push(term.forces, PatchEnergy::kLeastOfOne);
+  }
   const auto attract = [&](const PairForces* by) {
     if (by == nullptr) return;
     patch.attraction_energy += by->energy;
@@ -371,19 +387,22 @@ double StructurePatches::normal_energy(const geometry::Surface& surface, const M
   if (pairs_.empty()) return 0.0;
   std::vector<geometry::CellPair> listed;
   for (const PairOfCells& pair : pairs_) listed.push_back(pair.cells);
-  PairTerms terms(surface);
-  terms.rebuild(listed);
-  terms.evaluate(springs_, at, pool);
+  StructurePatches there(surface);
+  there.pairs_ = pairs_;
+  there.terms_.rebuild(listed);
+  there.terms_.evaluate(springs_, at, pool);
+  there.join_pairs();
+  there.find_energies();
   double energy = 0.0;
-  for (const std::uint32_t acting : terms.acting()) {
-    energy += terms[acting].forces.energy;
-    if (const PairForces* of = terms.attraction(acting)) energy += of->energy;
-  }
+  for (const PatchEnergy& of : there.energies_) energy += of.value();
+  for (const std::uint32_t acting : there.terms_.acting())
+    if (const PairForces* of = there.terms_.attraction(acting)) energy += of->energy;
   return energy;
 }
 
 double StructurePatches::apply_law(const Motion& motion, double dt) {
-  counts_.assign(structure_pairs_.size(), 0.0);
+  counts_.resize(structure_pairs_.size());  // of which those without a patch are never read
+  for (const StructurePatch& patch : patches_) counts_[patch.structure_pair] = 0.0;
   for (const StructurePatch& patch : patches_) counts_[patch.structure_pair] += patch.count;
   double dissipated = 0.0;
   for (StructurePatch& patch : patches_)

@@ -49,6 +49,34 @@ struct TermPlaces {
   std::array<std::uint32_t, 3> b;
 };
 
+/// What a patch stores elastically.
+///
+/// What hangs together is one contact at least, and the terms of a patch add up to what its deepest
+/// pair of cells stores, or more. They come to less, also below nothing, so that bodies would draw
+/// each other in, where rings of what lies flat are not given back (PairTerms), as of a plate with
+/// holes that are finer than it is thick, and where bodies have gone into each other by more than
+/// their thickness. So a patch stores kLeastOfOne of what the pair does that stores most, and pushes
+/// as much, where that is more than the sum. Either is a function of positions, and so is the larger
+/// one.
+struct PatchEnergy {
+  /// Below 1, so that point contacts, for which both are the same but for how the rims of facets
+  /// share it, have no kink.
+  static constexpr double kLeastOfOne = 0.5;
+
+  double of_all = 0.0;          ///< J
+  double most = 0.0;            ///< J, of one pair of cells
+  std::uint32_t most_term = 0;  ///< that pair
+
+  void add(std::uint32_t acting, const PairTerm& term) noexcept {
+    of_all += term.forces.energy;
+    if (!term.is_of_cells || !(term.forces.energy > most)) return;
+    most = term.forces.energy;
+    most_term = acting;
+  }
+  bool is_of_one() const noexcept { return of_all < kLeastOfOne * most; }
+  double value() const noexcept { return is_of_one() ? kLeastOfOne * most : of_all; }
+};
+
 /// The parts of the contact region of structures that hang together, from step to step: which
 /// pairs of cells form one, what their terms push with, and which patch of the last step goes on
 /// as which of this, with its history and its number.
@@ -161,6 +189,7 @@ class StructurePatches {
   void find_places();
   void find_successors();
   void add_up_patches(Positions x);
+  void find_energies();
   void add_up_term(std::uint32_t acting, const TermPlaces& places);
   void hand_on_history(const Predecessor& old, std::span<const PatchSuccessor> successors,
                        const Motion& motion, double dt);
@@ -176,7 +205,8 @@ class StructurePatches {
   std::vector<TermPlaces> places_;
   TouchingPatches connected_;
   std::vector<StructurePatch> patches_;
-  std::vector<double> counts_;  ///< by structure pair, in the last step of the law
+  std::vector<PatchEnergy> energies_;  ///< of the patches
+  std::vector<double> counts_;         ///< by structure pair, in the last step of the law
   std::vector<Predecessor> previous_;
   std::vector<PatchSuccessor> successors_;
   double largest_overlap_ratio_ = 0.0;
