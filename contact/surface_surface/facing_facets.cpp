@@ -193,6 +193,25 @@ bool Overlap::make_region() {
   return true;
 }
 
+/// A place in a triangle, by the weights of its corners, and its part of the area.
+struct Sample {
+  double p, q, r, part;
+};
+/// Radon's rule, exact to the fifth degree (Stroud 1971, Approximate Calculation of Multiple
+/// Integrals, T2 5-1): for a linear spring, and for any other law near enough that it hardly matters
+/// how a region is cut into triangles.
+constexpr double kInner = 0.10128650732345633;      // (6 - sqrt 15) / 21
+constexpr double kOuter = 0.47014206410511505;      // (6 + sqrt 15) / 21
+constexpr double kInnerPart = 0.12593918054482717;  // (155 - sqrt 15) / 1200
+constexpr double kOuterPart = 0.13239415278850619;  // (155 + sqrt 15) / 1200
+constexpr std::array<Sample, 7> kSamples{{{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.225},
+                                          {kInner, kInner, 1.0 - 2.0 * kInner, kInnerPart},
+                                          {kInner, 1.0 - 2.0 * kInner, kInner, kInnerPart},
+                                          {1.0 - 2.0 * kInner, kInner, kInner, kInnerPart},
+                                          {kOuter, kOuter, 1.0 - 2.0 * kOuter, kOuterPart},
+                                          {kOuter, 1.0 - 2.0 * kOuter, kOuter, kOuterPart},
+                                          {1.0 - 2.0 * kOuter, kOuter, kOuter, kOuterPart}}};
+
 /// Calls visit(first, second, third corner) for the triangles of a fan.
 template <class Polygon, class Visit>
 void for_each_triangle(const Polygon& region, Visit visit) {
@@ -200,16 +219,13 @@ void for_each_triangle(const Polygon& region, Visit visit) {
     visit(region.points[0], region.points[i], region.points[i + 1]);
 }
 
-/// Of a triangle: exact for a linear spring.
 double Overlap::integral(const NormalSpring& spring) const {
   double sum = 0.0;
   for_each_triangle(region_, [&](std::size_t i, std::size_t j, std::size_t k) {
     const Vec3 &p = points_[i].x, &q = points_[j].x, &r = points_[k].x;
     const double area = 0.5 * normal_a().dot((q - p).cross(r - p));
-    const auto middle = [&](const Vec3& u, const Vec3& v) {
-      return spring.energy(distance(0.5 * (u + v)));
-    };
-    sum += area / 3.0 * (middle(p, q) + middle(q, r) + middle(r, p));
+    for (const Sample& s : kSamples)
+      sum += area * s.part * spring.energy(distance(s.p * p + s.q * q + s.r * r));
   });
   return sum;
 }
@@ -221,19 +237,18 @@ void Overlap::integral_back(const NormalSpring& spring, double by_integral) {
     const Vec3 u = q.x - p.x, v = r.x - p.x;
     const Vec3 cross = u.cross(v);
     const double area = 0.5 * normal.dot(cross);
-    double energies = 0.0;
-    const auto middle_back = [&](Traced& s, Traced& t) {
-      const Vec3 middle = 0.5 * (s.x + t.x);
-      energies += spring.energy(distance(middle));
-      Vec3 by_middle = Vec3::Zero();
-      distance_back(middle, -by_integral * area / 3.0 * spring.force(distance(middle)), by_middle);
-      s.slope += 0.5 * by_middle;
-      t.slope += 0.5 * by_middle;
-    };
-    middle_back(p, q);
-    middle_back(q, r);
-    middle_back(r, p);
-    const double by_cross = by_integral * energies / 6.0;
+    double energy = 0.0;  // mean
+    for (const Sample& s : kSamples) {
+      const Vec3 at = s.p * p.x + s.q * q.x + s.r * r.x;
+      const double apart = distance(at);
+      energy += s.part * spring.energy(apart);
+      Vec3 by_at = Vec3::Zero();
+      distance_back(at, -by_integral * area * s.part * spring.force(apart), by_at);
+      p.slope += s.p * by_at;
+      q.slope += s.q * by_at;
+      r.slope += s.r * by_at;
+    }
+    const double by_cross = 0.5 * by_integral * energy;
     of_a_.direction.along.slope += by_cross * cross;
     const Vec3 by_u = by_cross * v.cross(normal);
     const Vec3 by_v = by_cross * normal.cross(u);

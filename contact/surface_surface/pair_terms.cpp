@@ -231,6 +231,10 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
   shared_[candidate][1] = pulling.shared;
 }
 
+PairForces PairTerms::at_nearest(std::size_t term, const NormalSpring& spring) const {
+  return at_nearest_points(proximity_[holders(terms_[term]).front().pair].cores, spring);
+}
+
 /// Mean of the pairs of cells that have a term. All of them are in range: their tilts are of now.
 PointShare PairTerms::share_of(const PairTerm& term, const NearestCorners& nearest, double range,
                                Positions x) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/surface_surface/facing_facets.hpp"
 
+#include "contact/law/hertz_mindlin.hpp"
 #include "contact/law/linear_frictional.hpp"
 
 #include <gtest/gtest.h>
@@ -87,7 +88,8 @@ double twice_the_energy(const Simplex& a, const Simplex& b) {
   const double cosine = std::abs(normal_a.dot(normal_b));
   const double share = std::max(0.0, (cosine - kCosineOfCrossing) / (1.0 - kCosineOfCrossing));
   double sum = 0.0;
-  for (const auto& [own, other, up] : {std::tuple(&a, &b, normal_b), std::tuple(&b, &a, normal_a)}) {
+  for (const auto& [own, other, up] :
+       {std::tuple(&a, &b, normal_b), std::tuple(&b, &a, normal_a)}) {
     const Vec3 u = own->x[1] - own->x[0], v = own->x[2] - own->x[0];
     const double cell = u.cross(v).norm() / (kGrid * kGrid);
     for (int i = 0; i < kGrid; ++i) {
@@ -159,6 +161,27 @@ TEST(FacingFacetsAlone, DoNotPushHardAcrossWhereCornersFallTogether) {
 
     EXPECT_GT(pair.energy, 0.0);
     for (const Vec3& force : pair.on_b) EXPECT_LT(force.norm(), 10.0 * pair.energy / 0.1) << turn;
+  }
+}
+
+// As a corner of the overlap leaves it, the fan of its triangles begins at another one: with three
+// points a triangle, exact for a linear spring alone, the energy changed by 0.4 %.
+TEST(FacingFacetsAlone, StoreTheSameUnderHertzHoweverTheirOverlapIsCutIntoTriangles) {
+  constexpr double kNear = 0.02;  // m, range
+  const HertzMindlin::Parameters parameters{1e6, 3e5, 0.01, 0.0};
+  const NormalSpring spring = NormalSpring::of<HertzMindlin>(parameters, kNear);
+  const auto energy = [&](double slope, double shift) {
+    Simplex a, b;
+    a.count = b.count = 3;
+    a.x = {Vec3(0.0, 0.0, 0.01), Vec3(0.1, 0.0, 0.01 + 0.1 * slope), Vec3(0.0, 0.1, 0.01)};
+    b.x = {Vec3(-1.0, shift - 0.05, 0.0), Vec3(1.0, shift + 0.05, 0.0),
+           Vec3(-1.0, shift + 0.05, 0.0)};
+    return facing_facets(a, b, spring).energy;
+  };
+  for (const double slope : {0.05, 0.1, 0.2}) {
+    const double before = energy(slope, -1e-9);
+    EXPECT_GT(before, 0.0);
+    EXPECT_NEAR(energy(slope, 1e-9), before, 1e-4 * before) << slope;
   }
 }
 

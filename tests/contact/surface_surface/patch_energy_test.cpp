@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/surface_surface/structure_patches.hpp"
+#include "tests/support/bodies_of_cells.hpp"
+#include "tests/support/seeded_random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+/// A plate with 4 x 4 holes, of squares a third as wide as it is thick, on one sheet: each hole takes
+/// a contact away that the little area around it does not bring. k = 1 N/m.
+namespace plekton::test::patch_energy_test {
+namespace {
+
+constexpr double kRange = 0.3;   // m
+constexpr double kSquare = 0.1;  // m
+constexpr int kSquares = 9;      // along a side
+
+Body perforated() {
+  Body body;
+  std::map<std::pair<int, int>, int> nodes;
+  const auto node = [&](int i, int j) {
+    const auto [at, is_new] = nodes.try_emplace({i, j}, static_cast<int>(body.x.size()));
+    if (is_new)
+      body.x.emplace_back((i - 0.5 * kSquares) * kSquare, (j - 0.5 * kSquares) * kSquare, 0.0);
+    return at->second;
+  };
+  for (int j = 0; j < kSquares; ++j) {
+    for (int i = 0; i < kSquares; ++i) {
+      if (i % 2 == 1 && j % 2 == 1) continue;
+      body.facets.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+      body.facets.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+    }
+  }
+  return body;
+}
+
+Body ground() {
+  return sheet(1, 1, 3.0, 3.0);
+}
+
+TEST(PatchEnergy, OfAPlateWithFineHolesIsThatOfHalfAContactAtLeastAndPushesItAway) {
+  for (const double overlap : {1e-4, 1e-3, 0.01, 0.05}) {
+    for (const double tilt : {0.0, 1e-3, 0.01, 0.1}) {
+      StructurePair pair(ground(), perforated(), kRange);
+      const double lift = 0.5 * kSquares * kSquare * std::sin(tilt);  // of its middle over its edge
+      pair.place(moved(perforated(), {tilt, 0.0, 0.0}, {0.01, 0.02, kRange - overlap + lift}));
+
+      EXPECT_GE(pair.energy(), 0.25 * overlap * overlap * (1.0 - 1e-9)) << overlap << ' ' << tilt;
+      EXPECT_GT(pair.force_on_b().z(), 0.0) << overlap << ' ' << tilt;
+      EXPECT_LE((pair.force_on_a() + pair.force_on_b()).norm(), 1e-12 * overlap);
+    }
+  }
+}
+
+TEST(PatchEnergy, OfAPlateWithFineHolesHasTheForcesAsItsGradient) {
+  Random random(7);
+  for (int place = 0; place < 2; ++place) {
+    Body b = perforated();
+    for (Vec3& x : b.x) x += random.in_cube(0.003);
+    b = moved(b, {random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), 0.3},
+              {0.01, 0.02, 0.95 * kRange});
+    StructurePair pair(ground(), b, kRange);
+    pair.place(b);
+    const std::vector<Vec3> forces = pair.forces();
+    double largest = 0.0;
+    for (const Vec3& force : forces) largest = std::max(largest, force.norm());
+    for (std::size_t i = 0; i < b.x.size(); i += 3) {
+      for (int axis = 0; axis < 3; ++axis) {
+        constexpr double kStep = 1e-7;
+        const auto energy = [&](double way) {
+          Body shifted = b;
+          shifted.x[i][axis] += way;
+          pair.place(shifted);
+          return pair.energy();
+        };
+        const double expected = (energy(-kStep) - energy(kStep)) / (2.0 * kStep);
+        EXPECT_NEAR(forces[pair.first_node_of_b() + i][axis], expected, 1e-4 * largest)
+            << place << ' ' << i << ' ' << axis;
+      }
+    }
+  }
+}
+
+// Bodies that have gone through each other do not draw each other in.
+TEST(PatchEnergy, OfSheetsThatCrossIsNeverLessThanNothing) {
+  Random random(11);
+  for (int place = 0; place < 200; ++place) {
+    const Body b =
+        moved(sheet(3, 3, 0.6, 0.6, Cut::alternating),
+              {random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0), 0.0}, random.in_cube(0.2));
+    StructurePair pair(sheet(3, 3, 0.6, 0.6), b, kRange);
+
+    pair.place(b);
+
+    EXPECT_GE(pair.energy(), 0.0) << place;
+  }
+}
+
+}  // namespace
+}  // namespace plekton::test::patch_energy_test
