@@ -48,6 +48,7 @@ double StructurePatches::rebuild(std::span<const geometry::CellPair> pairs,
 std::vector<StructurePair> StructurePatches::find_structure_pairs(
     const ContactMaterials& materials) const {
   std::vector<StructurePair> structure_pairs;
+  structure_pairs.reserve(surface_->structure_count() * (surface_->structure_count() + 1) / 2);
   const std::vector<double> masses = materials.structure_masses.empty()
                                          ? mean_node_masses(*surface_, materials.masses)
                                          : materials.structure_masses;
@@ -80,7 +81,8 @@ std::vector<StructurePair> StructurePatches::find_structure_pairs(
 
 void StructurePatches::make_structure_pairs(const ContactMaterials& materials) {
   structure_pairs_ = find_structure_pairs(materials);
-  take_parameters(materials);
+  find_glues();
+  springs_.reserve(structure_pairs_.size());
   for (const StructurePair& structure_pair : structure_pairs_) {
     springs_.push_back(NormalSpring::of<AnyLaw>(
         structure_pair.parameters, structure_pair.radius_first + structure_pair.radius_second,
@@ -93,6 +95,10 @@ void StructurePatches::take_parameters(const ContactMaterials& materials) {
   std::vector<StructurePair> structure_pairs = find_structure_pairs(materials);
   for (std::size_t i = 0; i < structure_pairs.size(); ++i)
     structure_pairs_[i] = structure_pairs[i];  // springs point there
+  find_glues();
+}
+
+void StructurePatches::find_glues() {
   glues_ = std::ranges::any_of(
       structure_pairs_, [](const StructurePair& of) { return AnyLaw::cements(of.parameters); });
 }

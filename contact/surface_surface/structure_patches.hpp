@@ -183,6 +183,7 @@ class StructurePatches {
 
   std::vector<StructurePair> find_structure_pairs(const ContactMaterials& materials) const;
   void make_structure_pairs(const ContactMaterials& materials);
+  void find_glues();
   void hand_to_sides(const PairOfCells& pair,
                      const std::array<geometry::FeatureNodes, 2>& witness_features,
                      const geometry::SurfaceChange& change, std::vector<PairOfCells>& left) const;
