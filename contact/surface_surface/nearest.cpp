@@ -119,7 +119,8 @@ std::optional<PairForces> edge_over_facet(const Simplex& a, const Simplex& b,
 /// stands on it.
 bool is_bare(const Simplex& simplex, const EdgeOf& edge, const Vec3& normal) {
   if (simplex.is_seam[edge.side]) return false;
-  return simplex.count == 2 || normal_of(simplex).cross(normal).norm() >= kParallelPlanes;
+  return simplex.count == 2 ||
+         (!is_needle(simplex) && normal_of(simplex).cross(normal).norm() >= kParallelPlanes);
 }
 
 Real along_edges(const EdgeBesideEdge& edges, const NormalSpring& spring) {

@@ -179,9 +179,8 @@ TermForces term_forces(const PairTerm& term, const TermProximity& found, const P
   const Simplex a = simplex_at(term.a, term.is_seam_a, x);
   const Simplex b = simplex_at(term.b, term.is_seam_b, x);
   const bool meet = found.cores.signed_distance < kStructurePair * spring.range();
-  const PairForces nearest = meet
-                                 ? at_nearest_points(found.cores, spring)
-                                 : nearest_part(a, b, found.cores, found.may_be_flat, spring);
+  const PairForces nearest = meet ? at_nearest_points(found.cores, spring)
+                                  : nearest_part(a, b, found.cores, found.may_be_flat, spring);
   add_nearest(term, nearest, found.cores, share, result);
   if (!can_extend(a, b)) return result;
   const PairForces extended = extended_part(a, b, spring);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/surface_surface/pair_terms.hpp"
 
-#include "contact/surface_surface/nearest.hpp"
-
 #include <algorithm>
 #include <limits>
 
@@ -39,6 +37,15 @@ double push_of(const PairTerm& term, const Vec3& normal) {
   double push = 0.0;
   for (std::size_t i = 0; i < term.b.count; ++i) push += term.forces.on_b[i].dot(normal);
   return push;
+}
+
+/// Adds what an energy does of which a share depends on how two facets turn.
+void add_turning(const Real& share, double energy, PairForces& to) {
+  const PairForces turning = forces_of(share);
+  for (std::size_t k = 0; k < 3; ++k) {
+    to.on_a[k] += energy * turning.on_a[k];
+    to.on_b[k] += energy * turning.on_b[k];
+  }
 }
 
 /// Adds the forces on some nodes to those of a term that has all of them that feel any.
@@ -220,6 +227,7 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
   const TermForces pushing = term_forces(term, found, share, spring, x);
   term.point_share = share.share;
   term.forces = pushing.forces;
+  term.own_energy = pushing.forces.energy;
   if (term.a.count == 3 && term.b.count == 3) extents_[holders(term).front().pair] = pushing.extent;
   shared_[candidate][0] = pushing.shared;
   term.push = push_of(term, found.cores.normal);
@@ -231,8 +239,24 @@ void PairTerms::act(std::size_t candidate, const TermProximity& found, const Nor
   shared_[candidate][1] = pulling.shared;
 }
 
-PairForces PairTerms::at_nearest(std::size_t term, const NormalSpring& spring) const {
-  return at_nearest_points(proximity_[holders(terms_[term]).front().pair].cores, spring);
+PairForces PairTerms::own_forces(std::size_t term, const NormalSpring& spring, Positions x) const {
+  const PairTerm& cells = terms_[term];
+  const std::uint32_t pair = holders(cells).front().pair;
+  const TermProximity& found = proximity_[pair];
+  const NearestCorners nearest{found.cores.points.corners_a, found.cores.points.corners_b};
+  const PointShare share = share_of(cells, nearest, spring.range(), x);
+  auto [forces, extent, shared] = term_forces(cells, found, share, spring, x);
+  if (shared == 0.0) return forces;
+  const PointShare of = point_share(tilts_[pair], cells.overlap, spring.range());
+  const RimPlaces rims = of.share < 1.0 ? rims_of(cells, nearest, pair) : RimPlaces{};
+  double beside = 0.0;
+  if (rims.a != 0) {
+    const Real turning = rim_share(cells, rims, x);
+    beside = turning.value;
+    add_turning(turning, (1.0 - of.share) * shared, forces);
+  }
+  add_tilting(cells, (1.0 - beside) * of.by_tilt * shared, x, forces);
+  return forces;
 }
 
 /// Mean of the pairs of cells that have a term. All of them are in range: their tilts are of now.
@@ -381,15 +405,8 @@ double PairTerms::turn_rims(std::size_t candidate, std::uint32_t pair,
   if (rims.a == 0) return 0.0;
   const std::uint32_t cells = term_of_pair_[pair];
   const Real share = rim_share(terms_[cells], rims, x);
-  const PairForces turning = forces_of(share);
-  const auto add = [&](double energy, PairForces& to) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      to.on_a[k] += energy * turning.on_a[k];
-      to.on_b[k] += energy * turning.on_b[k];
-    }
-  };
-  add(energies[0], terms_[cells].forces);
-  if (energies[1] != 0.0) add(energies[1], attractions_[cells]);
+  add_turning(share, energies[0], terms_[cells].forces);
+  if (energies[1] != 0.0) add_turning(share, energies[1], attractions_[cells]);
   return share.value;
 }
 

@@ -70,8 +70,9 @@ class PairTerms {
     return terms_[term_of_pair_[pair]];
   }
 
-  /// What a spring does where the cells of a term of two cells in range are nearest.
-  PairForces at_nearest(std::size_t term, const NormalSpring& spring) const;
+  /// What a spring does in a term of two cells in range by itself, without joints and rings: the
+  /// gradient of its own energy.
+  PairForces own_forces(std::size_t term, const NormalSpring& spring, Positions x) const;
 
   /// Whether any of the listed pairs has a cylinder.
   bool have_bars() const noexcept { return have_bars_; }

@@ -35,7 +35,7 @@ inline Vec3 normal_of(const Simplex& facet) {
 
 /// Whether the corners of a facet lie on one line but for rounding, as those of a sliver at a joint
 /// of two edges that are divided otherwise: the product of two sides is off by some 1e-16 of the
-/// longest one squared, so that the normal of what is left is off by more than 1e-3. Such a facet
+/// longest one squared, so that the normal of what is left is off by more than 1e-4. Such a facet
 /// counts as one without a normal.
 inline bool is_needle(const Simplex& facet) {
   const Vec3 u = facet.x[1] - facet.x[0];

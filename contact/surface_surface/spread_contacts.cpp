@@ -42,6 +42,23 @@ void SpreadContacts::find(StructurePatches& patches, Positions x) {
   }
   for (StructurePatch& patch : patches.patches())
     patch.point_part = std::clamp(patch.point_part, 0.0, 1.0);
+  bound_by_patches(patches);
+}
+
+/// Where a patch pushes as a part of one pair of cells, what its terms press with does not act:
+/// together they press no more than the patch does.
+void SpreadContacts::bound_by_patches(const StructurePatches& patches) {
+  pressed_.assign(patches.patches().size(), 0.0);
+  for (const SpreadContact& spread : contacts_) pressed_[spread.patch] += spread.normal_force;
+  for (SpreadContact& spread : contacts_) {
+    const double force = patches.patches()[spread.patch].normal_force;
+    if (!patches.is_of_one(spread.patch) || !(force > 0.0 && force < pressed_[spread.patch]))
+      continue;
+    const double part = force / pressed_[spread.patch];
+    spread.elastic_force *= part;
+    spread.normal_force *= part;
+    spread.count *= part;
+  }
 }
 
 /// How hard every pair of cells with a bar in it presses: its part of what all terms do that it

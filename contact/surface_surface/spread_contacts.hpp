@@ -99,6 +99,7 @@ class SpreadContacts {
   void take_bars_from_patches(StructurePatches& patches) const;
   bool locate_bar(const StructurePatches& patches, const PairTerm& term, SpreadContact& spread,
                   Positions x) const;
+  void bound_by_patches(const StructurePatches& patches);
   double bars_before(const PairOfCells& pair) const;
   double bars_now(std::uint32_t pair) const;
   void find_transfers(const StructurePatches& patches);
@@ -112,6 +113,7 @@ class SpreadContacts {
   std::vector<SpreadContact> previous_;
   std::vector<double> bar_push_;    ///< N, by pair of cells
   std::vector<Pressing> pressing_;  ///< by patch
+  std::vector<double> pressed_;     ///< N, by patch, of all its spread contacts
   std::vector<std::int32_t> at_;    ///< by pair of cells; -1: none
   std::vector<Transfer> transfers_;
   std::vector<char> goes_on_;  ///< by spread contact of the last step: its pair presses still

@@ -24,7 +24,8 @@ namespace plekton::contact {
 /// over pairs of features (surface_surface/nearest.hpp, surface_surface/extended.hpp) with the
 /// weights of product_features.hpp: one contact for every part of the contact region, also where
 /// it closes a ring (surface_surface/pair_terms.hpp), and one more for every diameter of length or
-/// square diameter of area on which bodies run side by side. Friction and all else is decided once
+/// square diameter of area on which bodies run side by side, but never less than PatchEnergy says.
+/// Friction and all else is decided once
 /// per patch, a part of the region that hangs together: its spring is as stiff as the contacts it
 /// counts, it acts where the elastic force acts, and it follows the
 /// patch over the mesh. Facets that lie on each other have a spring for every pair of them instead

@@ -189,26 +189,25 @@ void StructurePatches::add_up_patches(Positions x) {
   largest_overlap_ratio_ = 0.0;
   crossings_ = 0;
   for (StructurePatch& patch : patches_) patch.reset();
-  find_energies(springs_);
+  find_energies();
   for (std::size_t i = 0; i < patches_.size(); ++i) patches_[i].energy = energies_[i].value();
-  for (std::size_t i = 0; i < places_.size(); ++i) add_up_term(terms_.acting()[i], places_[i]);
+  for (std::size_t i = 0; i < places_.size(); ++i) add_up_term(terms_.acting()[i], places_[i], x);
   for (StructurePatch& patch : patches_) patch.find_totals(structure_pair_of(patch), x);
   for (const PatchSuccessor& successor : successors_)
     patches_[successor.patch].is_torn |= previous_[successor.old_patch].is_torn;
 }
 
 /// Of the patches as they hang together now.
-void StructurePatches::find_energies(std::span<const NormalSpring> springs) {
+void StructurePatches::find_energies() {
   energies_.assign(patches_.size(), {});
   for (const std::uint32_t acting : terms_.acting()) {
     const PairTerm& term = terms_[acting];
     const Holder& holder = terms_.holders(term).front();
-    energies_[static_cast<std::size_t>(pairs_[holder.pair].patch)].add(acting, term,
-                                                                       springs[term.spring]);
+    energies_[static_cast<std::size_t>(pairs_[holder.pair].patch)].add(acting, term);
   }
 }
 
-void StructurePatches::add_up_term(std::uint32_t acting, const TermPlaces& places) {
+void StructurePatches::add_up_term(std::uint32_t acting, const TermPlaces& places, Positions x) {
   const PairTerm& term = terms_[acting];
   const StructurePair& structure_pair = structure_pairs_[term.spring];
   const double radius = std::min(structure_pair.radius_first, structure_pair.radius_second);
@@ -229,8 +228,8 @@ void StructurePatches::add_up_term(std::uint32_t acting, const TermPlaces& place
   if (!energy.is_of_one()) {
     push(term.forces, 1.0);
     if (const PairForces* const ends = terms_.at_ends(acting)) push(*ends, 1.0);
-  } else if (energy.deepest_term == acting) {
-    push(terms_.at_nearest(acting, spring_of(term)), PatchEnergy::kLeastOfOne);
+  } else if (energy.most_term == acting) {
+    push(terms_.own_forces(acting, spring_of(term), x), PatchEnergy::kLeastOfOne);
   }
   const auto attract = [&](const PairForces* by) {
     if (by == nullptr) return;
@@ -399,7 +398,7 @@ double StructurePatches::normal_energy(const geometry::Surface& surface, const M
   there.terms_.rebuild(listed);
   there.terms_.evaluate(springs_, at, pool);
   there.join_pairs();
-  there.find_energies(springs_);
+  there.find_energies();
   double energy = 0.0;
   for (const PatchEnergy& of : there.energies_) energy += of.value();
   for (const std::uint32_t acting : there.terms_.acting())

@@ -51,32 +51,31 @@ struct TermPlaces {
 
 /// What a patch stores elastically.
 ///
-/// What hangs together is one contact at least, so that the terms of a patch add up to what its
-/// deepest pair of cells stores where these are nearest, or to more. They come to less, also below
-/// nothing, so that bodies would draw each other in, where rings of what lies flat are not given
-/// back (PairTerms), as of a plate with holes that are finer than it is thick, and where bodies have
-/// gone into each other by more than their thickness. So a patch stores kLeastOfOne of that, and
-/// pushes as much, where it is more than the sum. Either is a function of positions, and so is the
-/// larger one.
+/// What hangs together is one contact at least, so that the terms of a patch add up to what any of
+/// its pairs of cells stores by itself, or to more. They come to less, also below nothing, so that
+/// bodies would draw each other in, where rings of what lies flat are not given back (PairTerms), as
+/// of a plate with holes that are finer than it is thick, and where bodies have gone into each other
+/// by more than their thickness. So a patch stores kLeastOfOne of what the pair does that stores
+/// most, and pushes as much, where that is more than the sum: of both, as functions of positions,
+/// the larger one. (It leaps where such a patch comes to hang together with another one, or parts
+/// from it.)
 struct PatchEnergy {
   /// Below 1, so that point contacts, for which both are the same but for how the rims of facets
   /// share it, have no kink.
   static constexpr double kLeastOfOne = 0.5;
 
-  double of_all = 0.0;             ///< J
-  double of_deepest = 0.0;         ///< J, of one pair of cells
-  std::uint32_t deepest_term = 0;  ///< that pair
+  double of_all = 0.0;          ///< J
+  double most = 0.0;            ///< J, of one pair of cells
+  std::uint32_t most_term = 0;  ///< that pair
 
-  void add(std::uint32_t acting, const PairTerm& term, const NormalSpring& spring) {
+  void add(std::uint32_t acting, const PairTerm& term) noexcept {
     of_all += term.forces.energy;
-    if (!term.is_of_cells) return;
-    const double energy = spring.energy(spring.range() - term.overlap);
-    if (!(energy > of_deepest)) return;
-    of_deepest = energy;
-    deepest_term = acting;
+    if (!term.is_of_cells || !(term.own_energy > most)) return;
+    most = term.own_energy;
+    most_term = acting;
   }
-  bool is_of_one() const noexcept { return of_all < kLeastOfOne * of_deepest; }
-  double value() const noexcept { return is_of_one() ? kLeastOfOne * of_deepest : of_all; }
+  bool is_of_one() const noexcept { return of_all < kLeastOfOne * most; }
+  double value() const noexcept { return is_of_one() ? kLeastOfOne * most : of_all; }
 };
 
 /// The parts of the contact region of structures that hang together, from step to step: which
@@ -160,6 +159,8 @@ class StructurePatches {
   std::span<const PairOfCells> pairs() const noexcept { return pairs_; }
   std::span<StructurePatch> patches() noexcept { return patches_; }
   std::span<const StructurePatch> patches() const noexcept { return patches_; }
+  /// Whether a patch pushes as a part of one of its pairs of cells, and not as its terms add up to.
+  bool is_of_one(std::uint32_t patch) const noexcept { return energies_[patch].is_of_one(); }
   /// Of the terms in range, in their order.
   std::span<const TermPlaces> places() const noexcept { return places_; }
   /// Patches of this step in which one of the last step lives on.
@@ -192,8 +193,8 @@ class StructurePatches {
   void find_places();
   void find_successors();
   void add_up_patches(Positions x);
-  void find_energies(std::span<const NormalSpring> springs);
-  void add_up_term(std::uint32_t acting, const TermPlaces& places);
+  void find_energies();
+  void add_up_term(std::uint32_t acting, const TermPlaces& places, Positions x);
   void hand_on_history(const Predecessor& old, std::span<const PatchSuccessor> successors,
                        const Motion& motion, double dt);
   void hand_on_number(const Predecessor& old, std::span<const PatchSuccessor> successors);

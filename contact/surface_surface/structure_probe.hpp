@@ -32,7 +32,8 @@ class StructureProbe {
       visit((*terms_)[acting].a, (*terms_)[acting].b);
   }
 
-  /// Adds the elastic forces (N) with the nodes at x.
+  /// Adds the elastic forces (N) of all terms with the nodes at x, also where a patch pushes with
+  /// one of them (PatchEnergy).
   /// @param moved  m, no node is further from where it was at the last call, or in the last step
   void add_forces(Positions x, double moved, NodeForces& forces);
 

@@ -40,12 +40,12 @@ struct Foot {
   Vec3 separation;  ///< m, from it to the joint; perpendicular to that feature
 };
 
-/// The separation is perpendicular to the facet. Where this has no area it does not turn.
+/// The separation is perpendicular to the facet. A needle does not turn.
 Vec3 from_face(const Vec3& by_separation, const Simplex& facet, const Foot& foot,
                std::array<Vec3, 3>& on_other) {
   const Vec3 area_normal = area_normal_of(facet);
   const double area = area_normal.norm();
-  if (!(area > 0.0)) {
+  if (is_needle(facet)) {
     for (std::size_t k = 0; k < 3; ++k)
       on_other[k] += foot.weights[static_cast<int>(k)] * by_separation;
     return -by_separation;
