@@ -58,7 +58,8 @@ double most_of_a_facet(const Body& body) {
   return most;
 }
 
-// Its terms add up to less than nothing in most of these places.
+// The terms add up to less than nothing in two of these places, where the plate is tilted by about as
+// much as it overlaps.
 TEST(PatchEnergy, OfAPlateWithFineHolesIsAtLeastHalfOfThatOfAnyFacetAndPushesItAway) {
   for (const double overlap : {1e-4, 1e-3, 0.01, 0.05}) {
     for (const double tilt : {0.0, 1e-3, 0.01, 0.1}) {
@@ -105,7 +106,7 @@ TEST(PatchEnergy, OfAPlateWithFineHolesHasTheForcesAsItsGradient) {
   }
 }
 
-// Bodies that have gone through each other do not draw each other in.
+// An invariant: the sum of the terms is not below nothing in these places either.
 TEST(PatchEnergy, OfSheetsThatCrossIsNeverLessThanNothing) {
   Random random(11);
   for (int place = 0; place < 200; ++place) {
