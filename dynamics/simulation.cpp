@@ -138,6 +138,9 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options,
   ties_.advance(scene_.state.position);
   ties_.forget_dissipated();
   contacts_->advance(scene_.state.motion(), scene_.planes, 0.0, pool_, forces_);
+  // The first step is chosen for what the forces do to all nodes, also those of other ranks.
+  nodes_.found_forces();
+  nodes_.know_all();
   bonds_.add_forces(forces_, pool_);
   ties_.add_forces(forces_);
   sheet_facets_.add_forces(forces_, pool_);

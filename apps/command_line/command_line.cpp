@@ -180,9 +180,13 @@ void print_error(const std::string& text) {
   std::cerr << "plekton: " << (problems > 1 ? fmt::format("{} problems\n", problems) : "") << shown;
 }
 
-void print_failure(const std::exception& error) {
+const char* text_of(const std::exception& error) {
   const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  print_error(is_memory ? "out of memory; ask for fewer grains or a coarser mesh" : error.what());
+  return is_memory ? "out of memory; ask for fewer grains or a coarser mesh" : error.what();
+}
+
+void print_failure(const std::exception& error) {
+  print_error(text_of(error));
 }
 
 /// Says how a run has ended. @returns the exit code
@@ -333,7 +337,7 @@ int run_on_ranks(CommandLine& line) {
     return run_command(line);
   } catch (const std::exception& error) {
     print_failure(error);
-    job.end_failed(kFailed, error.what());
+    job.end_failed(kFailed, text_of(error));
   }
   return kFailed;
 }

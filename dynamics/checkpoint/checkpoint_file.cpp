@@ -260,12 +260,13 @@ CheckpointError::CheckpointError(const std::filesystem::path& file, const std::s
 
 void write_checkpoint(const std::filesystem::path& file, const StateTree& state,
                       std::string_view revision) {
+  if (goes_nowhere(file)) return;
   const std::string image = image_of(state);
   OutputFile out(file);
   out.write(head_of(image, revision));
   out.write(image);
   // Its bytes before its name: a name alone would be a damaged checkpoint in place of a whole one.
-  if (!goes_nowhere(file)) sync_file(geometry::part_of(file));
+  sync_file(geometry::part_of(file));
   out.commit();
   sync_folder(file.parent_path());
 }

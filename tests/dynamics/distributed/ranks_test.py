@@ -13,6 +13,7 @@ import csv
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -92,6 +93,37 @@ class SameBytes(Ranks):
     def test_of_all_kinds(self):
         self.assert_same_on_ranks("all_kinds.toml")
 
+    def test_of_grains_that_are_pressed_together_as_they_begin(self):
+        """Their first step is chosen for the speeds that their forces bring, which a rank knew of its own grains alone: ranks then looked at
+        their steps at different times, and crashed."""
+        radius, side = 0.003, 13
+        chance = random.Random(1)
+        places = [(1.98 * radius * i, 1.98 * radius * j, 1.98 * radius * k) for i in range(side) for j in range(side) for k in range(side)]
+        rows = [",".join(repr(x + 0.004 * radius * chance.random()) for x in place) + f",{radius}" for place in places]
+        table = self.folder / "pressed.csv"
+        table.write_text("\n".join(rows) + "\n", encoding="utf-8")
+        scene = self.folder / "pressed.toml"
+        scene.write_text(
+            f"""[simulation]
+duration = "1 ms"
+gravity = [0, 0, 0]
+[materials.sand]
+density = "2650 kg/m3"
+young_modulus = "100 MPa"
+friction_angle = "30 deg"
+[[grains]]
+name = "sand"
+material = "sand"
+table = "{table}"
+[output]
+interval = "1 ms"
+history_interval = "0.2 ms"
+hash_interval = 5
+""",
+            encoding="utf-8",
+        )
+        self.assert_same_on_ranks(scene)
+
     def test_with_threads_in_ranks(self):
         for ranks, threads in ((0, 2), (2, 2)):
             self.run_well(ranks, SCENES / "spheres.toml", "--threads", threads, "--out", self.folder / str(ranks), "--quiet")
@@ -165,6 +197,24 @@ class Resume(Ranks):
     def processes_of(job):
         children = Path(f"/proc/{job.pid}/task/{job.pid}/children").read_text().split()
         return [int(child) for child in children] or [job.pid]
+
+
+class Failure(Ranks):
+    def test_of_a_stage_is_reported_as_by_one_process(self):
+        """Of figures it told zeros, and that all was green."""
+        text = (SCENES / "spheres.toml").read_text(encoding="utf-8")
+        text = re.sub(r'(?m)^duration = .*\n', "", text)
+        scene = self.folder / "never.toml"
+        scene.write_text(text + '\n[[stages]]\nname = "fall"\nmax_duration = "1 ms"\nend = { kinetic_energy = "1e-30 J" }\n', encoding="utf-8")
+        reports = []
+        for ranks in (0, 3):
+            out = self.folder / f"failed_{ranks}"
+            self.assertEqual(run(ranks, scene, "--out", out, "--quiet").returncode, 1)
+            reports.append(json.loads((out / "run.json").read_text(encoding="utf-8")))
+        alone, on_ranks = reports
+        self.assertEqual(alone["status"], "failed")
+        for key in ("status", "message", "certificate", "counts", "energy"):
+            self.assertEqual(alone[key], on_ranks[key], key)
 
 
 class Speech(Ranks):
