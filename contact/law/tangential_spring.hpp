@@ -57,11 +57,12 @@ struct StiffnessChangeOf {
     kept = geometry::select(inverse > before, Real(stiffness * before), Real(1.0));
     compliance_now = geometry::select(stiffness > Real(0.0), inverse, Real(0.0));
   }
-  /// Of springs that many times as stiff.
+  /// Of springs that many times as stiff; without stiffness they give up all of their force.
   /// @param inverse  1/factor; 0 for a factor of 0
   PLEKTON_INLINE StiffnessChangeOf scaled(const Real& factor, const Real& inverse) const noexcept {
     StiffnessChangeOf of_spring = *this;
     of_spring.now = factor * now;
+    of_spring.kept = geometry::select(factor > Real(0.0), kept, Real(0.0));
     of_spring.compliance_before = inverse * compliance_before;
     of_spring.compliance_now = inverse * compliance_now;
     return of_spring;

@@ -46,9 +46,9 @@ void SurfaceContacts::keep_sides(const Pair& pair, std::span<const Patch> patche
 }
 
 /// Hands the histories of the last step's contacts to this step's patches. A contact that splits
-/// shares its history in proportion to the elastic forces, and its number goes to the patch with
-/// the largest; of contacts that merge the one with the largest hands its number on. What a contact
-/// stored that nothing follows is dissipated.
+/// shares its history in proportion to the elastic forces; under tension the nearest part has all
+/// of it. Its number goes to the patch with the largest force; of contacts that merge the one with
+/// the largest hands its number on. What a contact stored that nothing follows is dissipated.
 EnergyLoss SurfaceContacts::transfer(const Pair& pair, std::span<const Patch> patches,
                                      const Motion& motion, double dt, Worker& worker) {
   worker.transferred.assign(patches.size(), Transferred{});
@@ -64,8 +64,11 @@ EnergyLoss SurfaceContacts::transfer(const Pair& pair, std::span<const Patch> pa
     else
       loss.tracking += AnyLaw::history_energy(pair.parameters, old.memory.history);
     double total = 0.0;
-    for (const std::uint32_t successor : successors)
+    std::uint32_t nearest = successors.empty() ? 0 : successors.front();
+    for (const std::uint32_t successor : successors) {
       total += worker.states[successor].elastic_force;
+      if (worker.states[successor].gap < worker.states[nearest].gap) nearest = successor;
+    }
     hand_on_number(old, successors, worker);
     // A sphere rolls around an edge little by little: a normal that turns over in one step has gone
     // through the surface.
@@ -76,8 +79,10 @@ EnergyLoss SurfaceContacts::transfer(const Pair& pair, std::span<const Patch> pa
         });
     for (const std::uint32_t successor : successors) {
       const PatchState& state = worker.states[successor];
-      const double share =
-          total > 0.0 ? state.elastic_force / total : 1.0 / static_cast<double>(successors.size());
+      const double share = total > 0.0            ? state.elastic_force / total
+                           : successor == nearest ? 1.0
+                                                  : 0.0;
+      if (!(share > 0.0)) continue;  // what is apart beside it has no part in it, nor its bond
       AnyLaw::accumulate_history(
           worker.transferred[successor].history,
           carried_history<AnyLaw>(old.memory, state.normal, dt * state.twist_rate), share);

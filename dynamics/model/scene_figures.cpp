@@ -77,6 +77,9 @@ std::vector<bool> free_nodes(const Scene& scene) {
 
 std::vector<double> contact_masses(const Scene& scene) {
   std::vector<double> masses = scene.properties.mass;
+  for (std::size_t i = 0; i < masses.size(); ++i)
+    if (holds_translation(scene.properties.held[i]))
+      masses[i] = std::numeric_limits<double>::infinity();
   for (const RigidBody& body : scene.rigid_bodies) {
     const std::size_t reference = index_of(body.node);
     const double mass = holds_translation(scene.properties.held[reference])

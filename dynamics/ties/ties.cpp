@@ -113,12 +113,14 @@ void Ties::advance(std::size_t i, Positions x) {
   if (const auto* const on = std::get_if<CablePlace>(&tie.to)) slide(i, *on, x);
   const Vec3 way = to_node(i, x);
   const double distance = way.norm();
-  const double stretched = pay_out(tie, kept, stretch(i, distance));
+  const double asked = stretch(i, distance);
+  const double before = kept.dissipated;
+  const double stretched = pay_out(tie, kept, asked);
   const double pull = tie.stiffness * stretched;
   if (kept.is_lost || pull > tie.strength) {
     // In the step before it took the work of its force of then over half of the way, and does none
-    // now.
-    kept.dissipated += kept.elastic + 0.5 * kept.pull * (stretched - kept.pull / tie.stiffness);
+    // now: nor has a brake paid out against one.
+    kept.dissipated = before + kept.elastic + 0.5 * kept.pull * (asked - kept.pull / tie.stiffness);
     kept.is_broken = true;
     kept.pull = kept.along_cable = kept.elastic = 0.0;
     forces_[i].setZero();

@@ -104,7 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"servo0", {"planes.lid.point=[0, 0, 0.05003]"}},
                     Case{"servo0", {"planes.lid.point=[0, 0, 0.05011]"}},
                     Case{"servo0", {"planes.lid.point=[0, 0, 0.05017]"}}, Case{"servo_95", {}},
-                    Case{"servo_1572", {}}, Case{"flat_net", {"simulation.time_step=5e-6"}},
+                    Case{"servo_1572", {}}, Case{"glued_in_a_groove", {}},
+                    Case{"flat_net", {"simulation.time_step=5e-6"}},
                     Case{"cylinder_on_net", {"simulation.duration=0.01"}},
                     Case{"laminate", {"simulation.time_step=5e-6"}}));
 

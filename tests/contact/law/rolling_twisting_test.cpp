@@ -33,6 +33,20 @@ TEST(RollingTwisting, IsASpringOfTheArmsTimesTheTangentialStiffness) {
   EXPECT_NEAR(answer.dissipated, 0.0, 1e-15 * stiffness * 4e-8);
 }
 
+// It kept its moment for good, and a ball drove itself over a floor.
+TEST(RollingTwisting, GivesUpItsMomentWithItsStiffness) {
+  Law::History history{};
+  turn(Law::combine({{}, {0.3, 0.7}}, kBody, kLarger), Vec3(1e-4, 0.0, 2e-4), history);
+
+  const auto without_rolling = Law::combine({{}, {0.0, 0.7}}, kBody, kLarger);
+  const ContactForce twisted = turn(without_rolling, Vec3::Zero(), history);
+  const ContactForce free = turn(Law::combine({{}, {}}, kBody, kLarger), Vec3::Zero(), history);
+
+  EXPECT_EQ(twisted.moment.head<2>().norm(), 0.0);
+  EXPECT_NE(twisted.moment[2], 0.0);
+  EXPECT_EQ(free.moment.norm(), 0.0);
+}
+
 TEST(RollingTwisting, SlidesAtTheLimitOfTheNormalForce) {
   const auto p = Law::combine({{}, {0.3, 0.7, 0.05, 0.02}}, kBody, kLarger);
   const double normal_force = Law::elastic_normal_force(p, -1e-3);

@@ -276,6 +276,25 @@ TEST(Ties, BreakAtTheirStrengthForGood) {
   EXPECT_LT(closure, 1e-7);
 }
 
+// What the brake paid out against the force that broke it was booked too: 5 mJ of 0.8 J.
+TEST(Ties, TakeTheirWorkOnceWhereTheBrakeEndsInTheStepInWhichTheyBreak) {
+  for (const double dt : {3.7e-5, 4.1e-5, 4.3e-5, 5e-5}) {
+    Scene scene = lump_at_a_point(6e5);
+    scene.state.velocity[0] = Vec3(6.0, 0.0, 0.0);
+    scene.ties[0].pushes = false;
+    scene.ties[0].brake_force = 100.0;
+    scene.ties[0].stroke = 0.008;
+    scene.ties[0].strength = 160.0;
+    auto simulation = simulation_of(scene, dt);
+
+    closure_until(simulation, 0.01);
+
+    EXPECT_EQ(simulation.ties().broken(), 1U) << dt;
+    const double lost = 0.5 * 2.0 * 36.0 - simulation.energy().kinetic;  // J
+    EXPECT_NEAR(simulation.ties().dissipated(), lost, 1e-12 * 36.0) << dt;
+  }
+}
+
 TEST(Ties, HoldWhatPushesOnlyWhereTheyPush) {
   for (const bool pushes : {true, false}) {
     Scene scene = two_lumps();
