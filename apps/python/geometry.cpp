@@ -112,6 +112,18 @@ std::vector<geometry::Ray> rays_of(const Numbers& origins, const Numbers& direct
   return rays;
 }
 
+/// Counts those who read something without Python's lock. Begins and ends with the lock.
+class Reading {
+ public:
+  explicit Reading(int& count) : count_(count) { ++count_; }
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+  ~Reading() { --count_; }
+
+ private:
+  int& count_;
+};
+
 /// Facets and bars over points, and what can be asked of them.
 class PySurface {
  public:
@@ -123,7 +135,13 @@ class PySurface {
   PySurface(const PySurface&) = delete;
   PySurface& operator=(const PySurface&) = delete;
 
-  void move(const Numbers& points) { query_.move(vectors_of(points, "points")); }
+  void move(const Numbers& points) {
+    if (readers_ > 0)
+      throw std::logic_error(
+          "another thread asks this surface; move it when that has its answer, or give each thread "
+          "a surface of its own");
+    query_.move(vectors_of(points, "points"));
+  }
   std::size_t size() const noexcept { return surface_.cell_count(); }
   bool is_closed() const noexcept { return query_.is_closed(); }
 
@@ -131,6 +149,7 @@ class PySurface {
     const auto probes = balls_of(points, radius);
     std::vector<NearestRow> rows;
     {
+      const Reading reading(readers_);
       const WithoutLock free;
       geometry::ThreadPool pool(threads);
       for (const auto& found : query_.nearest(probes, pool))
@@ -144,6 +163,7 @@ class PySurface {
     const auto rays = rays_of(origins, directions, t_end);
     std::vector<HitRow> rows;
     {
+      const Reading reading(readers_);
       const WithoutLock free;
       geometry::ThreadPool pool(threads);
       for (const auto& hit : query_.first_hits(rays, pool))
@@ -189,6 +209,7 @@ class PySurface {
 
   geometry::Surface surface_;
   geometry::SurfaceQuery query_;
+  mutable int readers_ = 0;  ///< other threads that are in nearest() or rays()
 };
 
 /// Kind and number of an element, as the rows of pairs have them: 0 a sphere, 1 a facet, 2 a bar.
@@ -201,6 +222,15 @@ std::pair<std::uint8_t, std::int32_t> name_of(const geometry::ElementId& element
           static_cast<std::int32_t>(surface.place_of(cell))};
 }
 
+template <class Element>
+void require_points(const std::vector<Element>& elements, std::size_t count, const char* name) {
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    for (const NodeId node : elements[i].nodes)
+      if (geometry::index_of(node) >= count)
+        throw std::invalid_argument(fmt::format("{}[{}]: there is no point {}; there are {}", name,
+                                                i, geometry::index_of(node), count));
+}
+
 py::array pairs(double largest_gap, const std::optional<Numbers>& centres, const Numbers& radii,
                 const std::optional<Numbers>& points, const py::object& facets,
                 const py::object& bars, double radius, bool within_structures, int threads) {
@@ -209,6 +239,8 @@ py::array pairs(double largest_gap, const std::optional<Numbers>& centres, const
   geometry::Elements elements;
   elements.facets = elements_of<geometry::Facet>(facets, radius, "facets");
   elements.cylinders = elements_of<geometry::Cylinder>(bars, radius, "bars");
+  require_points(elements.facets, x.size(), "facets");
+  require_points(elements.cylinders, x.size(), "bars");
   if (centres) {
     const auto places = vectors_of(*centres, "centres");
     const auto all = numbers_of(radii, places.size(), "radii");

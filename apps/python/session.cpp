@@ -71,6 +71,7 @@ Session::Session(apps::ResumedRun resumed, std::optional<fs::path> folder)
     : scenario_(std::move(resumed.scenario)),
       prepared_(prepare()),
       checkpoint_(std::move(resumed.checkpoint)),
+      origin_(folder),
       folder_(std::move(folder)) {
   prepared_->simulation->restore(checkpoint_->state);
 }
@@ -126,7 +127,7 @@ apps::RunReport Session::run_into(const fs::path& folder, double until, bool ove
   require_at_rest();
   const std::int64_t steps = prepared_->simulation->steps();
   const bool goes_on = checkpoint_.has_value();
-  if (goes_on && !folder_)
+  if (goes_on && !origin_)
     throw std::logic_error(
         "the checkpoint that this went on from is of no run with results; resume the folder of a "
         "run, or run without out");
@@ -137,13 +138,15 @@ apps::RunReport Session::run_into(const fs::path& folder, double until, bool ove
         steps));
   apps::require_possible_duration("until", until, prepared_->simulation->time_step());
   const Moving moving(*this, attendant);
+  const std::shared_ptr<apps::PreparedRun> prepared = prepared_;
+  const std::optional<fs::path> earlier = folder_;
   // A state is restored by the run itself, into a scene that has none.
   if (goes_on) prepared_ = prepare();
   std::error_code ignored;
   std::optional<apps::Resumption> resumption;
   if (goes_on)
     resumption.emplace(
-        apps::Resumption{checkpoint_->state, fs::equivalent(folder, *folder_, ignored), {}});
+        apps::Resumption{checkpoint_->state, fs::equivalent(folder, *origin_, ignored), {}});
   apps::Scenario scenario = scenario_;
   scenario.simulation.duration = until;
   std::ostringstream unseen;
@@ -152,8 +155,16 @@ apps::RunReport Session::run_into(const fs::path& folder, double until, bool ove
   settings.overwrite = overwrite;
   settings.resume = resumption ? &*resumption : nullptr;
   folder_ = folder;
-  const WithoutLock free;
-  return apps::run(scenario, *prepared_, settings);
+  try {
+    const WithoutLock free;
+    return apps::run(scenario, *prepared_, settings);
+  } catch (...) {
+    if (prepared_->simulation->steps() <= steps) {  // refused: as if never asked
+      prepared_ = prepared;
+      folder_ = earlier;
+    }
+    throw;
+  }
 }
 
 void Session::stop() noexcept {
@@ -176,6 +187,7 @@ void Session::restore(const fs::path& file) {
   require_at_rest();  // another thread may have begun to run while this one prepared
   prepared_ = std::move(fresh);
   checkpoint_.reset();
+  origin_.reset();
   folder_.reset();
 }
 

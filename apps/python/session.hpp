@@ -61,6 +61,7 @@ class Session {
   apps::Scenario scenario_;
   std::shared_ptr<apps::PreparedRun> prepared_;
   std::optional<apps::FoundCheckpoint> checkpoint_;  ///< that it went on from
+  std::optional<std::filesystem::path> origin_;      ///< folder of the run that checkpoint_ is of
   std::optional<std::filesystem::path> folder_;      ///< of results
   Attendant* attendant_ = nullptr;                   ///< while it moves
 };

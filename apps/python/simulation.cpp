@@ -286,10 +286,21 @@ void set_velocity(const Session& session, const py::object& given_nodes, const N
                       node));
     if (!velocities[i].allFinite() || !spins[i].allFinite())
       throw InputError(fmt::format("set_velocity: the velocity of node {} is not finite", node));
+    if (!dynamics::free_turns(held[static_cast<std::size_t>(node)])
+             .cwiseProduct(spins[i])
+             .isZero(0.0))
+      throw InputError(
+          fmt::format("set_velocity: node {} is free to turn, torques say how; an "
+                      "angular_velocity can be given about axes about which it is held",
+                      node));
   }
-  for (std::size_t i = 0; i < count; ++i)
-    simulation.set_velocity(geometry::id_at<geometry::NodeId>(static_cast<std::size_t>(nodes[i])),
-                            velocities[i], spins[i]);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto node = static_cast<std::size_t>(nodes[i]);
+    const Vec3 free = dynamics::free_turns(held[node]);  // about these it turns as it did
+    const Vec3 spin = free.cwiseProduct(simulation.state().angular_velocity[node]) +
+                      (Vec3::Ones() - free).cwiseProduct(spins[i]);
+    simulation.set_velocity(geometry::id_at<geometry::NodeId>(node), velocities[i], spin);
+  }
 }
 
 void bind_energy(py::module_& module) {

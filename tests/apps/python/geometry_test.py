@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Queries with arrays in and out, against what numpy computes of all pairs."""
 
+import threading
+
 import numpy as np
 import plekton
 import pytest
@@ -229,3 +231,41 @@ def test_numbers_of_nodes_are_whole(facets, tmp_path):
     assert not list(tmp_path.iterdir())
     with pytest.raises(plekton.InputError, match="^bars: got numbers of type float64; expected whole numbers$"):
         plekton.Surface(points, bars=[[0.2, 1.0]])
+
+
+# Queries without Python's lock read boxes that were being replaced: most found nothing.
+def test_a_surface_is_not_moved_while_another_thread_asks_it():
+    points, facets = [[-1, -1, 0], [3, -1, 0], [-1, 3, 0]], [[0, 1, 2]]
+    surface = plekton.Surface(points, facets)
+    asked = np.tile([0.0, 0.0, 1.0], (200_000, 1))
+    ended = threading.Event()
+    gaps = set()
+
+    def ask():
+        for _ in range(5):
+            gaps.update(surface.nearest(asked)["gap"].tolist())
+        ended.set()
+
+    thread = threading.Thread(target=ask)
+    thread.start()
+    refused = 0
+    while not ended.is_set():
+        try:
+            surface.move(points)
+        except plekton.Error as error:
+            assert "another thread asks this surface" in str(error)
+            refused += 1
+    thread.join()
+
+    assert gaps == {1.0}
+    assert refused > 0
+    surface.move(points)
+
+
+def test_pairs_are_of_points_that_there_are():
+    points, centres = np.eye(3), [[0, 0, 5], [3, 3, 3]]
+
+    with pytest.raises(plekton.InputError, match=r"facets\[0\]: there is no point 3; there are 3"):
+        plekton.pairs(10, centres=centres, radii=0.1, points=points, facets=[[0, 1, 3]])
+    with pytest.raises(plekton.InputError, match=r"bars\[0\]: there is no point 0; there are 0"):
+        plekton.pairs(10, centres=centres, radii=0.1, bars=[[0, 2]])

@@ -132,6 +132,38 @@ def test_a_run_goes_on_from_its_folder_as_if_it_had_not_stopped(tmp_path):
             assert (tmp_path / "parts" / name).read_bytes() == file.read_bytes(), name
 
 
+# It took the folder for its own, whose files then went on with rows of another run.
+def test_a_refused_run_leaves_the_simulation_and_the_folder_as_they_were(tmp_path):
+    other = plekton.load(scenes.small(damping=0.3))
+    other.run(out=tmp_path / "other")
+    plekton.load(scenes.small()).run(out=tmp_path / "parts", every={"7 ms": lambda s: s.stop()})
+    whole = plekton.load(scenes.small())
+    whole.run(out=tmp_path / "whole")
+    rest = plekton.resume(tmp_path / "parts")
+    stopped, state = rest.time, rest.hash
+
+    with pytest.raises(plekton.OutputError, match="holds results of an earlier run"):
+        rest.run(out=tmp_path / "other")
+    assert (rest.time, rest.hash) == (stopped, state)
+    rest.run(out=tmp_path / "other", overwrite=True)
+
+    assert rest.hash == whole.hash
+    times = plekton.open_run(tmp_path / "other").energy["time"]
+    assert min(times) >= stopped - rest.time_step
+    assert other.view() == tmp_path / "other" / "view.html"
+
+
+def test_a_refused_run_of_a_loaded_scene_has_no_results_to_show(simulation, tmp_path):
+    plekton.load(scenes.small(damping=0.3)).run(until=0.001, out=tmp_path / "other")
+    with pytest.raises(plekton.OutputError):
+        simulation.run(out=tmp_path / "other")
+
+    simulation.view(tmp_path / "page.html")
+
+    assert not (tmp_path / "other" / "view.html").exists()
+    assert "other" not in simulation.view(tmp_path / "page.html").name
+
+
 def test_a_resumed_run_can_go_on_without_results(tmp_path):
     plekton.load(scenes.small()).run(out=tmp_path / "out", every={"7 ms": lambda s: s.stop()})
     whole = plekton.load(scenes.small())

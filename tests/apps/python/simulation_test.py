@@ -235,6 +235,35 @@ def test_a_truth_value_for_each_node_chooses_nodes(simulation):
     np.testing.assert_array_equal(simulation.velocities[:, 2] == 0.5, chosen)
 
 
+# Their spin was replaced by that of the call: 0 if none is given.
+def test_held_nodes_that_are_free_to_turn_turn_on_when_given_a_velocity():
+    scene = scenes.small(gravity=[0, 0, 0])
+    scene["rigid_bodies"] = [
+        {
+            "name": "top",
+            "shape": {"kind": "box", "size": [0.2, 0.1, 0.02]},
+            "translate": [0, 0, 1],
+            "thickness": "10 mm",
+            "material": "gravel",
+            "density": 2000,
+            "hold": "xyz",
+            "hold_rotation": "x",
+            "angular_velocity": [0, 0, 5],
+        }
+    ]
+    simulation = plekton.load(scene)
+    simulation.step(1)
+    node = [int(np.argmax(simulation.masses))]  # the reference node of the body
+
+    simulation.set_velocity(node, [0, 0, 1], [2, 0, 0])
+
+    np.testing.assert_array_equal(simulation.velocities[node], [[0, 0, 1]])
+    # A body keeps its angular momentum: the spin comes back through its inertia.
+    np.testing.assert_allclose(simulation.angular_velocities[node], [[2, 0, 5]], rtol=1e-15)
+    with pytest.raises(plekton.InputError, match=f"node {node[0]} is free to turn, torques say how"):
+        simulation.set_velocity(node, [0, 0, 1], [0, 0, 4])
+
+
 @pytest.mark.parametrize(
     ("nodes", "velocity", "message"),
     [
