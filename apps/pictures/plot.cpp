@@ -112,33 +112,18 @@ void require_known(const std::vector<RecordedHistory>& histories, std::string_vi
   }
 }
 
-/// The column over which others are drawn, and the history that has it.
-struct Abscissa {
-  const RecordedHistory* history;
-  const RecordedHistory::Column* column;
-};
-
-/// Of a name that some history has.
-Abscissa abscissa_of(const std::vector<RecordedHistory>& histories, const std::string& name) {
-  for (const RecordedHistory& history : histories)
-    for (const RecordedHistory::Column& column : columns_of(history))
-      if (column.name == name) return {&history, &column};
-  throw InputError(fmt::format("--x: no history of the run has a column \"{}\"", name));
+const RecordedHistory::Column* find_column(const RecordedHistory& history,
+                                           const std::string& name) {
+  const auto columns = columns_of(history);
+  const auto found = std::ranges::find(columns, name, &RecordedHistory::Column::name);
+  return found == columns.end() ? nullptr : &*found;
 }
 
-/// Rows of different files are of different times.
-void require_same_file(const std::vector<RecordedHistory>& histories,
-                       std::span<const std::string> names, const Abscissa& over) {
-  for (const RecordedHistory& history : histories) {
-    if (&history == over.history) continue;
-    for (const RecordedHistory::Column& column : columns_of(history)) {
-      if (std::find(names.begin(), names.end(), column.name) == names.end()) continue;
-      throw InputError(fmt::format(
-          "--columns: \"{}\" is in {} and cannot be drawn over \"{}\" (--x), which is in {}; "
-          "name columns of one file",
-          column.name, history.file, over.column->name, over.history->file));
-    }
-  }
+/// Whether there is anything to draw: gnuplot fails on a panel without a point.
+bool has_point(const std::vector<double>& x, const std::vector<double>& y) {
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (std::isfinite(x[i]) && std::isfinite(y[i])) return true;
+  return false;
 }
 
 PlotPanel& panel_of(std::vector<PlotPanel>& panels, const RecordedHistory& history,
@@ -189,6 +174,34 @@ std::string panel_commands(const PlotPanel& panel, std::size_t number) {
                      quoted(panel.file), quoted(panel.x_head), quoted(panel.quantity), curves);
 }
 
+bool is_in(const PlotPanel& panel, const std::string& name) {
+  return std::ranges::any_of(panel.columns,
+                             [&](const auto* column) { return column->name == name; });
+}
+
+const std::string& file_with(const std::vector<RecordedHistory>& histories,
+                             const std::string& name) {
+  return std::ranges::find_if(
+             histories,
+             [&](const RecordedHistory& history) { return find_column(history, name) != nullptr; })
+      ->file;
+}
+
+/// Why a column is in no panel: rows of different files are of different times.
+/// @param x  as panels_of() has it; one that some history has
+std::string problem_with(const std::string& name, const std::string& x,
+                         const std::vector<RecordedHistory>& histories) {
+  const bool is_beside =
+      x.empty() || std::ranges::any_of(histories, [&](const auto& history) {
+        return find_column(history, name) != nullptr && find_column(history, x) != nullptr;
+      });
+  if (is_beside) return fmt::format("\"{}\" has no finite value to draw; leave it out", name);
+  return fmt::format(
+      "\"{}\" is in {} and cannot be drawn over \"{}\" (--x), which is in {}; name columns of one "
+      "file",
+      name, file_with(histories, name), x, file_with(histories, x));
+}
+
 }  // namespace
 
 std::vector<std::string> column_names_in(std::span<const std::string> texts,
@@ -208,25 +221,23 @@ std::vector<std::string> column_names_in(std::span<const std::string> texts,
 std::vector<PlotPanel> panels_of(const std::vector<RecordedHistory>& histories,
                                  std::span<const std::string> names, const std::string& x) {
   require_known(histories, "--columns", names);
-  Abscissa over{nullptr, nullptr};
-  if (!x.empty()) {
-    require_known(histories, "--x", std::span(&x, 1));
-    over = abscissa_of(histories, x);
-    require_same_file(histories, names, over);
-  }
+  if (!x.empty()) require_known(histories, "--x", std::span(&x, 1));
   std::vector<PlotPanel> panels;
   for (const RecordedHistory& history : histories) {
-    if (over.history != nullptr && over.history != &history) continue;
-    const RecordedHistory::Column& along =
-        over.column != nullptr ? *over.column : history.columns.front();
+    const RecordedHistory::Column* const along =
+        x.empty() ? &history.columns.front() : find_column(history, x);
+    if (along == nullptr) continue;
     for (const RecordedHistory::Column& column : columns_of(history)) {
       const bool is_drawn = names.empty()
-                                ? is_drawn_unasked(history, column) && &column != over.column
+                                ? is_drawn_unasked(history, column) && &column != along
                                 : std::find(names.begin(), names.end(), column.name) != names.end();
-      if (!is_drawn) continue;
-      panel_of(panels, history, quantity_of(column), along).columns.push_back(&column);
+      if (!is_drawn || !has_point(along->values, column.values)) continue;
+      panel_of(panels, history, quantity_of(column), *along).columns.push_back(&column);
     }
   }
+  for (const std::string& name : names)
+    if (std::ranges::none_of(panels, [&](const PlotPanel& panel) { return is_in(panel, name); }))
+      throw InputError("--columns: " + problem_with(name, x, histories));
   if (panels.empty())
     throw InputError(
         "plot: the run has no history with a value that is not 0; see [output] "

@@ -29,9 +29,10 @@ std::vector<std::string> column_names_in(std::span<const std::string> texts,
 /// unit, whole numbers have one panel and each other quantity has its own.
 /// @param names  Columns, as their heads are without unit; none: all that are not 0 throughout, of
 ///        planes.csv those that change, but the time step.
-/// @param x  Column over which the others of its file are drawn; empty: the time, of all files.
-/// @throws InputError for a name that no history has, for columns of another file than that of x,
-///         and if there is nothing to draw
+/// @param x  Column over which the others of its file, or of each file that has one, are drawn; empty:
+///        the time, of all files.
+/// @throws InputError for a name that no history has or whose values are not finite, for columns of
+///         another file than that of x, and if there is nothing to draw
 std::vector<PlotPanel> panels_of(const std::vector<RecordedHistory>& histories,
                                  std::span<const std::string> names, const std::string& x = "");
 

@@ -103,6 +103,64 @@ TEST(PlotPanels, HoldOfPlanesWhatChanges) {
   EXPECT_THAT(names_of(panels_of(all, names)[0]), testing::ElementsAre("floor.point_z"));
 }
 
+// "x" was taken of the first file that has it, and the columns of the second refused.
+TEST(PlotPanels, AreOfTheFileThatHasThePlaceAndTheForce) {
+  const std::vector<RecordedHistory> all = {
+      {"reactions.csv", {{"time", "s", {0, 1}}, {"x", "m", {0, 1}}}},
+      {"bodies.csv", {{"time", "s", {0, 1}}, {"x", "m", {0, 2}}, {"force", "N", {3, 4}}}}};
+  const std::vector<std::string> names = {"force"};
+
+  const auto panels = panels_of(all, names, "x");
+
+  ASSERT_EQ(panels.size(), 1U);
+  EXPECT_EQ(panels[0].file, "bodies.csv");
+  EXPECT_THAT(panels[0].x, testing::ElementsAre(0, 2));
+}
+
+// As measures of several regions.
+TEST(PlotPanels, AreOfEachFileThatHasThePlaceAndTheForce) {
+  const std::vector<RecordedHistory> all = {
+      {"measures/low.csv",
+       {{"time", "s", {0, 1}}, {"porosity", "", {0.4, 0.3}}, {"stress_zz", "Pa", {1, 2}}}},
+      {"measures/top.csv",
+       {{"time", "s", {0, 1}}, {"porosity", "", {0.5, 0.4}}, {"stress_zz", "Pa", {2, 3}}}}};
+  const std::vector<std::string> names = {"stress_zz"};
+
+  const auto panels = panels_of(all, names, "porosity");
+
+  ASSERT_EQ(panels.size(), 2U);
+  EXPECT_EQ(panels[0].file, "measures/low.csv");
+  EXPECT_EQ(panels[1].file, "measures/top.csv");
+}
+
+TEST(PlotPanels, OfOneFileLeaveOutItsNamesakesInOthers) {
+  const std::vector<RecordedHistory> all = {
+      {"bodies.csv", {{"time", "s", {0, 1}}, {"x", "m", {0, 2}}, {"force", "N", {3, 4}}}},
+      {"reactions.csv", {{"time", "s", {0, 1}}, {"force", "N", {5, 6}}}}};
+  const std::vector<std::string> names = {"force"};
+
+  const auto panels = panels_of(all, names, "x");
+
+  ASSERT_EQ(panels.size(), 1U);
+  EXPECT_EQ(panels[0].file, "bodies.csv");
+}
+
+// gnuplot refuses the whole picture for a panel without a point.
+TEST(PlotPanels, HaveNoColumnsWithoutAFiniteValue) {
+  const double none = std::nan("");
+  const std::vector<RecordedHistory> all = {
+      {"measures/top.csv",
+       {{"time", "s", {0, 1}}, {"porosity", "", {0.4, 0.4}}, {"fabric_xx", "", {none, none}}}},
+      {"measures/low.csv", {{"time", "s", {0, 1}}, {"fabric_xx", "", {none, 0.3}}}}};
+  const std::vector<std::string> of_both = {"fabric_xx"};
+  const std::vector<RecordedHistory> top = {all.front()};
+
+  EXPECT_EQ(panels_of(all, of_both).size(), 1U);
+  EXPECT_THAT([&] { panels_of(top, of_both); },
+              testing::ThrowsMessage<InputError>(
+                  "--columns: \"fabric_xx\" has no finite value to draw; leave it out"));
+}
+
 TEST(GnuplotScript, OfVeryManyPanelsIsNoHigherThanAPictureCanBe) {
   std::vector<RecordedHistory> all;
   for (int i = 0; i < 100; ++i)
