@@ -41,22 +41,17 @@ std::string summary_of(const dynamics::OndemScene& scene) {
   return text + fmt::format(" at {:.6g} s, step {}", scene.time, scene.iteration);
 }
 
-/// The name of the group of our additions stands in the first block.
-bool is_ondem_of_ours(std::string_view head) {
-  return head.starts_with("\x89HDF\r\n\x1a\n") && head.find("Plekton") != std::string_view::npos;
-}
-
 }  // namespace
 
 void export_ondem(const ExportOndemArguments& arguments, std::ostream& out,
                   std::ostream& problems) {
   const std::filesystem::path file =
-      arguments.out.empty() ? arguments.run / "ondem.vtkhdf" : arguments.out;
+      arguments.out.empty() ? arguments.run / kOndemFile : arguments.out;
   if (file.extension() != ".vtkhdf")
     throw InputError(fmt::format(
         "--out: got \"{}\"; expected a file that ends in .vtkhdf, by which ParaView knows it",
         file.string()));
-  refuse_other_file(file, "ON-DEM file of plekton export-ondem", is_ondem_of_ours);
+  refuse_other_file(file, "ON-DEM file of plekton export-ondem", is_ondem);
   const FoundCheckpoint checkpoint =
       last_checkpoint(arguments.run, time_option("--at", arguments.at));
   print_warnings(warnings_about(checkpoint), problems);

@@ -80,7 +80,7 @@ std::string text_of_checkpoint(const FoundCheckpoint& checkpoint) {
     if (const std::size_t rows = rows_of(state, count.array); rows > 0)
       text += fmt::format("{:>9} {}\n", rows, count.name);
   }
-  return text + fmt::format("hash of the state {:016x}\n", state.hash());
+  return text + fmt::format("hash of the checkpoint {:016x}\n", state.hash());
 }
 
 std::string list_of_arrays(const StateTree& state) {

@@ -130,7 +130,7 @@ ResumedRun resumed_at(const ResumeArguments& arguments, const std::optional<doub
 /// Whether nothing is left of what is asked for: the checkpoint is that of its last step.
 bool is_over(const ResumedRun& run, const std::optional<double>& to) {
   const double now = time_of(run.checkpoint.state);
-  if (to && now >= *to) return true;
+  if (to) return now >= *to;  // the run may have been longer than the checkpoint knows
   if (run.scenario.stages.empty()) return now >= run.scenario.simulation.duration;
   return has_ended(run.checkpoint.state, run.scenario);
 }

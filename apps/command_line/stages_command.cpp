@@ -97,8 +97,14 @@ std::string limits_of(const StageSettings& stage) {
 /// @param simulation  of the stage, its bodies where they are made
 void look_at_step(const Scenario& stage, const dynamics::Simulation& simulation,
                   std::vector<std::string>& warnings) {
+  if (!stage.simulation.time_step) return;
+  if (*stage.simulation.time_step > stage.simulation.duration)
+    throw InputError(
+        fmt::format("{}: simulation.time_step of {:.6g} s is longer than the stage, which ends "
+                    "after {:.6g} s at the latest; choose a shorter one, or \"auto\"",
+                    stage.stage->path, *stage.simulation.time_step, stage.simulation.duration));
   const double limit = dynamics::kLargestStep * simulation.critical_step().dt;
-  if (!stage.simulation.time_step || *stage.simulation.time_step < limit) return;
+  if (*stage.simulation.time_step < limit) return;
   warnings.push_back(fmt::format(
       "{}: simulation.time_step of {:.6g} s is not below {:.6g} s, {} of the critical time step of "
       "its bodies where they are made; if it still is not when the stage begins, the run ends "

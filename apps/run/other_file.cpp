@@ -45,11 +45,16 @@ bool is_png(std::string_view head) {
   return head.starts_with("\x89PNG\r\n\x1a\n");
 }
 
+bool is_ondem(std::string_view head) {
+  return head.starts_with("\x89HDF\r\n\x1a\n") && head.find("Plekton") != std::string_view::npos;
+}
+
 void remove_pictures(const fs::path& folder) {
-  constexpr std::array<std::pair<const char*, IsOfKind>, 4> kPictures = {{{kViewPage, is_page},
+  constexpr std::array<std::pair<const char*, IsOfKind>, 5> kPictures = {{{kViewPage, is_page},
                                                                           {kPlotDrawing, is_plot},
                                                                           {kPlotPicture, is_png},
-                                                                          {kFramePicture, is_png}}};
+                                                                          {kFramePicture, is_png},
+                                                                          {kOndemFile, is_ondem}}};
   std::error_code ignored;
   for (const auto& [name, is_of_kind] : kPictures)
     if (is_file_of_kind(folder / name, is_of_kind)) fs::remove(folder / name, ignored);

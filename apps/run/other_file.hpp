@@ -15,10 +15,13 @@ inline constexpr const char* kViewPage = "view.html";      ///< of plekton view
 inline constexpr const char* kPlotDrawing = "plot.svg";    ///< of plekton plot
 inline constexpr const char* kPlotPicture = "plot.png";    ///< likewise
 inline constexpr const char* kFramePicture = "frame.png";  ///< of plekton render
+inline constexpr const char* kOndemFile = "ondem.vtkhdf";  ///< of plekton export-ondem
 
 bool is_page(std::string_view head);
 bool is_plot(std::string_view head);
 bool is_png(std::string_view head);
+/// Of an ON-DEM file of ours: the name of the group of our additions stands in its first block.
+bool is_ondem(std::string_view head);
 
 /// Removes these from the folder of a run that is replaced; of such names files of another kind stay.
 void remove_pictures(const std::filesystem::path& folder);

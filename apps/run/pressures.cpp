@@ -30,12 +30,13 @@ Pressures::Pressures(const std::filesystem::path& folder, const Scenario& scenar
   HistoryColumns columns;
   const std::vector<PressureColumn> own = names_in({&scenario, 1}).pressures;
   for (const PressureColumn& pressure : scenario.stage ? scenario.names_of_stages.pressures : own) {
-    const auto place = std::find(own.begin(), own.end(), pressure);
+    const auto place = std::ranges::find(own, pressure.load, &PressureColumn::load);
     loads_.push_back(place == own.end() ? kNotThere
                                         : static_cast<std::size_t>(place - own.begin()));
     has_volume_.push_back(pressure.has_volume);
+    follows_volume_.push_back(place != own.end() && place->has_volume);
     columns.add(pressure.load, kFields[0]);
-    if (has_volume_.back()) columns.add(pressure.load, kFields[1]);
+    if (pressure.has_volume) columns.add(pressure.load, kFields[1]);
   }
   open(folder, kPressuresFile, columns, before);
 }
@@ -47,7 +48,7 @@ void Pressures::add(const dynamics::Simulation& simulation) {
     const bool is_there = loads_[i] != kNotThere;
     const auto& surfaces = simulation.loads().pressed_surfaces();
     row.push_back(is_there ? surfaces[loads_[i]].pressure() : kNothing);
-    if (has_volume_[i]) row.push_back(is_there ? surfaces[loads_[i]].volume() : kNothing);
+    if (has_volume_[i]) row.push_back(follows_volume_[i] ? surfaces[loads_[i]].volume() : kNothing);
   }
   add_row(row);
 }

@@ -25,8 +25,9 @@ class Pressures : public HistoryFile {
   void add(const dynamics::Simulation& simulation);
 
  private:
-  std::vector<bool> has_volume_;    ///< by load of kind pressure, of all stages
-  std::vector<std::size_t> loads_;  ///< likewise: its place among those of now
+  std::vector<bool> has_volume_;      ///< by load of kind pressure, of all stages
+  std::vector<bool> follows_volume_;  ///< likewise: whether it has a volume in this stage
+  std::vector<std::size_t> loads_;    ///< likewise: its place among those of now
 };
 
 }  // namespace plekton::apps

@@ -94,11 +94,15 @@ RunReport begun_report(const Scenario& scenario, const PreparedRun& prepared) {
   if (scenario.simulation.ranks != nullptr) report.ranks = scenario.simulation.ranks->count();
   report.seed = scenario.simulation.seed;
   report.damping = scenario.simulation.damping;
-  const geometry::Elements& elements = simulation.elements();
-  report.grains = elements.spheres.size();
+  report.grains = simulation.elements().spheres.size();
   report.nodes = simulation.state().size();
-  report.facets = elements.facets.size();
-  report.cylinders = elements.cylinders.size();
+  // As they are made: where a run goes on, those that broke before are not known yet.
+  for (const BuiltMembrane& membrane : prepared.built.membranes) {
+    if (!simulation.scene().is_there(geometry::id_at<geometry::NodeId>(membrane.first_node)))
+      continue;
+    report.facets += membrane.facets;
+    report.cylinders += membrane.cylinders;
+  }
   report.bonds = simulation.bonds().size();
   report.planes = simulation.planes().size();
   report.ties = simulation.ties().size();
@@ -144,10 +148,10 @@ class Run {
               EndWatch::kOfRuns),
         servos_(scenario),
         before_(files_before(settings)),
-        frames_(settings.out, start.output, bodies_, before()),
-        history_(settings.out, before()),
         reactions_(settings.out, prepared.built.reactions, scenario.names_of_stages.reactions,
                    before()),
+        frames_(settings.out, start.output, bodies_, before()),
+        history_(settings.out, before()),
         pressures_(settings.out, scenario, before()),
         measures_(settings.out, scenario, before()),
         rigid_bodies_(settings.out, prepared.built, before()),
@@ -181,9 +185,11 @@ class Run {
       report_.status = RunStatus::failed;
       report_.message = error.what();
       progress_.finish();
-      // All ranks diverge in the same step. What fails on one alone is not answered by the others.
+      // All ranks diverge in the same step, and all see a stage fail. What fails on one alone is not
+      // answered by the others.
       const bool is_alone = scenario_.simulation.ranks != nullptr &&
-                            dynamic_cast<const dynamics::Diverged*>(&error) == nullptr;
+                            dynamic_cast<const dynamics::Diverged*>(&error) == nullptr &&
+                            dynamic_cast<const StageFailed*>(&error) == nullptr;
       write_report_if_possible(!is_alone);
       throw;
     }
@@ -226,8 +232,10 @@ class Run {
   bool advance() {
     if (!stage_) return simulation_.step_until(end_time_);
     // Stages end with a whole step, so that where they are cut changes nothing.
+    // One is taken at least: its end is kept as that of a step.
     constexpr double kRest = 1e-3;  // of a step
-    if (end_time_ - simulation_.time() > kRest * simulation_.time_step())
+    const bool has_begun = simulation_.time() > bodies_of_stage_.starts.back().time;
+    if (!has_begun || end_time_ - simulation_.time() > kRest * simulation_.time_step())
       return simulation_.step_until(kNever);
     ended_by_ = stage_->end_in_time(simulation_);
     return false;
@@ -625,9 +633,9 @@ class Run {
   ServoWatch servos_;
   std::optional<WrittenFiles> before_;
   WrittenFiles other_files_;  // of parts of the run before
+  Reactions reactions_;       // first: it may refuse to go on, and the others cut what is there
   Frames frames_;
   History history_;
-  Reactions reactions_;
   Pressures pressures_;
   Measures measures_;
   RigidMotions rigid_bodies_;
@@ -707,13 +715,12 @@ void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& 
     chosen = *settings.time_step;
   } else if (!std::isfinite(chosen)) {
     throw InputError(
-        "nothing in this scene moves freely, so no time step can be chosen; give "
-        "simulation.time_step");
-  } else {
-    chosen = std::min(chosen, settings.duration);
+        "nothing in this scene moves freely and meets a contact or a spring, so no time step can be "
+        "chosen; give simulation.time_step");
   }
   require_possible_duration("simulation.duration", settings.duration, chosen);
-  if (chosen != simulation.time_step()) simulation.set_time_step(chosen);
+  // A chosen one stays so, also where it is longer than the run.
+  if (settings.time_step && chosen != simulation.time_step()) simulation.set_time_step(chosen);
 }
 
 std::unique_ptr<dynamics::Simulation> simulation_of(const Scenario& scenario, BuiltScene& built) {

@@ -149,6 +149,56 @@ void require_same_stages(const Scenario& then, const Scenario& now, const Scenar
   }
 }
 
+bool are_same(const dynamics::TimeTable& a, const dynamics::TimeTable& b) {
+  return std::ranges::equal(a.rows(), b.rows(), [](const auto& one, const auto& other) {
+    return one.time == other.time && one.value == other.value;
+  });
+}
+
+bool are_same(const std::optional<dynamics::AxisTurn>& a,
+              const std::optional<dynamics::AxisTurn>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->point == b->point && a->axis == b->axis && a->angle == b->angle;
+}
+
+bool are_same(const dynamics::PlaneMotion& a, const dynamics::PlaneMotion& b) {
+  return a.plane == b.plane && a.velocity == b.velocity && are_same(a.factor, b.factor);
+}
+
+bool are_same(const MotionSettings& a, const MotionSettings& b) {
+  return are_same_nodes(a.nodes, b.nodes) && a.motion.held == b.motion.held &&
+         a.motion.displacement == b.motion.displacement && a.motion.velocity == b.motion.velocity &&
+         a.motion.angular_velocity == b.motion.angular_velocity &&
+         are_same(a.motion.factor, b.motion.factor) && are_same(a.motion.turn, b.motion.turn);
+}
+
+/// Whether a load is no motion, or the same as one of the other scenario.
+bool moves_the_same(const LoadSettings& now, const std::vector<LoadSettings>& then) {
+  return std::visit(
+      [&]<class Load>(const Load& load) {
+        if constexpr (requires { are_same(load, load); })
+          return std::ranges::any_of(then, [&](const LoadSettings& other) {
+            const auto* const before = std::get_if<Load>(&other.load);
+            return other.name == now.name && before != nullptr && are_same(*before, load);
+          });
+        return true;
+      },
+      now.load);
+}
+
+/// Places of what a motion moves count from where the motion began: with another one they would not
+/// be where they are.
+void require_same_motions(const Scenario& then, const Scenario& now) {
+  for (const LoadSettings& load : now.loads) {
+    if (moves_the_same(load, then.loads)) continue;
+    throw InputError(
+        fmt::format("{}: {} moves otherwise than in the run that it is to go on from, which has "
+                    "ended this stage with it; leave it as it is there, or name it in a later "
+                    "stage, where it then begins",
+                    now.stage->path, load.path));
+  }
+}
+
 /// The membranes and rigid bodies of a stage, as they are made.
 BuiltScene surfaces_of(Scenario stage, const HearSetUp& hear) {
   std::erase_if(stage.grains, [](const GrainSettings& grains) { return !grains.rigid_body; });
@@ -317,6 +367,7 @@ PreparedRun ended_stage(const Scenario& scenario, const Scenario& stage,
   require_same_stages(all, scenario, stage);
   require_same_tables(then, stage);
   require_same_masses(then, stage);
+  require_same_motions(then, stage);
   require_same_surfaces(then, stage, hear);
   then.simulation.threads = scenario.simulation.threads;
   PreparedRun prepared = prepare_stage(then, state, hear);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
@@ -249,6 +250,85 @@ bool moves(const Scenario& stage, std::size_t plane) {
   });
 }
 
+/// What drives a plane that the stage places elsewhere goes on from there.
+void move_starts(const Scenario& now, const dynamics::Simulation& before, StageBodies& bodies) {
+  const StageOrigins& origins = now.stage->origins;
+  for (std::size_t i = 0; i < now.planes.size(); ++i) {
+    if (origins.planes[i] < 0 || !origins.says_point[i]) continue;
+    const auto then = static_cast<std::size_t>(origins.planes[i]);
+    const Vec3 way = now.planes[i].point - before.planes()[then].point;
+    for (StageStart& start : bodies.starts) start.planes[then] += way;
+  }
+}
+
+/// Grains of a table in the scene of before, and which of them stay.
+struct GrainsOfTable {
+  std::vector<std::size_t> nodes;
+  std::vector<bool> stays;
+};
+
+GrainsOfTable grains_of(std::size_t table, const PreparedRun& before,
+                        const std::vector<std::int32_t>& nodes_now) {
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < table; ++i) first += before.built.grains[i].count;
+  GrainsOfTable grains;
+  for (std::size_t i = 0; i < before.built.grains[table].count; ++i) {
+    const auto& sphere = before.simulation->elements().spheres[first + i];
+    grains.nodes.push_back(index_of(sphere.nodes[0]));
+    grains.stays.push_back(nodes_now[grains.nodes.back()] >= 0);
+  }
+  return grains;
+}
+
+/// Whether all grains go that were the side of their table, though not all of the table.
+/// @param places  m, by node, when they were that
+bool loses_side(SetWhich side, const GrainsOfTable& grains, const std::vector<Vec3>& places) {
+  const int number = static_cast<int>(side) - static_cast<int>(SetWhich::x_min);
+  double all = -std::numeric_limits<double>::infinity(), left = all;  // m, outward
+  for (std::size_t i = 0; i < grains.nodes.size(); ++i) {
+    const double out = (number % 2 == 0 ? -1.0 : 1.0) * places[grains.nodes[i]][number / 2];
+    all = std::max(all, out);
+    if (grains.stays[i]) left = std::max(left, out);
+  }
+  return left < all && std::isfinite(left);
+}
+
+const NodeSetSettings* nodes_of(const LoadSettings& settings) {
+  return std::visit(
+      [](const auto& load) -> const NodeSetSettings* {
+        if constexpr (requires { load.nodes.of_grains; }) return &load.nodes;
+        return nullptr;
+      },
+      settings.load);
+}
+
+/// Loads and reactions of earlier stages keep to the grains that they began with: the next ones
+/// would become the side that they name.
+void require_sides(const Scenario& stage, const PreparedRun& before,
+                   const std::vector<std::int32_t>& nodes_now) {
+  const auto require = [&](const NodeSetSettings& set, std::size_t origin,
+                           const std::string& path) {
+    const bool is_side = set.which >= SetWhich::x_min && set.which <= SetWhich::z_max;
+    if (!set.of_grains || set.rigid_body || !is_side || origin >= stage.stage->number) return;
+    if (!loses_side(set.which, grains_of(set.body, before, nodes_now),
+                    before.bodies.starts[origin].positions))
+      return;
+    throw InputError(fmt::format(
+        "{}: takes out all of the grains of \"{}\" that {} names by their side; take it out too, "
+        "or name it in this stage, where it then begins with those that are left",
+        stage.stage->path, stage.grains[set.body].name, path));
+  };
+  const StageOrigins& origins = stage.stage->origins;
+  for (std::size_t i = 0; i < stage.loads.size(); ++i)
+    if (const NodeSetSettings* const set = nodes_of(stage.loads[i]))
+      require(*set, origins.loads[i], stage.loads[i].path);
+  for (std::size_t i = 0; i < stage.output.reactions.size(); ++i) {
+    const ReactionSettings& reaction = stage.output.reactions[i];
+    if (reaction.kind != ReactionKind::plane)
+      require(reaction.nodes, origins.reactions[i], reaction.path);
+  }
+}
+
 }  // namespace
 
 StageOfState stage_of(const geometry::StateTree& state) {
@@ -287,6 +367,8 @@ StageBegin next_stage(const Scenario& stage, PreparedRun& before, const geometry
   KeptBodies kept = kept_bodies(stage, before);
   dynamics::Simulation& ended = *before.simulation;
   const Scenario now = with_planes_of_now(stage, ended);
+  require_sides(now, before, kept.nodes());
+  move_starts(now, ended, kept.bodies());
   StageBegin begin;
   PreparedRun& next = begin.prepared;
   next.bodies = std::move(kept.bodies());

@@ -204,7 +204,7 @@ constexpr std::array kOfTies = std::to_array<KeyMeaning>({
     {"ties[].strength", "tension at which it breaks"},
     {"ties[].brake.force", "tension at which it pays out"},
     {"ties[].brake.stroke", "how much it pays out; after that it is a spring again"},
-    {"ties[].each", "whether ties.csv has each tie, and not all of them together"},
+    {"ties[].each", "whether ties.csv has each of its ties too"},
 });
 
 constexpr std::array kOfLoads = std::to_array<KeyMeaning>({

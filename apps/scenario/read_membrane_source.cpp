@@ -34,6 +34,7 @@ fs::path read_mesh_path(Section& section, const Known& known) {
 bool read_step(Section& section, std::string_view step, std::string_view length) {
   const bool has_length = section.has(length);
   const bool wanted = section.truth(step, has_length);
+  section.tell_default(step, "false");
   if (has_length && !wanted)
     section.complain(length, fmt::format("goes with {0}, which is false; leave {1} out, or {0} "
                                          "(then {1} alone asks for it)",

@@ -43,6 +43,15 @@ void add_new(std::vector<Thing>& all, const Thing& thing) {
   if (std::find(all.begin(), all.end(), thing) == all.end()) all.push_back(thing);
 }
 
+/// The same load may have a volume in one stage and none in another.
+void add_pressure(std::vector<PressureColumn>& all, const PressureColumn& pressure) {
+  const auto found = std::ranges::find(all, pressure.load, &PressureColumn::load);
+  if (found == all.end())
+    all.push_back(pressure);
+  else
+    found->has_volume = found->has_volume || pressure.has_volume;
+}
+
 }  // namespace
 
 std::vector<std::string> plane_names(const Scenario& scenario) {
@@ -65,8 +74,8 @@ NamesOfStages names_in(std::span<const Scenario> stages) {
     for (const PlaneSettings& plane : stage.planes) add_new(names.planes, plane.label());
     for (const LoadSettings& load : stage.loads) {
       if (const auto* const pressure = std::get_if<PressureSettings>(&load.load))
-        add_new(names.pressures, {load.name, pressure->load.gas.has_value() ||
-                                                 pressure->load.by_volume.has_value()});
+        add_pressure(names.pressures, {load.name, pressure->load.gas.has_value() ||
+                                                      pressure->load.by_volume.has_value()});
     }
     for (const ReactionSettings& reaction : stage.output.reactions)
       add_new(names.reactions, reaction.name);

@@ -160,6 +160,7 @@ class LoadBuilder {
     const auto body = std::find_if(bodies.begin(), bodies.end(),
                                    [&](const auto& one) { return one.node == reference; });
     dynamics::BodyServo servo = settings.servo;
+    servo.factor = begun(servo.factor);
     servo.body = static_cast<std::size_t>(body - bodies.begin());
     dynamics::PrescribedMotion along;  // as one that no other motion may prescribe too
     along.nodes = {reference};
@@ -243,10 +244,13 @@ class LoadBuilder {
   /// Pressure acts along the normals, so it matters which side was meant.
   void warn_about_turned_facets(const BuiltMembrane& membrane) {
     if (!membrane.report || membrane.report->changed.flipped_facets == 0) return;
+    // Of the facets of the file; remeshed there are others.
+    const std::string all =
+        membrane.report->reshaped ? "" : fmt::format(" of the {}", membrane.facets);
     built_.warnings.push_back(fmt::format(
-        "{}: {} of the {} facets of \"{}\" faced the other way in their file and were turned over, "
-        "so that the pressure pushes all of them to one side; look whether it is the right one",
-        current_->path, membrane.report->changed.flipped_facets, membrane.facets, membrane.name));
+        "{}: {}{} facets of \"{}\" faced the other way in their file and were turned over, so that "
+        "the pressure pushes all of them to one side; look whether it is the right one",
+        current_->path, membrane.report->changed.flipped_facets, all, membrane.name));
   }
 
   /// Whether a force or torque has a part in which a node is free.

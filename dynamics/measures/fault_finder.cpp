@@ -57,6 +57,11 @@ std::string FaultFinder::fault(const Divergence& divergence, const Drifts& drift
     text << "nothing acts on it now; before, " << suspect;
   else
     text << "no contact and no element acts on it, but loads may";
+  if (who.empty() && divergence.sign != Divergence::Sign::energy) {
+    text << "; as fast as it is, it is followed in steps below " << longest_followed(divergence)
+         << " s";
+    return text.str();
+  }
   text << "; the time step of " << drift << " s is ";
   const double usual = critical_step_at(before, drifts.last, true);
   const double critical = critical_step_at(before, drifts.last, false);
@@ -94,8 +99,15 @@ double FaultFinder::limit_exceeded_before(const Divergence& divergence,
     const Vec3& force = spins ? forces_->torque[i] : forces_->force[i];
     before -= 0.5 * (drifts.last + drifts.drift) / inertia * free.cwiseProduct(force);
   }
-  const double most = spins ? std::numbers::pi : furthest_[i];
-  return before.norm() * drifts.drift > most ? most / now.norm() : 0.0;
+  const double longest = longest_followed(divergence);
+  return before.norm() * drifts.drift > longest * now.norm() ? longest : 0.0;
+}
+
+double FaultFinder::longest_followed(const Divergence& divergence) const noexcept {
+  const std::size_t i = index_of(divergence.node);
+  if (divergence.sign == Divergence::Sign::spin)
+    return std::numbers::pi / state_->angular_velocity[i].norm();
+  return furthest_[i] / state_->velocity[i].norm();
 }
 
 /// s, of the structures and contacts at a state; with the velocities of now.

@@ -47,6 +47,8 @@ class FaultFinder {
 
  private:
   double limit_exceeded_before(const Divergence& divergence, const Drifts& drifts) const noexcept;
+  /// s, in which a node that moves or spins as it does now can be followed.
+  double longest_followed(const Divergence& divergence) const noexcept;
   double critical_step_at(NodeState& state, double last, bool expected);
   void consider_contacts(NodeId node, geometry::Positions x, StrongestAction& action);
   bool has_node(const contact::ContactBody& body, NodeId node) const;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -413,6 +414,55 @@ TEST_F(ResumeErrors, GoBeyondTheDurationThatWasAskedForAtFirst) {
             std::string::npos);
 }
 
+/// Names and bytes of all files in a folder but the report, by name.
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[entry.path().string()] = test::bytes_of(entry.path());
+  return files;
+}
+
+// Frames and rows of after the checkpoint were cut before the columns were looked at.
+TEST_F(ResumeErrors, RefuseOtherColumnsBeforeAnythingIsCut) {
+  test::write_bytes(folder_ / "a.toml",
+                    std::string(kOnFacets) +
+                        "interval = \"3 ms\"\nhistory_interval = \"3 ms\"\n"
+                        "[[output.reactions]]\nname = \"edge\"\nkind = \"support\"\n"
+                        "membrane = \"two\"\nnodes = \"x_min\"\n");
+  ASSERT_EQ(run().exit_code, kDone);
+  const auto before = files_in(out());
+
+  const Outcome outcome = resume(
+      {"--set", "simulation.duration=9 ms", "--set",
+       "output.reactions=[{name=\"other\", kind=\"support\", membrane=\"two\", nodes=\"x_max\"}]"});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_NE(outcome.err.find("reactions.csv: has other columns than the run writes now"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(files_in(out()), before);
+}
+
+// Its step, cut to the duration, was then taken for one that had been given.
+TEST_F(ResumeErrors, GoOnChoosingStepsAfterARunThatWasShorterThanOne) {
+  ASSERT_EQ(run().exit_code, kDone);
+  const auto steps_of = [&] {
+    return nlohmann::json::parse(test::bytes_of(folder_ / "out/run.json"))["timing"]["steps"]
+        .get<double>();
+  };
+  const double straight = steps_of();
+  fs::remove_all(out());
+  ASSERT_EQ(Program({"run", (folder_ / "a.toml").string(), "--quiet", "--out", out(), "--set",
+                     "simulation.duration=1 us"})
+                .wait()
+                .exit_code,
+            kDone);
+
+  ASSERT_EQ(resume({"--set", "simulation.duration=5 ms"}).exit_code, kDone);
+
+  EXPECT_NEAR(steps_of(), straight, 2.0);
+}
+
 // It went on from its end to an earlier one, and told of success.
 TEST_F(ResumeErrors, RefuseAnEndThatIsOver) {
   ASSERT_EQ(run().exit_code, kDone);
@@ -530,7 +580,7 @@ TEST_F(ResumeErrors, InspectTellsWhatACheckpointHolds) {
   const std::string revision = ", revision " + std::string(build_info().revision) + "\n";
   EXPECT_NE(outcome.out.find(revision), std::string::npos) << outcome.out;
   for (const char* told : {": checkpoint of version ", "time 0.005 s, step ", "a.toml", " 5 nodes",
-                           " 2 facets", "hash of the state ", " arrays, which --all lists\n"})
+                           " 2 facets", "hash of the checkpoint ", " arrays, which --all lists\n"})
     EXPECT_NE(outcome.out.find(told), std::string::npos) << told << " in\n" << outcome.out;
   EXPECT_EQ(Program({"inspect", out()}).wait().out, outcome.out) << "of a folder its last one";
   const Outcome all = Program({"inspect", last.string(), "--all"}).wait();
