@@ -499,7 +499,7 @@ bool Simulation::step_until(double end) {
   constexpr double kRest = 1e-3;  // of a step
   require_time_step();
   const double left = end - time_;
-  if (!(left > kRest * dt_)) return false;
+  if (!(left > (steps_ > 0 ? kRest * dt_ : 0.0))) return false;
   const double steps = std::max(1.0, std::ceil(left / dt_ - kRest));
   const bool is_whole = std::abs(left - steps * dt_) <= kRest * dt_;
   const bool is_near = steps <= static_cast<double>(kStepsBetweenLooks);

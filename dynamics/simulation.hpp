@@ -86,7 +86,7 @@ class Simulation {
   /// One time step on the way to a time. The last kStepsBetweenLooks before it are equally long, as
   /// long as ends there: what swings fast would change its energy by as much as a single step
   /// differs from those before it. The next step() is as long as chosen or given again. A rest of a
-  /// thousandth of a step, as rounding leaves it, is left out.
+  /// thousandth of a step, as rounding leaves it, is left out, but there is one step at least.
   /// @param end  s
   /// @returns whether there was any time left; nothing is done without
   bool step_until(double end);
