@@ -185,10 +185,6 @@ const char* text_of(const std::exception& error) {
   return is_memory ? "out of memory; ask for fewer grains or a coarser mesh" : error.what();
 }
 
-void print_failure(const std::exception& error) {
-  print_error(text_of(error));
-}
-
 /// Says how a run has ended. @returns the exit code
 int conclude(const CommandLine& line, const fs::path& out, const RunReport& report) {
   if (line.quiet) {
@@ -336,7 +332,7 @@ int run_on_ranks(CommandLine& line) {
       throw InputError("run: standard input comes to the first rank alone; name a scenario file");
     return run_command(line);
   } catch (const std::exception& error) {
-    print_failure(error);
+    print_error(text_of(error));
     job.end_failed(kFailed, text_of(error));
   }
   return kFailed;
@@ -893,7 +889,7 @@ int run_program(int argc, const char* const* argv) {
   try {
     return dispatch(argc, argv);
   } catch (const std::exception& error) {
-    print_failure(error);
+    print_error(text_of(error));
   }
   return kFailed;
 }

@@ -673,7 +673,7 @@ void require_sound_time_step(const SimulationSettings& settings, double critical
                              "step of this scene, which is {:.6g} s; "
                              "choose less than {:.6g} s, or \"auto\", which begins with {:.4g} s{}",
                              asked, dynamics::kLargestStep, critical,
-                             dynamics::kLargestStep * critical, std::min(chosen, settings.duration),
+                             dynamics::kLargestStep * critical, chosen,
                              chosen > dynamics::kLargestStep * critical
                                  ? " and gets shorter as more bodies touch"
                                  : ""));
@@ -715,8 +715,8 @@ void choose_time_step(const SimulationSettings& settings, dynamics::Simulation& 
     chosen = *settings.time_step;
   } else if (!std::isfinite(chosen)) {
     throw InputError(
-        "nothing in this scene moves freely and meets a contact or a spring, so no time step can be "
-        "chosen; give simulation.time_step");
+        "nothing in this scene moves freely and meets a contact or a spring, so no time step "
+        "can be chosen; give simulation.time_step");
   }
   require_possible_duration("simulation.duration", settings.duration, chosen);
   // A chosen one stays so, also where it is longer than the run.

@@ -6,13 +6,13 @@
 #include "apps/run/lost_grains.hpp"
 #include "apps/run/run_state.hpp"
 #include "apps/scene/build_stage.hpp"
+#include "apps/scene/node_set.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
@@ -25,8 +25,7 @@ using geometry::StateArchive;
 
 bool is_removed(const RemovalSettings& removal, const Vec3& centre) {
   if (!(centre[2] > removal.above && centre[2] < removal.below)) return false;
-  return !removal.box || ((centre.array() >= removal.box->lower.array()).all() &&
-                          (centre.array() <= removal.box->upper.array()).all());
+  return !removal.box || is_within(*removal.box, centre);
 }
 
 /// By table of grains: whether they are none of a rigid body.
@@ -263,7 +262,7 @@ void move_starts(const Scenario& now, const dynamics::Simulation& before, StageB
 
 /// Grains of a table in the scene of before, and which of them stay.
 struct GrainsOfTable {
-  std::vector<std::size_t> nodes;
+  std::vector<geometry::NodeId> nodes;
   std::vector<bool> stays;
 };
 
@@ -274,8 +273,8 @@ GrainsOfTable grains_of(std::size_t table, const PreparedRun& before,
   GrainsOfTable grains;
   for (std::size_t i = 0; i < before.built.grains[table].count; ++i) {
     const auto& sphere = before.simulation->elements().spheres[first + i];
-    grains.nodes.push_back(index_of(sphere.nodes[0]));
-    grains.stays.push_back(nodes_now[grains.nodes.back()] >= 0);
+    grains.nodes.push_back(sphere.nodes[0]);
+    grains.stays.push_back(nodes_now[index_of(sphere.nodes[0])] >= 0);
   }
   return grains;
 }
@@ -283,14 +282,15 @@ GrainsOfTable grains_of(std::size_t table, const PreparedRun& before,
 /// Whether all grains go that were the side of their table, though not all of the table.
 /// @param places  m, by node, when they were that
 bool loses_side(SetWhich side, const GrainsOfTable& grains, const std::vector<Vec3>& places) {
-  const int number = static_cast<int>(side) - static_cast<int>(SetWhich::x_min);
-  double all = -std::numeric_limits<double>::infinity(), left = all;  // m, outward
+  if (grains.nodes.empty()) return false;
+  const geometry::Box box = box_of_side(side, grains.nodes, places);
+  bool is_any_left = false;
   for (std::size_t i = 0; i < grains.nodes.size(); ++i) {
-    const double out = (number % 2 == 0 ? -1.0 : 1.0) * places[grains.nodes[i]][number / 2];
-    all = std::max(all, out);
-    if (grains.stays[i]) left = std::max(left, out);
+    if (!grains.stays[i]) continue;
+    if (is_within(box, places[index_of(grains.nodes[i])])) return false;
+    is_any_left = true;
   }
-  return left < all && std::isfinite(left);
+  return is_any_left;
 }
 
 const NodeSetSettings* nodes_of(const LoadSettings& settings) {

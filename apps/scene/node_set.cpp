@@ -26,24 +26,27 @@ std::vector<NodeId> nodes_of_body(const NodeSetSettings& set, const BuiltScene& 
   return nodes;
 }
 
-/// The box that holds the nodes of a side.
-geometry::Box box_of_side(SetWhich which, const std::vector<NodeId>& nodes, geometry::Positions x) {
+}  // namespace
+
+geometry::Box box_of_side(SetWhich side, const std::vector<NodeId>& nodes, geometry::Positions x) {
   constexpr double kTolerance = 1e-9;  // of the size: rounding of a turned mesh
   geometry::Box box{x[index_of(nodes.front())], x[index_of(nodes.front())]};
   for (const NodeId node : nodes) {
     box.lower = box.lower.cwiseMin(x[index_of(node)]);
     box.upper = box.upper.cwiseMax(x[index_of(node)]);
   }
-  const int side = static_cast<int>(which) - static_cast<int>(SetWhich::x_min);
+  const int number = static_cast<int>(side) - static_cast<int>(SetWhich::x_min);
   const double tolerance = kTolerance * (box.upper - box.lower).norm();
-  if (side % 2 == 0)
-    box.upper[side / 2] = box.lower[side / 2] + tolerance;
+  if (number % 2 == 0)
+    box.upper[number / 2] = box.lower[number / 2] + tolerance;
   else
-    box.lower[side / 2] = box.upper[side / 2] - tolerance;
+    box.lower[number / 2] = box.upper[number / 2] - tolerance;
   return box;
 }
 
-}  // namespace
+bool is_within(const geometry::Box& box, const Vec3& place) {
+  return (place.array() >= box.lower.array()).all() && (place.array() <= box.upper.array()).all();
+}
 
 std::vector<NodeId> nodes_of(const NodeSetSettings& set, const BuiltScene& built) {
   if (set.rigid_body) return {rigid_body_of(*set.rigid_body, built).node};
@@ -57,10 +60,7 @@ std::vector<NodeId> nodes_of(const NodeSetSettings& set, const BuiltScene& built
     return nodes;
   }
   const geometry::Box box = set.which == SetWhich::box ? set.box : box_of_side(set.which, nodes, x);
-  std::erase_if(nodes, [&](NodeId node) {
-    const Vec3& place = x[index_of(node)];
-    return (place.array() < box.lower.array()).any() || (place.array() > box.upper.array()).any();
-  });
+  std::erase_if(nodes, [&](NodeId node) { return !is_within(box, x[index_of(node)]); });
   return nodes;
 }
 

@@ -13,6 +13,13 @@ namespace plekton::apps {
 /// A side is where a coordinate of the body is least or greatest, to 1e-9 of the body's size.
 std::vector<geometry::NodeId> nodes_of(const NodeSetSettings& set, const BuiltScene& built);
 
+/// The box (m) that holds the nodes of a side, which is not `all`, `rim` or `box`.
+/// @param nodes  of the body, at least one
+geometry::Box box_of_side(SetWhich side, const std::vector<geometry::NodeId>& nodes,
+                          geometry::Positions x);
+/// Whether a place is in a box (m), its sides included.
+bool is_within(const geometry::Box& box, const Vec3& place);
+
 /// What a table of [[rigid_bodies]] came to.
 const BuiltRigidBody& rigid_body_of(std::size_t table, const BuiltScene& built);
 

@@ -414,7 +414,7 @@ TEST_F(ResumeErrors, GoBeyondTheDurationThatWasAskedForAtFirst) {
             std::string::npos);
 }
 
-/// Names and bytes of all files in a folder but the report, by name.
+/// The bytes of all files in a folder, by name.
 std::map<std::string, std::string> files_in(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
