@@ -200,8 +200,8 @@ double interaction_range_of(const typename Law::Parameters& parameters) {
 }
 
 /// A law under which bodies that touch attract each other with a force that does not depend on how
-/// deep. force() and history_energy() have it too; structures, whose contacts are counted by a
-/// measure that moves with them, take it from here instead and give the law parameters without it.
+/// deep. force() and history_energy() have it too; surfaces and structures, whose contacts are
+/// counted, take it from here instead and give the law parameters without it.
 ///
 /// attraction(parameters): the force (N), >= 0; without_attraction(parameters): the same but for
 /// it.

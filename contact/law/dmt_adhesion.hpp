@@ -15,10 +15,10 @@ namespace plekton::contact {
 /// tan(phi) times the elastic force, what presses the surfaces together: it is there at zero load
 /// too (Derjaguin, 1934).
 ///
-/// The attraction acts once on every contact, as it counts: a sphere on a flat sheet has one,
-/// however many facets there are. Between structures, whose contacts count for more the longer
-/// they lie side by side, it is part of the energy that is summed over the region: -(2 pi w R) per
-/// contact and overlap, so that it also pulls towards more of it, and an overlap of 0 stores
+/// The attraction acts on what counts as a contact (patch.hpp): once on a sphere on a flat sheet,
+/// however many facets there are, and from each side of a groove. It is part of the energy that is
+/// summed, -(2 pi w R) per contact and overlap: so between structures, whose contacts count for more
+/// the longer they lie side by side, it also pulls towards more of it, and an overlap of 0 stores
 /// nothing.
 ///
 /// The force jumps where bodies come to touch or part. In the energy of a step of length dt that is

@@ -15,7 +15,7 @@ struct PatchState {
   Vec3 normal = Vec3::Zero();   ///< unit, direction of the elastic force on b
   double gap = 0.0;             ///< m, of the deepest minimum
   double elastic_force = 0.0;   ///< N, the terms' elastic forces added as vectors
-  double elastic_energy = 0.0;  ///< J, of these
+  double elastic_energy = 0.0;  ///< J, of these and the attraction
   Vec3 foot = Vec3::Zero();     ///< m, from the sphere's centre to the representative point:
                                 ///< mean of the feet by shares
   Vec3 lever_a = Vec3::Zero();  ///< m, from the sphere's centre to the contact points, by shares
@@ -26,21 +26,25 @@ struct PatchState {
 
 /// What a term carries of its patch.
 struct PatchTermForce {
-  double elastic;  ///< N, along the term's normal; negative for a pass
-  double share;    ///< of every other force of the patch; the shares of a patch add up to 1
+  double elastic;     ///< N, along the term's normal; negative for a pass
+  double attraction;  ///< N, against the term's normal; negative for a pass
+  double share;       ///< of every other force of the patch; the shares of a patch add up to 1
+
+  /// N, a force on b and the attraction.
+  Vec3 pulled(const Vec3& force, const Vec3& normal) const {
+    return attraction != 0.0 ? Vec3(force - attraction * normal) : force;
+  }
 };
 
 /// Adds up the elastic forces of a patch. Each term pushes at its own foot, through the sphere's
-/// centre.
-/// @param elastic_force   gap -> N, of one feature
-/// @param elastic_energy  gap -> J
-/// @param hold            (term, elastic force) -> how much a term counts in the normal, in any
-///                        unit: its elastic force, if only what pushes is in contact
-/// @param term_forces     of the same length as terms
-template <class Force, class Energy, class Hold>
+/// centre. What changes of shares do to the attraction (PatchTerm::slope) is among them.
+/// @param normal       of one feature, as NormalPart has it
+/// @param hold         (term, elastic force) -> how much a term counts in the normal, in any unit:
+///                     its elastic force, if only what pushes is in contact
+/// @param term_forces  of the same length as terms
+template <class Normal, class Hold>
 PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, double range,
-                       Force elastic_force, Energy elastic_energy, Hold hold,
-                       std::span<PatchTermForce> term_forces) {
+                       const Normal& normal, Hold hold, std::span<PatchTermForce> term_forces) {
   PatchState state;
   state.root = patch.root;
   state.gap = terms[0].distance - range;
@@ -49,14 +53,14 @@ PatchState patch_state(const Patch& patch, std::span<const PatchTerm> terms, dou
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const PatchTerm& term = terms[i];
     const double gap = term.distance - range;
-    const double elastic = term.weight * elastic_force(gap) + term.slope;
-    term_forces[i] = {elastic, term.share};
+    const double elastic = term.weight * normal.elastic_force(gap) + term.slope;
+    term_forces[i] = {elastic, term.weight * normal.attraction(gap), term.share};
     shares += term.share;
     total_elastic += elastic;
     force += elastic * term.normal;
     if (!term.is_inner) holding += hold(term, elastic) * term.normal;
     state.foot += term.share * term.distance * term.normal;
-    state.elastic_energy += term.weight * elastic_energy(gap) + term.energy;
+    state.elastic_energy += term.weight * normal.energy(gap) + term.energy;
   }
   const double length = holding.norm();
   state.normal = length > 0.0 && terms.size() > 1 ? Vec3(holding / length) : terms[0].normal;

@@ -16,17 +16,18 @@ inline bool is_single_feature(std::span<const PatchTerm> terms) noexcept {
 }
 
 /// patch_state() and set_kinematics() of a patch that is_single_feature().
+/// @param normal          of one feature, as NormalPart has it
 /// @param sphere, radius  of side a, m
-/// @param range         m, radius of sphere + radius of surface
-template <ContactLaw Law>
-PatchState single_feature_state(const PatchTerm& term, const typename Law::Parameters& parameters,
-                                NodeId sphere, double radius, double range, const Motion& motion) {
+/// @param range           m, radius of sphere + radius of surface
+template <class Normal>
+PatchState single_feature_state(const PatchTerm& term, const Normal& normal, NodeId sphere,
+                                double radius, double range, const Motion& motion) {
   PatchState state;
   state.root = term.core.feature;
   state.normal = term.normal;
   state.gap = term.distance - range;
-  state.elastic_force = Law::elastic_normal_force(parameters, state.gap);
-  state.elastic_energy = Law::elastic_normal_energy(parameters, state.gap);
+  state.elastic_force = normal.elastic_force(state.gap);
+  state.elastic_energy = normal.energy(state.gap);
   state.foot = term.distance * term.normal;
   const double distance = range + state.gap;
   state.lever_a = distance > 0.0 ? Vec3((radius + 0.5 * state.gap) / distance * state.foot)

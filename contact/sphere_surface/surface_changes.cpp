@@ -53,12 +53,13 @@ double SurfaceContacts::released_by(const geometry::SurfaceChange& change,
 double SurfaceContacts::normal_energy(const Pair& pair, PatchFinder& finder,
                                       std::span<const geometry::CellId> cells, Positions x) {
   if (cells.empty()) return 0.0;
-  const NormalPart one{&pair};
+  const NormalPart one = pair.normal();
+  const NormalLaw law(one, pair.range);
   const Vec3& centre = x[index_of(pair.node)];
   double energy = 0.0;
-  for (const Patch& patch : finder.find(centre, pair.reach, cells, x, NormalLaw(one))) {
+  for (const Patch& patch : finder.find(centre, pair.reach, cells, x, law)) {
     for (const PatchTerm& term : finder.terms(patch))
-      energy += term.weight * one.energy(term.distance) + term.energy;
+      energy += term.weight * law.energy(term.distance) + term.energy;
   }
   return energy;
 }

@@ -24,7 +24,8 @@ double SurfaceContacts::rebuild(std::span<const geometry::IndexPair> keys,
     const double range = sphere.radius + radius_b;
     return Pair{sphere.radius,
                 range,
-                parameters,
+                AnyLaw::without_attraction(parameters),
+                AnyLaw::attraction(parameters),
                 sphere.node,
                 range + AnyLaw::interaction_range(parameters),
                 near[i],
@@ -200,10 +201,12 @@ double SurfaceContacts::keep_single_feature(Pair& pair, std::size_t lane, int wo
   record.core.nodes = surface_->nodes_of(face);
   record.core.weights = answer.weights();
   record.core.feature = Feature(face);
-  record.force = answer.force_b();
+  const NormalPart normal = pair.normal();
+  const PatchTermForce term_force{normal.elastic_force(gap), normal.attraction(gap), 1.0};
+  record.force = term_force.pulled(answer.force_b(), answer.normal());
   record.torque_a = answer.torque_a();
   record.torque_b = answer.torque_b();
-  record.elastic = AnyLaw::elastic_normal_force(pair.parameters, gap);
+  record.elastic = term_force.elastic;
   record.pair = static_cast<std::uint32_t>(&pair - pairs_.data());
   record.contact = pair.contacts.first;
 
@@ -213,7 +216,7 @@ double SurfaceContacts::keep_single_feature(Pair& pair, std::size_t lane, int wo
   contact.foot = answer.foot();
   contact.gap = gap;
   contact.elastic_force = record.elastic;
-  contact.elastic_energy = AnyLaw::elastic_normal_energy(pair.parameters, gap);
+  contact.elastic_energy = normal.energy(gap);
   contact.id = id;
   contact.first_minimum = static_cast<std::uint32_t>(lists.minima.size());
   contact.minimum_count = 1;
@@ -253,12 +256,13 @@ void SurfaceContacts::add_elastic_forces(std::span<const geometry::CellId> cells
                                          geometry::FunctionRef<bool(NodeId)> wants) const {
   for (const Pair& pair : pairs_) {
     if (pair.contacts.count == 0 || !wants(pair.node)) continue;
-    const NormalPart one{&pair};
+    const NormalPart elastic(pair.parameters, 0.0);
+    const NormalLaw law(elastic, pair.range);
     for (const Patch& patch :
          finder.find(x[index_of(pair.node)], pair.reach,
-                     cells.subspan(pair.near.first, pair.near.count), x, NormalLaw(one))) {
+                     cells.subspan(pair.near.first, pair.near.count), x, law)) {
       for (const PatchTerm& term : finder.terms(patch)) {
-        const double force = term.weight * one.force(term.distance) + term.slope;
+        const double force = term.weight * law.force(term.distance) + term.slope;
         const SurfaceForce record{
             pair.node, 0.0F, term.core, force * term.normal, Vec3::Zero(), Vec3::Zero(),
             force,     0,    0};
@@ -275,9 +279,9 @@ EnergyLoss SurfaceContacts::advance_pair(Pair& pair, std::span<const geometry::C
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const Vec3& centre = motion.position[index_of(pair.node)];
-  const NormalPart one{&pair};
+  const NormalPart one = pair.normal();
   const auto patches =
-      worker.patches.find(centre, pair.reach, cells, motion.position, NormalLaw(one));
+      worker.patches.find(centre, pair.reach, cells, motion.position, NormalLaw(one, pair.range));
 
   const std::size_t first = lists.contacts.size();
   EnergyLoss loss;
@@ -336,8 +340,9 @@ EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
                                           const Motion& motion, double dt, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   const PatchTerm& term = worker.patches.terms(patch)[0];
-  const PatchState state = single_feature_state<AnyLaw>(term, pair.parameters, pair.node,
-                                                        pair.radius, pair.range, motion);
+  const NormalPart normal = pair.normal();
+  const PatchState state =
+      single_feature_state(term, normal, pair.node, pair.radius, pair.range, motion);
   Transferred transferred;
   EnergyLoss loss;
   for (const Contact& old : contacts_of(pair, previous_)) {
@@ -362,7 +367,7 @@ EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
       loss.tracking = AnyLaw::history_energy(pair.parameters, old.memory.history) -
                       AnyLaw::history_energy(pair.parameters, transferred.history);
   }
-  const PatchTermForce term_force{state.elastic_force, 1.0};
+  const PatchTermForce term_force{state.elastic_force, normal.attraction(state.gap), 1.0};
   loss.dissipated +=
       add_contact(pair, {&term, 1}, state, {&term_force, 1}, transferred, dt, worker_index);
   return loss;
@@ -378,9 +383,7 @@ void SurfaceContacts::find_states(const Pair& pair, std::span<const Patch> patch
     const std::span<PatchTermForce> term_forces{worker.term_forces.data() + patch.first_term,
                                                 terms.size()};
     worker.states.push_back(patch_state(
-        patch, terms, pair.range,
-        [&](double gap) { return AnyLaw::elastic_normal_force(pair.parameters, gap); },
-        [&](double gap) { return AnyLaw::elastic_normal_energy(pair.parameters, gap); },
+        patch, terms, pair.range, pair.normal(),
         [&](const PatchTerm& term, double elastic) {
           return pair.reach > pair.range ? term.weight * std::max(0.0, pair.reach - term.distance)
                                          : elastic;
@@ -405,7 +408,7 @@ void SurfaceContacts::write_forces(const Pair& pair, std::span<const PatchTerm> 
     const Vec3 lever_b = lever_a - terms[i].distance * terms[i].normal;
     records.add(
         {pair.node, static_cast<float>(term_forces[i].share), terms[i].core,
-         term_forces[i].elastic * terms[i].normal + other,
+         term_forces[i].pulled(term_forces[i].elastic * terms[i].normal + other, terms[i].normal),
          -lever_a.cross(other) - term_forces[i].share * answer.moment,
          lever_b.cross(other) + term_forces[i].share * answer.moment, term_forces[i].elastic,
          static_cast<std::uint32_t>(&pair - pairs_.data()), contact},

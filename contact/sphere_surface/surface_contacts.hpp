@@ -6,6 +6,7 @@
 #include "contact/law/pair_springs.hpp"
 #include "contact/sphere_surface/deferred_pairs.hpp"
 #include "contact/sphere_surface/last_side.hpp"
+#include "contact/sphere_surface/normal_part.hpp"
 #include "contact/sphere_surface/patch.hpp"
 #include "contact/sphere_surface/patch_force.hpp"
 #include "contact/sphere_surface/patch_successors.hpp"
@@ -150,15 +151,18 @@ class SurfaceContacts {
     std::uint32_t count = 0;
   };
   struct Pair {
-    double radius;  ///< m, of the sphere
-    double range;   ///< m, radius of sphere + radius of surface
-    AnyLaw::Parameters parameters;
+    double radius;                  ///< m, of the sphere
+    double range;                   ///< m, radius of sphere + radius of surface
+    AnyLaw::Parameters parameters;  ///< without the attraction
+    double attraction;              ///< N, of one contact
     NodeId node;
     double reach;  ///< m, the range and the law's reach
     NearCells near;
     Range contacts;
     geometry::FaceId single_face;  ///< whose inside was the only contact in the last step; or none
     DeferredPairs::NextCheck next_check;
+
+    NormalPart normal() const noexcept { return {parameters, attraction}; }
   };
   static constexpr geometry::FaceId kNoFace{-1};
   /// A pair that is due, with the cells that may be in range.
@@ -239,16 +243,6 @@ class SurfaceContacts {
                        Positions x) const;
   double released_by(const geometry::SurfaceChange& change, std::span<const geometry::CellId> cells,
                      Positions at) const;
-  /// Of one contact of a pair, by distance (m).
-  struct NormalPart {
-    const Pair* pair;
-    double energy(double distance) const {
-      return AnyLaw::elastic_normal_energy(pair->parameters, distance - pair->range);
-    }
-    double force(double distance) const {
-      return AnyLaw::elastic_normal_force(pair->parameters, distance - pair->range);
-    }
-  };
   static double normal_energy(const Pair& pair, PatchFinder& finder,
                               std::span<const geometry::CellId> cells, Positions x);
   double keep_minima(const Pair& pair, const geometry::SurfaceChange& change);

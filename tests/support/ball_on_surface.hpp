@@ -16,13 +16,15 @@ class SphereOnSurface {
   using Law = LinearFrictional;
 
   /// @param ball_radius  m; range is this + 0.1
-  SphereOnSurface(const Complex& complex, double ball_radius, const Material& material)
+  /// @param properties   of the law of both with each other
+  SphereOnSurface(const Complex& complex, double ball_radius, const Material& material,
+                  const contact::PairProperties<contact::AnyLaw>& properties = {})
       : surface_(complex.cylinders, complex.facets, complex.x.size() + 1),
         x_(complex.x),
         velocity_(complex.x.size() + 1, Vec3::Zero()),
         spin_(complex.x.size() + 1, Vec3::Zero()),
         ball_{id_at<NodeId>(complex.x.size()), ball_radius, MaterialId{0}},
-        materials_({material}),
+        materials_({material}, properties),
         parameters_(Law::combine({material, ball_radius}, {material, 0.1})),
         contacts_(surface_),
         forces_(complex.x.size() + 1) {

@@ -16,10 +16,11 @@ struct Law {
   double (*energy)(double overlap);
 };
 
-const std::array<Law, 2> kLaws{
+const std::array<Law, 3> kLaws{
     {{"linear", [](double o) { return o; }, [](double o) { return 0.5 * o * o; }},
      {"Hertz", [](double o) { return std::pow(o, 1.5); },
-      [](double o) { return 0.4 * std::pow(o, 2.5); }}}};
+      [](double o) { return 0.4 * std::pow(o, 2.5); }},
+     {"attraction", [](double o) { return o > 0.0 ? -1.0 : 0.0; }, [](double o) { return -o; }}}};
 
 /// A ball near a surface whose nodes may move.
 class StructurePair {

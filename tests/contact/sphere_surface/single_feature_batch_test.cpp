@@ -143,6 +143,14 @@ struct Cases {
   }
 };
 
+/// As a patch takes it, of a law that is known as a type.
+template <class Law>
+struct NormalOf {
+  const typename Law::Parameters& parameters;
+  double elastic_force(double gap) const { return Law::elastic_normal_force(parameters, gap); }
+  double energy(double gap) const { return Law::elastic_normal_energy(parameters, gap); }
+};
+
 /// That the general way finds the inside of the facet alone, and makes the same of it.
 template <class Law>
 void expect_general(const Case<Law>& c, const SingleFeatureBatch& block, std::size_t lane) {
@@ -154,8 +162,8 @@ void expect_general(const Case<Law>& c, const SingleFeatureBatch& block, std::si
   ASSERT_TRUE(is_single_feature(finder.terms(patches[0])));
   ASSERT_EQ(patches[0].root, Feature(FaceId{0}));
   const PatchTerm& term = finder.terms(patches[0])[0];
-  const PatchState state =
-      single_feature_state<Law>(term, parameters, NodeId{3}, c.radius, c.range, c.motion());
+  const PatchState state = single_feature_state(term, NormalOf<Law>{parameters}, NodeId{3},
+                                                c.radius, c.range, c.motion());
   typename Law::History history =
       carried_history<Law>(c.memory, state.normal, kStep * state.twist_rate);
   ASSERT_TRUE(state.gap < 0.0 || goes_on<Law>(parameters, history, state.gap));

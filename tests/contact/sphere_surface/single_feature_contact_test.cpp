@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sphere_surface/single_feature_contact.hpp"
 
-#include "contact/law/linear_frictional.hpp"
+#include "contact/law/dmt_adhesion.hpp"
+#include "contact/sphere_surface/normal_part.hpp"
 #include "tests/support/contact_surfaces.hpp"
+#include "tests/support/named_laws.hpp"
 
 #include <gtest/gtest.h>
 
 namespace plekton::test::single_feature_contact_test {
 namespace {
 
-using Law = LinearFrictional;
+using contact::AnyLaw;
+using contact::DmtAdhesion;
+using contact::NormalPart;
 
-constexpr Law::Parameters kParameters{2.0e3, 6.0e2, 0.5};
+const AnyLaw::Parameters kParameters =
+    AnyLaw::combine(with<DmtAdhesion>({1.0}), {{1e4, 0.3, 0.5}, 0.3}, {{1e4, 0.3, 0.5}, 0.1});
+const AnyLaw::Parameters kElastic = AnyLaw::without_attraction(kParameters);
+const NormalPart kNormal(kElastic, AnyLaw::attraction(kParameters));
 
 /// As SurfaceContacts finds it for patches of any number of terms.
 PatchState general_state(const Patch& patch, std::span<const PatchTerm> terms, NodeId ball,
                          double radius, double range, const Motion& motion) {
   std::vector<PatchTermForce> term_forces(terms.size());
   PatchState state = patch_state(
-      patch, terms, range, [](double gap) { return Law::elastic_normal_force(kParameters, gap); },
-      [](double gap) { return Law::elastic_normal_energy(kParameters, gap); },
-      [](const PatchTerm&, double elastic) { return elastic; }, term_forces);
+      patch, terms, range, kNormal, [](const PatchTerm&, double elastic) { return elastic; },
+      term_forces);
   set_kinematics(state, ball, radius, range, terms, term_forces, motion);
   return state;
 }
@@ -52,7 +58,7 @@ TEST(LoneContact, HasTheStateOfAPatchToTheLastBit) {
         ++compared;
 
         const PatchState lone =
-            single_feature_state<Law>(terms[0], kParameters, ball, radius, range, motion);
+            single_feature_state(terms[0], kNormal, ball, radius, range, motion);
 
         const PatchState general = general_state(patch, terms, ball, radius, range, motion);
         ASSERT_EQ(lone.root, general.root);
