@@ -4,11 +4,12 @@
 RUN is the folder of a run of bouncing_sphere.toml, gas.toml, incline.toml or gas_incline.toml, or of a run of the study speeds.toml. Ends 1 where
 something is out of its bounds. Runs of the same speed with different steps are compared.
 """
-import csv
-import json
 import math
 import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from results import Bounds, columns, mean, report_of, runs_of_arguments  # noqa: E402
 
 SLOPE = math.atan(0.29337)
 FRICTION = math.tan(math.radians(20))
@@ -17,27 +18,10 @@ OUTSIDE = 101325.0  # Pa
 EXPONENT = 1.4
 
 
-def columns(path):
-    """A history as {head without unit: values}."""
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    return {head.split(" (")[0]: [float(row[i]) for row in rows[1:]] for i, head in enumerate(rows[0])}
-
-
 def slope(t, x):
     """Of the straight line through points: vibrations of the ball average out over many of their periods."""
-    mean_t, mean_x = sum(t) / len(t), sum(x) / len(x)
+    mean_t, mean_x = mean(t), mean(x)
     return sum((a - mean_t) * (b - mean_x) for a, b in zip(t, x)) / sum((a - mean_t) ** 2 for a in t)
-
-
-class Bounds:
-    def __init__(self):
-        self.hold = True
-
-    def expect(self, what, value, low, high, source):
-        holds = low <= value <= high
-        self.hold &= holds
-        print(f"  {what:<46} {value:10.4g}  {low:.4g} to {high:.4g} ({source}){'' if holds else '  OUT OF BOUNDS'}")
 
 
 class Bounce:
@@ -142,11 +126,8 @@ def check_incline(run, bounds):
 
 
 def main():
-    bounds, empty = Bounds(), {}
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    for run in map(Path, sys.argv[1:]):
-        report = json.loads((run / "run.json").read_text())
+    bounds, empty = Bounds(46), {}
+    for run in runs_of_arguments(__doc__):
         print(run)
         has_gas, has_incline = (run / "pressures.csv").exists(), "incline.force_z" in columns(run / "reactions.csv")
         if has_gas or has_incline:
@@ -154,9 +135,7 @@ def main():
         else:
             bounce = check_empty(run, bounds)
             empty.setdefault(round(bounce.v_in, 6), []).append(bounce.restitution)
-        bounds.expect("energy closure", report["energy_closure"], 0, 0.01, "energy is kept")
-        red = [entry["name"] for entry in report["certificate"] if entry["verdict"] != "green"]
-        bounds.expect("red rows of the certificate", len(red), 0, 0, ", ".join(red) or "all green")
+        bounds.expect_sound(report_of(run))
     for speed, values in empty.items():
         # Faster, the shell dimples: it snaps, and what it keeps of that depends on everything.
         if len(values) > 1 and speed < 1.25:

@@ -4,23 +4,17 @@
 RUN is the folder of a run of buckling_tube.toml or continuum.toml, with these materials and sizes. Writes shortening.csv into it (force over
 shortening, as shares of theory's). Ends 1 where something is out of its bounds.
 """
-import csv
-import json
 import math
 import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from results import Bounds, check_runs, columns, report_of, write  # noqa: E402
 
 RADIUS, LENGTH, SIDE = 0.05, 0.09976, 2 * math.pi * 0.05 / 60  # m
 MODULUS, POISSON = 1e8, 0.3
 BEAM = 1e-3  # m, radius of the beams of the lattice
 SHEET = 1e-3  # m, thickness of the sheet
-
-
-def columns(path):
-    """A history as {head without unit: values}."""
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    return {head.split(" (")[0]: [float(row[i]) for row in rows[1:]] for i, head in enumerate(rows[0])}
 
 
 def lattice():
@@ -36,10 +30,8 @@ def sheet():
     return MODULUS * SHEET, MODULUS * SHEET**3 / 12 / (1 - POISSON**2)
 
 
-def check(run):
+def check(run, bounds):
     energy, history = columns(run / "energy.csv"), columns(run / "reactions.csv")
-    report = json.loads((run / "run.json").read_text())
-    red = [entry["name"] for entry in report["certificate"] if entry["verdict"] != "green"]
     is_sheet = max(energy["sheet_elastic"]) > 0
     stretching, bending = sheet() if is_sheet else lattice()
     load = 4 * math.pi * math.sqrt(stretching * bending)
@@ -49,24 +41,14 @@ def check(run):
     below = [abs(f) for f in history["lower ring.force_z"]]
     first = [i for i, u in enumerate(short) if 0.1 < u * stiffness / load < 0.4]
     measured = sum(short[i] * push[i] for i in first) / sum(short[i] ** 2 for i in first)
-    with open(run / "shortening.csv", "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["shortening over that at the load of theory", "force over that load"])
-        writer.writerows([f"{u * stiffness / load:.5g}", f"{p / load:.5g}"] for u, p in zip(short, push))
-    values = [
-        ("largest force over that of theory", max(push) / load, 0.90, 1.05, f"4 pi sqrt(C D) = {load:.1f} N, A18"),
-        ("stiffness over that of theory", measured / stiffness, 1.00, 1.06, f"2 pi R C / H = {stiffness / 1e3:.1f} kN/m, A18"),
-        ("force at the end over that of theory", push[-1] / load, 0.0, 0.7, "it has buckled"),
-        ("largest difference of both rings, of that force", max(abs(a - b) for a, b in zip(push, below)) / load, 0.0, 0.05, "slow enough"),
-        ("energy closure", report["energy_closure"], 0.0, 0.01, "energy is kept"),
-        ("red rows of the certificate", len(red), 0, 0, ", ".join(red) or "all green"),
-    ]
-    print(f"{run}: {'sheet' if is_sheet else 'lattice'}")
-    for what, value, low, high, source in values:
-        print(f"  {what:<48} {value:8.4g}  {low:g} to {high:g} ({source}){'' if low <= value <= high else '  OUT OF BOUNDS'}")
-    return all(low <= value <= high for _, value, low, high, _ in values)
+    write(run / "shortening.csv", ["shortening over that at the load of theory", "force over that load"],
+          [(u * stiffness / load, p / load) for u, p in zip(short, push)])
+    print(f"  {'sheet' if is_sheet else 'lattice'}")
+    bounds.expect("largest force over that of theory", max(push) / load, 0.90, 1.05, f"4 pi sqrt(C D) = {load:.1f} N, A18")
+    bounds.expect("stiffness over that of theory", measured / stiffness, 1.00, 1.06, f"2 pi R C / H = {stiffness / 1e3:.1f} kN/m, A18")
+    bounds.expect("force at the end over that of theory", push[-1] / load, 0.0, 0.7, "it has buckled")
+    bounds.expect("largest difference of both rings, of that force", max(abs(a - b) for a, b in zip(push, below)) / load, 0.0, 0.05, "slow enough")
+    bounds.expect_sound(report_of(run))
 
 
-if len(sys.argv) < 2:
-    sys.exit(__doc__)
-sys.exit(0 if all([check(Path(run)) for run in sys.argv[1:]]) else 1)
+check_runs(__doc__, check, Bounds(48))

@@ -6,11 +6,13 @@ the ball is. Where one contact follows from them, the force has to be k_n times 
 Ends 1 where something is out of its bounds.
 """
 import csv
-import json
 import math
 import sys
 import tomllib
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from results import red_rows, report_of  # noqa: E402
 
 BALL, SHEET, MODULUS = 0.02, 0.005, 1e6  # m, m, Pa
 STIFFNESS = 2 * MODULUS * BALL * SHEET / (BALL + SHEET)  # N/m
@@ -134,7 +136,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     run, folder = Path(sys.argv[1]), Path(__file__).parent
-    report = json.loads((run / "run.json").read_text())
+    report = report_of(run)
     step = report["timing"]["time_step_s"]
     with open(run / "reactions.csv", newline="") as file:
         lines = list(csv.reader(file))
@@ -142,7 +144,7 @@ def main():
     rows = [dict(zip(heads, line)) for line in lines[1:]]
     weight = 2650 * 4 / 3 * math.pi * BALL**3 * 9.81
     print(f"{'':20} compared  several   normal  tangential  cone   (largest differences, over the weight of {weight:.3f} N)")
-    red = [entry["name"] for entry in report["certificate"] if entry["verdict"] != "green"]
+    red = red_rows(report)
     holds = report["energy_closure"] < 0.01 and not red
     for number, surface in enumerate(SURFACES):
         mesh = folder / f"{surface}.off"

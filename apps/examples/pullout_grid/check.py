@@ -6,14 +6,12 @@ friction and adhesion, of some beds under the same pressure it says mean and sca
 displacements.csv (of grains, by height), shares.csv (F / (2 sigma A) over the way) and friction.csv (its mean) into each folder. Ends 1
 where something is out of its bounds.
 """
-import csv
-import json
 import math
-import re
-import struct
 import sys
-import zlib
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from results import Bounds, Frame, columns, frames, mean, red_rows, report_of, runs_of_arguments, write  # noqa: E402
 
 SOIL = math.tan(math.radians(20))  # friction of the grains, and of them on the inclusion
 PLAN = 54e-3 * 104e-3  # m2, of the bed
@@ -24,63 +22,14 @@ BAND = 4e-3  # m, height of the bands whose grains are counted together
 WEDGED = 0.25  # largest overlap over radius that README.md explains
 
 
-def columns(path):
-    """A history as {head without unit: values}."""
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    return {head.split(" (")[0]: [float(row[i]) for row in rows[1:]] for i, head in enumerate(rows[0])}
-
-
-class Frame:
-    """Arrays of a frame (VTK XML, raw blocks of zlib)."""
-
-    def __init__(self, path):
-        self.data = path.read_bytes()
-        self.begin = self.data.index(b"_", self.data.index(b'<AppendedData encoding="raw"')) + 1
-
-    def array(self, section, name):
-        pattern = rb"<" + section + rb">.*?type=\"(\w+)\" Name=\"" + name + rb"\"[^>]*offset=\"(\d+)\""
-        found = re.search(pattern, self.data, re.S)
-        begin = self.begin + int(found.group(2))
-        blocks = struct.unpack_from("<Q", self.data, begin)[0]
-        sizes = struct.unpack_from(f"<{blocks}Q", self.data, begin + 24)
-        begin, raw = begin + 24 + 8 * blocks, b""
-        for size in sizes:
-            raw += zlib.decompress(self.data[begin : begin + size])
-            begin += size
-        code = {b"Float32": "f", b"Float64": "d", b"Int32": "i", b"Int64": "q"}[found.group(1)]
-        return struct.unpack(f"<{len(raw) // struct.calcsize(code)}{code}", raw)
-
-    def vectors(self, section, name):
-        numbers = self.array(section, name)
-        return [numbers[i : i + 3] for i in range(0, len(numbers), 3)]
-
-
-def frames(run, kind):
-    """Files of a series, by their times."""
-    text = (run / f"{kind}.pvd").read_text()
-    return {float(t): run / file for t, file in re.findall(r'timestep="([^"]+)"[^>]*file="([^"]+)"', text)}
-
-
-def write(path, heads, rows):
-    with open(path, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(heads)
-        writer.writerows([f"{value:.5g}" for value in row] for row in rows)
-
-
-def mean(values):
-    return sum(values) / len(values)
-
-
 class Inclusion:
     """Rows of nodes of the inclusion in a frame, from the front to the back, and the force in it between any two of them."""
 
     def __init__(self, path):
         frame = Frame(path)
-        owner = frame.array(b"CellData", b"membrane")
-        lines, tension = frame.array(b"Lines", b"connectivity"), frame.array(b"CellData", b"tension")
-        self.points, force = frame.vectors(b"Points", b"Points"), frame.vectors(b"PointData", b"force")
+        owner = frame.array("CellData", "membrane")
+        lines, tension = frame.array("Lines", "connectivity"), frame.array("CellData", "tension")
+        self.points, force = frame.vectors("Points", "Points"), frame.vectors("PointData", "force")
         bars = [(lines[2 * i], lines[2 * i + 1], tension[i]) for i in range(len(lines) // 2) if owner[i] == 0]
         nodes = sorted({node for bar in bars for node in bar[:2]})
         rows = [nodes[i : i + ACROSS] for i in range(0, len(nodes), ACROSS)]
@@ -98,8 +47,8 @@ class Inclusion:
     def soil(self, path):
         """What grains hold back behind each gap between two rows, and what all others do: a bar hands a force on to its ends by the lever."""
         frame = Frame(path)
-        kinds, groups = ([frame.array(b"CellData", what + side) for side in (b"a", b"b")] for what in (b"kind_", b"group_"))
-        point, normal, press, rub = (frame.vectors(b"CellData", name) for name in (b"point", b"normal", b"normal_force", b"tangential_force"))
+        kinds, groups = ([frame.array("CellData", what + side) for side in "ab"] for what in ("kind_", "group_"))
+        point, normal, press, rub = (frame.vectors("CellData", name) for name in ("point", "normal", "normal_force", "tangential_force"))
         behind, others = [0.0] * len(self.tension), 0.0
         for i in range(len(point)):
             side = next((s for s in (0, 1) if 1 <= kinds[s][i] <= 3 and groups[s][i] == 0), None)
@@ -118,13 +67,12 @@ class PullOut:
     """Pull, pressure and way of the last stage of a run."""
 
     def __init__(self, run):
-        self.report = report = json.loads((run / "run.json").read_text())
+        self.report = report = report_of(run)
         history = columns(run / "reactions.csv")
         begin = report["stages"][-2]["end_s"]
         rows = [i for i, t in enumerate(history["time"]) if t > begin]
         of = lambda name: [history[name][i] for i in rows]
         self.kind = report["names"]["membranes"][0]
-        self.closure = report["energy_closure"]
         self.way = [of("front edge.position_y")[0] - y for y in of("front edge.position_y")]
         self.back = of("back edge.position_y")[0] - of("back edge.position_y")[-1]
         self.force = [abs(f) for f in of("front edge.force_y")]
@@ -142,9 +90,9 @@ class PullOut:
 
     def along(self, run, pull, since):
         """Mean force in the inclusion, from its bars and from the grains that touch it, over the later half of the way."""
-        contacts = frames(run, "contacts")
+        contacts = dict(frames(run, "contacts"))
         looks = []
-        for t, path in frames(run, "membranes").items():
+        for t, path in frames(run, "membranes"):
             if t >= since:
                 inclusion = Inclusion(path)
                 soil, others = inclusion.soil(contacts[t])
@@ -155,51 +103,37 @@ class PullOut:
         self.soil = over([[s - u for s, u in zip(look[1], look[0].unbalanced)] for look in looks])
         self.others = mean([look[2] for look in looks])
         y = over([look[0].y for look in looks])
-        with open(run / "forces.csv", "w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(["way from the front edge (mm)", "force in the bars (N)", "held by soil behind (N)", "pull (N)"])
-            for k, (bars, soil) in enumerate(zip(self.tension, self.soil)):
-                middle = 0.5 * (y[k] + y[k + 1]) - y[0]
-                writer.writerow([f"{value:.5g}" for value in (1e3 * middle, bars, soil, self.pull)])
+        middles = [0.5 * (a + b) - y[0] for a, b in zip(y, y[1:])]
+        write(run / "forces.csv", ["way from the front edge (mm)", "force in the bars (N)", "held by soil behind (N)", "pull (N)"],
+              [(1e3 * middle, bars, soil, self.pull) for middle, bars, soil in zip(middles, self.tension, self.soil)])
 
     def heights(self, run, begin):
         """Mean way of grains along the pull by their height over the inclusion, from the beginning of the pull to its end."""
-        series = {t: path for t, path in frames(run, "grains").items() if t >= begin - 1e-9}
+        series = {t: path for t, path in frames(run, "grains") if t >= begin - 1e-9}
         first, last = (Frame(series[t]) for t in (min(series), max(series)))
-        middle = mean(Inclusion(frames(run, "membranes")[min(series)]).z[1:])
+        middle = mean(Inclusion(dict(frames(run, "membranes"))[min(series)]).z[1:])
         bands = {}
-        for a, b in zip(first.vectors(b"Points", b"Points"), last.vectors(b"Points", b"Points")):
+        for a, b in zip(first.vectors("Points", "Points"), last.vectors("Points", "Points")):
             bands.setdefault(math.floor((a[2] - middle) / BAND), []).append(a[1] - b[1])
         bands = {band: ways for band, ways in sorted(bands.items()) if len(ways) >= 50}
         self.above = [mean(ways) for band, ways in bands.items() if band >= 0]
         self.below = [mean(ways) for band, ways in reversed(bands.items()) if band < 0]
-        with open(run / "displacements.csv", "w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(["height over the inclusion (mm)", "mean way along the pull (mm)", "grains"])
-            for band, ways in bands.items():
-                writer.writerow([f"{1e3 * (band + 0.5) * BAND:g}", f"{1e3 * mean(ways):.4g}", len(ways)])
+        write(run / "displacements.csv", ["height over the inclusion (mm)", "mean way along the pull (mm)", "grains"],
+              [(1e3 * (band + 0.5) * BAND, 1e3 * mean(ways), len(ways)) for band, ways in bands.items()])
 
 
 def fit(points):
     """Friction and adhesion of the straight line through (pressure, shear stress)."""
-    mean_s, mean_t = (sum(p[k] for p in points) / len(points) for k in (0, 1))
+    mean_s, mean_t = (mean([p[k] for p in points]) for k in (0, 1))
     slope = sum((s - mean_s) * (t - mean_t) for s, t in points) / sum((s - mean_s) ** 2 for s, _ in points)
     return slope, mean_t - slope * mean_s
 
 
 def main():
-    holds = True
-
-    def expect(what, value, low, high, source):
-        nonlocal holds
-        fits = low <= value <= high
-        holds &= fits
-        print(f"  {what:<52} {value:9.4g}  {low:.4g} to {high:.4g} ({source}){'' if fits else '  OUT OF BOUNDS'}")
-
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
+    bounds = Bounds()
+    expect = bounds.expect
     tests = {}
-    for run in map(Path, sys.argv[1:]):
+    for run in runs_of_arguments(__doc__):
         test = PullOut(run)
         tests.setdefault(test.kind, []).append(test)
         print(f"{run}: {test.kind}, pressure {test.sigma / 1e3:.1f} kPa, pull {max(test.force):.1f} N, back edge moved {1e3 * test.back:.2f} of {1e3 * test.way[-1]:.2f} mm")
@@ -219,9 +153,8 @@ def main():
             expect(f"way of the grains right {side}, over that of the pull", ways[0] / test.way[-1], 0.0, 1.0, "dragged along")
             rises = [b - a for a, b in zip(ways, ways[1:])]
             expect("largest rise of it from band to band outwards", max(rises) / test.way[-1], -1.0, 0.02, "it fades")
-        expect("energy closure", test.closure, 0.0, 0.01, "energy is kept")
-        rows = {entry["name"]: entry["value"] for entry in test.report["certificate"] if entry["verdict"] != "green"}
-        new = [name for name, value in rows.items() if name != "largest_overlap_ratio" or value > WEDGED]
+        bounds.expect_energy(test.report)
+        new = red_rows(test.report, {"largest_overlap_ratio": WEDGED})
         expect("red rows of the certificate", len(new), 0, 0, ", ".join(new) or f"but for overlaps up to {WEDGED:.0%}, see README.md")
     for kind, runs in tests.items():
         runs.sort(key=lambda test: test.sigma)
@@ -243,7 +176,7 @@ def main():
             for membrane in tests["membrane"]:
                 if abs(grid.sigma / membrane.sigma - 1) < 0.1:
                     expect(f"grid over membrane, {grid.sigma / 1e3:.0f} kPa", grid.share / membrane.share, 1.0, 4.0, "it interlocks")
-    sys.exit(0 if holds else 1)
+    sys.exit(0 if bounds.hold else 1)
 
 
 main()

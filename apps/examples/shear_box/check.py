@@ -2,24 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Looks whether a run of shear_box.toml is sound: balance of forces, energy, the certificate, and the friction angle.
 
-    python3 check.py RUN_FOLDER
+    python3 check.py RUN [RUN ...]
 """
-import csv
-import json
 import math
 import sys
 from pathlib import Path
 
-
-def columns(path):
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    numbers = [[float(cell) for cell in row] for row in rows[1:]]
-    return {name: [row[i] for row in numbers] for i, name in enumerate(rows[0])}
-
-
-def mean(values):
-    return sum(values) / len(values)
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from results import Bounds, check_runs, columns, mean, red_rows, report_of  # noqa: E402
 
 
 WINDOW, APART = 25, 5  # rows of a millisecond: a mean is over 0.75 mm of the way, and means begin that far from each other
@@ -34,45 +24,28 @@ def peak(over, under, first=0):
     return ratio(best), best + WINDOW // 2
 
 
-def new_red_rows(report):
-    """Names of the red rows of the certificate but for the one of README.md."""
-    red = {entry["name"]: entry["value"] for entry in report["certificate"] if entry["verdict"] != "green"}
-    return [name for name, value in red.items() if name != "largest_overlap_ratio" or value > RIM]
-
-
-def check(folder):
-    """Figures by name: (value, least, most)."""
-    report = json.loads((folder / "run.json").read_text())
+def check(run, bounds):
+    report = report_of(run)
     shear = report["stages"][-1]
-    force = columns(folder / "reactions.csv")
-    rows = [i for i, time in enumerate(force["time (s)"]) if time > shear["start_s"] + 0.01]
+    force = columns(run / "reactions.csv")
+    rows = [i for i, time in enumerate(force["time"]) if time > shear["start_s"] + 0.01]
 
     def of(body, axis):
-        return [force[f"{body}.force_{axis} (N)"][i] for i in rows]
+        return [force[f"{body}.force_{axis}"][i] for i in rows]
 
     total = {axis: [sum(parts) for parts in zip(of("lower half", axis), of("upper half", axis), of("lid", axis))]
              for axis in "xyz"}
     # Through the shear plane goes what the lower half bears, but for the weight of the sand in it.
     ratio, _ = peak(of("lower half", "x"), [-z for z in of("lower half", "z")])
     lid = mean(of("lid", "z"))
-    return {
-        "peak friction angle (deg)": (math.degrees(math.atan(ratio)), 25.0, 45.0),
-        "force of the lid (N)": (lid, 97.0, 103.0),
-        "sum of shear forces over that of the lid": (mean(total["x"]) / lid, -0.02, 0.02),
-        "sum of forces across over that of the lid": (mean(total["y"]) / lid, -0.02, 0.02),
-        "energy closure": (abs(report["energy_closure"]), 0.0, 0.01),
-        " ".join(["red rows of the certificate", *new_red_rows(report)]): (len(new_red_rows(report)), 0, 0),
-    }
-
-
-def main():
-    failed = 0
-    for name, (value, least, most) in check(Path(sys.argv[1])).items():
-        is_sound = least <= value <= most
-        failed += not is_sound
-        print(f"{name}: {value:.4g} ({least:g} to {most:g}){'' if is_sound else '  OUT OF BOUNDS'}")
-    return 1 if failed else 0
+    bounds.expect("peak friction angle (deg)", math.degrees(math.atan(ratio)), 25, 45, "of sand")
+    bounds.expect("force of the lid (N)", lid, 97, 103, "what its servo wants")
+    bounds.expect("sum of shear forces over that of the lid", mean(total["x"]) / lid, -0.02, 0.02, "balance")
+    bounds.expect("sum of forces across over that of the lid", mean(total["y"]) / lid, -0.02, 0.02, "balance")
+    bounds.expect_energy(report)
+    red = red_rows(report, {"largest_overlap_ratio": RIM})
+    bounds.expect("red rows of the certificate", len(red), 0, 0, ", ".join(red) or f"but for overlaps up to {RIM:.0%}, see README.md")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    check_runs(__doc__, check, Bounds())

@@ -13,12 +13,14 @@ stresses in the sand around the gap, shear over normal stress of measures/middle
 """
 import argparse
 import importlib.util
-import json
 import math
 import subprocess
 import sys
 import zlib
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from results import columns, mean, report_of  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
 TRIAXIAL = HERE.parent / "triaxial_membrane"
@@ -58,29 +60,25 @@ def run(program, scenario, settings, out):
     return folder
 
 
-def mean(values):
-    return sum(values) / len(values)
-
-
 def deviation(values):
     """Standard deviation of one of these."""
     return math.sqrt(sum((v - mean(values)) ** 2 for v in values) / (len(values) - 1)) if len(values) > 1 else math.nan
 
 
-def of(check, path, *names):
-    history = check.columns(path)
+def of(path, *names):
+    history = columns(path)
     return [history[name] for name in names]
 
 
 def box_test(out, check):
     """Porosity when it is confined, angles of shear over normal force through the gap and of the stresses there, and how steeply the lid rises."""
-    confine, shear = json.loads((out / "run.json").read_text())["stages"][-2:]
-    times, over, under = of(check, out / "reactions.csv", "time (s)", "lower half.force_x (N)", "lower half.force_z (N)")
-    moments, porosity, xz, zz = of(check, out / "measures" / "middle.csv", "time (s)", "porosity", "stress_xz (Pa)", "stress_zz (Pa)")
+    confine, shear = report_of(out)["stages"][-2:]
+    times, over, under = of(out / "reactions.csv", "time", "lower half.force_x", "lower half.force_z")
+    moments, porosity, xz, zz = of(out / "measures" / "middle.csv", "time", "porosity", "stress_xz", "stress_zz")
     moving = lambda times: next(i for i, t in enumerate(times) if t > shear["start_s"] + 0.01)
     forces, row = check.peak(over, [-z for z in under], moving(times))
     stresses, _ = check.peak([abs(s) for s in xz], [abs(s) for s in zz], moving(moments))
-    moment, rise, way = of(check, out / "rigid_bodies.csv", "time (s)", "lid.position_z (m)", "upper half.position_x (m)")
+    moment, rise, way = of(out / "rigid_bodies.csv", "time", "lid.position_z", "upper half.position_x")
     near = [i for i, t in enumerate(moment) if abs(t - times[row]) < 0.015]
     slope = (rise[near[-1]] - rise[near[0]]) / (way[near[-1]] - way[near[0]])
     confined = [p for t, p in zip(moments, porosity) if t <= confine["end_s"]][-1]

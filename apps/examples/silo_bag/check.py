@@ -3,14 +3,12 @@
 
 RUN is the folder of a run of silo_bag.toml. Ends 1 where something is out of its bounds.
 """
-import csv
-import json
 import math
-import re
-import struct
 import sys
-import zlib
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from results import Bounds, Frame, check_runs, columns, frame_before, frames, mean, report_of  # noqa: E402
 
 RADIUS, HALF_THICKNESS = 0.15, 4e-3  # m, of the bag
 AROUND, ALONG = 24, 20  # cells of the bag
@@ -21,59 +19,18 @@ GRAINS, WALL = math.tan(math.radians(30)), math.tan(math.radians(20))  # frictio
 SHEET = 20e3  # N/m
 
 
-def columns(path):
-    """A history as {head without unit: values}."""
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    return {head.split(" (")[0]: [float(row[i]) for row in rows[1:]] for i, head in enumerate(rows[0])}
-
-
-def mean(values):
-    return sum(values) / len(values)
-
-
-class Frame:
-    """Arrays of a frame (VTK XML, raw blocks of zlib)."""
-
-    def __init__(self, path):
-        self.data = path.read_bytes()
-        self.begin = self.data.index(b"_", self.data.index(b'<AppendedData encoding="raw"')) + 1
-
-    def array(self, section, name):
-        pattern = rb"<" + section + rb">.*?type=\"(\w+)\" Name=\"" + name + rb"\"[^>]*offset=\"(\d+)\""
-        found = re.search(pattern, self.data, re.S)
-        begin = self.begin + int(found.group(2))
-        blocks = struct.unpack_from("<Q", self.data, begin)[0]
-        sizes = struct.unpack_from(f"<{blocks}Q", self.data, begin + 24)
-        begin, raw = begin + 24 + 8 * blocks, b""
-        for size in sizes:
-            raw += zlib.decompress(self.data[begin : begin + size])
-            begin += size
-        code = {b"Float32": "f", b"Float64": "d", b"Int32": "i"}[found.group(1)]
-        return struct.unpack(f"<{len(raw) // struct.calcsize(code)}{code}", raw)
-
-    def points(self):
-        numbers = self.array(b"Points", b"Points")
-        return [numbers[i : i + 3] for i in range(0, len(numbers), 3)]
-
-
-def frames(run, kind):
-    text = (run / f"{kind}.pvd").read_text()
-    return [(float(t), run / file) for t, file in re.findall(r'timestep="([^"]+)"[^>]*file="([^"]+)"', text)]
-
-
 def grains_of(path):
     """(height, mass) of each grain."""
     frame = Frame(path)
-    radii = frame.array(b"PointData", b"radius")
+    radii = frame.array("PointData", "radius")
     return [(p[2], DENSITY * 4 / 3 * math.pi * r**3) for p, r in zip(frame.points(), radii)]
 
 
 def wall_of(path):
     """(height, area, normal traction of contacts) of each facet of the bag, and the positions of all nodes."""
     frame = Frame(path)
-    points, corners = frame.points(), frame.array(b"Polys", b"connectivity")
-    pressure, owner = frame.array(b"CellData", b"contact_pressure"), frame.array(b"CellData", b"membrane")
+    points, corners = frame.points(), frame.array("Polys", "connectivity")
+    pressure, owner = frame.array("CellData", "contact_pressure"), frame.array("CellData", "membrane")
     others = len(pressure) - len(corners) // 3  # bars come before facets
     rows = []
     for k in range(len(corners) // 3):
@@ -86,24 +43,14 @@ def wall_of(path):
     return rows, points
 
 
-class Bounds:
-    def __init__(self):
-        self.hold = True
-
-    def expect(self, what, value, low, high, source):
-        holds = low <= value <= high
-        self.hold &= holds
-        print(f"  {what:<50} {value:10.4g}  {low:.4g} to {high:.4g} ({source}){'' if holds else '  OUT OF BOUNDS'}")
-
-
 def check(run, bounds):
-    report = json.loads((run / "run.json").read_text())
+    report = report_of(run)
     opened = report["stages"][1]["end_s"]
     history = columns(run / "reactions.csv")
-    grains, walls = frames(run, "grains"), frames(run, "membranes")
+    grains = frames(run, "grains")
     full = max(entry for entry in grains if entry[0] < opened - 1e-9)
     contents = grains_of(full[1])
-    facets, points = wall_of(max(entry for entry in walls if entry[0] <= full[0] + 1e-9)[1])
+    facets, points = wall_of(frame_before(run, "membranes", full[0])[1])
     inner, top = RADIUS - HALF_THICKNESS, mean(sorted(z for z, _ in contents)[-20:])
     section = math.pi * inner**2
     mass = sum(m for _, m in contents)
@@ -145,19 +92,7 @@ def check(run, bounds):
     bounds.expect("what has left the bag, over all", out[-1][1] / mass, 0.75, 1, "but for what stays on the floor")
     gate = -mean(history["gate.force_z"][-40:]) / GRAVITY
     bounds.expect("the tray weighs, over what has left (end)", gate / out[-1][1], 0.85, 1.15, "balance, with blows of what falls")
-    bounds.expect("energy closure", report["energy_closure"], 0, 0.01, "energy is kept")
-    red = [entry["name"] for entry in report["certificate"] if entry["verdict"] != "green"]
-    bounds.expect("red rows of the certificate", len(red), 0, 0, ", ".join(red) or "all green")
+    bounds.expect_sound(report)
 
 
-def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    bounds = Bounds()
-    for run in map(Path, sys.argv[1:]):
-        print(run)
-        check(run, bounds)
-    sys.exit(0 if bounds.hold else 1)
-
-
-main()
+check_runs(__doc__, check, Bounds(50))

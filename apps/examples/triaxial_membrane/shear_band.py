@@ -5,8 +5,6 @@ RUN is the folder of a run of triaxial_membrane.toml. For increments of the axia
 the deviatoric strain, and the flat slab, eight grains thick, that has most more of it than its share of the volume. A shear band is a slab
 that is steep, and has much. Writes shear_band.csv into each folder, of the first and the last increment. Needs numpy.
 """
-import csv
-import json
 import math
 import sys
 from pathlib import Path
@@ -14,6 +12,9 @@ from pathlib import Path
 import numpy as np
 
 import check
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import results  # noqa: E402
 
 INCREMENTS = [(0.00, 0.01), (0.01, 0.02), (0.02, 0.04), (0.04, 0.06), (0.06, 0.08), (0.08, 0.10), (0.10, 0.12), (0.12, 0.15)]
 NEIGHBOURHOOD = 2  # mean distance of grains that the strain at a grain is taken from, in d50
@@ -24,18 +25,18 @@ class Sample:
     """The grains of a run from where shear begins: places and turns (m, rad) at the times of frames, radii, and the axial strain."""
 
     def __init__(self, run):
-        begin = json.loads((run / "run.json").read_text())["stages"][0]["end_s"]
-        frames = [(time, file) for time, file in check.frames(run, "grains") if time >= begin]
+        begin = results.report_of(run)["stages"][0]["end_s"]
+        frames = [(time, file) for time, file in results.frames(run, "grains") if time >= begin]
         times = [time for time, _ in frames]
-        vectors = lambda file, name: np.array(check.numbers(file, name)).reshape(-1, 3)
-        self.places = [vectors(file, "Points") for _, file in frames]
-        spins = [vectors(file, "angular_velocity") for _, file in frames]
+        arrays = [results.Frame(file) for _, file in frames]
+        self.places = [np.array(frame.points()) for frame in arrays]
+        spins = [np.array(frame.vectors("PointData", "angular_velocity")) for frame in arrays]
         steps = [0.5 * (b - a) * (u + v) for a, b, u, v in zip(times, times[1:], spins, spins[1:])]
         self.turns = np.cumsum([np.zeros_like(spins[0]), *steps], axis=0)
-        self.radii = np.array(check.numbers(frames[0][1], "radius"))
+        self.radii = np.array(arrays[0].array("PointData", "radius"))
         self.volumes = self.radii**3 / np.sum(self.radii**3)
         self.d50 = 2 * weighted_median(self.radii, self.volumes)
-        moved = check.columns(run / "rigid_bodies.csv")
+        moved = results.columns(run / "rigid_bodies.csv")
         height = np.interp(times, moved["time"], moved["upper platen.position_z"]) - moved["lower platen.position_z"][0]
         between = height - (height[0] - np.ptp(self.places[0][:, 2]))
         self.strain = 1 - between / between[0]
@@ -112,9 +113,7 @@ def expected_slopes(run):
 
 
 def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    for run in map(Path, sys.argv[1:]):
+    for run in results.runs_of_arguments(__doc__):
         sample = Sample(run)
         across = np.ptp(sample.places[0][:, 0]) / sample.d50
         if across < 2 * SLAB:
@@ -142,10 +141,7 @@ def write(path, sample, azimuth, *states):
     turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
     parts = [part for places, strains, turned in states for part in (1e3 * places @ turn, strains[:, None], np.degrees(turned)[:, None])]
     names = [f"{name} {state}" for state in ("first", "last") for name in ("x (mm)", "y (mm)", "z (mm)", "strain over mean", "turn (deg)")]
-    with open(path, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow([*names, "radius (mm)"])
-        writer.writerows([f"{value:.4g}" for value in row] for row in np.column_stack([*parts, 1e3 * sample.radii]))
+    results.write(path, [*names, "radius (mm)"], np.column_stack([*parts, 1e3 * sample.radii]), digits=4)
 
 
 if __name__ == "__main__":
