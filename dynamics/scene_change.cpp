@@ -239,6 +239,7 @@ void Simulation::go_on_from(Simulation& before, const SceneChange& change) {
   take_contacts(before, change.places);
   ties_.follow(scene_.elements);
   follow_holds(before, change.places);
+  if (has_begun()) find_late_starts(before.scene_, change.places);
   note_change(before);
   if (chooser_ != nullptr) set_first_step(0.0);
 }
@@ -397,6 +398,29 @@ void Simulation::follow_holds(const Simulation& before, const contact::BodyPlace
     else
       rigid_bodies_.start_from(node, scene_.state, scene_.properties);
   });
+}
+
+/// What was not there, and what was held along an axis, or moved as told, and is free now.
+void Simulation::find_late_starts(const Scene& before, const contact::BodyPlaces& places) {
+  std::vector<Held> held_before(scene_.state.size(), Held::everything);
+  for_each_kept(places.nodes, [&](std::size_t then, std::size_t now) {
+    if (before.is_there(geometry::id_at<NodeId>(then)))
+      held_before[now] = before.properties.held[then];
+  });
+  for (std::size_t i = 0; i < scene_.state.size(); ++i) {
+    const auto node = geometry::id_at<NodeId>(i);
+    const auto was = static_cast<unsigned>(held_before[i] & Held::everything);
+    const auto is = static_cast<unsigned>(scene_.properties.held[i]);
+    if (scene_.is_there(node)) late_starts_.add(node, static_cast<Held>(was & ~is));
+  }
+}
+
+/// What they move by at this moment is what the state says: none of it comes from anywhere.
+void Simulation::put_back_late_starts() {
+  nodes_.know_all();
+  work_.external -= late_starts_.put_back(
+      {last_drift_, drift_},
+      {scene_.state, forces_, scene_.properties, rigid_nodes_, rigid_bodies_, motion_.gravity});
 }
 
 /// Energy that comes or goes with bodies, stiffness and fixity is work from outside. Where weight

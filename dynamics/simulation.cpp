@@ -482,6 +482,7 @@ void Simulation::advance(double longest) {
   sheet_facets_.add_forces(forces_, pool_);
   if (MomentumBalance::is_due(steps_)) watch_momentum();
   apply_loads();
+  if (!late_starts_.empty()) put_back_late_starts();
   const StepLengths lengths{0.5 * (last_drift_ + drift_), drift_};
   StepWork work =
       rigid_bodies_.step(scene_.state, forces_, scene_.properties, motion_, lengths, pool_);

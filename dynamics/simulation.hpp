@@ -5,6 +5,7 @@
 #include "dynamics/broken_elements.hpp"
 #include "dynamics/checkpoint/checkpoint_error.hpp"
 #include "dynamics/integrators/nodes_of_ranks.hpp"
+#include "dynamics/late_starts.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/loads/plane_servo.hpp"
 #include "dynamics/loads/rigid_servo.hpp"
@@ -352,6 +353,8 @@ class Simulation {
   void require_same_structures(const Simulation& before, const contact::BodyPlaces& places) const;
   void take_state(Simulation& before, const SceneChange& change);
   void follow_holds(const Simulation& before, const contact::BodyPlaces& places);
+  void find_late_starts(const Scene& before, const contact::BodyPlaces& places);
+  void put_back_late_starts();
   void note_change(const Simulation& before);
   double moving_energy() const;
 
@@ -363,6 +366,7 @@ class Simulation {
   std::optional<geometry::Surface> whole_;  ///< with what is absent, if anything is
   RigidNodes rigid_nodes_;
   RigidBodies rigid_bodies_;
+  LateStarts late_starts_;  ///< in the next step
   std::unique_ptr<contact::Contacts> contacts_;
   BeamBonds bonds_;
   YieldingBonds yielding_bonds_;

@@ -180,6 +180,7 @@ void Simulation::exchange_loads(const geometry::StateArchive& archive) {
 /// How long steps are, and what the next choice of one knows.
 void Simulation::exchange_step(const geometry::StateArchive& archive) {
   const bool may_be_none = !std::isfinite(dt_);
+  late_starts_.exchange(archive, scene_.state.size());
   archive("time_step", dt_);
   archive.require(dt_ >= 0.0 && (may_be_none || std::isfinite(dt_)), "time_step");
   bool is_chosen = chooser_ != nullptr;

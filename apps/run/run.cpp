@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/run.hpp"
 
+#include "apps/run/broken_at_start.hpp"
 #include "apps/run/checkpoints.hpp"
 #include "apps/run/clock_checkpoints.hpp"
 #include "apps/run/enclosed_bodies.hpp"
@@ -773,6 +774,13 @@ PreparedRun prepare_run(const Scenario& scenario, const HearSetUp& hear) {
   if (scenario.stage) prepared.bodies = first_stage(prepared.built);
   prepared.simulation = simulation_of(scenario, prepared.built);
   prepared.duration = scenario.simulation.duration;
+  // What is left of what breaks may be nothing that a step could be chosen for.
+  const bool has_step =
+      scenario.simulation.time_step || std::isfinite(prepared.simulation->time_step());
+  for (std::string& warning : warnings_about_breaks(prepared.built, *prepared.simulation)) {
+    if (!has_step) throw InputError(warning);
+    prepared.built.warnings.push_back(std::move(warning));
+  }
   choose_time_step(scenario.simulation, *prepared.simulation);
   prepared.start = initial_contacts(scenario, prepared.built, *prepared.simulation,
                                     prepared.simulation->contact_rows());

@@ -33,6 +33,7 @@ struct BuiltMembrane {
   double mean_edge = 0.0;      ///< m, length
   double young_modulus = 0.0;  ///< Pa, of the beams, or of the sheet
   bool is_rigid = false;       ///< the surface of a rigid body
+  bool turns_nodes = true;     ///< else its nodes are held against turning, whatever else they are
 };
 
 /// Grains of one table in the scene.

@@ -4,6 +4,7 @@
 #include "apps/scene/node_set.hpp"
 #include "geometry/closest/point_segment.hpp"
 #include "geometry/closest/point_triangle.hpp"
+#include "geometry/primitives/node_sets.hpp"
 
 #include <fmt/format.h>
 
@@ -68,6 +69,7 @@ class TieBuilder {
     const std::vector<NodeId> nodes = nodes_of_set(settings.from, "from");
     if (settings.kind == TieTo::nodes) targets_ = nodes_of_set(settings.to, "to");
     if (settings.kind == TieTo::surface && !has_surface(settings.to)) return;
+    if (settings.kind == TieTo::surface) find_bars(settings.to);
     if (settings.kind == TieTo::cable) cable_ = cable_of(settings.to.body);
     if (settings.kind == TieTo::cable && !cable_) return;
     BuiltTies result{settings.name, built_.scene.ties.size(), 0, 0.0, kInfinite, 0.0,
@@ -184,10 +186,9 @@ class TieBuilder {
       look(nodes, geometry::point_triangle(place(node),
                                            {place(nodes[0]), place(nodes[1]), place(nodes[2])}));
     });
-    for_each_bar(set, [&](const std::array<NodeId, 2>& nodes) {
+    for (const std::array<NodeId, 2>& nodes : bars_)
       look({nodes[0], nodes[1], nodes[0]},
            geometry::point_segment(place(node), {place(nodes[0]), place(nodes[1])}));
-    });
     return nearest;
   }
 
@@ -246,14 +247,19 @@ class TieBuilder {
     for (std::size_t i = first; i < first + count; ++i)
       visit(built_.scene.elements.facets[i].nodes);
   }
-  /// Where there are facets they are their sides.
-  template <class Visit>
-  void for_each_bar(const NodeSetSettings& set, const Visit& visit) const {
-    const std::size_t membrane = *surface_of(set);
-    if (built_.membranes[membrane].facets > 0) return;
-    const auto [first, count] = range_of(membrane, &BuiltMembrane::cylinders);
-    for (std::size_t i = first; i < first + count; ++i)
-      visit(built_.scene.elements.cylinders[i].nodes);
+  /// Those that are no sides of facets.
+  void find_bars(const NodeSetSettings& set) {
+    geometry::NodeSets<2> sides;
+    for_each_facet(set, [&](const std::array<NodeId, 3>& nodes) {
+      for (std::size_t k = 0; k < 3; ++k) sides.add({nodes[k], nodes[(k + 1) % 3]});
+    });
+    sides.sort();
+    bars_.clear();
+    const auto [first, count] = range_of(*surface_of(set), &BuiltMembrane::cylinders);
+    for (std::size_t i = first; i < first + count; ++i) {
+      const auto& nodes = built_.scene.elements.cylinders[i].nodes;
+      if (!sides.contains(nodes)) bars_.push_back(nodes);
+    }
   }
 
   std::pair<std::size_t, std::size_t> range_of(std::size_t membrane,
@@ -336,6 +342,7 @@ class TieBuilder {
   const TieSettings* current_ = nullptr;
   std::vector<double> around_;                 // N/m, by NodeId
   std::vector<NodeId> targets_;                // of kind nodes
+  std::vector<std::array<NodeId, 2>> bars_;    // of kind surface, beside its facets
   std::optional<std::size_t> cable_;           // of kind cable
   std::map<std::size_t, std::size_t> cables_;  // by membrane
 };

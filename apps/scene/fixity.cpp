@@ -51,6 +51,12 @@ void require_apart(const std::vector<FoundSet>& fixed, const std::vector<FoundSe
   }
 }
 
+/// What nodes are held in that nothing holds: contacts would spin those that nothing turns.
+Held held_when_free(const NodeSetSettings& set, const BuiltScene& there) {
+  const bool is_of_membrane = !set.of_grains && !set.rigid_body;
+  return is_of_membrane && !there.membranes[set.body].turns_nodes ? Held::rotation : Held::nothing;
+}
+
 }  // namespace
 
 void fix_and_free(const StageSettings& stage, const BuiltScene& there, std::vector<Held>& held) {
@@ -59,16 +65,14 @@ void fix_and_free(const StageSettings& stage, const BuiltScene& there, std::vect
   const std::vector<FoundSet> fixed = find_all(stage.fixed, "fix", stage, there, problems);
   require_apart(fixed, freed, stage, there, problems);
   problems.throw_if_any();
-  const auto set_all = [&](const std::vector<FoundSet>& sets, Held all) {
-    for (const FoundSet& set : sets) {
-      for (const geometry::NodeId node : set.nodes) {
-        Held& own = held[geometry::index_of(node)];
-        own = all | (own & Held::by_body);
-      }
+  const auto set_all = [&](const FoundSet& set, Held all) {
+    for (const geometry::NodeId node : set.nodes) {
+      Held& own = held[geometry::index_of(node)];
+      own = all | (own & Held::by_body);
     }
   };
-  set_all(freed, Held::nothing);
-  set_all(fixed, Held::everything);
+  for (const FoundSet& set : freed) set_all(set, held_when_free(*set.settings, there));
+  for (const FoundSet& set : fixed) set_all(set, Held::everything);
 }
 
 }  // namespace plekton::apps

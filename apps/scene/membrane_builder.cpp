@@ -2,6 +2,7 @@
 #include "apps/scene/membrane_builder.hpp"
 
 #include "apps/scene/membrane_body.hpp"
+#include "apps/scene/node_set.hpp"
 #include "dynamics/loads/pressed_rest_state.hpp"
 #include "dynamics/structure/lumped_mass.hpp"
 
@@ -41,11 +42,8 @@ std::vector<bool> held_nodes(const HoldSettings& hold, const MembraneBody& body)
   if (hold.which == HoldWhich::rim) return body.on_rim;
   std::vector<bool> held(body.on_rim.size(), hold.which == HoldWhich::all);
   if (hold.which != HoldWhich::box) return held;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const Vec3& x = body.membrane.nodes[i];
-    held[i] =
-        (x.array() >= hold.box.lower.array()).all() && (x.array() <= hold.box.upper.array()).all();
-  }
+  const geometry::Box box = with_rounding(hold.box, body.membrane.nodes);
+  for (std::size_t i = 0; i < held.size(); ++i) held[i] = is_within(box, body.membrane.nodes[i]);
   return held;
 }
 
@@ -58,8 +56,8 @@ bool turns_nodes(const MembraneSettings& settings) {
 std::size_t add_nodes(const MembraneSettings& settings, const MembraneBody& body,
                       BuiltScene& built) {
   const std::size_t first_node = built.scene.state.size();
-  for (const Vec3& position : body.membrane.nodes)
-    built.scene.add_node(position, turns_nodes(settings) ? Held::nothing : Held::rotation);
+  const Held free = turns_nodes(settings) ? Held::nothing : Held::rotation;
+  for (const Vec3& position : body.membrane.nodes) built.scene.add_node(position, free);
   const std::vector<bool> held = held_nodes(settings.hold, body);
   for (std::size_t i = 0; i < held.size(); ++i) {
     built.scene.state.velocity[first_node + i] = settings.initial_velocities.empty()
@@ -67,7 +65,7 @@ std::size_t add_nodes(const MembraneSettings& settings, const MembraneBody& body
                                                      : settings.initial_velocities[i];
     if (!held[i]) continue;
     built.scene.properties.held[first_node + i] =
-        settings.hold.rotation || !turns_nodes(settings) ? Held::everything : Held::translation;
+        settings.hold.rotation ? Held::everything : Held::translation | free;
     built.scene.state.velocity[first_node + i] = settings.hold.velocity;
   }
   const auto count = static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
@@ -244,6 +242,7 @@ BuiltMembrane add_membrane(const MembraneSettings& settings, BuiltScene& built) 
   result.on_rim = body.on_rim;
   result.area = body.area;
   result.held_nodes = add_nodes(settings, body, built);
+  result.turns_nodes = turns_nodes(settings);
   const dynamics::PressedPart part{built.scene.elements.facets.size(),
                                    built.scene.sheet_facets.size(), built.scene.bonds.size()};
   add_elements(settings, body, built.scene, result);

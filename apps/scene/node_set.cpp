@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/scene/node_set.hpp"
 
+#include "geometry/primitives/box.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +12,16 @@ namespace {
 
 using geometry::index_of;
 using geometry::NodeId;
+
+/// Of the size of a body: rounding of a mesh that was turned, or spaced out.
+constexpr double kTolerance = 1e-9;
+
+/// m.
+std::vector<Vec3> places_of(const std::vector<NodeId>& nodes, geometry::Positions x) {
+  std::vector<Vec3> places;
+  for (const NodeId node : nodes) places.push_back(x[index_of(node)]);
+  return places;
+}
 
 std::vector<NodeId> nodes_of_body(const NodeSetSettings& set, const BuiltScene& built) {
   std::vector<NodeId> nodes;
@@ -29,12 +41,7 @@ std::vector<NodeId> nodes_of_body(const NodeSetSettings& set, const BuiltScene& 
 }  // namespace
 
 geometry::Box box_of_side(SetWhich side, const std::vector<NodeId>& nodes, geometry::Positions x) {
-  constexpr double kTolerance = 1e-9;  // of the size: rounding of a turned mesh
-  geometry::Box box{x[index_of(nodes.front())], x[index_of(nodes.front())]};
-  for (const NodeId node : nodes) {
-    box.lower = box.lower.cwiseMin(x[index_of(node)]);
-    box.upper = box.upper.cwiseMax(x[index_of(node)]);
-  }
+  geometry::Box box = geometry::bounding_box(places_of(nodes, x), 0.0);
   const int number = static_cast<int>(side) - static_cast<int>(SetWhich::x_min);
   const double tolerance = kTolerance * (box.upper - box.lower).norm();
   if (number % 2 == 0)
@@ -42,6 +49,12 @@ geometry::Box box_of_side(SetWhich side, const std::vector<NodeId>& nodes, geome
   else
     box.lower[number / 2] = box.upper[number / 2] - tolerance;
   return box;
+}
+
+geometry::Box with_rounding(const geometry::Box& box, std::span<const Vec3> places) {
+  const geometry::Box body = geometry::bounding_box(places, 0.0);
+  const Vec3 tolerance = Vec3::Constant(kTolerance * (body.upper - body.lower).norm());
+  return {box.lower - tolerance, box.upper + tolerance};
 }
 
 bool is_within(const geometry::Box& box, const Vec3& place) {
@@ -59,7 +72,8 @@ std::vector<NodeId> nodes_of(const NodeSetSettings& set, const BuiltScene& built
         nodes, [&](NodeId node) { return !membrane.on_rim[index_of(node) - membrane.first_node]; });
     return nodes;
   }
-  const geometry::Box box = set.which == SetWhich::box ? set.box : box_of_side(set.which, nodes, x);
+  const geometry::Box box = set.which == SetWhich::box ? with_rounding(set.box, places_of(nodes, x))
+                                                       : box_of_side(set.which, nodes, x);
   std::erase_if(nodes, [&](NodeId node) { return !is_within(box, x[index_of(node)]); });
   return nodes;
 }

@@ -15,7 +15,7 @@ namespace plekton::contact {
 /// tan(phi) times the elastic force, what presses the surfaces together: it is there at zero load
 /// too (Derjaguin, 1934).
 ///
-/// The attraction acts on what counts as a contact (patch.hpp): once on a sphere on a flat sheet,
+/// The attraction acts on what counts as a contact: once on a sphere on a flat sheet,
 /// however many facets there are, and from each side of a groove. It is part of the energy that is
 /// summed, -(2 pi w R) per contact and overlap: so between structures, whose contacts count for more
 /// the longer they lie side by side, it also pulls towards more of it, and an overlap of 0 stores

@@ -42,6 +42,11 @@ class RigidBodies {
   /// The same where the angular momentum goes on, as only its translation is another.
   void go_on_turning_from(NodeId node, NodeState& state, const NodeProperties& properties);
 
+  /// Adds to the angular momentum (kg m²/s, about the centre of mass) of a body.
+  void push_turning(std::size_t body, const Vec3& impulse) noexcept {
+    bodies_[body].momentum += impulse;
+  }
+
   /// J, of what is free to turn. (That of the translation is the reference node's.)
   double turning_energy(const NodeState& state, const NodeProperties& properties) const;
 

@@ -7,6 +7,7 @@
 #include "geometry/mesh/io/mesh_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -189,6 +190,16 @@ TEST_F(BuildScene, HoldsNodesInABoxAndMovesThem) {
     const bool held = scene.scene.state.position[i][0] > 0.095;
     EXPECT_EQ(scene.scene.properties.held[i], held ? Held::everything : Held::nothing);
     EXPECT_EQ(scene.scene.state.velocity[i], Vec3(held ? 0.001 : 0.0, 0.0, 0.0));
+  }
+}
+
+/// Columns of nodes at multiples of 10 mm, some of them rounded to the outside.
+TEST_F(BuildScene, HoldsWhatLiesOnEitherSideOfABox) {
+  for (int columns = 1; columns < 10; ++columns) {
+    const std::string box = fmt::format(
+        "membranes.sheet.hold={{ min = [-0.0{0}, -1, -1], max = [0.0{0}, 1, 1] }}", columns);
+    EXPECT_EQ(built({box}).membranes[0].held_nodes, static_cast<std::size_t>(2 * columns + 1) * 21U)
+        << columns;
   }
 }
 

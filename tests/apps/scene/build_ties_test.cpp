@@ -216,6 +216,42 @@ TEST(BuildTies, HoldTheCentreOfAnotherBody) {
             scene.scene.state.position[index_of(scene.scene.ties[0].node)]);
 }
 
+/// A grid that is partly closed: a facet, and a bar that goes on from it.
+TEST(BuildTies, FindBarsBesideFacets) {
+  const BuiltScene scene = build_scene(parse_scenario(R"([simulation]
+duration = "1 ms"
+[materials.m]
+young_modulus = "1 GPa"
+friction_angle = "20 deg"
+[[membranes]]
+name = "grid"
+shape = { kind = "facets", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [3, 0, 0]], facets = [[0, 1, 2]], bars = [[1, 3]] }
+mode = "lattice"
+thickness = "20 mm"
+material = "m"
+density = 1000
+young_modulus = "1 GPa"
+hold = "all"
+[[membranes]]
+name = "pole"
+shape = { kind = "chain", points = [[2.5, 0, 1], [2.5, 0, 0.1]] }
+mode = "lattice"
+thickness = "20 mm"
+material = "m"
+density = 1000
+young_modulus = "1 GPa"
+[[ties]]
+name = "tie"
+from = { membrane = "pole", nodes = "z_min" }
+to = { kind = "surface", membrane = "grid" }
+)",
+                                                      "case.toml", {}));
+
+  ASSERT_EQ(scene.ties.size(), 1U);
+  EXPECT_EQ(scene.ties[0].count, 1U);
+  EXPECT_NEAR(scene.ties[0].longest_gap, 0.1, 1e-12);
+}
+
 TEST(BuildTies, ToABodySayWhatIsWrong) {
   EXPECT_THAT(error_of({"ties.glue.to.rigid_body=blok"}),
               HasSubstr("ties.glue.to.rigid_body: there is none called \"blok\"; did you mean "
