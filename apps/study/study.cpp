@@ -285,6 +285,10 @@ class StudyReader {
       root_.complain("table", error.what());
       return;
     }
+    // What is wrong with a quote may have changed how many rows and cells there are.
+    for (const CsvRow& row : rows)
+      if (!row.problem.empty()) problems_.add({path.string(), row.line, 1}, row.problem);
+    if (!problems_.empty()) return;
     if (rows.size() < 2 || rows.size() - 1 > kMostRuns) {
       root_.complain("table", fmt::format("{} has {} rows; expected a row of paths, and below it a "
                                           "row for each of at most {} runs",

@@ -3,6 +3,8 @@
 
 #include "apps/scenario/byte_order_mark.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace plekton::apps {
@@ -42,6 +44,9 @@ class CsvParser {
     CsvRow row{line_, {}};
     do {
       row.cells.push_back(read_cell());
+      if (row.problem.empty() && !problem_.empty())
+        row.problem = fmt::format("cell {}: {}", row.cells.size(), problem_);
+      problem_.clear();
     } while (take(','));
     take('\n');
     return row;
@@ -65,18 +70,25 @@ class CsvParser {
       const char c = rest_[0];
       rest_.remove_prefix(1);
       if (c == '\n') ++line_;
-      if (c != '"') {
-        cell += c;
-      } else if (rest_.empty() || rest_[0] != '"') {
-        break;
-      } else {
-        cell += c;
-        rest_.remove_prefix(1);
+      if (c == '"' && !take('"')) {
+        pass_to_end_of_cell();
+        return cell;
       }
+      cell += c;
     }
-    // What stands between the quote and the next comma is blank, or a slip that is left out.
-    rest_.remove_prefix(std::min(rest_.find_first_of(",\n"), rest_.size()));
+    problem_ = "got a quote that is not closed; expected another one at the end of the cell";
     return cell;
+  }
+
+  /// From behind a closing quote.
+  void pass_to_end_of_cell() {
+    const std::size_t end = std::min(rest_.find_first_of(",\n"), rest_.size());
+    if (const std::string behind = trimmed(rest_.substr(0, end)); !behind.empty())
+      problem_ = fmt::format(
+          "got \"{}\" behind a closing quote; expected a comma or the end of the line: put the "
+          "whole cell into the quotes, and write a quote in it twice",
+          behind);
+    rest_.remove_prefix(end);
   }
 
   bool take(char c) {
@@ -88,6 +100,7 @@ class CsvParser {
 
   std::string_view rest_;
   int line_ = 1;
+  std::string problem_;  ///< of the cell; empty: none
 };
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 class StudyFile : public testing::Test {
  protected:
@@ -138,6 +139,20 @@ TEST_F(StudyFile, NamesEveryRowOfATableThatDoesNotFit) {
   EXPECT_THAT(problem(std::string("table = \"runs.csv\"\n") + kResults),
               AllOf(HasSubstr("runs.csv:3:1: got 1 cells; expected 2"),
                     HasSubstr("runs.csv:4:1: got 3 cells")));
+}
+
+// `"0.001" ms` was read as 0.001, without a word.
+TEST_F(StudyFile, RefusesATableWithTextBehindAQuoteOrAQuoteThatIsNotClosed) {
+  test::write_bytes(folder_ / "b.csv", "simulation.duration\n\"0.001\" ms\n1\n\"2\n");
+
+  EXPECT_THAT(problem(std::string("table = \"b.csv\"\n") + kResults),
+              AllOf(HasSubstr("b.csv:2:1: cell 1: got \"ms\" behind a closing quote"),
+                    HasSubstr("b.csv:4:1: cell 1: got a quote that is not closed")));
+
+  test::write_bytes(folder_ / "b.csv", "\"simulation.duration\n1\n");
+  EXPECT_THAT(problem(std::string("table = \"b.csv\"\n") + kResults),
+              AllOf(HasSubstr("b.csv:1:1: cell 1: got a quote that is not closed"),
+                    Not(HasSubstr("rows"))));
 }
 
 TEST_F(StudyFile, KnowsAScenarioAndNamesItsCommand) {

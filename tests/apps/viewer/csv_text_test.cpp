@@ -47,5 +47,20 @@ TEST(CsvText, IsReadAsItWasWritten) {
   }
 }
 
+TEST(CsvText, SaysWhichRowHasAQuoteThatIsNotClosedOrTextBehindOne) {
+  const auto behind = parse_csv("a,b\n1,\"0.001\" ms\n\"2\" \t,\"say \"\"x\"\"\" \r\n");
+  const auto open = parse_csv("a\n\"1\n2");
+
+  ASSERT_EQ(behind.size(), 3U);
+  EXPECT_EQ(behind[0].problem, "");
+  EXPECT_THAT(behind[1].problem,
+              testing::StartsWith("cell 2: got \"ms\" behind a closing quote; expected a comma"));
+  EXPECT_EQ(behind[1].cells[1], "0.001");
+  EXPECT_EQ(behind[2].problem, "");
+  ASSERT_EQ(open.size(), 2U);
+  EXPECT_EQ(open[1].line, 2);
+  EXPECT_THAT(open[1].problem, testing::StartsWith("cell 1: got a quote that is not closed"));
+}
+
 }  // namespace
 }  // namespace plekton::apps::csv_text_test
