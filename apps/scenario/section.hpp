@@ -128,4 +128,7 @@ class Section {
 /// Words in quotes with commas between them.
 std::string listed(std::span<const std::string_view> words);
 
+/// What is wrong with a name, which becomes the head of a column; empty: nothing.
+std::string problem_with_name(const std::string& name);
+
 }  // namespace plekton::apps

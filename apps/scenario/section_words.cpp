@@ -8,6 +8,20 @@
 
 namespace plekton::apps {
 
+std::string problem_with_name(const std::string& name) {
+  const bool is_one_line = std::none_of(name.begin(), name.end(), [](char c) {
+    return static_cast<unsigned char>(c) < ' ' || c == 127;
+  });
+  if (!is_one_line)
+    return "has a line break or another control character; expected a name on one line";
+  // A spreadsheet would carry out what stands there.
+  if (name.find_first_of("=+-@") != 0) return "";
+  return fmt::format(
+      "got \"{}\"; expected a name that does not begin with = + - or @, which a spreadsheet takes "
+      "for a formula",
+      name);
+}
+
 std::vector<std::string> Section::texts(std::string_view key) {
   if (records(key, ValueType::of(ValueType::Kind::texts), {})) return {};
   const Value* value = require(key);
@@ -46,18 +60,9 @@ std::string Section::text(std::string_view key, const std::optional<std::string>
 
 std::string Section::name(std::string_view key, const std::optional<std::string>& fallback) {
   const std::string name = text(key, fallback);
-  const bool is_one_line = std::none_of(name.begin(), name.end(), [](char c) {
-    return static_cast<unsigned char>(c) < ' ' || c == 127;
-  });
-  if (!is_one_line) {
-    complain(key, "has a line break or another control character; expected a name on one line");
-    return "";
-  }
-  // Names become heads of columns, and a spreadsheet would carry out what stands there.
-  if (name.find_first_of("=+-@") != 0) return name;
-  complain(key, fmt::format("got \"{}\"; expected a name that does not begin with = + - or @, "
-                            "which a spreadsheet takes for a formula",
-                            name));
+  const std::string problem = problem_with_name(name);
+  if (problem.empty()) return name;
+  complain(key, problem);
   return "";
 }
 

@@ -317,6 +317,8 @@ class StudyReader {
       return;
     }
     for (auto& [name, section] : results->all_tables()) {
+      if (const std::string problem = problem_with_name(name); !problem.empty())
+        problems_.add(section.place(), fmt::format("results.{}: {}", name, problem));
       refuse_second_column(name, section.place());
       study_.results.push_back(read_result(name, section));
     }

@@ -155,6 +155,15 @@ TEST_F(StudyFile, RefusesATableWithTextBehindAQuoteOrAQuoteThatIsNotClosed) {
                     Not(HasSubstr("rows"))));
 }
 
+TEST_F(StudyFile, RefusesNamesOfResultsThatASpreadsheetTakesForFormulas) {
+  for (const std::string name : {"=a", "+a", "-a", "@a"})
+    EXPECT_THAT(
+        problem("[grid]\na.b = [1]\n[results]\n\"" + name + "\" = { report = \"timing.steps\" }\n"),
+        AllOf(HasSubstr("many.toml:5:"),
+              HasSubstr("results." + name + ": got \"" + name +
+                        "\"; expected a name that does not begin with = + - or @")));
+}
+
 TEST_F(StudyFile, KnowsAScenarioAndNamesItsCommand) {
   try {
     read_study(folder_ / "case.toml");
