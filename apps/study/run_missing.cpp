@@ -64,8 +64,6 @@ class Maker {
       look_at_all();
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    if (is_interrupted_)
-      for (const std::size_t run : waiting_) runs_[run].problem = "interrupted before it began";
     return unknown_;
   }
 
@@ -133,9 +131,12 @@ class Maker {
                             unknown_.empty() ? "" : ", and no more runs are begun: " + unknown_));
       return;
     }
-    if (is_interrupted_) {
-      run.problem = "interrupted";
-    } else if (end.exit_code == 0) {
+    // Ctrl-C reaches the run itself too, which may have ended before that was looked at here.
+    if (is_interrupted_ || settings_.is_interrupted()) {
+      say(run, "interrupted");
+      return;
+    }
+    if (end.exit_code == 0) {
       run.problem = "the scenario or the program was changed while it ran; start the study again";
     } else {
       run.problem = job.output.reason(end);
@@ -144,13 +145,17 @@ class Maker {
     tell(run, run.problem);
   }
 
+  /// Of a run that is over, by how much of all is done.
   void tell(const PlannedRun& run, const std::string& what) {
     ++told_;
     const double elapsed = seconds_since(began_);
     const double left = elapsed / static_cast<double>(told_) * static_cast<double>(count_ - told_);
-    settings_.progress << geometry::printable(fmt::format(
-                              "run {} ({}): {}; {} of {}, about {:.0f} s to go", run.point + 1,
-                              fmt::join(run.overrides, ", "), what, told_, count_, left))
+    say(run, fmt::format("{}; {} of {}, about {:.0f} s to go", what, told_, count_, left));
+  }
+
+  void say(const PlannedRun& run, const std::string& what) {
+    settings_.progress << geometry::printable(fmt::format("run {} ({}): {}", run.point + 1,
+                                                          fmt::join(run.overrides, ", "), what))
                        << '\n'
                        << std::flush;
   }

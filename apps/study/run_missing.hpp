@@ -20,8 +20,9 @@ struct MakeSettings {
 };
 
 /// Makes those runs that are not complete, each by a process of its own. What ended badly gets its
-/// problem; the others go on. After an interruption the runs that go on are asked to end. Where the
-/// first run that is whole has no result of a name that is asked for, no more are begun.
+/// problem; the others go on. After an interruption the runs that go on are asked to end; they and
+/// those that were not begun have no problem, and are missing. Where the first run that is whole has
+/// no result of a name that is asked for, no more are begun.
 /// @param runs  whose key is not empty, or that have a problem already
 /// @returns which result that is; empty: all runs were begun
 /// @throws dynamics::OutputError if nothing can be written to the folder of the study

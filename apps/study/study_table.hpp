@@ -14,7 +14,7 @@ struct StudyCount {
   std::size_t all = 0;
   std::size_t complete = 0;
   std::size_t failed = 0;   ///< with a problem
-  std::size_t missing = 0;  ///< not made yet
+  std::size_t missing = 0;  ///< not made yet, or interrupted
 };
 
 /// Writes results.csv into the folder of a study, complete or not at all: a row for each run with

@@ -124,7 +124,7 @@ TEST_F(StudyCommand, MakesNoRunTwiceWhenItIsKilledInTheMiddleAndStartedAgain) {
   EXPECT_EQ(test::bytes_of(folder_ / "out" / "results.csv"), bytes);
 }
 
-TEST_F(StudyCommand, ThatIsInterruptedStopsItsRunsAndSaysHowToGoOn) {
+TEST_F(StudyCommand, ThatIsInterruptedStopsItsRunsWhichAreMissingAndSaysHowToGoOn) {
   write_study(
       "[grid]\nsimulation.seed = [1, 2, 3]\n[results]\nsteps = { report = \"timing.steps\" }\n");
   std::string text = test::bytes_of(study());
@@ -144,7 +144,13 @@ TEST_F(StudyCommand, ThatIsInterruptedStopsItsRunsAndSaysHowToGoOn) {
   EXPECT_EQ(outcome.exit_code, kInterrupted);
   EXPECT_THAT(outcome.out, HasSubstr("go on with: plekton study"));
   ASSERT_EQ(table().size(), 4U);
-  for (std::size_t i = 1; i < 4; ++i) EXPECT_THAT(table()[i].cells[4], HasSubstr("interrupted"));
+  // Neither those that were under way nor the one that never began have failed, nor are they done.
+  EXPECT_EQ(count_of(": interrupted\n", outcome.out), 2U) << outcome.out;
+  EXPECT_THAT(outcome.out, Not(HasSubstr(" of 3, about")));
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_EQ(table()[i].cells[3], "missing");
+    EXPECT_EQ(table()[i].cells[4], "");
+  }
 }
 
 TEST_F(StudyCommand, GoesOnWhenARunFailsAndSaysWhyInItsRow) {
