@@ -2,6 +2,7 @@
 #include "apps/command_line/validate_command.hpp"
 
 #include "apps/run/build_info.hpp"
+#include "apps/run/other_file.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/run_origin.hpp"
 #include "apps/scenario/closest_word.hpp"
@@ -71,7 +72,9 @@ bool make_page_folder(const std::filesystem::path& folder, std::ostream& problem
     return false;
   }
   return true;
+/// @throws InputError for somebody's file of its name
 }
+  refuse_other_file(folder / kPage, "page of plekton validate", is_validation_page);
 
 bool write_page(const std::filesystem::path& folder, const std::vector<DoneCase>& cases,
                 std::ostream& out, std::ostream& problems) {

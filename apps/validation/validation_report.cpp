@@ -72,4 +72,9 @@ std::string validation_page(std::span<const DoneCase> cases, const std::string& 
   return page + "</body></html>\n";
 }
 
+bool is_validation_page(std::string_view head) {
+  return head.starts_with("<!DOCTYPE html>") &&
+         head.find("<title>Plekton: validation</title>") != std::string_view::npos;
+}
+
 }  // namespace plekton::apps

@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace plekton::apps {
 
@@ -21,5 +22,8 @@ struct DoneCase {
 /// A page of its own, with all figures in it, that loads nothing.
 /// @param origin  Version, revision, compiler, host and date, in a line.
 std::string validation_page(std::span<const DoneCase> cases, const std::string& origin);
+
+/// Tells such a page by its first bytes.
+bool is_validation_page(std::string_view head);
 
 }  // namespace plekton::apps

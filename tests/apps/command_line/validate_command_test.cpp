@@ -65,6 +65,24 @@ TEST(ValidateCommand, SaysWhichCaseItIsAtBeforeTheFiguresOfThatCase) {
   EXPECT_GT(outcome.out.find("cable ("), announced);
 }
 
+TEST(ValidateCommand, ReplacesNoPageOfSomebodyElse) {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "validation.html", "<!DOCTYPE html><title>Mine</title>");
+  const std::vector<std::string> cantilever = {"validate", "cantilever", "--out",
+                                               folder.path().string()};
+
+  const Outcome refused = outcome_of(cantilever);
+
+  EXPECT_EQ(refused.exit_code, kFailed);
+  EXPECT_THAT(refused.err,
+              HasSubstr("validation.html: is there already and no page of plekton validate"));
+  EXPECT_EQ(refused.out, "");  // no case was run
+  EXPECT_EQ(test::bytes_of(folder / "validation.html"), "<!DOCTYPE html><title>Mine</title>");
+  std::filesystem::remove(folder / "validation.html");
+  EXPECT_EQ(outcome_of(cantilever).exit_code, kDone);
+  EXPECT_EQ(outcome_of(cantilever).exit_code, kDone);
+}
+
 TEST(ValidateCommand, ListsItsCases) {
   const Outcome outcome = outcome_of({"validate", "--list"});
 
