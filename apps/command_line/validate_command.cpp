@@ -62,8 +62,19 @@ bool require_known(const std::vector<std::string>& names, std::ostream& problems
   return all;
 }
 
+/// All of them without names.
+std::vector<const ValidationCase*> cases_of(const std::vector<std::string>& names) {
+  std::vector<const ValidationCase*> asked;
+  for (const ValidationCase& one : validation_cases())
+    if (names.empty() || std::find(names.begin(), names.end(), one.name) != names.end())
+      asked.push_back(&one);
+  return asked;
+}
+
 /// Before the cases, which take their time. @returns whether a page can be written
+/// @throws InputError for somebody's file of its name
 bool make_page_folder(const std::filesystem::path& folder, std::ostream& problems) {
+  refuse_other_file(folder / kPage, "page of plekton validate", is_validation_page);
   try {
     make_output_folder(folder);
   } catch (const dynamics::OutputError& error) {
@@ -72,9 +83,7 @@ bool make_page_folder(const std::filesystem::path& folder, std::ostream& problem
     return false;
   }
   return true;
-/// @throws InputError for somebody's file of its name
 }
-  refuse_other_file(folder / kPage, "page of plekton validate", is_validation_page);
 
 bool write_page(const std::filesystem::path& folder, const std::vector<DoneCase>& cases,
                 std::ostream& out, std::ostream& problems) {
@@ -97,17 +106,11 @@ bool write_page(const std::filesystem::path& folder, const std::vector<DoneCase>
 }  // namespace
 
 bool validate(const ValidateArguments& arguments, std::ostream& out, std::ostream& problems) {
-  if (arguments.list) {
-    for (const ValidationCase& one : validation_cases())
-      out << fmt::format("{:<20} {}\n", one.name, one.what);
-    return true;
-  }
   bool is_well = require_known(arguments.names, problems);
-  std::vector<const ValidationCase*> asked;
-  for (const ValidationCase& one : validation_cases()) {
-    const auto& names = arguments.names;
-    if (names.empty() || std::find(names.begin(), names.end(), one.name) != names.end())
-      asked.push_back(&one);
+  const std::vector<const ValidationCase*> asked = cases_of(arguments.names);
+  if (arguments.list) {
+    for (const ValidationCase* one : asked) out << fmt::format("{:<20} {}\n", one->name, one->what);
+    return is_well;
   }
   if (asked.empty()) return false;
   const bool has_folder = make_page_folder(arguments.out, problems);

@@ -83,6 +83,17 @@ TEST(ValidateCommand, ReplacesNoPageOfSomebodyElse) {
   EXPECT_EQ(outcome_of(cantilever).exit_code, kDone);
 }
 
+TEST(ValidateCommand, ListsTheCasesThatAreNamedAndNoOthers) {
+  const Outcome one = outcome_of({"validate", "--list", "cantilever"});
+  const Outcome none = outcome_of({"validate", "--list", "nope"});
+
+  EXPECT_EQ(one.exit_code, kDone);
+  EXPECT_THAT(one.out, AllOf(testing::StartsWith("cantilever "), Not(HasSubstr("rolling"))));
+  EXPECT_EQ(none.exit_code, kFailed);
+  EXPECT_EQ(none.out, "");
+  EXPECT_THAT(none.err, HasSubstr("there is no case \"nope\"; plekton validate --list names them"));
+}
+
 TEST(ValidateCommand, ListsItsCases) {
   const Outcome outcome = outcome_of({"validate", "--list"});
 
