@@ -124,7 +124,7 @@ std::string files_in(const fs::path& folder) {
   std::string files;
   std::string_view before_series = ", and for ParaView ";
   for (const std::string_view name : kResultFiles) {
-    if (std::error_code ignored; !fs::exists(folder / name, ignored)) continue;
+    if (!has_results(folder, name)) continue;
     if (name.ends_with(".pvd")) {
       files += std::exchange(before_series, ", ");
     } else if (!files.empty()) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/measures.hpp"
 
+#include "apps/run/other_file.hpp"
 #include "dynamics/output/file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace plekton::apps {
@@ -47,13 +49,17 @@ std::vector<dynamics::CsvColumn> columns_of_measure() {
   return columns;
 }
 
-void remove_files(const fs::path& folder) {
+/// By its first columns, which measures of earlier versions have too.
+bool is_measure(std::string_view head) {
+  return head.starts_with("time (s),volume (m3),porosity,grains,");
+}
+
+/// With their folder, if nothing else is in it.
+void remove_measures(const fs::path& folder) {
+  const std::vector<fs::path> files = measures_in(folder);
   std::error_code ignored;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (entry.path().extension() == ".csv") files.push_back(entry.path());
   for (const fs::path& file : files) fs::remove(file, ignored);
-  fs::remove(folder, ignored);
+  if (!files.empty()) fs::remove(folder / kMeasuresFolder, ignored);
 }
 
 /// Takes away what is outside a container, and moves the middle of what is left to its own.
@@ -128,6 +134,20 @@ std::string file_of(const MeasureSettings& measure) {
   return std::string(kMeasuresFolder) + "/" + measure.name + ".csv";
 }
 
+std::vector<fs::path> measures_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder / kMeasuresFolder, ignored))
+    if (entry.path().extension() == ".csv" && is_file_of_kind(entry.path(), is_measure))
+      files.push_back(entry.path());
+  return files;
+}
+
+void refuse_other_measures(const fs::path& folder, const Scenario& scenario) {
+  for (const MeasureSettings& measure : scenario.output.measures)
+    refuse_other_file(folder / file_of(measure), "measure of plekton run", is_measure);
+}
+
 geometry::Region region_of(const MeasureSettings& settings, const dynamics::Simulation& simulation,
                            const dynamics::Sample& sample) {
   geometry::Region region = settings.region.value_or(sample.box());
@@ -156,7 +176,7 @@ geometry::Region region_of(const MeasureSettings& settings, const dynamics::Simu
 
 Measures::Measures(const fs::path& folder, const Scenario& scenario, const WrittenFiles* before)
     : measures_(scenario.output.measures) {
-  if (before == nullptr) remove_files(folder / kMeasuresFolder);
+  if (before == nullptr) remove_measures(folder);
   if (!measures_.empty()) dynamics::ensure_output_folder(folder / kMeasuresFolder);
   for (const MeasureSettings& measure : measures_)
     files_.emplace_back().open(folder, file_of(measure), columns_of_measure(), before);

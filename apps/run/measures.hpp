@@ -18,6 +18,12 @@ std::span<const dynamics::OutputField> measure_fields();
 /// measures/NAME.csv
 std::string file_of(const MeasureSettings& measure);
 
+/// Files of measures in the folder of a run, whatever they are called.
+std::vector<std::filesystem::path> measures_in(const std::filesystem::path& folder);
+
+/// Refuses the folder of a run in which somebody's file has the name of a measure. @throws InputError
+void refuse_other_measures(const std::filesystem::path& folder, const Scenario& scenario);
+
 /// The region of a measure at the time of the last step, cut at its planes; what is cut away wholly
 /// has no volume.
 geometry::Region region_of(const MeasureSettings& settings, const dynamics::Simulation& simulation,
@@ -26,7 +32,7 @@ geometry::Region region_of(const MeasureSettings& settings, const dynamics::Simu
 /// Writes a file measures/NAME.csv for each of [[output.measures]].
 class Measures {
  public:
-  /// Removes the files of an earlier run, unless that goes on.
+  /// Removes the measures of an earlier run, unless that goes on.
   /// @throws dynamics::OutputError
   Measures(const std::filesystem::path& folder, const Scenario& scenario,
            const WrittenFiles* before = nullptr);

@@ -25,12 +25,12 @@ std::string head_of(const fs::path& file) {
   return head;
 }
 
+}  // namespace
+
 bool is_file_of_kind(const fs::path& file, IsOfKind is_of_kind) {
   std::error_code ignored;
   return fs::is_regular_file(file, ignored) && is_of_kind(head_of(file));
 }
-
-}  // namespace
 
 bool is_page(std::string_view head) {
   return head.starts_with("<!DOCTYPE html>") &&

@@ -23,6 +23,9 @@ bool is_png(std::string_view head);
 /// Of an ON-DEM file of ours: the name of the group of our additions stands in its first block.
 bool is_ondem(std::string_view head);
 
+/// Whether there is a file of a kind; what cannot be read is none.
+bool is_file_of_kind(const std::filesystem::path& file, IsOfKind is_of_kind);
+
 /// Removes these from the folder of a run that is replaced; of such names files of another kind stay.
 void remove_pictures(const std::filesystem::path& folder);
 

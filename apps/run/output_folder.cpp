@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/run/output_folder.hpp"
 
+#include "apps/run/measures.hpp"
 #include "dynamics/output/file.hpp"
 
 #include <fcntl.h>
@@ -27,11 +28,17 @@ void make_output_folder(const fs::path& folder) {
   dynamics::ensure_output_folder(folder);
 }
 
+bool has_results(const fs::path& folder, std::string_view file) {
+  if (file == kMeasuresFolder) return !measures_in(folder).empty();
+  std::error_code ignored;
+  // Also a link to nowhere is somebody's.
+  return fs::exists(fs::symlink_status(folder / file, ignored));
+}
+
 void refuse_results(const fs::path& folder, std::string_view maker,
                     std::span<const std::string_view> files) {
   for (const std::string_view file : files) {
-    // Also a link to nowhere is somebody's.
-    if (std::error_code ignored; !fs::exists(fs::symlink_status(folder / file, ignored))) continue;
+    if (!has_results(folder, file)) continue;
     throw dynamics::OutputError(
         folder, fmt::format("holds results of an earlier {} ({}); choose another folder with "
                             "--out, or replace them with --overwrite",

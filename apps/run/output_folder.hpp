@@ -16,11 +16,16 @@ namespace plekton::apps {
 /// Makes a folder that takes files, with the folders above it. @throws dynamics::OutputError
 void make_output_folder(const std::filesystem::path& folder);
 
-/// What a run may write into its folder, beside its frames.
+/// What a run may write into its folder, beside its frames. The folder of measures is one only with
+/// measures in it.
 inline constexpr std::array<std::string_view, 14> kResultFiles = {
     "run.json",        "energy.csv", "reactions.csv", "pressures.csv", kRigidBodiesFile,
     "ties.csv",        "planes.csv", "contacts.csv",  kMeasuresFolder, kScenarioCopy,
     kCheckpointFolder, "grains.pvd", "membranes.pvd", "contacts.pvd"};
+
+/// Whether there is a file of a name, or measures.
+/// @param file  one of kResultFiles, or what else is made
+bool has_results(const std::filesystem::path& folder, std::string_view file);
 
 /// Refuses a folder that holds a file of these names.
 /// @param maker  What made them, for the message: "run" or "import".

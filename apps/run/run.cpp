@@ -809,6 +809,7 @@ RunReport run(const Scenario& scenario, PreparedRun& prepared, const RunSettings
     make_output_folder(settings.out);
     lock.emplace(settings.out);
     if (!settings.overwrite && !goes_on) refuse_results(settings.out, "run", kResultFiles);
+    refuse_other_measures(settings.out, scenario);
     remove_parts(settings.out);
     if (!goes_on) remove_pictures(settings.out);
     // What came after is computed again, now perhaps with other intervals.

@@ -331,13 +331,49 @@ TEST_F(Measured, IsTheSameForAnyThreadsAndStageByStage) {
 TEST_F(Measured, OfAnEarlierRunIsGoneWhereTheFolderIsOverwritten) {
   ASSERT_EQ(outcome_of({"run", box(), "--out", out(), "--quiet", "--until", "press"}).exit_code,
             kDone);
-  test::write_bytes(folder_ / "out/measures/old.csv", "time (s)\n");
+  std::filesystem::copy(folder_ / "out/measures/whole.csv", folder_ / "out/measures/old.csv");
 
   EXPECT_EQ(outcome_of({"run", scenario(), "--out", out(), "--quiet"}).exit_code, 1);
   ASSERT_EQ(outcome_of({"run", scenario(), "--out", out(), "--quiet", "--overwrite"}).exit_code,
             kDone);
 
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out/measures"));
+}
+
+// Every CSV file in the folder was removed.
+TEST_F(Measured, LeavesFilesBesideItsOwnThatNoRunWrote) {
+  ASSERT_EQ(outcome_of({"run", box(), "--out", out(), "--quiet", "--until", "press"}).exit_code,
+            kDone);
+  test::write_bytes(folder_ / "out/measures/mine.csv", "time (s),force (N)\n0,1\n");
+
+  ASSERT_EQ(outcome_of({"run", scenario(), "--out", out(), "--quiet", "--overwrite"}).exit_code,
+            kDone);
+
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/measures/whole.csv"));
+  EXPECT_EQ(test::bytes_of(folder_ / "out/measures/mine.csv"), "time (s),force (N)\n0,1\n");
+}
+
+TEST_F(Measured, TakesNoFolderOfOtherTablesForResults) {
+  std::filesystem::create_directories(folder_ / "out/measures");
+  test::write_bytes(folder_ / "out/measures/mine.csv", "time (s),force (N)\n0,1\n");
+
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("measures")));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/measures/mine.csv"));
+}
+
+TEST_F(Measured, RefusesToReplaceATableOfSomebodyElse) {
+  std::filesystem::create_directories(folder_ / "out/measures");
+  test::write_bytes(folder_ / "out/measures/whole.csv", "mine");
+
+  const Outcome outcome = outcome_of({"run", box(), "--out", out(), "--quiet", "--overwrite"});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("whole.csv: is there already and no measure of plekton run"));
+  EXPECT_EQ(test::bytes_of(folder_ / "out/measures/whole.csv"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/energy.csv"));
 }
 
 TEST_F(Measured, RefusesWhatItCannotMeasure) {
