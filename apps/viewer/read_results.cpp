@@ -26,6 +26,7 @@ class ResultsReader {
     // of arrays expects; no block unpacks to more than zlib can make of it in any case.
     constexpr std::size_t kZerosPerMesh = 64;
     encoding_.file_size = kZerosPerMesh * bytes.size();
+    if (!bytes.substr(0, bytes.find_last_not_of(" \t\r\n") + 1).ends_with("</VTKFile>")) foreign();
     encoding_.header_size = elements_[0].attribute("header_type") == "UInt64" ? 8 : 4;
     encoding_.compressor = elements_[0].attribute("compressor");
     const XmlElement& last = elements_.back();
