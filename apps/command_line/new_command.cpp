@@ -76,7 +76,8 @@ nodes = "rim"
 }  // namespace
 
 void write_starting_scenario(const std::filesystem::path& file, std::ostream& out) {
-  if (file.filename().empty())
+  // A single dash is standard input for the commands that read a scenario.
+  if (file.filename().empty() || file == "-")
     throw InputError(
         fmt::format("got \"{}\" as the scenario to write; expected a file, as in "
                     "\"scene.toml\"",

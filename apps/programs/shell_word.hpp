@@ -5,7 +5,8 @@
 
 namespace plekton::apps {
 
-/// A word as a shell takes it: in quotes if there is anything in it that could mean something.
-std::string shell_word(const std::string& text);
+/// A path as a shell and the program behind it take it: in quotes if there is anything in it that
+/// could mean something, and with ./ before a dash, which would begin an option.
+std::string shell_word(const std::string& path);
 
 }  // namespace plekton::apps

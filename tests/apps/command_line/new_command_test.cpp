@@ -35,6 +35,16 @@ TEST_F(New, TellsCommandsThatCanBeTypedForAnyName) {
                                                "'\nlook at:  plekton view 'out/a b'\n");
 }
 
+TEST_F(New, TellsCommandsThatTakeANameWithADashForAPath) {
+  const auto here = [&] { std::filesystem::current_path(folder_.path()); };
+
+  const Outcome written = outcome_of({"new", "--", "-x.toml"}, here);
+
+  EXPECT_EQ(written.exit_code, kDone) << written.err;
+  EXPECT_THAT(written.out, HasSubstr("plekton check ./-x.toml\n"));
+  EXPECT_EQ(outcome_of({"check", "./-x.toml"}, here).exit_code, kDone);
+}
+
 TEST_F(New, DoesNotReplaceAFile) {
   test::write_bytes(folder_ / "first.toml", "mine");
 
@@ -46,7 +56,8 @@ TEST_F(New, DoesNotReplaceAFile) {
 }
 
 TEST_F(New, SaysThatAFileIsWanted) {
-  for (const std::string& file : {std::string(), folder_.path().string() + "/"}) {
+  // "-" is standard input for the commands that would read it.
+  for (const std::string& file : {std::string(), folder_.path().string() + "/", std::string("-")}) {
     const Outcome outcome = outcome_of({"new", file});
 
     EXPECT_EQ(outcome.exit_code, kFailed);

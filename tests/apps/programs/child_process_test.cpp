@@ -74,6 +74,8 @@ TEST(FindProgram, LooksThroughThePath) {
 
 TEST(ShellWord, IsInQuotesWhereItHasTo) {
   EXPECT_EQ(shell_word("a/b-1.toml"), "a/b-1.toml");
+  EXPECT_EQ(shell_word("-a b"), "'./-a b'");
+  EXPECT_EQ(shell_word("-"), "./-");
   EXPECT_EQ(shell_word("a b"), "'a b'");
   EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
   EXPECT_EQ(shell_word(""), "''");
