@@ -59,13 +59,19 @@ MeshFormat mesh_format_of(const fs::path& path) {
 }
 
 MeshFormat detect_mesh_format(std::string_view bytes, const fs::path& path) {
-  const std::string_view first = first_word(without_byte_order_mark(bytes));
+  const std::string_view text = without_byte_order_mark(bytes);
+  // Before the words: its header may begin with any. No text has that size, which in letters would
+  // be above 7 GB.
+  if (is_binary_stl(text)) return MeshFormat::stl_binary;
+  const std::string_view first = first_word(text);
   if (first == "ply") return MeshFormat::ply;
   if (first == "$MeshFormat") return MeshFormat::gmsh;
   if (first == "<VTKFile") return MeshFormat::vtp;
   if (first == "solid") return MeshFormat::stl_ascii;
   for (const std::string_view word : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF"})
     if (first == word) return MeshFormat::off;
+  for (const std::string_view word : {"v", "vt", "vn", "o", "g", "mtllib", "usemtl"})
+    if (first == word) return MeshFormat::obj;
   // What comes before the root of an XML file (declaration, comments) is short.
   constexpr std::size_t kProlog = 4096;
   const bool is_xml = first.starts_with("<?xml") || first.starts_with("<!--");

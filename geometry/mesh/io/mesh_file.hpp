@@ -28,7 +28,8 @@ PolygonSoup read_mesh_file(const std::filesystem::path& path);
 PolygonSoup parse_mesh(std::string_view bytes, MeshFormat format, const std::string& name);
 
 /// Format by content where it starts with words that only one format has ("ply", "$MeshFormat",
-/// "<VTKFile", "OFF", "solid"), whatever the ending; by the ending otherwise.
+/// "<VTKFile", "OFF", "solid", "v", "o", "mtllib" and others of OBJ) or has the size that the header
+/// of a binary STL asks for, whatever the ending; by the ending otherwise.
 /// @throws MeshError if neither tells.
 MeshFormat detect_mesh_format(std::string_view bytes, const std::filesystem::path& path);
 

@@ -28,11 +28,6 @@ std::size_t claimed_size(std::string_view bytes) {
   return kHeaderSize + kFacetSize * std::size_t{load<std::uint32_t>(bytes, 80, ByteOrder::little)};
 }
 
-bool is_binary(std::string_view bytes) {
-  if (bytes.size() >= kHeaderSize && bytes.size() == claimed_size(bytes)) return true;
-  return !is_text(bytes);
-}
-
 PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
   if (bytes.size() < kHeaderSize)
     throw MeshError(name + ": a binary STL of " + std::to_string(bytes.size()) +
@@ -118,8 +113,13 @@ PolygonSoup read_ascii(std::string_view bytes, const std::string& name) {
 
 }  // namespace
 
+bool is_binary_stl(std::string_view bytes) noexcept {
+  return bytes.size() >= kHeaderSize && bytes.size() == claimed_size(bytes);
+}
+
 PolygonSoup read_stl(std::string_view bytes, const std::string& name) {
-  return is_binary(bytes) ? read_binary(bytes, name) : read_ascii(bytes, name);
+  return is_binary_stl(bytes) || !is_text(bytes) ? read_binary(bytes, name)
+                                                 : read_ascii(bytes, name);
 }
 
 }  // namespace plekton::geometry

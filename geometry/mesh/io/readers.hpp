@@ -28,6 +28,9 @@ PolygonSoup read_obj(std::string_view text, const std::string& name);
 /// text; never by the word "solid", which binary files start with too.
 PolygonSoup read_stl(std::string_view bytes, const std::string& name);
 
+/// Whether the size is what the facet count in the header of a binary STL asks for.
+bool is_binary_stl(std::string_view bytes) noexcept;
+
 /// PLY 1.0, ASCII or binary of either byte order, with the elements "vertex" and "face"; others are
 /// passed over.
 PolygonSoup read_ply(std::string_view bytes, const std::string& name);

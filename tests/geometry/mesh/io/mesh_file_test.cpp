@@ -142,9 +142,10 @@ TEST(MeshFile, FollowsNoLinkInThePlaceOfItsTemporaryFile) {
 
 TEST(MeshFile, TellsTheFormatByItsFirstWordsAndOnlyThenByItsEnding) {
   const Mesh mesh = box_shell({1.0, 2.0, 4.0});
-  for (const MeshFormat format : {MeshFormat::off, MeshFormat::ply, MeshFormat::stl_ascii,
-                                  MeshFormat::gmsh, MeshFormat::vtp}) {
-    EXPECT_EQ(detect_mesh_format(format_mesh(mesh, format), "renamed.obj"), format);
+  for (const MeshFormat format :
+       {MeshFormat::off, MeshFormat::obj, MeshFormat::ply, MeshFormat::stl_ascii,
+        MeshFormat::stl_binary, MeshFormat::gmsh, MeshFormat::vtp}) {
+    EXPECT_EQ(detect_mesh_format(format_mesh(mesh, format), "renamed.off"), format);
     EXPECT_EQ(detect_mesh_format(format_mesh(mesh, format), "without_ending"), format);
   }
   EXPECT_EQ(detect_mesh_format("# by hand\n\n NOFF 0 0 0", "a.txt"), MeshFormat::off);
@@ -152,7 +153,18 @@ TEST(MeshFile, TellsTheFormatByItsFirstWordsAndOnlyThenByItsEnding) {
             MeshFormat::vtp);
   EXPECT_EQ(detect_mesh_format("v 0 0 0", "a.OBJ"), MeshFormat::obj);
   EXPECT_EQ(detect_mesh_format("", "a.MSH"), MeshFormat::gmsh);
-  EXPECT_THROW(detect_mesh_format("v 0 0 0", "a.txt"), MeshError);
+  EXPECT_THROW(detect_mesh_format("0 0 0", "a.txt"), MeshError);
+}
+
+TEST(MeshFile, TellsObjByItsFirstWordAndBinaryStlByItsSizeWhateverItsHeaderSays) {
+  for (const std::string word : {"v", "vt", "vn", "o", "g", "mtllib", "usemtl"})
+    EXPECT_EQ(detect_mesh_format("# by hand\n" + word + " 0 0 0", "a.ply"), MeshFormat::obj);
+  std::string stl = format_mesh(box_shell({1.0, 2.0, 4.0}), MeshFormat::stl_binary);
+  for (const std::string header : {"v ", "OFF ", "solid ", "ply "}) {
+    stl.replace(0, header.size(), header);
+    EXPECT_EQ(detect_mesh_format(stl, "a.obj"), MeshFormat::stl_binary) << header;
+  }
+  EXPECT_EQ(detect_mesh_format(stl + ' ', "a.stl"), MeshFormat::ply);
 }
 
 TEST(MeshFile, TellsBinaryFromAsciiStlByContent) {
