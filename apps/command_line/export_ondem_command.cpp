@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 namespace plekton::apps {
@@ -24,6 +25,14 @@ dynamics::OndemScene scene_in(const FoundCheckpoint& checkpoint) {
   PreparedRun prepared = scenario.stage ? prepare_stage(scenario, state) : prepare_run(scenario);
   prepared.simulation->restore(state);
   return ondem_scene_of(scenario, prepared, state);
+}
+
+/// @param found  checkpoint that is not after the step of that time
+void require_there(const ExportOndemArguments& arguments, double at,
+                   const geometry::StateTree& found) {
+  constexpr double kRounding = 1e-9;
+  if (at > time_of(found) * (1.0 + kRounding) && is_of_last_checkpoint(arguments.run, found))
+    refuse_beyond_last("--at", arguments.at, time_of(found));
 }
 
 std::string summary_of(const dynamics::OndemScene& scene) {
@@ -52,9 +61,10 @@ void export_ondem(const ExportOndemArguments& arguments, std::ostream& out,
         "--out: got \"{}\"; expected a file that ends in .vtkhdf, by which ParaView knows it",
         file.string()));
   refuse_other_file(file, "ON-DEM file of plekton export-ondem", is_ondem);
-  const FoundCheckpoint checkpoint =
-      last_checkpoint(arguments.run, time_option("--at", arguments.at));
+  const std::optional<double> at = time_option("--at", arguments.at);
+  const FoundCheckpoint checkpoint = last_checkpoint(arguments.run, at);
   print_warnings(warnings_about(checkpoint), problems);
+  if (at) require_there(arguments, *at, checkpoint.state);
   const dynamics::OndemScene scene = scene_in(checkpoint);
   dynamics::write_ondem(file, scene);
   out << fmt::format("wrote {}: {}\n", file.string(), summary_of(scene));

@@ -151,6 +151,17 @@ std::optional<double> time_option(const char* name, const std::string& text) {
   return time;
 }
 
+bool is_of_last_checkpoint(const std::filesystem::path& run, const geometry::StateTree& state) {
+  return steps_of(state) == steps_of(last_checkpoint(run).state);
+}
+
+void refuse_beyond_last(const char* option, const std::string& got, double last) {
+  throw InputError(
+      fmt::format("{}: got \"{}\"; expected times up to the last checkpoint of the run, "
+                  "which is of {:.6g} s",
+                  option, got, last));
+}
+
 ResumedRun find_resumed_run(const ResumeArguments& arguments) {
   const std::optional<double> begin = time_option("--from", arguments.from);
   const std::optional<double> end = time_option("--to", arguments.to);

@@ -45,4 +45,11 @@ ResumedRun resumed_from(FoundCheckpoint checkpoint, std::span<const std::string>
 /// A time of the command line (s), nothing for an empty one. @throws InputError
 std::optional<double> time_option(const char* name, const std::string& text);
 
+/// Whether no checkpoint of a run is later. @param state  of one of them
+bool is_of_last_checkpoint(const std::filesystem::path& run, const geometry::StateTree& state);
+
+/// Refuses a time of the command line that is after the last checkpoint of a run.
+/// @param last  s, the time of that
+[[noreturn]] void refuse_beyond_last(const char* option, const std::string& got, double last);
+
 }  // namespace plekton::apps

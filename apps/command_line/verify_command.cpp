@@ -98,12 +98,9 @@ void require_there(const VerifyArguments& arguments, double from, double to,
   const double there = time_of(last);
   constexpr double kRounding = 1e-9;
   const std::string &begin = arguments.interval[0], &end = arguments.interval[1];
-  const bool is_last = steps_of(last) == steps_of(last_checkpoint(arguments.folder).state);
-  if (is_last && !(from < there && to <= there * (1.0 + kRounding)))
-    throw InputError(
-        fmt::format("--interval: got \"{}\"; expected times up to the last checkpoint of the run, "
-                    "which is of {:.6g} s",
-                    from < there ? end : begin, there));
+  if (is_of_last_checkpoint(arguments.folder, last) &&
+      !(from < there && to <= there * (1.0 + kRounding)))
+    refuse_beyond_last("--interval", from < there ? end : begin, there);
   if (!(from < there))
     throw InputError(
         fmt::format("--interval: got \"{}\" \"{}\", between which the run has no checkpoint to "

@@ -110,6 +110,9 @@ TEST_F(ExportOndemCommand, SaysInOneLineWhatIsWrong) {
   run();
   expect_refused(exported({"--at", "soon"}), "--at");
   expect_refused(exported({"--at", "0 s"}), "its first checkpoint comes after 0 s");
+  expect_refused(exported({"--at", "5 s"}),
+                 "--at: got \"5 s\"; expected times up to the last checkpoint of the run, which is "
+                 "of 0.02 s");
   expect_refused(exported({"--out", "/no/such/a.vtkhdf"}), "/no/such/a.vtkhdf");
 }
 
