@@ -25,6 +25,8 @@ struct Symbol {
   Powers powers;
 };
 
+// µ is there twice: as the micro sign, U+00B5, and as the Greek letter, U+03BC, that many keyboards
+// and editors have.
 constexpr Powers kM{0, 1, 0, 0}, kS{0, 0, 1, 0}, kKg{1, 0, 0, 0}, kN{1, 1, -2, 0},
     kPa{1, -1, -2, 0}, kJ{1, 2, -2, 0}, kRad{0, 0, 0, 1};
 
@@ -32,6 +34,7 @@ constexpr Powers kM{0, 1, 0, 0}, kS{0, 0, 1, 0}, kKg{1, 0, 0, 0}, kN{1, 1, -2, 0
 constexpr std::array kSymbols = {
     Symbol{"m",   1,    1,    kM},  Symbol{"km",  1e3,  1,   kM},  Symbol{"dm",  1,   10,  kM},  Symbol{"cm", 1, 100, kM},
     Symbol{"mm",  1,    1e3,  kM},  Symbol{"um",  1,    1e6, kM},  Symbol{"µm",  1,   1e6, kM},  Symbol{"nm", 1, 1e9, kM},
+    Symbol{"\u03bcm", 1, 1e6, kM}, Symbol{"\u03bcs", 1, 1e6, kS}, Symbol{"\u03bcJ", 1, 1e6, kJ},
     Symbol{"l",   1,    1e3,  {0, 3, 0, 0}},
     Symbol{"s",   1,    1,    kS},  Symbol{"ms",  1,    1e3, kS},  Symbol{"us",  1,   1e6, kS},  Symbol{"µs", 1, 1e6, kS},
     Symbol{"ns",  1,    1e9,  kS},  Symbol{"min", 60,   1,   kS},  Symbol{"h",   3600, 1,  kS},
@@ -120,6 +123,12 @@ class UnitParser {
     const std::string_view name = without_superscript(symbol);
     const auto found = std::find_if(kSymbols.begin(), kSymbols.end(),
                                     [&](const Symbol& s) { return s.text == name; });
+    if (name.empty())
+      fail(whole_,
+           fmt::format(", where a unit is missing before \"{}\"; write the reciprocal of a unit "
+                       "with a negative power, as in \"1 s-1\"",
+                       rest_),
+           expected_);
     if (found == kSymbols.end()) fail_unknown(name);
     rest_.remove_prefix(name.size());
 

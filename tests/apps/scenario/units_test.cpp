@@ -48,7 +48,11 @@ TEST(Units, ComeInEveryCommonSpelling) {
   }
   EXPECT_EQ(parse_quantity("1 N/mm2", kPressure), 1e6);
   EXPECT_EQ(parse_quantity("1 kg/m/s2", kPressure), 1.0);
-  EXPECT_EQ(parse_quantity("3 µm", kLength), 3e-6);
+  for (const char* micro : {"\u00b5", "\u03bc"}) {  // micro sign and Greek letter
+    EXPECT_EQ(parse_quantity(std::string("3 ") + micro + "m", kLength), 3e-6);
+    EXPECT_EQ(parse_quantity(std::string("3 ") + micro + "s", kTime), 3e-6);
+    EXPECT_EQ(parse_quantity(std::string("3 ") + micro + "J", kEnergy), 3e-6);
+  }
   EXPECT_EQ(parse_quantity("90°", kAngle), 0.5 * std::numbers::pi);
 }
 
@@ -85,6 +89,9 @@ TEST(Units, AroundNoNumberAreRefused) {
 }
 
 TEST(Units, CutShortAreRefused) {
+  EXPECT_EQ(error_of("1 /Hz", kTime),
+            "got \"1 /Hz\", where a unit is missing before \"/Hz\"; write the reciprocal of a unit "
+            "with a negative power, as in \"1 s-1\"; expected a time (s, ms, us, min, h)");
   EXPECT_THAT(error_of("1 kg/", kDensity), HasSubstr("ends in the middle of a unit"));
   EXPECT_THAT(error_of("1 m^", kArea), HasSubstr("a power is not an integer"));
   EXPECT_THAT(error_of("1 m22", kArea), HasSubstr("a power is not an integer"));
