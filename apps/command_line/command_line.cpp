@@ -857,7 +857,11 @@ int dispatch(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // help, version
+    if (error.get_exit_code() == 0) {  // help, version
+      app.exit(error);
+      flush_output();
+      return kDone;
+    }
     print_error(usage_error(app, error, argc < 2 ? "" : argv[1]));
     return kUsage;
   }

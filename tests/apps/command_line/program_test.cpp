@@ -361,6 +361,18 @@ TEST_F(Command, CheckThatCannotPrintItsAnswerFails) {
   EXPECT_THAT(outcome.err, HasSubstr("standard output: cannot be written: No space left"));
 }
 
+TEST_F(Command, HelpAndVersionThatCannotBePrintedFail) {
+  const auto full = [] { ::dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); };
+
+  for (const char* asked : {"--help", "--version"}) {
+    const Outcome outcome = outcome_of({asked}, full);
+
+    EXPECT_EQ(outcome.exit_code, kFailed) << asked;
+    EXPECT_THAT(outcome.err, HasSubstr("standard output: cannot be written: No space left"));
+  }
+  EXPECT_EQ(outcome_of({"--version"}).exit_code, kDone);
+}
+
 TEST_F(Command, CheckNamesTheBodyWhoseNumbersAreTooExtreme) {
   EXPECT_THAT(outcome_of({"check", scenario(), "--set", "membranes.sheet.thickness=1e-300 m"}).err,
               HasSubstr("membranes.sheet: \"sheet\": mass is"));
