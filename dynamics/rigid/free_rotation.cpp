@@ -22,7 +22,7 @@ constexpr double kLongestTurn = 0.125;
 /// How many parts a time is cut into, so that each turns by little.
 int parts_of(double turn) noexcept {
   constexpr double kMost = 1e6;  // no motion that could be followed any more
-  const double parts = std::ceil(turn / kLongestTurn);
+  const double parts = std::ceil(std::abs(turn) / kLongestTurn);
   return parts > 1.0 ? static_cast<int>(std::min(parts, kMost)) : 1;
 }
 

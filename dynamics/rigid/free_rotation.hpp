@@ -40,6 +40,7 @@ Vec3 partly_held_spin(const Vec3& momentum, const Vec3& moments, const Quat& ori
 /// held at rest, so that the energy stays to the error of the method, a commutator-free one of
 /// fourth order (Celledoni, Marthinsen & Owren, Future Gener. Comput. Syst. 19 (2003) 341); exact
 /// about a single axis.
+/// @param time  s, back where it is negative
 Vec3 partly_held_turn(const Vec3& momentum, const Vec3& moments, const Quat& orientation,
                       const HeldTurning& held, double time) noexcept;
 

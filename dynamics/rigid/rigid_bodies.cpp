@@ -66,6 +66,52 @@ Kicked kick_rotation(const Vec3& before, const Vec3& torque, double damping,
   return {after, work};
 }
 
+/// J, of spins about some axes.
+double energy_of(const Vec3& spin, const Vec3& moments, const Quat& orientation) {
+  return 0.5 * spin.dot(inertia_in_world(moments, orientation) * spin);
+}
+
+/// A body that is held about some axes, with its momentum about the others.
+struct HeldBody {
+  const Vec3& moments;      ///< kg m²
+  const Quat& orientation;  ///< at the moment of the forces
+  Vec3 momentum;            ///< kg m²/s
+  HeldTurning holding;
+
+  /// J, of the motion about the free axes, at an orientation.
+  double free_energy(const Quat& at) const noexcept {
+    const Vec3 spin = partly_held_spin(momentum, moments, at, holding) - holding.spin;
+    return energy_of(spin, moments, at);
+  }
+  /// J, that the hold adds to that while the body turns over a time (s), back where it is negative.
+  double gained_in(double time) const noexcept {
+    const Vec3 turn = partly_held_turn(momentum, moments, orientation, holding, time);
+    return free_energy(turned(orientation, turn, 1.0)) - free_energy(orientation);
+  }
+};
+
+/// What a hold that turns a body does to its motion about the free axes, from the middle of the
+/// last drift to the middle of the next one. The momentum about the free axes stays, in a drift and
+/// where the hold takes another spin; the inertia about them and the part that the held spin has of
+/// that momentum do not. Of the work of a step the ledger counts what is done before the moment of
+/// the forces by the lengths of the drifts (Simulation::account), and the kinetic energy goes with
+/// it.
+/// @param before, after  the kick
+StepWork work_of_hold(const HeldBody& before, const HeldBody& after, const StepLengths& lengths) {
+  StepWork work;
+  if (before.holding.spin.isZero(0.0) && after.holding.spin.isZero(0.0)) return work;
+  HeldBody led = before;
+  led.holding = after.holding;
+  const double last_drift = 2.0 * lengths.kick - lengths.drift;
+  const double earlier = led.free_energy(led.orientation) - before.free_energy(before.orientation) -
+                         before.gained_in(-0.5 * last_drift);
+  const double later = after.gained_in(0.5 * lengths.drift);
+  const double share = 0.5 * lengths.drift / lengths.kick;  // of a step, after that moment
+  work.external = earlier + later;
+  work.kinetic = (1.0 - share) * later - share * earlier;
+  return work;
+}
+
 }  // namespace
 
 RigidBodies::RigidBodies(std::span<const RigidBody> bodies, const NodeState& state) {
@@ -120,7 +166,7 @@ double RigidBodies::turning_energy(const NodeState& state, const NodeProperties&
     const std::size_t reference = index_of(body.node);
     const Vec3 spin =
         free_turns(properties.held[reference]).cwiseProduct(state.angular_velocity[reference]);
-    energy += 0.5 * spin.dot(inertia_in_world(body.moments, state.orientation[reference]) * spin);
+    energy += energy_of(spin, body.moments, state.orientation[reference]);
   }
   return energy;
 }
@@ -182,6 +228,12 @@ Vec3 RigidBodies::turn(Body& body, const Turning& now, const MotionOptions& opti
                                           : Vec3(body.momentum + lengths.kick * now.torque);
     return free_turn(body.momentum, body.moments, now.orientation, lengths.drift);
   }
+  return turn_about_free_axes(body, now, options, lengths, work);
+}
+
+/// The same of a body that is held about one or two axes.
+Vec3 RigidBodies::turn_about_free_axes(Body& body, const Turning& now, const MotionOptions& options,
+                                       const StepLengths& lengths, StepWork& work) {
   const HeldTurning holding{free_turns(now.held), body.held_spin};
   const HeldTurning at_rest{holding.is_free, Vec3::Zero()};
   // kg m²/s, what the held spins have of the momentum about the free axes.
@@ -190,11 +242,15 @@ Vec3 RigidBodies::turn(Body& body, const Turning& now, const MotionOptions& opti
   const auto spin_of = [&](const Vec3& momentum) {
     return partly_held_spin(momentum, body.moments, now.orientation, at_rest);
   };
+  const HeldBody held_before{
+      body.moments, now.orientation, body.momentum, {holding.is_free, now.last_held_spin}};
   const Vec3 before = holding.is_free.cwiseProduct(body.momentum) - of_held;
   const Kicked kicked = kick_rotation(before, holding.is_free.cwiseProduct(now.torque),
                                       options.damping, lengths, spin_of);
   work += kicked.work;
   body.momentum = kicked.after + of_held;
+  work +=
+      work_of_hold(held_before, {body.moments, now.orientation, body.momentum, holding}, lengths);
   return partly_held_turn(body.momentum, body.moments, now.orientation, holding, lengths.drift);
 }
 
@@ -229,8 +285,8 @@ StepWork RigidBodies::step(Body& body, NodeState& state, const NodeForces& force
   const Kicked translation = kick_translation(state.velocity[reference], forces.force[reference],
                                               properties.mass[reference], held, options, lengths);
   StepWork work = translation.work;
+  const Turning now{forces.torque[reference], state.orientation[reference], held, body.held_spin};
   body.held_spin = held_turns(held).cwiseProduct(state.angular_velocity[reference]);
-  const Turning now{forces.torque[reference], state.orientation[reference], held};
   state.angular_velocity[reference] = turn(body, now, options, lengths, work) / lengths.drift;
   state.velocity[reference] = translation.after;
   work.external += lengths.kick * lead(body, lengths.drift, forces, state);

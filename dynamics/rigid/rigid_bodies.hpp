@@ -23,7 +23,8 @@ namespace plekton::dynamics {
 /// leapfrog moves them. So are its own, with the mean angular velocity of the drift.
 ///
 /// Momentum of translation and rotation is what the forces give, to rounding. The kinetic energy of
-/// the turning is 1/2 L(t - dt/2) . I(t)^-1 L(t + dt/2), as the leapfrog has it.
+/// the turning is 1/2 L(t - dt/2) . I(t)^-1 L(t + dt/2), as the leapfrog has it. What is held about
+/// some axes and turns about them is sped up or slowed down about the others: external work.
 ///
 /// Numerical damping scales the components of the torque along the principal axes; where some axes
 /// are held, those along the axes of the world.
@@ -91,11 +92,14 @@ class RigidBodies {
     Vec3 torque;  ///< N m
     Quat orientation;
     Held held;
+    Vec3 last_held_spin;  ///< rad/s, until now
   };
 
   static void start(Body& body, NodeState& state, const NodeProperties& properties);
   static Vec3 turn(Body& body, const Turning& now, const MotionOptions& options,
                    const StepLengths& lengths, StepWork& work);
+  static Vec3 turn_about_free_axes(Body& body, const Turning& now, const MotionOptions& options,
+                                   const StepLengths& lengths, StepWork& work);
   static double lead(const Body& body, double drift, const NodeForces& forces, NodeState& state);
   static StepWork step(Body& body, NodeState& state, const NodeForces& forces,
                        const NodeProperties& properties, const MotionOptions& options,

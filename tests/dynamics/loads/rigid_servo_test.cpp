@@ -215,6 +215,30 @@ TEST(TorqueServo, LeavesATiltFree) {
   EXPECT_GT(up.head<2>().norm(), 1e-3);
 }
 
+// What touches nothing is turned as fast as the servo may while it wants a torque, and stops then:
+// about the other axes it is sped up and slowed down, also at these moments.
+TEST(TorqueServo, KeepsTheEnergyBalanceOfABodyThatIsFreeAboutTheOtherAxes) {
+  Scene scene = blade_between_spheres(Held::translation);
+  scene.planes.clear();
+  for (std::size_t sphere = 0; sphere < 2; ++sphere) scene.state.position[sphere].y() *= 50.0;
+  const std::size_t node = index_of(scene.rigid_bodies[0].node);
+  scene.state.angular_velocity[node] = Vec3(3.0, 5.0, 0.0);
+  scene.rigid_bodies[0].moments = Vec3(1e-3, 2e-3, 2.5e-3);
+  scene.loads.body_servos[0].largest_speed = 7.0;
+  scene.loads.body_servos[0].factor = TimeTable({{0.1, 0.0}, {0.2, 1.0}, {0.5, 1.0}, {0.6, 0.0}});
+  auto simulation = simulation_of(std::move(scene), 1e-4);
+  double worst = 0.0, most = 0.0;
+
+  while (simulation.step_until(1.0)) {
+    const Energy energy = simulation.energy();
+    worst = std::max(worst, energy.closure());
+    most = std::max(most, std::abs(energy.external_work) / energy.initial);
+  }
+
+  EXPECT_GT(most, 0.1);
+  EXPECT_LT(worst, 1e-6);
+}
+
 // A plate that is pressed on a bed of held spheres bears a torque by friction alone, of at most
 // 0.5 * 90 N * 27 mm.
 TEST(TorqueServo, ReachesATorqueThatFrictionBears) {
