@@ -3,6 +3,7 @@
 
 #include "apps/scene/at_start.hpp"
 #include "apps/scene/node_set.hpp"
+#include "dynamics/model/scene_figures.hpp"
 
 #include <fmt/format.h>
 
@@ -60,8 +61,8 @@ std::string problem_of(const ReactionSettings& settings, const BuiltReaction& re
   if (settings.kind == ReactionKind::nodes || is_any_held(reaction.nodes, held)) return {};
   return fmt::format(
       "none of these nodes of \"{}\" is held or moved, so nothing supports them; "
-      "expected nodes of its `hold` or of a load of kind \"motion\", or kind = "
-      "\"contacts\"",
+      "expected nodes of its `hold` or of a load of kind \"motion\", a rigid body that a servo "
+      "drives, or kind = \"contacts\"",
       name_of(settings.nodes, built));
 }
 
@@ -144,8 +145,7 @@ void require_distance(const Scenario& scenario, const BuiltScene& built, const S
 
 void add_reactions(const Scenario& scenario, BuiltScene& built, const StageBodies* bodies) {
   Problems problems;
-  const std::vector<Held> held =
-      dynamics::held_with_motions(built.scene.properties.held, built.scene.loads.motions);
+  const std::vector<Held> held = dynamics::held_with_loads(built.scene);
   for (std::size_t i = 0; i < scenario.output.reactions.size(); ++i) {
     const ReactionSettings& settings = scenario.output.reactions[i];
     const AtStart at_start(

@@ -102,12 +102,17 @@ Held driven_axis(const BodyServo& servo) noexcept {
   return (servo.turns() ? kAbout : kAlong)[static_cast<std::size_t>(servo.axis)];
 }
 
-Scene held_as_prescribed(Scene scene) {
-  scene.properties.held = held_with_motions(std::move(scene.properties.held), scene.loads.motions);
+std::vector<Held> held_with_loads(const Scene& scene) {
+  std::vector<Held> all = held_with_motions(scene.properties.held, scene.loads.motions);
   for (const BodyServo& servo : scene.loads.body_servos) {
-    Held& held = scene.properties.held[index_of(scene.rigid_bodies[servo.body].node)];
+    Held& held = all[index_of(scene.rigid_bodies[servo.body].node)];
     held = held | driven_axis(servo);
   }
+  return all;
+}
+
+Scene held_as_prescribed(Scene scene) {
+  scene.properties.held = held_with_loads(scene);
   return scene;
 }
 

@@ -42,6 +42,9 @@ geometry::ExclusionGroups rigid_groups(const Scene& scene);
 /// The axis along or about which a servo moves its body.
 Held driven_axis(const BodyServo& servo) noexcept;
 
+/// By node, what is held by itself, prescribed by motions or driven by servos of rigid bodies.
+std::vector<Held> held_with_loads(const Scene& scene);
+
 /// The scene with prescribed motions held.
 Scene held_as_prescribed(Scene scene);
 

@@ -352,6 +352,35 @@ nodes = { min = ["5 m", "5 m", "5 m"], max = ["6 m", "6 m", "6 m"] }
               HasSubstr("\"sheet\" has no node there"));
 }
 
+// The servo bears the weight of the lid before it touches anything.
+TEST_F(Outputs, OfSupportsTakeARigidBodyThatAServoDrives) {
+  set_output(R"([[output.reactions]]
+name = "press"
+kind = "support"
+rigid_body = "press"
+[[rigid_bodies]]
+name = "press"
+shape = { kind = "box", size = [0.1, 0.1, 0.01] }
+translate = [2, 0, 1]
+thickness = "2 mm"
+material = "gravel"
+mass = 2
+[[loads]]
+kind = "servo"
+rigid_body = "press"
+direction = "-z"
+force = "50 N"
+speed = "1 mm/s"
+)");
+  const Outcome outcome = outcome_of({"run", scenario(), "--out", out()});
+  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+
+  const Table table(test::bytes_of(folder_ / "out/reactions.csv"));
+
+  EXPECT_NEAR(table.at(table.rows.at(1), "press.force_z (N)"), -2.0 * 9.81, 1e-9);
+  EXPECT_EQ(table.at(table.rows.at(1), "press.force_x (N)"), 0.0);
+}
+
 TEST_F(Outputs, AreListedFromTheTablesThatWriteThem) {
   const std::string text = outcome_of({"list"}).out;
 
