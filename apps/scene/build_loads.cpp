@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace plekton::apps {
@@ -75,12 +77,17 @@ class LoadBuilder {
           fmt::format("{}: its force and torque are 0: it does nothing, unless a program sets it "
                       "as it runs; give one, or leave it out",
                       current_->path));
+    warn_where_off(settings.load.factor);
     forced_by_.push_back(current_);
     loads_.forces.push_back(std::move(load));
   }
 
   void add(const GroundSpringSettings& settings) {
     const std::vector<NodeId> nodes = nodes_of_set(settings.nodes);
+    if (settings.springs.stiffness.isZero(0.0))
+      warn(fmt::format("{}: its stiffness is 0: it does nothing; give one, or leave it out",
+                       current_->path));
+    sprung_by_.push_back(current_);
     loads_.ground_springs.push_back({nodes, settings.springs.stiffness, places_of(nodes)});
   }
 
@@ -131,6 +138,7 @@ class LoadBuilder {
           fmt::format("{}: its pressure is 0, without gas or by_volume: it does nothing, unless a "
                       "program sets it as it runs; give one, or leave it out",
                       current_->path));
+    if (!load.gas) warn_where_off(load.factor);
     load.factor = begun(load.factor);
     if (load.gas && start_ != nullptr) load.start_volume = volume_of(load);
     loads_.pressures.push_back(std::move(load));
@@ -150,6 +158,7 @@ class LoadBuilder {
 
   void add(dynamics::PlaneServo servo) {
     drive(servo.plane);
+    warn_where_off(servo.factor);
     servo.factor = begun(servo.factor);
     loads_.servos.push_back(servo);
   }
@@ -160,6 +169,7 @@ class LoadBuilder {
     const auto body = std::find_if(bodies.begin(), bodies.end(),
                                    [&](const auto& one) { return one.node == reference; });
     dynamics::BodyServo servo = settings.servo;
+    warn_where_off(servo.factor);
     servo.factor = begun(servo.factor);
     servo.body = static_cast<std::size_t>(body - bodies.begin());
     dynamics::PrescribedMotion along;  // as one that no other motion may prescribe too
@@ -253,6 +263,23 @@ class LoadBuilder {
         current_->path, membrane.report->changed.flipped_facets, all, membrane.name));
   }
 
+  /// Of what does nothing before the run ends; of stages nobody knows when that is.
+  /// @param factor  counts from when the load begins
+  void warn_where_off(const dynamics::TimeTable& factor) {
+    const double end =
+        scenario_.stage ? std::numeric_limits<double>::infinity() : scenario_.simulation.duration;
+    const auto& rows = factor.rows();
+    const bool is_on =
+        factor.at(0.0) != 0.0 || std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
+          return row.value != 0.0 && row.time > 0.0 && row.time < end;
+        });
+    if (is_on || (!scenario_.stage && factor.at(end) != 0.0)) return;
+    warn(
+        fmt::format("{}: its factor is 0 at all times until the run ends: it does nothing; give "
+                    "rows of other numbers before that, or leave the load out",
+                    current_->path));
+  }
+
   /// Whether a force or torque has a part in which a node is free.
   static bool can_move(const dynamics::NodalForce& load, dynamics::Held held) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -262,21 +289,30 @@ class LoadBuilder {
     return false;
   }
 
-  /// By motions too, which may come after the forces.
+  static bool can_move(const dynamics::GroundSprings& load, dynamics::Held held) {
+    return !dynamics::free_axes(held).cwiseProduct(load.stiffness).isZero(0.0);
+  }
+
+  /// By motions and servos too, which may come after the loads.
   void warn_about_held_nodes() {
-    const std::vector<dynamics::Held> held =
-        dynamics::held_with_motions(built_.scene.properties.held, loads_.motions);
-    for (std::size_t i = 0; i < loads_.forces.size(); ++i) {
-      const dynamics::NodalForce& load = loads_.forces[i];
-      if (load.force.isZero(0.0) && load.torque.isZero(0.0)) continue;
-      if (std::any_of(load.nodes.begin(), load.nodes.end(),
-                      [&](NodeId node) { return can_move(load, held[index_of(node)]); }))
+    const std::vector<dynamics::Held> held = dynamics::held_with_loads(built_.scene);
+    warn_where_held(loads_.forces, forced_by_, held, "along its force and about its torque");
+    warn_where_held(loads_.ground_springs, sprung_by_, held, "along its springs");
+  }
+
+  /// @param by  the load of each
+  template <class Load>
+  void warn_where_held(const std::vector<Load>& loads, const std::vector<const LoadSettings*>& by,
+                       const std::vector<dynamics::Held>& held, std::string_view axes) {
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      const auto moves = [&](NodeId node) { return can_move(loads[i], held[index_of(node)]); };
+      if (!can_move(loads[i], dynamics::Held::nothing) ||
+          std::any_of(loads[i].nodes.begin(), loads[i].nodes.end(), moves))
         continue;
       warn(
-          fmt::format("{}: all that it acts on is held or moved as told along its force and about "
-                      "its torque, so that it moves nothing; free something (hold, motions), or "
-                      "take other nodes",
-                      forced_by_[i]->path));
+          fmt::format("{}: all that it acts on is held or moved as told {}, so that it moves "
+                      "nothing; free something (hold, motions, servos), or take other nodes",
+                      by[i]->path, axes));
     }
   }
 
@@ -305,6 +341,7 @@ class LoadBuilder {
   const StageStart* start_ = nullptr;           // of the load; nothing: it begins with the scene
   std::vector<const LoadSettings*> driven_;     // by plane
   std::vector<const LoadSettings*> forced_by_;  // by place among the forces
+  std::vector<const LoadSettings*> sprung_by_;  // likewise among the ground springs
   bool has_gravity_ = false;
 };
 

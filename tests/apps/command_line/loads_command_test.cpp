@@ -91,6 +91,62 @@ TEST_F(Loads, AreAWarningWhereTheyCanDoNothing) {
   EXPECT_THAT(outcome.out, HasSubstr("warning: loads.calm: its pressure is 0, without gas"));
 }
 
+/// The run ends after 2 ms.
+TEST_F(Loads, AreAWarningWhereTheirFactorIsZeroUntilTheRunEnds) {
+  const std::string force =
+      "kind = \"force\"\nmembrane = \"sheet\"\nnodes = \"all\"\nforce = [0, 0, 1]\n";
+  const std::string pressure = "kind = \"pressure\"\nmembrane = \"ball\"\npressure = \"1 kPa\"\n";
+  const std::string never = "factor = [[0, 0]]\n",
+                    late = "factor = [[\"5 ms\", 0], [\"6 ms\", 1]]\n";
+  const std::string at_once = "factor = [[0, 1], [\"1 ms\", 0]]\n";
+  const std::string in_time = "factor = [[\"1 ms\", 0], [\"3 ms\", 1]]\n";
+  const Outcome outcome = check(
+      "[[loads]]\nname = \"never\"\n" + force + never + "[[loads]]\nname = \"late\"\n" + force +
+      late + "[[loads]]\nname = \"slack\"\n" + pressure + never +
+      "[[loads]]\nname = \"lid\"\nkind = \"servo\"\nplane = \"lid\"\nforce = 1\nspeed = 1\n" +
+      late + "[[loads]]\nname = \"first\"\n" + force + at_once + "[[loads]]\nname = \"then\"\n" +
+      force + in_time + "[[loads]]\nname = \"gas\"\n" + pressure + "gas = {}\n" + never);
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  for (const char* name : {"never", "late", "slack", "lid"})
+    EXPECT_THAT(outcome.out, HasSubstr(fmt::format("warning: loads.{}: its factor is 0", name)));
+  for (const char* name : {"first", "then", "gas"})
+    EXPECT_THAT(outcome.out, Not(HasSubstr(fmt::format("warning: loads.{}:", name))));
+}
+
+TEST_F(Loads, AreAWarningAsGroundSpringsThatCanDoNothing) {
+  const std::string springs = "kind = \"ground_springs\"\nmembrane = ";
+  const Outcome outcome =
+      check("[[loads]]\nname = \"held\"\n" + springs +
+            "\"net\"\nnodes = \"rim\"\nstiffness = [\"1 kN/m\", 0, 0]\n"
+            "[[loads]]\nname = \"soft\"\n" +
+            springs +
+            "\"sheet\"\nnodes = \"all\"\nstiffness = [0, 0, 0]\n"
+            "[[loads]]\nname = \"firm\"\n" +
+            springs + "\"net\"\nnodes = \"all\"\nstiffness = [\"1 kN/m\", 0, 0]\n");
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("warning: loads.held: all that it acts on is held or moved as told along "
+                        "its springs"));
+  EXPECT_THAT(outcome.out, HasSubstr("warning: loads.soft: its stiffness is 0"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("warning: loads.firm")));
+}
+
+TEST_F(Loads, AreAWarningAsForcesThatAServoBears) {
+  const std::string force = "kind = \"force\"\nrigid_body = \"box\"\nforce = ";
+  const Outcome outcome = check(
+      "[[loads]]\nname = \"borne\"\n" + force + "[0, 0, 1]\n[[loads]]\nname = \"along\"\n" + force +
+      "[1, 0, 1]\n[[loads]]\nname = \"press\"\nkind = \"servo\"\nrigid_body = \"box\"\n"
+      "direction = \"-z\"\nforce = 1\nspeed = 1\n[[rigid_bodies]]\nname = \"box\"\n"
+      "shape = { kind = \"box\", size = [0.04, 0.04, 0.02] }\ntranslate = [0.12, 0, 0]\n"
+      "thickness = \"2 mm\"\nmaterial = \"stone\"\nmass = 1\n");
+
+  EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("warning: loads.borne: all that it acts on is held or moved"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("warning: loads.along")));
+}
+
 TEST_F(Loads, AreNoWarningWhereTheyMoveSomething) {
   const Outcome outcome = check(
       "[[loads]]\nkind = \"force\"\nmembrane = \"net\"\nnodes = \"all\"\nforce = [0, 0, 1]\n"
