@@ -87,6 +87,17 @@ bool are_turned(const NodeSetSettings& set, const Scenario& scenario) {
   return membrane.mode != MembraneMode::truss && membrane.bending_stiffness != 0.0;
 }
 
+/// Of a displacement or velocity along axes that a motion leaves free.
+void require_components(Section& section, std::string_view key, const Vec3& motion, Held held) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (dynamics::holds_along(held, axis) || motion[axis] == 0.0) continue;
+    section.complain(key,
+                     fmt::format("is {} along {}, which components leaves free; expected 0 there, "
+                                 "or components that name {}",
+                                 motion[axis], "xyz"[axis], "xyz"[axis]));
+  }
+}
+
 /// Whether the motion has a part that goes with the change of its factor.
 bool follows_change(const dynamics::PrescribedMotion& motion) {
   const bool turns = motion.turn && std::abs(motion.turn->angle) > 0.0;
@@ -111,6 +122,8 @@ MotionSettings read_motion(Section& section, const Scenario& scenario) {
     if (section.has("displacement"))
       motion.displacement = section.vector("displacement", {kLength});
     if (section.has("velocity")) motion.velocity = section.vector("velocity", {kVelocity});
+    require_components(section, "displacement", motion.displacement, motion.held);
+    require_components(section, "velocity", motion.velocity, motion.held);
   }
   const bool turns_with_axis = motion.turn && are_turned(settings.nodes, scenario);
   section.tell_default("hold_rotation", "whether they are turned");

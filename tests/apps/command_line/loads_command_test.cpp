@@ -389,6 +389,17 @@ TEST_F(Loads, AreRefusedAsMotionsThatDoNotSayHow) {
                  "loads.a.components: a turn moves nodes along all axes");
 }
 
+TEST_F(Loads, AreRefusedAsMotionsAlongComponentsThatTheyLeaveFree) {
+  const std::string motion = "kind = \"motion\"\nmembrane = \"sheet\"\nnodes = \"x_max\"\n";
+  expect_problem(motion + "components = \"x\"\nvelocity = [0, 0, 1]\n",
+                 "loads.a.velocity: is 1 along z, which components leaves free; expected 0 there, "
+                 "or components that name z");
+  expect_problem(motion +
+                     "components = \"yz\"\ndisplacement = [\"1 mm\", 1, 0]\n"
+                     "factor = [[0, 0], [1, 1]]\n",
+                 "loads.a.displacement: is 0.001 along x, which components leaves free");
+}
+
 TEST_F(Loads, AreRefusedAsMotionsWhoseFactorNeverChanges) {
   const std::string motion = "kind = \"motion\"\nmembrane = \"sheet\"\nnodes = \"x_max\"\n";
   const std::string remedy =
