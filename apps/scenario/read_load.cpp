@@ -2,6 +2,7 @@
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/read_load_targets.hpp"
 #include "apps/scenario/read_sections.hpp"
+#include "dynamics/loads/surface_pressure_check.hpp"
 
 #include <fmt/format.h>
 
@@ -176,6 +177,18 @@ SheetDampingSettings read_sheet_damping(Section& section, const Scenario& scenar
           {{}, section.quantity("ratio", {kNumber, kNotNegative})}};
 }
 
+/// No gas has less than none.
+void require_gas_pressure(Section& section, const dynamics::SurfacePressure& load) {
+  const double lowest = dynamics::lowest_gas_pressure(load);
+  if (!(lowest < 0.0)) return;
+  section.complain(
+      "pressure",
+      fmt::format("times its factor falls to {} Pa, which with the outside_pressure of "
+                  "{} Pa leaves the gas {} Pa; expected a sum of at least 0: give less "
+                  "suction, or leave gas out for one that does not depend on the volume",
+                  lowest - load.gas->outside_pressure, load.gas->outside_pressure, lowest));
+}
+
 PressureSettings read_pressure(Section& section, const Scenario& scenario) {
   PressureSettings settings;
   settings.membrane = read_membrane_name(section, scenario).value_or(0);
@@ -197,6 +210,7 @@ PressureSettings read_pressure(Section& section, const Scenario& scenario) {
     gas.exponent = table->quantity("exponent", {kNumber, kPositive}, gas.exponent);
     table->finish();
     settings.load.gas = gas;
+    require_gas_pressure(section, settings.load);
   }
   return settings;
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ostream>
 #include <tuple>
 
@@ -138,12 +139,23 @@ std::optional<std::array<std::size_t, 2>> opposite_neighbours(
   return two;
 }
 
+double lowest_gas_pressure(const SurfacePressure& load) noexcept {
+  const std::vector<TimeTable::Row>& rows = load.factor.rows();
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const TimeTable::Row& row : rows)
+    lowest = std::min(lowest, load.gas->outside_pressure + load.pressure * row.value);
+  return lowest;
+}
+
 void list_problems(const SurfacePressure& load, const Scene& scene, const std::string& name,
                    std::ostream& problems) {
   const std::vector<geometry::Facet> facets = facets_of(load, scene, name, problems);
   if (!std::isfinite(load.pressure))
     problems << name << ": its pressure is " << load.pressure << " Pa; it must be finite\n";
   if (load.gas) list_gas_problems(*load.gas, name, problems);
+  if (load.gas && lowest_gas_pressure(load) < 0.0)
+    problems << name << ": leaves its gas " << lowest_gas_pressure(load)
+             << " Pa, outside pressure and pressure times factor; let no sum be below 0\n";
   if (load.by_volume) list_row_problems(*load.by_volume, name, problems);
   if (load.by_volume && (load.gas || load.pressure != 0.0))
     problems << name << ": has a pressure by volume and another pressure or a gas; give one\n";

@@ -23,6 +23,10 @@ bool are_closed(std::span<const geometry::Facet> facets);
 std::optional<std::array<std::size_t, 2>> opposite_neighbours(
     std::span<const geometry::Facet> facets);
 
+/// Pa, absolute, the lowest at any time that a load gives its gas in the volume of the start.
+/// @param load  has a gas
+double lowest_gas_pressure(const SurfacePressure& load) noexcept;
+
 /// Writes a line for everything that is wrong with a pressure: facets that do not exist or are
 /// named twice, neighbours that face opposite ways, a gas that is not enclosed, numbers out of
 /// range.

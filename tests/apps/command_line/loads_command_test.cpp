@@ -475,5 +475,20 @@ TEST_F(Loads, AreRefusedAsGasInAnOpenSurface) {
                  "loads.a.gas.exponent: got 0; expected");
 }
 
+TEST_F(Loads, AreRefusedAsGasOfLessThanNoPressure) {
+  const std::string ball = "kind = \"pressure\"\nmembrane = \"ball\"\n";
+  expect_problem(ball + "pressure = \"-150 kPa\"\ngas = { outside_pressure = \"100 kPa\" }\n",
+                 "loads.a.pressure: times its factor falls to -150000 Pa, which with the "
+                 "outside_pressure of 100000 Pa leaves the gas -50000 Pa");
+  expect_problem(ball +
+                     "pressure = \"60 kPa\"\ngas = { outside_pressure = \"100 kPa\" }\n"
+                     "factor = [[0, 1], [\"1 ms\", -2], [\"2 ms\", 0]]\n",
+                 "leaves the gas -20000 Pa");
+  EXPECT_EQ(check("[[loads]]\nname = \"a\"\n" + ball +
+                  "pressure = \"-100 kPa\"\ngas = { outside_pressure = \"100 kPa\" }\n")
+                .exit_code,
+            kDone);
+}
+
 }  // namespace
 }  // namespace plekton::apps::loads_command_test

@@ -322,6 +322,21 @@ TEST(SurfacePressure, OfAGasIsRefusedOnAnOpenSurface) {
   EXPECT_THAT(problems_of(scene), HasSubstr("surface pressure 0: a gas needs a closed surface"));
 }
 
+TEST(SurfacePressure, OfAGasIsRefusedBelowNone) {
+  Scene scene;
+  scene.materials = {{1e6, 0.3, 0.4}};
+  SurfacePressure load;
+  load.facets = add_membrane(scene, geometry::icosphere(0.1, 1));
+  load.gas = Gas{1e5, 1.0};
+  load.pressure = 6e4;
+  load.factor = TimeTable({{0.0, 1.0}, {1.0, -2.0}, {2.0, 0.0}});
+  scene.loads.pressures.push_back(load);
+  EXPECT_THAT(problems_of(scene), HasSubstr("surface pressure 0: leaves its gas -20000 Pa"));
+
+  scene.loads.pressures[0].pressure = 5e4;  // a vacuum
+  EXPECT_EQ(problems_of(scene), "");
+}
+
 TEST(SurfacePressure, IsRefusedOnFacetsThatDoNotGoTogether) {
   Scene scene;
   scene.materials = {{1e6, 0.3, 0.4}};
