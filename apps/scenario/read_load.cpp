@@ -2,6 +2,7 @@
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/read_load_targets.hpp"
 #include "apps/scenario/read_sections.hpp"
+#include "dynamics/loads/plane_servo.hpp"
 #include "dynamics/loads/surface_pressure_check.hpp"
 
 #include <fmt/format.h>
@@ -250,12 +251,32 @@ void read_torque(Section& section, dynamics::BodyServo& servo) {
   servo.largest_speed = section.quantity("angular_speed", {kAngularVelocity, kPositive});
 }
 
+/// Of a plate that moves along a direction.
+/// @param name  of the plane or the body
+void require_plate(Section& section, const Scenario& scenario,
+                   std::span<const std::array<std::size_t, 2>> between, const Vec3& direction,
+                   std::string_view name) {
+  const auto normal = [&](std::size_t pair) { return scenario.planes[between[pair][0]].normal; };
+  const bool are_two = between.size() == 2;
+  if (are_two && dynamics::bound_a_plate(normal(0), normal(1), direction)) return;
+  section.complain(
+      "between",
+      fmt::format(
+          "got {}; expected the two pairs of planes that bound \"{}\" on its four sides, as "
+          "in [\"left\", \"right\", \"front\", \"back\"], or give its area",
+          are_two ? "two pairs of planes whose normals and the direction of the servo lie "
+                    "in one plane"
+                  : "one pair of planes, whose distance is no area",
+          name));
+}
+
 /// Planes bound the side of a cylinder in its length alone, and no sphere.
 void require_side(Section& section, const Scenario& scenario, const dynamics::PlaneServo& servo) {
   if (servo.between.empty() || servo.plane >= scenario.planes.size()) return;
   constexpr double kAlong = 1e-9;  // of unit vectors
   const PlaneSettings& plane = scenario.planes[servo.plane];
   const Vec3& of_end = scenario.planes[servo.between[0][0]].normal;
+  if (plane.is_flat()) require_plate(section, scenario, servo.between, plane.normal, plane.name);
   if (plane.form == contact::Plane::Form::sphere)
     section.complain("between", fmt::format("\"{}\" is a sphere; expected its area", plane.name));
   if (plane.form == contact::Plane::Form::cylinder &&
@@ -280,7 +301,8 @@ dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
 
 BodyServoSettings read_body_servo(Section& section, const Scenario& scenario) {
   BodyServoSettings settings;
-  settings.rigid_body = read_rigid_body_name(section, scenario).value_or(0);
+  const std::optional<std::size_t> body = read_rigid_body_name(section, scenario);
+  settings.rigid_body = body.value_or(0);
   settings.place = section.place_of("rigid_body");
   dynamics::BodyServo& servo = settings.servo;
   if (section.has("torque")) {
@@ -289,6 +311,9 @@ BodyServoSettings read_body_servo(Section& section, const Scenario& scenario) {
     read_servo_axis(section, "direction", servo);
     read_pressing(section, scenario, servo);
     servo.largest_speed = section.quantity("speed", {kVelocity, kPositive});
+    if (body && !servo.between.empty())
+      require_plate(section, scenario, servo.between, Vec3::Unit(servo.axis),
+                    scenario.rigid_bodies[*body].name);
   }
   servo.gain = section.quantity("gain", {kNumber, kGain}, servo.gain);
   servo.factor = read_factor(section);

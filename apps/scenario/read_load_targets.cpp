@@ -172,6 +172,7 @@ std::vector<std::array<std::size_t, 2>> read_plane_pairs(Section& section,
                                               "normals are not opposite; name them in pairs",
                                               names[i], names[i + 1]));
   }
+  if (2 * pairs.size() != names.size()) return {};
   return pairs;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/loads_check.hpp"
 
+#include "dynamics/loads/plane_servo.hpp"
 #include "dynamics/loads/surface_pressure_check.hpp"
 #include "dynamics/model/scene.hpp"
 #include "dynamics/model/scene_figures.hpp"
@@ -123,6 +124,7 @@ class LoadProblems {
     } else if (servo.axis < 0 || servo.axis > 2) {
       text_ << name << ": there is no axis " << servo.axis << ", only 0, 1 and 2\n";
     } else {
+      if (!servo.turns()) expect_plate(name, servo.between, Vec3::Unit(servo.axis));
       const NodeId node = scene_.rigid_bodies[servo.body].node;
       const std::vector<Held> held =
           held_with_motions(scene_.properties.held, scene_.loads.motions);
@@ -176,10 +178,27 @@ class LoadProblems {
              "normals are opposite\n";
   }
 
+  /// Two pairs of planes that leave an area across a direction, or none.
+  void expect_plate(const std::string& name, const std::vector<std::array<std::size_t, 2>>& between,
+                    const Vec3& direction) {
+    const auto exists_plane = [&](std::size_t pair) {
+      return between[pair][0] < scene_.planes.size();
+    };
+    if (between.empty()) return;
+    const bool are_two = between.size() == 2;
+    if (are_two && !(exists_plane(0) && exists_plane(1))) return;
+    expect(are_two && bound_a_plate(scene_.planes[between[0][0]].normal,
+                                    scene_.planes[between[1][0]].normal, direction),
+           name,
+           "the planes that it lies between bound no area across its direction; give two pairs of "
+           "planes, around its four sides, or its area alone");
+  }
+
   /// Planes bound the side of a cylinder in its length alone, and no ball.
   void expect_side(const std::string& name, const PlaneServo& servo) {
-    if (servo.between.empty() || servo.plane >= scene_.planes.size() || is_flat(servo.plane))
-      return;
+    if (servo.between.empty() || servo.plane >= scene_.planes.size()) return;
+    if (is_flat(servo.plane))
+      return expect_plate(name, servo.between, scene_.planes[servo.plane].normal);
     constexpr double kTolerance = 1e-9;  // of unit vectors
     const contact::Plane& plane = scene_.planes[servo.plane];
     const std::size_t end = servo.between[0][0];

@@ -19,6 +19,11 @@ double plate_area(double area, std::span<const std::array<std::size_t, 2>> betwe
   return area;
 }
 
+bool bound_a_plate(const Vec3& normal_a, const Vec3& normal_b, const Vec3& direction) noexcept {
+  constexpr double kTolerance = 1e-9;  // of unit vectors
+  return std::abs(normal_a.cross(normal_b).dot(direction)) > kTolerance;
+}
+
 double full_target(const PlaneServo& servo, std::span<const Plane> planes) {
   const Plane& plane = planes[servo.plane];
   const bool is_side = plane.form == Plane::Form::cylinder && !servo.between.empty();

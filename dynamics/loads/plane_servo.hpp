@@ -49,6 +49,11 @@ struct ServoPlate {
 double plate_area(double area, std::span<const std::array<std::size_t, 2>> between,
                   std::span<const contact::Plane> planes);
 
+/// Whether two pairs of planes bound an area across the direction in which a plate moves: the three
+/// do not lie in one plane.
+/// @param normal_a, normal_b  unit, of either pair
+bool bound_a_plate(const Vec3& normal_a, const Vec3& normal_b, const Vec3& direction) noexcept;
+
 /// What a servo wants where its factor is 1, with the planes where they are: N, or N m where it
 /// turns a body.
 double full_target(const PlaneServo& servo, std::span<const contact::Plane> planes);

@@ -338,6 +338,44 @@ TEST(ScenarioReader, BoundsTheSideOfACylinderByThePlanesAtItsEnds) {
               HasSubstr("\"ball\" is a sphere; expected its area"));
 }
 
+constexpr const char* kFrontAndBack = R"(
+[[planes]]
+name = "front"
+point = [0, -1, 0]
+normal = [0, 1, 0]
+material = "gravel"
+[[planes]]
+name = "back"
+point = [0, 1, 0]
+normal = [0, -1, 0]
+material = "gravel"
+)";
+
+TEST(ScenarioReader, BoundsAPlateByTwoPairsOfPlanesAroundIt) {
+  const std::string body =
+      "[[rigid_bodies]]\nname = \"box\"\nspheres = [{ centre = [0, 0, 0.5], radius = 0.1 }]\n"
+      "material = \"gravel\"\nmass = 1\n";
+  const auto servo = [&](const std::string& what, const std::string& between) {
+    return error_of(std::string(kGood) + kContainer + kFrontAndBack + body +
+                    "[[loads]]\nkind = \"servo\"\npressure = \"1 kPa\"\nspeed = \"1 m/s\"\n" +
+                    what + "\nbetween = [" + between + "]\n");
+  };
+  const std::string around = R"("left", "right", "front", "back")";
+
+  for (const std::string what : {"plane = \"lid\"", "rigid_body = \"box\"\ndirection = \"-z\""}) {
+    EXPECT_EQ(servo(what, around), "");
+    EXPECT_THAT(
+        servo(what, R"("left", "right")"),
+        HasSubstr("between: got one pair of planes, whose distance is no area; expected the "
+                  "two pairs of planes that bound"));
+    for (const char* pair : {R"("left", "right")", R"("floor", "lid")"})
+      EXPECT_THAT(servo(what, std::string(R"("right", "left", )") + pair),
+                  HasSubstr("whose normals and the direction of the servo lie in one plane"));
+  }
+  EXPECT_EQ(servo("rigid_body = \"box\"\ndirection = \"x\"", R"("floor", "lid", "front", "back")"),
+            "");
+}
+
 TEST(ScenarioReader, SaysNothingMoreOfAServoOnAPlaneThatIsNotThere) {
   const std::string error =
       error_of(edited("normal = [0, 0, 2]", "kind = \"cylinder\"\nradius = 1") + kContainer +

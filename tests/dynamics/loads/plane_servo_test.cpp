@@ -416,6 +416,25 @@ TEST(PlaneServo, IsRefusedWithoutATargetOrWithAPlaneThatIsDrivenAlready) {
   EXPECT_THAT(problems, HasSubstr("motion of a plane 0: plane 0 has a velocity of its own"));
 }
 
+TEST(PlaneServo, IsRefusedBetweenPlanesThatBoundNoAreaOfAFlatPlate) {
+  Scene scene = grain_under_a_plate();
+  for (const Vec3& normal : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())})
+    for (const double side : {1.0, -1.0})
+      scene.planes.push_back({-side * normal, side * normal, Vec3::Zero(), kMaterial});
+  scene.loads.servos = {servo_of(1.0)};
+  const auto problems_between = [&](std::vector<std::array<std::size_t, 2>> between) {
+    scene.loads.servos[0].between = std::move(between);
+    return problems_of(scene);
+  };
+
+  EXPECT_EQ(problems_between({{2, 3}, {4, 5}}), "");
+  const auto is_refused =
+      HasSubstr("servo 0: the planes that it lies between bound no area across its direction");
+  EXPECT_THAT(problems_between({{2, 3}}), is_refused);
+  EXPECT_THAT(problems_between({{2, 3}, {3, 2}}), is_refused);
+  EXPECT_THAT(problems_between({{2, 3}, {0, 1}}), is_refused);
+}
+
 /// Two planes bound the side of a cylinder across its axis, and no sphere.
 TEST(PlaneServo, IsRefusedWithPlanesBetweenWhichItsContainerHasNoArea) {
   Scene scene = grain_under_a_plate();

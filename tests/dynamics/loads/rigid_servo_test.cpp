@@ -269,6 +269,21 @@ TEST(TorqueServo, IsRefusedWithAForceOrWhereTheBodyIsHeld) {
   EXPECT_THAT(problems_of(scene), HasSubstr("has no target"));
 }
 
+TEST(RigidServo, IsRefusedBetweenPlanesThatBoundNoArea) {
+  Scene scene = plate_over_spheres();
+  for (const Vec3& normal : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())})
+    for (const double side : {1.0, -1.0})
+      scene.planes.push_back({-side * normal, side * normal, Vec3::Zero(), kMaterial});
+  scene.loads.body_servos[0].between = {{1, 2}, {3, 4}};
+  EXPECT_EQ(problems_of(scene), "");
+
+  scene.loads.body_servos[0].between = {{1, 2}};
+  EXPECT_THAT(problems_of(scene), HasSubstr("bound no area across its direction"));
+  scene.loads.body_servos[0].between = {{1, 2}, {3, 4}};
+  scene.loads.body_servos[0].axis = 0;
+  EXPECT_THAT(problems_of(scene), HasSubstr("bound no area across its direction"));
+}
+
 TEST(RigidServo, IsRefusedOnABodyThatIsNotThereOrHeld) {
   Scene scene = plate_over_spheres(Held::along_z);
   EXPECT_THAT(problems_of(scene), HasSubstr("held or moved along that axis already"));
