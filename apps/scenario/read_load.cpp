@@ -216,6 +216,18 @@ PressureSettings read_pressure(Section& section, const Scenario& scenario) {
   return settings;
 }
 
+/// Of a servo, which only presses.
+TimeTable read_pressing_factor(Section& section) {
+  TimeTable factor = read_factor(section);
+  const double lowest = factor.lowest();
+  if (lowest < 0.0)
+    section.complain("factor",
+                     fmt::format("falls to {}, and a servo does not pull; expected factors of at "
+                                 "least 0, or a motion or a force for what is to be drawn away",
+                                 lowest));
+  return factor;
+}
+
 /// The force or pressure of a servo, of a plane or of a body.
 template <class Servo>
 void read_pressing(Section& section, const Scenario& scenario, Servo& servo) {
@@ -295,7 +307,7 @@ dynamics::PlaneServo read_servo(Section& section, const Scenario& scenario) {
   if (plane) require_side(section, scenario, servo);
   servo.largest_speed = section.quantity("speed", {kVelocity, kPositive});
   servo.gain = section.quantity("gain", {kNumber, kGain}, servo.gain);
-  servo.factor = read_factor(section);
+  servo.factor = read_pressing_factor(section);
   return servo;
 }
 
@@ -316,7 +328,7 @@ BodyServoSettings read_body_servo(Section& section, const Scenario& scenario) {
                     scenario.rigid_bodies[*body].name);
   }
   servo.gain = section.quantity("gain", {kNumber, kGain}, servo.gain);
-  servo.factor = read_factor(section);
+  servo.factor = read_pressing_factor(section);
   return settings;
 }
 

@@ -97,9 +97,7 @@ class LoadProblems {
     expect_side(name, servo);
     expect(servo.force >= 0.0 && servo.pressure >= 0.0 && servo.force + servo.pressure > 0.0, name,
            "has no target; give a force (N) or a pressure (Pa) above 0");
-    expect(servo.area > 0.0, name, "its area must be above 0");
-    expect(servo.largest_speed > 0.0, name, "its largest speed must be above 0");
-    expect(servo.gain > 0.0 && servo.gain <= 1.0, name, "its gain must be above 0, at most 1");
+    expect_pace(name, servo);
     expect_finite(name, "target, area and speed",
                   Vec3(servo.force + servo.pressure, servo.area, servo.largest_speed));
   }
@@ -112,9 +110,7 @@ class LoadProblems {
     expect(!(servo.turns() && pressing > 0.0), name,
            "has a torque, and a force or pressure too; one servo drives one motion");
     for (const auto& pair : servo.between) expect_facing(name, pair);
-    expect(servo.area > 0.0, name, "its area must be above 0");
-    expect(servo.largest_speed > 0.0, name, "its largest speed must be above 0");
-    expect(servo.gain > 0.0 && servo.gain <= 1.0, name, "its gain must be above 0, at most 1");
+    expect_pace(name, servo);
     expect(std::abs(servo.towards) == 1.0, name, "goes towards 1 or -1 along its axis");
     expect_finite(name, "target, area and speed",
                   Vec3(pressing + servo.torque, servo.area, servo.largest_speed));
@@ -132,6 +128,17 @@ class LoadProblems {
              servo.turns() ? "its rigid body is held or turned about that axis already"
                            : "its rigid body is held or moved along that axis already");
     }
+  }
+
+  /// Of what servos of planes and of bodies have in common.
+  template <class Servo>
+  void expect_pace(const std::string& name, const Servo& servo) {
+    expect(servo.area > 0.0, name, "its area must be above 0");
+    expect(servo.largest_speed > 0.0, name, "its largest speed must be above 0");
+    expect(servo.gain > 0.0 && servo.gain <= 1.0, name, "its gain must be above 0, at most 1");
+    if (servo.factor.lowest() < 0.0)
+      text_ << name << ": its factor falls to " << servo.factor.lowest()
+            << ", and a servo does not pull; give factors of at least 0\n";
   }
 
   void list(const std::string& name, const BeamDamping& damping) {

@@ -101,6 +101,10 @@ double TimeTable::integral(double time) const noexcept {
   return integral_from_first_row(time - start_) - integral_to_zero_;
 }
 
+double TimeTable::lowest() const noexcept {
+  return std::ranges::min(rows(), {}, &Row::value).value;
+}
+
 double TimeTable::largest() const noexcept {
   double largest = 0.0;
   for (const Row& row : rows()) largest = std::max(largest, std::abs(row.value));

@@ -50,6 +50,8 @@ class TimeTable {
   /// Right after this time (1/s).
   double slope(double time) const noexcept;
 
+  /// Lowest value of all times.
+  double lowest() const noexcept;
   /// Largest absolute value and slope (1/s) of all times.
   double largest() const noexcept;
   double largest_slope() const noexcept;

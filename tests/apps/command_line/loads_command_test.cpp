@@ -437,6 +437,25 @@ TEST_F(Loads, AreRefusedAsServosWithoutATarget) {
                  "loads.a.plane: \"left\" has a velocity of its own");
 }
 
+TEST_F(Loads, AreRefusedAsServosThatWouldPull) {
+  const std::string problem = "loads.a.factor: falls to -0.5, and a servo does not pull";
+  const std::string factor = "factor = [[0, 1], [\"1 ms\", -0.5], [\"2 ms\", 0]]\n";
+  expect_problem("kind = \"servo\"\nplane = \"lid\"\nforce = 1\nspeed = 1\n" + factor, problem);
+  const std::string body =
+      "[[rigid_bodies]]\nname = \"box\"\nshape = { kind = \"box\", size = [0.1, 0.1, 0.1] }\n"
+      "translate = [1, 0, 0]\nthickness = \"2 mm\"\nmaterial = \"stone\"\nmass = 1\n";
+  expect_problem(
+      "kind = \"servo\"\nrigid_body = \"box\"\ndirection = \"-z\"\nforce = 1\n"
+      "speed = 1\n" +
+          factor + body,
+      problem);
+  expect_problem(
+      "kind = \"servo\"\nrigid_body = \"box\"\nabout = \"z\"\ntorque = 1\n"
+      "angular_speed = 1\n" +
+          factor + body,
+      problem);
+}
+
 TEST_F(Loads, AreRefusedWithNegativeStiffnessOrDamping) {
   expect_problem(
       "kind = \"ground_springs\"\nmembrane = \"ball\"\nnodes = \"all\"\n"

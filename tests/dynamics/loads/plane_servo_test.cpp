@@ -435,6 +435,15 @@ TEST(PlaneServo, IsRefusedBetweenPlanesThatBoundNoAreaOfAFlatPlate) {
   EXPECT_THAT(problems_between({{2, 3}, {0, 1}}), is_refused);
 }
 
+TEST(PlaneServo, IsRefusedWithAFactorThatWouldHaveItPull) {
+  Scene scene = grain_under_a_plate();
+  scene.loads.servos = {servo_of(1.0)};
+  scene.loads.servos[0].factor = TimeTable({{0.0, 1.0}, {1.0, -0.5}, {2.0, 1.0}});
+
+  EXPECT_THAT(problems_of(scene),
+              HasSubstr("servo 0: its factor falls to -0.5, and a servo does not pull"));
+}
+
 /// Two planes bound the side of a cylinder across its axis, and no sphere.
 TEST(PlaneServo, IsRefusedWithPlanesBetweenWhichItsContainerHasNoArea) {
   Scene scene = grain_under_a_plate();

@@ -60,6 +60,11 @@ TEST(TimeTable, KnowsItsSlopeRightAfterATime) {
   EXPECT_EQ(table().largest(), 4.0);
 }
 
+TEST(TimeTable, KnowsItsLowestValue) {
+  EXPECT_EQ(TimeTable({{0.0, 2.0}, {1.0, -3.0}, {2.0, 0.0}}).lowest(), -3.0);
+  EXPECT_EQ(TimeTable().lowest(), 1.0);
+}
+
 TEST(TimeTable, MayBeOneNumberForEver) {
   EXPECT_EQ(TimeTable(3.0).at(-1.0), 3.0);
   EXPECT_EQ(TimeTable(3.0).at(1e9), 3.0);
