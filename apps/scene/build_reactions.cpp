@@ -33,6 +33,18 @@ bool is_any_held(const std::vector<geometry::NodeId>& nodes, const std::vector<H
   });
 }
 
+/// By node, what is held by supports: not nodes that nothing turns, which are held so and not more.
+std::vector<Held> held_by_supports(const BuiltScene& built) {
+  std::vector<Held> held = dynamics::held_with_loads(built.scene);
+  for (const BuiltMembrane& membrane : built.membranes) {
+    if (membrane.turns_nodes) continue;
+    const auto first = held.begin() + static_cast<std::ptrdiff_t>(membrane.first_node);
+    std::replace(first, first + static_cast<std::ptrdiff_t>(membrane.nodes), Held::rotation,
+                 Held::nothing);
+  }
+  return held;
+}
+
 /// Whether a beam or a sheet goes from some nodes to others.
 bool is_section(const std::vector<geometry::NodeId>& nodes, const dynamics::Scene& scene) {
   std::vector<char> is_inside(scene.state.size(), 0);
@@ -145,7 +157,7 @@ void require_distance(const Scenario& scenario, const BuiltScene& built, const S
 
 void add_reactions(const Scenario& scenario, BuiltScene& built, const StageBodies* bodies) {
   Problems problems;
-  const std::vector<Held> held = dynamics::held_with_loads(built.scene);
+  const std::vector<Held> held = held_by_supports(built);
   for (std::size_t i = 0; i < scenario.output.reactions.size(); ++i) {
     const ReactionSettings& settings = scenario.output.reactions[i];
     const AtStart at_start(

@@ -381,6 +381,28 @@ speed = "1 mm/s"
   EXPECT_EQ(table.at(table.rows.at(1), "press.force_x (N)"), 0.0);
 }
 
+/// They are held against turning, as nothing turns them.
+TEST_F(Outputs, OfSupportsDoNotTakeFreeNodesOfATruss) {
+  set_output(R"([[output.reactions]]
+kind = "support"
+membrane = "rope"
+nodes = "x_max"
+[[membranes]]
+name = "rope"
+shape = { kind = "chain", points = [[0, 5, 0], [1, 5, 0]], divisions = 2 }
+mode = "truss"
+thickness = "20 mm"
+material = "gravel"
+density = 1000
+young_modulus = "1 GPa"
+hold = { min = [-0.1, -9, -9], max = [0.1, 9, 9] }
+)");
+  const Outcome outcome = outcome_of({"check", scenario()});
+
+  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("none of these nodes of \"rope\" is held or moved"));
+}
+
 TEST_F(Outputs, AreListedFromTheTablesThatWriteThem) {
   const std::string text = outcome_of({"list"}).out;
 
