@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <sstream>
 
 namespace plekton::apps::examples_command_test {
@@ -34,6 +35,17 @@ TEST_F(Examples, AreCopiedWithAllTheirFilesAndStillRead) {
   EXPECT_EQ(outcome.exit_code, kDone) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("plekton run " + (target / "catch.toml").string()));
   EXPECT_NO_THROW(read_scenario(target / "catch.toml"));
+}
+
+/// A check that finds all that it imports asks for runs.
+TEST_F(Examples, AreCopiedWithWhatTheirChecksNeed) {
+  const fs::path target = folder_ / "mine";
+  ASSERT_EQ(outcome_of({"examples", "tyre", "--out", target.string()}).exit_code, kDone);
+
+  const std::string command =
+      "python3 -B " + (target / "check.py").string() + " 2> " + (folder_ / "said").string();
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_THAT(test::bytes_of(folder_ / "said"), HasSubstr("python3 check.py RUN"));
 }
 
 TEST_F(Examples, TellCommandsThatCanBeTypedForAnyFolder) {
