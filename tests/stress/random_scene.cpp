@@ -28,6 +28,14 @@ std::string vec(const Vec3& v) {
   return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v[0], v[1], v[2]);
 }
 
+constexpr const char* kAll = "xyz";
+/// A motion along some components, and 0 along the others, which are left free.
+Vec3 along(const std::string& components, Vec3 motion) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (components.find(kAll[axis]) == std::string::npos) motion[axis] = 0.0;
+  return motion;
+}
+
 /// What later tables have to know of a membrane.
 struct Membrane {
   std::string name;
@@ -547,8 +555,10 @@ class Maker {
       return maybe_factor(t);
     }
     if (what == "motion") {
-      set(t, "velocity", vec(random_.in_cube(1.0)));
-      if (chance(0.5)) set(t, "components", word(one_of<3>({"x", "z", "xy"})));
+      const Vec3 velocity = random_.in_cube(1.0);
+      const std::string components = chance(0.5) ? one_of<3>({"x", "z", "xy"}) : kAll;
+      set(t, "velocity", vec(along(components, velocity)));
+      if (components != kAll) set(t, "components", word(components));
       return maybe_factor(t);
     }
     if (chance(0.3)) {
@@ -695,17 +705,18 @@ class Maker {
                       vec(random_.direction()), random_.integer(-90, 90)));
       return set(t, "factor", factor());
     }
-    if (chance(0.5)) {
-      set(t, "displacement", vec(random_.in_cube(0.01)));
+    const bool is_way = chance(0.5);
+    const Vec3 motion = random_.in_cube(is_way ? 0.01 : 1.0);
+    if (is_way)
       set(t, "factor", factor());
-    } else {
-      set(t, "velocity", vec(random_.in_cube(1.0)));
+    else
       maybe_factor(t);
-    }
+    std::string components = kAll;
     if (chance(0.4))
-      set(t, "components", word(one_of<5>({"x", "z", "xy", "yz", "xyz"})));
+      set(t, "components", word(components = one_of<5>({"x", "z", "xy", "yz", kAll})));
     else if (chance(0.3))
       set(t, "angular_velocity", vec(random_.in_cube(20.0)));
+    set(t, is_way ? "displacement" : "velocity", vec(along(components, motion)));
   }
 
   void add_open_pressure() {
@@ -764,7 +775,7 @@ class Maker {
   Random of_containers_;
   SceneText scene_;
   bool is_free_ = false;
-  bool has_lid_ = false;  // above what was made before the planes
+  bool has_lid_ = false;   // above what was made before the planes
   double duration_ = 0.0;  // s
   int materials_ = 0;
   int bodies_ = 0;
