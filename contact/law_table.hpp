@@ -101,13 +101,13 @@ struct LawTable {
       .history_energy = [](const Parameters& p, const History& history) -> double {
         return Law::history_energy(of(p), own(history));
       },
-      .loss_after = [](const History& history,
-                       double parting) { return contact::loss_after<Law>(own(history), parting); },
+      .other_force =
+          [](const Parameters& p, const Vec3& normal, const History& history) {
+            return contact::other_force<Law>(of(p), normal, own(history));
+          },
       .holds = [](const History& history) { return contact::holds<Law>(own(history)); },
-      .moment = [](const History& history, const Vec3& normal) -> Vec3 {
-        if constexpr (HasMoments<Law>) return Law::moment(own(history), normal);
-        return Vec3::Zero();
-      },
+      .moment = [](const History& history,
+                   const Vec3& normal) { return moment_of<Law>(own(history), normal); },
       .rotate =
           [](History& history, const FrameRotation& rotation) {
             change(history, [&](LawHistory& typed) { Law::rotate(typed, rotation); });

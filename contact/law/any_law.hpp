@@ -99,7 +99,7 @@ struct AnyLaw {
     ContactForce (*force)(const Parameters&, const RelativeMotion&, History&, double);
     double (*tangential_limit)(const Parameters&, double, const History&);
     double (*history_energy)(const Parameters&, const History&);
-    double (*loss_after)(const History&, double);
+    Vec3 (*other_force)(const Parameters&, const Vec3&, const History&);
     bool (*holds)(const History&);
     Vec3 (*moment)(const History&, const Vec3&);
     void (*rotate)(History&, const FrameRotation&);
@@ -179,9 +179,9 @@ struct AnyLaw {
   static double history_energy(const Parameters& p, const History& history) {
     return history.law != p.law ? 0.0 : p.law->history_energy(p, history);
   }
-  /// See WorksAfterwards.
-  static double loss_after(const History& history, double parting) {
-    return history.law == nullptr ? 0.0 : history.law->loss_after(history, parting);
+  /// See TellsOtherForce.
+  static Vec3 other_force(const Parameters& p, const Vec3& normal, const History& history) {
+    return history.law != p.law ? Vec3(Vec3::Zero()) : p.law->other_force(p, normal, history);
   }
   static void rotate(History& history, const FrameRotation& rotation) {
     if (history.law != nullptr) history.law->rotate(history, rotation);

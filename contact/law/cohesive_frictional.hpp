@@ -181,11 +181,6 @@ struct CohesiveFrictional {
     return history.spring.energy() + bond_energy(p, history);
   }
 
-  /// The last pull of a bond goes on for half a step after it has broken. See WorksAfterwards.
-  static double loss_after(const History& history, double parting) noexcept {
-    return -0.5 * history.pull * parting;
-  }
-
   template <class Real>
   PLEKTON_INLINE static Real normal_stiffness(const ParametersOf<Real>& p,
                                               const std::type_identity_t<Real>&) noexcept {

@@ -127,12 +127,44 @@ void list_problems(const PropertiesOf<Law>& properties, std::ostream& out) {
 }
 
 /// A law whose force after a step follows from the gap (m), the normal and the history then: it
-/// does not have to be kept. To the bit what force() has answered.
+/// does not have to be kept. To the bit what force() has answered; and at a gap of 0, where the
+/// elastic normal force is none, all else of it.
 template <class Law>
 concept TellsForce = requires(const typename Law::Parameters& parameters, double gap,
                               const Vec3& normal, const typename Law::History& history) {
   { Law::force_of_state(parameters, gap, normal, history) } -> std::same_as<Vec3>;
 };
+
+/// A law that tells of its force after a step, maybe, what it has beside the elastic normal force.
+template <class Law>
+concept TellsOtherForce = requires(const typename Law::Parameters& parameters, const Vec3& normal,
+                                   const typename Law::History& history) {
+  { Law::other_force(parameters, normal, history) } -> std::same_as<Vec3>;
+};
+
+/// Force (N, on b) of the last step but for the elastic normal one; zero of a law that does not
+/// tell it.
+template <class Law>
+Vec3 other_force(const typename Law::Parameters& parameters, const Vec3& normal,
+                 const typename Law::History& history) {
+  if constexpr (TellsOtherForce<Law>) {
+    return Law::other_force(parameters, normal, history);
+  } else if constexpr (TellsForce<Law>) {
+    return Law::force_of_state(parameters, 0.0, normal, history);
+  } else {
+    return Vec3::Zero();
+  }
+}
+
+/// N m, on b, of the last step.
+template <class Law>
+Vec3 moment_of(const typename Law::History& history, const Vec3& normal) {
+  if constexpr (HasMoments<Law>) {
+    return Law::moment(history, normal);
+  } else {
+    return Vec3::Zero();
+  }
+}
 
 /// A law that tells how large (N) the tangential force may be, from the parameters, the magnitude
 /// of the elastic normal force and the history.
@@ -164,26 +196,6 @@ template <class Law>
 double normal_damping_of(const typename Law::Parameters& parameters, double gap) {
   if constexpr (DampsNormally<Law>) {
     return Law::normal_damping(parameters, gap);
-  } else {
-    return 0.0;
-  }
-}
-
-/// A law with forces that no potential has: in a leapfrog they go on for half a step after the
-/// contact has ended.
-///
-/// loss_after(history, parting): the energy (J) dissipated in it, of bodies that part by so much
-/// (m) along the last normal in the step that ends the contact.
-template <class Law>
-concept WorksAfterwards = requires(const typename Law::History& history, double parting) {
-  { Law::loss_after(history, parting) } -> std::same_as<double>;
-};
-
-/// J, 0 for laws that have nothing more to say.
-template <class Law>
-double loss_after(const typename Law::History& history, double parting) {
-  if constexpr (WorksAfterwards<Law>) {
-    return Law::loss_after(history, parting);
   } else {
     return 0.0;
   }

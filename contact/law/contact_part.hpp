@@ -57,12 +57,6 @@ concept PartDamps = requires(const typename Part::Parameters& parameters,
   { Part::normal_damping(parameters, stiffness) } -> std::same_as<double>;
 };
 
-/// A part that does work while the bodies part: see WorksAfterwards.
-template <class Part>
-concept PartWorksAfterwards = requires(const typename Part::History& history, double parting) {
-  { Part::loss_after(history, parting) } -> std::same_as<double>;
-};
-
 /// A part whose history is that of all contacts side by side: see ScalesHistory.
 template <class Part>
 concept PartScalesHistory = requires(typename Part::History& history, double factor) {

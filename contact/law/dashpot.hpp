@@ -75,11 +75,6 @@ struct Dashpot {
     return Real(0.0);
   }
 
-  /// The last push goes on for half a step after its contact has ended. See PartWorksAfterwards.
-  static double loss_after(const History& history, double parting) noexcept {
-    return -0.5 * history.push * parting;
-  }
-
   template <class Real>
   PLEKTON_INLINE static void rotate(HistoryOf<Real>& history,
                                     const FrameRotationOf<Real>& rotation) noexcept {

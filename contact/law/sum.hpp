@@ -142,10 +142,7 @@ struct Sum {
 
   /// See HasMoments.
   static Vec3 moment(const History& history, const Vec3& normal) {
-    Vec3 moment = Vec3::Zero();
-    if constexpr (HasMoments<Whole>) moment += Whole::moment(history.whole, normal);
-    if constexpr (HasMoments<Part>) moment += Part::moment(history.part, normal);
-    return moment;
+    return moment_of<Whole>(history.whole, normal) + moment_of<Part>(history.part, normal);
   }
 
   /// See TellsTangentialLimit.
@@ -177,13 +174,6 @@ struct Sum {
     double damping = normal_damping_of<Whole>(p.whole, gap);
     if constexpr (PartDamps<Part>) damping += Part::normal_damping(p.part, stiffness(p, gap));
     return damping;
-  }
-
-  /// See WorksAfterwards.
-  static double loss_after(const History& history, double parting) noexcept {
-    double loss = contact::loss_after<Whole>(history.whole, parting);
-    if constexpr (PartWorksAfterwards<Part>) loss += Part::loss_after(history.part, parting);
-    return loss;
   }
 
   template <class Real>

@@ -35,7 +35,7 @@ double PlaneContacts::rebuild(std::span<const geometry::IndexPair> keys,
     return Slot{sphere.node, plane, sphere.radius, 0.0, parameters, {}, 0};
   };
   rekey_(slots_, keys, make,
-         [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.memory, 0.0); });
+         [&](Slot& old) { lost += forget<AnyLaw>(old.parameters, old.memory, {}); });
   sphere_count_ = slots_.empty() ? 0 : spheres.size();
   materials_ = &materials;
   find_bodies(keys, spheres, planes);
@@ -123,15 +123,20 @@ double PlaneContacts::advance_spheres(std::size_t begin, std::size_t end, const 
       touching.height[touching.count++] = height;
       touching.all_have_images &= height + slot.radius > 0.0;
     } else if (!slot.memory.is_new()) {
-      const Vec3 velocity = planes[slot.plane].velocity_at(motion.position[index_of(slot.node)]) -
-                            motion.velocity[index_of(slot.node)];
-      const double parting = dt * velocity.dot(slot.memory.normal);
-      dissipated += forget<AnyLaw>(slot.parameters, slot.memory, parting);
-      slot.id = 0;
+      dissipated += end_contact(slot, planes[slot.plane], motion, dt);
     }
   }
   flush();
   return dissipated;
+}
+
+/// @returns the energy (J) that is lost
+double PlaneContacts::end_contact(Slot& slot, const Plane& plane, const Motion& motion, double dt) {
+  const double distance = slot.gap + (slot.radius + slot.radius);
+  const auto pair = motion_of(slot, distance * slot.memory.normal, plane, motion)
+                        .at(slot.memory.normal, distance);
+  slot.id = 0;
+  return forget<AnyLaw>(slot.parameters, slot.memory, last_way(pair, dt));
 }
 
 double PlaneContacts::advance_touching(const Touching& touching, const Motion& motion,
@@ -149,20 +154,32 @@ double PlaneContacts::advance_touching(const Touching& touching, const Motion& m
 }
 
 /// To the kernel a plane is the mirror image of the sphere, moving and turning with the plane.
+/// @param separation  m, from the sphere's centre to its image
+SphereMotionOf<double> PlaneContacts::motion_of(const Slot& slot, const Vec3& separation,
+                                                const Plane& plane, const Motion& motion) {
+  const std::size_t node = index_of(slot.node);
+  return {separation,
+          plane.velocity_at(motion.position[node] + separation) - motion.velocity[node],
+          motion.angular_velocity[node],
+          plane.turning(),
+          slot.radius,
+          slot.radius};
+}
+
 void PlaneContacts::gather(const Touching& touching, const Motion& motion,
                            std::span<const Plane> planes, SphereBatch& batch) const {
   for (std::size_t k = 0; k < touching.count; ++k) {
     const Slot& slot = slots_[touching.slot[k]];
     const Plane& plane = planes[slot.plane];
-    const std::size_t node = index_of(slot.node);
-    const Vec3& x = motion.position[node];
+    const Vec3& x = motion.position[index_of(slot.node)];
     const Vec3 separation = -(touching.height[k] + slot.radius) * plane.normal_at(x);
-    batch.separation.set(k, separation);
-    batch.velocity.set(k, Vec3(plane.velocity_at(x + separation) - motion.velocity[node]));
-    batch.spin_a.set(k, motion.angular_velocity[node]);
-    batch.spin_b.set(k, plane.turning());
-    batch.radius_a.set(k, slot.radius);
-    batch.radius_b.set(k, slot.radius);
+    const SphereMotionOf<double> spheres = motion_of(slot, separation, plane, motion);
+    batch.separation.set(k, spheres.separation);
+    batch.velocity.set(k, spheres.velocity);
+    batch.spin_a.set(k, spheres.spin_a);
+    batch.spin_b.set(k, spheres.spin_b);
+    batch.radius_a.set(k, spheres.radius_a);
+    batch.radius_b.set(k, spheres.radius_b);
     batch.parameters().set_numbers(k, slot.parameters.numbers.data(),
                                    touching.law->parameter_numbers);
     batch.history().set_numbers(k, slot.memory.history.numbers.data(),
@@ -198,19 +215,13 @@ double PlaneContacts::advance_one(std::size_t i, double height, const Motion& mo
                                   std::span<const Plane> planes, double dt, Records& records) {
   Slot& slot = slots_[i];
   const Plane& plane = planes[slot.plane];
-  const std::size_t node = index_of(slot.node);
-  const Vec3& x = motion.position[node];
-  const Vec3 normal = plane.normal_at(x);
+  const Vec3 normal = plane.normal_at(motion.position[index_of(slot.node)]);
   const Vec3 separation = -(height + slot.radius) * normal;
   const bool is_before = height + slot.radius > 0.0;
   const double distance = is_before ? separation.norm() : height + slot.radius;
-  const SpherePairOf<double> pair{is_before ? Vec3((1.0 / distance) * separation) : Vec3(-normal),
-                                  distance,
-                                  plane.velocity_at(x + separation) - motion.velocity[node],
-                                  motion.angular_velocity[node],
-                                  plane.turning(),
-                                  slot.radius,
-                                  slot.radius};
+  const auto pair =
+      motion_of(slot, separation, plane, motion)
+          .at(is_before ? Vec3((1.0 / distance) * separation) : Vec3(-normal), distance);
   slot.memory = {carried_history<AnyLaw>(slot.memory, pair.normal, dt * pair.twist_rate()),
                  pair.normal};
   const SphereStepOf<double> step =

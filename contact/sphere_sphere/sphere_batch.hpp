@@ -39,13 +39,7 @@ PLEKTON_INLINE LaneStepOf<Law, Real> advance_lanes(
     typename Law::template HistoryOf<Real> history, const Vec3Of<Real>& last_normal,
     double dt) noexcept {
   const Real distance = spheres.separation.norm();
-  const SpherePairOf<Real> pair{(Real(1.0) / distance) * spheres.separation,
-                                distance,
-                                spheres.velocity,
-                                spheres.spin_a,
-                                spheres.spin_b,
-                                spheres.radius_a,
-                                spheres.radius_b};
+  const SpherePairOf<Real> pair = spheres.at((Real(1.0) / distance) * spheres.separation, distance);
   Real touch_or_hold = touch;
   if constexpr (HasInteractionRange<Law>)
     touch_or_hold = geometry::flag(

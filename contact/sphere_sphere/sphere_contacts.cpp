@@ -84,7 +84,7 @@ double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
         if (!table_.has_touched(blocks_.slot(old))) return;
         ContactMemory<AnyLaw> memory = table_.memory(blocks_.slot(old));
         lost += forget<AnyLaw>(materials.combine(sphere(keys_[old].a), sphere(keys_[old].b)),
-                               memory, 0.0);
+                               memory, {});
       });
   make_room(keys_, keys.size());
   keys_.assign(keys.begin(), keys.end());

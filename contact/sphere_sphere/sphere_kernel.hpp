@@ -9,23 +9,6 @@
 /// by side (Real = Pack).
 namespace plekton::contact {
 
-/// How two spheres stand and move.
-template <class Real>
-struct SphereMotionOf {
-  Vec3Of<Real> separation;  ///< m, from centre a to centre b
-  Vec3Of<Real> velocity;    ///< m/s, of centre b relative to centre a
-  Vec3Of<Real> spin_a;      ///< rad/s
-  Vec3Of<Real> spin_b;      ///< rad/s
-  Real radius_a;            ///< m
-  Real radius_b;            ///< m
-
-  /// 1 if the spheres overlap, else 0; without a square root.
-  PLEKTON_INLINE Real touch() const noexcept {
-    const Real range = radius_a + radius_b;
-    return geometry::flag(range * range > separation.squaredNorm());
-  }
-};
-
 /// Two spheres that touch.
 template <class Real>
 struct SpherePairOf {
@@ -42,7 +25,43 @@ struct SpherePairOf {
     const Vec3Of<Real> twice_mean = spin_a + spin_b;
     return Real(0.5) * twice_mean.dot(normal);
   }
+  PLEKTON_INLINE Real gap() const noexcept { return distance - (radius_a + radius_b); }
+  /// From each centre to the contact point (m): half way through the overlap.
+  PLEKTON_INLINE Real arm_a() const noexcept { return radius_a + Real(0.5) * gap(); }
+  PLEKTON_INLINE Real arm_b() const noexcept { return radius_b + Real(0.5) * gap(); }
+  /// m/s, of b relative to a at the contact point.
+  PLEKTON_INLINE Vec3Of<Real> contact_velocity() const noexcept {
+    return velocity - (arm_a() * spin_a + arm_b() * spin_b).cross(normal);
+  }
 };
+
+/// How two spheres stand and move.
+template <class Real>
+struct SphereMotionOf {
+  Vec3Of<Real> separation;  ///< m, from centre a to centre b
+  Vec3Of<Real> velocity;    ///< m/s, of centre b relative to centre a
+  Vec3Of<Real> spin_a;      ///< rad/s
+  Vec3Of<Real> spin_b;      ///< rad/s
+  Real radius_a;            ///< m
+  Real radius_b;            ///< m
+
+  /// 1 if the spheres overlap, else 0; without a square root.
+  PLEKTON_INLINE Real touch() const noexcept {
+    const Real range = radius_a + radius_b;
+    return geometry::flag(range * range > separation.squaredNorm());
+  }
+  /// @param normal    unit, from a to b
+  /// @param distance  m, of the centres
+  PLEKTON_INLINE SpherePairOf<Real> at(const Vec3Of<Real>& normal,
+                                       const Real& distance) const noexcept {
+    return {normal, distance, velocity, spin_a, spin_b, radius_a, radius_b};
+  }
+};
+
+/// The step (s) that ends the contact of a pair. It is as in the last step, but for its motion.
+inline LastWay last_way(const SpherePairOf<double>& pair, double dt) noexcept {
+  return {dt * pair.contact_velocity(), dt * (pair.spin_b - pair.spin_a)};
+}
 
 /// What a step of a pair came to.
 template <class Real>
@@ -56,22 +75,19 @@ struct SphereStepOf {
   Vec3Of<Real> moment;              ///< N m, on b
 };
 
-/// Asks the law. The forces act at the point half way through the overlap.
+/// Asks the law.
 /// @param history  already turned into the frame of this step
 template <class Law, class Real, class Parameters, class History>
 PLEKTON_INLINE SphereStepOf<Real> sphere_step(const SpherePairOf<Real>& pair,
                                               const Parameters& parameters, History& history,
                                               double dt) noexcept {
-  const Real gap = pair.distance - (pair.radius_a + pair.radius_b);
-  const Real arm_a = pair.radius_a + Real(0.5) * gap;
-  const Real arm_b = pair.radius_b + Real(0.5) * gap;
-  const Vec3Of<Real> slip_of_spins = (arm_a * pair.spin_a + arm_b * pair.spin_b).cross(pair.normal);
+  const Real gap = pair.gap();
   const RelativeMotionOf<Real> motion =
       relative_motion<Real>(pair.normal, gap, Law::elastic_normal_force(parameters, gap),
-                            pair.velocity - slip_of_spins, pair.spin_b - pair.spin_a);
+                            pair.contact_velocity(), pair.spin_b - pair.spin_a);
   const ContactForceOf<Real> answer = Law::force(parameters, motion, history, dt);
   return {gap,          answer.force, answer.force.cross(pair.normal),
-          arm_a,        arm_b,        answer.dissipated,
+          pair.arm_a(), pair.arm_b(), answer.dissipated,
           answer.moment};
 }
 

@@ -234,8 +234,10 @@ void SphereLoop<Law>::advance_one(std::size_t row, std::size_t lane) const noexc
       (memory.is_new() ||
        !goes_on<Law>(of_pair, memory.history,
                      spheres.separation.norm() - (spheres.radius_a + spheres.radius_b)))) {
-    const double parting = work_.dt * spheres.velocity.dot(memory.normal);
-    work_.outcome.dissipated[lane] += forget<Law>(of_pair, memory, parting);
+    const double distance =
+        spheres.radius_a + spheres.radius_b + gap(kept).template at<double>(lane);
+    const LastWay last = last_way(spheres.at(memory.normal, distance), work_.dt);
+    work_.outcome.dissipated[lane] += forget<Law>(of_pair, memory, last);
     return keep(0);
   }
   const double distance = spheres.separation.norm();
@@ -243,9 +245,7 @@ void SphereLoop<Law>::advance_one(std::size_t row, std::size_t lane) const noexc
   const Vec3 direction = distance > 0.0    ? Vec3((1.0 / distance) * spheres.separation)
                          : memory.is_new() ? Vec3(Vec3::UnitZ())
                                            : memory.normal;
-  const SpherePairOf<double> pair{direction,       distance,       spheres.velocity,
-                                  spheres.spin_a,  spheres.spin_b, spheres.radius_a,
-                                  spheres.radius_b};
+  const SpherePairOf<double> pair = spheres.at(direction, distance);
   memory = {carried_history<Law>(memory, direction, work_.dt * pair.twist_rate()), direction};
   const SphereStepOf<double> step = sphere_step<Law>(pair, of_pair, memory.history, work_.dt);
   keep(1);

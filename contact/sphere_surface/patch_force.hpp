@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/sphere_surface/patch.hpp"
+#include "contact/tracking/contact_memory.hpp"
 #include "contact/tracking/interpolation.hpp"
 
 #include <span>
@@ -22,6 +23,9 @@ struct PatchState {
   Vec3 relative_velocity = Vec3::Zero();  ///< m/s, of b relative to a at the contact point
   Vec3 relative_spin = Vec3::Zero();      ///< rad/s, of b relative to a
   double twist_rate = 0.0;  ///< rad/s, mean angular velocity of both bodies about the normal
+
+  /// In a step (s) that ends the contact.
+  LastWay way_in(double dt) const { return {dt * relative_velocity, dt * relative_spin}; }
 };
 
 /// What a term carries of its patch.

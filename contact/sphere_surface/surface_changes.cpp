@@ -77,7 +77,7 @@ double SurfaceContacts::keep_minima(const Pair& pair, const geometry::SurfaceCha
       if (const auto minimum = change.now(minima[m])) minima[left++] = *minimum;
     }
     contact.minimum_count = left;
-    if (left == 0) lost += forget<AnyLaw>(pair.parameters, contact.memory, 0.0);
+    if (left == 0) lost += forget<AnyLaw>(pair.parameters, contact.memory, {});
   }
   return lost;
 }

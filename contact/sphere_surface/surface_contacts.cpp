@@ -313,7 +313,8 @@ double SurfaceContacts::add_contact(const Pair& pair, std::span<const PatchTerm>
                                     std::span<const PatchTermForce> term_forces,
                                     const Transferred& transferred, double dt, int worker_index) {
   if (!(state.gap < 0.0) && !AnyLaw::holds(transferred.history))
-    return loss_at_end(pair, transferred.history, dt * state.relative_velocity.dot(state.normal));
+    return loss_at_end<AnyLaw>(pair.parameters, {transferred.history, state.normal},
+                               state.way_in(dt));
   Lists& lists = current_[static_cast<std::size_t>(worker_index)];
   const RelativeMotion relative = relative_motion(state.normal, state.gap, state.elastic_force,
                                                   state.relative_velocity, state.relative_spin);
@@ -353,7 +354,7 @@ EnergyLoss SurfaceContacts::advance_alone(const Pair& pair, const Patch& patch,
                       .find({minima, old.minimum_count}, motion.position[index_of(pair.node)],
                             motion.position, {&patch, 1}, worker.patches)
                       .empty()) {
-      loss.dissipated = loss_at_end(pair, old, motion, dt);
+      loss.dissipated = loss_of(pair, old, motion, dt);
       continue;
     }
     worker.pass_throughs += is_turned_over(old.memory.normal, state.normal);

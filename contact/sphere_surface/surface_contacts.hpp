@@ -222,9 +222,7 @@ class SurfaceContacts {
   EnergyLoss advance_alone(const Pair& pair, const Patch& patch, const Motion& motion, double dt,
                            int worker);
   /// J, of a contact that nothing follows.
-  /// @param parting  m, see WorksAfterwards
-  static double loss_at_end(const Pair& pair, const AnyLaw::History& history, double parting);
-  double loss_at_end(const Pair& pair, const Contact& old, const Motion& motion, double dt) const;
+  double loss_of(const Pair& pair, const Contact& old, const Motion& motion, double dt) const;
   double add_contact(const Pair& pair, std::span<const PatchTerm> terms, const PatchState& state,
                      std::span<const PatchTermForce> term_forces, const Transferred& transferred,
                      double dt, int worker);

@@ -5,22 +5,21 @@
 
 namespace plekton::contact {
 
-double SurfaceContacts::loss_at_end(const Pair& pair, const AnyLaw::History& history,
-                                    double parting) {
-  return AnyLaw::history_energy(pair.parameters, history) + AnyLaw::loss_after(history, parting);
-}
-
-double SurfaceContacts::loss_at_end(const Pair& pair, const Contact& old, const Motion& motion,
-                                    double dt) const {
-  if (old.minimum_count == 0) return loss_at_end(pair, old.memory.history, 0.0);
+double SurfaceContacts::loss_of(const Pair& pair, const Contact& old, const Motion& motion,
+                                double dt) const {
+  if (old.minimum_count == 0) return loss_at_end<AnyLaw>(pair.parameters, old.memory, {});
   const Feature minimum =
       previous_[static_cast<std::size_t>(pair.contacts.worker)].minima[old.first_minimum];
-  const std::size_t ball = index_of(pair.node);
   const Positions x = motion.position;
+  const Vec3& centre = x[index_of(pair.node)];
   const geometry::SurfaceFoot foot = geometry::foot_on(
-      *surface_, geometry::closest_feature(*surface_, minimum, x[ball], x), x[ball], x);
-  const Vec3 velocity = velocity_at(foot.core, Vec3::Zero(), motion) - motion.velocity[ball];
-  return loss_at_end(pair, old.memory.history, dt * velocity.dot(old.memory.normal));
+      *surface_, geometry::closest_feature(*surface_, minimum, centre, x), centre, x);
+  PatchState state;
+  state.normal = old.memory.normal;
+  state.gap = foot.distance - pair.range;
+  state.foot = foot.distance * foot.direction;
+  set_kinematics(state, foot.core, pair.node, pair.radius, pair.range, motion);
+  return loss_at_end<AnyLaw>(pair.parameters, old.memory, state.way_in(dt));
 }
 
 /// Where a sphere's centre lies on the surface itself, the contact of the last step says on which
@@ -60,7 +59,7 @@ EnergyLoss SurfaceContacts::transfer(const Pair& pair, std::span<const Patch> pa
         {minima.data() + old.first_minimum, old.minimum_count},
         motion.position[index_of(pair.node)], motion.position, patches, worker.patches);
     if (successors.empty())
-      loss.dissipated += loss_at_end(pair, old, motion, dt);
+      loss.dissipated += loss_of(pair, old, motion, dt);
     else
       loss.tracking += AnyLaw::history_energy(pair.parameters, old.memory.history);
     double total = 0.0;

@@ -78,11 +78,12 @@ struct SpreadContact {
     }
   };
 
-  std::uint32_t pair = 0;   ///< of cells
-  std::uint32_t patch = 0;  ///< of which it is a part
-  bool is_turned = false;   ///< side a is on the patch's second side
-  bool is_of_bar = false;   ///< one of its cells at least is a cylinder
-  bool is_wrapped = false;  ///< in a patch that wraps around something
+  std::uint32_t pair = 0;    ///< of cells
+  std::uint32_t patch = 0;   ///< of which it is a part
+  bool is_turned = false;    ///< side a is on the patch's second side
+  bool is_of_bar = false;    ///< one of its cells at least is a cylinder
+  bool is_wrapped = false;   ///< in a patch that wraps around something
+  bool is_followed = false;  ///< has left what it was to others
   std::uint32_t structure_pair = 0;
   Side a;
   Side b;
@@ -196,16 +197,18 @@ struct SpreadContact {
     const auto of_all =
         AnyLaw::unbonded_part(AnyLaw::scaled(bodies.of_part(count / contacts), count), free_part);
     memory.normal = normal();
-    const Vec3 velocity =
-        b.velocity_at(lever_b(bodies), motion) - a.velocity_at(lever_a(bodies), motion);
     const RelativeMotion relative =
-        relative_motion(memory.normal, gap, normal_force, velocity,
-                        b.angular_velocity(motion) - a.angular_velocity(motion));
+        relative_motion(memory.normal, gap, normal_force, velocity(bodies, motion), spin(motion));
     const ContactForce result = AnyLaw::force(of_all, relative, memory.history, dt);
     other_force = result.force - elastic_force;
     moment = result.moment;
     dissipated = result.dissipated;
     find_energy(bodies, free_part);
+  }
+  /// J, lost with a contact that nothing follows: see contact::loss_at_end().
+  double loss_at_end(const StructurePair& bodies, const Motion& motion, double dt) const {
+    return energy -
+           0.5 * dt * (other_force.dot(velocity(bodies, motion)) + moment.dot(spin(motion)));
   }
   void find_energy(const StructurePair& bodies, double free_part) {
     energy = AnyLaw::history_energy(parameters(bodies, free_part), memory.history);
@@ -243,6 +246,15 @@ struct SpreadContact {
   Vec3 lever_b(const StructurePair& bodies) const {
     return bodies.radius_second / (bodies.radius_first + bodies.radius_second) *
            (a.point - b.point);
+  }
+
+ private:
+  /// m/s and rad/s, of b relative to a at the contact point.
+  Vec3 velocity(const StructurePair& bodies, const Motion& motion) const {
+    return b.velocity_at(lever_b(bodies), motion) - a.velocity_at(lever_a(bodies), motion);
+  }
+  Vec3 spin(const Motion& motion) const {
+    return b.angular_velocity(motion) - a.angular_velocity(motion);
   }
 };
 

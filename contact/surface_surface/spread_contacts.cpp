@@ -142,7 +142,10 @@ EnergyLoss SpreadContacts::carry(StructurePatches& patches, const Motion& motion
   }
   for (const Transfer& of : transfers_)
     take_over(of.from, contacts_[of.to], of.contacts, motion, dt, loss);
-  for (const SpreadContact& old : previous_) loss.dissipated += old.energy;
+  for (const SpreadContact& old : previous_) {
+    if (!old.is_followed)
+      loss.dissipated += old.loss_at_end(patches.structure_pairs()[old.structure_pair], motion, dt);
+  }
   for (SpreadContact& spread : contacts_) {
     spread.memory.normal = spread.normal();
     spread.find_energy(patches.structure_pairs()[spread.structure_pair],
@@ -157,8 +160,8 @@ void SpreadContacts::take_over(std::uint32_t old, SpreadContact& spread, double 
                                const Motion& motion, double dt, EnergyLoss& loss) {
   SpreadContact& from = previous_[old];
   spread.take_over(from, contacts, motion, dt);
-  loss.tracking += from.energy;
-  from.energy = 0.0;
+  if (!from.is_followed) loss.tracking += from.energy;
+  from.is_followed = true;
 }
 
 /// Contacts that a pair with a bar in it counted for in the last step, and does now; 0: none.

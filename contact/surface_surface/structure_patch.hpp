@@ -141,17 +141,21 @@ struct StructurePatch {
     if (!pushes()) return 0.0;
     memory.normal = normal();
     if (!(point_part > 0.0)) return 0.0;
-    const Vec3 velocity = second.velocity_at(lever_of_second(bodies), motion) -
-                          first.velocity_at(lever_of_first(bodies), motion);
-    const RelativeMotion relative =
-        relative_motion(memory.normal, gap, point_part * normal_force, velocity,
-                        second.angular_velocity(motion) - first.angular_velocity(motion));
+    const RelativeMotion relative = relative_motion(memory.normal, gap, point_part * normal_force,
+                                                    velocity(bodies, motion), spin(motion));
     const auto of_part = AnyLaw::unbonded_part(
         AnyLaw::scaled(bodies.of_part(point_count() / contacts), point_count()), free_part);
     const ContactForce result = AnyLaw::force(of_part, relative, memory.history, dt);
     other_force = result.force - point_part * elastic_force;
     moment = result.moment;
     return result.dissipated;
+  }
+
+  /// W, of half of the last force and moment, which go on for half of the step that ends the contact
+  /// (loss_at_end()).
+  double last_power(const StructurePair& bodies, const Motion& motion) const {
+    if (!pushes()) return 0.0;
+    return 0.5 * (other_force.dot(velocity(bodies, motion)) + moment.dot(spin(motion)));
   }
 
   void add_forces(const StructurePair& bodies, NodeForces& forces) const {
@@ -198,6 +202,14 @@ struct StructurePatch {
   }
 
  private:
+  /// m/s and rad/s, of the second side relative to the first at the contact point.
+  Vec3 velocity(const StructurePair& bodies, const Motion& motion) const {
+    return second.velocity_at(lever_of_second(bodies), motion) -
+           first.velocity_at(lever_of_first(bodies), motion);
+  }
+  Vec3 spin(const Motion& motion) const {
+    return second.angular_velocity(motion) - first.angular_velocity(motion);
+  }
   static double range(const StructurePair& bodies) {
     return bodies.radius_first + bodies.radius_second;
   }

@@ -109,7 +109,9 @@ void StructurePatches::find(const Motion& motion, geometry::ThreadPool& pool) {
   terms_.evaluate(springs_, motion, pool);
   previous_.clear();
   for (const StructurePatch& patch : patches_) {
-    previous_.push_back({patch.memory, patch.point_count(), history_energy(patch), patch.id,
+    const double power =
+        terms_.acting_changed() ? patch.last_power(structure_pair_of(patch), motion) : 0.0;
+    previous_.push_back({patch.memory, patch.point_count(), history_energy(patch), power, patch.id,
                          patch.normal_force, patch.is_torn});
   }
   if (terms_.acting_changed()) {
@@ -265,11 +267,11 @@ void StructurePatches::find_successors() {
 
 EnergyLoss StructurePatches::transfer(const Motion& motion, double dt) {
   EnergyLoss loss;
-  for (const Predecessor& old : previous_) loss.dissipated += old.energy;
+  for (const Predecessor& old : previous_) loss.dissipated += old.energy - dt * old.power;
   for (auto begin = successors_.begin(); begin != successors_.end();) {
-    const double energy = previous_[begin->old_patch].energy;
-    loss.dissipated -= energy;
-    loss.tracking += energy;
+    const Predecessor& old = previous_[begin->old_patch];
+    loss.dissipated -= old.energy - dt * old.power;
+    loss.tracking += old.energy;
     begin = end_of_group(begin, successors_.end());
   }
   for (auto begin = successors_.begin(); begin != successors_.end();) {

@@ -177,6 +177,7 @@ class StructurePatches {
     ContactMemory<AnyLaw> memory;
     double count;
     double energy;  ///< J, of the history
+    double power;   ///< W, of its last force and moment, half of them, if it may have ended
     std::int64_t id;
     double normal_force;  ///< N
     bool is_torn;

@@ -25,14 +25,30 @@ typename Law::History carried_history(const ContactMemory<Law>& memory, const Ve
   return history;
 }
 
-/// Ends a contact. @returns the energy (J) its history still held, which is lost
-/// @param parting  m, by how much the bodies parted along the normal of the last step since then
+/// How body b moved relative to body a in the step that ends their contact.
+struct LastWay {
+  Vec3 way = Vec3::Zero();     ///< m, at the contact point
+  Vec3 turned = Vec3::Zero();  ///< rad
+};
+
+/// The energy (J) that is lost with a contact: what its history still held, less what its last force
+/// and moment do. In a leapfrog these go on for half of the step that ends it. The elastic normal
+/// force does too, but has a potential, which is 0 then.
+template <ContactLaw Law>
+double loss_at_end(const typename Law::Parameters& parameters, const ContactMemory<Law>& memory,
+                   const LastWay& last) noexcept {
+  const Vec3 force = other_force<Law>(parameters, memory.normal, memory.history);
+  const Vec3 moment = moment_of<Law>(memory.history, memory.normal);
+  return Law::history_energy(parameters, memory.history) -
+         0.5 * (force.dot(last.way) + moment.dot(last.turned));
+}
+
+/// Ends a contact. @returns the energy (J) that is lost
 template <ContactLaw Law>
 double forget(const typename Law::Parameters& parameters, ContactMemory<Law>& memory,
-              double parting) noexcept {
+              const LastWay& last) noexcept {
   if (memory.is_new()) return 0.0;
-  const double lost =
-      Law::history_energy(parameters, memory.history) + loss_after<Law>(memory.history, parting);
+  const double lost = loss_at_end<Law>(parameters, memory, last);
   memory = {};
   return lost;
 }

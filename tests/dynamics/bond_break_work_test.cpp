@@ -27,6 +27,8 @@ struct Ground {
   double smaller;       ///< m, radius that a strength is multiplied with
   double speed;         ///< at which both part, in parts of the ball's
   double reduced;       ///< mass that swings, in parts of the ball's
+  double sideways;      ///< speed along the ground, in parts of the ball's
+  Held held;
 };
 
 class BondTo : public testing::TestWithParam<Ground> {};
@@ -38,6 +40,8 @@ TEST_P(BondTo, LosesWhatItHasStoredLessTheWorkOfItsLastPullWhereItIsTornApart) {
     Scene scene;
     scene.materials = {{2e5, 0.5, 0.3}};
     add_ball(scene, -1e-5, speed);
+    scene.state.velocity[0].y() = ground.sideways * speed;
+    scene.properties.held[0] = ground.held;
     ground.lay(scene);
     const double stiffness = 1000.0;                                                         // N/m
     const double swings = std::sqrt(ground.reduced * scene.properties.mass[0] / stiffness);  // s
@@ -46,7 +50,7 @@ TEST_P(BondTo, LosesWhatItHasStoredLessTheWorkOfItsLastPullWhereItIsTornApart) {
     contact::CohesiveFrictional::Properties glue;
     glue.elastic.normal_stiffness = stiffness;
     glue.tensile_strength = tension / (ground.smaller * ground.smaller);
-    glue.shear_strength = glue.tensile_strength;
+    glue.shear_strength = 10.0 * glue.tensile_strength;
     glue.bonds = contact::Bonds::at_start;
     const contact::PairProperties<AnyLaw> properties{
         {{kMaterial, kMaterial}, AnyLaw::of<contact::CohesiveFrictional>(glue)}};
@@ -61,11 +65,15 @@ TEST_P(BondTo, LosesWhatItHasStoredLessTheWorkOfItsLastPullWhereItIsTornApart) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BondTo,
-                         testing::Values(Ground{"APlane", lay_plane, kRadius, 1.0, 1.0},
-                                         Ground{"AFacet", lay_facet, 0.001, 1.0, 1.0},
-                                         Ground{"ABall", lay_ball, kRadius, 2.0, 0.5}),
-                         [](const auto& ground) { return std::string(ground.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    All, BondTo,
+    testing::Values(
+        Ground{"APlane", lay_plane, kRadius, 1.0, 1.0, 0.0, Held::nothing},
+        Ground{"AFacet", lay_facet, 0.001, 1.0, 1.0, 0.0, Held::nothing},
+        Ground{"ABall", lay_ball, kRadius, 2.0, 0.5, 0.0, Held::nothing},
+        Ground{"APlaneAlongWhichItGoes", lay_plane, kRadius, 1.0, 1.0, 0.5, Held::rotation},
+        Ground{"AFacetAlongWhichItGoes", lay_facet, 0.001, 1.0, 1.0, 0.5, Held::rotation}),
+    [](const auto& ground) { return std::string(ground.param.name); });
 
 }  // namespace
 }  // namespace plekton::dynamics::bond_break_work_test
