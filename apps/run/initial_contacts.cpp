@@ -6,8 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <map>
 #include <span>
+#include <string_view>
 #include <utility>
 
 namespace plekton::apps {
@@ -57,6 +60,13 @@ std::string refusal_of(std::size_t count, const BodyOverlap& deepest, const Scen
                      a, b, count, count == 1 ? "place" : "places", which, text_of(deepest));
 }
 
+std::string about(const Scenario& scenario, std::size_t table, std::string_view what) {
+  const PairSettings& pair = scenario.contacts[table];
+  return fmt::format("{}: contacts[{}], {} with {}: {}", to_string(pair.place), table,
+                     scenario.materials[pair.first].name, scenario.materials[pair.second].name,
+                     what);
+}
+
 /// Empty if the rule of a table [[contacts]] glues something, or nothing by its nature.
 /// @param count  of its bonds at the start
 std::string warning_about_bonds(const Scenario& scenario, std::size_t table, std::size_t count) {
@@ -71,10 +81,23 @@ std::string warning_about_bonds(const Scenario& scenario, std::size_t table, std
     what =
         "bonds = \"start\" glues nothing: no such bodies touch at the start; let them overlap a "
         "little, or take bonds = \"new\"";
-  if (what == nullptr) return "";
-  return fmt::format("{}: contacts[{}], {} with {}: {}", to_string(pair.place), table,
-                     scenario.materials[pair.first].name, scenario.materials[pair.second].name,
-                     what);
+  return what == nullptr ? "" : about(scenario, table, what);
+}
+
+/// A limit of a spring that is not there; a stage may have taken the spring away.
+std::vector<std::string> warnings_about_limits(const Scenario& scenario, std::size_t table) {
+  std::vector<std::string> warnings;
+  if (scenario.stage && scenario.stage->number > 0) return warnings;
+  const contact::RollingTwisting::Properties& of = scenario.contacts[table].contact.rolling;
+  const auto check = [&](std::string_view motion, double stiffness, double limit) {
+    if (stiffness > 0.0 || !std::isfinite(limit)) return;
+    warnings.push_back(about(
+        scenario, table,
+        fmt::format("{0}_limit does nothing without {0}_stiffness; give one, such as 1", motion)));
+  };
+  check("rolling", of.rolling_stiffness, of.rolling_limit);
+  check("twisting", of.twisting_stiffness, of.twisting_limit);
+  return warnings;
 }
 
 }  // namespace
@@ -99,6 +122,7 @@ std::vector<std::string> warnings_about(const InitialContacts& contacts, const S
   for (std::size_t i = 0; i < scenario.contacts.size(); ++i) {
     const std::string warning = warning_about_bonds(scenario, i, contacts.bonds[i]);
     if (!warning.empty()) warnings.push_back(warning);
+    std::ranges::copy(warnings_about_limits(scenario, i), std::back_inserter(warnings));
   }
   const auto shallow =
       std::find_if(contacts.overlaps.begin(), contacts.overlaps.end(),

@@ -249,6 +249,20 @@ TEST_F(StartOfScenes, WarnOfABondRuleThatGluesNothing) {
   EXPECT_THAT(later.out, Not(HasSubstr("warning")));
 }
 
+TEST_F(StartOfScenes, WarnOfALimitOfRollingWithoutItsSpring) {
+  const std::string apart = grains("g", "[0, 0, 0.1], [0.1, 0, 0.1]");
+  const std::string contacts = "[[contacts]]\nbetween = \"stone\"\nand = \"stone\"\n";
+
+  const Outcome alone = check(contacts + "rolling_limit = 0.1\n" + apart);
+  const Outcome other = check(contacts + "rolling_stiffness = 1\ntwisting_limit = 0.1\n" + apart);
+  const Outcome both = check(contacts + "rolling_stiffness = 1\nrolling_limit = 0.1\n" + apart);
+
+  EXPECT_THAT(alone.out, HasSubstr("case.toml:11:1: contacts[0], stone with stone: rolling_limit "
+                                   "does nothing without rolling_stiffness; give one, such as 1"));
+  EXPECT_THAT(other.out, HasSubstr("twisting_limit does nothing without twisting_stiffness"));
+  EXPECT_THAT(both.out, Not(HasSubstr("warning")));
+}
+
 TEST_F(StartOfScenes, CountBondsBetweenMembranes) {
   // Two bars crossing at a right angle, 0.1 mm deep: one contact, one bond.
   const auto bar = [](const std::string& name, const std::string& points) {
