@@ -123,7 +123,7 @@ double PlaneContacts::advance_spheres(std::size_t begin, std::size_t end, const 
       touching.height[touching.count++] = height;
       touching.all_have_images &= height + slot.radius > 0.0;
     } else if (!slot.memory.is_new()) {
-      dissipated += end_contact(slot, planes[slot.plane], motion, dt);
+      dissipated += end_contact(slot, height, planes[slot.plane], motion, dt);
     }
   }
   flush();
@@ -131,8 +131,9 @@ double PlaneContacts::advance_spheres(std::size_t begin, std::size_t end, const 
 }
 
 /// @returns the energy (J) that is lost
-double PlaneContacts::end_contact(Slot& slot, const Plane& plane, const Motion& motion, double dt) {
-  const double distance = slot.gap + (slot.radius + slot.radius);
+double PlaneContacts::end_contact(Slot& slot, double height, const Plane& plane,
+                                  const Motion& motion, double dt) {
+  const double distance = height + slot.radius;
   const auto pair = motion_of(slot, distance * slot.memory.normal, plane, motion)
                         .at(slot.memory.normal, distance);
   slot.id = 0;

@@ -151,7 +151,8 @@ class PlaneContacts {
   template <class Touches>
   void share_masses(const Touches& touches);
   void share_masses_as_kept();
-  static double end_contact(Slot& slot, const Plane& plane, const Motion& motion, double dt);
+  static double end_contact(Slot& slot, double height, const Plane& plane, const Motion& motion,
+                            double dt);
   static SphereMotionOf<double> motion_of(const Slot& slot, const Vec3& separation,
                                           const Plane& plane, const Motion& motion);
   /// One step of slots that touch, of one law, side by side if it allows. @returns the energy (J)

@@ -58,7 +58,7 @@ struct SphereMotionOf {
   }
 };
 
-/// The step (s) that ends the contact of a pair. It is as in the last step, but for its motion.
+/// In the step (s) that ends the contact of a pair.
 inline LastWay last_way(const SpherePairOf<double>& pair, double dt) noexcept {
   return {dt * pair.contact_velocity(), dt * (pair.spin_b - pair.spin_a)};
 }

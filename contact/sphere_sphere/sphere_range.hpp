@@ -230,17 +230,14 @@ void SphereLoop<Law>::advance_one(std::size_t row, std::size_t lane) const noexc
     normal(kept).set(lane, memory.normal);
     range_.touched[row].set(lane, 1, touching);
   };
+  const double distance = spheres.separation.norm();
   if (spheres.touch() == 0.0 &&
       (memory.is_new() ||
-       !goes_on<Law>(of_pair, memory.history,
-                     spheres.separation.norm() - (spheres.radius_a + spheres.radius_b)))) {
-    const double distance =
-        spheres.radius_a + spheres.radius_b + gap(kept).template at<double>(lane);
+       !goes_on<Law>(of_pair, memory.history, distance - (spheres.radius_a + spheres.radius_b)))) {
     const LastWay last = last_way(spheres.at(memory.normal, distance), work_.dt);
     work_.outcome.dissipated[lane] += forget<Law>(of_pair, memory, last);
     return keep(0);
   }
-  const double distance = spheres.separation.norm();
   // Coincident centres have no direction: the last normal goes on, or else any.
   const Vec3 direction = distance > 0.0    ? Vec3((1.0 / distance) * spheres.separation)
                          : memory.is_new() ? Vec3(Vec3::UnitZ())
