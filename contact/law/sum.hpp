@@ -140,6 +140,13 @@ struct Sum {
            Part::force_of_state(history.part, normal);
   }
 
+  /// See TellsOtherForce.
+  static Vec3 other_force(const Parameters& p, const Vec3& normal, const History& history) {
+    Vec3 force = contact::other_force<Whole>(p.whole, normal, history.whole);
+    if constexpr (PartTellsForce<Part>) force += Part::force_of_state(history.part, normal);
+    return force;
+  }
+
   /// See HasMoments.
   static Vec3 moment(const History& history, const Vec3& normal) {
     return moment_of<Whole>(history.whole, normal) + moment_of<Part>(history.part, normal);

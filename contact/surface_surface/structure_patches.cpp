@@ -109,10 +109,10 @@ void StructurePatches::find(const Motion& motion, geometry::ThreadPool& pool) {
   terms_.evaluate(springs_, motion, pool);
   previous_.clear();
   for (const StructurePatch& patch : patches_) {
-    const double power =
+    const double last_power =
         terms_.acting_changed() ? patch.last_power(structure_pair_of(patch), motion) : 0.0;
-    previous_.push_back({patch.memory, patch.point_count(), history_energy(patch), power, patch.id,
-                         patch.normal_force, patch.is_torn});
+    previous_.push_back({patch.memory, patch.point_count(), history_energy(patch), last_power,
+                         patch.id, patch.normal_force, patch.is_torn});
   }
   if (terms_.acting_changed()) {
     join_pairs();
@@ -267,16 +267,15 @@ void StructurePatches::find_successors() {
 
 EnergyLoss StructurePatches::transfer(const Motion& motion, double dt) {
   EnergyLoss loss;
-  for (const Predecessor& old : previous_) loss.dissipated += old.energy - dt * old.power;
-  for (auto begin = successors_.begin(); begin != successors_.end();) {
-    const Predecessor& old = previous_[begin->old_patch];
-    loss.dissipated -= old.energy - dt * old.power;
-    loss.tracking += old.energy;
-    begin = end_of_group(begin, successors_.end());
-  }
-  for (auto begin = successors_.begin(); begin != successors_.end();) {
+  auto begin = successors_.begin();
+  for (std::uint32_t i = 0; i < previous_.size(); ++i) {
+    const Predecessor& old = previous_[i];
+    if (begin == successors_.end() || begin->old_patch != i) {
+      loss.dissipated += old.energy - dt * old.last_power;
+      continue;
+    }
     const auto end = end_of_group(begin, successors_.end());
-    const Predecessor& old = previous_[begin->old_patch];
+    loss.tracking += old.energy;
     hand_on_number(old, {begin, end});
     hand_on_history(old, {begin, end}, motion, dt);
     begin = end;

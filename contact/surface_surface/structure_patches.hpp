@@ -176,8 +176,8 @@ class StructurePatches {
   struct Predecessor {
     ContactMemory<AnyLaw> memory;
     double count;
-    double energy;  ///< J, of the history
-    double power;   ///< W, of its last force and moment, half of them, if it may have ended
+    double energy;      ///< J, of the history
+    double last_power;  ///< W, see StructurePatch::last_power(); of what may have ended
     std::int64_t id;
     double normal_force;  ///< N
     bool is_torn;
