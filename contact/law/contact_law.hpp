@@ -135,7 +135,8 @@ concept TellsForce = requires(const typename Law::Parameters& parameters, double
   { Law::force_of_state(parameters, gap, normal, history) } -> std::same_as<Vec3>;
 };
 
-/// A law that tells of its force after a step, maybe, what it has beside the elastic normal force.
+/// A law that tells what it has beside the elastic normal force after a step, though maybe not its
+/// whole force: other_force(parameters, normal, history) (N, on b).
 template <class Law>
 concept TellsOtherForce = requires(const typename Law::Parameters& parameters, const Vec3& normal,
                                    const typename Law::History& history) {

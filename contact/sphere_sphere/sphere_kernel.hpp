@@ -9,7 +9,7 @@
 /// by side (Real = Pack).
 namespace plekton::contact {
 
-/// Two spheres that touch.
+/// Two spheres that touch, or did in the last step.
 template <class Real>
 struct SpherePairOf {
   Vec3Of<Real> normal;    ///< unit, from a to b
@@ -25,6 +25,7 @@ struct SpherePairOf {
     const Vec3Of<Real> twice_mean = spin_a + spin_b;
     return Real(0.5) * twice_mean.dot(normal);
   }
+  /// m, negative when overlapping.
   PLEKTON_INLINE Real gap() const noexcept { return distance - (radius_a + radius_b); }
   /// From each centre to the contact point (m): half way through the overlap.
   PLEKTON_INLINE Real arm_a() const noexcept { return radius_a + Real(0.5) * gap(); }
@@ -58,7 +59,7 @@ struct SphereMotionOf {
   }
 };
 
-/// In the step (s) that ends the contact of a pair.
+/// How a pair moves in the step (s) that ends its contact.
 inline LastWay last_way(const SpherePairOf<double>& pair, double dt) noexcept {
   return {dt * pair.contact_velocity(), dt * (pair.spin_b - pair.spin_a)};
 }
