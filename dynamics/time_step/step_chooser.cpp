@@ -158,7 +158,8 @@ double StepChooser::stable_near(double margin, double last) {
                                    : std::numeric_limits<double>::infinity();
   limits_->add_near_contacts(springs_, margin, rate);
   add_near_structures(margin, rate);
-  limits_->add_between_structures(springs_, structures_, of_.scene.state.position, 0.0);
+  limits_->find_between_structures(structures_, of_.scene.state.position, 0.0);
+  structures_.add_to(springs_);
   limits_->add_spread(space_, springs_, spread_, of_.scene.state.position);
   shares_.add(springs_, of_.scene.properties, space_);
   double stable = kSafety * space_.critical_step(of_.scene.properties).dt;

@@ -85,11 +85,10 @@ void StepLimits::add_near_wires(ContactSprings& springs, double margin) const {
   });
 }
 
-void StepLimits::add_between_structures(ContactSprings& springs, StructureStiffness& structures,
-                                        geometry::Positions x, double moved) const {
+void StepLimits::find_between_structures(StructureStiffness& structures, geometry::Positions x,
+                                         double moved) const {
   if (of_.surface.structure_count() == 0) return;
-  structures.add_to(springs, of_.contacts, of_.scene.properties, {x, kShareOfRadius * pace_radius_},
-                    moved);
+  structures.find(of_.contacts, of_.scene.properties, {x, kShareOfRadius * pace_radius_}, moved);
 }
 
 void StepLimits::add_spread(NodalStiffness& stiffness, ContactSprings& springs,
@@ -153,9 +152,11 @@ Step StepLimits::with_dashpots(const Find& find) const {
 }
 
 CriticalStep StepLimits::critical(NodalStiffness& space, geometry::Positions x) const {
+  StructureStiffness between(of_.rigid);
+  find_between_structures(between, x, std::numeric_limits<double>::infinity());
   const CriticalStep step = with_dashpots<CriticalStep>([&](double rate) {
     const CriticalStep coming = structural(space, rate);
-    const CriticalStep now = present(space, x, rate);
+    const CriticalStep now = present(space, between, x, rate);
     return now.dt < coming.dt ? now : coming;
   });
   return with_loads(step, space);
@@ -168,8 +169,10 @@ CriticalStep StepLimits::critical(geometry::Positions x) const {
 
 CriticalStep StepLimits::present(geometry::Positions x) const {
   NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
+  StructureStiffness between(of_.rigid);
+  find_between_structures(between, x, std::numeric_limits<double>::infinity());
   const CriticalStep step =
-      with_dashpots<CriticalStep>([&](double rate) { return present(space, x, rate); });
+      with_dashpots<CriticalStep>([&](double rate) { return present(space, between, x, rate); });
   return with_loads(step, space);
 }
 
@@ -181,18 +184,19 @@ CriticalStep StepLimits::coming() const {
 }
 
 /// Of the contacts of now, without gases and viscous damping.
-/// @param space  where there are no surfaces it is all the space that is needed
-CriticalStep StepLimits::present(NodalStiffness& space, geometry::Positions x, double rate) const {
+/// @param space    where there are no surfaces it is all the space that is needed
+/// @param between  what was found of structures with each other
+CriticalStep StepLimits::present(NodalStiffness& space, const StructureStiffness& between,
+                                 geometry::Positions x, double rate) const {
   if (of_.surface.structure_count() == 0) {
     return shortest_of_pieces(space, [&] { contacts(rate).add_to(space, 0.0, x); });
   }
   NodalStiffness whole(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
   ContactSprings springs(&of_.rigid);
   SpreadStiffness spread(of_.surface, of_.rigid);
-  StructureStiffness structures(of_.rigid);
   add_structures(whole);
   contacts(rate).add_to(springs, 0.0, x);
-  add_between_structures(springs, structures, x, std::numeric_limits<double>::infinity());
+  between.add_to(springs);
   add_spread(whole, springs, spread, x);
   SpringShares().add(springs, of_.scene.properties, whole);
   return whole.critical_step(of_.scene.properties);
@@ -223,12 +227,13 @@ ExactStep StepLimits::exact(geometry::Positions x, double time) const {
   };
   NodalStiffness space(of_.scene.state.size(), &of_.scene.properties, &of_.rigid);
   const double alone = of_structures(space);
+  StructureStiffness between(of_.rigid);
+  find_between_structures(between, x, std::numeric_limits<double>::infinity());
   return with_dashpots<ExactStep>([&](double rate) {
     ContactSprings springs(&of_.rigid);
     SlipOnSurfaces slip{springs};
     contacts(rate).add_to(slip, 0.0, x);
-    StructureStiffness structures(of_.rigid);
-    add_between_structures(springs, structures, x, std::numeric_limits<double>::infinity());
+    between.add_to(springs);
     return exact_critical_step(of_.scene, {of_.bonds, of_.sheet_facets, of_.ties, alone}, of_.loads,
                                springs, time, normal);
   });
@@ -239,10 +244,12 @@ StepCause StepLimits::cause(geometry::Positions x) const {
   bool is_coming = false;
   double rate = 0.0;
   double without_dashpots = 0.0;
+  StructureStiffness between(of_.rigid);
+  find_between_structures(between, x, std::numeric_limits<double>::infinity());
   const CriticalStep shortest = with_dashpots<CriticalStep>([&](double tried) {
     rate = tried;
     const CriticalStep coming = structural(space, rate);
-    const CriticalStep now = present(space, x, rate);
+    const CriticalStep now = present(space, between, x, rate);
     is_coming = !(now.dt < coming.dt);
     if (rate == 0.0) without_dashpots = std::min(now.dt, coming.dt);
     return is_coming ? coming : now;

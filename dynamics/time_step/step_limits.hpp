@@ -69,8 +69,8 @@ class StepLimits {
   /// What contacts of structures with each other resist beside their springs
   /// (structure_stiffness.hpp).
   /// @param moved  m, how far nodes are at most from where they were in the last step
-  void add_between_structures(ContactSprings& springs, StructureStiffness& structures,
-                              geometry::Positions x, double moved) const;
+  void find_between_structures(StructureStiffness& structures, geometry::Positions x,
+                               double moved) const;
   /// What contacts that are more or less than one resist beside their springs
   /// (spread_stiffness.hpp).
   void add_spread(NodalStiffness& stiffness, ContactSprings& springs, SpreadStiffness& spread,
@@ -89,7 +89,8 @@ class StepLimits {
   template <class Add>
   CriticalStep shortest_of_pieces(NodalStiffness& space, const Add& add_contacts) const;
   CriticalStep structural(NodalStiffness& space, double rate) const;
-  CriticalStep present(NodalStiffness& space, geometry::Positions x, double rate) const;
+  CriticalStep present(NodalStiffness& space, const StructureStiffness& between,
+                       geometry::Positions x, double rate) const;
   void add_expected(NodalStiffness& stiffness, double rate) const;
   NodeId most_touched_of(NodeId node) const;
   void consider_structures(StiffestPart& parts) const;

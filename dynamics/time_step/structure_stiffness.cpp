@@ -6,9 +6,9 @@
 
 namespace plekton::dynamics {
 
-void StructureStiffness::add_to(ContactSprings& springs, const contact::Contacts& contacts,
-                                const NodeProperties& properties,
-                                const StiffestMotion::Places& places, double moved) {
+void StructureStiffness::find(const contact::Contacts& contacts, const NodeProperties& properties,
+                              const StiffestMotion::Places& places, double moved) {
+  rests_.clear();
   contacts.probe_structures(probe_);
   if (!probe_.touches()) return motion_.forget();
   find_parts(properties);
@@ -29,8 +29,12 @@ void StructureStiffness::add_to(ContactSprings& springs, const contact::Contacts
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     if (!motion_.has(i) || holds_translation(properties.held[i])) continue;
     const double more = motion_.rate(i) * properties.mass[i] - springs_[i];
-    if (more > 0.0) springs.add(geometry::id_at<NodeId>(i), {more, 0.0});
+    if (more > 0.0) rests_.push_back({geometry::id_at<NodeId>(i), more});
   }
+}
+
+void StructureStiffness::add_to(ContactSprings& springs) const {
+  for (const Rest& rest : rests_) springs.add(rest.node, {rest.stiffness, 0.0});
 }
 
 std::uint32_t StructureStiffness::root_of(std::uint32_t node) noexcept {

@@ -34,8 +34,10 @@ class StructureStiffness {
 
   /// @param places  those of the last step's contacts, or so much away from them
   /// @param moved   m, how far nodes are at most from where they were in the last step
-  void add_to(ContactSprings& springs, const contact::Contacts& contacts,
-              const NodeProperties& properties, const StiffestMotion::Places& places, double moved);
+  void find(const contact::Contacts& contacts, const NodeProperties& properties,
+            const StiffestMotion::Places& places, double moved);
+  /// What the last look found.
+  void add_to(ContactSprings& springs) const;
 
   /// The motion of the last look.
   void exchange(const geometry::StateArchive& archive) { motion_.exchange(archive); }
@@ -50,6 +52,11 @@ class StructureStiffness {
   StiffestMotion motion_;
   std::vector<std::uint32_t> linked_;  ///< by node: one of its part, the lowest of it itself
   std::vector<double> springs_;        ///< N/m, by node that moves: of its patches
+  struct Rest {
+    NodeId node;
+    double stiffness;  ///< N/m
+  };
+  std::vector<Rest> rests_;  ///< beside those springs
 };
 
 }  // namespace plekton::dynamics
