@@ -158,7 +158,9 @@ struct CohesiveFrictional {
         Real(0.5) * (pull_before + history.pull) * (history.overlap - overlap_before);
     const Real goes_on_with_it = geometry::smaller_of(bond_before, Real(p.glues - Real(kBeside)));
     const Real of_end = geometry::select(
-        goes_on_with_it > Real(0.0), pressing_left(p, overlap_before, history.overlap), Real(0.0));
+        goes_on_with_it > Real(0.0),
+        pressing_left(overlap_before, history.overlap, Real(history.pull - pull_before)),
+        Real(0.0));
     return {total_force(motion.elastic_normal_force, motion.normal, history),
             of_spring + of_bond + of_end};
   }
@@ -295,15 +297,17 @@ struct CohesiveFrictional {
   }
 
   /// J, of the elastic force in a step in which bodies that are glued part or meet: what it stored
-  /// less what its mean does on the way. It does not begin or end there, as the bond goes on with
-  /// it, so that both together lose nothing.
+  /// less what its mean does on the way, as far as the bond goes on with it, so that both together
+  /// lose nothing. Where the bond gives way the force ends as it does without one.
+  /// @param more  N, by how much the pull has grown
   template <class Real>
-  PLEKTON_INLINE static Real pressing_left(const ParametersOf<Real>& p, const Real& before,
-                                           const Real& after) noexcept {
-    const Real pressed = geometry::positive_part(before) + geometry::positive_part(after);
-    const Real apart =
-        geometry::positive_part(Real(-before)) - geometry::positive_part(Real(-after));
-    return Real(0.5) * p.elastic.normal_stiffness * pressed * apart;
+  PLEKTON_INLINE static Real pressing_left(const Real& before, const Real& after,
+                                           const Real& more) noexcept {
+    using geometry::positive_part;
+    const Real pressed = positive_part(before) + positive_part(after);
+    const Real apart = positive_part(Real(-before)) + positive_part(Real(-after));
+    return geometry::select(geometry::smaller_of(pressed, apart) > Real(0.0),
+                            Real(Real(0.5) * pressed * more), Real(0.0));
   }
 
   /// J, beyond that of the elastic force.

@@ -80,18 +80,27 @@ void Ties::set_point(std::size_t i, const CablePlace& on) {
   points_[i] = {{first, second, first}, Vec3(1.0 - kept_[i].along, kept_[i].along, 0.0)};
 }
 
-/// m, from where it is tied to its node.
-Vec3 Ties::to_node(std::size_t i, Positions x) const noexcept {
-  const Vec3& node = x[index_of(ties_[i].node)];
-  if (const auto* const fixed = std::get_if<FixedPoint>(&ties_[i].to)) return node - fixed->place;
+Vec3 Ties::way(std::size_t i, Positions x) const noexcept {
+  if (const auto* const fixed = std::get_if<FixedPoint>(&ties_[i].to))
+    return x[index_of(ties_[i].node)] - fixed->place;
+  return beside_point(i, x);
+}
+
+Vec3 Ties::motion(std::size_t i, std::span<const Vec3> v) const noexcept {
+  if (std::holds_alternative<FixedPoint>(ties_[i].to)) return v[index_of(ties_[i].node)];
+  return beside_point(i, v);
+}
+
+/// What its node has more than its point, on nodes.
+Vec3 Ties::beside_point(std::size_t i, std::span<const Vec3> of_nodes) const noexcept {
   const auto& [nodes, weights] = points_[i];
   // Differences first: so that it is exact far from the origin.
-  const Vec3& origin = x[index_of(nodes[0])];
-  Vec3 way = node - origin;
+  const Vec3& origin = of_nodes[index_of(nodes[0])];
+  Vec3 more = of_nodes[index_of(ties_[i].node)] - origin;
   for (int k = 1; k < 3; ++k)
     if (weights[k] > 0.0)
-      way -= weights[k] * (x[index_of(nodes[static_cast<std::size_t>(k)])] - origin);
-  return way;
+      more -= weights[k] * (of_nodes[index_of(nodes[static_cast<std::size_t>(k)])] - origin);
+  return more;
 }
 
 /// m, of its spring.
@@ -111,8 +120,8 @@ void Ties::advance(std::size_t i, Positions x) {
   const Tie& tie = ties_[i];
   Kept& kept = kept_[i];
   if (const auto* const on = std::get_if<CablePlace>(&tie.to)) slide(i, *on, x);
-  const Vec3 way = to_node(i, x);
-  const double distance = way.norm();
+  const Vec3 to_node = way(i, x);
+  const double distance = to_node.norm();
   const double asked = stretch(i, distance);
   const double before = kept.dissipated;
   const double stretched = pay_out(tie, kept, asked);
@@ -128,7 +137,7 @@ void Ties::advance(std::size_t i, Positions x) {
   }
   kept.pull = pull;
   kept.elastic = 0.5 * pull * stretched;
-  forces_[i] = distance > 0.0 ? Vec3((-pull / distance) * way) : Vec3::Zero();
+  forces_[i] = distance > 0.0 ? Vec3((-pull / distance) * to_node) : Vec3::Zero();
 }
 
 /// @returns the stretch (m) that is left to the spring
@@ -155,12 +164,12 @@ void Ties::slide(std::size_t i, const CablePlace& on, Positions x) {
   kept.slip += std::abs(slid.distance);
   set_point(i, on);
   if (is_smooth) return;
-  const Vec3 way = to_node(i, x);
-  const double distance = way.norm();
+  const Vec3 to_node = way(i, x);
+  const double distance = to_node.norm();
   const Vec3 chord = cable.chord(kept.segment);
   const double product = distance * chord.norm();
   const double pull = tie.stiffness * stretch(i, distance);
-  const double along = product > 0.0 ? pull * way.dot(chord) / product : 0.0;
+  const double along = product > 0.0 ? pull * to_node.dot(chord) / product : 0.0;
   kept.dissipated += 0.5 * (kept.along_cable + along) * slid.distance;
   kept.along_cable = along;
 }
@@ -181,10 +190,10 @@ void Ties::add_forces(NodeForces& forces) const {
 void Ties::add_forces_at(Positions x, NodeForces& forces) const {
   for (std::size_t i = 0; i < ties_.size(); ++i) {
     if (kept_[i].is_broken) continue;
-    const Vec3 way = to_node(i, x);
-    const double distance = way.norm();
+    const Vec3 to_node = way(i, x);
+    const double distance = to_node.norm();
     if (!(distance > 0.0)) continue;
-    add_force(i, (-ties_[i].stiffness * stretch(i, distance) / distance) * way, forces);
+    add_force(i, (-ties_[i].stiffness * stretch(i, distance) / distance) * to_node, forces);
   }
 }
 
@@ -235,7 +244,7 @@ void Ties::add_to(NodalStiffness& stiffness, Positions x, std::size_t i) const {
   const Tie& tie = ties_[i];
   if (kept_[i].is_broken) return;
   double k = tie.stiffness;
-  if (const double distance = to_node(i, x).norm(); distance > 0.0)
+  if (const double distance = way(i, x).norm(); distance > 0.0)
     k = std::max(k, std::abs(kept_[i].pull) / distance);
   const ContactStiffness spring{Vec3::UnitX(), k, k, 0.0, 0.0};
   if (std::holds_alternative<FixedPoint>(tie.to))

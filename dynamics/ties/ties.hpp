@@ -4,6 +4,8 @@
 #include "dynamics/model/scene.hpp"
 #include "dynamics/stiffness/nodal_stiffness.hpp"
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace plekton::geometry {
@@ -54,6 +56,12 @@ class Ties {
   /// advance, and cables end where they are torn.
   void follow(const geometry::Elements& left);
 
+  /// m, from where it is tied to its node.
+  Vec3 way(std::size_t i, geometry::Positions x) const noexcept;
+  /// m/s, how that changes.
+  /// @param v  m/s, of the nodes
+  Vec3 motion(std::size_t i, std::span<const Vec3> v) const noexcept;
+
   /// N, tension in the last advance; below 0: it pushes.
   double pull(std::size_t i) const noexcept { return kept_[i].pull; }
   bool is_broken(std::size_t i) const noexcept { return kept_[i].is_broken; }
@@ -103,7 +111,7 @@ class Ties {
   void slide(std::size_t i, const CablePlace& on, geometry::Positions x);
   void set_point(std::size_t i, const CablePlace& on);
   double pay_out(const Tie& tie, Kept& kept, double stretch) const noexcept;
-  Vec3 to_node(std::size_t i, geometry::Positions x) const noexcept;
+  Vec3 beside_point(std::size_t i, std::span<const Vec3> of_nodes) const noexcept;
   double stretch(std::size_t i, double distance) const noexcept;
   void add_force(std::size_t i, const Vec3& force, NodeForces& forces) const;
 

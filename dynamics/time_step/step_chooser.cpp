@@ -21,10 +21,10 @@ constexpr double kLargestTurn = 1.0;
 /// What is in each other flies apart, and as its contact ends within a step it is off by
 /// (omega dt)² / 4 of what was stored in it at most.
 constexpr double kReleaseStep = 0.25;
-/// rad, by which a bar that is pressed together turns at most in a chosen step, and the part of its
-/// length at rest below which it is not followed any further. One that goes through itself turns its
-/// force round within a step: that makes up to the force times the way in the step, which then is
-/// 1/256 of the length, 1/128 of what a bar of no length stores.
+/// rad, by which a bar, or tie, that is pressed together turns at most in a chosen step, and the
+/// part of its length at rest below which it is not followed any further. One that goes through
+/// itself turns its force round within a step: that makes up to the force times the way in the step,
+/// which then is 1/256 of the length, 1/128 of what a bar of no length stores.
 constexpr double kLargestTurnOfBar = 1.0 / 8.0;
 constexpr double kShortestBar = 1.0 / 32.0;
 
@@ -104,18 +104,24 @@ double StepChooser::step_of_wires(double margin) {
   return wires_.ending_step(of_.scene.state, of_.scene.properties);
 }
 
-/// s, in which bars that are pressed together turn by kLargestTurnOfBar at most; infinite if none
-/// does.
+/// s, in which bars and ties that are pressed together turn by kLargestTurnOfBar at most; infinite
+/// if none does.
 double StepChooser::step_of_bars() const {
   const NodeState& state = of_.scene.state;
   double fastest = 0.0;  // rad/s
+  const auto look_at = [&](const Vec3& chord, const Vec3& motion, double length) {
+    fastest = std::max(fastest, motion.norm() / std::max(chord.norm(), kShortestBar * length));
+  };
   for (std::size_t i = 0; i < of_.bonds.size(); ++i) {
     if (!(of_.bonds.axial_force(i) < 0.0)) continue;
     const auto [a, b] = of_.bonds.nodes(i);
-    const Vec3 chord = state.position[index_of(b)] - state.position[index_of(a)];
-    const Vec3 motion = state.velocity[index_of(b)] - state.velocity[index_of(a)];
-    const double length = std::max(chord.norm(), kShortestBar * of_.scene.bonds[i].length);
-    fastest = std::max(fastest, motion.norm() / length);
+    look_at(state.position[index_of(b)] - state.position[index_of(a)],
+            state.velocity[index_of(b)] - state.velocity[index_of(a)], of_.scene.bonds[i].length);
+  }
+  for (std::size_t i = 0; i < of_.ties.size(); ++i) {
+    if (of_.ties.pull(i) < 0.0)
+      look_at(of_.ties.way(i, state.position), of_.ties.motion(i, state.velocity),
+              of_.ties.tie(i).rest_length);
   }
   return kLargestTurnOfBar / fastest;
 }
