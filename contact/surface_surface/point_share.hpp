@@ -31,6 +31,12 @@
 ///
 /// Facets beside each other in one plane, rim to rim, have no area to take over: see rim_share.hpp.
 ///
+/// Of facets that are through each other little is flat: the share comes back to 1 from where the
+/// cores meet to two ranges deeper. There the shortest way out turns from one pair of features to
+/// another one, which may be a rim or none, and only what all ways share may count (a pair 4 ranges
+/// deep stored half at once as its way out left the rims). It comes back to 1 with the overlap, so
+/// deeper overlaps still store no less.
+///
 /// Features that facets share (geometry/critical/product_features.hpp) take the mean share of all
 /// pairs of cells that have them. With the weights of inclusion and exclusion, what lies in
 /// several pairs of cells then counts with a mean of their shares: on a seam of two with half of
@@ -46,6 +52,9 @@ struct PointShare {
   double by_tilt = 0.0;      ///< derivative by tilt_between()
 };
 
+/// Ranges, from where the cores meet to where facets count as crossing whatever their tilt.
+inline constexpr double kDepthOfCrossing = 2.0;
+
 /// @param tilt     of tilt_between()
 /// @param overlap  m, > 0
 /// @param range    m
@@ -54,11 +63,19 @@ inline PointShare point_share(double tilt, double overlap, double range) {
   const double square = overlap * overlap;
   // Most facets are tilted; nor where one has no area, or is none.
   if (!(tilt >= 0.0) || range * range * tilt >= kTilted * square) return {};
+  const double depth = (overlap - range) / (kDepthOfCrossing * range);
+  if (depth >= 1.0) return {};
   const double per_tilt = range * range / square;
   const double x = per_tilt * tilt;
   const double z = x / kTilted;
   const double by_x = 2.0 * (1.0 - z) / kTilted;
-  return {z * (2.0 - z), by_x * 2.0 * x / overlap, by_x * per_tilt};
+  const PointShare share{z * (2.0 - z), by_x * 2.0 * x / overlap, by_x * per_tilt};
+  if (depth <= 0.0) return share;
+  const double left = (1.0 - depth) * (1.0 - depth) * (1.0 + 2.0 * depth);
+  const double by_depth = -6.0 * depth * (1.0 - depth);
+  const double of_depth = (1.0 - share.share) * by_depth / (kDepthOfCrossing * range);
+  return {1.0 - (1.0 - share.share) * left, left * share.by_distance + of_depth,
+          left * share.by_tilt};
 }
 
 /// Forces of an energy that depends on tilt_between() of two facets.

@@ -115,7 +115,7 @@ class DefectsOfChosenSteps : public testing::TestWithParam<const char*> {};
 // speed shortened the step and let it grow again in each of its swings; what begins in each other;
 // a wire that rattles in a plate which it went through; faces of a box that went through each other,
 // or folded into one plane, and drew each other in (46 and 36 %); what glue without strength was
-// said to give as it parted; ties that push and have no direction yet.
+// said to give as it parted; ties that push and have no direction yet; ways out that turn.
 TEST_P(DefectsOfChosenSteps, EndWithTheirEnergyClosedToASixteenth) {
   const Defect defect(GetParam(), {});
 
@@ -126,8 +126,8 @@ TEST_P(DefectsOfChosenSteps, EndWithTheirEnergyClosedToASixteenth) {
 INSTANTIATE_TEST_SUITE_P(All, DefectsOfChosenSteps,
                          testing::Values("net_on_floor", "ring_on_floor", "wire_springs",
                                          "rings_in_each_other", "wire_through_plate", "crushed_box",
-                                         "folded_nets", "weak_glue_on_planes",
-                                         "ties_of_no_length"));
+                                         "folded_nets", "weak_glue_on_planes", "ties_of_no_length",
+                                         "tubes_through_each_other"));
 
 class DefectsOfFlatFalls : public testing::TestWithParam<const char*> {};
 
