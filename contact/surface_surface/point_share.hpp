@@ -15,12 +15,12 @@
 ///
 ///     X = (range * sin t / u)^2        range: the sum of both radii
 ///
-/// alone: 1 from X1 = 1 - kCosineOfCrossing^2 = 0.19 on (a strip of 2.3 ranges), below that z (2 -
-/// z) with z = X / X1. It is smooth, and goes to 0 where the facets are flat: no corner is favoured
-/// there, whatever rounding or a mesh that coincides with the other one makes of them. What the
-/// nearest points of a linear spring store grows to twice what it was at X1, and no further: deeper
-/// overlaps never store less, so nothing attracts. It goes with the square of the angle, like a
-/// spring that turns the facets flat.
+/// alone while their cores do not cross: 1 from X1 = 1 - kCosineOfCrossing^2 = 0.19 on (a strip of
+/// 2.3 ranges), below that z (2 - z) with z = X / X1. It is smooth, and goes to 0 where the facets
+/// are flat: no corner is favoured there, whatever rounding or a mesh that coincides with the other
+/// one makes of them. What the nearest points of a linear spring store grows to twice what it was at
+/// X1 and no further: deeper overlaps never store less, so nothing attracts. It goes with the square
+/// of the angle, like a spring that turns the facets flat.
 ///
 /// Why X1: facets that cross at more than kCosineOfCrossing have no extent, so they must count in
 /// full at any overlap up to the range. And where the share falls the area of the overlap has taken

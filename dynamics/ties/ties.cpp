@@ -234,25 +234,16 @@ void Ties::forget_dissipated() noexcept {
   for (Kept& kept : kept_) kept.dissipated = 0.0;
 }
 
-void Ties::add_to(NodalStiffness& stiffness, Positions x) const {
-  for (std::size_t i = 0; i < ties_.size(); ++i) add_to(stiffness, x, i);
+void Ties::add_to(NodalStiffness& stiffness) const {
+  for (std::size_t i = 0; i < ties_.size(); ++i) add_to(stiffness, i);
 }
 
-/// Along its line it has its stiffness, and across that pull / distance, which is no more while it
-/// pulls: the same in all directions.
-void Ties::add_to(NodalStiffness& stiffness, Positions x, std::size_t i) const {
-  const Tie& tie = ties_[i];
+/// Along its line it has its stiffness, and across that pull / distance: no more while it pulls, and
+/// less than none while it pushes. The same in all directions.
+void Ties::add_to(NodalStiffness& stiffness, std::size_t i) const {
   if (kept_[i].is_broken) return;
-  double k = tie.stiffness;
-  if (const double distance = way(i, x).norm(); distance > 0.0)
-    k = std::max(k, std::abs(kept_[i].pull) / distance);
-  const ContactStiffness spring{Vec3::UnitX(), k, k, 0.0, 0.0};
-  if (std::holds_alternative<FixedPoint>(tie.to))
-    stiffness.add_to_wall(tie.node, spring);
-  else
-    stiffness.add_on_surface(
-        tie.node, {points_[i].nodes, points_[i].weights, geometry::Feature(points_[i].nodes[0])},
-        spring);
+  const double k = ties_[i].stiffness;
+  add_spring(i, {Vec3::UnitX(), k, k, 0.0, 0.0}, stiffness);
 }
 
 void Ties::exchange(const geometry::StateArchive& archive) {

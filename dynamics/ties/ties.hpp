@@ -80,8 +80,16 @@ class Ties {
   void forget_dissipated() noexcept;
 
   /// Adds the stiffness of all ties, or of one.
-  void add_to(NodalStiffness& stiffness, geometry::Positions x) const;
-  void add_to(NodalStiffness& stiffness, geometry::Positions x, std::size_t i) const;
+  void add_to(NodalStiffness& stiffness) const;
+  void add_to(NodalStiffness& stiffness, std::size_t i) const;
+  /// Adds a spring between the node of a tie and its point.
+  template <class Springs>
+  void add_spring(std::size_t i, const ContactStiffness& spring, Springs& springs) const {
+    if (std::holds_alternative<FixedPoint>(ties_[i].to))
+      return springs.add_to_wall(ties_[i].node, spring);
+    const auto& [nodes, weights] = points_[i];
+    springs.add_on_surface(ties_[i].node, {nodes, weights, geometry::Feature(nodes[0])}, spring);
+  }
   /// Calls visit(node) for each node that a tie acts on.
   template <class Visit>
   void for_each_node(std::size_t i, const Visit& visit) const {

@@ -28,6 +28,16 @@ constexpr double kReleaseStep = 0.25;
 constexpr double kLargestTurnOfBar = 1.0 / 8.0;
 constexpr double kShortestBar = 1.0 / 32.0;
 
+namespace {
+
+/// s, in which what is pressed together turns by kLargestTurnOfBar; infinite if it does not move.
+/// @param length  m, at rest
+double turning_step(const Vec3& chord, const Vec3& motion, double length) {
+  return kLargestTurnOfBar * std::max(chord.norm(), kShortestBar * length) / motion.norm();
+}
+
+}  // namespace
+
 StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
     : of_(of),
       limits_(&limits),
@@ -35,6 +45,7 @@ StepChooser::StepChooser(const Resistance& of, const StepLimits& limits)
       thinnest_(thinnest_structure(of.scene.elements)),
       springs_(&of.rigid),
       wires_(&of.rigid),
+      tied_(&of.rigid),
       spread_(of.surface, of.rigid),
       structures_(of.rigid),
       walls_(of.rigid) {
@@ -90,7 +101,7 @@ double StepChooser::choose(double dt, const Pace& pace) {
       std::min({near, springs_.collision_step(of_.scene.state, of_.scene.properties),
                 springs_.crossing_step(of_.scene.state, of_.scene.properties),
                 walls_.step(springs_, of_.scene.state, of_.scene.properties), step_of_wires(margin),
-                step_of_bars(), step_of_meeting(margin)});
+                step_of_bars(), step_of_ties(), step_of_meeting(margin)});
   const bool may_grow = pace.steps % kStepsBetweenLooks == 0;
   step_ = std::min(
       {stable, collision_step_, motion, step_of_spin(), (may_grow ? kGrowth : 1.0) * step_});
@@ -104,26 +115,43 @@ double StepChooser::step_of_wires(double margin) {
   return wires_.ending_step(of_.scene.state, of_.scene.properties);
 }
 
-/// s, in which bars and ties that are pressed together turn by kLargestTurnOfBar at most; infinite
-/// if none does.
+/// s, in which bars that are pressed together turn by kLargestTurnOfBar at most; infinite if none
+/// does.
 double StepChooser::step_of_bars() const {
   const NodeState& state = of_.scene.state;
-  double fastest = 0.0;  // rad/s
-  const auto look_at = [&](const Vec3& chord, const Vec3& motion, double length) {
-    fastest = std::max(fastest, motion.norm() / std::max(chord.norm(), kShortestBar * length));
-  };
+  double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < of_.bonds.size(); ++i) {
     if (!(of_.bonds.axial_force(i) < 0.0)) continue;
     const auto [a, b] = of_.bonds.nodes(i);
-    look_at(state.position[index_of(b)] - state.position[index_of(a)],
-            state.velocity[index_of(b)] - state.velocity[index_of(a)], of_.scene.bonds[i].length);
+    const Vec3 chord = state.position[index_of(b)] - state.position[index_of(a)];
+    const Vec3 motion = state.velocity[index_of(b)] - state.velocity[index_of(a)];
+    shortest = std::min(shortest, turning_step(chord, motion, of_.scene.bonds[i].length));
   }
+  return shortest;
+}
+
+/// The same of ties that push, or with which one that goes through itself is off by 1/16 of the
+/// energy that it and its motion have (ContactSprings::crossing_step()), if that is longer: they may
+/// be as short as rounding.
+double StepChooser::step_of_ties() {
+  const NodeState& state = of_.scene.state;
+  double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < of_.ties.size(); ++i) {
-    if (of_.ties.pull(i) < 0.0)
-      look_at(of_.ties.way(i, state.position), of_.ties.motion(i, state.velocity),
-              of_.ties.tie(i).rest_length);
+    const double push = -of_.ties.pull(i);
+    const Vec3 motion = of_.ties.motion(i, state.velocity);
+    const double speed = motion.norm();
+    if (!(push > 0.0 && speed > 0.0)) continue;
+    const Tie& tie = of_.ties.tie(i);
+    ContactStiffness spring{motion / speed, tie.stiffness, 0.0, 0.0, 0.0};
+    spring.overlap = push / tie.stiffness;
+    spring.core_force = push;
+    tied_.clear();
+    of_.ties.add_spring(i, spring, tied_);
+    shortest = std::min(
+        shortest, std::max(turning_step(of_.ties.way(i, state.position), motion, tie.rest_length),
+                           tied_.crossing_step(state, of_.scene.properties)));
   }
-  return kLargestTurnOfBar / fastest;
+  return shortest;
 }
 
 /// s, in which nodes of structures that touch each other, or are nearer than a margin, move by

@@ -83,6 +83,7 @@ class StepChooser {
   double stable_near(double margin, double last);
   double step_of_wires(double margin);
   double step_of_bars() const;
+  double step_of_ties();
   double step_of_meeting(double margin) const;
   double step_of_spin() const;
   bool structures_touch() const;
@@ -95,6 +96,7 @@ class StepChooser {
   NodalStiffness space_{0};        ///< of all nodes, so that no look allocates
   ContactSprings springs_;         ///< of the last look
   ContactSprings wires_;           ///< likewise, that are taut or may be
+  ContactSprings tied_;            ///< likewise, a tie that pushes
   SpringShares shares_;            ///< working space of a look
   SpreadStiffness spread_;         ///< likewise; goes on from look to look
   StructureStiffness structures_;  ///< likewise

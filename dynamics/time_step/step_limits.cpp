@@ -57,7 +57,7 @@ void StepLimits::add_structures(NodalStiffness& stiffness) const {
       add_beam(stiffness, of_.scene.bonds[i], of_.scene.state, of_.bonds.spring(i).length);
   }
   of_.sheet_facets.add_to(stiffness, of_.scene.state);
-  of_.ties.add_to(stiffness, of_.scene.state.position);
+  of_.ties.add_to(stiffness);
   of_.loads.add_springs_to(stiffness);
   of_.loads.add_pressures_to(stiffness, of_.scene.state.position);
 }
@@ -311,7 +311,7 @@ void StepLimits::consider_structures(StiffestPart& parts) const {
         i, [&](NodeId node) { is_held = is_held || of_.rigid.mover_of(node) == parts.node(); });
     if (!is_held) continue;
     parts.consider({StepPart::Kind::tie, i}, [&](NodalStiffness& stiffness) {
-      of_.ties.add_to(stiffness, of_.scene.state.position, i);
+      of_.ties.add_to(stiffness, i);
     });
   }
   parts.consider({StepPart::Kind::ground_springs},

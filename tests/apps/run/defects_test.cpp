@@ -115,7 +115,8 @@ class DefectsOfChosenSteps : public testing::TestWithParam<const char*> {};
 // speed shortened the step and let it grow again in each of its swings; what begins in each other;
 // a wire that rattles in a plate which it went through; faces of a box that went through each other,
 // or folded into one plane, and drew each other in (46 and 36 %); what glue without strength was
-// said to give as it parted; ties that push and have no direction yet; ways out that turn.
+// said to give as it parted; ties that push and have no direction yet; ways out that turn. A tie as long as rounding is no
+// reason for a short step.
 TEST_P(DefectsOfChosenSteps, EndWithTheirEnergyClosedToASixteenth) {
   const Defect defect(GetParam(), {});
 
