@@ -115,8 +115,8 @@ class DefectsOfChosenSteps : public testing::TestWithParam<const char*> {};
 // speed shortened the step and let it grow again in each of its swings; what begins in each other;
 // a wire that rattles in a plate which it went through; faces of a box that went through each other,
 // or folded into one plane, and drew each other in (46 and 36 %); what glue without strength was
-// said to give as it parted; ties that push and have no direction yet; ways out that turn. A tie as long as rounding is no
-// reason for a short step.
+// said to give as it parted; ties that push and have no direction yet; ways out that
+// turn. A tie as long as rounding is no reason for a short step.
 TEST_P(DefectsOfChosenSteps, EndWithTheirEnergyClosedToASixteenth) {
   const Defect defect(GetParam(), {});
 
@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(All, DefectsOfChosenSteps,
                          testing::Values("net_on_floor", "ring_on_floor", "wire_springs",
                                          "rings_in_each_other", "wire_through_plate", "crushed_box",
                                          "folded_nets", "weak_glue_on_planes", "ties_of_no_length",
-                                         "tubes_through_each_other"));
+                                         "float_on_a_rope", "tubes_through_each_other"));
 
 class DefectsOfFlatFalls : public testing::TestWithParam<const char*> {};
 
