@@ -52,7 +52,9 @@ struct PointShare {
   double by_tilt = 0.0;      ///< derivative by tilt_between()
 };
 
-/// Ranges, from where the cores meet to where facets count as crossing whatever their tilt.
+/// Ranges, from where the cores meet to where facets count as crossing whatever their tilt. As the
+/// share comes back a linear contact of flat ones gets 3.5 times as stiff as one, and no stiffer:
+/// the second derivative of u^2 / 2 (1 - left) in point_share(), at most.
 inline constexpr double kDepthOfCrossing = 2.0;
 
 /// @param tilt     of tilt_between()

@@ -35,7 +35,8 @@ class StateArchive;
 ///
 /// Beside what is stable a chosen step follows collisions (ContactSprings::collision_step(),
 /// WallCollisions, ExpectedContacts::collision_step()), wires that become taut or slack
-/// (ContactSprings::ending_step()), motion (motion_step.hpp) and spin.
+/// (ContactSprings::ending_step()), bars and ties that are crushed to nothing, motion
+/// (motion_step.hpp) and spin.
 namespace plekton::dynamics {
 
 /// A chosen step grows by no more than this in kStepsBetweenLooks steps: the leapfrog keeps
