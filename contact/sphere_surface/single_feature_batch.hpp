@@ -90,6 +90,49 @@ struct SingleFeatureAnswerOf {
   History history;
 };
 
+/// One step of spheres and facets, side by side.
+/// @param at  nearest points of the facets
+/// @param history, last_normal  of the last step
+template <LaneLaw Law, class Real>
+PLEKTON_INLINE SingleFeatureAnswerOf<Real, typename Law::template HistoryOf<Real>>
+advance_single_features(const SingleFeatureMotionOf<Real>& bodies,
+                        const geometry::FaceFootOf<Real>& at,
+                        const typename Law::template ParametersOf<Real>& parameters,
+                        typename Law::template HistoryOf<Real> history,
+                        const Vec3Of<Real>& last_normal, double dt) noexcept {
+  using Vector = Vec3Of<Real>;
+  const SingleFeatureKinematicsOf<Real> state = single_feature_kinematics(bodies, at);
+  const FrameRotationOf<Real> rotation{last_normal, at.direction, Real(dt) * state.twist_rate};
+  Law::rotate(history, rotation);
+  const Real elastic = Law::elastic_normal_force(parameters, state.gap);
+  const RelativeMotionOf<Real> relative =
+      relative_motion<Real>(at.direction, state.gap, elastic, state.velocity, state.spin);
+  // What is within reach, but neither pushes nor holds, is no contact.
+  Real is_certain = at.is_alone;
+  if constexpr (HasInteractionRange<Law>)
+    is_certain = smaller_of(is_certain, larger_of(Real(-state.gap), Law::hold(history)));
+  const ContactForceOf<Real> answer = Law::force(parameters, relative, history, dt);
+  const Vector elastic_force = elastic * at.direction;
+  const Vector other = answer.force - elastic_force;
+  const Vector turning = state.lever_a.cross(other);
+  // A moment of 0 is added too: as in the general way, a zero may get another sign by it.
+  const Vector torque_a = Vector{-turning.x, -turning.y, -turning.z} - answer.moment;
+  const Vector torque_b = state.lever_b.cross(other) + answer.moment;
+  const Real has_lever = bodies.range + state.gap;
+  const Real unturned = last_normal.dot(at.direction);
+  const Real untwisted = Real(geometry::kSmallAngleSquared) - rotation.twist * rotation.twist;
+  return {at.weights,
+          elastic_force + other,
+          torque_a,
+          torque_b,
+          at.direction,
+          state.foot,
+          state.gap,
+          answer.dissipated,
+          geometry::detail::smallest_of(has_lever, unturned, untwisted, is_certain),
+          history};
+}
+
 /// The same of one: its numbers.
 class SingleFeatureAnswer {
  public:
@@ -206,7 +249,6 @@ template <LaneLaw Law, int W>
 PLEKTON_INLINE void SingleFeatureBatch::advance_lanes(const std::uint8_t* chosen,
                                                       const Motion& motion, double dt) noexcept {
   using Real = Pack<W>;
-  using Vector = Vec3Of<Real>;
   using History = typename Law::template HistoryOf<Real>;
   using Parameters = typename Law::template ParametersOf<Real>;
   const auto lane_of = [&](std::size_t k) __attribute__((always_inline))->const Lane& {
@@ -231,39 +273,8 @@ PLEKTON_INLINE void SingleFeatureBatch::advance_lanes(const std::uint8_t* chosen
       bodies.position[0], {bodies.position[1], bodies.position[2], bodies.position[3]}, reach,
       geometry::gather_vectors<W>([&](std::size_t k) __attribute__((always_inline))
                                       ->const SideFlags& { return lane_of(k).sides; }));
-  const SingleFeatureKinematicsOf<Real> state = single_feature_kinematics(bodies, at);
-  const FrameRotationOf<Real> rotation{last_normal, at.direction, Real(dt) * state.twist_rate};
-  History history = last;
-  Law::rotate(history, rotation);
-
-  const Real elastic = Law::elastic_normal_force(parameters, state.gap);
-  const RelativeMotionOf<Real> relative =
-      relative_motion<Real>(at.direction, state.gap, elastic, state.velocity, state.spin);
-  // What is within reach, but neither pushes nor holds, is no contact.
-  Real is_certain = at.is_alone;
-  if constexpr (HasInteractionRange<Law>)
-    is_certain = smaller_of(is_certain, larger_of(Real(-state.gap), Law::hold(history)));
-  const ContactForceOf<Real> answer = Law::force(parameters, relative, history, dt);
-  const Vector elastic_force = elastic * at.direction;
-  const Vector other = answer.force - elastic_force;
-  const Vector turning = state.lever_a.cross(other);
-  // A moment of 0 is added too: as in the general way, a zero may get another sign by it.
-  const Vector torque_a = Vector{-turning.x, -turning.y, -turning.z} - answer.moment;
-  const Vector torque_b = state.lever_b.cross(other) + answer.moment;
-  const Real has_lever = bodies.range + state.gap;
-  const Real unturned = last_normal.dot(at.direction);
-  const Real untwisted = Real(geometry::kSmallAngleSquared) - rotation.twist * rotation.twist;
-  const SingleFeatureAnswerOf<Real, History> answers{
-      at.weights,
-      elastic_force + other,
-      torque_a,
-      torque_b,
-      at.direction,
-      state.foot,
-      state.gap,
-      answer.dissipated,
-      geometry::detail::smallest_of(has_lever, unturned, untwisted, is_certain),
-      history};
+  const auto answers =
+      advance_single_features<Law, Real>(bodies, at, parameters, last, last_normal, dt);
   geometry::scatter_numbers<W>(
       answers, [&](std::size_t k)
                    __attribute__((always_inline)) { return answers_[chosen[k]].numbers(); });
