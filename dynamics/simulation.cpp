@@ -173,7 +173,7 @@ void Simulation::set_first_step(double asked) {
   if (!is_chosen) return;
   std::vector<Vec3> given = scene_.state.velocity;
   if (std::isfinite(critical)) foresee_first_kick(kSafety * critical);
-  dt_ = chooser_->first(critical, std::move(space), pace());
+  dt_ = chooser_->first(critical, std::move(space), pace(std::numeric_limits<double>::infinity()));
   scene_.state.velocity = std::move(given);
 }
 
@@ -313,10 +313,13 @@ Resistance Simulation::resistance() const noexcept {
           sheet_facets_, ties_,    loads_,     rigid_nodes_};
 }
 
-Pace Simulation::pace() const noexcept {
+/// @param dt  s, the step before the look; infinite: the first one is to be chosen
+Pace Simulation::pace(double dt) const noexcept {
+  const TimeSpan until_next_look{time_, time_ + longest_to_next_look(dt)};
   return {steps_,
-          std::max({largest_speed(scene_.state), loads_.largest_speed(), speed_of_free_planes(),
-                    driven_planes_.largest_speed(), driven_bodies_.largest_speed()}),
+          std::max({largest_speed(scene_.state), loads_.largest_speed(until_next_look),
+                    speed_of_free_planes(), driven_planes_.largest_speed(until_next_look),
+                    driven_bodies_.largest_speed()}),
           largest_gravity()};
 }
 
@@ -461,7 +464,7 @@ double Simulation::power_on_turning_planes() const {
 
 void Simulation::choose_step() {
   nodes_.know_all();
-  dt_ = chooser_->choose(dt_, pace());
+  dt_ = chooser_->choose(dt_, pace(dt_));
 }
 
 /// @param longest  s, the step is not longer

@@ -331,7 +331,7 @@ class Simulation {
   void foresee_first_kick(double kick);
   void require_time_step() const;
   Resistance resistance() const noexcept;
-  Pace pace() const noexcept;
+  Pace pace(double dt) const noexcept;
   double speed_of_free_planes() const noexcept;
   void move_planes();
   double rounding_energy() const;

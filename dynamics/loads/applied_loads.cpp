@@ -122,9 +122,9 @@ void AppliedLoads::add_elastic_forces(double time, const NodeState& state, NodeF
   for (PressedSurface& load : pressures_) load.act(step, state, pool).add_to(forces, pool);
 }
 
-double AppliedLoads::largest_speed() const noexcept {
+double AppliedLoads::largest_speed(const TimeSpan& during) const noexcept {
   double speed = 0.0;
-  for (const MovedNodes& motion : motions_) speed = std::max(speed, motion.largest_speed());
+  for (const MovedNodes& motion : motions_) speed = std::max(speed, motion.largest_speed(during));
   return speed;
 }
 

@@ -84,8 +84,8 @@ class AppliedLoads {
   /// What the last step found, and the loads that have been set. @throws geometry::StateMismatch
   void exchange(const geometry::StateArchive& archive);
 
-  /// m/s, of prescribed motions at any time.
-  double largest_speed() const noexcept;
+  /// m/s, of prescribed motions at any of these times.
+  double largest_speed(const TimeSpan& during) const noexcept;
 
   /// By place in Loads::pressures.
   const std::vector<PressedSurface>& pressed_surfaces() const noexcept { return pressures_; }

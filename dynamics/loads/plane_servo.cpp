@@ -197,10 +197,10 @@ void DrivenPlanes::exchange(const geometry::StateArchive& archive, std::size_t p
   });
 }
 
-double DrivenPlanes::largest_speed() const noexcept {
+double DrivenPlanes::largest_speed(const TimeSpan& during) const noexcept {
   double speed = 0.0;
   for (const PlaneMotion& motion : motions_)
-    speed = std::max(speed, motion.factor.largest() * motion.velocity.norm());
+    speed = std::max(speed, motion.factor.largest(during) * motion.velocity.norm());
   for (const PlaneServo& servo : servos_) speed = std::max(speed, servo.largest_speed);
   for (const auto& [plane, velocity] : set_velocities_) speed = std::max(speed, velocity.norm());
   return speed;

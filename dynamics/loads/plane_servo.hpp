@@ -135,8 +135,8 @@ class DrivenPlanes {
   /// By place in Loads::servos, with targets as they are set.
   const std::vector<PlaneServo>& servos() const noexcept { return servos_; }
 
-  /// m/s, of all times.
-  double largest_speed() const noexcept;
+  /// m/s, at any of these times.
+  double largest_speed(const TimeSpan& during = {}) const noexcept;
 
  private:
   void require_same_kind(const geometry::StateArchive& archive) const;

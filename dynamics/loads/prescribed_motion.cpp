@@ -94,16 +94,15 @@ double MovedNodes::act(const LoadStep& step, NodeState& state, const NodeForces&
   });
 }
 
-double MovedNodes::largest_speed() const noexcept {
+double MovedNodes::largest_speed(const TimeSpan& during) const noexcept {
   double furthest = 0.0;  // m, from the axis
   for (const Vec3& start : start_) {
     if (motion_.turn)
       furthest = std::max(furthest, motion_.turn->axis.cross(start - motion_.turn->point).norm());
   }
   const double round = motion_.turn ? std::abs(motion_.turn->angle) * furthest : 0.0;
-  return motion_.factor.largest_slope() * round +
-         motion_.factor.largest_slope() * motion_.displacement.norm() +
-         motion_.factor.largest() * motion_.velocity.norm();
+  return motion_.factor.largest_slope(during) * (round + motion_.displacement.norm()) +
+         motion_.factor.largest(during) * motion_.velocity.norm();
 }
 
 }  // namespace plekton::dynamics

@@ -24,8 +24,8 @@ class MovedNodes {
   double act(const LoadStep& step, NodeState& state, const NodeForces& forces,
              geometry::ThreadPool& pool);
 
-  /// m/s, of all times.
-  double largest_speed() const noexcept;
+  /// m/s, at any of these times.
+  double largest_speed(const TimeSpan& during) const noexcept;
 
  private:
   Vec3 displacement(double time) const noexcept;

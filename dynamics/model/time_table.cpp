@@ -105,16 +105,20 @@ double TimeTable::lowest() const noexcept {
   return std::ranges::min(rows(), {}, &Row::value).value;
 }
 
-double TimeTable::largest() const noexcept {
-  double largest = 0.0;
-  for (const Row& row : rows()) largest = std::max(largest, std::abs(row.value));
+double TimeTable::largest(const TimeSpan& during) const noexcept {
+  const double begin = during.begin - start_, end = during.end - start_;
+  double largest = std::max(std::abs(value(begin)), std::abs(value(end)));
+  for (const Row& row : rows_)
+    if (begin < row.time && row.time < end) largest = std::max(largest, std::abs(row.value));
   return largest;
 }
 
-double TimeTable::largest_slope() const noexcept {
+double TimeTable::largest_slope(const TimeSpan& during) const noexcept {
+  const double begin = during.begin - start_, end = during.end - start_;
   double largest = 0.0;
   for (std::size_t i = 1; i < rows_.size(); ++i)
-    largest = std::max(largest, std::abs(slope_between(rows_[i - 1], rows_[i])));
+    if (rows_[i - 1].time <= end && begin <= rows_[i].time)
+      largest = std::max(largest, std::abs(slope_between(rows_[i - 1], rows_[i])));
   return largest;
 }
 

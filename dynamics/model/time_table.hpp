@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
 namespace plekton::dynamics {
+
+/// Times (s) from one to another, both included.
+struct TimeSpan {
+  double begin = -std::numeric_limits<double>::infinity();
+  double end = std::numeric_limits<double>::infinity();
+};
 
 /// A number that changes with time: straight lines between rows, the value of the first row before
 /// it and of the last row after it. Exactly the value of a row at its time. One that was moved from is
@@ -52,9 +59,9 @@ class TimeTable {
 
   /// Lowest value of all times.
   double lowest() const noexcept;
-  /// Largest absolute value and slope (1/s) of all times.
-  double largest() const noexcept;
-  double largest_slope() const noexcept;
+  /// Largest absolute value and slope (1/s) at any of these times.
+  double largest(const TimeSpan& during = {}) const noexcept;
+  double largest_slope(const TimeSpan& during = {}) const noexcept;
 
  private:
   struct Moved {};

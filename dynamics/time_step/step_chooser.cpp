@@ -3,7 +3,6 @@
 
 #include "dynamics/model/scene_figures.hpp"
 #include "dynamics/time_step/expected_contacts.hpp"
-#include "dynamics/time_step/motion_step.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>

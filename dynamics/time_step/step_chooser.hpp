@@ -3,6 +3,7 @@
 
 #include "dynamics/stiffness/contact_springs.hpp"
 #include "dynamics/stiffness/spring_shares.hpp"
+#include "dynamics/time_step/motion_step.hpp"
 #include "dynamics/time_step/spread_stiffness.hpp"
 #include "dynamics/time_step/step_limits.hpp"
 #include "dynamics/time_step/wall_collisions.hpp"
@@ -50,9 +51,15 @@ constexpr double kLongestWay = 0.1;
 /// How fast a simulation is.
 struct Pace {
   std::int64_t steps;  ///< so far
-  double speed;        ///< m/s, of anything that moves, now or by what loads may say
-  double gravity;      ///< m/s², the largest there may be
+  double speed;    ///< m/s, of anything that moves, now or by what loads say until the next look
+  double gravity;  ///< m/s², the largest there may be
 };
+
+/// s, that pass at most until a chosen step is looked at again, with the drift that begins then.
+/// @param dt  s, the step before
+constexpr double longest_to_next_look(double dt) noexcept {
+  return static_cast<double>(kStepsBetweenLooks + 1) * kGrowth * dt;
+}
 
 class StepChooser {
  public:

@@ -51,6 +51,22 @@ TEST(TimeTable, KnowsItsIntegralFromTimeZero) {
   EXPECT_EQ(early.integral(1.0), 3.5);
 }
 
+TEST(TimeTable, KnowsItsLargestValueAndSlopeBetweenTwoTimes) {
+  EXPECT_EQ(table().largest({0.0, 1.5}), 1.0);
+  EXPECT_EQ(table().largest({2.0, 3.5}), 4.0);
+  EXPECT_EQ(table().largest({3.5, 9.0}), 3.0);
+  EXPECT_EQ(table().largest({5.0, 9.0}), 2.0);
+  EXPECT_EQ(TimeTable({{0.0, -3.0}, {1.0, 1.0}}).largest({-1.0, 1.0}), 3.0);
+  EXPECT_EQ(table().largest_slope({0.0, 0.5}), 0.0);
+  EXPECT_EQ(table().largest_slope({0.0, 1.5}), 2.0);
+  EXPECT_EQ(TimeTable({{0.0, 0.0}, {1.0, 1.0}, {2.0, -5.0}}).largest_slope({0.2, 0.8}), 1.0);
+  EXPECT_EQ(TimeTable({{0.0, 0.0}, {1.0, 1.0}, {2.0, -5.0}}).largest_slope({0.2, 1.0}), 6.0);
+  EXPECT_EQ(table().largest_slope({4.5, 9.0}), 0.0);
+  EXPECT_EQ(table().from(10.0).largest({10.0, 11.5}), 1.0);
+  EXPECT_EQ(table().from(10.0).largest_slope({10.0, 10.5}), 0.0);
+  EXPECT_EQ(TimeTable().largest({3.0, 4.0}), 1.0);
+}
+
 TEST(TimeTable, KnowsItsSlopeRightAfterATime) {
   EXPECT_EQ(table().slope(0.0), 0.0);
   EXPECT_EQ(table().slope(1.0), 2.0);

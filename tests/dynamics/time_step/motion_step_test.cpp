@@ -79,6 +79,36 @@ TEST(ChosenStep, FollowsAHeldNodeAsSoonAsItIsMadeToMove) {
   EXPECT_LE(simulation.motion_ratio(), kLargestMotion * (1.0 + 1e-15));
 }
 
+/// One of two spheres is moved by 1 mm/s until 20 s, by 20 m/s until 20.1 s, and not from then on.
+Simulation slow_then_fast() {
+  Scene scene = soft_sphere(0.01, Vec3::Zero());
+  scene.add_sphere(Vec3(0.1, 0.0, 0.0), 0.01, 2500.0, kMaterial);
+  scene.loads.motions = {
+      {.nodes = {geometry::NodeId{0}},
+       .held = Held::everything,
+       .displacement = Vec3(0.0, 0.02, 0.0),
+       .factor = TimeTable({{0.0, 0.0}, {20.0, 1.0}, {20.1, 101.0}, {40.0, 101.0}})}};
+  return Simulation(scene, {});
+}
+
+TEST(ChosenStep, FollowsAPrescribedMotionAsFastAsItIsThenAndNotAtItsFastest) {
+  Simulation simulation = slow_then_fast();
+  const double stable = kSafety * simulation.critical_step().dt;
+  double slow = 0.0, moved = 0.0;
+
+  while (simulation.time() < 19.5) simulation.step();
+  slow = simulation.time_step();
+  while (simulation.time() < 39.0) {
+    simulation.step();
+    moved = std::max(moved, simulation.motion_ratio());
+  }
+
+  EXPECT_GT(slow, 0.5 * stable);
+  EXPECT_GT(simulation.time_step(), 0.5 * stable);
+  EXPECT_LE(moved, kLargestMotion * (1.0 + 1e-12));
+  EXPECT_GT(moved, 0.5 * kLargestMotion);
+}
+
 TEST(ChosenStep, LetsNoFastSphereThroughASheetThatIsHeld) {
   Scene scene = soft_sphere(0.01, Vec3(0.0, 0.0, -20.0));
   scene.materials[0].young_modulus = 1e8;
