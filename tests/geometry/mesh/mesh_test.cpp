@@ -75,7 +75,7 @@ TEST(RequireCorners, IsAskedByEveryFunctionThatTakesAMesh) {
   }
   for (const int node : {8, -1, 2000000000}) {
     for (const auto& [name, use] : uses) {
-      EXPECT_EQ(message_of([&] { use(box_with_corner(NodeId{node})); }),
+      EXPECT_EQ(message_of([&, &use = use] { use(box_with_corner(NodeId{node})); }),
                 "facet 3 names point " + std::to_string(node) +
                     ", but there are 8 points, counted from 0; add the points, or leave out the "
                     "facets")
