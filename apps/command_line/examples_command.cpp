@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/examples_command.hpp"
 
+#include "apps/command_line/exit_code.hpp"
 #include "apps/programs/shell_word.hpp"
 #include "apps/scenario/closest_word.hpp"
 #include "apps/scenario/problems.hpp"
 #include "apps/scenario/section.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
-#include <ostream>
+#include <iostream>
+#include <memory>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace plekton::apps {
 namespace {
@@ -91,6 +95,61 @@ const Example& example_named(const std::string& name, const std::vector<Example>
                                hint.empty() ? "; there are " + listed(names) : hint));
 }
 
+void list_examples(std::ostream& out) {
+  out << "Examples; plekton examples NAME copies one\n";
+  for (const Example& example : find_examples(examples_folder())) {
+    out << fmt::format("  {:<18} {}{}\n", example.name, example.is_program() ? "(C++) " : "",
+                       example.what);
+  }
+}
+
+/// Copies an example and says how to run it.
+/// @param target  folder; its name in the current folder if empty
+/// @throws InputError for an unknown name, and a folder with files of that name in it
+void copy_example(const std::string& name, fs::path target, std::ostream& out) {
+  const std::vector<Example> examples = find_examples(examples_folder());
+  const Example& example = example_named(name, examples);
+  if (target.empty()) target = example.is_program() ? fs::path(".") : fs::path(name);
+  const std::vector<fs::path> files = files_of(example);
+  require_room(files, target);
+  std::error_code error;
+  fs::create_directories(target, error);
+  if (error)
+    throw InputError(fmt::format("{}: cannot be made: {}", target.string(), error.message()));
+  for (const fs::path& file : files) copy_one(file, target / file.filename());
+
+  const fs::path main = (target / example.main.filename()).lexically_normal();
+  out << fmt::format("copied {} file{} to {}\n", files.size(), files.size() == 1 ? "" : "s",
+                     target.string());
+  if (example.is_program())
+    out << fmt::format(
+        "build it: find_package(plekton CONFIG REQUIRED COMPONENTS dynamics), "
+        "add_executable({} {}), target_link_libraries({} plekton::dynamics)\n",
+        name, main.string(), name);
+  else
+    out << fmt::format("run it:  plekton run {}\nlook at: plekton view {}\n",
+                       shell_word(main.string()),
+                       shell_word((fs::path("out") / main.stem()).string()));
+}
+
+/// What `plekton examples` was asked for.
+struct ExamplesArguments {
+  std::string name;  ///< of the example to copy; empty: all are listed
+  fs::path out;      ///< empty: that of its name, of a program the current one
+};
+
+void list_or_copy(const ExamplesArguments& arguments, std::ostream& out) {
+  if (arguments.name.empty() && !arguments.out.empty())
+    throw InputError(fmt::format(
+        "--out: got \"{}\" without the name of an example, of which the copy would be; name one, "
+        "or list them without --out",
+        arguments.out.string()));
+  if (arguments.name.empty())
+    list_examples(out);
+  else
+    copy_example(arguments.name, arguments.out, out);
+}
+
 }  // namespace
 
 fs::path examples_folder() {
@@ -124,38 +183,19 @@ std::vector<Example> find_examples(const fs::path& folder) {
   return examples;
 }
 
-void list_examples(std::ostream& out) {
-  out << "Examples; plekton examples NAME copies one\n";
-  for (const Example& example : find_examples(examples_folder())) {
-    out << fmt::format("  {:<18} {}{}\n", example.name, example.is_program() ? "(C++) " : "",
-                       example.what);
-  }
-}
-
-void copy_example(const std::string& name, fs::path target, std::ostream& out) {
-  const std::vector<Example> examples = find_examples(examples_folder());
-  const Example& example = example_named(name, examples);
-  if (target.empty()) target = example.is_program() ? fs::path(".") : fs::path(name);
-  const std::vector<fs::path> files = files_of(example);
-  require_room(files, target);
-  std::error_code error;
-  fs::create_directories(target, error);
-  if (error)
-    throw InputError(fmt::format("{}: cannot be made: {}", target.string(), error.message()));
-  for (const fs::path& file : files) copy_one(file, target / file.filename());
-
-  const fs::path main = (target / example.main.filename()).lexically_normal();
-  out << fmt::format("copied {} file{} to {}\n", files.size(), files.size() == 1 ? "" : "s",
-                     target.string());
-  if (example.is_program())
-    out << fmt::format(
-        "build it: find_package(plekton CONFIG REQUIRED COMPONENTS dynamics), "
-        "add_executable({} {}), target_link_libraries({} plekton::dynamics)\n",
-        name, main.string(), name);
-  else
-    out << fmt::format("run it:  plekton run {}\nlook at: plekton view {}\n",
-                       shell_word(main.string()),
-                       shell_word((fs::path("out") / main.stem()).string()));
+ProgramCommand add_examples(CLI::App& app) {
+  const auto arguments = std::make_shared<ExamplesArguments>();
+  CLI::App* examples =
+      app.add_subcommand("examples", "List the examples that are shipped, or copy one");
+  examples->add_option("name", arguments->name,
+                       "Of the example to copy; all are listed without it");
+  examples->add_option("--out", arguments->out,
+                       "Folder for the copy; that of its name, of a C++ program the current one");
+  return {examples, [arguments] {
+            list_or_copy(*arguments, std::cout);
+            flush_output();
+            return kDone;
+          }};
 }
 
 }  // namespace plekton::apps

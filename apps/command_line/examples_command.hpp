@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/command_line/command.hpp"
+
 #include <filesystem>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,7 @@ std::filesystem::path examples_folder();
 /// All that are in a folder, by name: those with a scenario, then programs.
 std::vector<Example> find_examples(const std::filesystem::path& folder);
 
-void list_examples(std::ostream& out);
-
-/// Copies an example and says how to run it.
-/// @param target  folder; its name in the current folder if empty
-/// @throws InputError for an unknown name, and a folder with files of that name in it
-void copy_example(const std::string& name, std::filesystem::path target, std::ostream& out);
+/// `plekton examples` lists the examples that are shipped, or copies one.
+ProgramCommand add_examples(CLI::App& app);
 
 }  // namespace plekton::apps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/export_ondem_command.hpp"
 
+#include "apps/command_line/exit_code.hpp"
 #include "apps/command_line/resume_command.hpp"
 #include "apps/command_line/warnings.hpp"
 #include "apps/run/other_file.hpp"
@@ -8,14 +9,26 @@
 #include "apps/takeover/ondem_export.hpp"
 #include "dynamics/ondem/write_ondem.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace plekton::apps {
 namespace {
+
+/// What `plekton export-ondem` was asked for.
+struct ExportOndemArguments {
+  std::filesystem::path run;  ///< folder of a run
+  std::string at;             ///< a time; empty: that of the last checkpoint
+  std::filesystem::path out;  ///< empty: ondem.vtkhdf in the folder
+};
 
 dynamics::OndemScene scene_in(const FoundCheckpoint& checkpoint) {
   const ResumedRun run = resumed_from(checkpoint, {});
@@ -50,8 +63,9 @@ std::string summary_of(const dynamics::OndemScene& scene) {
   return text + fmt::format(" at {:.6g} s, step {}", scene.time, scene.iteration);
 }
 
-}  // namespace
-
+/// Writes what a checkpoint of a run holds as a file of the ON-DEM network.
+/// @param problems  told of later checkpoints that are damaged
+/// @throws InputError, dynamics::OutputError
 void export_ondem(const ExportOndemArguments& arguments, std::ostream& out,
                   std::ostream& problems) {
   const std::filesystem::path file =
@@ -68,6 +82,26 @@ void export_ondem(const ExportOndemArguments& arguments, std::ostream& out,
   const dynamics::OndemScene scene = scene_in(checkpoint);
   dynamics::write_ondem(file, scene);
   out << fmt::format("wrote {}: {}\n", file.string(), summary_of(scene));
+}
+
+}  // namespace
+
+ProgramCommand add_export_ondem(CLI::App& app) {
+  const auto arguments = std::make_shared<ExportOndemArguments>();
+  CLI::App* command = app.add_subcommand(
+      "export-ondem",
+      "Write what a checkpoint of a run holds as an ON-DEM file (VTKHDF), for other codes");
+  command->add_option("run", arguments->run, "Folder that plekton run wrote to")->required();
+  command->add_option("--at", arguments->at,
+                      "Time, as in \"20 ms\", of the checkpoint of its step or else the last one "
+                      "before it; the last one of all if not given");
+  command->add_option("--out", arguments->out,
+                      "File to write, .vtkhdf; ondem.vtkhdf in that folder if not given");
+  return {command, [arguments] {
+            export_ondem(*arguments, std::cout, std::cerr);
+            flush_output();
+            return kDone;
+          }};
 }
 
 }  // namespace plekton::apps

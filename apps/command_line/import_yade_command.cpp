@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/import_yade_command.hpp"
 
+#include "apps/command_line/exit_code.hpp"
 #include "apps/run/initial_contacts.hpp"
 #include "apps/run/output_folder.hpp"
 #include "apps/run/run.hpp"
@@ -10,16 +11,29 @@
 #include "apps/takeover/scenario_text.hpp"
 #include "dynamics/output/file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <array>
 #include <charconv>
+#include <filesystem>
+#include <iostream>
+#include <memory>
 #include <optional>
+#include <string>
 
 namespace plekton::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What `plekton import-yade` was asked for.
+struct ImportYadeArguments {
+  fs::path script;
+  std::string iteration = "0";  ///< to run to, or end: where the script ends
+  fs::path out;                 ///< folder; empty: out/<script>-yade
+  bool overwrite = false;
+};
 
 /// What is wrong with a scenario as it stands; empty if nothing is.
 std::string problem_of(const std::string& text, const fs::path& file) {
@@ -76,8 +90,10 @@ std::optional<long> iteration_of(const std::string& text) {
   return iteration;
 }
 
-}  // namespace
-
+/// Runs a script of YADE to an iteration and writes what is there as a scenario, with a report of
+/// what has no counterpart; prints the report. The scenario is tried: where YADE's time step is no
+/// step here, it gets one that is chosen, and what else is wrong with it is reported.
+/// @throws InputError, dynamics::OutputError
 void import_yade(const ImportYadeArguments& arguments, std::ostream& out) {
   const std::optional<long> iteration = iteration_of(arguments.iteration);
   const std::string stem = arguments.script.stem().string();
@@ -105,6 +121,28 @@ void import_yade(const ImportYadeArguments& arguments, std::ostream& out) {
   out << text
       << fmt::format("wrote {} and {}\n", (folder / scenario_name).string(),
                      (folder / "report.txt").string());
+}
+
+}  // namespace
+
+ProgramCommand add_import_yade(CLI::App& app) {
+  const auto arguments = std::make_shared<ImportYadeArguments>();
+  CLI::App* command = app.add_subcommand(
+      "import-yade", "Run a script of YADE to an iteration, and write what is there as a scenario");
+  command->add_option("script", arguments->script, "Script of YADE (.py)")->required();
+  command
+      ->add_option("--iteration", arguments->iteration,
+                   "To run to; 0 is what the script makes, end where it ends")
+      ->capture_default_str();
+  command->add_option("--out", arguments->out,
+                      "Folder for the scenario and report.txt; out/<script>-yade if not given");
+  command->add_flag("--overwrite", arguments->overwrite,
+                    "Replace the files of an earlier import in that folder");
+  return {command, [arguments] {
+            import_yade(*arguments, std::cout);
+            flush_output();
+            return kDone;
+          }};
 }
 
 }  // namespace plekton::apps

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/inspect_command.hpp"
 
+#include "apps/command_line/exit_code.hpp"
 #include "apps/command_line/warnings.hpp"
 #include "apps/run/checkpoints.hpp"
 #include "apps/run/run_state.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "geometry/base/printable.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <array>
 #include <cstddef>
-#include <ostream>
+#include <filesystem>
+#include <iostream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -21,6 +25,12 @@ namespace {
 
 using geometry::StateArray;
 using geometry::StateTree;
+
+/// What `plekton inspect` was asked for.
+struct InspectArguments {
+  std::filesystem::path checkpoint;  ///< or the folder of a run, whose last one is meant
+  bool all = false;                  ///< with a line for each array
+};
 
 /// Rows of an array, 0 if it is not there.
 std::size_t rows_of(const StateTree& state, const std::string& name) {
@@ -91,8 +101,9 @@ std::string list_of_arrays(const StateTree& state) {
   return text;
 }
 
-}  // namespace
-
+/// Says what a checkpoint holds: of which run and when, and how much of what.
+/// @param problems  told of later checkpoints that are damaged
+/// @throws dynamics::CheckpointError, geometry::StateMismatch; InputError of a folder without one
 void inspect_checkpoint(const InspectArguments& arguments, std::ostream& out,
                         std::ostream& problems) {
   const FoundCheckpoint checkpoint = checkpoint_at(arguments.checkpoint);
@@ -102,6 +113,23 @@ void inspect_checkpoint(const InspectArguments& arguments, std::ostream& out,
     out << "arrays:\n" << list_of_arrays(checkpoint.state);
   else
     out << fmt::format("{} arrays, which --all lists\n", checkpoint.state.arrays.size());
+}
+
+}  // namespace
+
+ProgramCommand add_inspect(CLI::App& app) {
+  const auto arguments = std::make_shared<InspectArguments>();
+  CLI::App* inspect = app.add_subcommand("inspect", "Say what a checkpoint of a run holds");
+  inspect
+      ->add_option("checkpoint", arguments->checkpoint,
+                   "Checkpoint (.h5), or the folder of a run, whose last one is meant")
+      ->required();
+  inspect->add_flag("--all", arguments->all, "Also list its arrays, with their sizes");
+  return {inspect, [arguments] {
+            inspect_checkpoint(*arguments, std::cout, std::cerr);
+            flush_output();
+            return kDone;
+          }};
 }
 
 }  // namespace plekton::apps

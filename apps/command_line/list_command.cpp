@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/list_command.hpp"
 
+#include "apps/command_line/exit_code.hpp"
 #include "apps/command_line/list_outputs.hpp"
 #include "apps/scenario/key_list.hpp"
 #include "contact/law_list.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
+#include <iostream>
 #include <string>
 
 namespace plekton::apps {
@@ -65,8 +67,7 @@ void list_keys(const KeyGroup& group, std::ostream& out) {
                        key.what);
 }
 
-}  // namespace
-
+/// Prints what a scenario can name, with parameters, units and defaults.
 void list_choices(std::ostream& out) {
   out << "Contact laws, for `law` in [[contacts]]; parameters with unit, default and meaning\n";
   for (const contact::LawEntry& law : contact::contact_laws()) {
@@ -81,6 +82,18 @@ void list_choices(std::ostream& out) {
   for (const KeyGroup& group : scenario_keys()) list_keys(group, out);
   out << '\n';
   list_outputs(out);
+}
+
+}  // namespace
+
+ProgramCommand add_list(CLI::App& app) {
+  CLI::App* list =
+      app.add_subcommand("list", "Say what a scenario can name, with parameters and defaults");
+  return {list, [] {
+            list_choices(std::cout);
+            flush_output();
+            return kDone;
+          }};
 }
 
 }  // namespace plekton::apps

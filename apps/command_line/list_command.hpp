@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <iosfwd>
+#include "apps/command_line/command.hpp"
 
 namespace plekton::apps {
 
-/// Prints what a scenario can name, with parameters, units and defaults.
-void list_choices(std::ostream& out);
+/// `plekton list` prints what a scenario can name, with parameters, units and defaults.
+ProgramCommand add_list(CLI::App& app);
 
 }  // namespace plekton::apps

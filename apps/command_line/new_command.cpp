@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/new_command.hpp"
 
+#include "apps/command_line/exit_code.hpp"
 #include "apps/programs/shell_word.hpp"
 #include "apps/scenario/problems.hpp"
 #include "dynamics/output/file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <ostream>
+#include <filesystem>
+#include <iostream>
+#include <memory>
 #include <string_view>
 
 namespace plekton::apps {
@@ -73,8 +77,9 @@ membrane = "sheet"
 nodes = "rim"
 )";
 
-}  // namespace
-
+/// Writes a commented scenario to start from to a file that is not there yet, and says what to do
+/// with it: grains fall on a sheet that hangs at its rim.
+/// @throws InputError
 void write_starting_scenario(const std::filesystem::path& file, std::ostream& out) {
   // A single dash is standard input for the commands that read a scenario.
   if (file.filename().empty() || file == "-")
@@ -93,6 +98,19 @@ void write_starting_scenario(const std::filesystem::path& file, std::ostream& ou
       "check it: plekton check {0}\nrun it:   plekton run {0}\nlook at:  "
       "plekton view {1}\n",
       shell_word(file.string()), shell_word(folder.string()));
+}
+
+}  // namespace
+
+ProgramCommand add_new(CLI::App& app) {
+  const auto file = std::make_shared<std::filesystem::path>();
+  CLI::App* command = app.add_subcommand("new", "Write a commented scenario to start from");
+  command->add_option("file", *file, "File to write (.toml)")->required();
+  return {command, [file] {
+            write_starting_scenario(*file, std::cout);
+            flush_output();
+            return kDone;
+          }};
 }
 
 }  // namespace plekton::apps

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/study_command.hpp"
 
-#include "apps/command_line/command_line.hpp"
+#include "apps/command_line/exit_code.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/programs/shell_word.hpp"
 #include "apps/run/output_folder.hpp"
@@ -9,17 +9,38 @@
 #include "apps/study/run_missing.hpp"
 #include "apps/study/study_table.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 namespace plekton::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What `plekton study` is to do about runs that are missing.
+struct StudyArguments {
+  fs::path study;
+  fs::path out;                     ///< empty: out/<name of the study>
+  std::optional<int> jobs;          ///< instead of that of the study
+  std::optional<int> threads;       ///< likewise
+  bool parallel = false;            ///< print a line for each
+  bool slurm = false;               ///< print a script
+  bool collect = false;             ///< only write the table
+  std::optional<std::size_t> only;  ///< make this one alone (from 1), and no table
+  bool quiet = false;
+};
 
 /// This very program.
 fs::path program() {
@@ -118,8 +139,8 @@ int make_all(const StudyArguments& arguments, StudyRuns& study, std::ostream& pr
   return kInterrupted;
 }
 
-}  // namespace
-
+/// @returns an ExitCode: kFailed if a run failed or, where only is collected, is missing
+/// @throws InputError, dynamics::OutputError
 int study_runs(const StudyArguments& arguments, std::ostream& out) {
   const fs::path folder =
       arguments.out.empty() ? fs::path("out") / arguments.study.stem() : arguments.out;
@@ -132,6 +153,48 @@ int study_runs(const StudyArguments& arguments, std::ostream& out) {
   std::ostream& progress = arguments.quiet ? static_cast<std::ostream&>(silence) : out;
   return arguments.only ? make_only(arguments, study, progress)
                         : make_all(arguments, study, progress);
+}
+
+}  // namespace
+
+ProgramCommand add_study(CLI::App& app) {
+  const auto arguments = std::make_shared<StudyArguments>();
+  CLI::App* study = app.add_subcommand(
+      "study",
+      "Make many runs of a scenario, those that are missing, and a table of their results");
+  study->add_option("study", arguments->study, "Study (.toml); apps/study.md documents its keys")
+      ->required();
+  study->add_option("--out", arguments->out,
+                    "Folder for the runs and results.csv; out/<name of the study> if not given");
+  study->add_option("--jobs", arguments->jobs, "Runs at a time, instead of `jobs` of the study")
+      ->check(CLI::Range(1, 1024));
+  study
+      ->add_option("--threads", arguments->threads,
+                   "Threads of each, instead of those of the study")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* const parallel =
+      study->add_flag("--parallel", arguments->parallel,
+                      "Make none, but print a line for each, for GNU parallel or sh");
+  CLI::Option* const slurm =
+      study->add_flag("--slurm", arguments->slurm, "Make none, but print a script for sbatch")
+          ->excludes(parallel);
+  CLI::Option* const collect = study
+                                   ->add_flag("--collect", arguments->collect,
+                                              "Make none, but the table of those that are there")
+                                   ->excludes(parallel)
+                                   ->excludes(slurm);
+  study
+      ->add_option("--only", arguments->only,
+                   "Make this one alone, by its number from 1, if it is missing; no table")
+      ->excludes(parallel)
+      ->excludes(slurm)
+      ->excludes(collect);
+  study->add_flag("--quiet", arguments->quiet, "Print nothing but problems, on standard error");
+  return {study, [arguments] {
+            const int code = study_runs(*arguments, std::cout);
+            flush_output();
+            return code;
+          }};
 }
 
 }  // namespace plekton::apps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/validate_command.hpp"
 
+#include "apps/command_line/exit_code.hpp"
 #include "apps/run/build_info.hpp"
 #include "apps/run/other_file.hpp"
 #include "apps/run/output_folder.hpp"
@@ -10,14 +11,29 @@
 #include "dynamics/output/file.hpp"
 #include "geometry/version.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace plekton::apps {
 namespace {
+
+/// What `plekton validate` was asked for.
+struct ValidateArguments {
+  std::vector<std::string> names;  ///< of cases; none: all
+  bool list = false;               ///< only say which there are
+  bool full = false;
+  std::filesystem::path out = "out/validation";
+};
 
 constexpr const char* kPage = "validation.html";
 
@@ -103,8 +119,9 @@ bool write_page(const std::filesystem::path& folder, const std::vector<DoneCase>
   return true;
 }
 
-}  // namespace
-
+/// Runs cases, prints what each comes to, and writes validation.html. A name that is no case, or a
+/// folder that cannot be written, is said at the end; the rest goes on.
+/// @returns whether all is well
 bool validate(const ValidateArguments& arguments, std::ostream& out, std::ostream& problems) {
   bool is_well = require_known(arguments.names, problems);
   const std::vector<const ValidationCase*> asked = cases_of(arguments.names);
@@ -122,6 +139,23 @@ bool validate(const ValidateArguments& arguments, std::ostream& out, std::ostrea
     is_well = is_well && cases.back().passes();
   }
   return has_folder && write_page(arguments.out, cases, out, problems) && is_well;
+}
+
+}  // namespace
+
+ProgramCommand add_validate(CLI::App& app) {
+  const auto arguments = std::make_shared<ValidateArguments>();
+  CLI::App* command = app.add_subcommand(
+      "validate", "Compare with theory what this program comes to, and write a page about it");
+  command->add_option("names", arguments->names, "Cases; all if not given");
+  command->add_flag("--list", arguments->list, "Only say which cases there are");
+  command->add_flag("--full", arguments->full, "With more elements and steps");
+  command->add_option("--out", arguments->out, "Folder for validation.html")->capture_default_str();
+  return {command, [arguments] {
+            const bool is_well = validate(*arguments, std::cout, std::cerr);
+            flush_output();
+            return is_well ? kDone : kFailed;
+          }};
 }
 
 }  // namespace plekton::apps

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/verify_command.hpp"
 
+#include "apps/command_line/exit_code.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/scenario_options.hpp"
 #include "apps/command_line/stages_command.hpp"
 #include "apps/command_line/warnings.hpp"
 #include "apps/programs/scratch_folder.hpp"
@@ -10,16 +12,28 @@
 #include "apps/run/run_state.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ostream>
+#include <filesystem>
+#include <iostream>
+#include <memory>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace plekton::apps {
 namespace {
 
 using geometry::StateTree;
+
+/// Part of a run that is computed again.
+struct VerifyArguments {
+  std::filesystem::path folder;       ///< of the run
+  std::vector<std::string> interval;  ///< begin and end, as in "0.1 s"; empty: up to the end
+  ScenarioOptions scenario;           ///< the threads of it alone
+};
 
 /// What of a state is that of the run, and not of the files it is written to.
 bool is_compared(const std::string& name) {
@@ -108,8 +122,12 @@ void require_there(const VerifyArguments& arguments, double from, double to,
                     begin, end, there));
 }
 
-}  // namespace
-
+/// Computes a run again from one of its checkpoints to a later one, and compares both states.
+/// Nothing in its folder is changed.
+/// @param out       told what was compared, and whether every bit is the same
+/// @param problems  told of later checkpoints that are damaged
+/// @returns whether it is
+/// @throws InputError if there are no two checkpoints for that interval
 bool verify_run(const VerifyArguments& arguments, std::ostream& out, std::ostream& problems) {
   const std::string begin = arguments.interval.empty() ? "" : arguments.interval[0];
   const std::string end = arguments.interval.empty() ? "" : arguments.interval[1];
@@ -125,7 +143,7 @@ bool verify_run(const VerifyArguments& arguments, std::ostream& out, std::ostrea
   print_warnings(warnings_about(first), problems);
   const bool is_of_one_scenario =
       scenario_text(first.state).overrides == scenario_text(last.state).overrides;
-  const ResumedRun resumed = resumed_towards(last.state, first, arguments.overrides);
+  const ResumedRun resumed = resumed_towards(last.state, first, overrides_of(arguments.scenario));
   const StateTree again = computed_again(resumed, last.state);
   std::size_t count = 0;
   const std::vector<std::string> others = differences(last.state, again, count);
@@ -146,6 +164,27 @@ bool verify_run(const VerifyArguments& arguments, std::ostream& out, std::ostrea
               : "between them the run was given a longer duration or other output, for which other "
                 "steps are cut short: choose an --interval before or after that\n");
   return false;
+}
+
+}  // namespace
+
+ProgramCommand add_verify(CLI::App& app) {
+  const auto arguments = std::make_shared<VerifyArguments>();
+  CLI::App* verify = app.add_subcommand(
+      "verify", "Compute a part of a run again, between two of its checkpoints, and compare bits");
+  verify->add_option("run", arguments->folder, "Folder of the run")->required();
+  verify
+      ->add_option(
+          "--interval", arguments->interval,
+          "Begin and end, as in \"0.1 s\" \"0.2 s\": from the checkpoint of the step of the "
+          "begin, or else the last one before it, to that of the end")
+      ->expected(2);
+  add_threads_option(*verify, arguments->scenario);
+  return {verify, [arguments] {
+            const bool is_same = verify_run(*arguments, std::cout, std::cerr);
+            flush_output();
+            return is_same ? kDone : kFailed;
+          }};
 }
 
 }  // namespace plekton::apps

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "apps/command_line/command.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <ostream>
@@ -18,5 +20,8 @@ struct ViewArguments {
 /// Writes a page that shows a run, or serves it until it is interrupted, and says where.
 /// @throws ViewError, dynamics::OutputError
 void view_run(const ViewArguments& arguments, std::ostream& out);
+
+/// `plekton view` writes or serves that page.
+ProgramCommand add_view(CLI::App& app);
 
 }  // namespace plekton::apps
