@@ -105,7 +105,8 @@ TEST(ChosenStep, FollowsAPrescribedMotionAsFastAsItIsThenAndNotAtItsFastest) {
 
   EXPECT_GT(slow, 0.5 * stable);
   EXPECT_GT(simulation.time_step(), 0.5 * stable);
-  EXPECT_LE(moved, kLargestMotion * (1.0 + 1e-12));
+  // A time of 20 s is known to 4e-15 s, in which the node moves by 7e-12 of its radius.
+  EXPECT_LE(moved, kLargestMotion + 1e-11);
   EXPECT_GT(moved, 0.5 * kLargestMotion);
 }
 
