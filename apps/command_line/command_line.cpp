@@ -63,11 +63,11 @@ void require_no_empty_option(const CLI::App& app) {
   for (const CLI::App* const command : app.get_subcommands()) {
     for (const CLI::Option* const option : command->get_options()) {
       const std::vector<std::string>& given = option->results();
-      if (option->nonpositional() && std::find(given.begin(), given.end(), "") != given.end())
+      const bool needs_value = option->nonpositional() && option->get_items_expected_min() > 0;
+      if (needs_value && std::find(given.begin(), given.end(), "") != given.end())
         throw InputError(
             fmt::format("{}: got an empty text, as of a variable of the shell that is not set; "
-                        "leave the option "
-                        "out, or give it its value",
+                        "leave the option out, or give it its value",
                         option->get_name()));
     }
   }

@@ -161,6 +161,12 @@ TEST_F(ViewCommand, ServesThisMachineUntilItIsInterrupted) {
   EXPECT_EQ(program.wait().exit_code, kDone);
 }
 
+TEST_F(ViewCommand, NeedsNoPortToServe) {
+  const Outcome outcome = outcome_of({"view", out(), "--serve"});
+
+  EXPECT_THAT(outcome.err, HasSubstr("there is no such folder"));
+}
+
 TEST_F(ViewCommand, SaysWhatIsNoPort) {
   for (const char* port : {"abc", "-1", "70000", "80x"})
     EXPECT_THAT(outcome_of({"view", out(), "--serve", port}).err, HasSubstr("expected a port"));
