@@ -313,7 +313,7 @@ Resistance Simulation::resistance() const noexcept {
           sheet_facets_, ties_,    loads_,     rigid_nodes_};
 }
 
-/// @param dt  s, the step before the look; infinite: the first one is to be chosen
+/// @param dt  s, the longest step before the look; infinite: the first one is to be chosen
 Pace Simulation::pace(double dt) const noexcept {
   const TimeSpan until_next_look{time_, time_ + longest_to_next_look(dt)};
   return {steps_,
@@ -464,7 +464,7 @@ double Simulation::power_on_turning_planes() const {
 
 void Simulation::choose_step() {
   nodes_.know_all();
-  dt_ = chooser_->choose(dt_, pace(dt_));
+  dt_ = chooser_->choose(dt_, pace(std::max(dt_, chooser_->last_chosen())));
 }
 
 /// @param longest  s, the step is not longer

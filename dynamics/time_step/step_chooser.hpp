@@ -81,6 +81,9 @@ class StepChooser {
   /// @param way  m, of any node or plane in a step
   void moved(double way) noexcept;
 
+  /// s, the last step chosen: what is shorter since may be as long again after the next look.
+  double last_chosen() const noexcept { return step_; }
+
   /// Something has become stiffer without moving: the next step is looked at.
   void look_again() noexcept { look_.longest_way = -1.0; }
 
