@@ -9,7 +9,7 @@ from collections import defaultdict
 from pathlib import Path
 
 from check import sources
-from rules import LIBRARIES
+from rules import LIBRARIES, closure
 
 
 def units_of(root):
@@ -36,17 +36,7 @@ def in_a_circle(arrows):
     after = defaultdict(set)
     for place, other in arrows:
         after[place].add(other)
-
-    def reached(place):
-        seen, ahead = set(), list(after[place])
-        while ahead:
-            at = ahead.pop()
-            if at not in seen:
-                seen.add(at)
-                ahead.extend(after.get(at, ()))
-        return seen
-
-    return sorted(place for place in after if place in reached(place))
+    return sorted(place for place, reached in closure(after).items() if place in reached)
 
 
 def headers_of_one(units):

@@ -167,7 +167,7 @@ def _reached_from(root):
             folders.setdefault(source.directory, set()).update(
                 target.rpartition("/")[0] for target in targets if target.split("/")[0] in LIBRARIES
             )
-    return {**_closure(files), **_closure(folders)}
+    return {**closure(files), **closure(folders)}
 
 
 def forget_tree():
@@ -249,7 +249,8 @@ def tests_keep_to_themselves(source, root):
         yield f"{source.path}: its helpers meet those of other tests; put them in the namespace {namespaces[0]}::{path.stem}"
 
 
-def _closure(graph):
+def closure(graph):
+    """What can be reached from each of the places of a graph, itself only in a circle."""
     reached = {}
     for start in graph:
         found, open_ends = set(), list(graph[start])
