@@ -29,8 +29,8 @@ class SharedBlocks {
   /// What a block costs, in pairs: to move a sphere takes about as long as two of them.
   static std::uint64_t work_of(const SphereBlocks& blocks, const SphereBlocks::Block& block);
 
-  /// Takes the blocks of a new list. Owners stay with them until the next one, as nobody else has
-  /// the rows of pairs that are apart; share_motion() has to follow.
+  /// Takes the blocks of a new list. Owners stay with them until the next one, as nobody else holds
+  /// their rows; share_motion() has to follow.
   void assign(const SphereBlocks& blocks);
   /// @param blocks  the same
   /// @param met     as SharedMotion::assign() has it
@@ -41,6 +41,10 @@ class SharedBlocks {
   /// Whether there is anything to share: one block, or one rank, needs no message. Each rank then
   /// computes all.
   bool is_worth_it() const noexcept { return ranks_->count() > 1 && owners_.size() > 1; }
+  /// The rank that holds the rows of each block; empty where each has all.
+  std::span<const int> holders() const noexcept {
+    return is_worth_it() ? std::span<const int>(owners_) : std::span<const int>();
+  }
   // Those of this rank, ascending.
   std::span<const std::uint32_t> own() const noexcept { return own_; }
   /// With ghosts of other ranks.
@@ -59,10 +63,6 @@ class SharedBlocks {
   /// @returns       of all blocks
   BlockTotals gather(NodeForces& forces, const BlockTotals& of_own);
 
-  /// Those of each rank, ascending.
-  std::span<const std::vector<std::uint32_t>> blocks_of_ranks() const noexcept {
-    return blocks_of_;
-  }
   /// What each rank does, since the last list; nothing where all do all.
   std::vector<RankShare> shares() const;
 

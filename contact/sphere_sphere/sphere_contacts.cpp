@@ -6,130 +6,92 @@
 #include "contact/tracking/slip_state.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace plekton::contact {
 
-SphereContacts::Kind::Kind(const AnyLaw::Functions& of, bool keeps) noexcept
-    : law(&of), keeps_parameters(keeps) {
-  std::size_t rows = PairNumbersOfRow::kHistory + of.history_numbers;
-  force = of.force_of_state ? 0 : rows;
-  if (force > 0) rows += 3;
-  parameters = keeps ? rows : 0;
-  if (keeps) rows += of.parameter_numbers;
-  row_size = rows * kLanes;
-}
-
-/// Numbers are 0 at first: nothing touches.
-void SphereContacts::Table::assign(const SphereBlocks& blocks) {
-  make_room(places, blocks.row_count());
-  places.clear();
-  std::size_t line = 0;
-  for (const SphereBlocks::Range& range : blocks.ranges()) {
-    for (std::uint32_t row = 0; row < range.row_count; ++row) {
-      places.push_back({static_cast<std::uint32_t>(line), range.kind});
-      line += kinds[range.kind].row_size / kLanes;
-    }
-  }
-  make_room(numbers, line * kLanes);
-  numbers.assign(line * kLanes, 0.0);
-  make_room(touched, places.size());
-  touched.assign(places.size(), {});
-}
-
-ContactMemory<AnyLaw> SphereContacts::Table::memory(std::size_t slot) const noexcept {
-  const ConstRows of_row = rows(slot);
-  ContactMemory<AnyLaw> memory;
-  memory.normal = of_row.from(PairNumbersOfRow::kNormal).at<Vec3>(slot % kLanes);
-  memory.history.law = kind(slot).law;
-  of_row.from(PairNumbersOfRow::kHistory)
-      .get_numbers(slot % kLanes, memory.history.numbers.data(), kind(slot).law->history_numbers);
-  return memory;
-}
-
-void SphereContacts::Table::set_memory(std::size_t slot,
-                                       const ContactMemory<AnyLaw>& memory) noexcept {
-  const Rows of_row = rows(slot);
-  of_row.from(PairNumbersOfRow::kNormal).set(slot % kLanes, memory.normal);
-  of_row.from(PairNumbersOfRow::kHistory)
-      .set_numbers(slot % kLanes, memory.history.numbers.data(), kind(slot).law->history_numbers);
-}
-
-void SphereContacts::Table::resize(std::size_t rows) {
-  const std::size_t lines = kinds.front().row_size / kLanes;
-  make_room(places, rows);
-  make_room(touched, rows);
-  make_room(numbers, rows * lines * kLanes);
-  for (std::size_t row = places.size(); row < rows; ++row)
-    places.push_back({static_cast<std::uint32_t>(row * lines), 0});
-  places.resize(rows);
-  touched.resize(rows);
-  numbers.resize(rows * lines * kLanes, 0.0);
-}
-
 double SphereContacts::rebuild(std::span<const geometry::IndexPair> keys,
                                std::span<const SphereBody> spheres, const MaterialPairs& materials,
                                geometry::ThreadPool& pool, Positions x) {
-  complete();
-  spheres_ = spheres;
+  tell_touched();
   make_room(old_slots_, keys.size());
   old_slots_.assign(keys.size(), kNoSlot);
-  double lost = 0.0;
+  left_.clear();
   match_keys(
       keys_, keys,
       [&](std::size_t i, bool is_known, std::size_t old) {
         if (is_known && table_.has_touched(blocks_.slot(old))) old_slots_[i] = blocks_.slot(old);
       },
       [&](std::size_t old) {
-        if (!table_.has_touched(blocks_.slot(old))) return;
-        ContactMemory<AnyLaw> memory = table_.memory(blocks_.slot(old));
-        lost += forget<AnyLaw>(materials.combine(sphere(keys_[old].a), sphere(keys_[old].b)),
-                               memory, {});
+        if (table_.has_touched(blocks_.slot(old))) left_.push_back(static_cast<std::uint32_t>(old));
       });
+  spheres_ = spheres;
+  const double lost = energy_lost(materials);
+  materials_ = &materials;
   make_room(keys_, keys.size());
   keys_.assign(keys.begin(), keys.end());
-  find_kinds(spheres, materials, last_table_.kinds);
+  find_kinds();
   blocks_.assign(keys, spheres, kinds_, pool, x);
-  has_owners_ = false;
-  if (table_.kinds.size() == 1 && table_.kinds == last_table_.kinds)
-    move_memories_in_place();
-  else
-    move_memories();
-  set_parameters(materials);
+  BlockHolders holders;
+  if (shared_) {
+    shared_->assign(blocks_);
+    holders = {&shared_->ranks(), shared_->holders()};
+  }
+  table_.take(blocks_, kinds_of_list_, old_slots_, holders);
+  set_parameters();
   return lost;
 }
 
+/// J, of pairs that touch and are on the list no more.
+double SphereContacts::energy_lost(const MaterialPairs& materials) const {
+  std::vector<double> lost;
+  for (const std::uint32_t old : left_) {
+    const std::uint32_t slot = blocks_.slot(old);
+    lost.push_back(0.0);
+    if (!table_.holds(slot)) continue;
+    ContactMemory<AnyLaw> memory = table_.memory(slot);
+    const auto parameters = materials.combine(sphere(keys_[old].a), sphere(keys_[old].b));
+    lost.back() = forget<AnyLaw>(parameters, memory, {});
+  }
+  if (table_.is_shared_out()) {
+    geometry::share(shared_->ranks(), room_, [&](const auto& visit) {
+      for (std::size_t n = 0; n < lost.size(); ++n)
+        visit(table_.holder(blocks_.slot(left_[n])),
+              std::as_writable_bytes(std::span(&lost[n], 1)));
+    });
+  }
+  return std::accumulate(lost.begin(), lost.end(), 0.0);
+}
+
 void SphereContacts::share_out(std::span<const NodeId> met) {
-  if (!shared_) return;
-  if (!has_owners_) shared_->assign(blocks_);
-  has_owners_ = true;
-  shared_->share_motion(blocks_, met);
+  if (shared_) shared_->share_motion(blocks_, met);
 }
 
 /// If all spheres are of one material, with nothing said of it as a pair, and the law asks for no
 /// more than radii, computing parameters anew takes less time than reading them would.
-void SphereContacts::find_kinds(std::span<const SphereBody> spheres, const MaterialPairs& materials,
-                                std::vector<Kind>& kinds) {
+void SphereContacts::find_kinds() {
+  std::vector<PairKind>& kinds = kinds_of_list_;
   kinds.clear();
   kinds_.clear();
   common_.reset();
   if (keys_.empty()) return;
   std::int32_t last = 0;
   for (const geometry::IndexPair& key : keys_) last = std::max(last, key.b);
-  const MaterialId first = spheres.front().material;
-  if (std::ranges::all_of(spheres.first(static_cast<std::size_t>(last) + 1),
+  const MaterialId first = spheres_.front().material;
+  if (std::ranges::all_of(spheres_.first(static_cast<std::size_t>(last) + 1),
                           [&](const SphereBody& sphere) { return sphere.material == first; })) {
-    const AnyLaw::Properties& properties = materials.properties(first, first);
+    const AnyLaw::Properties& properties = materials_->properties(first, first);
     const bool keeps = !properties.law->combines_radii(properties);
-    if (!keeps) common_ = {materials.at(first), properties};
+    if (!keeps) common_ = {materials_->at(first), properties};
     kinds.emplace_back(*properties.law, keeps);
     return;
   }
   make_room(kinds_, keys_.size());
   for (const geometry::IndexPair& key : keys_) {
     const AnyLaw::Functions* const law =
-        materials.properties(sphere(key.a).material, sphere(key.b).material).law;
-    auto known = std::ranges::find(kinds, law, &Kind::law);
+        materials_->properties(sphere(key.a).material, sphere(key.b).material).law;
+    auto known = std::ranges::find(kinds, law, &PairKind::law);
     if (known == kinds.end()) {
       kinds.emplace_back(*law, true);
       known = kinds.end() - 1;
@@ -138,50 +100,18 @@ void SphereContacts::find_kinds(std::span<const SphereBody> spheres, const Mater
   }
 }
 
-void SphereContacts::set_parameters(const MaterialPairs& materials) {
+void SphereContacts::set_parameters() {
   if (common_) return;
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     const std::uint32_t slot = blocks_.slot(i);
-    const Kind& kind = table_.kind(slot);
+    if (!table_.holds(slot)) continue;
+    const PairKind& kind = table_.kind(slot);
     table_.rows(slot)
         .from(kind.parameters)
         .set_numbers(slot % kLanes,
-                     materials.combine(sphere(keys_[i].a), sphere(keys_[i].b)).numbers.data(),
+                     materials_->combine(sphere(keys_[i].a), sphere(keys_[i].b)).numbers.data(),
                      kind.law->parameter_numbers);
   }
-}
-
-/// From the slots that pairs had in the list before, to those that they have now.
-void SphereContacts::move_memories() {
-  std::swap(table_, last_table_);
-  table_.assign(blocks_);
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    if (old_slots_[i] == kNoSlot) continue;
-    const std::uint32_t from = old_slots_[i], to = blocks_.slot(i);
-    table_.set_memory(to, last_table_.memory(from));
-    table_.touched[to / kLanes].set_moved(to % kLanes, true, last_table_.is_numbered(from));
-  }
-}
-
-/// The same of rows of one size: the numbers of a large bed are not there twice.
-void SphereContacts::move_memories_in_place() {
-  table_.resize(std::max(table_.places.size(), blocks_.row_count()));
-  const std::size_t slots = table_.places.size() * kLanes;
-  make_room(sources_, slots);
-  make_room(is_source_, slots);
-  sources_.assign(slots, kNoSlot);
-  for (std::size_t i = 0; i < keys_.size(); ++i) sources_[blocks_.slot(i)] = old_slots_[i];
-  move_slots(
-      sources_, is_source_,
-      [this](std::uint32_t slot) {
-        return Moved{table_.memory(slot), table_.is_numbered(slot)};
-      },
-      [this](std::uint32_t slot, const Moved& moved) {
-        table_.set_memory(slot, moved.memory);
-        table_.touched[slot / kLanes].set_moved(slot % kLanes, !moved.memory.is_new(),
-                                                moved.is_numbered);
-      });
-  table_.resize(blocks_.row_count());
 }
 
 /// Of pair i of the list.
@@ -190,7 +120,8 @@ SphereContacts::Parameters SphereContacts::parameters(std::size_t i) const noexc
     return AnyLaw::combine(common_->properties, {common_->material, sphere(keys_[i].a).radius},
                            {common_->material, sphere(keys_[i].b).radius});
   const std::uint32_t slot = blocks_.slot(i);
-  const Kind& kind = table_.kind(slot);
+  if (!table_.holds(slot)) return materials_->combine(sphere(keys_[i].a), sphere(keys_[i].b));
+  const PairKind& kind = table_.kind(slot);
   Parameters kept;
   kept.law = kind.law;
   table_.rows(slot)
@@ -199,13 +130,18 @@ SphereContacts::Parameters SphereContacts::parameters(std::size_t i) const noexc
   return kept;
 }
 
-/// N, of the last step.
-Vec3 SphereContacts::force_on_b(const Touching& pair) const noexcept {
-  const Kind& kind = table_.kind(pair.slot);
-  if (kind.law->force_of_state)
-    return kind.law->force_of_state(pair.parameters, pair.gap, pair.memory.normal,
-                                    pair.memory.history);
-  return table_.rows(pair.slot).from(kind.force).at<Vec3>(pair.slot % kLanes);
+SphereContacts::PairState SphereContacts::state_of(std::uint32_t slot) const noexcept {
+  PairState state{table_.gap(slot), table_.memory(slot)};
+  const PairKind& kind = table_.kind(slot);
+  if (kind.force > 0) state.force = table_.rows(slot).from(kind.force).at<Vec3>(slot % kLanes);
+  return state;
+}
+
+/// N, of the last step, of pair i of the list.
+Vec3 SphereContacts::force_on_b(std::size_t i, const PairState& pair) const noexcept {
+  const AnyLaw::Functions& law = *table_.kind(blocks_.slot(i)).law;
+  if (!law.force_of_state) return pair.force;
+  return law.force_of_state(parameters(i), pair.gap, pair.memory.normal, pair.memory.history);
 }
 
 double SphereContacts::advance(const Motion& motion, double dt, geometry::ThreadPool& pool,
@@ -265,54 +201,13 @@ void SphereContacts::share_blocks(const Motion& motion, geometry::ThreadPool& po
   BlockTotals of_own;
   for (const std::uint32_t k : own) of_own.add(outcomes_[k]);
   totals_ = shared_->gather(forces, of_own);
-  is_complete_ = false;
+  is_told_ = false;
 }
 
-/// Calls visit(owner, first row, end) for the rows of a slice of the blocks of each rank.
-template <class Visit>
-void SphereContacts::for_each_row_range(std::size_t slice, std::size_t slices,
-                                        Visit&& visit) const {
-  const auto of_ranks = shared_->blocks_of_ranks();
-  for (std::size_t rank = 0; rank < of_ranks.size(); ++rank) {
-    const std::vector<std::uint32_t>& all = of_ranks[rank];
-    for (std::size_t i = slice * all.size() / slices; i < (slice + 1) * all.size() / slices; ++i) {
-      const auto ranges = blocks_.ranges(blocks_.blocks()[all[i]]);
-      if (ranges.empty()) continue;
-      visit(static_cast<int>(rank), std::size_t{ranges.front().first_row},
-            std::size_t{ranges.back().first_row + ranges.back().row_count});
-    }
-  }
-}
-
-/// So many that all numbers of one take about as much room as a message of ranks should.
-std::size_t SphereContacts::slices_of_rows() const {
-  return 1 + table_.numbers.size() * sizeof(double) / geometry::Ranks::kUsualRoom;
-}
-
-/// First which pairs touch, then the rows of those: nobody reads numbers of others. In slices, so
-/// that a message is not as large as the scene.
-void SphereContacts::complete() const {
-  if (is_complete_) return;
-  is_complete_ = true;
-  const std::size_t slices = slices_of_rows();
-  for (std::size_t slice = 0; slice < slices; ++slice) {
-    geometry::share(shared_->ranks(), room_, [&](const auto& visit) {
-      for_each_row_range(slice, slices, [&](int owner, std::size_t begin, std::size_t end) {
-        visit(owner, std::as_writable_bytes(std::span(table_.touched).subspan(begin, end - begin)));
-      });
-    });
-    geometry::share(shared_->ranks(), room_, [&](const auto& visit) {
-      for_each_row_range(slice, slices, [&](int owner, std::size_t begin, std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row) {
-          if (!table_.touched[row].any()) continue;
-          const std::size_t slot = row * kLanes;
-          visit(owner, std::as_writable_bytes(
-                           std::span(table_.numbers)
-                               .subspan(table_.first_number(slot), table_.kind(slot).row_size)));
-        }
-      });
-    });
-  }
+void SphereContacts::tell_touched() const {
+  if (is_told_) return;
+  is_told_ = true;
+  table_.tell_touched();
 }
 
 void SphereContacts::advance_block(const SphereBlocks::Block& block, const Motion& motion,
@@ -320,15 +215,15 @@ void SphereContacts::advance_block(const SphereBlocks::Block& block, const Motio
   work.spheres.load(blocks_.members(block), motion);
   std::fill_n(work.sums.data(), block.member_count, SphereSum{});
   for (const SphereBlocks::Range& range : blocks_.ranges(block))
-    table_.kinds[range.kind].law->advance_spheres(range_of(range), work);
+    table_.kinds()[range.kind].law->advance_spheres(range_of(range), work);
 }
 
 SphereRange SphereContacts::range_of(const SphereBlocks::Range& range) noexcept {
-  const Kind& kind = table_.kinds[range.kind];
+  const PairKind& kind = table_.kinds()[range.kind];
   const std::size_t first = range.first_row;
   return {blocks_.row(first),
-          table_.numbers.data() + kLanes * std::size_t{table_.places[first].first_line},
-          &table_.touched[first],
+          table_.rows(first * kLanes).numbers(),
+          &table_.touched(first * kLanes),
           range.row_count,
           kind.row_size,
           kind.force,
@@ -339,42 +234,48 @@ SphereRange SphereContacts::range_of(const SphereBlocks::Range& range) noexcept 
 
 double SphereContacts::elastic_energy() const {
   double energy = 0.0;
-  for_each_lane([&](const Touching& pair) {
-    energy += AnyLaw::elastic_normal_energy(pair.parameters, pair.gap) +
-              AnyLaw::history_energy(pair.parameters, pair.memory.history);
-  });
+  for_each_told<double>(
+      [this](std::size_t i, std::uint32_t slot) {
+        const Parameters of_pair = parameters(i);
+        return AnyLaw::elastic_normal_energy(of_pair, table_.gap(slot)) +
+               AnyLaw::history_energy(of_pair, table_.memory(slot).history);
+      },
+      [&](std::size_t, double of_pair) { energy += of_pair; });
   return energy;
 }
 
 void SphereContacts::assign_ids(std::int64_t& last) {
-  complete();
+  tell_touched();
   PairNumbers::Reader known(numbers_);
   PairNumbers numbers;
-  for_each_lane([&](const Touching& pair) {
-    const bool has_one = table_.is_numbered(pair.slot);
-    numbers.add(pair.key, has_one ? known.of(pair.key) : ++last);
-  });
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    const std::uint32_t slot = blocks_.slot(i);
+    if (!table_.has_touched(slot)) continue;
+    numbers.add(keys_[i], table_.is_numbered(slot) ? known.of(keys_[i]) : ++last);
+  }
   numbers_ = std::move(numbers);
-  for (TouchedLanes& touched : table_.touched) touched.set_numbered();
+  table_.set_numbered();
 }
 
 void SphereContacts::for_each_record(Positions x, VisitRecord visit) const {
   PairNumbers::Reader numbers(numbers_);
-  for_each_lane([&](const Touching& pair) {
-    const SphereBody &a = sphere(pair.key.a), &b = sphere(pair.key.b);
+  for_each_state([&](std::size_t i, const PairState& pair) {
+    const geometry::IndexPair& key = keys_[i];
+    const SphereBody &a = sphere(key.a), &b = sphere(key.b);
     ContactRecord row;
-    if (table_.is_numbered(pair.slot)) row.id = numbers.of(pair.key);
-    row.a = {BodyKind::sphere, pair.key.a, geometry::Feature(a.node)};
-    row.b = {BodyKind::sphere, pair.key.b, geometry::Feature(b.node)};
+    if (table_.is_numbered(blocks_.slot(i))) row.id = numbers.of(key);
+    row.a = {BodyKind::sphere, key.a, geometry::Feature(a.node)};
+    row.b = {BodyKind::sphere, key.b, geometry::Feature(b.node)};
     row.point_a = x[index_of(a.node)];
     row.point_b = x[index_of(b.node)];
     row.normal = pair.memory.normal;
     row.gap = pair.gap;
     row.point = row.point_a + (a.radius + 0.5 * row.gap) * row.normal;
-    set_force(row, force_on_b(pair));
+    set_force(row, force_on_b(i, pair));
     row.moment = AnyLaw::moment(pair.memory.history, pair.memory.normal);
-    set_state<AnyLaw>(row, pair.parameters, pair.memory.history,
-                      AnyLaw::elastic_normal_force(pair.parameters, row.gap));
+    const Parameters of_pair = parameters(i);
+    set_state<AnyLaw>(row, of_pair, pair.memory.history,
+                      AnyLaw::elastic_normal_force(of_pair, row.gap));
     visit(row);
   });
 }
@@ -420,7 +321,7 @@ void SphereContacts::take_over(const SphereContacts& before, std::span<const std
     if (key.a < 0 || key.b < 0) continue;
     place = next_place(place, keys_.size(), [&](std::size_t i) { return keys_[i] < key; });
     if (place == keys_.size() || keys_[place] != key) continue;
-    require_same_law(pair.memory.history, table_.kind(blocks_.slot(place)).law);
+    require_same_law(pair.state.memory.history, table_.kind(blocks_.slot(place)).law);
     keep(pair, place);
     ++totals_.touching;
   }
@@ -429,17 +330,9 @@ void SphereContacts::take_over(const SphereContacts& before, std::span<const std
 std::vector<SphereContacts::KeptPair> SphereContacts::kept_pairs() const {
   std::vector<KeptPair> pairs;
   PairNumbers::Reader numbers(numbers_);
-  for_each_lane([&](const Touching& pair) {
-    const Kind& kind = table_.kind(pair.slot);
-    const bool is_numbered = table_.is_numbered(pair.slot);
-    Vec3 force = Vec3::Zero();
-    if (kind.force > 0)
-      force = table_.rows(pair.slot).from(kind.force).at<Vec3>(pair.slot % kLanes);
-    pairs.push_back({{pair.key.a, pair.key.b},
-                     pair.gap,
-                     pair.memory,
-                     force,
-                     is_numbered ? numbers.of(pair.key) : 0});
+  for_each_state([&](std::size_t i, const PairState& pair) {
+    const bool is_numbered = table_.is_numbered(blocks_.slot(i));
+    pairs.push_back({{keys_[i].a, keys_[i].b}, pair, is_numbered ? numbers.of(keys_[i]) : 0});
   });
   return pairs;
 }
@@ -453,24 +346,24 @@ std::size_t SphereContacts::exchange_pair(geometry::RowFields& row, KeptPair& pa
   const std::size_t place =
       next_place(from, keys_.size(), [&](std::size_t i) { return keys_[i] < key; });
   if (place == keys_.size() || keys_[place] != key) throw_unlisted_contact();
-  const Kind& kind = table_.kind(blocks_.slot(place));
-  row("gap", pair.gap);
-  contact::exchange(row, pair.memory, kind.law);
+  const PairKind& kind = table_.kind(blocks_.slot(place));
+  row("gap", pair.state.gap);
+  contact::exchange(row, pair.state.memory, kind.law);
   row("id", pair.id);
-  row.numbers("force", pair.force.data(), kind.force > 0 ? 3 : 0);
+  row.numbers("force", pair.state.force.data(), kind.force > 0 ? 3 : 0);
   return place;
 }
 
 void SphereContacts::keep(const KeptPair& pair, std::size_t place) {
   const std::uint32_t slot = blocks_.slot(place);
-  const std::size_t lane = slot % kLanes;
-  const Kind& kind = table_.kind(slot);
-  const Rows rows = table_.rows(slot);
-  table_.set_memory(slot, pair.memory);
-  rows.from(PairNumbersOfRow::kGap).set(lane, pair.gap);
-  if (kind.force > 0) rows.from(kind.force).set(lane, pair.force);
-  table_.touched[slot / kLanes].set_moved(lane, true, pair.id != 0);
+  table_.touched(slot).set_moved(slot % kLanes, true, pair.id != 0);
   if (pair.id != 0) numbers_.add(keys_[place], pair.id);
+  if (!table_.holds(slot)) return;
+  const PairKind& kind = table_.kind(slot);
+  const PairTable::Rows rows = table_.rows(slot);
+  table_.set_memory(slot, pair.state.memory);
+  rows.from(PairNumbersOfRow::kGap).set(slot % kLanes, pair.state.gap);
+  if (kind.force > 0) rows.from(kind.force).set(slot % kLanes, pair.state.force);
 }
 
 void SphereContacts::hand_over(const SphereBlocks::Block& block, const SphereWork& work,

@@ -3,14 +3,13 @@
 
 #include "contact/law/material_pairs.hpp"
 #include "contact/sphere_sphere/pair_numbers.hpp"
+#include "contact/sphere_sphere/pair_table.hpp"
 #include "contact/sphere_sphere/shared_blocks.hpp"
 #include "contact/sphere_sphere/sphere_blocks.hpp"
 #include "contact/sphere_sphere/sphere_range.hpp"
 #include "contact/sphere_sphere/sphere_sums.hpp"
-#include "contact/sphere_sphere/touched_lanes.hpp"
 #include "contact/tracking/contact_record.hpp"
 #include "contact/tracking/rekey.hpp"
-#include "geometry/base/cache_lines.hpp"
 #include "geometry/base/function_ref.hpp"
 
 #include <cmath>
@@ -29,7 +28,7 @@ class SphereContacts {
 
   /// From here on ranks share the blocks; to be called before the first list. All of them have all
   /// lists, and the forces on all common nodes; what a contact remembers has the rank that computes
-  /// it, until somebody asks.
+  /// it. What asks for contacts then has to be asked by all ranks.
   void share_among(geometry::Ranks& ranks) { shared_.emplace(ranks); }
   /// Shares out what there is on the lists: before the first step with them.
   /// @param met  nodes of spheres that something else than spheres is near to
@@ -63,9 +62,11 @@ class SphereContacts {
   /// Calls visit(a, b, parameters, gap) for every touching pair, in the order of the list.
   template <class Visit>
   void for_each_touching(Visit&& visit) const {
-    for_each_lane([&](const Touching& pair) {
-      visit(sphere(pair.key.a).node, sphere(pair.key.b).node, pair.parameters, pair.gap);
-    });
+    for_each_told<double>([this](std::size_t, std::uint32_t slot) { return table_.gap(slot); },
+                          [&](std::size_t i, double gap) {
+                            visit(sphere(keys_[i].a).node, sphere(keys_[i].b).node, parameters(i),
+                                  gap);
+                          });
   }
 
   /// Calls visit(a, b, parameters, gap) for every listed pair that is nearer than a margin (m) with
@@ -100,73 +101,19 @@ class SphereContacts {
 
  private:
   static constexpr std::size_t kLanes = SphereBlocks::kLanes;
-  using Rows = geometry::LaneRows<kLanes>;
-  using ConstRows = geometry::LaneRows<kLanes, const double>;
   using Outcome = BlockOutcome<kLanes>;
 
-  /// Pairs of one law, and where their rows have what.
-  struct Kind {
-    const AnyLaw::Functions* law;
-    bool keeps_parameters;
-    std::size_t force;  ///< 0: not kept
-    std::size_t parameters;
-    std::size_t row_size;
-
-    Kind(const AnyLaw::Functions& of, bool keeps) noexcept;
-    friend bool operator==(const Kind&, const Kind&) = default;
-  };
-  /// Where the numbers of a row are.
-  struct RowPlace {
-    std::uint32_t first_line;
-    std::uint32_t kind;
-  };
-  /// A list of rows.
-  struct Table {
-    std::vector<Kind> kinds;
-    std::vector<RowPlace> places;       ///< by row
-    std::vector<TouchedLanes> touched;  ///< by row
-    geometry::LineNumbers numbers;
-
-    void assign(const SphereBlocks& blocks);
-    std::size_t first_number(std::size_t slot) const noexcept {
-      return kLanes * std::size_t{places[slot / kLanes].first_line};
-    }
-    Rows rows(std::size_t slot) noexcept { return Rows(numbers.data() + first_number(slot)); }
-    ConstRows rows(std::size_t slot) const noexcept {
-      return ConstRows(numbers.data() + first_number(slot));
-    }
-    const Kind& kind(std::size_t slot) const noexcept { return kinds[places[slot / kLanes].kind]; }
-    bool has_touched(std::size_t slot) const noexcept {
-      return touched[slot / kLanes].last(slot % kLanes);
-    }
-    ContactMemory<AnyLaw> memory(std::size_t slot) const noexcept;
-    void set_memory(std::size_t slot, const ContactMemory<AnyLaw>& memory) noexcept;
-    bool is_numbered(std::size_t slot) const noexcept {
-      return touched[slot / kLanes].since_numbered(slot % kLanes);
-    }
-    /// Rows of the one kind that there is; numbers that are new are 0.
-    void resize(std::size_t rows);
-  };
-  /// What goes from slot to slot when the list is made anew.
-  struct Moved {
+  /// What there is of a touching pair.
+  struct PairState {
+    double gap = 0.0;  ///< m
     ContactMemory<AnyLaw> memory;
-    bool is_numbered = false;
-  };
-  /// A touching pair.
-  struct Touching {
-    const geometry::IndexPair& key;
-    std::size_t slot;
-    Parameters parameters;
-    ContactMemory<AnyLaw> memory;
-    double gap;  ///< m
+    Vec3 force = Vec3::Zero();  ///< N, on b; where rows keep it
   };
 
   /// A touching pair in a state.
   struct KeptPair {
     std::array<std::int32_t, 2> spheres;
-    double gap;  ///< m
-    ContactMemory<AnyLaw> memory;
-    Vec3 force;       ///< N, on b; where rows keep it
+    PairState state;
     std::int64_t id;  ///< 0: none
   };
 
@@ -174,12 +121,10 @@ class SphereContacts {
     return spheres_[static_cast<std::size_t>(index)];
   }
   Parameters parameters(std::size_t i) const noexcept;
-  Vec3 force_on_b(const Touching& pair) const noexcept;
-  void find_kinds(std::span<const SphereBody> spheres, const MaterialPairs& materials,
-                  std::vector<Kind>& kinds);
-  void set_parameters(const MaterialPairs& materials);
-  void move_memories();
-  void move_memories_in_place();
+  Vec3 force_on_b(std::size_t i, const PairState& pair) const noexcept;
+  void find_kinds();
+  void set_parameters();
+  double energy_lost(const MaterialPairs& materials) const;
   std::vector<KeptPair> kept_pairs() const;
   std::size_t exchange_pair(geometry::RowFields& row, KeptPair& pair, std::size_t from) const;
   void keep(const KeptPair& pair, std::size_t place);
@@ -193,26 +138,63 @@ class SphereContacts {
   /// The same to the nodes of one block.
   void add_ghost_sums(std::size_t block, NodeForces& forces) const;
 
-  /// Gives all ranks what each has computed of the rows of the last step. What is read of rows needs
-  /// it first.
-  void complete() const;
   void share_blocks(const Motion& motion, geometry::ThreadPool& pool, NodeForces& forces);
-  template <class Visit>
-  void for_each_row_range(std::size_t slice, std::size_t slices, Visit&& visit) const;
-  std::size_t slices_of_rows() const;
   void compute_block(std::size_t block, const Motion& motion, SphereWork& work, NodeForces& forces);
 
-  /// Calls visit(touching pair), in the order of the list.
-  template <class Visit>
-  void for_each_lane(Visit&& visit) const {
-    complete();
+  /// Ranks know of all pairs which touch, not only of their own.
+  void tell_touched() const;
+
+  /// Calls visit(place in the list, what tell(place, slot) comes to) for every touching pair, in the
+  /// order of the list. tell() is asked where the pair is held, and comes to plain numbers, whole
+  /// ones of 8 bytes.
+  template <class Told, class Tell, class Visit>
+  void for_each_told(Tell&& tell, Visit&& visit) const {
+    tell_touched();
+    if (table_.is_shared_out()) {
+      for_each_told_by_ranks<Told>(tell, visit);
+      return;
+    }
     for (std::size_t i = 0; i < keys_.size(); ++i) {
       const std::uint32_t slot = blocks_.slot(i);
-      if (!table_.has_touched(slot)) continue;
-      const double gap = table_.rows(slot).from(PairNumbersOfRow::kGap).number(slot % kLanes);
-      visit(Touching{keys_[i], slot, parameters(i), table_.memory(slot), gap});
+      if (table_.has_touched(slot)) visit(i, tell(i, slot));
     }
   }
+
+  /// Some pairs at a time, so that a message is not as large as the scene.
+  template <class Told, class Tell, class Visit>
+  void for_each_told_by_ranks(Tell&& tell, Visit&& visit) const {
+    constexpr std::size_t kAtATime = geometry::Ranks::kUsualRoom / sizeof(Told);
+    std::vector<Told> told;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < keys_.size();) {
+      told.clear();
+      places.clear();
+      for (; i < keys_.size() && told.size() < kAtATime; ++i) {
+        const std::uint32_t slot = blocks_.slot(i);
+        if (!table_.has_touched(slot)) continue;
+        places.push_back(i);
+        told.push_back(table_.holds(slot) ? tell(i, slot) : Told());
+      }
+      geometry::share(shared_->ranks(), room_, [&](const auto& visit_piece) {
+        for (std::size_t n = 0; n < told.size(); ++n)
+          visit_piece(table_.holder(blocks_.slot(places[n])),
+                      std::as_writable_bytes(std::span(&told[n], 1)));
+      });
+      for (std::size_t n = 0; n < told.size(); ++n) visit(places[n], told[n]);
+    }
+  }
+
+  /// The same of all that there is of a pair.
+  template <class Visit>
+  void for_each_state(Visit&& visit) const {
+    for_each_told<PairState>([this](std::size_t, std::uint32_t slot) { return state_of(slot); },
+                             [&](std::size_t i, PairState state) {
+                               // Where a law is in memory, each process knows for itself.
+                               state.memory.history.law = table_.kind(blocks_.slot(i)).law;
+                               visit(i, state);
+                             });
+  }
+  PairState state_of(std::uint32_t slot) const noexcept;
 
   std::vector<geometry::IndexPair> keys_;  ///< of spheres
   std::vector<std::uint8_t> kinds_;        ///< by pair; empty: one of all
@@ -224,21 +206,19 @@ class SphereContacts {
   };
   std::optional<Common> common_;
   SphereBlocks blocks_;
-  std::optional<SharedBlocks> shared_;  ///< nothing: this process computes all
-  bool has_owners_ = false;             ///< each of the blocks of the last list
-  /// Of several ranks each has its own rows as of now, and those of others once they are complete.
-  mutable Table table_;
-  mutable bool is_complete_ = true;
+  std::optional<SharedBlocks> shared_;        ///< nothing: this process computes all
+  const MaterialPairs* materials_ = nullptr;  ///< of the list
+  mutable PairTable table_;
+  mutable bool is_told_ = true;          ///< which pairs touch
   mutable std::vector<std::byte> room_;  ///< for messages
-  Table last_table_;                     ///< its room, and the kinds of the list to come
   PairNumbers numbers_;                  ///< of the pairs that touched when they were numbered last
   std::vector<SphereSum> ghost_sums_;    ///< of ghosts
   std::vector<Outcome> outcomes_;        ///< by block that this process computes
   BlockTotals totals_;                   ///< of all blocks
   std::vector<SphereWork> work_;         ///< by thread
   std::vector<std::uint32_t> old_slots_;  ///< by pair of a new list
-  std::vector<std::uint32_t> sources_;    ///< by slot of a new list
-  std::vector<bool> is_source_;
+  std::vector<std::uint32_t> left_;       ///< touching pairs, by place, that a new list has not
+  std::vector<PairKind> kinds_of_list_;
 };
 
 }  // namespace plekton::contact

@@ -28,6 +28,9 @@ class LaneRows {
   /// The rows from number n of the things on.
   LaneRows from(std::size_t n) const noexcept { return LaneRows(first_ + n * kLanes); }
 
+  /// The first number of all lanes.
+  Number* numbers() const noexcept { return first_; }
+
   /// Writes so many numbers into a lane.
   PLEKTON_INLINE void set_numbers(std::size_t lane, const double* numbers,
                                   std::size_t count) const noexcept {
