@@ -74,9 +74,10 @@ class Contacts {
 
   /// Which of several processes moves which nodes; null: each that there is moves all of them.
   virtual SharedMotion* shared_motion() noexcept { return nullptr; }
-  /// Whether advance() would look at all nodes, not only at those that are near others.
-  virtual bool may_make_lists(const Motion& motion,
-                              std::span<const Plane> planes) const noexcept = 0;
+  /// Whether advance() will look at all nodes, not only at those that are near others: to be asked
+  /// once before it, with the same motion, where a process does not know all of them.
+  virtual bool makes_lists(const Motion& motion, std::span<const Plane> planes,
+                           geometry::ThreadPool& pool) = 0;
 
   /// Goes on with what is left of the surface after some of its elements have broken away
   /// (geometry::Surface::left_with). Contacts go on where a feature they touch is left, those far

@@ -102,7 +102,9 @@ void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes,
                             geometry::ThreadPool& pool, NodeForces& forces) {
   if (start_ == Start::now) end_start(planes, pool);
   if (start_ == Start::ahead) start_ = Start::now;
-  if (neighbours_.update(motion.position, pool, motion.max_displacement)) {
+  const auto was_asked = std::exchange(are_lists_due_, std::nullopt);
+  if (was_asked ? *was_asked : look_at_lists(motion, pool)) {
+    neighbours_.make(motion.position, pool);
     tracking_loss_ += with_spheres_.rebuild(neighbours_.sphere_pairs(), spheres_, materials_.pairs,
                                             pool, motion.position);
     tracking_loss_ += list_on_surfaces();
@@ -129,10 +131,19 @@ void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes,
   dissipated_ += with_planes_.advance(motion, planes, dt, pool, forces);
 }
 
-bool SceneContacts::may_make_lists(const Motion& motion,
-                                   std::span<const Plane> planes) const noexcept {
-  return start_ != Start::over || neighbours_.may_be_due(motion.max_displacement) ||
-         plane_neighbours_.is_due(planes);
+bool SceneContacts::makes_lists(const Motion& motion, std::span<const Plane> planes,
+                                geometry::ThreadPool& pool) {
+  are_lists_due_ = look_at_lists(motion, pool);
+  return start_ != Start::over || *are_lists_due_ || plane_neighbours_.is_due(planes);
+}
+
+/// Of ranks each looks at the nodes that it knows.
+bool SceneContacts::look_at_lists(const Motion& motion, geometry::ThreadPool& pool) {
+  const SharedMotion* const shared = shared_motion();
+  if (shared == nullptr || !shared->is_of_use())
+    return neighbours_.is_due(motion.position, pool, motion.max_displacement);
+  const geometry::KnownNodes known{&shared->ranks(), shared->common(), shared->own()};
+  return neighbours_.is_due(motion.position, pool, motion.max_displacement, &known);
 }
 
 /// What meets planes and surfaces is computed by all ranks.

@@ -11,6 +11,7 @@
 #include "geometry/neighbor/neighbours.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,10 +30,14 @@ class SceneContacts final : public Contacts {
                 Positions rest = {}, const geometry::ExclusionGroups& groups = {});
 
   /// From here on ranks share the work; to be called before the first step.
-  void share_among(geometry::Ranks& ranks) { with_spheres_.share_among(ranks); }
+  void share_among(geometry::Ranks& ranks) {
+    neighbours_.share_among(ranks);
+    with_spheres_.share_among(ranks);
+  }
   SharedMotion* shared_motion() noexcept override { return with_spheres_.shared_motion(); }
   std::vector<RankShare> shares_of_ranks() const { return with_spheres_.shares_of_ranks(); }
-  bool may_make_lists(const Motion& motion, std::span<const Plane> planes) const noexcept override;
+  bool makes_lists(const Motion& motion, std::span<const Plane> planes,
+                   geometry::ThreadPool& pool) override;
 
   void tune_skin(double radius) noexcept override { neighbours_.tune_skin(radius); }
   void choose_skin_of_structures() override { cell_neighbours_.choose_skin(); }
@@ -151,6 +156,7 @@ class SceneContacts final : public Contacts {
   }
 
  private:
+  bool look_at_lists(const Motion& motion, geometry::ThreadPool& pool);
   double list_on_surfaces();
   void share_out();
   void add(const EnergyLoss& loss) noexcept {
@@ -186,7 +192,8 @@ class SceneContacts final : public Contacts {
   std::int64_t last_number_ = 0;
   std::int64_t list_count_ = 0;
   enum class Start { ahead, now, over } start_ = Start::ahead;
-  bool is_shared_out_ = false;  ///< what is on the lists of spheres now
+  bool is_shared_out_ = false;         ///< what is on the lists of spheres now
+  std::optional<bool> are_lists_due_;  ///< of spheres; nothing: was not asked in this step
 };
 
 }  // namespace plekton::contact

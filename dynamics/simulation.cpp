@@ -444,7 +444,7 @@ ExactStep Simulation::exact_critical_step() const {
 }
 
 void Simulation::find_contacts() {
-  if (contacts_->may_make_lists(motion(), scene_.planes)) nodes_.know_all();
+  if (contacts_->makes_lists(motion(), scene_.planes, pool_)) nodes_.know_all();
   contacts_->advance(motion(), scene_.planes, last_drift_, pool_, forces_);
   power_on_turning_ = power_on_turning_planes();
   nodes_.found_forces();

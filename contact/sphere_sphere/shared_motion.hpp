@@ -49,6 +49,7 @@ class SharedMotion {
   /// All nodes are common.
   void assign_nothing() noexcept;
 
+  geometry::Ranks& ranks() const noexcept { return *ranks_; }
   /// Whether any node is private.
   bool is_of_use() const noexcept { return !owners_.empty(); }
 

@@ -14,6 +14,8 @@
 
 namespace plekton::geometry {
 
+class Ranks;
+
 /// Two indices that belong together; ordered by a, then b.
 struct IndexPair {
   std::int32_t a;
@@ -61,8 +63,11 @@ class BroadPhase {
   void self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool) const;
   /// Only those of them that are wanted.
   /// @param is_wanted  asked by several threads at the same time
+  /// @param ranks      have the same boxes: each looks for a share, and all get all; null: there is
+  ///                   this process alone
   void self_pairs(std::vector<IndexPair>& pairs, ThreadPool& pool,
-                  const std::function<bool(const IndexPair&)>& is_wanted) const;
+                  const std::function<bool(const IndexPair&)>& is_wanted,
+                  Ranks* ranks = nullptr) const;
 
   /// All pairs of a box of this (a) and an overlapping box of the other (b), each once, in order.
   /// Replaces what pairs held.

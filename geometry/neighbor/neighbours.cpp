@@ -39,17 +39,19 @@ Neighbours::Neighbours(std::span<const Sphere> spheres, const Surface& surface, 
                        double reach)
     : spheres_(spheres), surface_(&surface), skin_(skin), reach_(reach) {}
 
-bool Neighbours::update(Positions x, ThreadPool& pool, double way) {
+bool Neighbours::is_due(Positions x, ThreadPool& pool, double way, const KnownNodes* known) {
   // Where all is at rest a list may last for longer than can be counted; that many are as good.
   if (steps_of_list_ < std::numeric_limits<int>::max()) ++steps_of_list_;
-  if (!skin_.may_need_rebuild(way) || !skin_.needs_rebuild(x, pool)) return false;
+  return skin_.may_need_rebuild(way) && skin_.needs_rebuild(x, pool, known);
+}
+
+void Neighbours::make(Positions x, ThreadPool& pool) {
   if (usual_radius_ > 0.0 && rebuild_count_ > 0) choose_skin();
   // Without spheres the lists stay empty; that they are due is news for lists of other bodies.
   if (!spheres_.empty()) rebuild(x, pool);
   skin_.mark_built(x);
   ++rebuild_count_;
   steps_of_list_ = 0;
-  return true;
 }
 
 void Neighbours::exchange(const StateArchive& archive, ThreadPool& pool) {
@@ -89,7 +91,7 @@ void Neighbours::rebuild(Positions x, ThreadPool& pool) {
   });
   fit(sphere_tree_);
   const auto is_near = [&](const IndexPair& pair) { return may_touch(pair, x); };
-  sphere_tree_.self_pairs(sphere_pairs_, pool, std::cref(is_near));
+  sphere_tree_.self_pairs(sphere_pairs_, pool, std::cref(is_near), ranks_);
 
   boxes_.clear();
   for (std::size_t c = 0; c < surface_->cell_count(); ++c) {

@@ -37,6 +37,9 @@ class Neighbours {
   /// Pairs within a group are not listed. To be called before the first update.
   void leave_out(ExclusionGroups groups) { groups_ = std::move(groups); }
 
+  /// From now on ranks share the search; all of them have all lists. @param ranks  outlives this
+  void share_among(Ranks& ranks) noexcept { ranks_ = &ranks; }
+
   /// From now on chooses the skin anew whenever the lists are made, from how many steps the last
   /// ones lasted: the one for which the lists and the pairs in them, which grow with the skin, cost
   /// least together. It depends on the motion alone, not on measured times. The pairs that touch
@@ -46,10 +49,19 @@ class Neighbours {
 
   /// Makes the lists anew if they have to be. @returns whether they were
   /// @param way  m, see Skin::may_need_rebuild
-  bool update(Positions x, ThreadPool& pool, double way = std::numeric_limits<double>::infinity());
+  bool update(Positions x, ThreadPool& pool, double way = std::numeric_limits<double>::infinity()) {
+    const bool are_due = is_due(x, pool, way);
+    if (are_due) make(x, pool);
+    return are_due;
+  }
 
-  /// Whether update() would look at all nodes.
-  bool may_be_due(double way) const noexcept { return skin_.would_need_rebuild(way); }
+  // The same in two, for ranks that do not know all nodes as long as no lists are made.
+
+  /// Whether the lists have to be made anew. To be asked once in a step.
+  /// @param known  see Skin::needs_rebuild
+  bool is_due(Positions x, ThreadPool& pool, double way, const KnownNodes* known = nullptr);
+  /// Makes them.
+  void make(Positions x, ThreadPool& pool);
 
   /// Goes on with what is left of the surface: the lists stay as they are but for the cells that
   /// are gone; the sides that a torn facet has left take its place. So pairs of spheres keep their
@@ -90,6 +102,7 @@ class Neighbours {
 
   std::span<const Sphere> spheres_;
   const Surface* surface_;
+  Ranks* ranks_ = nullptr;  ///< null: there is this process alone
   Skin skin_;
   double reach_;
   ExclusionGroups groups_;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/neighbor/skin.hpp"
 
+#include "geometry/base/ranks.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -33,6 +34,11 @@ double furthest(Positions x) {
   double furthest = 0.0;
   for (const Vec3& position : x) furthest = std::max(furthest, position.cwiseAbs().maxCoeff());
   return furthest;
+}
+
+/// Once NaN always NaN.
+double larger_or_nan(double a, double b) noexcept {
+  return b > a || std::isnan(b) ? b : a;
 }
 
 }  // namespace
@@ -62,38 +68,53 @@ void Skin::exchange(const StateArchive& archive) {
   furthest_ = furthest(built_positions_);
 }
 
-bool Skin::needs_rebuild(Positions x, ThreadPool& pool) {
-  if (!built_ || skin_ == 0.0 || x.size() != built_positions_.size()) return true;
-  const double limit = skin_ * skin_ * (1.0 - 1e-12);
+/// @param node_at  place of node i of so many
+/// @returns m², how far any of them has moved; NaN if any place is
+template <class NodeAt>
+double Skin::largest_square(Positions x, std::size_t count, const NodeAt& node_at,
+                            ThreadPool& pool) {
   largest_.assign(static_cast<std::size_t>(pool.thread_count()), 0.0);
-  std::atomic<bool> too_far = false;
-  pool.for_each_range(x.size(), [&](std::size_t begin, std::size_t end, int worker) {
-    bool exceeded = false;
-    double largest = 0.0;
-    for (std::size_t node = begin; node < end; ++node) {
-      const double squared = (x[node] - built_positions_[node]).squaredNorm();
-      // Written so that NaN counts as too far.
-      exceeded |= !(4.0 * squared <= limit);
-      largest = std::max(largest, squared);
+  pool.for_each_range(count, [&](std::size_t begin, std::size_t end, int worker) {
+    double& largest_of_worker = largest_[static_cast<std::size_t>(worker)];
+    double largest = largest_of_worker;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t node = node_at(i);
+      largest = larger_or_nan(largest, (x[node] - built_positions_[node]).squaredNorm());
     }
-    largest_[static_cast<std::size_t>(worker)] = largest;
-    if (exceeded) too_far.store(true, std::memory_order_relaxed);
+    largest_of_worker = largest;
   });
-  way_ = (1.0 + 1e-15) * std::sqrt(*std::max_element(largest_.begin(), largest_.end()));
-  return too_far.load(std::memory_order_relaxed);
+  return std::accumulate(largest_.begin(), largest_.end(), 0.0, larger_or_nan);
+}
+
+bool Skin::needs_rebuild(Positions x, ThreadPool& pool, const KnownNodes* known) {
+  if (!built_ || skin_ == 0.0 || x.size() != built_positions_.size()) return true;
+  double largest = 0.0;  // m²
+  if (known == nullptr) {
+    largest = largest_square(
+        x, x.size(), [](std::size_t i) { return i; }, pool);
+  } else {
+    for (const std::span<const NodeId> nodes : {known->common, known->own}) {
+      const auto node_at = [&](std::size_t i) { return index_of(nodes[i]); };
+      largest = larger_or_nan(largest, largest_square(x, nodes.size(), node_at, pool));
+    }
+    std::vector<double> of_ranks(static_cast<std::size_t>(known->ranks->count()));
+    of_ranks[static_cast<std::size_t>(known->ranks->rank())] = largest;
+    known->ranks->gather(std::as_writable_bytes(std::span(of_ranks)),
+                         std::vector<std::size_t>(of_ranks.size(), sizeof(double)));
+    largest = std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0, larger_or_nan);
+  }
+  way_ = (1.0 + 1e-15) * std::sqrt(largest);
+  // Written so that NaN counts as too far.
+  return !(4.0 * largest <= skin_ * skin_ * (1.0 - 1e-12));
 }
 
 /// Rounding: a step x += v dt is rounded twice, by at most eps / 2 of the way and of the coordinate
 /// in each of three components; the sum and the speed by a few eps of it. Four eps of each pay for
 /// all of it, and the last factor for the sums of a list that lasts a million steps.
-double Skin::way_after(double way) const noexcept {
-  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
-  return way_ + ((1.0 + kRounding) * way + (way > 0.0 ? kRounding * (furthest_ + skin_) : 0.0));
-}
-
 bool Skin::may_need_rebuild(double way) noexcept {
-  way_ = way_after(way);
-  return may_be_over(way_);
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  way_ += (1.0 + kRounding) * way + (way > 0.0 ? kRounding * (furthest_ + skin_) : 0.0);
+  return !(built_ && 2.0 * way_ <= skin_ * (1.0 - 1e-9));
 }
 
 }  // namespace plekton::geometry

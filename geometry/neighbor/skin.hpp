@@ -4,11 +4,20 @@
 #include "geometry/base/thread_pool.hpp"
 #include "geometry/base/types.hpp"
 
+#include <span>
 #include <vector>
 
 namespace plekton::geometry {
 
+class Ranks;
 class StateArchive;
+
+/// Of which nodes one of several ranks knows where they are: together they know of all.
+struct KnownNodes {
+  Ranks* ranks;
+  std::span<const NodeId> common;  ///< known to all ranks
+  std::span<const NodeId> own;     ///< known to this one
+};
 
 /// m. Squares of shorter skins would vanish.
 inline constexpr double kSmallestSkin = 1e-100;
@@ -51,7 +60,8 @@ class Skin {
 
   /// Whether the list may miss a pair: some node has moved by more than half the skin (or is NaN),
   /// the number of nodes has changed, or nothing has been built yet. O(number of nodes).
-  bool needs_rebuild(Positions x, ThreadPool& pool);
+  /// @param known  null: this process knows all nodes; else asked by all ranks, with one answer
+  bool needs_rebuild(Positions x, ThreadPool& pool, const KnownNodes* known = nullptr);
 
   /// Asks less often: adds up how far nodes may have moved, and is false as long as the sum is
   /// below half the skin, so that needs_rebuild would be false too. A sum that is above it begins
@@ -59,8 +69,6 @@ class Skin {
   /// @param way  m, how far any node has moved at most since the last call, but for the rounding of
   ///             x += v dt; infinite if that is not known
   bool may_need_rebuild(double way) noexcept;
-  /// Whether it would answer yes.
-  bool would_need_rebuild(double way) const noexcept { return may_be_over(way_after(way)); }
 
   /// m, from which the list was built; empty if nothing has been built yet.
   Positions built_positions() const noexcept {
@@ -75,10 +83,8 @@ class Skin {
   void exchange(const StateArchive& archive);
 
  private:
-  double way_after(double way) const noexcept;
-  bool may_be_over(double way) const noexcept {
-    return !(built_ && 2.0 * way <= skin_ * (1.0 - 1e-9));
-  }
+  template <class NodeAt>
+  double largest_square(Positions x, std::size_t count, const NodeAt& node_at, ThreadPool& pool);
 
   double skin_;
   bool built_ = false;

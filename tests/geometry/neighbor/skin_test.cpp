@@ -5,6 +5,7 @@
 #include "geometry/primitives/facet.hpp"
 #include "geometry/primitives/sphere.hpp"
 #include "tests/support/seeded_random.hpp"
+#include "tests/support/thread_ranks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -201,6 +202,44 @@ TEST(Skin, MeasuresFromTheLastListAndNotTheWayBetween) {
   EXPECT_TRUE(skin.needs_rebuild(x, pool));
   skin.mark_built(x);
   EXPECT_FALSE(skin.needs_rebuild(x, pool));
+}
+
+/// Of nodes that a rank does not know it has no places at all.
+TEST(Skin, IsAskedByRanksThatKnowSomeOfTheNodesEach) {
+  constexpr int kRanks = 3;
+  constexpr std::size_t kNodes = 50;
+  test::ThreadRanks(kRanks).run([](Ranks& ranks) {
+    ThreadPool pool(2);
+    test::Random random(17);
+    std::vector<NodeId> common, own;
+    std::vector<bool> is_known(kNodes, false);
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      const int owner = static_cast<int>(i) % (kRanks + 1);
+      is_known[i] = owner == kRanks || owner == ranks.rank();
+      if (is_known[i]) (owner == kRanks ? common : own).push_back(id_at<NodeId>(i));
+    }
+    const KnownNodes known{&ranks, common, own};
+    std::vector<Vec3> x(kNodes, Vec3::Zero());
+    Skin alone(kSkin), shared(kSkin);
+    alone.mark_built(x);
+    shared.mark_built(x);
+    int rebuilds = 0;
+    for (int step = 0; step < 300; ++step) {
+      for (Vec3& position : x) position += 0.05 * kSkin * random.in_cube(1.0);
+      std::vector<Vec3> x_of_rank = x;
+      for (std::size_t i = 0; i < kNodes; ++i)
+        if (!is_known[i]) x_of_rank[i] = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+      const double way = 0.1 * kSkin;
+      ASSERT_EQ(shared.may_need_rebuild(way), alone.may_need_rebuild(way)) << step;
+      const bool needed = alone.needs_rebuild(x, pool);
+      ASSERT_EQ(shared.needs_rebuild(x_of_rank, pool, &known), needed) << step;
+      if (!needed) continue;
+      ++rebuilds;
+      alone.mark_built(x);
+      shared.mark_built(x);
+    }
+    EXPECT_GT(rebuilds, 5);
+  });
 }
 
 /// Nodes far from the origin that wander, each step rounded as in a simulation.
