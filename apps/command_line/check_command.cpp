@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/check_command.hpp"
 
+#include "apps/command_line/asked_stages.hpp"
 #include "apps/command_line/check_report.hpp"
 #include "apps/command_line/exit_code.hpp"
 #include "apps/command_line/run_estimate.hpp"
 #include "apps/command_line/scenario_options.hpp"
 #include "apps/command_line/set_up_aloud.hpp"
-#include "apps/command_line/stages_command.hpp"
 #include "apps/command_line/start_listing.hpp"
 #include "apps/command_line/step_advice.hpp"
 #include "apps/command_line/summary.hpp"

@@ -2,7 +2,7 @@
 #include "apps/command_line/export_ondem_command.hpp"
 
 #include "apps/command_line/exit_code.hpp"
-#include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/resumed_run.hpp"
 #include "apps/command_line/warnings.hpp"
 #include "apps/run/other_file.hpp"
 #include "apps/run/stage_change.hpp"

@@ -2,7 +2,7 @@
 #include "apps/command_line/render_command.hpp"
 
 #include "apps/command_line/exit_code.hpp"
-#include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/resumed_run.hpp"
 #include "apps/pictures/other_picture.hpp"
 #include "apps/pictures/render.hpp"
 #include "apps/run/other_file.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/run_aloud.hpp"
 
+#include "apps/command_line/asked_stages.hpp"
 #include "apps/command_line/exit_code.hpp"
 #include "apps/command_line/interrupt.hpp"
 #include "apps/command_line/set_up_aloud.hpp"
-#include "apps/command_line/stages_command.hpp"
 #include "apps/command_line/summary.hpp"
 #include "apps/command_line/warnings.hpp"
 #include "apps/programs/shell_word.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/run_resumed.hpp"
 
-#include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/resumed_run.hpp"
 #include "apps/command_line/warnings.hpp"
 #include "apps/run/first_rank.hpp"
 #include "apps/run/output_folder.hpp"

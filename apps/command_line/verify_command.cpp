@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/command_line/verify_command.hpp"
 
+#include "apps/command_line/asked_stages.hpp"
 #include "apps/command_line/exit_code.hpp"
 #include "apps/command_line/interrupt.hpp"
-#include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/resumed_run.hpp"
 #include "apps/command_line/scenario_options.hpp"
-#include "apps/command_line/stages_command.hpp"
 #include "apps/command_line/warnings.hpp"
 #include "apps/programs/scratch_folder.hpp"
 #include "apps/run/run.hpp"

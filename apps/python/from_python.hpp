@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/resumed_run.hpp"
 #include "apps/python/bindings.hpp"
 #include "apps/scenario/config_tree.hpp"
 #include "apps/scenario/scenario.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/resumed_run.hpp"
 #include "apps/python/attendant.hpp"
 #include "apps/run/run.hpp"
 #include "dynamics/simulation.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "apps/command_line/resume_command.hpp"
-#include "apps/command_line/stages_command.hpp"
+#include "apps/command_line/asked_stages.hpp"
+#include "apps/command_line/resumed_run.hpp"
 #include "apps/python/attendant.hpp"
 #include "apps/python/bindings.hpp"
 #include "apps/python/from_python.hpp"

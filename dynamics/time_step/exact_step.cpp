@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 /// part e of the largest one, d above it, has the residual e d: with 1e-3 Lanczos' method ended
 /// there for one of 100 frames, with a step 0.26 % too long. With 1e-5, e would have to be below
 /// 1e-2 where d is worth 0.05 % of the step; it grows with every product.
-constexpr double kTolerance = 1e-5;
+constexpr double kLargestResidual = 1e-5;
 constexpr int kMostProducts = 1000;
 /// Of the shortest length, and rad: central differences are off by its square, and rounding by eps
 /// over it.
@@ -193,7 +193,7 @@ ExactStep exact_critical_step(const Scene& scene, const Structures& structures,
   ScaledStiffness stiffness(scene, structures, loads, contacts, time, normal);
   const LargestEigenvalue largest = largest_eigenvalue(
       {stiffness.size(), [&](const VectorXd& x, VectorXd& y) { stiffness.multiply(x, y); }},
-      kTolerance, kMostProducts);
+      kLargestResidual, kMostProducts);
   ExactStep step;
   step.products = largest.products;
   step.contacts = contacts.size();

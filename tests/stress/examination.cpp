@@ -2,7 +2,7 @@
 #include "tests/stress/examination.hpp"
 
 #include "apps/command_line/check_report.hpp"
-#include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/resumed_run.hpp"
 #include "apps/run/checkpoints.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_warnings.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "apps/command_line/resume_command.hpp"
+#include "apps/command_line/resumed_run.hpp"
 
 #include "apps/run/build_info.hpp"
 #include "apps/run/run_state.hpp"

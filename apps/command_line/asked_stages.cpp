@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "apps/command_line/stages_command.hpp"
+#include "apps/command_line/asked_stages.hpp"
 
 #include "apps/command_line/summary.hpp"
 #include "apps/run/enclosed_bodies.hpp"
