@@ -19,7 +19,8 @@ TEST_F(CertificateCommand, EndsARunAndIsInItsReport) {
   EXPECT_EQ(outcome.exit_code, kDone) << outcome.out;
   EXPECT_THAT(outcome.out, HasSubstr("certificate: 12 of 12 green\n"));
   ASSERT_EQ(report()["certificate"].size(), 12U);
-  for (const auto& check : report()["certificate"]) {
+  const auto written = report();
+  for (const auto& check : written["certificate"]) {
     EXPECT_EQ(check["verdict"], "green") << check;
     EXPECT_FALSE(check.contains("advice")) << check;
   }

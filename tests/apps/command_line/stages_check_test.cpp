@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stages before they run: which are refused, and what `plekton check` says of them.
-#include "apps/command_line/stages_command.hpp"
+#include "apps/command_line/asked_stages.hpp"
 #include "tests/apps/command_line/stages_fixture.hpp"
 
 #include <gmock/gmock.h>

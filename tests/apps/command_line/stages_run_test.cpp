@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stages as they run: the same bits at once and one by one, with any threads, how they end, and how
 // they go on from another run.
-#include "apps/command_line/stages_command.hpp"
+#include "apps/command_line/asked_stages.hpp"
 #include "apps/run/checkpoints.hpp"
 #include "tests/apps/command_line/stages_fixture.hpp"
 
