@@ -161,7 +161,7 @@ void Simulation::set_first_step(double asked) {
   NodalStiffness space((scene_.state.size() + pieces - 1) / pieces, &scene_.properties,
                        &rigid_nodes_);
   initial_stiffness_ = limits_->total_stiffness(space);
-  const double critical = limits_->critical(space, scene_.state.position).dt;  // nothing moved yet
+  const double critical = limits_->critical(space, force_positions()).dt;
   dt_ = asked;
   if (asked > kLargestStep * critical) {
     std::ostringstream text;
