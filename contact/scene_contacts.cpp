@@ -134,7 +134,9 @@ void SceneContacts::advance(const Motion& motion, std::span<const Plane> planes,
 bool SceneContacts::makes_lists(const Motion& motion, std::span<const Plane> planes,
                                 geometry::ThreadPool& pool) {
   are_lists_due_ = look_at_lists(motion, pool);
-  return start_ != Start::over || *are_lists_due_ || plane_neighbours_.is_due(planes);
+  const bool is_shared_out = is_shared_out_ && (!shared_motion() || !shared_motion()->is_due());
+  return start_ != Start::over || *are_lists_due_ || !is_shared_out ||
+         plane_neighbours_.is_due(planes);
 }
 
 /// Of ranks each looks at the nodes that it knows.
@@ -206,7 +208,9 @@ void SceneContacts::exchange_sums(const geometry::StateArchive& archive) {
   archive("tracking_loss", tracking_loss_);
   archive("last_number", last_number_);
   archive("list_count", list_count_);
-  if (archive.is_reading()) is_shared_out_ = false;
+  if (!archive.is_reading()) return;
+  is_shared_out_ = false;
+  are_lists_due_.reset();
 }
 
 void SceneContacts::exchange_of_spheres(const geometry::StateArchive& archive,

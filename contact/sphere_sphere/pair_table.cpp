@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace plekton::contact {
@@ -57,7 +59,7 @@ void PairTable::take(const SphereBlocks& blocks, std::vector<PairKind>& kinds,
     touched_[to / kLanes].set_moved(to % kLanes, true,
                                     last_.touched[from / kLanes].since_numbered(from % kLanes));
   }
-  std::vector<double> received;
+  Received received;
   if (ranks_ != nullptr) received = exchange_memories(blocks, old_slots);
   if (kinds_.size() == 1 && kinds_ == last_.kinds)
     move_memories_in_place(numbers, blocks, old_slots);
@@ -69,6 +71,8 @@ void PairTable::take(const SphereBlocks& blocks, std::vector<PairKind>& kinds,
 /// @returns how many numbers the rows here have
 std::size_t PairTable::place_rows(const SphereBlocks& blocks, const BlockHolders& holders) {
   ranks_ = holders.ranks;
+  if (ranks_ != nullptr && ranks_->count() >= int{kAll})
+    throw std::length_error("more than " + std::to_string(kAll - 1) + " ranks: take fewer");
   is_shared_out_ = !holders.of_blocks.empty();
   make_room(places_, blocks.row_count());
   places_.clear();
@@ -168,7 +172,7 @@ std::vector<double*> begins(std::span<const std::size_t> sizes, std::vector<doub
 
 /// Of the list before, from who held a pair to those that hold it now; both go through the pairs in
 /// the order of the list. @returns what comes here
-std::vector<double> PairTable::exchange_memories(const SphereBlocks& blocks,
+PairTable::Received PairTable::exchange_memories(const SphereBlocks& blocks,
                                                  std::span<const std::uint32_t> old_slots) const {
   const int self = ranks_->rank(), count = ranks_->count();
   const auto for_each_message = [&](const auto& send, const auto& receive) {
@@ -184,19 +188,20 @@ std::vector<double> PairTable::exchange_memories(const SphereBlocks& blocks,
     }
   };
   std::vector<std::size_t> sent_sizes(static_cast<std::size_t>(count), 0);
-  std::vector<std::size_t> received_sizes = sent_sizes;
+  Received received{{}, sent_sizes};
   for_each_message(
       [&](int rank, const RowPlace& was, std::size_t) {
         sent_sizes[static_cast<std::size_t>(rank)] +=
             told_numbers(last_.kinds[was.kind]) * sizeof(double);
       },
       [&](int rank, const PairKind& kind) {
-        received_sizes[static_cast<std::size_t>(rank)] += told_numbers(kind) * sizeof(double);
+        received.sizes[static_cast<std::size_t>(rank)] += told_numbers(kind) * sizeof(double);
       });
   const auto total = [](std::span<const std::size_t> sizes) {
     return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) / sizeof(double);
   };
-  std::vector<double> sent(total(sent_sizes)), received(total(received_sizes));
+  std::vector<double> sent(total(sent_sizes));
+  received.numbers.resize(total(received.sizes));
   std::vector<double*> to = begins(sent_sizes, sent);
   for_each_message(
       [&](int rank, const RowPlace& was, std::size_t lane) {
@@ -210,29 +215,26 @@ std::vector<double> PairTable::exchange_memories(const SphereBlocks& blocks,
       },
       [](int, const PairKind&) {});
   ranks_->begin_exchange(std::as_bytes(std::span(sent)), sent_sizes,
-                         std::as_writable_bytes(std::span(received)), received_sizes);
+                         std::as_writable_bytes(std::span(received.numbers)), received.sizes);
   ranks_->end_exchange();
   return received;
 }
 
-/// @param received  rank by rank
 void PairTable::take_memories(const SphereBlocks& blocks, std::span<const std::uint32_t> old_slots,
-                              std::span<const double> received) {
-  const int self = ranks_->rank();
-  for (int rank = 0; rank < ranks_->count(); ++rank) {
-    if (rank == self) continue;
-    for (std::size_t i = 0; i < old_slots.size() && !received.empty(); ++i) {
-      if (old_slots[i] == kNoSlot || !holds(blocks.slot(i))) continue;
-      const RowPlace& was = last_.places[old_slots[i] / kLanes];
-      if (int{was.holder} != rank) continue;
-      const PairKind& kind = last_.kinds[was.kind];
-      ContactMemory<AnyLaw> memory;
-      memory.history.law = kind.law;
-      std::copy_n(received.begin(), 3, memory.normal.data());
-      std::copy_n(received.begin() + 3, kind.law->history_numbers, memory.history.numbers.begin());
-      set_memory(blocks.slot(i), memory);
-      received = received.subspan(told_numbers(kind));
-    }
+                              Received& received) {
+  std::vector<double*> from = begins(received.sizes, received.numbers);
+  for (std::size_t i = 0; i < old_slots.size(); ++i) {
+    if (old_slots[i] == kNoSlot || !holds(blocks.slot(i))) continue;
+    const RowPlace& was = last_.places[old_slots[i] / kLanes];
+    if (was.holder == kAll || int{was.holder} == ranks_->rank()) continue;
+    const PairKind& kind = last_.kinds[was.kind];
+    double*& next = from[was.holder];
+    ContactMemory<AnyLaw> memory;
+    memory.history.law = kind.law;
+    std::copy_n(next, 3, memory.normal.data());
+    std::copy_n(next + 3, kind.law->history_numbers, memory.history.numbers.begin());
+    set_memory(blocks.slot(i), memory);
+    next += told_numbers(kind);
   }
 }
 

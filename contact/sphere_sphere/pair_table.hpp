@@ -35,8 +35,8 @@ struct BlockHolders {
 };
 
 /// What is kept of pairs of spheres, in rows of pairs side by side, by the slots of
-/// sphere_blocks.hpp. Of several ranks each holds the rows of its own blocks, and knows of all which
-/// pairs touch, once they have told each other.
+/// sphere_blocks.hpp. Of several ranks each holds the rows of its own blocks, and knows of all
+/// pairs which touch, once they have told each other.
 class PairTable {
  public:
   static constexpr std::size_t kLanes = SphereBlocks::kLanes;
@@ -104,6 +104,11 @@ class PairTable {
     std::vector<TouchedLanes> touched;
     geometry::LineNumbers numbers;  ///< room only, but while they are moved
   };
+  /// What other ranks tell of pairs that come here.
+  struct Received {
+    std::vector<double> numbers;     ///< rank by rank
+    std::vector<std::size_t> sizes;  ///< bytes, by rank
+  };
   static constexpr std::uint32_t kElsewhere = ~std::uint32_t{0};
   static constexpr std::uint16_t kAll = 0xffff;
 
@@ -129,10 +134,10 @@ class PairTable {
   void move_memories_in_place(std::size_t numbers, const SphereBlocks& blocks,
                               std::span<const std::uint32_t> old_slots);
   void resize(std::size_t numbers);
-  std::vector<double> exchange_memories(const SphereBlocks& blocks,
-                                        std::span<const std::uint32_t> old_slots) const;
+  Received exchange_memories(const SphereBlocks& blocks,
+                             std::span<const std::uint32_t> old_slots) const;
   void take_memories(const SphereBlocks& blocks, std::span<const std::uint32_t> old_slots,
-                     std::span<const double> received);
+                     Received& received);
 
   std::vector<PairKind> kinds_;
   std::vector<RowPlace> places_;       ///< by row

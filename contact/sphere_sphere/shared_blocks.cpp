@@ -139,7 +139,7 @@ BlockTotals SharedBlocks::gather(NodeForces& forces, const BlockTotals& of_own) 
 }
 
 std::vector<RankShare> SharedBlocks::shares() const {
-  if (!is_worth_it()) return {};
+  if (!is_worth_it() || !motion_.is_of_use()) return {};
   std::vector<RankShare> shares;
   for (int rank = 0; rank < ranks_->count(); ++rank)
     shares.push_back(

@@ -42,7 +42,7 @@ class SphereContacts {
   }
 
   /// Takes a new list of pairs of spheres (a < b, sorted); pairs in both lists keep their memory.
-  /// @param spheres  must not change until the next list
+  /// @param spheres, materials  must not change until the next list
   /// @param x  m, of nodes, to put what is near together; empty: the spheres are in order already
   /// @returns the energy (J) lost with contacts that left the list
   double rebuild(std::span<const geometry::IndexPair> pairs, std::span<const SphereBody> spheres,
@@ -144,8 +144,8 @@ class SphereContacts {
   /// Ranks know of all pairs which touch, not only of their own.
   void tell_touched() const;
 
-  /// Calls visit(place in the list, what tell(place, slot) comes to) for every touching pair, in the
-  /// order of the list. tell() is asked where the pair is held, and comes to plain numbers, whole
+  /// Calls visit(place in the list, what tell(place, slot) comes to) for every touching pair, in
+  /// the order of the list. tell() is asked where the pair is held, and comes to plain numbers, whole
   /// ones of 8 bytes.
   template <class Told, class Tell, class Visit>
   void for_each_told(Tell&& tell, Visit&& visit) const {
