@@ -21,15 +21,20 @@
 #include <string>
 #include <vector>
 
+/// Of the allocator of a sanitizer, where there is one.
+extern "C" [[gnu::weak]] std::size_t __sanitizer_get_current_allocated_bytes();  // NOLINT
+
 namespace plekton::apps::long_run_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Bytes that this process has asked for and not given back. Where the allocator does not tell, as that
-/// of a sanitizer, those that are in memory without pages of files (programs, libraries), which come
-/// and go as the system likes.
+/// Bytes that this process has asked for and not given back. Where the allocator does not tell,
+/// those that are in memory without pages of files (programs, libraries), which come and go as the
+/// system likes.
 std::int64_t bytes_in_use() {
+  if (__sanitizer_get_current_allocated_bytes != nullptr)
+    return static_cast<std::int64_t>(__sanitizer_get_current_allocated_bytes());
   const struct mallinfo2 info = ::mallinfo2();
   const std::size_t in_use = info.uordblks + info.hblkhd;
   if (in_use > 0) return static_cast<std::int64_t>(in_use);

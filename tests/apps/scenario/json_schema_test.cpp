@@ -38,7 +38,8 @@ TEST(ScenarioSchema, AsksForADurationWhereThereAreNoStages) {
 TEST(ScenarioSchema, TakesAnyPartOfATableInAStage) {
   const Json stage = property(scenario_schema(), "stages").at("items");
 
-  for (const Json& plane : property(stage, "planes").at("items").at("anyOf")) {
+  const Json planes = property(stage, "planes").at("items");
+  for (const Json& plane : planes.at("anyOf")) {
     EXPECT_FALSE(plane.contains("required"));
     EXPECT_EQ(plane.at("additionalProperties"), false);
   }
@@ -79,7 +80,8 @@ TEST(ScenarioSchema, AsksForKeysOfAnOptionalTableOnlyInIt) {
 TEST(ScenarioSchema, AsksForNoMembraneWhereATieMayHoldARigidBody) {
   const Json ties = property(scenario_schema(), "ties").at("items");
 
-  for (const Json& to : property(ties, "to").at("oneOf")) {
+  const Json ends = property(ties, "to");
+  for (const Json& to : ends.at("oneOf")) {
     if (to.at("properties").contains("rigid_body") && to.at("properties").contains("membrane")) {
       EXPECT_EQ(to.at("required"), Json::parse(R"(["kind"])"));
     }
