@@ -34,15 +34,19 @@ double rounded_down(double part) {
 }
 
 std::string advice_on_motion(const RunReport& report) {
+  const double part = rounded_down(dynamics::kLargestMotion / report.largest_motion_ratio);
   return fmt::format(
       "the fastest node moves by {:.3g} % of the smallest radius in one step, above {:.0f} %: "
-      "contacts are seen late; {} {:.2g} of what it was then{}",
+      "contacts are seen late; {}",
       100.0 * report.largest_motion_ratio, 100.0 * dynamics::kLargestMotion,
-      report.chose_time_step ? "the step was chosen, and something got faster than that follows: "
-                               "give simulation.time_step,"
-                             : "run with a simulation.time_step that is",
-      rounded_down(dynamics::kLargestMotion / report.largest_motion_ratio),
-      report.chose_time_step ? " (column time_step of energy.csv)" : ", or with \"auto\"");
+      report.chose_time_step
+          ? fmt::format("the step was chosen, and something got faster than that foresees, as "
+                        "where it tears; give simulation.time_step, {:.2g} of what it was then "
+                        "(column time_step of energy.csv)",
+                        part)
+          : fmt::format("run with {:.2g} of this simulation.time_step, or with \"auto\", which "
+                        "foresees gravity but not what tears",
+                        part));
 }
 
 std::string advice_on_pass_throughs(const RunReport& report) {

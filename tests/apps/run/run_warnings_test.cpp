@@ -43,6 +43,15 @@ TEST(RunWarnings, NeverAdviseTheStepThatThereWas) {
   EXPECT_THAT(warnings_about(report), ElementsAre(HasSubstr("run with 0.0033 of this")));
 }
 
+TEST(RunWarnings, DoNotAdviseToHaveAStepChosenThatWas) {
+  RunReport report;
+  report.largest_motion_ratio = 0.4;
+  report.chose_time_step = true;
+  EXPECT_THAT(warnings_about(report),
+              ElementsAre(AllOf(HasSubstr("give simulation.time_step, 0.25 of what it was then"),
+                                testing::Not(HasSubstr("auto")))));
+}
+
 TEST(RunWarnings, NameDeepOverlapsEnergyThatDoesNotAddUpAndLostGrains) {
   RunReport report;
   report.largest_overlap_ratio = 11.3;
