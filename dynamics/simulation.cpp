@@ -92,7 +92,11 @@ bool may_touch(const Scene& scene, const geometry::Surface& surface,
 
 }  // namespace
 
-Simulation::Simulation(Scene scene, const SimulationOptions& options,
+Simulation::Simulation(const Scene& scene, const SimulationOptions& options,
+                       const contact::ContactModel& model)
+    : Simulation(Scene(scene), options, model) {}
+
+Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
                        const contact::ContactModel& model)
     : scene_((checked(scene, options, model), held_as_prescribed(std::move(scene)))),
       scene_hash_(scene_hash(scene_)),

@@ -73,8 +73,12 @@ class Simulation {
  public:
   /// @throws std::invalid_argument listing every problem of the scene, the options or the model,
   ///         among them a time step above kLargestStep of the critical one
+  /// @param scene  is copied in the library, not in what includes this and would compile for longer
   /// @param model  which contact law there is
-  Simulation(Scene scene, const SimulationOptions& options,
+  Simulation(const Scene& scene, const SimulationOptions& options,
+             const contact::ContactModel& model = contact::linear_frictional());
+  /// @param scene  is taken over
+  Simulation(Scene&& scene, const SimulationOptions& options,
              const contact::ContactModel& model = contact::linear_frictional());
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;

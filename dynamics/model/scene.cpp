@@ -3,13 +3,6 @@
 
 namespace plekton::dynamics {
 
-Scene::Scene() = default;
-Scene::Scene(const Scene&) = default;
-Scene::Scene(Scene&&) noexcept = default;
-Scene& Scene::operator=(const Scene&) = default;
-Scene& Scene::operator=(Scene&&) noexcept = default;
-Scene::~Scene() = default;
-
 NodeId Scene::add_node(const Vec3& position, Held held) {
   const auto node = geometry::id_at<NodeId>(state.size());
   state.position.push_back(position);

@@ -41,14 +41,6 @@ struct Scene {
   /// structure alike, and held. What its bonds and sheets are goes on. Empty: all are there.
   std::vector<bool> is_absent = {};
 
-  // Not in whatever includes this, which would compile for twice as long.
-  Scene();
-  Scene(const Scene&);
-  Scene(Scene&&) noexcept;
-  Scene& operator=(const Scene&);
-  Scene& operator=(Scene&&) noexcept;
-  ~Scene();
-
   bool is_there(NodeId node) const noexcept {
     return is_absent.empty() || !is_absent[static_cast<std::size_t>(node)];
   }

@@ -43,6 +43,11 @@ std::string problems_of(const Scene& scene) {
   return "";
 }
 
+TEST(Scene, IsWrittenDownWithTheMembersThatAreNotAsUsual) {
+  const Scene scene{.materials = {{1e7, 0.3, 0.5}}};
+  EXPECT_EQ(scene.materials.size(), 1u);
+}
+
 TEST(Scene, FindsNothingWrongWithASoundScene) {
   EXPECT_EQ(problems_of(sound_scene()), "");
 }
