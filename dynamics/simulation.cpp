@@ -1,19 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/simulation.hpp"
 
+#include "dynamics/carry_over/carried_elements.hpp"
+#include "dynamics/carry_over/carried_holds.hpp"
+#include "dynamics/carry_over/carried_planes.hpp"
+#include "dynamics/carry_over/carried_state.hpp"
+#include "dynamics/carry_over/places_check.hpp"
+#include "dynamics/checkpoint/checkpoint_file.hpp"
 #include "dynamics/measures/fault_finder.hpp"
+#include "dynamics/measures/plane_forces.hpp"
+#include "dynamics/measures/rounding_energy.hpp"
+#include "dynamics/measures/section_force.hpp"
+#include "dynamics/measures/unbalanced_force.hpp"
 #include "dynamics/model/acted_on.hpp"
+#include "dynamics/model/contact_scene.hpp"
+#include "dynamics/model/erase_elements.hpp"
+#include "dynamics/model/exchange_scene.hpp"
 #include "dynamics/model/require_index.hpp"
 #include "dynamics/model/scene_figures.hpp"
 #include "dynamics/model/scene_hash.hpp"
+#include "dynamics/scene_check.hpp"
 #include "dynamics/time_step/step_chooser.hpp"
 #include "dynamics/time_step/step_limits.hpp"
-#include "geometry/base/problems.hpp"
-#include "geometry/base/vector_width.hpp"
+#include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <sstream>
@@ -26,69 +40,9 @@ namespace plekton::dynamics {
 
 namespace {
 
-/// Of what the structures are made.
-std::vector<contact::MaterialId> materials_of_structures(const Scene& scene,
-                                                         const geometry::Surface& surface) {
-  std::vector<contact::MaterialId> materials(surface.structure_count());
-  for (std::size_t i = 0; i < scene.elements.facets.size(); ++i) {
-    materials[index_of(surface.structure_of(scene.elements.facets[i].nodes[0]))] =
-        scene.facet_materials[i];
-  }
-  for (std::size_t i = 0; i < scene.elements.cylinders.size(); ++i) {
-    materials[index_of(surface.structure_of(scene.elements.cylinders[i].nodes[0]))] =
-        scene.cylinder_materials[i];
-  }
-  return materials;
-}
-
-contact::ContactScene contact_scene(const Scene& scene, const geometry::Surface& surface,
-                                    const SimulationOptions& options) {
-  return {.spheres = scene.elements.spheres,
-          .surface = surface,
-          .materials = scene.materials,
-          .of_spheres = scene.sphere_materials,
-          .of_structures = materials_of_structures(scene, surface),
-          .masses = contact_masses(scene),
-          .skin = chosen_skin(scene, options.skin),
-          .meets_planes = free_nodes(scene),
-          .rest = options.self_contact ? geometry::Positions(scene.state.position)
-                                       : geometry::Positions(),
-          .groups = rigid_groups(scene)};
-}
-
-/// @returns the scene
-/// @throws std::invalid_argument listing every problem of the scene or the options, or about the
-///         width of vectors (geometry/base/vector_width.hpp)
-const Scene& checked(const Scene& scene, const SimulationOptions& options,
-                     const contact::ContactModel& model) {
-  scene.check();
-  geometry::vector_width();  // asked for in a way that cannot be: said here, not within a kernel
-  std::ostringstream problems;
-  if (!(options.time_step >= 0.0))
-    problems << "time step " << options.time_step << " s: must be 0 (choose) or more\n";
-  if (!(options.motion.damping >= 0.0 && options.motion.damping < 1.0)) {
-    problems << "numerical damping " << options.motion.damping
-             << ": must be at least 0 and below 1\n";
-  }
-  if (!(options.skin >= 0.0))
-    problems << "skin " << options.skin << " m: must be 0 (choose) or more\n";
-  if (!options.motion.gravity.allFinite()) problems << "gravity is not finite\n";
-  if (!model) problems << "contact model: is none; models.hpp makes them\n";
-  if (options.threads < 1) problems << "threads " << options.threads << ": must be at least 1\n";
-  geometry::throw_if_any(problems);
-  return scene;
-}
-
 /// Into how many pieces the nodes are cut when their stiffness is looked at once: less space, as
 /// the contacts, already made, fill what there is.
 constexpr std::size_t kPieces = 16;
-
-/// Whether a scene may ever have a contact.
-bool may_touch(const Scene& scene, const geometry::Surface& surface,
-               const SimulationOptions& options) {
-  return !scene.elements.spheres.empty() || !scene.planes.empty() ||
-         surface.structure_count() > 1 || options.self_contact;
-}
 
 }  // namespace
 
@@ -98,14 +52,14 @@ Simulation::Simulation(const Scene& scene, const SimulationOptions& options,
 
 Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
                        const contact::ContactModel& model)
-    : scene_((checked(scene, options, model), held_as_prescribed(std::move(scene)))),
+    : scene_((check(scene), check(options, model), held_as_prescribed(std::move(scene)))),
       scene_hash_(scene_hash(scene_)),
       motion_(options.motion),
       pool_(options.threads),
       surface_(scene_.elements.cylinders, scene_.elements.facets, scene_.state.size()),
       rigid_nodes_(scene_.rigid_bodies, scene_.state, scene_.properties),
       rigid_bodies_(scene_.rigid_bodies, scene_.state),
-      contacts_(model(contact_scene(scene_, surface_, options))),
+      contacts_(model(contact_scene(scene_, surface_, options.skin, options.self_contact))),
       bonds_(scene_.bonds, scene_.state.size()),
       yielding_bonds_(scene_.bond_laws, scene_.bonds),
       sheet_facets_(scene_.sheet_facets, scene_.state.size()),
@@ -117,7 +71,7 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
       nodes_(scene_.state, forces_),
       furthest_(furthest_in_a_step(scene_)),
       pace_radius_(pace_radius(scene_.elements)),
-      may_touch_(may_touch(scene_, surface_, options)),
+      may_touch_(may_touch(scene_, surface_, options.self_contact)),
       full_gravity_(options.motion.gravity),
       momentum_(scene_.state.position) {
   nodes_.share(contacts_->shared_motion(), acted_on(scene_));
@@ -151,10 +105,9 @@ Simulation::Simulation(Scene&& scene, const SimulationOptions& options,
   set_first_step(options.time_step);
   forces_.set_zero();
   initial_moment_ = free_moment(0.0);
-  work_.kinetic = moving_energy();
-  most_kinetic_ = work_.kinetic;
-  initial_energy_ = work_.kinetic + contacts_->elastic_energy() + bonds_.elastic_energy() +
-                    ties_.elastic_energy() + sheet_facets_.elastic_energy();
+  const double kinetic = moving_energy();
+  ledger_.start(kinetic, kinetic + contacts_->elastic_energy() + bonds_.elastic_energy() +
+                             ties_.elastic_energy() + sheet_facets_.elastic_energy());
 }
 
 /// @param asked  s; 0: chosen
@@ -352,15 +305,8 @@ void Simulation::account(const StepWork& work, const StepLengths& lengths) {
   step.external -= lengths.kick * power_on_turning_;
   for (std::size_t i = 0; i < plane_reactions_.size(); ++i)
     step.external -= lengths.kick * plane_reactions_[i].push * scene_.planes[i].widening;
-  // The part of the kick that comes after the moment of the forces: all of the first one, half of
-  // one between drifts of equal lengths.
-  const double later = 0.5 * lengths.drift / lengths.kick;
   const LoadWork left = loads_.work_after({time_, last_drift_, drift_}, scene_.state, pool_);
-  pending_ = {0.0, later * step.damped + left.damped, later * step.external + left.external};
-  if (last_drift_ == 0.0) initial_energy_ += step.kinetic - work_.kinetic;
-  work_.kinetic = step.kinetic;
-  work_.damped += step.damped + left.damped;
-  work_.external += step.external + left.external;
+  ledger_.book(step, lengths, left, last_drift_ == 0.0);
   fastest_ = std::sqrt(work.fastest_squared);
   fastest_spin_ = std::sqrt(work.fastest_spin_squared);
   largest_overlap_ratio_ = std::max(largest_overlap_ratio_, contacts_->largest_overlap_ratio());
@@ -380,8 +326,7 @@ void Simulation::move_planes() {
 
 Energy Simulation::energy() const {
   nodes_.know_all();
-  Energy energy;
-  energy.kinetic = work_.kinetic;
+  Energy energy = ledger_.energy();
   energy.contact_elastic = contacts_->elastic_energy();
   energy.bond_elastic = bonds_.elastic_energy() + ties_.elastic_energy();
   energy.sheet_elastic = sheet_facets_.elastic_energy();
@@ -389,46 +334,12 @@ Energy Simulation::energy() const {
   // positions.
   energy.gravity = -motion_.gravity.dot(free_moment(last_drift_) - initial_moment_);
   energy.friction = contacts_->dissipated();
-  energy.tracking = contacts_->tracking_loss() - taken_out_;
-  energy.bond_dissipated = broken_energy_ + yielding_bonds_.dissipated() +
+  energy.tracking += contacts_->tracking_loss();
+  energy.bond_dissipated = energy.bond_dissipated + yielding_bonds_.dissipated() +
                            sheet_facets_.dissipated() + ties_.dissipated();
-  energy.damping = work_.damped - pending_.damped;
-  energy.external_work = work_.external - pending_.external;
-  energy.initial = initial_energy_;
-  energy.rounding = rounding_energy();
+  energy.rounding = rounding_energy({scene_.state, scene_.properties, forces_, full_gravity_,
+                                     initial_stiffness_, last_drift_, steps_});
   return energy;
-}
-
-/// What rounding may add up to in the ledger. A place is rounded by eps |x| and a turn by eps in
-/// each step, which is worth 1/2 k (eps |x|)² in a spring; these add up like the variances of a
-/// random walk. The sum over nodes that gives the energy of gravity is rounded by n eps of its
-/// absolute terms, and their change in each step by eps. Work in a step is a sum of terms of either
-/// sign, as that of pressure on a shell that is moved, each rounded by eps; those of the last step
-/// stand for all. And springs that places rounded by eps |x| strain push with k eps |x|, either way,
-/// against what is moved.
-double Simulation::rounding_energy() const {
-  constexpr double kEps = std::numeric_limits<double>::epsilon();
-  double furthest = 0.0;  // m, from the origin
-  double weight = 0.0;    // J, sum of m |g.x|
-  double power = 0.0;     // W, sum of |f| |v|
-  double moved = 0.0;     // m/s, of what moves as prescribed
-  for (std::size_t i = 0; i < scene_.state.size(); ++i) {
-    const Vec3& x = scene_.state.position[i];
-    furthest = std::max(furthest, x.cwiseAbs().maxCoeff());
-    power += forces_.force[i].cwiseAbs().dot(scene_.state.velocity[i].cwiseAbs());
-    if (holds_translation(scene_.properties.held[i])) {
-      moved = std::max(moved, scene_.state.velocity[i].norm());
-      continue;
-    }
-    weight += scene_.properties.mass[i] * full_gravity_.cwiseAbs().dot(x.cwiseAbs());
-  }
-  const auto steps = static_cast<double>(steps_);
-  const double springs =
-      initial_stiffness_.translation * furthest * furthest + initial_stiffness_.rotation;
-  return 0.5 * kEps * kEps * springs * (1.0 + steps) +
-         kEps * weight * (static_cast<double>(scene_.state.size()) + steps) +
-         kEps * power * last_drift_ * steps +
-         kEps * initial_stiffness_.translation * furthest * moved * last_drift_ * std::sqrt(steps);
 }
 
 CriticalStep Simulation::critical_step() const {
@@ -450,20 +361,8 @@ ExactStep Simulation::exact_critical_step() const {
 void Simulation::find_contacts() {
   if (contacts_->makes_lists(motion(), scene_.planes, pool_)) nodes_.know_all();
   contacts_->advance(motion(), scene_.planes, last_drift_, pool_, forces_);
-  power_on_turning_ = power_on_turning_planes();
+  power_on_turning_ = power_on_turning(*contacts_, scene_.planes, scene_.state.position);
   nodes_.found_forces();
-}
-
-/// W, what bodies do to planes that turn about their axes. While nodes are where forces were found.
-double Simulation::power_on_turning_planes() const {
-  if (std::ranges::none_of(scene_.planes, &contact::Plane::turns)) return 0.0;
-  double power = 0.0;
-  contacts_->for_each_plane_record(scene_.state.position, [&](const contact::ContactRecord& row) {
-    const contact::Plane& plane = scene_.planes[static_cast<std::size_t>(row.b.index)];
-    const Vec3 lever = row.point - plane.point;
-    power += plane.turning().dot(lever.cross(row.force()) + row.moment);
-  });
-  return power;
 }
 
 void Simulation::choose_step() {
@@ -474,7 +373,7 @@ void Simulation::choose_step() {
 /// @param longest  s, the step is not longer
 void Simulation::advance(double longest) {
   require_time_step();
-  break_asked();
+  asked_breaks_.break_all(bonds_, sheet_facets_, scene_.state, last_drift_, ledger_);
   yielding_bonds_.advance(bonds_, scene_.state, last_drift_, pool_);
   sheet_facets_.advance(scene_.state, last_drift_, pool_);
   sheet_facets_.tear(scene_.state.position, pool_);
@@ -522,39 +421,26 @@ void Simulation::check_motion() {
   if (is_slow) return;
   nodes_.know_all();
   if (const auto runaway = find_runaway(scene_.state, furthest_, drift_))
-    throw Diverged(
-        *runaway, steps_, time_, scene_.state,
-        fault_finder().fault(*runaway, {last_drift_, drift_, chooser_ != nullptr}, suspect_));
+    throw Diverged(*runaway, steps_, time_, scene_.state,
+                   fault_finder().fault(*runaway, {last_drift_, drift_, chooser_ != nullptr},
+                                        ledger_.suspect()));
 }
 
 /// Energy is made where motion is: the ledger is looked at when the kinetic energy has doubled, and
 /// now and then, for what has gone into friction at once.
 void Simulation::watch_energy() {
   constexpr std::int64_t kStepsBetweenLedgers = 1024;
-  if (std::abs(work_.kinetic) <= 2.0 * most_kinetic_ && steps_ % kStepsBetweenLedgers != 0) return;
-  check_energy();
-}
-
-/// m/s, of the planes: of one that turns, the fastest where the nodes are.
-double Simulation::fastest_on_planes() const {
-  double fastest = 0.0;
-  for (const contact::Plane& plane : scene_.planes) {
-    fastest = std::max(fastest, plane.speed());
-    if (!plane.turns()) continue;
-    for (const Vec3& x : scene_.state.position)
-      fastest = std::max(fastest, plane.velocity_at(x).norm());
-  }
-  return fastest;
+  if (ledger_.has_doubled() || steps_ % kStepsBetweenLedgers == 0) check_energy();
 }
 
 void Simulation::check_energy() {
   const Energy now = energy();
   const double made = std::max(now.made(), -now.kinetic);
-  most_kinetic_ = std::max(most_kinetic_, std::abs(now.kinetic));
-  most_accounted_ = std::max(most_accounted_, now.accounted());
-  const double plane_speed = std::max(driven_planes_.largest_speed(), fastest_on_planes());
+  const double accounted = ledger_.look(now);
+  const double plane_speed = std::max(driven_planes_.largest_speed(),
+                                      fastest_on_planes(scene_.planes, scene_.state.position));
   // What starts from rest under a load has its first kinetic energy, a negative one, as initial.
-  const double there = most_accounted_ + std::abs(now.initial) +
+  const double there = accounted + std::abs(now.initial) +
                        prescribed_energy(scene_.state, scene_.properties, plane_speed);
   if (made <= std::max(now.rounding, there)) return;
   const Divergence divergence{Divergence::Sign::energy,
@@ -563,7 +449,7 @@ void Simulation::check_energy() {
   FaultFinder finder = fault_finder();
   const std::string suspect =
       finder.strongest_action(divergence, state_before(scene_.state, last_drift_));
-  if (!suspect.empty()) suspect_ = suspect;
+  if (!suspect.empty()) ledger_.set_suspect(suspect);
   // A comparison with NaN is false.
   if (made <= kFarMore * there) return;
   // Where next to nothing moves yet, as in the first steps under a load, what steps cut off is many
@@ -574,7 +460,7 @@ void Simulation::check_energy() {
   if (static_cast<double>(kStepsBetweenLooks) * speed * last_drift_ <= furthest_[i]) return;
   throw Diverged(
       divergence, std::max<std::int64_t>(0, steps_ - 1), time_ - last_drift_, scene_.state,
-      finder.fault(divergence, {last_drift_, last_drift_, chooser_ != nullptr}, suspect_));
+      finder.fault(divergence, {last_drift_, last_drift_, chooser_ != nullptr}, ledger_.suspect()));
 }
 
 /// Before loads are added. With springs of stiffness k_i that have the energies e_i, the forces add
@@ -613,8 +499,8 @@ void Simulation::apply_loads() {
   LoadWork work = loads_.add_forces(step, scene_.state, forces_, pool_);
   rigid_bodies_.gather(scene_.state, forces_, scene_.properties, pool_);
   loads_.move(step, scene_.state, forces_, pool_, work);
-  work_.external += work.external;
-  work_.damped += work.damped;
+  ledger_.add_external(work.external);
+  ledger_.add_damped(work.damped);
   if (!driven_bodies_.empty()) drive_bodies(step);
   find_plane_reactions();
   if (!driven_planes_.empty()) drive_planes();
@@ -630,8 +516,8 @@ void Simulation::drive_bodies(const LoadStep& step) {
     body_press_.look(*contacts_, rigid_nodes_, way, scene_.planes, scene_.state.position);
     return body_press_;
   };
-  work_.external +=
-      driven_bodies_.act(step, felt, forces_, rigid_nodes_, scene_.planes, scene_.state, look_at);
+  ledger_.add_external(
+      driven_bodies_.act(step, felt, forces_, rigid_nodes_, scene_.planes, scene_.state, look_at));
 }
 
 /// None where nothing asks for them.
@@ -640,21 +526,19 @@ void Simulation::find_plane_reactions() {
   const auto widens = [](const contact::Plane& plane) { return plane.widening != 0.0; };
   if (driven_planes_.empty() && std::ranges::none_of(scene_.planes, widens)) return;
   plane_reactions_.resize(scene_.planes.size());
-  contacts_->for_each_plane_force([&](std::size_t plane, const Vec3& force, double push) {
-    plane_reactions_[plane].force += force;
-    plane_reactions_[plane].push += push;
-  });
+  add_plane_reactions(*contacts_, plane_reactions_);
 }
 
 void Simulation::drive_planes() {
   places_ahead_.clear();
   const auto press = [&](std::size_t plane, double way, ServoTime when) {
-    if (when == ServoTime::now) return plane_press(plane, way, scene_.state.position);
-    if (places_ahead_.empty()) find_places_ahead();
-    return plane_press(plane, way, places_ahead_);
+    if (when == ServoTime::after_drift && places_ahead_.empty()) find_places_ahead();
+    const geometry::Positions x =
+        when == ServoTime::now ? geometry::Positions(scene_.state.position) : places_ahead_;
+    return press_on_plane(*contacts_, scene_.planes, plane, way, x);
   };
-  work_.external +=
-      driven_planes_.act({time_, last_drift_, drift_}, plane_reactions_, press, scene_.planes);
+  ledger_.add_external(
+      driven_planes_.act({time_, last_drift_, drift_}, plane_reactions_, press, scene_.planes));
 }
 
 /// Of all nodes after the drift that begins now: of those that are no part of a rigid body as the
@@ -678,21 +562,6 @@ Vec3 Simulation::acceleration(std::size_t i, const Vec3& gravity) const {
   return free.cwiseProduct(gravity + forces_.force[i] / scene_.properties.mass[i]);
 }
 
-/// Of all bodies that the plane would touch with the nodes at x if it were a way (m) further along
-/// its normal.
-PlanePress Simulation::plane_press(std::size_t plane, double way, geometry::Positions x) const {
-  PlanePress press;
-  contacts_->for_each_near_plane_pair(
-      way, scene_.planes, x,
-      [&](NodeId, std::size_t near, const contact::PairSprings& pair, double gap) {
-        if (near != plane || !(gap < way)) return;
-        press.force += pair.normal_force(gap - way);
-        press.stiffness += pair.stiffness(gap - way).normal;
-        if (gap < 0.0) press.damping += pair.stiffness(gap).normal_damping;
-      });
-  return press;
-}
-
 /// Gravity that grows does work on what lies still: its energy is that of the gravity of now.
 ///
 /// Kicks by g0 and g1 do the work (g0 + g1)/2 . (C1 - C0) over the drift between them, C the free
@@ -702,20 +571,424 @@ void Simulation::follow_gravity() {
   if (gravity == motion_.gravity) return;
   nodes_.know_all();
   const Vec3 mean = 0.5 * (free_moment(last_drift_) + free_moment(0.0)) - initial_moment_;
-  work_.external -= (gravity - motion_.gravity).dot(mean);
+  ledger_.add_external(-(gravity - motion_.gravity).dot(mean));
   motion_.gravity = gravity;
 }
 
-/// Mass times place (kg m) of the free nodes along the axes they are free in, at a time before now
-/// (s).
 Vec3 Simulation::free_moment(double before) const {
-  Vec3 moment = Vec3::Zero();
-  for (std::size_t i = 0; i < scene_.state.size(); ++i) {
-    const Vec3 position = scene_.state.position[i] - before * scene_.state.velocity[i];
-    moment +=
-        scene_.properties.mass[i] * free_axes(scene_.properties.held[i]).cwiseProduct(position);
+  return dynamics::free_moment(scene_.state, scene_.properties, before);
+}
+
+// What breaks.
+
+void Simulation::break_bond(std::size_t bond) {
+  asked_breaks_.ask_bond(bond, bonds_.size());
+}
+
+void Simulation::break_cylinder(NodeId a, NodeId b) {
+  asked_breaks_.ask_cylinder(a, b, scene_);
+}
+
+void Simulation::break_facet(const std::array<NodeId, 3>& nodes) {
+  asked_breaks_.ask_facet(nodes, scene_);
+}
+
+/// Before the forces of a step: takes out what hangs on the bonds and sheets that break in it,
+/// because they yielded, tore or were asked to. Linear in the scene where elements are gone; that
+/// step may allocate.
+void Simulation::follow_breaks() {
+  const bool are_whole = yielding_bonds_.broken().empty() && sheet_facets_.broken().empty();
+  if (asked_breaks_.empty() && are_whole) return;
+  loads_.follow(bonds_, sheet_facets_);
+  const BrokenParts broken = asked_breaks_.with(yielding_bonds_, sheet_facets_);
+  asked_breaks_.clear();
+  if (surface_.cell_count() > 0 && take_out_broken(scene_, broken, bonds_, sheet_facets_))
+    follow_surface();
+}
+
+/// The scene's elements have become fewer. Elastic energies of contacts before and after are
+/// compared half a drift ago, for the same reason as those of bonds.
+void Simulation::follow_surface() {
+  const geometry::Surface before =
+      change_surface(surface_.left_with(scene_.elements.cylinders, scene_.elements.facets));
+  loads_.follow(geometry::SurfaceChange(before, surface_));
+  ties_.follow(scene_.elements);
+}
+
+/// Contacts go on where their features are there still.
+/// @returns the surface of before
+geometry::Surface Simulation::change_surface(geometry::Surface next) {
+  nodes_.know_all();
+  std::swap(next, surface_);
+  contacts_->follow(geometry::SurfaceChange(next, surface_), motion(),
+                    positions_before(scene_.state, 0.5 * last_drift_), pool_);
+  return next;
+}
+
+// What can be read out between steps.
+
+std::vector<Vec3> Simulation::force_positions() const {
+  nodes_.know_all();
+  return positions_before(scene_.state, last_drift_);
+}
+
+Vec3 Simulation::force_point(std::size_t plane) const {
+  require_index("force_point", "plane", plane, scene_.planes.size());
+  return scene_.planes[plane].point - last_drift_ * scene_.planes[plane].velocity;
+}
+
+double Simulation::force_radius(std::size_t plane) const {
+  require_index("force_radius", "plane", plane, scene_.planes.size());
+  return scene_.planes[plane].radius - last_drift_ * scene_.planes[plane].widening;
+}
+
+std::vector<contact::ContactRecord> Simulation::list_contacts() {
+  contacts_->assign_ids();
+  return contact_rows();
+}
+
+std::vector<contact::ContactRecord> Simulation::contact_rows() const {
+  std::vector<contact::ContactRecord> rows;
+  contacts_->for_each_record(force_positions(),
+                             [&](const contact::ContactRecord& row) { rows.push_back(row); });
+  return rows;
+}
+
+ForceAndMoment Simulation::plane_reaction(std::size_t plane) const {
+  require_index("plane_reaction", "plane", plane, scene_.planes.size());
+  return force_on_plane(*contacts_, force_positions(), plane, force_point(plane));
+}
+
+double Simulation::pressing_on(std::size_t plane) const {
+  require_index("pressing_on", "plane", plane, scene_.planes.size());
+  const PlaneReaction sum{plane_reaction(plane).force, push_on_plane(*contacts_, plane)};
+  return sum.pressing(scene_.planes[plane]);
+}
+
+ForceAndMoment Simulation::support_reaction(std::span<const NodeId> nodes,
+                                            const Vec3& about) const {
+  for (const NodeId node : nodes) require_node("support_reaction", node, scene_.state.size());
+  std::vector<NodeId> supported;
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(supported),
+               [this](NodeId node) { return rigid_nodes_.body_followed_by(node) < 0; });
+  const std::vector<Vec3> positions = force_positions();
+  return dynamics::support_reaction(
+      supported, {positions, forces_, scene_.properties, motion_.gravity}, about);
+}
+
+ForceAndMoment Simulation::section_force(std::span<const NodeId> nodes, const Vec3& about) const {
+  nodes_.know_all();
+  std::vector<char> is_inside(scene_.state.size(), 0);
+  for (const NodeId node : nodes) {
+    require_node("section_force", node, is_inside.size());
+    is_inside[index_of(node)] = 1;
   }
-  return moment;
+  return dynamics::section_force(is_inside, state_before(scene_.state, last_drift_), bonds_,
+                                 sheet_facets_, about);
+}
+
+double Simulation::unbalanced_force_ratio() const {
+  const std::vector<Vec3> positions = force_positions();
+  return dynamics::unbalanced_force_ratio({positions, forces_, scene_.properties, motion_.gravity},
+                                          mean_carried(resistance(), positions));
+}
+
+std::vector<FacetTraction> Simulation::facet_tractions() {
+  NodeForces forces(scene_.state.size());
+  contacts_->add_surface_forces(forces, pool_);
+  return dynamics::facet_tractions(scene_.elements.facets, forces.force, force_positions());
+}
+
+const Vec3& Simulation::gathered_force(std::size_t body) const {
+  require_index("gathered_force", "rigid body", body, scene_.rigid_bodies.size());
+  return rigid_bodies_.gathered_force(body);
+}
+
+const Vec3& Simulation::gathered_torque(std::size_t body) const {
+  require_index("gathered_torque", "rigid body", body, scene_.rigid_bodies.size());
+  return rigid_bodies_.gathered_torque(body);
+}
+
+BondForces Simulation::bond_forces(std::size_t bond) const {
+  require_index("bond_forces", "bond", bond, bonds_.size());
+  return yielding_bonds_.forces_of(bond, bonds_, scene_.state);
+}
+
+BondStress Simulation::bond_stress(std::size_t bond) const {
+  require_index("bond_stress", "bond", bond, bonds_.size());
+  return dynamics::bond_stress(bond_forces(bond), scene_.bonds[bond].section);
+}
+
+// The state.
+
+geometry::StateTree Simulation::snapshot() {
+  geometry::StateTree tree;
+  exchange(geometry::StateArchive::writer(tree));
+  return tree;
+}
+
+void Simulation::restore(const geometry::StateTree& state) {
+  if (steps_ != 0)
+    throw std::logic_error("a state is restored before the first step of a simulation, not after " +
+                           std::to_string(steps_));
+  exchange(geometry::StateArchive::reader(state));
+}
+
+void Simulation::save(const std::filesystem::path& file) {
+  write_checkpoint(file, snapshot());
+}
+
+void Simulation::load(const std::filesystem::path& file) {
+  restore(read_checkpoint(file));
+}
+
+void Simulation::exchange(const geometry::StateArchive& archive) {
+  archive.same("scene", scene_hash_, "another scene");
+  exchange_kept(archive);
+  exchange_elements(archive.group("elements"));
+  exchange_loads(archive.group("loads"));
+  contacts_->exchange(archive.group("contacts"), scene_.planes, pool_);
+  exchange_step(archive.group("step"));
+}
+
+/// What goes on in another scene too.
+void Simulation::exchange_kept(const geometry::StateArchive& archive) {
+  exchange_motion(archive);
+  bonds_.exchange(archive.group("bonds"));
+  yielding_bonds_.exchange(archive.group("yield"));
+  sheet_facets_.exchange(archive.group("sheets"));
+  if (archive.is_reading()) loads_.follow(bonds_, sheet_facets_);
+  if (!ties_.empty()) ties_.exchange(archive.group("ties"));
+  if (!rigid_bodies_.empty()) rigid_bodies_.exchange(archive.group("rigid_bodies"));
+  asked_breaks_.exchange(archive.group("asked_breaks"), bonds_.size(), scene_.state.size());
+  exchange_last_step(archive.group("step"));
+  exchange_ledger(archive.group("ledger"));
+}
+
+void Simulation::exchange_motion(const geometry::StateArchive& archive) {
+  nodes_.know_all();
+  archive("time", time_);
+  archive("steps", steps_);
+  exchange_nodes(archive.group("nodes"), scene_.state, forces_);
+  exchange_planes(archive.group("planes"), scene_.planes);
+  archive("gravity", motion_.gravity);
+}
+
+/// What is left of the elements. Contacts and loads go on with it as if all had broken at once.
+void Simulation::exchange_elements(const geometry::StateArchive& archive) {
+  if (!dynamics::exchange_elements(archive, scene_)) return;
+  try {
+    follow_surface();
+  } catch (const std::invalid_argument& error) {
+    throw geometry::StateMismatch(
+        std::string("the elements left in the state are none of these: ") + error.what());
+  }
+}
+
+void Simulation::exchange_last_step(const geometry::StateArchive& archive) {
+  archive("drift", drift_);
+  archive("last_drift", last_drift_);
+  archive("fastest", fastest_);
+  archive("fastest_spin", fastest_spin_);
+}
+
+/// What the last step found of loads, and what has been set of them since the start.
+void Simulation::exchange_loads(const geometry::StateArchive& archive) {
+  loads_.exchange(archive);
+  driven_planes_.exchange(archive.group("planes"), scene_.planes.size());
+  driven_bodies_.exchange(archive.group("bodies"));
+  scene_.loads.servos = driven_planes_.servos();
+  scene_.loads.body_servos = driven_bodies_.servos();
+}
+
+/// How long steps are, and what the next choice of one knows.
+void Simulation::exchange_step(const geometry::StateArchive& archive) {
+  const bool may_be_none = !std::isfinite(dt_);
+  late_starts_.exchange(archive, scene_.state.size());
+  archive("time_step", dt_);
+  archive.require(dt_ >= 0.0 && (may_be_none || std::isfinite(dt_)), "time_step");
+  bool is_chosen = chooser_ != nullptr;
+  archive("is_chosen", is_chosen);
+  if (is_chosen && chooser_ == nullptr)
+    throw geometry::StateMismatch(
+        "the state was that of a simulation that chooses its time step; give none here either");
+  if (!is_chosen) chooser_.reset();
+  if (is_chosen) chooser_->exchange(archive.group("choice"));
+}
+
+void Simulation::exchange_ledger(const geometry::StateArchive& archive) {
+  ledger_.exchange(archive);
+  archive("initial_moment", initial_moment_);
+  archive("initial_translation", initial_stiffness_.translation);
+  archive("initial_rotation", initial_stiffness_.rotation);
+  momentum_.exchange(archive.group("momentum"));
+  archive("largest_overlap_ratio", largest_overlap_ratio_);
+  archive("pass_throughs", pass_throughs_);
+  archive("most_crossings", most_crossings_);
+}
+
+// How it goes on from another one.
+
+void Simulation::go_on_from(Simulation& before, const SceneChange& change) {
+  if (steps_ != 0)
+    throw std::logic_error(
+        "a simulation goes on from another one before its first step, not after " +
+        std::to_string(steps_));
+  require_places(before.scene_, scene_, change);
+  require_same_structures(before, change.places);
+  take_state(before, change);
+  take_contacts(before, change.places);
+  ties_.follow(scene_.elements);
+  follow_holds(before.scene_, change.places.nodes, scene_, rigid_bodies_);
+  if (has_begun()) add_late_starts(before.scene_, change.places.nodes, scene_, late_starts_);
+  note_change(before);
+  if (chooser_ != nullptr) set_first_step(0.0);
+}
+
+void Simulation::require_same_structures(const Simulation& before,
+                                         const contact::BodyPlaces& places) const {
+  for (std::size_t node = 0; node < before.surface_.node_count(); ++node) {
+    if (before.surface_.structure_of(geometry::id_at<NodeId>(node)) != geometry::StructureId{-1} &&
+        places.nodes[node] != static_cast<std::int32_t>(node))
+      throw geometry::StateMismatch("the nodes of structures have other ids than before");
+  }
+}
+
+/// All that is kept from step to step, but for contacts and how a step is chosen.
+void Simulation::take_state(Simulation& before, const SceneChange& change) {
+  const bool has_new_nodes = std::count_if(change.places.nodes.begin(), change.places.nodes.end(),
+                                           [](std::int32_t node) { return node >= 0; }) !=
+                             static_cast<std::ptrdiff_t>(scene_.state.size());
+  const std::vector<contact::Plane> planes = scene_.planes;
+  const std::vector<std::int32_t> bodies =
+      body_places(before.scene_, rigid_nodes_, change.places.nodes);
+  const std::array groups{KeptRows{"nodes/", change.places.nodes},
+                          KeptRows{"planes/", change.places.planes},
+                          KeptRows{"rigid_bodies/", bodies}};
+  geometry::StateTree there, here;
+  before.exchange_kept(geometry::StateArchive::writer(there));
+  exchange_kept(geometry::StateArchive::writer(here));
+  const geometry::StateTree state = carried_state(there, std::move(here), groups);
+  exchange_kept(geometry::StateArchive::reader(state));
+  if (has_new_nodes) fastest_ = std::max(fastest_, largest_speed(scene_.state));
+  settle_planes(before.scene_, change, planes, scene_);
+}
+
+void Simulation::leave_out_absent() {
+  if (scene_.is_absent.empty()) return;
+  whole_ = surface_;
+  const auto is_absent = [this](const auto& element, contact::MaterialId) {
+    return !scene_.is_there(element.nodes[0]);
+  };
+  const bool are_fewer =
+      erase_elements(scene_.elements.facets, scene_.facet_materials, is_absent) |
+      erase_elements(scene_.elements.cylinders, scene_.cylinder_materials, is_absent);
+  if (are_fewer) follow_surface();
+}
+
+/// Calls look() with the contacts as they would be found, and leaves them as they are, whatever it
+/// throws.
+/// @param ago  s, before now: where nodes and planes were then
+template <class Look>
+void Simulation::look_ahead(double ago, const Look& look) {
+  nodes_.know_all();
+  geometry::StateTree kept;
+  contacts_->exchange(geometry::StateArchive::writer(kept), scene_.planes, pool_);
+  NodeState state = scene_.state;
+  state.position = positions_before(state, ago);
+  std::vector<contact::Plane> planes = scene_.planes;
+  for (contact::Plane& plane : planes) {
+    plane.point -= ago * plane.velocity;
+    plane.radius -= ago * plane.widening;
+  }
+  NodeForces forces(state.size());
+  const auto put_back = [&] {
+    contacts_->exchange(geometry::StateArchive::reader(kept), scene_.planes, pool_);
+  };
+  try {
+    contacts_->advance(state.motion(), planes, 0.0, pool_, forces);
+    look();
+  } catch (...) {
+    put_back();
+    throw;
+  }
+  put_back();
+}
+
+/// J, half a drift ago: what comes or goes between two forces has acted on half of the drift between
+/// them, so that this loses nothing to second order (trapezoidal rule). What contacts will lose at
+/// once, as where friction is less or a plane is gone, is still theirs: it is counted when it is
+/// lost. Before the first step what they have is what they will have.
+double Simulation::contact_energy_between() {
+  double energy = contacts_->elastic_energy();
+  if (!has_begun()) return energy;
+  const double lost = contacts_->dissipated() + contacts_->tracking_loss();
+  look_ahead(0.5 * last_drift_, [&] {
+    energy =
+        contacts_->elastic_energy() + (contacts_->dissipated() + contacts_->tracking_loss() - lost);
+  });
+  return energy;
+}
+
+std::vector<contact::ContactRecord> Simulation::next_contact_rows(
+    geometry::FunctionRef<bool(const contact::ContactRecord&)> wants) {
+  if (!has_begun())
+    throw std::logic_error("the contacts of the first step are those of the start: contact_rows()");
+  std::vector<contact::ContactRecord> rows;
+  look_ahead(0.0, [&] {
+    contacts_->for_each_record(scene_.state.position, [&](const contact::ContactRecord& row) {
+      if (wants(row)) rows.push_back(row);
+    });
+  });
+  return rows;
+}
+
+/// Contacts on the surface as it was, and then what has come and gone of that. Energy that they had
+/// stored on what is gone is work from outside, and none that tracking lost. So is what contacts
+/// have in this scene and had not in the other: those that come with bodies that touch others at
+/// once, and with another stiffness. The ledger is of the moment of the last forces.
+void Simulation::take_contacts(Simulation& before, const contact::BodyPlaces& places) {
+  const double stored = before.contacts_->elastic_energy();
+  const double energy_before = before.contact_energy_between();
+  const geometry::Surface whole = whole_ ? *whole_ : surface_;
+  const geometry::Surface made = surface_;
+  const Scene& there = before.scene_;
+  const auto part = [&whole](const geometry::Elements& of) {
+    return whole.left_with(of.cylinders, of.facets);
+  };
+  const bool others = take_elements(there, scene_);
+  const bool comes_or_goes = !are_same_there(there, scene_);
+  if (others || comes_or_goes) change_surface(part(there.elements));
+  contacts_->take_over(*before.contacts_, places, scene_.planes, scene_.state.position, pool_);
+  if (comes_or_goes) {
+    const double tracking = contacts_->tracking_loss();
+    change_surface(part(scene_.elements));
+    ledger_.add_taken_out(contacts_->tracking_loss() - tracking);
+  }
+  if (others) loads_.follow(geometry::SurfaceChange(made, surface_));
+  const double from_outside = contact_energy_between() - energy_before;
+  ledger_.bring(from_outside, from_outside - (contacts_->elastic_energy() - stored));
+}
+
+/// What they move by at this moment is what the state says: none of it comes from anywhere.
+void Simulation::put_back_late_starts() {
+  nodes_.know_all();
+  ledger_.add_external(-late_starts_.put_back(
+      {last_drift_, drift_},
+      {scene_.state, forces_, scene_.properties, rigid_nodes_, rigid_bodies_, motion_.gravity}));
+}
+
+/// Energy that comes or goes with bodies, stiffness and fixity is work from outside. Where weight
+/// has no energy is a matter of choice: what comes and goes leaves the energy of weight as it is.
+void Simulation::note_change(const Simulation& before) {
+  initial_moment_ =
+      before.initial_moment_ + (free_moment(last_drift_) - before.free_moment(last_drift_));
+  ledger_.bring_kinetic(moving_energy() - before.moving_energy());
+}
+
+double Simulation::moving_energy() const {
+  return kinetic_energy(scene_.state, scene_.properties) +
+         rigid_bodies_.turning_energy(scene_.state, scene_.properties);
 }
 
 }  // namespace plekton::dynamics

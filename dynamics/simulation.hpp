@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/models.hpp"
-#include "dynamics/broken_elements.hpp"
+#include "dynamics/asked_breaks.hpp"
 #include "dynamics/checkpoint/checkpoint_error.hpp"
 #include "dynamics/integrators/nodes_of_ranks.hpp"
 #include "dynamics/late_starts.hpp"
@@ -11,13 +11,14 @@
 #include "dynamics/loads/rigid_servo.hpp"
 #include "dynamics/measures/bond_stress.hpp"
 #include "dynamics/measures/diverged.hpp"
-#include "dynamics/measures/energy.hpp"
+#include "dynamics/measures/energy_ledger.hpp"
 #include "dynamics/measures/facet_traction.hpp"
 #include "dynamics/measures/momentum_balance.hpp"
 #include "dynamics/measures/reactions.hpp"
 #include "dynamics/model/scene.hpp"
 #include "dynamics/rigid/rigid_bodies.hpp"
 #include "dynamics/scene_change.hpp"
+#include "dynamics/simulation_options.hpp"
 #include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/stiffness/nodal_stiffness.hpp"
 #include "dynamics/structure/beam_bond.hpp"
@@ -40,18 +41,6 @@
 #include <vector>
 
 namespace plekton::dynamics {
-
-struct SimulationOptions {
-  double time_step = 0.0;  ///< s; 0 chooses one as it goes: kSafety times the critical step with
-                           ///< the contacts of now and those that are near,
-                           ///< shorter while something is fast (dynamics/time_step/motion_step.hpp)
-  MotionOptions motion = {};
-  double skin =
-      0.0;  ///< m, how far apart a pair may be when it is listed; 0 begins with a fifth of
-  ///< the smallest radius, then follows how fast spheres move
-  int threads = 1;
-  bool self_contact = true;  ///< whether a structure may touch itself where it folds
-};
 
 class FaultFinder;
 class StepChooser;
@@ -308,12 +297,9 @@ class Simulation {
  private:
   void advance(double longest);
   void find_contacts();
-  double power_on_turning_planes() const;
-  double fastest_on_planes() const;
   void choose_step();
   contact::Motion motion() const noexcept;
   void follow_breaks();
-  void break_asked();
   void follow_surface();
   geometry::Surface change_surface(geometry::Surface next);
   void apply_loads();
@@ -321,7 +307,6 @@ class Simulation {
   void drive_planes();
   void find_places_ahead();
   Vec3 acceleration(std::size_t node, const Vec3& gravity) const;
-  PlanePress plane_press(std::size_t plane, double way, geometry::Positions x) const;
   void drive_bodies(const LoadStep& step);
   void follow_gravity();
   Vec3 free_moment(double before) const;
@@ -338,13 +323,11 @@ class Simulation {
   Pace pace(double dt) const noexcept;
   double speed_of_free_planes() const noexcept;
   void move_planes();
-  double rounding_energy() const;
   void exchange(const geometry::StateArchive& archive);
   void exchange_kept(const geometry::StateArchive& archive);
   void exchange_elements(const geometry::StateArchive& archive);
   void exchange_motion(const geometry::StateArchive& archive);
   void exchange_ledger(const geometry::StateArchive& archive);
-  void exchange_asked_breaks(const geometry::StateArchive& archive);
   void exchange_last_step(const geometry::StateArchive& archive);
   void exchange_loads(const geometry::StateArchive& archive);
   void exchange_step(const geometry::StateArchive& archive);
@@ -356,8 +339,6 @@ class Simulation {
   void take_contacts(Simulation& before, const contact::BodyPlaces& places);
   void require_same_structures(const Simulation& before, const contact::BodyPlaces& places) const;
   void take_state(Simulation& before, const SceneChange& change);
-  void follow_holds(const Simulation& before, const contact::BodyPlaces& places);
-  void find_late_starts(const Scene& before, const contact::BodyPlaces& places);
   void put_back_late_starts();
   void note_change(const Simulation& before);
   double moving_energy() const;
@@ -383,9 +364,7 @@ class Simulation {
   std::vector<PlaneReaction> plane_reactions_;  ///< of planes that are driven or widen; else none
   std::vector<Vec3> places_ahead_;              ///< m, of nodes; to drive planes
   double power_on_turning_ = 0.0;  ///< W, what bodies do to planes that turn, at the last forces
-  BrokenParts broken_;             ///< asked for, in the next step
-  double broken_energy_ = 0.0;     ///< J, of bonds that were asked for
-  double taken_out_ = 0.0;         ///< J, that contacts had stored on what was taken out
+  AskedBreaks asked_breaks_;       ///< in the next step
   NodeForces forces_;
   NodesOfRanks nodes_;
   std::unique_ptr<StepLimits> limits_;
@@ -401,13 +380,8 @@ class Simulation {
   double least_furthest_ = 0.0;   ///< m, of all nodes
   double pace_radius_ = 0.0;      ///< m, against which the motion in a chosen step is measured
   bool may_touch_ = true;
-  StepWork work_;     ///< kinetic: of the last step; the rest: of all steps
-  StepWork pending_;  ///< what of damped and external comes after the moment of the last forces
-  double initial_energy_ = 0.0;
-  double most_kinetic_ = 0.0;    ///< J, at the last looks at the ledger
-  double most_accounted_ = 0.0;  ///< J, largest turnover at those without what came from nowhere
-  std::string suspect_;  ///< what acted where energy came from nowhere, at the last of those
-  Vec3 full_gravity_;    ///< m/s², of which motion_.gravity is a part
+  EnergyLedger ledger_;
+  Vec3 full_gravity_;                        ///< m/s², of which motion_.gravity is a part
   Vec3 initial_moment_ = Vec3::Zero();       ///< kg m, free moment at the start
   NodalStiffness::Total initial_stiffness_;  ///< with the contacts that may come
   MomentumBalance momentum_;

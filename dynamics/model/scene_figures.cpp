@@ -128,4 +128,13 @@ double kinetic_energy(const NodeState& state, const NodeProperties& properties) 
   return energy;
 }
 
+Vec3 free_moment(const NodeState& state, const NodeProperties& properties, double before) {
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Vec3 position = state.position[i] - before * state.velocity[i];
+    moment += properties.mass[i] * free_axes(properties.held[i]).cwiseProduct(position);
+  }
+  return moment;
+}
+
 }  // namespace plekton::dynamics

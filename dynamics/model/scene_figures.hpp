@@ -51,4 +51,8 @@ Scene held_as_prescribed(Scene scene);
 /// J, of what is free; of rigid bodies the translation alone.
 double kinetic_energy(const NodeState& state, const NodeProperties& properties);
 
+/// Mass times place (kg m) of the free nodes along the axes they are free in, at a time before now
+/// (s).
+Vec3 free_moment(const NodeState& state, const NodeProperties& properties, double before);
+
 }  // namespace plekton::dynamics
