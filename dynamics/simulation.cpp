@@ -7,6 +7,7 @@
 #include "dynamics/carry_over/carried_state.hpp"
 #include "dynamics/carry_over/places_check.hpp"
 #include "dynamics/checkpoint/checkpoint_file.hpp"
+#include "dynamics/contacts_then.hpp"
 #include "dynamics/measures/fault_finder.hpp"
 #include "dynamics/measures/plane_forces.hpp"
 #include "dynamics/measures/rounding_energy.hpp"
@@ -179,82 +180,32 @@ void Simulation::set_velocity(NodeId node, const Vec3& velocity, const Vec3& ang
 }
 
 void Simulation::add_force(std::vector<NodeId> nodes, OwnForce force) {
-  if (!force) throw std::invalid_argument("add_force: got no function to ask for the forces");
-  for (const NodeId node : nodes) {
-    require_node("add_force", node, scene_.state.size());
-    if (rigid_nodes_.body_followed_by(node) >= 0)
-      throw std::invalid_argument("add_force: node " + std::to_string(index_of(node)) +
-                                  " follows a rigid body; load its reference node");
-  }
-  std::vector<NodeId> sorted = nodes;
-  std::sort(sorted.begin(), sorted.end());
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end())
-    throw std::invalid_argument("add_force: node " + std::to_string(index_of(*twice)) +
-                                " is there twice; name each once");
+  require_own_force(nodes, force, rigid_nodes_, scene_.state.size());
   nodes_.act_on(nodes);
   loads_.add(std::move(nodes), std::move(force));
 }
 
 void Simulation::set_force(std::size_t load, const Vec3& force, const Vec3& torque) {
-  require_index("set_force", "force", load, loads_.force_count());
-  if (!force.allFinite() || !torque.allFinite())
-    throw std::invalid_argument("set_force: force and torque must be finite");
   loads_.set_force(load, force, torque);
 }
 
 void Simulation::set_pressure(std::size_t load, double pressure) {
-  require_index("set_pressure", "pressure", load, loads_.pressed_surfaces().size());
-  if (scene_.loads.pressures[load].by_volume)
-    throw std::invalid_argument("set_pressure: pressure " + std::to_string(load) +
-                                " follows the volume by a table");
-  if (!std::isfinite(pressure))
-    throw std::invalid_argument("set_pressure: the pressure must be finite");
   loads_.set_pressure(load, pressure);
   if (chooser_ != nullptr) chooser_->look_again();
 }
 
-namespace {
-
-/// @throws std::invalid_argument
-void require_target(const char* call, double force, double pressure) {
-  if (std::isfinite(force) && std::isfinite(pressure) && force >= 0.0 && pressure >= 0.0 &&
-      force + pressure > 0.0)
-    return;
-  throw std::invalid_argument(std::string(call) + ": got " + std::to_string(force) + " and " +
-                              std::to_string(pressure) +
-                              "; expected finite targets, none below 0, one of them above");
-}
-
-}  // namespace
-
 void Simulation::set_servo(std::size_t load, double force, double pressure) {
-  require_index("set_servo", "servo", load, scene_.loads.servos.size());
-  require_target("set_servo", force, pressure);
-  scene_.loads.servos[load].force = force;
-  scene_.loads.servos[load].pressure = pressure;
   driven_planes_.set_target(load, force, pressure);
+  scene_.loads.servos = driven_planes_.servos();
 }
 
 void Simulation::set_body_servo(std::size_t load, double target, double pressure) {
-  require_index("set_body_servo", "body servo", load, scene_.loads.body_servos.size());
-  require_target("set_body_servo", target, pressure);
-  BodyServo& servo = scene_.loads.body_servos[load];
-  if (servo.turns() && !(target > 0.0 && pressure == 0.0))
-    throw std::invalid_argument("set_body_servo: servo " + std::to_string(load) +
-                                " has a torque; expected one above 0, and no pressure");
-  (servo.turns() ? servo.torque : servo.force) = target;
-  servo.pressure = pressure;
-  driven_bodies_.set_target(load, servo);
+  driven_bodies_.set_target(load, target, pressure);
+  scene_.loads.body_servos = driven_bodies_.servos();
 }
 
 void Simulation::set_plane_velocity(std::size_t plane, const Vec3& velocity) {
   require_index("set_plane_velocity", "plane", plane, scene_.planes.size());
-  if (driven_planes_.drives(plane))
-    throw std::invalid_argument("set_plane_velocity: plane " + std::to_string(plane) +
-                                " is moved by a load; change that, or leave it out");
-  if (!velocity.allFinite())
-    throw std::invalid_argument("set_plane_velocity: the velocity must be finite");
   driven_planes_.set_velocity(plane, velocity);
   if (chooser_ != nullptr) chooser_->look_again();
 }
@@ -275,17 +226,9 @@ Pace Simulation::pace(double dt) const noexcept {
   const TimeSpan until_next_look{time_, time_ + longest_to_next_look(dt)};
   return {steps_,
           std::max({largest_speed(scene_.state), loads_.largest_speed(until_next_look),
-                    speed_of_free_planes(), driven_planes_.largest_speed(until_next_look),
-                    driven_bodies_.largest_speed()}),
+                    driven_planes_.largest_speed_of_others(scene_.planes),
+                    driven_planes_.largest_speed(until_next_look), driven_bodies_.largest_speed()}),
           largest_gravity()};
-}
-
-/// m/s, of planes that no load moves.
-double Simulation::speed_of_free_planes() const noexcept {
-  double fastest = 0.0;
-  for (std::size_t i = 0; i < scene_.planes.size(); ++i)
-    if (!driven_planes_.drives(i)) fastest = std::max(fastest, scene_.planes[i].speed());
-  return fastest;
 }
 
 /// Nodes have drifted with the velocities after the last kick.
@@ -552,14 +495,9 @@ void Simulation::find_places_ahead() {
   }
 }
 
-/// m/s², by the last forces, along the axes that a node is free in; 0 of parts of rigid bodies.
 Vec3 Simulation::acceleration(std::size_t i, const Vec3& gravity) const {
-  const auto node = geometry::id_at<NodeId>(i);
-  if (rigid_nodes_.body_at(node) >= 0 || rigid_nodes_.body_followed_by(node) >= 0)
-    return Vec3::Zero();
-  const Vec3 free = free_axes(scene_.properties.held[i]);
-  if (free.isZero(0.0)) return Vec3::Zero();
-  return free.cwiseProduct(gravity + forces_.force[i] / scene_.properties.mass[i]);
+  return free_acceleration(geometry::id_at<NodeId>(i), forces_.force[i], gravity, scene_.properties,
+                           rigid_nodes_);
 }
 
 /// Gravity that grows does work on what lies still: its energy is that of the gravity of now.
@@ -835,7 +773,7 @@ void Simulation::go_on_from(Simulation& before, const SceneChange& change) {
         "a simulation goes on from another one before its first step, not after " +
         std::to_string(steps_));
   require_places(before.scene_, scene_, change);
-  require_same_structures(before, change.places);
+  require_same_structures(before.surface_, change.places.nodes);
   take_state(before, change);
   take_contacts(before, change.places);
   ties_.follow(scene_.elements);
@@ -843,15 +781,6 @@ void Simulation::go_on_from(Simulation& before, const SceneChange& change) {
   if (has_begun()) add_late_starts(before.scene_, change.places.nodes, scene_, late_starts_);
   note_change(before);
   if (chooser_ != nullptr) set_first_step(0.0);
-}
-
-void Simulation::require_same_structures(const Simulation& before,
-                                         const contact::BodyPlaces& places) const {
-  for (std::size_t node = 0; node < before.surface_.node_count(); ++node) {
-    if (before.surface_.structure_of(geometry::id_at<NodeId>(node)) != geometry::StructureId{-1} &&
-        places.nodes[node] != static_cast<std::int32_t>(node))
-      throw geometry::StateMismatch("the nodes of structures have other ids than before");
-  }
 }
 
 /// All that is kept from step to step, but for contacts and how a step is chosen.
@@ -877,42 +806,12 @@ void Simulation::take_state(Simulation& before, const SceneChange& change) {
 void Simulation::leave_out_absent() {
   if (scene_.is_absent.empty()) return;
   whole_ = surface_;
-  const auto is_absent = [this](const auto& element, contact::MaterialId) {
-    return !scene_.is_there(element.nodes[0]);
-  };
-  const bool are_fewer =
-      erase_elements(scene_.elements.facets, scene_.facet_materials, is_absent) |
-      erase_elements(scene_.elements.cylinders, scene_.cylinder_materials, is_absent);
-  if (are_fewer) follow_surface();
+  if (erase_absent(scene_)) follow_surface();
 }
 
-/// Calls look() with the contacts as they would be found, and leaves them as they are, whatever it
-/// throws.
-/// @param ago  s, before now: where nodes and planes were then
-template <class Look>
-void Simulation::look_ahead(double ago, const Look& look) {
+void Simulation::look_at_contacts(double ago, geometry::FunctionRef<void()> look) {
   nodes_.know_all();
-  geometry::StateTree kept;
-  contacts_->exchange(geometry::StateArchive::writer(kept), scene_.planes, pool_);
-  NodeState state = scene_.state;
-  state.position = positions_before(state, ago);
-  std::vector<contact::Plane> planes = scene_.planes;
-  for (contact::Plane& plane : planes) {
-    plane.point -= ago * plane.velocity;
-    plane.radius -= ago * plane.widening;
-  }
-  NodeForces forces(state.size());
-  const auto put_back = [&] {
-    contacts_->exchange(geometry::StateArchive::reader(kept), scene_.planes, pool_);
-  };
-  try {
-    contacts_->advance(state.motion(), planes, 0.0, pool_, forces);
-    look();
-  } catch (...) {
-    put_back();
-    throw;
-  }
-  put_back();
+  contacts_then(*contacts_, scene_, ago, pool_, look);
 }
 
 /// J, half a drift ago: what comes or goes between two forces has acted on half of the drift between
@@ -923,7 +822,7 @@ double Simulation::contact_energy_between() {
   double energy = contacts_->elastic_energy();
   if (!has_begun()) return energy;
   const double lost = contacts_->dissipated() + contacts_->tracking_loss();
-  look_ahead(0.5 * last_drift_, [&] {
+  look_at_contacts(0.5 * last_drift_, [&] {
     energy =
         contacts_->elastic_energy() + (contacts_->dissipated() + contacts_->tracking_loss() - lost);
   });
@@ -935,7 +834,7 @@ std::vector<contact::ContactRecord> Simulation::next_contact_rows(
   if (!has_begun())
     throw std::logic_error("the contacts of the first step are those of the start: contact_rows()");
   std::vector<contact::ContactRecord> rows;
-  look_ahead(0.0, [&] {
+  look_at_contacts(0.0, [&] {
     contacts_->for_each_record(scene_.state.position, [&](const contact::ContactRecord& row) {
       if (wants(row)) rows.push_back(row);
     });

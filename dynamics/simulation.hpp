@@ -3,9 +3,10 @@
 
 #include "contact/models.hpp"
 #include "dynamics/asked_breaks.hpp"
+#include "dynamics/carry_over/late_starts.hpp"
+#include "dynamics/carry_over/scene_change.hpp"
 #include "dynamics/checkpoint/checkpoint_error.hpp"
 #include "dynamics/integrators/nodes_of_ranks.hpp"
-#include "dynamics/late_starts.hpp"
 #include "dynamics/loads/applied_loads.hpp"
 #include "dynamics/loads/plane_servo.hpp"
 #include "dynamics/loads/rigid_servo.hpp"
@@ -17,7 +18,6 @@
 #include "dynamics/measures/reactions.hpp"
 #include "dynamics/model/scene.hpp"
 #include "dynamics/rigid/rigid_bodies.hpp"
-#include "dynamics/scene_change.hpp"
 #include "dynamics/simulation_options.hpp"
 #include "dynamics/state/rigid_nodes.hpp"
 #include "dynamics/stiffness/nodal_stiffness.hpp"
@@ -321,7 +321,6 @@ class Simulation {
   void require_time_step() const;
   Resistance resistance() const noexcept;
   Pace pace(double dt) const noexcept;
-  double speed_of_free_planes() const noexcept;
   void move_planes();
   void exchange(const geometry::StateArchive& archive);
   void exchange_kept(const geometry::StateArchive& archive);
@@ -332,12 +331,10 @@ class Simulation {
   void exchange_loads(const geometry::StateArchive& archive);
   void exchange_step(const geometry::StateArchive& archive);
   void leave_out_absent();
-  template <class Look>
-  void look_ahead(double ago, const Look& look);
+  void look_at_contacts(double ago, geometry::FunctionRef<void()> look);
   bool has_begun() const noexcept { return steps_ > 0; }
   double contact_energy_between();
   void take_contacts(Simulation& before, const contact::BodyPlaces& places);
-  void require_same_structures(const Simulation& before, const contact::BodyPlaces& places) const;
   void take_state(Simulation& before, const SceneChange& change);
   void put_back_late_starts();
   void note_change(const Simulation& before);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "dynamics/late_starts.hpp"
+#include "dynamics/carry_over/late_starts.hpp"
 #include "dynamics/model/scene.hpp"
 #include "dynamics/rigid/rigid_bodies.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dynamics/carry_over/scene_change.hpp"
 #include "dynamics/model/scene.hpp"
-#include "dynamics/scene_change.hpp"
 
 #include <vector>
 

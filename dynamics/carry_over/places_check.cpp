@@ -2,6 +2,7 @@
 #include "dynamics/carry_over/places_check.hpp"
 
 #include "geometry/base/problems.hpp"
+#include "geometry/base/state_tree.hpp"
 
 #include <cstdint>
 #include <ostream>
@@ -52,6 +53,15 @@ void require_places(const Scene& before, const Scene& now, const SceneChange& ch
              << " entries; expected " << now.planes.size()
              << ", one for each plane of now, or none\n";
   geometry::throw_if_any(problems);
+}
+
+void require_same_structures(const geometry::Surface& before,
+                             const std::vector<std::int32_t>& places) {
+  for (std::size_t node = 0; node < before.node_count(); ++node) {
+    if (before.structure_of(geometry::id_at<NodeId>(node)) != geometry::StructureId{-1} &&
+        places[node] != static_cast<std::int32_t>(node))
+      throw geometry::StateMismatch("the nodes of structures have other ids than before");
+  }
 }
 
 }  // namespace plekton::dynamics

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/applied_loads.hpp"
 
+#include "dynamics/model/require_index.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 namespace plekton::dynamics {
@@ -23,6 +25,23 @@ AppliedLoads::AppliedLoads(const Scene& scene) {
     sheets_.emplace_back(damping, scene.sheet_facets, scene.properties);
   for (const MassDamping& damping : loads.mass_damping)
     dragged_.emplace_back(damping, scene.properties);
+}
+
+void AppliedLoads::set_force(std::size_t load, const Vec3& force, const Vec3& torque) {
+  require_index("set_force", "force", load, forces_.size());
+  if (!force.allFinite() || !torque.allFinite())
+    throw std::invalid_argument("set_force: force and torque must be finite");
+  forces_[load].set(force, torque);
+}
+
+void AppliedLoads::set_pressure(std::size_t load, double pressure) {
+  require_index("set_pressure", "pressure", load, pressures_.size());
+  if (pressures_[load].is_by_volume())
+    throw std::invalid_argument("set_pressure: pressure " + std::to_string(load) +
+                                " follows the volume by a table");
+  if (!std::isfinite(pressure))
+    throw std::invalid_argument("set_pressure: the pressure must be finite");
+  pressures_[load].set(pressure);
 }
 
 void AppliedLoads::start(NodeState& state) const {

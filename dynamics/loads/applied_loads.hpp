@@ -24,11 +24,10 @@ class AppliedLoads {
     own_.emplace_back(std::move(nodes), std::move(force));
   }
   /// By place in Loads::forces and Loads::pressures, from the next step on.
-  void set_force(std::size_t load, const Vec3& force, const Vec3& torque) {
-    forces_[load].set(force, torque);
-  }
-  void set_pressure(std::size_t load, double pressure) { pressures_[load].set(pressure); }
-  std::size_t force_count() const noexcept { return forces_.size(); }
+  /// @throws std::out_of_range; std::invalid_argument for what is not finite, or a pressure by
+  ///         volume
+  void set_force(std::size_t load, const Vec3& force, const Vec3& torque);
+  void set_pressure(std::size_t load, double pressure);
   /// Whether there is a force of one's own, which may look at any node.
   bool may_look_at_all() const noexcept { return !own_.empty(); }
 

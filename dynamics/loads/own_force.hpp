@@ -11,12 +11,19 @@
 
 namespace plekton::dynamics {
 
+class RigidNodes;
+
 /// A force of one's own: sets the forces on some nodes, which are zero before, by place in the list
 /// of these. Called once a step, from one thread. Its bits follow from the time (s) and the state
 /// alone if runs are to be repeated, and on ranks it is called by all of them. What it throws comes
 /// out of Simulation::step(), after which the simulation is to be thrown away.
 using OwnForce =
     std::function<void(double time, const NodeState& state, std::span<LoadedNodes::Force> forces)>;
+
+/// @throws std::invalid_argument for no function, and for nodes that are there twice or follow a
+///         rigid body; std::out_of_range for none
+void require_own_force(const std::vector<NodeId>& nodes, const OwnForce& force,
+                       const RigidNodes& rigid, std::size_t node_count);
 
 /// Nodes under a force of one's own.
 class OwnForcedNodes {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/plane_servo.hpp"
 
+#include "dynamics/model/require_index.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 namespace plekton::dynamics {
@@ -22,6 +24,15 @@ double plate_area(double area, std::span<const std::array<std::size_t, 2>> betwe
 bool bound_a_plate(const Vec3& normal_a, const Vec3& normal_b, const Vec3& direction) noexcept {
   constexpr double kTolerance = 1e-9;  // of unit vectors
   return std::abs(normal_a.cross(normal_b).dot(direction)) > kTolerance;
+}
+
+void require_target(std::string_view call, double force, double pressure) {
+  if (std::isfinite(force) && std::isfinite(pressure) && force >= 0.0 && pressure >= 0.0 &&
+      force + pressure > 0.0)
+    return;
+  throw std::invalid_argument(std::string(call) + ": got " + std::to_string(force) + " and " +
+                              std::to_string(pressure) +
+                              "; expected finite targets, none below 0, one of them above");
 }
 
 double full_target(const PlaneServo& servo, std::span<const Plane> planes) {
@@ -151,6 +162,28 @@ double DrivenPlanes::act(const LoadStep& step, std::span<const PlaneReaction> re
   return 0.5 * step.before * power;
 }
 
+void DrivenPlanes::set_target(std::size_t servo, double force, double pressure) {
+  require_index("set_servo", "servo", servo, servos_.size());
+  require_target("set_servo", force, pressure);
+  keep_target(servo, force, pressure);
+}
+
+void DrivenPlanes::keep_target(std::size_t servo, double force, double pressure) {
+  servos_[servo].force = force;
+  servos_[servo].pressure = pressure;
+  if (std::find(set_servos_.begin(), set_servos_.end(), servo) == set_servos_.end())
+    set_servos_.push_back(servo);
+}
+
+void DrivenPlanes::set_velocity(std::size_t plane, const Vec3& velocity) {
+  if (drives(plane))
+    throw std::invalid_argument("set_plane_velocity: plane " + std::to_string(plane) +
+                                " is moved by a load; change that, or leave it out");
+  if (!velocity.allFinite())
+    throw std::invalid_argument("set_plane_velocity: the velocity must be finite");
+  set_velocities_.push_back({plane, velocity});
+}
+
 bool DrivenPlanes::drives(std::size_t plane) const noexcept {
   const auto is_it = [plane](const auto& driven) { return driven.plane == plane; };
   return std::ranges::any_of(motions_, is_it) || std::ranges::any_of(servos_, is_it);
@@ -187,7 +220,7 @@ void DrivenPlanes::exchange(const geometry::StateArchive& archive, std::size_t p
     row.require(target.force >= 0.0 && std::isfinite(target.force) && target.pressure >= 0.0 &&
                     std::isfinite(target.pressure),
                 "force");
-    if (row.is_reading()) set_target(target.servo, target.force, target.pressure);
+    if (row.is_reading()) keep_target(target.servo, target.force, target.pressure);
   });
   archive.rows("set_velocities", set_velocities_, [&](geometry::RowFields& row, SetVelocity& set) {
     row("plane", set.plane);
@@ -204,6 +237,13 @@ double DrivenPlanes::largest_speed(const TimeSpan& during) const noexcept {
   for (const PlaneServo& servo : servos_) speed = std::max(speed, servo.largest_speed);
   for (const auto& [plane, velocity] : set_velocities_) speed = std::max(speed, velocity.norm());
   return speed;
+}
+
+double DrivenPlanes::largest_speed_of_others(std::span<const Plane> planes) const noexcept {
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    if (!drives(i)) fastest = std::max(fastest, planes[i].speed());
+  return fastest;
 }
 
 }  // namespace plekton::dynamics

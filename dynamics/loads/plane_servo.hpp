@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace plekton::geometry {
@@ -53,6 +54,10 @@ double plate_area(double area, std::span<const std::array<std::size_t, 2>> betwe
 /// do not lie in one plane.
 /// @param normal_a, normal_b  unit, of either pair
 bool bound_a_plate(const Vec3& normal_a, const Vec3& normal_b, const Vec3& direction) noexcept;
+
+/// @param call  for the message
+/// @throws std::invalid_argument for targets that are not finite, below 0, or both 0
+void require_target(std::string_view call, double force, double pressure);
 
 /// What a servo wants where its factor is 1, with the planes where they are: N, or N m where it
 /// turns a body.
@@ -109,17 +114,12 @@ class DrivenPlanes {
   }
 
   /// By place in Loads::servos, from the next act() on: N and Pa.
-  void set_target(std::size_t servo, double force, double pressure) {
-    servos_[servo].force = force;
-    servos_[servo].pressure = pressure;
-    if (std::find(set_servos_.begin(), set_servos_.end(), servo) == set_servos_.end())
-      set_servos_.push_back(servo);
-  }
+  /// @throws std::out_of_range; std::invalid_argument for what require_target() refuses
+  void set_target(std::size_t servo, double force, double pressure);
   bool drives(std::size_t plane) const noexcept;
   /// m/s, of a plane that nothing here drives, from the next act() on.
-  void set_velocity(std::size_t plane, const Vec3& velocity) {
-    set_velocities_.push_back({plane, velocity});
-  }
+  /// @throws std::invalid_argument for one that is driven, or a velocity that is not finite
+  void set_velocity(std::size_t plane, const Vec3& velocity);
 
   /// Sets the velocities of the drift that begins now. No allocation.
   /// @param reactions  by plane
@@ -137,9 +137,12 @@ class DrivenPlanes {
 
   /// m/s, at any of these times.
   double largest_speed(const TimeSpan& during = {}) const noexcept;
+  /// m/s, of planes that no load moves.
+  double largest_speed_of_others(std::span<const contact::Plane> planes) const noexcept;
 
  private:
   void require_same_kind(const geometry::StateArchive& archive) const;
+  void keep_target(std::size_t servo, double force, double pressure);
 
   std::vector<PlaneMotion> motions_;
   std::vector<Vec3> start_;  // m, of motions_

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/loads/rigid_servo.hpp"
 
+#include "dynamics/model/require_index.hpp"
 #include "dynamics/model/scene_figures.hpp"
 #include "geometry/base/state_archive.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace plekton::dynamics {
@@ -138,6 +141,24 @@ DrivenBodies::DrivenBodies(const Scene& scene, const geometry::Surface& surface)
   }
 }
 
+void DrivenBodies::set_target(std::size_t servo, double target, double pressure) {
+  require_index("set_body_servo", "body servo", servo, servos_.size());
+  require_target("set_body_servo", target, pressure);
+  BodyServo set = servos_[servo];
+  if (set.turns() && !(target > 0.0 && pressure == 0.0))
+    throw std::invalid_argument("set_body_servo: servo " + std::to_string(servo) +
+                                " has a torque; expected one above 0, and no pressure");
+  (set.turns() ? set.torque : set.force) = target;
+  set.pressure = pressure;
+  keep_target(servo, set);
+}
+
+void DrivenBodies::keep_target(std::size_t servo, const BodyServo& target) {
+  servos_[servo] = target;
+  if (std::find(set_servos_.begin(), set_servos_.end(), servo) == set_servos_.end())
+    set_servos_.push_back(servo);
+}
+
 void DrivenBodies::exchange(const geometry::StateArchive& archive) {
   struct Target {
     std::size_t servo = 0;
@@ -160,7 +181,7 @@ void DrivenBodies::exchange(const geometry::StateArchive& archive) {
     servo.force = target.force;
     servo.pressure = target.pressure;
     servo.torque = target.torque;
-    set_target(target.servo, servo);
+    keep_target(target.servo, servo);
   });
 }
 

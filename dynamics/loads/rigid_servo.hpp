@@ -93,11 +93,9 @@ class DrivenBodies {
   bool empty() const noexcept { return servos_.empty(); }
 
   /// By place in Loads::body_servos, from the next act() on.
-  void set_target(std::size_t servo, const BodyServo& target) {
-    servos_[servo] = target;
-    if (std::find(set_servos_.begin(), set_servos_.end(), servo) == set_servos_.end())
-      set_servos_.push_back(servo);
-  }
+  /// @param target  N, or N m of one that turns, which has no pressure
+  /// @throws std::out_of_range; std::invalid_argument for what require_target() refuses
+  void set_target(std::size_t servo, double target, double pressure);
   /// With targets as they are set.
   const std::vector<BodyServo>& servos() const noexcept { return servos_; }
   /// Targets that have been set. @throws geometry::StateMismatch
@@ -145,6 +143,8 @@ class DrivenBodies {
   }
 
  private:
+  void keep_target(std::size_t servo, const BodyServo& target);
+
   std::vector<BodyServo> servos_;
   std::vector<std::size_t> set_servos_;
   std::vector<double> radii_;  ///< m, of the bodies of servos that turn; 0 of others

@@ -81,6 +81,9 @@ class PressedSurface {
   /// makes the surface breathe: its stiffness is dp/dV (dV/dx)(dV/dx)^T, of rank one.
   double gas_frequency_squared(geometry::Positions x, const NodeProperties& properties) const;
 
+  /// Whether its pressure follows the volume by a table.
+  bool is_by_volume() const noexcept { return by_volume_.has_value(); }
+
  private:
   double pressure_at(double time, double volume) const;
   double largest_pressure() const noexcept;

@@ -54,7 +54,7 @@ class EnergyLedger {
   Energy energy() const noexcept;
 
   /// Whether the kinetic energy is twice what it was at any look.
-  bool has_doubled() const noexcept { return std::abs(work_.kinetic) > 2.0 * most_kinetic_; }
+  bool has_doubled() const noexcept { return !(std::abs(work_.kinetic) <= 2.0 * most_kinetic_); }
   /// Looks at the energy of now.
   /// @returns what there was at most so far that did not come from nowhere
   double look(const Energy& now) noexcept;

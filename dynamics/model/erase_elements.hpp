@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/base/material.hpp"
+#include "dynamics/model/scene.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -23,6 +23,16 @@ bool erase_elements(std::vector<Element>& elements, std::vector<contact::Materia
   elements.resize(kept);
   materials.resize(kept);
   return are_fewer;
+}
+
+/// Leaves out the facets and cylinders that are not there (Scene::is_absent).
+/// @returns whether there were any
+inline bool erase_absent(Scene& scene) {
+  const auto is_absent = [&scene](const auto& element, contact::MaterialId) {
+    return !scene.is_there(element.nodes[0]);
+  };
+  return erase_elements(scene.elements.facets, scene.facet_materials, is_absent) |
+         erase_elements(scene.elements.cylinders, scene.cylinder_materials, is_absent);
 }
 
 }  // namespace plekton::dynamics

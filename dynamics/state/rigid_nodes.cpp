@@ -61,4 +61,13 @@ Mat3 RigidNodes::point_mobility(std::int32_t body, const Vec3& lever) const {
   return mobility;
 }
 
+Vec3 free_acceleration(NodeId node, const Vec3& force, const Vec3& gravity,
+                       const NodeProperties& properties, const RigidNodes& rigid) noexcept {
+  if (rigid.body_at(node) >= 0 || rigid.body_followed_by(node) >= 0) return Vec3::Zero();
+  const std::size_t i = index_of(node);
+  const Vec3 free = free_axes(properties.held[i]);
+  if (free.isZero(0.0)) return Vec3::Zero();
+  return free.cwiseProduct(gravity + force / properties.mass[i]);
+}
+
 }  // namespace plekton::dynamics

@@ -66,4 +66,9 @@ class RigidNodes {
   std::vector<Vec3> moments_;                    // kg m², by body
 };
 
+/// m/s², of a node by a force (N) and gravity, along the axes that it is free in; 0 of parts of rigid
+/// bodies.
+Vec3 free_acceleration(NodeId node, const Vec3& force, const Vec3& gravity,
+                       const NodeProperties& properties, const RigidNodes& rigid) noexcept;
+
 }  // namespace plekton::dynamics

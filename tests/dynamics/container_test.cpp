@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/base/plane.hpp"
-#include "dynamics/scene_change.hpp"
+#include "dynamics/carry_over/scene_change.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/state_hash.hpp"
 #include "tests/support/named_laws.hpp"

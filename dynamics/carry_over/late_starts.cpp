@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/late_starts.hpp"
+#include "dynamics/carry_over/late_starts.hpp"
 
 #include "dynamics/rigid/rigid_bodies.hpp"
 #include "dynamics/state/rigid_nodes.hpp"

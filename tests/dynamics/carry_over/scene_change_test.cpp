@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A simulation that goes on from another one in another scene: what stays is as if nothing happened.
-#include "dynamics/scene_change.hpp"
+#include "dynamics/carry_over/scene_change.hpp"
 
 #include "dynamics/simulation.hpp"
 #include "dynamics/state_hash.hpp"
