@@ -6,6 +6,7 @@
 #include "dynamics/model/require_index.hpp"
 #include "dynamics/model/scene_figures.hpp"
 #include "dynamics/model/scene_hash.hpp"
+#include "dynamics/scene_check.hpp"
 #include "dynamics/time_step/step_chooser.hpp"
 #include "dynamics/time_step/step_limits.hpp"
 #include "geometry/base/problems.hpp"
@@ -61,7 +62,7 @@ contact::ContactScene contact_scene(const Scene& scene, const geometry::Surface&
 ///         width of vectors (geometry/base/vector_width.hpp)
 const Scene& checked(const Scene& scene, const SimulationOptions& options,
                      const contact::ContactModel& model) {
-  scene.check();
+  check(scene);
   geometry::vector_width();  // asked for in a way that cannot be: said here, not within a kernel
   std::ostringstream problems;
   if (!(options.time_step >= 0.0))
